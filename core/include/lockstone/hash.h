@@ -1,0 +1,15 @@
+// The one hash of the project: XXH3, 64 bits. It detects accidents (bit flips, torn writes,
+// diverging states), not tampering.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace lockstone {
+
+/// XXH3_64bits_withSeed of `bytes`. The same on every processor; `seed` separates domains.
+/// Source: Yann Collet, xxHash 0.8, "XXH3".
+[[nodiscard]] std::uint64_t hash64(std::span<const std::byte> bytes, std::uint64_t seed = 0);
+
+}  // namespace lockstone

@@ -1,0 +1,104 @@
+// The seam between a game and everything that carries it over a network or through a file.
+//
+// `net` and `replay` know a game only as a Simulation: bytes in, bytes out. A game implements it
+// once, on top of lockstone::World or of anything else that is deterministic. One object is used by
+// one thread at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <lockstone/bytes.h>
+#include <lockstone/status.h>
+
+namespace lockstone {
+
+/// Bound on the player slots of a match, and on the bytes of one player's input for one tick.
+inline constexpr std::size_t k_max_players = 16;
+inline constexpr std::size_t k_max_input_bytes = 64;
+
+/// What two peers must agree on before they play.
+struct SimulationInfo {
+  std::uint32_t abi = 0;           ///< changes whenever the same inputs may give another state
+  std::uint64_t config_hash = 0;   ///< rules, capacities and parameters
+  std::uint64_t scene_hash = 0;    ///< the state before the first tick
+  std::uint64_t canary = 0;        ///< what this build computes for a short built-in scene
+  std::uint16_t tick_rate = 60;    ///< ticks per second
+  std::uint8_t player_count = 0;   ///< slots, 1 … k_max_players
+  std::uint8_t input_bytes = 0;    ///< size of one player's input, 1 … k_max_input_bytes
+
+  friend bool operator==(const SimulationInfo&, const SimulationInfo&) = default;
+};
+
+/// Where a slot's input for a tick came from. Part of the tick: every peer sees the same.
+enum class InputOrigin : std::uint8_t {
+  received = 0,  ///< sent by the player in time
+  repeated = 1,  ///< late: the server repeated the player's last input
+  neutral = 2,   ///< late: the server used an all-zero input
+  absent = 3,    ///< nobody sits in this slot; the bytes are all zero
+};
+
+/// One player's input for one tick; `bytes` always has SimulationInfo::input_bytes bytes. They come
+/// from outside: a simulation accepts any values.
+struct PlayerInput {
+  ByteView bytes;
+  InputOrigin origin = InputOrigin::received;
+};
+
+enum class SnapshotKind : std::uint8_t {
+  native,     ///< for rollback: this process only, as fast as a copy
+  canonical,  ///< little-endian and versioned: for other machines, late joiners, logs
+};
+
+/// The first difference between two states, in canonical order. Text is for people.
+struct StateDifference {
+  bool differs = false;
+  std::string store;        ///< "body", "contact", "world", …
+  std::uint64_t object = 0; ///< index within the store
+  std::string name;         ///< the game's name of the object, may be empty
+  std::string field;        ///< "velocity.y"
+  std::string here;         ///< raw value as hexadecimal, "0x0003a2f1"
+  std::string there;
+
+  /// `body 17 "crate", velocity.y: 0x0003a2f1 here, 0x0003a2f0 there`, or "no difference".
+  [[nodiscard]] std::string to_line() const;
+};
+
+/// A deterministic game. `step`, `save`, `load` and `hash` must not allocate after creation.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  [[nodiscard]] virtual SimulationInfo info() const = 0;
+
+  /// Ticks stepped since the beginning of the match.
+  [[nodiscard]] virtual std::uint64_t tick() const = 0;
+
+  /// Advances by one tick. `inputs` has info().player_count entries in slot order.
+  virtual void step(std::span<const PlayerInput> inputs) = 0;
+
+  /// An upper bound on what `save` writes, constant over the match.
+  [[nodiscard]] virtual std::size_t snapshot_bytes_max(SnapshotKind kind) const = 0;
+
+  /// Writes the whole state; answers the bytes written. `out` has snapshot_bytes_max(kind) bytes.
+  [[nodiscard]] virtual std::size_t save(SnapshotKind kind, std::span<std::byte> out) const = 0;
+
+  /// Replaces the whole state. On any status but ok the old state is untouched.
+  virtual Status load(SnapshotKind kind, ByteView bytes) = 0;
+
+  /// A hash over everything that can change the future.
+  [[nodiscard]] virtual std::uint64_t hash() const = 0;
+
+  /// Compares two canonical snapshots of this simulation. For people: may allocate, may be slow.
+  [[nodiscard]] virtual StateDifference describe(ByteView here, ByteView there) const = 0;
+};
+
+/// Makes a simulation at tick 0 from the game's own configuration bytes (scene, seed, rules). The
+/// same bytes give the same simulation everywhere; bytes that the game does not know give an error.
+using SimulationFactory = std::function<Result<std::unique_ptr<Simulation>>(ByteView config)>;
+
+}  // namespace lockstone

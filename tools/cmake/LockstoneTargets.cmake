@@ -1,0 +1,33 @@
+# What every target of the project shares: language level, warnings, checks.
+
+add_library(lockstone_options INTERFACE)
+target_compile_features(lockstone_options INTERFACE cxx_std_20)
+target_compile_options(lockstone_options INTERFACE
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
+    -Wsign-conversion -Wcast-align -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
+  $<$<AND:$<BOOL:${LOCKSTONE_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
+
+# lockstone_add_library(NAME room sources…): one of the three libraries. NAME `core` gives the target
+# lockstone_core, known as lockstone::core here and to those who find_package(lockstone).
+function(lockstone_add_library name)
+  set(target lockstone_${name})
+  add_library(${target} STATIC ${ARGN})
+  add_library(lockstone::${name} ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:lockstone_options>)
+  # Consumers compile the same checks in headers as the library does in its sources.
+  if(LOCKSTONE_ASSERTS)
+    target_compile_definitions(${target} PUBLIC LKS_ENABLE_ASSERTS)
+  else()
+    target_compile_definitions(${target} PUBLIC $<$<CONFIG:Debug>:LKS_ENABLE_ASSERTS>)
+  endif()
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
