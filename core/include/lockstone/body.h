@@ -1,0 +1,82 @@
+// What a body is made of: definitions going in, values coming out.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/literals.h>
+#include <lockstone/quat.h>
+#include <lockstone/shape.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+namespace lockstone {
+
+/// Names a body. A handle whose body was destroyed never names another one. Default: no body.
+struct BodyHandle {
+  std::uint32_t index = 0;
+  std::uint32_t generation = 0;  ///< 0 only in the null handle
+
+  friend constexpr auto operator<=>(const BodyHandle&, const BodyHandle&) = default;
+  [[nodiscard]] constexpr bool is_null() const { return generation == 0; }
+};
+
+enum class MotionType : std::uint8_t {
+  static_body = 1,  ///< never moves
+  kinematic = 2,    ///< moves as its velocity says, pushed by nothing
+  dynamic = 3,      ///< moved by forces, impulses and contacts
+};
+
+/// Surface and substance.
+struct Material {
+  Coefficient friction = DecimalLiteral<Scalar>{{false, 5, 1}};     ///< 0 … 1.99; pairs use √(a·b)
+  Coefficient restitution{};                                        ///< 0 … 1; pairs use the larger
+  Density density = Density::from_integer(1000);                    ///< > 0
+};
+
+/// Which bodies meet. With an equal non-zero group the sign decides: positive always, negative never.
+/// Else both must find the other's category in their mask.
+struct CollisionFilter {
+  std::uint32_t category = 1;
+  std::uint32_t mask = 0xffffffff;
+  std::int32_t group = 0;
+
+  friend constexpr bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
+};
+
+[[nodiscard]] constexpr bool should_collide(const CollisionFilter& a, const CollisionFilter& b) {
+  if (a.group != 0 && a.group == b.group) return a.group > 0;
+  return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
+}
+
+/// A body to be made. Position and orientation are those of the centre of mass.
+struct BodyDef {
+  MotionType motion = MotionType::dynamic;
+  Shape shape = Shape::sphere(Length::from_ratio(1, 2));
+  Vec3<Position> position{};     ///< within ±2^20 m
+  Quat orientation{};            ///< is normalised
+  Vec3<Velocity> velocity{};     ///< at most 500 m/s
+  Vec3<AngularVelocity> angular_velocity{};
+  Material material{};
+  CollisionFilter filter{};
+  Number gravity_scale = Number::from_integer(1);
+  Rate linear_damping{};         ///< ≥ 0; velocity falls by the factor 1/(1 + c·dt) a tick
+  Rate angular_damping{};
+  bool is_trigger = false;       ///< reports overlaps, pushes nothing
+  bool fixed_rotation = false;   ///< never rotates: a character, say
+  std::uint64_t user_data = 0;   ///< the game's own; part of the state
+};
+
+/// A body as it stands. A copy: it does not change with the world.
+struct BodyView {
+  MotionType motion{};
+  Shape shape{};
+  Vec3<Position> position{};
+  Quat orientation{};
+  Vec3<Velocity> velocity{};
+  Vec3<AngularVelocity> angular_velocity{};  ///< rad/s, error ≤ 1e-8 relative
+  CollisionFilter filter{};
+  bool is_trigger = false;
+  std::uint64_t user_data = 0;
+};
+
+}  // namespace lockstone

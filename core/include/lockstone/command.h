@@ -1,0 +1,47 @@
+// Commands: the only way to write a world. Each is a plain value; the manifest below names them all
+// and drives dispatch, so that a command cannot be half added.
+#pragma once
+
+#include <variant>
+
+#include <lockstone/body.h>
+
+namespace lockstone {
+
+struct CreateBody { BodyDef def{}; };
+struct DestroyBody { BodyHandle body{}; };
+
+/// Moves a body at once; its contacts end. Orientation is normalised.
+struct Teleport { BodyHandle body{}; Vec3<Position> position{}; Quat orientation{}; };
+
+struct SetVelocity { BodyHandle body{}; Vec3<Velocity> velocity{}; };
+struct SetAngularVelocity { BodyHandle body{}; Vec3<AngularVelocity> angular_velocity{}; };
+
+/// At the centre of mass.
+struct ApplyImpulse { BodyHandle body{}; Vec3<Impulse> impulse{}; };
+
+/// At a point given relative to the centre of mass, in world axes, within twice the body's radius.
+struct ApplyImpulseAt { BodyHandle body{}; Vec3<Impulse> impulse{}; Vec3<Length> point{}; };
+
+struct ApplyAngularImpulse { BodyHandle body{}; Vec3<AngularImpulse> impulse{}; };
+
+/// At the centre of mass, over the coming tick.
+struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; };
+
+struct SetMaterial { BodyHandle body{}; Coefficient friction{}; Coefficient restitution{}; };
+struct SetFilter { BodyHandle body{}; CollisionFilter filter{}; };
+struct SetUserData { BodyHandle body{}; std::uint64_t user_data = 0; };
+struct SetGravity { Vec3<Acceleration> gravity{}; };
+
+// clang-format off
+#define LKS_COMMANDS(X) \
+  X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
+  X(ApplyImpulse) X(ApplyImpulseAt) X(ApplyAngularImpulse) X(ApplyForce) \
+  X(SetMaterial) X(SetFilter) X(SetUserData) X(SetGravity)
+// clang-format on
+
+#define LKS_COMMAND_ALTERNATIVE(Name) , Name
+using Command = std::variant<std::monostate LKS_COMMANDS(LKS_COMMAND_ALTERNATIVE)>;
+#undef LKS_COMMAND_ALTERNATIVE
+
+}  // namespace lockstone

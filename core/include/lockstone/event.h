@@ -1,0 +1,26 @@
+// What happened during a step. Arrays in canonical order, never callbacks.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/body.h>
+
+namespace lockstone {
+
+enum class EventKind : std::uint8_t {
+  contact_begin = 0,  ///< the two bodies touch, and did not a tick ago
+  contact_end = 1,
+  trigger_enter = 2,  ///< one of the two is a trigger and they overlap, and did not a tick ago
+  trigger_stay = 3,
+  trigger_exit = 4,
+};
+
+/// Destroying or teleporting a body drops its contacts without an event.
+struct ContactEvent {
+  EventKind kind{};
+  BodyHandle a{};
+  BodyHandle b{};
+  Velocity approach_speed{};  ///< contact_begin: speed along the normal before the solver, ≥ 0
+};
+
+}  // namespace lockstone

@@ -1,0 +1,167 @@
+// The world: all bodies and contacts, stepped one tick at a time.
+//
+// A result depends only on state, commands and tick. Everything that can change the future is saved
+// and hashed; all else (trees, bounds, scratch) may be dropped at any time. No function below but
+// `create` and `describe_difference` allocates.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
+
+#include <lockstone/body.h>
+#include <lockstone/bytes.h>
+#include <lockstone/command.h>
+#include <lockstone/event.h>
+#include <lockstone/simulation.h>
+#include <lockstone/status.h>
+
+namespace lockstone {
+
+/// Changes whenever the same commands may give another state. Refused when unequal in a handshake or
+/// a log. History: docs/determinism.md.
+inline constexpr std::uint32_t k_simulation_abi = 1;
+
+/// Bodies are kept within ±2^20 m of the origin.
+inline constexpr Position k_world_limit = Position::from_integer(1 << 20);
+inline constexpr Velocity k_speed_limit = Velocity::from_integer(500);
+
+/// Capacities and rules of a world, fixed for its life.
+struct WorldDef {
+  std::uint32_t body_capacity = 1024;     ///< 1 … 2^20
+  std::uint32_t pair_capacity = 16384;    ///< pairs with overlapping bounds, 1 … 2^24
+  std::uint32_t contact_capacity = 8192;  ///< touching pairs, 1 … 2^24
+  std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
+  std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
+  Vec3<Acceleration> gravity = {{}, DecimalLiteral<MetrePerSecond2>{{true, 981, 2}}, {}};
+
+  friend bool operator==(const WorldDef&, const WorldDef&) = default;
+};
+
+/// A hash over everything in `def`: peers compare it before they play.
+[[nodiscard]] std::uint64_t config_hash(const WorldDef& def);
+
+/// What one step did. Counters cost nothing and are the same on every peer.
+struct StepReport {
+  Status status = Status::ok;           ///< capacity_exhausted: pairs were left out, alike everywhere
+  std::uint32_t moving_bodies = 0;
+  std::uint32_t free_bodies = 0;        ///< took the exact ballistic path, no solver
+  std::uint32_t pairs = 0;              ///< pairs with overlapping bounds
+  std::uint32_t contacts = 0;           ///< pairs with contact points, triggers excluded
+  std::uint32_t contact_points = 0;
+  std::uint32_t saturations = 0;        ///< values clamped to their range
+};
+
+/// Where a ray first meets a body.
+struct RayHit {
+  BodyHandle body{};            ///< null when nothing was hit
+  Unit fraction{};              ///< of the ray, 0 … 1
+  Vec3<Unit> normal{};          ///< outward; zero when the ray starts inside
+  Vec3<Position> point{};
+};
+
+/// Which bodies a query sees: those whose category is in `mask`, except `ignore`.
+struct QueryFilter {
+  std::uint32_t mask = 0xffffffff;
+  BodyHandle ignore{};
+  bool triggers = false;        ///< whether triggers are seen too
+};
+
+/// Hashes of one state; `total` covers the others.
+struct StateHash {
+  std::uint64_t total = 0;
+  std::uint64_t header = 0;
+  std::uint64_t bodies = 0;
+  std::uint64_t contacts = 0;
+};
+
+class World {
+ public:
+  /// invalid_argument when a value of `def` is outside its range. The only allocation.
+  static Result<World> create(const WorldDef& def);
+
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  [[nodiscard]] const WorldDef& def() const;
+  [[nodiscard]] std::uint64_t tick() const;  ///< ticks stepped
+
+  // Commands --------------------------------------------------------------------------------------
+
+  /// Makes a body: capacity_exhausted or invalid_argument when it cannot be. Slots are reused, lowest first.
+  Result<BodyHandle> create_body(const BodyDef& def);
+
+  /// Applies one command now. On any status but ok nothing has changed.
+  Status apply(const Command& command);
+
+  // The tick --------------------------------------------------------------------------------------
+
+  /// Advances by 1 / tick_rate seconds.
+  StepReport step();
+
+  /// Events of the last step; empty after `load`. Read them before the next step: they are not state.
+  [[nodiscard]] std::span<const ContactEvent> events() const;
+
+  // Bodies ----------------------------------------------------------------------------------------
+
+  [[nodiscard]] bool exists(BodyHandle body) const;
+  [[nodiscard]] std::uint32_t body_count() const;
+
+  /// Every body has an index below this; `body_at` gives its handle, null for an empty slot.
+  [[nodiscard]] std::uint32_t body_limit() const;
+  [[nodiscard]] BodyHandle body_at(std::uint32_t index) const;
+
+  /// The body must exist.
+  [[nodiscard]] BodyView body(BodyHandle body) const;
+  [[nodiscard]] Vec3<Position> position(BodyHandle body) const;
+  [[nodiscard]] Vec3<Velocity> velocity(BodyHandle body) const;
+
+  /// Mass in kilograms, rounded; 0 for static and kinematic bodies.
+  [[nodiscard]] Mass mass(BodyHandle body) const;
+
+  /// Two bodies have a contact point with separation ≤ 0 or an impulse, as of the last step.
+  [[nodiscard]] bool touching(BodyHandle a, BodyHandle b) const;
+
+  // Queries: read-only, results in canonical order ------------------------------------------------
+
+  /// The first body along `translation` (at most 1448 m an axis); ties go to the lower index.
+  [[nodiscard]] RayHit cast_ray(const Vec3<Position>& origin, const Vec3<Length>& translation,
+                                const QueryFilter& filter = {}) const;
+
+  /// Bodies that overlap a sphere, by index, as many as `out` holds; answers how many were written.
+  std::size_t overlap_sphere(const Vec3<Position>& center, Length radius,
+                             std::span<BodyHandle> out, const QueryFilter& filter = {}) const;
+
+  // State -----------------------------------------------------------------------------------------
+
+  [[nodiscard]] StateHash hash() const;
+
+  /// Upper bound on `save`, constant over the world's life.
+  [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const;
+
+  /// Writes the state; answers the bytes written, 0 when `out` is too small.
+  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const;
+
+  /// Replaces the state. Canonical bytes may come from anywhere: they are checked in full before
+  /// anything changes. Native bytes must come from `save` in this process.
+  Status load(SnapshotKind kind, ByteView bytes);
+
+  /// The first difference between two canonical snapshots of worlds with this definition.
+  [[nodiscard]] StateDifference describe_difference(ByteView here, ByteView there) const;
+
+  /// Forgets everything that is not state. Tests call it every tick: the future must not change.
+  void drop_derived();
+
+ private:
+  struct Impl;
+  explicit World(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The hash of a short built-in scene: what this build computes. Two builds that differ here would
+/// diverge in a match.
+[[nodiscard]] std::uint64_t canary_hash();
+
+}  // namespace lockstone
