@@ -3,13 +3,19 @@
 
 #include <cstdint>
 
-#include <lockstone/literals.h>
 #include <lockstone/quat.h>
 #include <lockstone/shape.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
 namespace lockstone {
+
+/// Bodies are kept within ±2^20 m of the origin and slower than 500 m/s, in the centre and on the
+/// surface. Dynamic ones weigh 1e-6 … 1e9 kg.
+inline constexpr Position k_world_limit = Position::from_integer(1 << 20);
+inline constexpr Mass k_min_mass = Mass::from_ratio(1, 1'000'000);
+inline constexpr Mass k_max_mass = Mass::from_integer(1'000'000'000);
+inline constexpr Velocity k_speed_limit = Velocity::from_integer(500);
 
 /// Names a body. A handle whose body was destroyed never names another one. Default: no body.
 struct BodyHandle {
@@ -28,7 +34,7 @@ enum class MotionType : std::uint8_t {
 
 /// Surface and substance.
 struct Material {
-  Coefficient friction = DecimalLiteral<Scalar>{{false, 5, 1}};     ///< 0 … 1.99; pairs use √(a·b)
+  Coefficient friction = Coefficient::from_ratio(1, 2);  ///< 0 … 1.99; pairs use √(a·b)
   Coefficient restitution{};                                        ///< 0 … 1; pairs use the larger
   Density density = Density::from_integer(1000);                    ///< > 0
 };

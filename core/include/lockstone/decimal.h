@@ -1,6 +1,7 @@
 // Decimal text to fixed point and back, exactly: parsing rounds once, formatting round-trips.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,10 +11,11 @@
 
 namespace lockstone {
 
-/// ± digits · 10^-fraction_digits; up to 18 significant digits.
+/// ± (whole + fraction · 10^-fraction_digits). Up to 18 digits on each side of the point.
 struct Decimal {
   bool negative = false;
-  std::uint64_t digits = 0;
+  std::uint64_t whole = 0;
+  std::uint64_t fraction = 0;
   int fraction_digits = 0;
 };
 
@@ -33,55 +35,70 @@ struct ScaledDecimal {
   }
 };
 
-/// Reads `[+-]digits[.digits]`, with `'` allowed between digits. No exponent, at most 18 digits.
+namespace decimal_detail {
+
+/// A run of digits, with `'` allowed between two of them. `count` is zero when there is none, and
+/// above 18 when there are too many.
+struct DigitRun {
+  std::uint64_t value = 0;
+  int count = 0;
+};
+
+[[nodiscard]] constexpr bool is_digit(std::string_view text, std::size_t at) {
+  return at < text.size() && text[at] >= '0' && text[at] <= '9';
+}
+
+[[nodiscard]] constexpr DigitRun read_digits(std::string_view text, std::size_t& at) {
+  DigitRun run;
+  while (is_digit(text, at) && run.count <= 18) {
+    run.value = run.value * 10 + static_cast<std::uint64_t>(text[at++] - '0');
+    ++run.count;
+    if (at < text.size() && text[at] == '\'' && is_digit(text, at + 1)) ++at;
+  }
+  return run;
+}
+
+}  // namespace decimal_detail
+
+/// Reads `[+-]digits[.digits]`, with `'` allowed between digits. No exponent; at most 18 digits on
+/// each side of the point.
 [[nodiscard]] constexpr ParsedDecimal parse_decimal_text(std::string_view text) {
-  ParsedDecimal result;
-  std::size_t at = 0;
-  if (at < text.size() && (text[at] == '-' || text[at] == '+')) {
-    result.value.negative = text[at++] == '-';
-  }
-  int digit_count = 0;
-  bool after_point = false;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    if (c == '\'' && digit_count > 0) continue;
-    if (c == '.' && !after_point) {
-      after_point = true;
-      continue;
-    }
-    if (c < '0' || c > '9' || ++digit_count > 18) return {};
-    result.value.digits = result.value.digits * 10 + static_cast<std::uint64_t>(c - '0');
-    result.value.fraction_digits += after_point ? 1 : 0;
-  }
-  result.ok = digit_count > 0;
-  return result;
+  using decimal_detail::DigitRun;
+  const bool has_sign = !text.empty() && (text[0] == '-' || text[0] == '+');
+  std::size_t at = has_sign ? 1 : 0;
+  const DigitRun whole = decimal_detail::read_digits(text, at);
+  const bool has_point = at < text.size() && text[at] == '.';
+  if (has_point) ++at;
+  const DigitRun fraction = has_point ? decimal_detail::read_digits(text, at) : DigitRun{};
+  const bool digits_ok = whole.count > 0 && whole.count <= 18 && fraction.count <= 18;
+  if (!digits_ok || has_point != (fraction.count > 0) || at != text.size()) return {};
+  return {true, {has_sign && text[0] == '-', whole.value, fraction.value, fraction.count}};
 }
 
 /// `decimal` · 2^frac_bits, rounded; 0 ≤ frac_bits ≤ 62.
 [[nodiscard]] constexpr ScaledDecimal scale_decimal(const Decimal& decimal, int frac_bits) {
   std::uint64_t divisor = 1;
   for (int i = 0; i < decimal.fraction_digits; ++i) divisor *= 10;
-  std::uint64_t magnitude = decimal.digits / divisor;
-  std::uint64_t remainder = decimal.digits % divisor;
+  std::uint64_t magnitude = decimal.whole;
+  std::uint64_t remainder = decimal.fraction;
   bool overflow = false;
   for (int i = 0; i < frac_bits; ++i) {  // long division, one bit of the quotient a step
     remainder *= 2;
     const std::uint64_t bit = remainder >= divisor ? 1 : 0;
     remainder -= bit * divisor;
-    overflow = overflow || magnitude >= (std::uint64_t{1} << 62);
+    overflow = overflow || magnitude >= (std::uint64_t{1} << 63);
     magnitude = magnitude * 2 + bit;
   }
   if (remainder * 2 >= divisor) ++magnitude;
-  overflow = overflow || magnitude > std::uint64_t{0x7fffffffffffffff};
-  if (overflow) return {true, 0};
-  const auto value = static_cast<std::int64_t>(magnitude);
-  return {false, decimal.negative ? -value : value};
+  const std::uint64_t bound = std::uint64_t{0x7fffffffffffffff} + (decimal.negative ? 1 : 0);
+  if (overflow || magnitude > bound) return {true, 0};
+  return {false, static_cast<std::int64_t>(decimal.negative ? 0 - magnitude : magnitude)};
 }
 
 /// Parses decimal text into the format T, correctly rounded. Status::malformed for other text,
 /// Status::invalid_argument for a value outside T's range.
 template <class T>
-[[nodiscard]] constexpr Result<T> parse_decimal(std::string_view text) {
+[[nodiscard]] Result<T> parse_decimal(std::string_view text) {
   const ParsedDecimal parsed = parse_decimal_text(text);
   if (!parsed.ok) return Status::malformed;
   const ScaledDecimal scaled = scale_decimal(parsed.value, T::frac_bits);

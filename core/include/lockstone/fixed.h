@@ -75,6 +75,16 @@ template <std::signed_integral T>
   return add(x, half + (x >> 63)) >> shift;
 }
 
+/// As `round_shift`, for every x.
+[[nodiscard]] constexpr std::int64_t round_shift_any(std::int64_t x, int shift) {
+  LKS_ASSERT(shift >= 0 && shift <= 62);
+  if (shift == 0) return x;
+  const std::uint64_t sign = x < 0 ? ~std::uint64_t{0} : 0;
+  const std::uint64_t size = (static_cast<std::uint64_t>(x) ^ sign) - sign;
+  const std::uint64_t result = (size + (std::uint64_t{1} << (shift - 1))) >> shift;
+  return static_cast<std::int64_t>((result ^ sign) - sign);
+}
+
 /// x · 2^shift for either sign of `shift`; rounds when it shrinks, must fit when it grows.
 [[nodiscard]] constexpr std::int64_t scale_binary(std::int64_t x, int shift) {
   if (shift <= 0) return round_shift(x, -shift);
@@ -188,7 +198,7 @@ template <class To, class Rep, int FracBits>
 template <class To, class Rep, int FracBits>
   requires(FracBits >= To::frac_bits)
 [[nodiscard]] constexpr To saturated(Fixed<typename To::Unit, Rep, FracBits> value) {
-  const std::int64_t scaled = raw::round_shift(value.raw, FracBits - To::frac_bits);
+  const std::int64_t scaled = raw::round_shift_any(value.raw, FracBits - To::frac_bits);
   return To{raw::saturate<typename To::Representation>(scaled)};
 }
 

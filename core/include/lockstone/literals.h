@@ -15,7 +15,7 @@ struct DecimalLiteral {
   Decimal value;
 
   consteval DecimalLiteral operator-() const {
-    return {{!value.negative, value.digits, value.fraction_digits}};
+    return {{!value.negative, value.whole, value.fraction, value.fraction_digits}};
   }
 
   template <class Rep, int FracBits>

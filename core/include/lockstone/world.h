@@ -23,10 +23,6 @@ namespace lockstone {
 /// a log. History: docs/determinism.md.
 inline constexpr std::uint32_t k_simulation_abi = 1;
 
-/// Bodies are kept within ±2^20 m of the origin.
-inline constexpr Position k_world_limit = Position::from_integer(1 << 20);
-inline constexpr Velocity k_speed_limit = Velocity::from_integer(500);
-
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
   std::uint32_t body_capacity = 1024;     ///< 1 … 2^20
@@ -34,7 +30,7 @@ struct WorldDef {
   std::uint32_t contact_capacity = 8192;  ///< touching pairs, 1 … 2^24
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
-  Vec3<Acceleration> gravity = {{}, DecimalLiteral<MetrePerSecond2>{{true, 981, 2}}, {}};
+  Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };
@@ -118,7 +114,7 @@ class World {
   [[nodiscard]] Vec3<Position> position(BodyHandle body) const;
   [[nodiscard]] Vec3<Velocity> velocity(BodyHandle body) const;
 
-  /// Mass in kilograms, rounded; 0 for static and kinematic bodies.
+  /// Mass in kilograms, error ≤ 2^-30 relative; 0 for static and kinematic bodies.
   [[nodiscard]] Mass mass(BodyHandle body) const;
 
   /// Two bodies have a contact point with separation ≤ 0 or an impulse, as of the last step.
@@ -126,7 +122,7 @@ class World {
 
   // Queries: read-only, results in canonical order ------------------------------------------------
 
-  /// The first body along `translation` (at most 1448 m an axis); ties go to the lower index.
+  /// The first body along `translation` (at most 512 m an axis); ties go to the lower index.
   [[nodiscard]] RayHit cast_ray(const Vec3<Position>& origin, const Vec3<Length>& translation,
                                 const QueryFilter& filter = {}) const;
 

@@ -1,0 +1,65 @@
+// A touching or nearly touching pair as it is stored, saved and hashed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <lockstone/units.h>
+
+#include "core/dynamics/fields.h"
+
+namespace lockstone {
+
+/// Bits of ContactRecord::flags.
+enum ContactFlag : std::uint8_t {
+  k_contact_trigger = 1,   // one of the two is a trigger: no points
+  k_contact_touching = 2,  // the surfaces met, or pushed, in the last step
+  k_all_contact_flags = k_contact_trigger | k_contact_touching,
+};
+
+/// What one contact point carries to the next tick. Impulses are the pair's velocity jump,
+/// λ·(1/mA + 1/mB), per substep.
+struct ContactPointRecord {
+  std::uint32_t feature = 0;
+  SolverVelocity normal_impulse{};
+  SolverVelocity tangent_impulse_1{};
+  SolverVelocity tangent_impulse_2{};
+
+  friend bool operator==(const ContactPointRecord&, const ContactPointRecord&) = default;
+};
+
+/// Records are sorted by (body_a, body_b); unused points are zero.
+struct ContactRecord {
+  std::uint32_t body_a = 0;
+  std::uint32_t body_b = 0;
+  std::array<ContactPointRecord, 4> points{};
+  std::uint16_t count = 0;  // 0 … 4
+  std::uint8_t flags = 0;   // ContactFlag
+  std::uint8_t reserved = 0;
+
+  friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
+
+  [[nodiscard]] bool is_trigger() const { return (flags & k_contact_trigger) != 0; }
+  [[nodiscard]] bool is_touching() const { return (flags & k_contact_touching) != 0; }
+};
+
+template <class F>
+constexpr void visit_fields(ContactRecord& record, F&& f) {
+  constexpr const char* k_point_names[] = {"point[0]", "point[1]", "point[2]", "point[3]"};
+  visit_value("body_a", "", record.body_a, f);
+  visit_value("body_b", "", record.body_b, f);
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    ContactPointRecord& point = record.points[i];
+    visit_value(k_point_names[i], ".feature", point.feature, f);
+    visit_value(k_point_names[i], ".normal_impulse", point.normal_impulse, f);
+    visit_value(k_point_names[i], ".tangent_impulse_1", point.tangent_impulse_1, f);
+    visit_value(k_point_names[i], ".tangent_impulse_2", point.tangent_impulse_2, f);
+  }
+  visit_value("count", "", record.count, f);
+  visit_value("flags", "", record.flags, f);
+  visit_value("reserved", "", record.reserved, f);
+}
+
+static_assert(visited_bytes<ContactRecord>() == sizeof(ContactRecord), "a field is missing");
+
+}  // namespace lockstone

@@ -1,0 +1,54 @@
+// Face contacts of two boxes: the incident face clipped against the sides of the reference face.
+#pragma once
+
+#include <array>
+
+#include "core/geometry/box_pair.h"
+
+namespace lockstone::geometry {
+
+/// A face of one box as the reference, and the other box seen in its frame: x and y along the face,
+/// z the height above it.
+struct FaceFrame {
+  const PosedShape& reference;
+  const Vec3<Length>& offset;        ///< reference to incident
+  Length margin;
+  FaceAxis face;                     ///< of the reference; points to the incident box
+  RawVec centre;                     ///< of the incident box, in the reference's axes
+  std::array<Vec3<Unit>, 3> axes{};  ///< of the incident box, in the reference's axes
+  Vec3<Length> incident_half;
+  std::uint32_t feature_bits = 0;    ///< which box is the reference
+};
+
+[[nodiscard]] FaceFrame frame_on_a(const BoxPair& pair, const FaceAxis& face);
+
+/// `back` holds the reversed offset and must outlive the frame.
+[[nodiscard]] FaceFrame frame_on_b(const BoxPair& pair, const FaceAxis& face,
+                                   const Vec3<Length>& back);
+
+/// A vertex of the clipped polygon, fine.
+struct FaceVertex {
+  Fine x = 0;
+  Fine y = 0;
+  Fine z = 0;
+  std::uint32_t feature = 0;  ///< incident face and the two polygon edges that meet here
+};
+
+struct FacePolygon {
+  std::array<FaceVertex, 8> vertices{};
+  int count = 0;
+};
+
+/// The part of the incident face above or below the reference face, convex, in order.
+/// Sutherland and Hodgman, Reentrant polygon clipping. A vertex beyond a side by less than
+/// k_snap is moved onto it along the incident face and keeps its feature, so that boxes stacked
+/// flush do not change features as they tremble.
+[[nodiscard]] FacePolygon clip_incident_face(const FaceFrame& frame);
+
+/// 61 µm.
+inline constexpr Fine k_snap = Fine{1} << (k_fine_bits - 14);
+
+/// The manifold from the reference to the incident box.
+[[nodiscard]] Manifold face_manifold(const FaceFrame& frame);
+
+}  // namespace lockstone::geometry

@@ -1,0 +1,33 @@
+// One function a pair of kinds; A is the kind with the higher number. `collide` arranges the order.
+#pragma once
+
+#include "core/geometry/manifold.h"
+
+namespace lockstone::geometry {
+
+/// Concentric spheres get the normal +y.
+[[nodiscard]] Manifold collide_spheres(const PosedShape& a, const PosedShape& b,
+                                       const Vec3<Length>& offset, Length margin);
+
+/// A sphere centred on the core segment gets a normal square to the capsule's axis.
+[[nodiscard]] Manifold collide_capsule_sphere(const PosedShape& capsule, const PosedShape& sphere,
+                                              const Vec3<Length>& offset, Length margin);
+
+/// Two points when nearly parallel and side by side (features 1 and 2, along A's axis), else one
+/// (feature 0).
+[[nodiscard]] Manifold collide_capsules(const PosedShape& a, const PosedShape& b,
+                                        const Vec3<Length>& offset, Length margin);
+
+/// A centre inside the box leaves by the nearest face, the first of equals in the order x, y, z.
+[[nodiscard]] Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,
+                                          const Vec3<Length>& offset, Length margin);
+
+/// Two points when a face meets the capsule's side, else one.
+[[nodiscard]] Manifold collide_box_capsule(const PosedShape& box, const PosedShape& capsule,
+                                           const Vec3<Length>& offset, Length margin);
+
+/// A is preferred as the owner of the reference face.
+[[nodiscard]] Manifold collide_boxes(const PosedShape& a, const PosedShape& b,
+                                     const Vec3<Length>& offset, Length margin);
+
+}  // namespace lockstone::geometry

@@ -1,0 +1,40 @@
+// Building manifolds: one place decides which points are kept and where their anchors lie.
+#pragma once
+
+#include "core/geometry/fine.h"
+#include "core/geometry/manifold.h"
+
+namespace lockstone::geometry {
+
+/// Whether a point with this separation belongs to a manifold: closer than the margin, or touching.
+[[nodiscard]] constexpr bool keeps(Displacement separation, Length margin) {
+  constexpr int shift = Displacement::frac_bits - Length::frac_bits;
+  return separation.raw <= 0 || separation.raw < (std::int64_t{margin.raw} << shift);
+}
+
+[[nodiscard]] constexpr bool keeps(Fine separation, Length margin) {
+  return keeps(to_separation(separation), margin);
+}
+
+/// Two surface points that meet, in world axes, fine, relative to A's centre.
+struct Witnesses {
+  RawVec on_a;
+  RawVec on_b;
+};
+
+/// A vector rounded to lengths; what leaves ±2048 m saturates (only in pairs far apart).
+[[nodiscard]] Vec3<Length> to_length(const RawVec& fine_vector);
+
+/// Appends a point with the anchors that `ManifoldPoint` describes, unless `keeps` refuses it.
+/// The manifold has room.
+void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length>& offset,
+               Fine separation, Length margin, std::uint32_t feature);
+
+/// The same contact seen from the other body: normal reversed, anchors exchanged.
+[[nodiscard]] Manifold flipped(const Manifold& manifold);
+
+/// The surface points of two spheres of the given radii about core points along the normal.
+[[nodiscard]] Witnesses inflate(const RawVec& core_a, Length radius_a, const RawVec& core_b,
+                                Length radius_b, const Vec3<Unit>& normal);
+
+}  // namespace lockstone::geometry

@@ -1,0 +1,27 @@
+// How much better a less stable choice must be before it is taken. Fixed margins of the arguments
+// alone: there is no memory of the last tick to keep a choice from changing back and forth.
+#pragma once
+
+#include "core/geometry/fine.h"
+
+namespace lockstone::geometry {
+
+/// 0.49 mm.
+inline constexpr Fine k_edge_margin = Fine{1} << (k_fine_bits - 11);
+
+/// 0.24 mm.
+inline constexpr Fine k_face_margin = Fine{1} << (k_fine_bits - 12);
+
+/// Two computations of one separation agree within this: 2^-18 m.
+inline constexpr Fine k_agreement = Fine{1} << (k_fine_bits - 18);
+
+/// An edge axis replaces a face axis of separation `face` only above this value: an overlap smaller by
+/// a tenth and by k_edge_margin. A relative and an absolute margin, as in Box3D's b3CollideHulls.
+[[nodiscard]] constexpr Fine edge_threshold(Fine face) { return face - face / 10 + k_edge_margin; }
+
+/// The second shape's face replaces the first's only above this value.
+[[nodiscard]] constexpr Fine second_face_threshold(Fine first) {
+  return first + magnitude_of(first) / 32 + k_face_margin;
+}
+
+}  // namespace lockstone::geometry

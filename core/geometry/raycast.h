@@ -1,0 +1,22 @@
+// Rays against single shapes.
+#pragma once
+
+#include <lockstone/quat.h>
+#include <lockstone/shape.h>
+
+namespace lockstone {
+
+/// Where a ray first meets a shape. `fraction` of the ray's length, 0 … 1.
+struct ShapeRayHit {
+  bool hit = false;
+  Unit fraction{};
+  Vec3<Unit> normal{};  ///< outward, world axes; zero when the ray starts inside (fraction 0)
+};
+
+/// The ray runs from `origin` to `origin + translation`; `origin` is relative to the shape's centre, in
+/// world axes. Components of both within ±1448 m (so that |v|² fits 63 bits). A start inside or on
+/// the surface hits at fraction 0 with a zero normal.
+[[nodiscard]] ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation,
+                                   const Vec3<Length>& origin, const Vec3<Length>& translation);
+
+}  // namespace lockstone

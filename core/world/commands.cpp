@@ -1,0 +1,303 @@
+// Commands: checked in full, then applied at once.
+
+#include <algorithm>
+
+#include "core/dynamics/inertia.h"
+#include "core/dynamics/motion.h"
+#include "core/geometry/shape_properties.h"
+#include "core/math/block_float.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+template <class T>
+bool within(const Vec3<T>& v, T limit) {
+  const auto inside = [&](T x) { return x <= limit && x >= -limit; };
+  return inside(v.x) && inside(v.y) && inside(v.z);
+}
+
+// Long enough to have a direction: norm at least 2^-10.
+bool is_usable(const Quat& q) {
+  return (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw >= (std::int64_t{1} << 40);
+}
+
+// A component of 2 would overflow the norm's sum.
+bool has_unit_range(const Quat& q) {
+  constexpr Unit limit = Unit::from_ratio(5, 4);
+  return abs(q.x) <= limit && abs(q.y) <= limit && abs(q.z) <= limit && abs(q.w) <= limit;
+}
+
+bool is_valid(const Quat& q) { return has_unit_range(q) && is_usable(q); }
+
+bool is_valid_surface(Coefficient friction, Coefficient restitution) {
+  return friction >= Coefficient{} && friction <= Coefficient::from_ratio(199, 100) &&
+         restitution >= Coefficient{} && restitution <= Coefficient::from_integer(1);
+}
+
+// ω·2^k in m/s, the speed of the surface.
+bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent, Vec3<Velocity>& w) {
+  constexpr AngularVelocity k_limit = AngularVelocity::from_integer(1 << 20);
+  if (!within(omega, k_limit)) return false;
+  for (int i = 0; i < 3; ++i) w[i].raw = raw::scale_binary(omega[i].raw, exponent);
+  return within(w, k_speed_limit);
+}
+
+bool is_valid(const BodyDef& def) {
+  constexpr Number k_gravity_scale_limit = Number::from_integer(100);
+  return (def.motion == MotionType::static_body || def.motion == MotionType::kinematic ||
+          def.motion == MotionType::dynamic) &&
+         validate(def.shape) == Status::ok && within(def.position, k_world_limit) &&
+         is_valid(def.orientation) && within(def.velocity, k_speed_limit) &&
+         is_valid_surface(def.material.friction, def.material.restitution) &&
+         def.material.density > Density{} && abs(def.gravity_scale) <= k_gravity_scale_limit &&
+         def.linear_damping >= Rate{} && def.angular_damping >= Rate{};
+}
+
+// Lighter or heavier bodies would leave the formats of the solver.
+bool has_valid_mass(const BodyDef& def) {
+  if (def.motion != MotionType::dynamic) return true;
+  const Mass mass = mass_of(def.shape, def.material.density);
+  return mass >= k_min_mass && mass <= k_max_mass;
+}
+
+// The fields that follow from shape and density.
+void set_mass(BodyRecord& record, const BodyDef& def) {
+  const Vec3<Unit> inertia = normalized_inertia(def.shape);
+  record.scale_exponent = static_cast<std::int8_t>(scale_exponent(def.shape));
+  record.inertia = {max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),
+                    max(inertia.z, k_min_inertia)};
+  if (def.motion != MotionType::dynamic) return;
+  const BlockFloat inverse = inverse_of(mass_of(def.shape, def.material.density));
+  record.inverse_mass = inverse.mantissa;
+  record.inverse_mass_exponent = inverse.exponent;
+}
+
+BodyRecord make_record(const BodyDef& def, std::uint32_t generation) {
+  BodyRecord record;
+  record.position = def.position;
+  record.orientation = normalized(def.orientation);
+  record.user_data = def.user_data;
+  record.size = def.shape.size;
+  record.gravity_scale = def.gravity_scale;
+  record.linear_damping = def.linear_damping;
+  record.angular_damping = def.angular_damping;
+  record.friction = def.material.friction;
+  record.restitution = def.material.restitution;
+  record.category = def.filter.category;
+  record.mask = def.filter.mask;
+  record.group = def.filter.group;
+  record.generation = generation;
+  record.motion = static_cast<std::uint8_t>(def.motion);
+  record.shape_kind = static_cast<std::uint8_t>(def.shape.kind);
+  record.flags = static_cast<std::uint8_t>((def.is_trigger ? k_body_trigger : 0) |
+                                           (def.fixed_rotation ? k_body_fixed_rotation : 0));
+  set_mass(record, def);
+  return record;
+}
+
+// J/m as a velocity.
+Vec3<Velocity> velocity_gain(const BodyRecord& body, const Vec3<Impulse>& impulse) {
+  const auto gain = [&](Impulse j) {
+    return multiply_saturating<Velocity>(j, body.inverse_mass_value());
+  };
+  return {gain(impulse.x), gain(impulse.y), gain(impulse.z)};
+}
+
+// Sums that cannot overflow before the speed limit brings them back.
+void add_velocity(Vec3<Velocity>& velocity, const Vec3<Velocity>& gain) {
+  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
+  for (int i = 0; i < 3; ++i) velocity[i] += clamp(gain[i], -k_bound, k_bound);
+}
+
+// (r/s) × gain, with r/s in Q30.
+Vec3<Velocity> turning_gain(const BodyRecord& body, const Vec3<Length>& point,
+                            const Vec3<Velocity>& gain) {
+  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
+  const auto product = [&](Velocity v, Length arm) {
+    const std::int32_t arm_q30 =
+        raw::saturate<std::int32_t>(std::int64_t{arm.raw} << (10 - body.scale_exponent));
+    return Velocity::from_raw(
+        raw::multiply_shift(clamp(v, -k_bound, k_bound).raw, arm_q30, 30));
+  };
+  return {product(gain.z, point.y) - product(gain.y, point.z),
+          product(gain.x, point.z) - product(gain.z, point.x),
+          product(gain.y, point.x) - product(gain.x, point.y)};
+}
+
+}  // namespace
+
+Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
+  Vec3<Velocity> surface;
+  if (!is_valid(body_def) || !has_valid_mass(body_def) ||
+      !to_surface_velocity(body_def.angular_velocity,
+                                                  scale_exponent(body_def.shape), surface)) {
+    return Status::invalid_argument;
+  }
+  std::uint32_t slot = free_hint;
+  while (slot < header.body_limit && bodies[slot].exists()) ++slot;
+  if (slot == def.body_capacity) return Status::capacity_exhausted;
+  free_hint = slot + 1;
+  header.body_limit = std::max(header.body_limit, slot + 1);
+
+  BodyRecord& record = bodies[slot];
+  record = make_record(body_def, record.generation + 1);
+  if (record.moves()) {
+    record.velocity = body_def.velocity;
+    record.spin = spin_of(record, to_matrix(record.orientation), surface);
+  }
+  refresh(slot);
+  return BodyHandle{slot, record.generation};
+}
+
+Status World::Impl::execute(const CreateBody& command) {
+  return create_body(command.def).status();
+}
+
+Status World::Impl::execute(const DestroyBody& command) {
+  const BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  const std::uint32_t index = command.body.index;
+  drop_contacts_of(index);
+  broad_phase.remove(index);
+  BodyRecord empty;
+  empty.generation = record->generation;
+  bodies[index] = empty;
+  free_hint = std::min(free_hint, index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const Teleport& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!within(command.position, k_world_limit) || !is_valid(command.orientation)) {
+    return Status::invalid_argument;
+  }
+  drop_contacts_of(command.body.index);
+  record->position = command.position;
+  record->orientation = normalized(command.orientation);
+  refresh(command.body.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetVelocity& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->moves() || !within(command.velocity, k_speed_limit)) {
+    return Status::invalid_argument;
+  }
+  record->velocity = command.velocity;
+  refresh(command.body.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetAngularVelocity& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  Vec3<Velocity> surface;
+  if (!record->moves() ||
+      !to_surface_velocity(command.angular_velocity, record->scale_exponent, surface)) {
+    return Status::invalid_argument;
+  }
+  record->spin = spin_of(*record, rotations[command.body.index], surface);
+  refresh(command.body.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const ApplyImpulse& command) {
+  return execute(ApplyImpulseAt{command.body, command.impulse, {}});
+}
+
+Status World::Impl::execute(const ApplyImpulseAt& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  const Length reach = Length::from_raw(raw::saturate<std::int32_t>(
+      std::int64_t{2} * bounding_radius(record->shape()).raw));
+  if (!record->is_dynamic() || !within(command.point, reach)) return Status::invalid_argument;
+  const Vec3<Velocity> gain = velocity_gain(*record, command.impulse);
+  add_velocity(record->velocity, gain);
+  if (record->rotates()) add_velocity(record->spin, turning_gain(*record, command.point, gain));
+  refresh(command.body.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const ApplyAngularImpulse& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->is_dynamic()) return Status::invalid_argument;
+  if (!record->rotates()) return Status::ok;
+  // L / (m·2^k)
+  const auto gain = [&](AngularImpulse l) {
+    const int shift = Velocity::frac_bits - AngularImpulse::frac_bits - record->scale_exponent;
+    return Velocity::from_raw(scale_saturating(l.raw, record->inverse_mass_value(), shift));
+  };
+  add_velocity(record->spin,
+               {gain(command.impulse.x), gain(command.impulse.y), gain(command.impulse.z)});
+  refresh(command.body.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const ApplyForce& command) {
+  // Over one tick a force is the impulse F·dt: Q20 to Q24, divided by the tick rate.
+  const auto impulse = [&](Force f) {
+    const std::int64_t bounded = std::clamp(f.raw, -(std::int64_t{1} << 56), std::int64_t{1} << 56);
+    return Impulse::from_raw(raw::round_divide(bounded << 4, def.tick_rate));
+  };
+  return execute(ApplyImpulse{
+      command.body, {impulse(command.force.x), impulse(command.force.y), impulse(command.force.z)}});
+}
+
+Status World::Impl::execute(const SetMaterial& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!is_valid_surface(command.friction, command.restitution)) return Status::invalid_argument;
+  record->friction = command.friction;
+  record->restitution = command.restitution;
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetFilter& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  record->category = command.filter.category;
+  record->mask = command.filter.mask;
+  record->group = command.filter.group;
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetUserData& command) {
+  BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  record->user_data = command.user_data;
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetGravity& command) {
+  if (!within(command.gravity, Acceleration::from_integer(1000))) return Status::invalid_argument;
+  header.gravity = command.gravity;
+  return Status::ok;
+}
+
+void World::Impl::drop_contacts_of(std::uint32_t body) {
+  const std::span<ContactRecord> all = contacts();
+  const auto end = std::remove_if(all.begin(), all.end(), [&](const ContactRecord& contact) {
+    return contact.body_a == body || contact.body_b == body;
+  });
+  header.contact_count = static_cast<std::uint32_t>(end - all.begin());
+}
+
+Result<BodyHandle> World::create_body(const BodyDef& def) { return impl_->create_body(def); }
+
+Status World::apply(const Command& command) {
+  return std::visit(
+      [this](const auto& c) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(c)>, std::monostate>) {
+          return Status::invalid_argument;
+        } else {
+          return impl_->execute(c);
+        }
+      },
+      command);
+}
+
+}  // namespace lockstone

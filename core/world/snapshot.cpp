@@ -1,0 +1,247 @@
+// Snapshots. The native one is a copy of the used parts of the stores. The canonical one is:
+//   u32 magic "LKSW" · u16 version · u16 reserved · u64 config hash
+//   header record · body records · contact records · u64 XXH3 of all before
+// all little-endian, each record its fields in the order of its list.
+
+#include <algorithm>
+#include <cstring>
+
+#include <lockstone/hash.h>
+
+#include "core/geometry/shape_properties.h"
+#include "core/dynamics/inertia.h"
+#include "core/world/record_codec.h"
+#include "core/world/snapshot_format.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+bool in_range(const Vec3<Position>& v, Position limit) {
+  return abs(v.x) <= limit && abs(v.y) <= limit && abs(v.z) <= limit;
+}
+
+// The limit plus what its own rounding may leave.
+bool in_range(const Vec3<Velocity>& v) {
+  constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
+  return abs(v.x) <= limit && abs(v.y) <= limit && abs(v.z) <= limit;
+}
+
+bool has_unit_norm(const Quat& q) {
+  constexpr std::int32_t k_bound = 1 << 30;
+  for (const Unit c : {q.x, q.y, q.z, q.w}) {
+    if (c.raw > k_bound || c.raw < -k_bound) return false;
+  }
+  const std::int64_t norm = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw;  // Q60
+  const std::int64_t error = norm - (std::int64_t{1} << 60);
+  return error < (std::int64_t{1} << 40) && error > -(std::int64_t{1} << 40);
+}
+
+bool has_valid_inertia(const Vec3<Unit>& inertia) {
+  for (int i = 0; i < 3; ++i) {
+    if (inertia[i] < k_min_inertia || inertia[i] > Unit::from_integer(1)) return false;
+  }
+  return true;
+}
+
+bool has_valid_mass(const BodyRecord& record) {
+  if (!record.is_dynamic()) return record.inverse_mass == 0 && record.inverse_mass_exponent == 0;
+  return record.inverse_mass >= (1 << 30) && record.inverse_mass_exponent >= -64 &&
+         record.inverse_mass_exponent <= 2;
+}
+
+bool has_valid_surface(const BodyRecord& record) {
+  return record.friction >= Coefficient{} &&
+         record.friction <= Coefficient::from_ratio(199, 100) &&
+         record.restitution >= Coefficient{} &&
+         record.restitution <= Coefficient::from_integer(1) && record.linear_damping >= Rate{} &&
+         record.angular_damping >= Rate{} &&
+         abs(record.gravity_scale) <= Number::from_integer(100);
+}
+
+bool is_empty_slot(const BodyRecord& record) {
+  BodyRecord empty;
+  empty.generation = record.generation;
+  return record == empty;
+}
+
+Status check_gravity(const Vec3<Acceleration>& g) {
+  constexpr Acceleration limit = Acceleration::from_integer(1000);
+  const bool ok = abs(g.x) <= limit && abs(g.y) <= limit && abs(g.z) <= limit;
+  return ok ? Status::ok : Status::malformed;
+}
+
+bool has_valid_points(const ContactRecord& record) {
+  if (record.count > record.points.size()) return false;
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    const ContactPointRecord& point = record.points[i];
+    if (point.normal_impulse < SolverVelocity{}) return false;
+    if (i >= record.count && point != ContactPointRecord{}) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Status validate(const BodyRecord& record) {
+  if (record.generation == 0 || record.motion > 3) return Status::malformed;
+  if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
+  const bool known = record.shape_kind <= 2 && (record.flags & ~k_all_body_flags) == 0 &&
+                     record.reserved0 == 0 && record.reserved1 == 0 && record.reserved2 == 0;
+  if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
+  const bool consistent = record.scale_exponent == scale_exponent(record.shape()) &&
+                          has_valid_inertia(record.inertia) && has_valid_mass(record) &&
+                          has_valid_surface(record);
+  const bool in_world = in_range(record.position, k_world_limit) && in_range(record.velocity) &&
+                        in_range(record.spin) && has_unit_norm(record.orientation);
+  return consistent && in_world ? Status::ok : Status::malformed;
+}
+
+Status SnapshotView::check_contacts() const {
+  for (std::uint32_t i = 0; i < header.contact_count; ++i) {
+    const ContactRecord record = contact(i);
+    if (record.body_a >= header.body_limit || record.body_b >= header.body_limit) {
+      return Status::malformed;
+    }
+    const BodyRecord a = body(record.body_a), b = body(record.body_b);
+    const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
+    const bool known = (record.flags & ~k_all_contact_flags) == 0 && record.reserved == 0;
+    const bool trigger = a.is_trigger() || b.is_trigger();
+    if (!ordered || !known || trigger != record.is_trigger() || !has_valid_points(record) ||
+        (trigger && record.count != 0)) {
+      return Status::malformed;
+    }
+    if (i == 0) continue;
+    const ContactRecord last = contact(i - 1);
+    if (Pair{last.body_a, last.body_b} >= Pair{record.body_a, record.body_b}) {
+      return Status::malformed;
+    }
+  }
+  return Status::ok;
+}
+
+Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def) {
+  ByteReader reader(bytes);
+  SnapshotView view;
+  const auto magic = reader.get<std::uint32_t>();
+  const auto version = reader.get<std::uint16_t>();
+  const auto reserved = reader.get<std::uint16_t>();
+  const auto config = reader.get<std::uint64_t>();
+  view.header = decode<WorldHeader>(reader);
+  if (!reader.ok()) return Status::truncated;
+  if (magic != k_snapshot_magic || reserved != 0) return Status::malformed;
+  if (version != k_snapshot_version) return Status::unsupported_version;
+  if (config != config_hash(def)) return Status::incompatible;
+  if (view.header.body_limit > def.body_capacity ||
+      view.header.contact_count > def.contact_capacity) {
+    return Status::malformed;
+  }
+  const std::size_t body_bytes = view.header.body_limit * sizeof(BodyRecord);
+  const std::size_t contact_bytes = view.header.contact_count * sizeof(ContactRecord);
+  view.bodies_ = reader.get_bytes(body_bytes);
+  view.contacts_ = reader.get_bytes(contact_bytes);
+  const std::size_t hashed = reader.position();
+  const auto hash = reader.get<std::uint64_t>();
+  if (!reader.ok()) return Status::truncated;
+  if (reader.remaining() != 0) return Status::malformed;
+  if (hash != hash64(bytes.first(hashed))) return Status::checksum_mismatch;
+  return view;
+}
+
+BodyRecord SnapshotView::body(std::uint32_t index) const {
+  ByteReader reader(bodies_.subspan(index * sizeof(BodyRecord), sizeof(BodyRecord)));
+  return decode<BodyRecord>(reader);
+}
+
+ContactRecord SnapshotView::contact(std::uint32_t index) const {
+  ByteReader reader(contacts_.subspan(index * sizeof(ContactRecord), sizeof(ContactRecord)));
+  return decode<ContactRecord>(reader);
+}
+
+Status SnapshotView::check() const {
+  if (check_gravity(header.gravity) != Status::ok) return Status::malformed;
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
+    if (validate(body(i)) != Status::ok) return Status::malformed;
+  }
+  return check_contacts();
+}
+
+std::size_t World::snapshot_bytes_max(SnapshotKind kind) const {
+  const std::size_t frame = kind == SnapshotKind::native ? 0 : k_snapshot_frame_bytes;
+  return frame + sizeof(WorldHeader) + impl_->def.body_capacity * sizeof(BodyRecord) +
+         impl_->def.contact_capacity * sizeof(ContactRecord);
+}
+
+std::size_t World::save(SnapshotKind kind, std::span<std::byte> out) const {
+  return kind == SnapshotKind::native ? impl_->save_native(out) : impl_->save_canonical(out);
+}
+
+Status World::load(SnapshotKind kind, ByteView bytes) {
+  return kind == SnapshotKind::native ? impl_->load_native(bytes) : impl_->load_canonical(bytes);
+}
+
+std::size_t World::Impl::save_native(std::span<std::byte> out) const {
+  const ByteView parts[] = {
+      std::as_bytes(std::span(&header, 1)),
+      std::as_bytes(std::span(bodies.data(), header.body_limit)),
+      std::as_bytes(std::span(contact_store.data(), header.contact_count))};
+  std::size_t size = 0;
+  for (const ByteView part : parts) {
+    if (part.size() > out.size() - size) return 0;
+    if (!part.empty()) std::memcpy(out.data() + size, part.data(), part.size());
+    size += part.size();
+  }
+  return size;
+}
+
+Status World::Impl::load_native(ByteView bytes) {
+  if (bytes.size() < sizeof(WorldHeader)) return Status::truncated;
+  WorldHeader loaded;
+  std::memcpy(&loaded, bytes.data(), sizeof(loaded));
+  if (loaded.body_limit > def.body_capacity || loaded.contact_count > def.contact_capacity) {
+    return Status::malformed;
+  }
+  const std::size_t body_bytes = loaded.body_limit * sizeof(BodyRecord);
+  const std::size_t contact_bytes = loaded.contact_count * sizeof(ContactRecord);
+  if (bytes.size() != sizeof(loaded) + body_bytes + contact_bytes) return Status::truncated;
+  for (std::uint32_t i = loaded.body_limit; i < header.body_limit; ++i) bodies[i] = {};
+  const std::byte* from = bytes.data() + sizeof(loaded);
+  if (body_bytes > 0) std::memcpy(bodies.data(), from, body_bytes);
+  if (contact_bytes > 0) std::memcpy(contact_store.data(), from + body_bytes, contact_bytes);
+  header = loaded;
+  events.clear();
+  rebuild_derived();
+  return Status::ok;
+}
+
+std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
+  ByteWriter writer(out);
+  writer.put(k_snapshot_magic);
+  writer.put(k_snapshot_version);
+  writer.put<std::uint16_t>(0);
+  writer.put(config_hash(def));
+  encode(header, writer);
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) encode(bodies[i], writer);
+  for (const ContactRecord& contact : contacts()) encode(contact, writer);
+  if (!writer.ok()) return 0;
+  writer.put(hash64(writer.written()));
+  return writer.ok() ? writer.size() : 0;
+}
+
+Status World::Impl::load_canonical(ByteView bytes) {
+  const Result<SnapshotView> view = SnapshotView::open(bytes, def);
+  if (!view.ok()) return view.status();
+  if (const Status status = view.value().check(); status != Status::ok) return status;
+  const std::uint32_t old_limit = header.body_limit;
+  header = view.value().header;
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) bodies[i] = view.value().body(i);
+  for (std::uint32_t i = header.body_limit; i < old_limit; ++i) bodies[i] = {};
+  for (std::uint32_t i = 0; i < header.contact_count; ++i) {
+    contact_store[i] = view.value().contact(i);
+  }
+  events.clear();
+  rebuild_derived();
+  return Status::ok;
+}
+
+}  // namespace lockstone

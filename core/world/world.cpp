@@ -1,0 +1,165 @@
+#include <lockstone/world.h>
+
+#include <algorithm>
+#include <array>
+
+#include <lockstone/hash.h>
+
+#include "core/dynamics/inertia.h"
+#include "core/geometry/shape_properties.h"
+#include "core/math/block_float.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+constexpr bool within(std::uint32_t value, std::uint32_t low, std::uint32_t high) {
+  return value >= low && value <= high;
+}
+
+// 1000 m/s²: far above any game, and g·dt stays a small part of the speed limit.
+constexpr bool is_valid_gravity(const Vec3<Acceleration>& gravity) {
+  constexpr Acceleration limit = Acceleration::from_integer(1000);
+  return abs(gravity.x) <= limit && abs(gravity.y) <= limit && abs(gravity.z) <= limit;
+}
+
+bool is_valid(const WorldDef& def) {
+  return within(def.body_capacity, 1, 1U << 20) && within(def.pair_capacity, 1, 1U << 24) &&
+         within(def.contact_capacity, 1, 1U << 24) && within(def.tick_rate, 10, 480) &&
+         within(def.substeps, 1, 16) && is_valid_gravity(def.gravity);
+}
+
+}  // namespace
+
+std::uint64_t config_hash(const WorldDef& def) {
+  std::array<std::byte, 48> buffer{};
+  ByteWriter writer(buffer);
+  writer.put(k_simulation_abi);
+  writer.put(def.body_capacity);
+  writer.put(def.pair_capacity);
+  writer.put(def.contact_capacity);
+  writer.put(def.tick_rate);
+  writer.put(def.substeps);
+  for (int i = 0; i < 3; ++i) writer.put(def.gravity[i].raw);
+  LKS_CHECK(writer.ok());
+  return hash64(writer.written());
+}
+
+World::Impl::Impl(const WorldDef& definition)
+    : def(definition),
+      time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
+      softness(ContactSoftness::of(time_step)),
+      bodies(definition.body_capacity),
+      contact_store(definition.contact_capacity),
+      rotations(definition.body_capacity),
+      inner_radii(definition.body_capacity),
+      broad_phase(definition.body_capacity, definition.pair_capacity),
+      solver_index(definition.body_capacity) {
+  header.gravity = definition.gravity;
+  events.reserve(std::size_t{2} * definition.contact_capacity);
+  new_contacts.reserve(definition.contact_capacity);
+  manifolds.reserve(definition.contact_capacity);
+  constraints.reserve(definition.contact_capacity);
+  approach_speeds.reserve(definition.contact_capacity);
+  solver_bodies.reserve(std::size_t{definition.body_capacity} + 1);
+}
+
+BodyRecord* World::Impl::find(BodyHandle body) {
+  if (body.is_null() || body.index >= header.body_limit) return nullptr;
+  BodyRecord& record = bodies[body.index];
+  return record.exists() && record.generation == body.generation ? &record : nullptr;
+}
+
+const BodyRecord* World::Impl::find(BodyHandle body) const {
+  return const_cast<Impl*>(this)->find(body);
+}
+
+std::uint32_t World::Impl::body_count() const {
+  const auto end = bodies.begin() + header.body_limit;
+  return static_cast<std::uint32_t>(
+      std::count_if(bodies.begin(), end, [](const BodyRecord& body) { return body.exists(); }));
+}
+
+void World::Impl::rebuild_derived() {
+  broad_phase.clear();
+  free_hint = 0;
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
+    if (bodies[i].exists()) refresh(i);
+  }
+}
+
+World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+Result<World> World::create(const WorldDef& def) {
+  if (!is_valid(def)) return Status::invalid_argument;
+  return World(std::make_unique<Impl>(def));
+}
+
+const WorldDef& World::def() const { return impl_->def; }
+std::uint64_t World::tick() const { return impl_->header.tick; }
+StepReport World::step() { return impl_->step(); }
+std::span<const ContactEvent> World::events() const { return impl_->events; }
+bool World::exists(BodyHandle body) const { return impl_->find(body) != nullptr; }
+std::uint32_t World::body_count() const { return impl_->body_count(); }
+std::uint32_t World::body_limit() const { return impl_->header.body_limit; }
+void World::drop_derived() { impl_->rebuild_derived(); }
+
+BodyHandle World::body_at(std::uint32_t index) const {
+  if (index >= impl_->header.body_limit || !impl_->bodies[index].exists()) return {};
+  return {index, impl_->bodies[index].generation};
+}
+
+BodyView World::body(BodyHandle body) const {
+  const BodyRecord* record = impl_->find(body);
+  LKS_CHECK(record != nullptr);
+  const Vec3<Velocity> w =
+      surface_velocity(inverse_inertia(*record, impl_->rotations[body.index]), record->spin);
+  const auto angular = [&](Velocity v) {
+    return AngularVelocity::from_raw(raw::scale_binary(v.raw, -record->scale_exponent));
+  };
+  return {.motion = static_cast<MotionType>(record->motion),
+          .shape = record->shape(),
+          .position = record->position,
+          .orientation = record->orientation,
+          .velocity = record->velocity,
+          .angular_velocity = {angular(w.x), angular(w.y), angular(w.z)},
+          .filter = record->filter(),
+          .is_trigger = record->is_trigger(),
+          .user_data = record->user_data};
+}
+
+Vec3<Position> World::position(BodyHandle body) const {
+  const BodyRecord* record = impl_->find(body);
+  LKS_CHECK(record != nullptr);
+  return record->position;
+}
+
+Vec3<Velocity> World::velocity(BodyHandle body) const {
+  const BodyRecord* record = impl_->find(body);
+  LKS_CHECK(record != nullptr);
+  return record->velocity;
+}
+
+Mass World::mass(BodyHandle body) const {
+  const BodyRecord* record = impl_->find(body);
+  LKS_CHECK(record != nullptr);
+  if (record->inverse_mass == 0) return {};
+  // 1 / (mantissa·2^e) in Q32 = (2^62 / mantissa) · 2^(−e − 30)
+  const std::int64_t quotient =
+      raw::round_divide(std::int64_t{1} << 62, record->inverse_mass);
+  return Mass::from_raw(raw::scale_binary(quotient, -record->inverse_mass_exponent - 30));
+}
+
+bool World::touching(BodyHandle a, BodyHandle b) const {
+  if (!exists(a) || !exists(b)) return false;
+  return std::ranges::any_of(impl_->contacts(), [&](const ContactRecord& contact) {
+    const bool same = (contact.body_a == a.index && contact.body_b == b.index) ||
+                      (contact.body_a == b.index && contact.body_b == a.index);
+    return same && contact.is_touching();
+  });
+}
+
+}  // namespace lockstone

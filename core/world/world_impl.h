@@ -1,0 +1,98 @@
+// The inside of a world: canonical state first, then what can be derived from it, then scratch.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <lockstone/world.h>
+
+#include "core/collision/broad_phase.h"
+#include "core/dynamics/body_record.h"
+#include "core/dynamics/contact_constraint.h"
+#include "core/dynamics/contact_prepare.h"
+#include "core/dynamics/contact_record.h"
+#include "core/dynamics/solver_body.h"
+#include "core/dynamics/time_step.h"
+#include "core/geometry/manifold.h"
+#include "core/world/world_header.h"
+
+namespace lockstone {
+
+struct World::Impl {
+  explicit Impl(const WorldDef& definition);
+
+  // The tick, one function a stage (step.cpp).
+  StepReport step();
+
+  // Commands (commands.cpp). Each checks its arguments in full before it writes.
+  Result<BodyHandle> create_body(const BodyDef& body_def);
+#define LKS_DECLARE_EXECUTE(Name) Status execute(const Name& command);
+  LKS_COMMANDS(LKS_DECLARE_EXECUTE)
+#undef LKS_DECLARE_EXECUTE
+
+  [[nodiscard]] BodyRecord* find(BodyHandle body);
+  [[nodiscard]] const BodyRecord* find(BodyHandle body) const;
+  [[nodiscard]] std::uint32_t body_count() const;
+
+  /// Brings what is derived from one body up to date: after every write to it.
+  void refresh(std::uint32_t body);
+  void rebuild_derived();
+
+  [[nodiscard]] std::span<ContactRecord> contacts() { return {contact_store.data(), header.contact_count}; }
+  [[nodiscard]] std::span<const ContactRecord> contacts() const {
+    return {contact_store.data(), header.contact_count};
+  }
+  void drop_contacts_of(std::uint32_t body);
+
+  // Snapshots (snapshot.cpp).
+  [[nodiscard]] std::size_t save_native(std::span<std::byte> out) const;
+  [[nodiscard]] std::size_t save_canonical(std::span<std::byte> out) const;
+  Status load_native(ByteView bytes);
+  Status load_canonical(ByteView bytes);
+
+  const WorldDef def;
+  const TimeStep time_step;
+  const ContactSoftness softness;
+
+  // Canonical state.
+  WorldHeader header;
+  std::vector<BodyRecord> bodies;            // by index; size: body capacity
+  std::vector<ContactRecord> contact_store;  // the first header.contact_count; size: capacity
+
+  // Derived, by body index.
+  std::vector<Mat3> rotations;
+  std::vector<Length> inner_radii;
+  BroadPhase broad_phase;
+  std::uint32_t free_hint = 0;  // no slot below this is empty
+
+  // Of the last step only.
+  std::vector<ContactEvent> events;
+
+ private:
+  void find_pairs(StepReport& report);
+  void collide_pairs(StepReport& report);
+  bool collide_pair(const Pair& pair, ContactRecord& record, Manifold& manifold) const;
+  void prepare_contacts(StepReport& report);
+  std::uint32_t solver_body_of(std::uint32_t body);
+  void run_substeps(StepReport& report);
+  void store_impulses();
+  void move_bodies(StepReport& report);
+  void move_body(std::uint32_t body, StepReport& report);
+  void find_events();
+  void add_event(EventKind kind, const ContactRecord& record, std::size_t index);
+
+  // Scratch of one step.
+  std::span<const Pair> pairs;
+  std::vector<ContactRecord> new_contacts;
+  std::vector<Manifold> manifolds;              // by new contact
+  std::vector<ContactConstraint> constraints;
+  std::vector<SolverBody> solver_bodies;        // entry 0 is the immovable body
+  std::vector<std::uint32_t> solver_index;      // by body; 0: not in the solver
+  std::vector<SolverVelocity> approach_speeds;  // by new contact
+};
+
+/// ok, or what makes a stored record impossible. For bytes from outside.
+[[nodiscard]] Status validate(const BodyRecord& record);
+
+}  // namespace lockstone

@@ -1,0 +1,98 @@
+#include "core/collision/bounding_volume_tree.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+
+namespace lockstone {
+namespace {
+
+Bounds random_bounds(test::Random& random, std::int64_t spread, std::int64_t size) {
+  Bounds bounds;
+  for (int i = 0; i < 3; ++i) {
+    const auto low = static_cast<std::int32_t>(random.between(-spread, spread));
+    bounds.lower[i].raw = low;
+    bounds.upper[i].raw = low + static_cast<std::int32_t>(random.between(0, size));
+  }
+  return bounds;
+}
+
+std::vector<std::uint32_t> bodies_in(const BoundingVolumeTree& tree, const Bounds& area) {
+  std::vector<std::uint32_t> found;
+  tree.traverse([&](const Bounds& b) { return overlap(area, b); },
+                [&](std::uint32_t body) { found.push_back(body); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(BoundingVolumeTree, FindsNothingWhenEmpty) {
+  BoundingVolumeTree tree(4);
+  EXPECT_TRUE(tree.is_valid());
+  EXPECT_TRUE(bodies_in(tree, Bounds{}).empty());
+}
+
+TEST(BoundingVolumeTree, FindsWhatAFullSearchFindsWhileLeavesComeAndGo) {
+  test::Random random;
+  constexpr std::uint32_t k_count = 300;
+  BoundingVolumeTree tree(k_count);
+  std::vector<std::uint32_t> leaf(k_count, BoundingVolumeTree::k_null);
+  std::vector<Bounds> bounds(k_count);
+  for (int round = 0; round < 3000; ++round) {
+    const auto body = static_cast<std::uint32_t>(random.between(0, k_count - 1));
+    if (leaf[body] != BoundingVolumeTree::k_null) {
+      tree.remove(leaf[body]);
+      leaf[body] = BoundingVolumeTree::k_null;
+    } else {
+      bounds[body] = random_bounds(random, 20000, 3000);
+      leaf[body] = tree.insert(bounds[body], body);
+    }
+    if (round % 50 != 0) continue;
+    ASSERT_TRUE(tree.is_valid());
+    const Bounds area = random_bounds(random, 20000, 8000);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < k_count; ++i) {
+      if (leaf[i] != BoundingVolumeTree::k_null && overlap(area, bounds[i])) expected.push_back(i);
+    }
+    ASSERT_EQ(bodies_in(tree, area), expected);
+  }
+}
+
+TEST(BoundingVolumeTree, StaysFlatWhenLeavesComeInSortedOrder) {
+  BoundingVolumeTree tree(4096);
+  for (std::int32_t i = 0; i < 4096; ++i) {
+    Bounds bounds;
+    bounds.lower.x.raw = i * 2000;
+    bounds.upper.x.raw = i * 2000 + 1000;
+    tree.insert(bounds, static_cast<std::uint32_t>(i));
+  }
+  EXPECT_TRUE(tree.is_valid());
+  EXPECT_LE(tree.height(), 30);
+}
+
+TEST(BoundingVolumeTree, TakesBoxesAtTheEdgeOfItsRange) {
+  BoundingVolumeTree tree(64);
+  test::Random random;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    Bounds bounds = random_bounds(random, 1 << 30, 1 << 30);
+    if (i % 2 == 0) {
+      bounds.lower = {BoundsCoordinate::min(), BoundsCoordinate::min(), BoundsCoordinate::min()};
+      bounds.upper = {BoundsCoordinate::max(), BoundsCoordinate::max(), BoundsCoordinate::max()};
+    }
+    tree.insert(bounds, i);
+  }
+  EXPECT_TRUE(tree.is_valid());
+}
+
+TEST(Bounds, RoundOutward) {
+  const Position x = Position::from_raw((std::int64_t{5} << 22) + 1);
+  EXPECT_EQ(round_down(x).raw, 5);
+  EXPECT_EQ(round_up(x).raw, 6);
+  EXPECT_EQ(round_down(-x).raw, -6);
+  EXPECT_EQ(round_up(-x).raw, -5);
+}
+
+}  // namespace
+}  // namespace lockstone

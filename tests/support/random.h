@@ -1,0 +1,46 @@
+// Random numbers for tests: seeded from LOCKSTONE_TEST_SEED or the clock, and printed.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+namespace lockstone::test {
+
+/// The seed of this run; the same for every test of the process.
+inline std::uint64_t run_seed() {
+  static const std::uint64_t seed = [] {
+    const char* text = std::getenv("LOCKSTONE_TEST_SEED");
+    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+    const std::uint64_t value =
+        text != nullptr ? std::strtoull(text, nullptr, 0) : static_cast<std::uint64_t>(now);
+    std::printf("[ seed     ] LOCKSTONE_TEST_SEED=%llu\n", static_cast<unsigned long long>(value));
+    return value;
+  }();
+  return seed;
+}
+
+/// SplitMix64: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed = run_seed()) : state_(seed) {}
+
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31);
+  }
+
+  /// Uniform in [low, high].
+  std::int64_t between(std::int64_t low, std::int64_t high) {
+    const auto span = static_cast<std::uint64_t>(high - low) + 1;
+    return low + static_cast<std::int64_t>(span == 0 ? next() : next() % span);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace lockstone::test

@@ -1,0 +1,218 @@
+// State is what is saved is what is hashed.
+
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/hash.h>
+
+#include "core/dynamics/body_record.h"
+#include "core/dynamics/contact_record.h"
+#include "core/world/world_header.h"
+#include "tests/support/random.h"
+#include "tests/world/world_fixture.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+
+World busy_world(std::uint64_t seed) {
+  World world = test::make_world();
+  test::fill_with_random_bodies(world, seed, 80);
+  test::step(world, 90);
+  return world;
+}
+
+TEST(Snapshot, LoadedGivesTheSameFuture) {
+  for (const SnapshotKind kind : {SnapshotKind::native, SnapshotKind::canonical}) {
+    World world = busy_world(test::run_seed());
+    World copy = test::make_world();
+    ASSERT_EQ(copy.load(kind, test::save(world, kind)), Status::ok);
+    for (int tick = 0; tick < 120; ++tick) {
+      ASSERT_EQ(copy.hash().total, world.hash().total) << "tick " << tick;
+      (void)world.step();
+      (void)copy.step();
+    }
+  }
+}
+
+TEST(Snapshot, SavingAndLoadingEveryTickChangesNothing) {
+  World plain = busy_world(test::run_seed() + 1);
+  World heavy = test::make_world();
+  ASSERT_EQ(heavy.load(SnapshotKind::canonical, test::save(plain, SnapshotKind::canonical)), Status::ok);
+  for (int tick = 0; tick < 60; ++tick) {
+    World fresh = test::make_world();
+    ASSERT_EQ(fresh.load(SnapshotKind::canonical, test::save(heavy, SnapshotKind::canonical)), Status::ok);
+    (void)fresh.step();
+    (void)plain.step();
+    ASSERT_EQ(fresh.hash().total, plain.hash().total) << "tick " << tick;
+    heavy = std::move(fresh);
+  }
+}
+
+TEST(DropDerived, EveryTickChangesNothing) {
+  World plain = busy_world(test::run_seed() + 2);
+  World heavy = busy_world(test::run_seed() + 2);
+  for (int tick = 0; tick < 120; ++tick) {
+    heavy.drop_derived();
+    (void)heavy.step();
+    (void)plain.step();
+    ASSERT_EQ(heavy.hash().total, plain.hash().total) << "tick " << tick;
+  }
+}
+
+TEST(Snapshot, LoadOverwritesAWorldThatHadMoreBodies) {
+  World small = test::make_world();
+  test::add_ground(small);
+  World large = busy_world(test::run_seed());
+  ASSERT_EQ(large.load(SnapshotKind::native, test::save(small, SnapshotKind::native)), Status::ok);
+  EXPECT_EQ(large.hash().total, small.hash().total);
+  EXPECT_EQ(test::add(large, {}), test::add(small, {}));
+  (void)large.step();
+  (void)small.step();
+  EXPECT_EQ(large.hash().total, small.hash().total);
+}
+
+// Flips the lowest bit of each integer of the record at `offset` in turn; calls `check(bytes, field)`.
+template <class Record, class Check>
+void flip_each_field(const std::vector<std::byte>& saved, std::size_t offset, Check&& check) {
+  Record record;
+  std::memcpy(&record, saved.data() + offset, sizeof(record));
+  visit_fields(record, [&](const char* name, const char* suffix, auto& integer) {
+    const std::string field = std::string(name) + suffix;
+    if (field == "shape_kind" || field == "body_limit" || field == "contact_count") return;
+    const auto original = integer;
+    integer = static_cast<std::remove_reference_t<decltype(integer)>>(integer ^ 1);
+    std::vector<std::byte> flipped = saved;
+    std::memcpy(flipped.data() + offset, &record, sizeof(record));
+    integer = original;
+    check(flipped, field);
+  });
+}
+
+TEST(Hash, ChangesWithEveryFieldOfState) {
+  const World world = busy_world(test::run_seed());
+  const std::vector<std::byte> saved = test::save(world, SnapshotKind::native);
+  const std::vector<std::byte> here = test::save(world, SnapshotKind::canonical);
+  const std::uint64_t expected = world.hash().total;
+  World other = test::make_world();
+  int checked = 0;
+  const auto check = [&](const std::vector<std::byte>& flipped, const std::string& field) {
+    ASSERT_EQ(other.load(SnapshotKind::native, flipped), Status::ok);
+    ASSERT_NE(other.hash().total, expected) << field;
+    const StateDifference found =
+        world.describe_difference(here, test::save(other, SnapshotKind::canonical));
+    ASSERT_EQ(found.field, field);
+    ++checked;
+  };
+  flip_each_field<WorldHeader>(saved, 0, check);
+  for (std::uint32_t i = 0; i < world.body_limit(); i += 7) {
+    flip_each_field<BodyRecord>(saved, sizeof(WorldHeader) + i * sizeof(BodyRecord), check);
+  }
+  const std::size_t contacts = sizeof(WorldHeader) + world.body_limit() * sizeof(BodyRecord);
+  ASSERT_GT(saved.size(), contacts + 20 * sizeof(ContactRecord));
+  for (std::size_t i = 0; i < 20; ++i) {
+    flip_each_field<ContactRecord>(saved, contacts + i * sizeof(ContactRecord), check);
+  }
+  EXPECT_GT(checked, 800);
+}
+
+TEST(CanonicalSnapshot, RefusesEveryTruncation) {
+  World world = test::make_world();
+  test::add_ground(world);
+  test::add(world, {});
+  const std::vector<std::byte> saved = test::save(world, SnapshotKind::canonical);
+  const std::uint64_t before = world.hash().total;
+  for (std::size_t size = 0; size < saved.size(); ++size) {
+    EXPECT_EQ(world.load(SnapshotKind::canonical, ByteView(saved).first(size)), Status::truncated);
+  }
+  EXPECT_EQ(world.hash().total, before);
+}
+
+TEST(CanonicalSnapshot, RefusesEveryFlippedBit) {
+  World world = test::make_world();
+  test::add_ground(world);
+  test::add(world, {});
+  (void)world.step();
+  const std::vector<std::byte> saved = test::save(world, SnapshotKind::canonical);
+  const std::uint64_t before = world.hash().total;
+  for (std::size_t bit = 0; bit < saved.size() * 8; ++bit) {
+    std::vector<std::byte> damaged = saved;
+    damaged[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+    ASSERT_NE(world.load(SnapshotKind::canonical, damaged), Status::ok) << "bit " << bit;
+  }
+  EXPECT_EQ(world.hash().total, before);
+}
+
+TEST(CanonicalSnapshot, RefusesAnotherConfiguration) {
+  World world = test::make_world();
+  WorldDef def = world.def();
+  def.substeps = 8;
+  World other = test::make_world(def);
+  EXPECT_EQ(other.load(SnapshotKind::canonical, test::save(world, SnapshotKind::canonical)), Status::incompatible);
+}
+
+TEST(CanonicalSnapshot, WithARightChecksumButImpossibleValuesIsRefused) {
+  // Overwrites every byte in turn with 0xff and checksums anew; what is accepted must be steppable.
+  World world = test::make_world();
+  test::add_ground(world);
+  test::add(world, {});
+  (void)world.step();
+  const std::vector<std::byte> saved = test::save(world, SnapshotKind::canonical);
+  int refused = 0;
+  for (std::size_t at = 0; at + 8 < saved.size(); ++at) {
+    std::vector<std::byte> forged = saved;
+    forged[at] = std::byte{0xff};
+    const std::uint64_t hash = hash64(ByteView(forged).first(forged.size() - 8));
+    for (std::size_t i = 0; i < 8; ++i) forged[forged.size() - 8 + i] = static_cast<std::byte>(hash >> (8 * i));
+    World target = test::make_world();
+    if (target.load(SnapshotKind::canonical, forged) == Status::ok) {
+      test::step(target, 2);
+    } else {
+      ++refused;
+      EXPECT_EQ(target.body_count(), 0U);
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(DescribeDifference, NamesTheBodyAndTheFieldOfOneFlippedBit) {
+  const World world = busy_world(test::run_seed());
+  const std::vector<std::byte> native = test::save(world, SnapshotKind::native);
+  const std::vector<std::byte> here = test::save(world, SnapshotKind::canonical);
+  World other = test::make_world();
+  constexpr std::size_t k_header = sizeof(WorldHeader);
+  const auto flipped_at = [&](std::size_t offset) {
+    std::vector<std::byte> flipped = native;
+    flipped[offset] ^= std::byte{1};
+    EXPECT_EQ(other.load(SnapshotKind::native, flipped), Status::ok);
+    return world.describe_difference(here, test::save(other, SnapshotKind::canonical));
+  };
+  const StateDifference velocity =
+      flipped_at(k_header + 17 * sizeof(BodyRecord) + offsetof(BodyRecord, velocity) + 8);
+  EXPECT_EQ(velocity.store, "body");
+  EXPECT_EQ(velocity.object, 17U);
+  EXPECT_EQ(velocity.field, "velocity.y");
+  const std::size_t contacts = k_header + world.body_limit() * sizeof(BodyRecord);
+  const StateDifference impulse = flipped_at(contacts + 3 * sizeof(ContactRecord) + 12);
+  EXPECT_EQ(impulse.store, "contact");
+  EXPECT_EQ(impulse.object, 3U);
+  EXPECT_EQ(impulse.field, "point[0].normal_impulse");
+  EXPECT_FALSE(world.describe_difference(here, here).differs);
+  EXPECT_EQ(world.describe_difference(here, here).to_line(), "no difference");
+}
+
+TEST(NativeSnapshot, IsAsSmallAsPromised) {
+  EXPECT_LE(sizeof(BodyRecord), 256U);
+  EXPECT_LE(sizeof(ContactRecord), 96U);
+}
+
+TEST(Canary, IsTheSameTwice) { EXPECT_EQ(canary_hash(), canary_hash()); }
+
+}  // namespace
+}  // namespace lockstone

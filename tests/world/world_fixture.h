@@ -1,0 +1,32 @@
+// Small worlds for tests.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <lockstone/literals.h>
+#include <lockstone/world.h>
+
+namespace lockstone::test {
+
+/// 60 Hz, 4 substeps, room for a few hundred bodies.
+World make_world(WorldDef def = {.body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
+
+/// A static box, 100 m square, whose top is the plane y = 0.
+BodyHandle add_ground(World& world);
+
+BodyHandle add(World& world, const BodyDef& def);
+
+BodyDef dynamic_body(const Shape& shape, Position x, Position y, Position z);
+
+/// Ground and `count` mixed shapes with random poses and velocities above it.
+void fill_with_random_bodies(World& world, std::uint64_t seed, int count);
+
+void step(World& world, int ticks);
+
+std::vector<std::byte> save(const World& world, SnapshotKind kind);
+
+/// Metres as a floating-point number, for messages and loose bounds.
+double metres(Position x);
+
+}  // namespace lockstone::test
