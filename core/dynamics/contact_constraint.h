@@ -55,6 +55,7 @@ struct ContactConstraint {
   std::uint32_t record = 0;  // index of its ContactRecord
   int exponent = 0;          // of read_a, read_b
   int count = 0;
+  std::uint8_t tangent_axis = 0;
   std::int32_t friction = 0;     // Q30
   std::int32_t restitution = 0;  // Q30
   Softness softness;

@@ -99,17 +99,29 @@ ContactAxis make_axis(const Vec3<Unit>& u, const Side& a, const Side& b) {
   return {unit, scaled(unit, a.share), scaled(unit, b.share)};
 }
 
-// Two tangents: the first across the axis that the normal is farthest from.
-void make_tangents(const Vec3<Unit>& n, Vec3<Unit>& t1, Vec3<Unit>& t2) {
+struct Tangents {
+  Vec3<Unit> first;
+  Vec3<Unit> second;
+};
+
+// The first tangent lies across a coordinate axis, the second across normal and first. Zero when the
+// normal is that axis.
+Tangents tangents_across(const Vec3<Unit>& n, std::uint8_t axis) {
+  const std::int64_t x = n.x.raw, y = n.y.raw, z = n.z.raw;
+  const Vec3<Unit> first = axis == 0   ? direction_of(0, z, -y)
+                           : axis == 1 ? direction_of(-z, 0, x)
+                                       : direction_of(y, -x, 0);
+  return {first, rounded<Unit>(cross(n, first))};
+}
+
+// The axis of the tick before as long as the normal keeps away from it, so that friction impulses
+// keep their meaning; else the one that the normal is farthest from.
+std::uint8_t choose_tangent_axis(const Vec3<Unit>& n, const ContactRecord& record) {
+  constexpr Unit k_too_near = Unit::from_ratio(7, 8);
+  if (record.count > 0 && abs(n[record.tangent_axis]) < k_too_near) return record.tangent_axis;
   const Unit x = abs(n.x), y = abs(n.y), z = abs(n.z);
-  if (x <= y && x <= z) {
-    t1 = direction_of(0, n.z.raw, -std::int64_t{n.y.raw});
-  } else if (y <= z) {
-    t1 = direction_of(-std::int64_t{n.z.raw}, 0, n.x.raw);
-  } else {
-    t1 = direction_of(n.y.raw, -std::int64_t{n.x.raw}, 0);
-  }
-  t2 = rounded<Unit>(cross(n, t1));
+  if (x <= y && x <= z) return 0;
+  return y <= z ? 1 : 2;
 }
 
 // √(a·b) in Q30.
@@ -129,6 +141,19 @@ void start_from(const ContactRecord& record, std::uint32_t feature, ContactPoint
   }
 }
 
+// Friction impulses in other tangents: the vector stays, its coordinates change.
+void change_tangents(const Tangents& from, const Tangents& to, ContactPoint& point) {
+  const std::int64_t p1 = point.tangent[0].impulse, p2 = point.tangent[1].impulse;
+  const auto coordinate = [&](const Vec3<Unit>& axis) {
+    const std::int64_t along_first = raw::round_shift(dot(from.first, axis).raw, 30);
+    const std::int64_t along_second = raw::round_shift(dot(from.second, axis).raw, 30);
+    return raw::saturate<std::int32_t>(
+        raw::round_shift(p1 * along_first + p2 * along_second, 30));
+  };
+  point.tangent[0].impulse = coordinate(to.first);
+  point.tangent[1].impulse = coordinate(to.second);
+}
+
 }  // namespace
 
 ContactSoftness ContactSoftness::of(const TimeStep& step) {
@@ -145,8 +170,8 @@ int prepare_contact(const ContactInput& in, const ContactSoftness& softness,
   const Side a{in.solver_a.inverse_inertia, in.body_a.scale_exponent, ratio(mass_a, mass_b).raw};
   const Side b{in.solver_b.inverse_inertia, in.body_b.scale_exponent, ratio(mass_b, mass_a).raw};
 
-  Vec3<Unit> t1, t2;
-  make_tangents(in.manifold.normal, t1, t2);
+  out.tangent_axis = choose_tangent_axis(in.manifold.normal, in.record);
+  const Tangents tangents = tangents_across(in.manifold.normal, out.tangent_axis);
   out.exponent = std::max(a.inertia.exponent, b.inertia.exponent);
   out.count = in.manifold.count;
   out.friction = mixed_friction(in.body_a.friction, in.body_b.friction);
@@ -154,8 +179,8 @@ int prepare_contact(const ContactInput& in, const ContactSoftness& softness,
   const bool immovable = a.share == 0 || b.share == 0;
   out.softness = immovable ? softness.against_immovable : softness.between_moving;
   out.normal = make_axis(in.manifold.normal, a, b);
-  out.tangent[0] = make_axis(t1, a, b);
-  out.tangent[1] = make_axis(t2, a, b);
+  out.tangent[0] = make_axis(tangents.first, a, b);
+  out.tangent[1] = make_axis(tangents.second, a, b);
 
   for (int i = 0; i < out.count; ++i) {
     const ManifoldPoint& from = in.manifold.points[static_cast<std::size_t>(i)];
@@ -176,6 +201,9 @@ int prepare_contact(const ContactInput& in, const ContactSoftness& softness,
     point.approach =
         relative_velocity(out.normal, point.normal, out.exponent, in.solver_a, in.solver_b);
     start_from(in.record, from.feature, point);
+    if (out.tangent_axis != in.record.tangent_axis) {
+      change_tangents(tangents_across(in.manifold.normal, in.record.tangent_axis), tangents, point);
+    }
   }
   return saturations;
 }

@@ -35,7 +35,7 @@ struct ContactRecord {
   std::array<ContactPointRecord, 4> points{};
   std::uint16_t count = 0;  // 0 … 4
   std::uint8_t flags = 0;   // ContactFlag
-  std::uint8_t reserved = 0;
+  std::uint8_t tangent_axis = 0;  // 0 … 2: the first tangent lies across this axis
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
@@ -57,7 +57,7 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
   }
   visit_value("count", "", record.count, f);
   visit_value("flags", "", record.flags, f);
-  visit_value("reserved", "", record.reserved, f);
+  visit_value("tangent_axis", "", record.tangent_axis, f);
 }
 
 static_assert(visited_bytes<ContactRecord>() == sizeof(ContactRecord), "a field is missing");

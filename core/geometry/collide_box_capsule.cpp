@@ -47,9 +47,10 @@ void add_face_point(Manifold& manifold, const BoxCapsule& pair, int axis, int si
             height - fine(pair.radius), pair.margin, feature);
 }
 
-/// The core leans away from the face by more than 30°: its far end is no contact.
+/// The core leans from the face by more than 1/32: its far end is no contact. Below that the normal
+/// of the face misses the capsule's surface by at most 1/2000 of the radius.
 bool is_steep(const BoxCapsule& pair, int axis) {
-  return abs(pair.local.axis[axis]).raw > (1 << 29);
+  return abs(pair.local.axis[axis]).raw > (1 << 25);
 }
 
 Manifold face_manifold(const BoxCapsule& pair, int axis, int sign, const Interval& beside) {

@@ -198,6 +198,7 @@ void World::Impl::store_impulses() {
     }
     approach_speeds[contact.record] = SolverVelocity::from_raw(-approach);
     record.flags = touching ? k_contact_touching : 0;
+    record.tangent_axis = contact.tangent_axis;
   }
 }
 
