@@ -26,7 +26,8 @@ std::string assemble(bool negative, std::uint64_t whole, std::uint64_t fraction,
     fraction -= scale;
     ++whole;
   }
-  std::string text = (negative ? "-" : "") + std::to_string(whole);
+  std::string text(negative ? 1 : 0, '-');
+  text += std::to_string(whole);
   if (digits == 0) return text;
   std::string tail = std::to_string(fraction);
   tail.insert(tail.begin(), static_cast<std::size_t>(digits) - tail.size(), '0');

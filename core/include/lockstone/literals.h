@@ -9,46 +9,48 @@
 
 namespace lockstone {
 
-/// An exact decimal with a unit, not yet in any binary format.
-template <class Dim>
+/// An exact decimal with a unit, not yet in any binary format. The value is part of the type, so that
+/// a conversion is always done by the compiler, and exists only where the value fits.
+template <class Dim, Decimal Value>
 struct DecimalLiteral {
-  Decimal value;
-
-  consteval DecimalLiteral operator-() const {
-    return {{!value.negative, value.whole, value.fraction, value.fraction_digits}};
+  constexpr auto operator-() const {
+    constexpr Decimal negated = {!Value.negative, Value.whole, Value.fraction,
+                                 Value.fraction_digits};
+    return DecimalLiteral<Dim, negated>{};
   }
 
   template <class Rep, int FracBits>
-  consteval operator Fixed<Dim, Rep, FracBits>() const {  // NOLINT(google-explicit-constructor)
-    const ScaledDecimal scaled = scale_decimal(value, FracBits);
-    if (!scaled.fits_in(sizeof(Rep) * 8)) literal_does_not_fit();
+    requires(scale_decimal(Value, FracBits).fits_in(sizeof(Rep) * 8))
+  constexpr operator Fixed<Dim, Rep, FracBits>() const {  // NOLINT(google-explicit-constructor)
+    constexpr ScaledDecimal scaled = scale_decimal(Value, FracBits);
     return {static_cast<Rep>(scaled.value)};
   }
-
- private:
-  static void literal_does_not_fit() {}  // not constexpr: reaching it fails the compilation
 };
 
 namespace literals {
 
 template <char... Text>
-[[nodiscard]] consteval Decimal parse_literal() {
+[[nodiscard]] constexpr Decimal parse_literal() {
   constexpr char text[] = {Text...};
-  const ParsedDecimal parsed = parse_decimal_text({text, sizeof...(Text)});
-  return parsed.ok ? parsed.value : throw "not a decimal literal";
+  constexpr ParsedDecimal parsed = parse_decimal_text({text, sizeof...(Text)});
+  static_assert(parsed.ok, "not a decimal literal");
+  return parsed.value;
 }
 
+template <class Dim, char... Text>
+using Literal = DecimalLiteral<Dim, parse_literal<Text...>()>;
+
 // clang-format off
-template <char... T> consteval DecimalLiteral<Metre> operator""_m() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<Kilogram> operator""_kg() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<Scalar> operator""_rad() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<Scalar> operator""_r() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<MetrePerSecond> operator""_mps() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<MetrePerSecond2> operator""_mps2() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<PerSecond> operator""_rps() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<NewtonSecond> operator""_Ns() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<Newton> operator""_N() { return {parse_literal<T...>()}; }
-template <char... T> consteval DecimalLiteral<KilogramPerMetre3> operator""_kgpm3() { return {parse_literal<T...>()}; }
+template <char... T> constexpr Literal<Metre, T...> operator""_m() { return {}; }
+template <char... T> constexpr Literal<Kilogram, T...> operator""_kg() { return {}; }
+template <char... T> constexpr Literal<Scalar, T...> operator""_rad() { return {}; }
+template <char... T> constexpr Literal<Scalar, T...> operator""_r() { return {}; }
+template <char... T> constexpr Literal<MetrePerSecond, T...> operator""_mps() { return {}; }
+template <char... T> constexpr Literal<MetrePerSecond2, T...> operator""_mps2() { return {}; }
+template <char... T> constexpr Literal<PerSecond, T...> operator""_rps() { return {}; }
+template <char... T> constexpr Literal<NewtonSecond, T...> operator""_Ns() { return {}; }
+template <char... T> constexpr Literal<Newton, T...> operator""_N() { return {}; }
+template <char... T> constexpr Literal<KilogramPerMetre3, T...> operator""_kgpm3() { return {}; }
 // clang-format on
 
 }  // namespace literals
