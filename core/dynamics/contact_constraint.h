@@ -61,6 +61,8 @@ struct ContactConstraint {
   Softness softness;
   ContactAxis normal;
   ContactAxis tangent[2];
+  ContactRow common;            // the normal at the mean of the points; its impulse is not used
+  std::int32_t common_soft_mass = 0;
   std::array<ContactPoint, k_max_manifold_points> points;
 };
 

@@ -64,6 +64,7 @@ void ContactSolver::solve(bool use_bias) {
     for (int i = 0; i < contact.count; ++i) {
       solve_point_friction(contact, contact.points[static_cast<std::size_t>(i)]);
     }
+    solve_common_normal(contact, use_bias);
     for (int i = 0; i < contact.count; ++i) {  // last, since it matters most
       solve_point_normal(contact, contact.points[static_cast<std::size_t>(i)], use_bias);
     }
@@ -84,27 +85,54 @@ std::int64_t ContactSolver::separation(const ContactConstraint& contact,
   return point.separation + raw::round_shift(change, 30);
 }
 
+ContactSolver::NormalTarget ContactSolver::target(const ContactConstraint& contact,
+                                                  const ContactPoint& point, bool use_bias) const {
+  const std::int64_t s = separation(contact, point);
+  if (s > 0) return {raw::round_shift(s * substep_rate_, 4), false};  // may close the gap, no more
+  if (!use_bias) return {0, false};
+  const std::int64_t rate = contact.softness.bias_rate;
+  return {std::max(raw::round_shift(s * rate, 24), -k_push_out_speed), true};
+}
+
 // P ← max(0, P − m̄·(v + bias)·mass scale − P·impulse scale)
 void ContactSolver::solve_point_normal(ContactConstraint& contact, ContactPoint& point,
                                        bool use_bias) {
-  const std::int64_t s = separation(contact, point);
-  std::int64_t mass = point.normal.mass;
-  std::int64_t impulse_scale = 0;
-  std::int64_t bias = 0;
-  if (s > 0) {  // may close the gap, no more
-    bias = raw::round_shift(s * substep_rate_, 4);
-  } else if (use_bias) {
-    const std::int64_t rate = contact.softness.bias_rate;
-    bias = std::max(raw::round_shift(s * rate, 24), -k_push_out_speed);
-    mass = point.soft_mass;
-    impulse_scale = contact.softness.impulse_scale;
-  }
+  const NormalTarget goal = target(contact, point, use_bias);
+  const std::int64_t mass = goal.soft ? point.soft_mass : point.normal.mass;
+  const std::int64_t impulse_scale = goal.soft ? contact.softness.impulse_scale : 0;
   const std::int64_t v = relative_velocity(contact.normal, point.normal, contact.exponent,
                                            bodies_[contact.body_a], bodies_[contact.body_b]);
-  const std::int64_t error = std::clamp<std::int64_t>(v + bias, -(1LL << 31), 1LL << 31);
+  const std::int64_t error = std::clamp<std::int64_t>(v + goal.bias, -(1LL << 31), 1LL << 31);
   const std::int64_t old = point.normal.impulse;
   const std::int64_t total = old - raw::round_shift(mass * error + impulse_scale * old, 30);
   apply_normal(contact, point, total);
+}
+
+// All points at once, each by the same share: what is symmetric stays symmetric, which points in turn
+// cannot promise.
+void ContactSolver::solve_common_normal(ContactConstraint& contact, bool use_bias) {
+  if (contact.count < 2) return;
+  std::int64_t bias = 0, impulse = 0;
+  bool soft = true;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    const NormalTarget goal = target(contact, point, use_bias);
+    bias += goal.bias;
+    impulse += point.normal.impulse;
+    soft = soft && goal.soft;
+  }
+  const std::int64_t v = relative_velocity(contact.normal, contact.common, contact.exponent,
+                                           bodies_[contact.body_a], bodies_[contact.body_b]);
+  const std::int64_t error =
+      std::clamp<std::int64_t>(v + raw::round_divide(bias, contact.count), -(1LL << 31), 1LL << 31);
+  const std::int64_t mass = soft ? contact.common_soft_mass : contact.common.mass;
+  std::int64_t change = raw::round_shift(mass * error, 30);
+  if (soft) change += raw::round_shift(contact.softness.impulse_scale * impulse, 30);
+  const std::int64_t share = raw::round_divide(change, contact.count);
+  for (int i = 0; i < contact.count; ++i) {
+    ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    apply_normal(contact, point, point.normal.impulse - share);
+  }
 }
 
 void ContactSolver::apply_normal(ContactConstraint& contact, ContactPoint& point,

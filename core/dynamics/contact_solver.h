@@ -36,9 +36,18 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }
 
  private:
+  void solve_common_normal(ContactConstraint& contact, bool use_bias);
   void solve_point_friction(ContactConstraint& contact, ContactPoint& point);
   void solve_point_normal(ContactConstraint& contact, ContactPoint& point, bool use_bias);
   void apply_normal(ContactConstraint& contact, ContactPoint& point, std::int64_t total);
+
+  // The velocity that a point's separation asks for, with its stiffness.
+  struct NormalTarget {
+    std::int64_t bias;  // m/s, Q20
+    bool soft;
+  };
+  [[nodiscard]] NormalTarget target(const ContactConstraint& contact, const ContactPoint& point,
+                                    bool use_bias) const;
   [[nodiscard]] std::int64_t separation(const ContactConstraint& contact,
                                         const ContactPoint& point) const;
   void apply(const ContactConstraint& contact, const ContactAxis& axis, const ContactRow& row,

@@ -3,6 +3,7 @@
 #include "core/geometry/contact_point.h"
 #include "core/geometry/manifold_reduction.h"
 #include "core/geometry/normals.h"
+#include "core/math/int128.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -96,10 +97,12 @@ ClipPolygon incident_polygon(const FaceFrame& frame, const IncidentFace& face) {
   return polygon;
 }
 
-/// Moves a vertex that is just outside onto the side, within the plane of the incident face.
+/// Moves a vertex that is just outside onto the side, within the plane of the incident face. Not
+/// on a steep face, where the height would change too much.
 void snap(ClipVertex& vertex, const Side& side, const IncidentFace& face) {
   const Fine excess = side.excess(vertex);
   if (excess <= 0 || excess > k_snap) return;
+  if (16 * magnitude_of(face.normal[side.axis]) > magnitude_of(face.normal[2])) return;
   // n·p stays: the height changes by excess · n_axis / n_z. Both factors fit 31 bits after the
   // shift by 8, and |n_z| > 1/2.
   vertex.at[side.axis] -= side.sign * excess;
@@ -111,16 +114,17 @@ void snap(ClipVertex& vertex, const Side& side, const IncidentFace& face) {
 /// so that the order of the two does not matter.
 ClipVertex intersection(const ClipVertex& inside, Fine inside_excess, const ClipVertex& outside,
                         Fine outside_excess, const Side& side) {
-  // share = depth / (depth + excess), 30 fraction bits; both scaled to 31 bits.
+  // share = depth / (depth + excess), 64 fraction bits, below 1: so fine that an edge cut by two
+  // opposite sides is cut alike in either order.
   const auto depth = static_cast<std::uint64_t>(-inside_excess);
   const auto whole = depth + static_cast<std::uint64_t>(outside_excess);
-  const int shift = std::max(0, 33 - std::countl_zero(whole));
-  const std::uint64_t divisor = whole >> shift;
-  const std::uint64_t share = (((depth >> shift) << 31) / divisor + 1) >> 1;
+  const std::uint64_t share = divide(UInt128{depth, 0}, whole).quotient;
   ClipVertex result;
   for (std::size_t k = 0; k < 3; ++k) {
     const Fine rise = raw::subtract(outside.at[k], inside.at[k]);
-    result.at[k] = inside.at[k] + scaled(rise, static_cast<std::int32_t>(share));
+    const UInt128 part = multiply_wide(magnitude(rise), share);
+    const auto size = static_cast<Fine>(part.high + (part.low >> 63));
+    result.at[k] = rise < 0 ? inside.at[k] - size : inside.at[k] + size;
   }
   result.at[side.axis] = side.sign * side.half;
   return result;

@@ -45,8 +45,8 @@ struct FacePolygon {
 /// flush do not change features as they tremble.
 [[nodiscard]] FacePolygon clip_incident_face(const FaceFrame& frame);
 
-/// 61 µm.
-inline constexpr Fine k_snap = Fine{1} << (k_fine_bits - 14);
+/// 31 µm.
+inline constexpr Fine k_snap = Fine{1} << (k_fine_bits - 15);
 
 /// The manifold from the reference to the incident box.
 [[nodiscard]] Manifold face_manifold(const FaceFrame& frame);

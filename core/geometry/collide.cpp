@@ -21,9 +21,11 @@ auto size_key(const Shape& shape) {
 
 /// Whether B takes the first place: the higher kind, then the greater sizes, then the lower place
 /// along the axis that separates the centres most. So either order of the arguments runs the same
-/// computation, and what rests on another keeps its role while it wobbles.
+/// computation, and what rests on another keeps its role while it wobbles. Spheres stay as they
+/// are: they have no roles.
 bool belongs_first(const Shape& b, const Shape& a, const Vec3<Length>& offset) {
   if (a.kind != b.kind) return b.kind > a.kind;
+  if (a.kind == ShapeKind::sphere) return false;
   const auto key_a = size_key(a);
   const auto key_b = size_key(b);
   if (key_a != key_b) return key_b > key_a;

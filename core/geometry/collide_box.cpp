@@ -39,7 +39,7 @@ Manifold other_manifold(const BoxPair& pair, const FaceChoice& faces) {
 /// where the boxes are nearest.
 bool attains(const Manifold& manifold, Fine separation) {
   const std::int64_t least = to_separation(separation - k_agreement).raw;
-  const std::int64_t most = to_separation(separation + k_agreement).raw;
+  const std::int64_t most = to_separation(separation + k_face_slack).raw;
   std::int64_t deepest = most + 1;
   for (int i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];

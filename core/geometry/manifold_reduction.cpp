@@ -22,6 +22,19 @@ Flat operator-(const Flat& a, const Flat& b) { return {a.x - b.x, a.y - b.y}; }
 std::int64_t cross(const Flat& a, const Flat& b) { return a.x * b.y - a.y * b.x; }
 std::int64_t square(const Flat& a) { return a.x * a.x + a.y * a.y; }
 
+struct Triangle {
+  Flat a;
+  Flat b;
+  Flat c;
+
+  /// Twice the area beyond the side that `p` lies outside of most; not positive inside.
+  [[nodiscard]] std::int64_t area_added_by(const Flat& p) const {
+    const int winding = sign_of(cross(b - a, c - a));
+    return std::max({winding * cross(p - a, b - a), winding * cross(p - b, c - b),
+                     winding * cross(p - c, a - c)});
+  }
+};
+
 /// Vertices by index, and which of them are taken.
 struct Selection {
   const FacePolygon& polygon;
@@ -69,7 +82,7 @@ void take_extreme(Selection& selection) {
   selection.take(best);
 }
 
-/// The most distant point must be near a deep one that was left out.
+/// The widest support is worth nothing if the deepest vertex is not held.
 void include_deepest(Selection& selection) {
   int deepest = 0;
   for (int i = 1; i < selection.polygon.count; ++i) {
@@ -97,8 +110,11 @@ Selection select_four(const FacePolygon& polygon) {
   if (selection.count == 2) {
     const Flat origin = selection.chosen(0);
     const Flat line = selection.chosen(1) - origin;
-    selection.take_best([&](const Flat& p) { return cross(line, p - origin); });
-    selection.take_best([&](const Flat& p) { return -cross(line, p - origin); });
+    selection.take_best([&](const Flat& p) { return magnitude_of(cross(line, p - origin)); });
+  }
+  if (selection.count == 3) {
+    const Triangle triangle{selection.chosen(0), selection.chosen(1), selection.chosen(2)};
+    selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
   include_deepest(selection);
   return selection;

@@ -15,6 +15,9 @@ inline constexpr Fine k_face_margin = Fine{1} << (k_fine_bits - 12);
 /// Two computations of one separation agree within this: 2^-18 m.
 inline constexpr Fine k_agreement = Fine{1} << (k_fine_bits - 18);
 
+/// A face contact is accepted this much farther than the nearest axis: 15 µm.
+inline constexpr Fine k_face_slack = Fine{1} << (k_fine_bits - 16);
+
 /// An edge axis replaces a face axis of separation `face` only above this value: an overlap smaller by
 /// a tenth and by k_edge_margin. A relative and an absolute margin, as in Box3D's b3CollideHulls.
 [[nodiscard]] constexpr Fine edge_threshold(Fine face) { return face - face / 10 + k_edge_margin; }

@@ -52,11 +52,14 @@ Mass mass_of_round(Length radius, Length half_height, Density density) {
       round_shift(mass, 60 + Density::frac_bits + 61 - Mass::frac_bits - dropped));
 }
 
-Unit to_unit(std::uint64_t x) { return {static_cast<std::int32_t>(x)}; }
+/// At least one step: a needle's moment about its own axis must not vanish.
+Unit to_moment(std::uint64_t x) {
+  return {static_cast<std::int32_t>(std::max(x, std::uint64_t{1}))};
+}
 
 /// x / (divisor · 2^30), rounded, for x with 60 fraction bits.
 Unit share(std::uint64_t x, std::uint64_t divisor) {
-  return to_unit(round_divide(UInt128{0, x}, divisor << 30));
+  return to_moment(round_divide(UInt128{0, x}, divisor << 30));
 }
 
 /// r and h are fractions of the scale, 30 bits. With cylinder and ball weighed 3h : 2r,
@@ -67,10 +70,10 @@ Vec3<Unit> capsule_inertia(std::uint64_t r, std::uint64_t h) {
   const UInt128 across = multiply_wide(square(h), 20 * h + 40 * r) +
                          multiply_wide(square(r), 45 * h + 16 * r);
   const std::uint64_t divisor = 20 * (3 * h + 2 * r);
-  const auto to_moment = [divisor](UInt128 numerator) {
-    return to_unit(round_shift(UInt128{0, round_divide(numerator, divisor)}, 30).low);
+  const auto moment = [divisor](UInt128 numerator) {
+    return to_moment(round_shift(UInt128{0, round_divide(numerator, divisor)}, 30).low);
   };
-  return {to_moment(across), to_moment(axial), to_moment(across)};
+  return {moment(across), moment(axial), moment(across)};
 }
 
 }  // namespace

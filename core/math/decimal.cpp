@@ -1,6 +1,6 @@
-#include <lockstone/decimal.h>
-
 #include <algorithm>
+
+#include <lockstone/decimal.h>
 
 namespace lockstone {
 namespace {
@@ -21,7 +21,8 @@ std::uint64_t fraction_digits_of(std::uint64_t fraction, int frac_bits, int digi
 
 std::string assemble(bool negative, std::uint64_t whole, std::uint64_t fraction, int digits) {
   std::uint64_t scale = 1;
-  for (int i = 0; i < digits; ++i) scale *= 10;
+  for (int i = 0; i < digits; ++i)
+    scale *= 10;
   if (fraction >= scale) {  // the rounding carried into the whole part
     fraction -= scale;
     ++whole;

@@ -24,9 +24,11 @@ template <std::size_t N>
 UInt128 sum_of_squares(const Raws<N>& sizes, std::uint64_t all_bits) {
   UInt128 sum;
   if ((all_bits >> 31) == 0) {
-    for (const std::uint64_t a : sizes) sum.low += a * a;
+    for (const std::uint64_t a : sizes)
+      sum.low += a * a;
   } else {
-    for (const std::uint64_t a : sizes) sum = sum + multiply_wide(a, a);
+    for (const std::uint64_t a : sizes)
+      sum = sum + multiply_wide(a, a);
   }
   return sum;
 }

@@ -84,7 +84,8 @@ inline constexpr std::array<std::uint16_t, 192> k_start = make_table();
   std::uint64_t root = multiply_high(scaled.high, reciprocal) << 2;  // low by less than 2^22
   const UInt128 rest = scaled - multiply_wide(root, root);
   root += multiply_high((rest >> 24).low, reciprocal) >> 39;  // rest / (2·√scaled)
-  while (scaled - multiply_wide(root, root) > UInt128{root >> 63, root << 1}) ++root;
+  while (scaled - multiply_wide(root, root) > UInt128{root >> 63, root << 1})
+    ++root;
   return root >> (shift / 2);
 }
 
@@ -107,8 +108,7 @@ template <class D, int F>
 /// |q|², 60 fraction bits, exact but for four components of −2, which give 2^64 − 1.
 [[nodiscard]] constexpr std::uint64_t norm_squared(const Quat& q) {
   const auto square = [](std::int64_t c) { return static_cast<std::uint64_t>(c * c); };
-  const std::uint64_t sum =
-      square(q.x.raw) + square(q.y.raw) + square(q.z.raw) + square(q.w.raw);
+  const std::uint64_t sum = square(q.x.raw) + square(q.y.raw) + square(q.z.raw) + square(q.w.raw);
   return sum == 0 && q.w.raw != 0 ? ~std::uint64_t{0} : sum;
 }
 
@@ -127,8 +127,7 @@ template <class D, int F>
 
 /// |v| to nearest; what exceeds the format (components beyond 1182 m) becomes its maximum.
 template <class D, int F>
-[[nodiscard]] constexpr Fixed<D, std::int32_t, F> length(
-    const Vec3<Fixed<D, std::int32_t, F>>& v) {
+[[nodiscard]] constexpr Fixed<D, std::int32_t, F> length(const Vec3<Fixed<D, std::int32_t, F>>& v) {
   const auto root = static_cast<std::int64_t>(isqrt_rounded(norm_squared(v)));
   return {raw::saturate<std::int32_t>(root)};
 }

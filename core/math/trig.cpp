@@ -12,19 +12,21 @@ namespace {
 /// ⌊2^shift / n!⌉ for the Taylor coefficients.
 constexpr std::uint64_t inverse_factorial(int n, int shift) {
   std::uint64_t factorial = 1;
-  for (int i = 2; i <= n; ++i) factorial *= static_cast<std::uint64_t>(i);
+  for (int i = 2; i <= n; ++i)
+    factorial *= static_cast<std::uint64_t>(i);
   return ((std::uint64_t{1} << shift) + factorial / 2) / factorial;
 }
 
 /// a · b · 2^-32 for values below 2^32.
-constexpr std::uint64_t multiply_q32(std::uint64_t a, std::uint64_t b) { return (a * b) >> 32; }
+constexpr std::uint64_t multiply_q32(std::uint64_t a, std::uint64_t b) {
+  return (a * b) >> 32;
+}
 
-// ⌊2^95 / 2π⌋, two words. Digits of 1/2π: Weisstein, MathWorld, "Inverse tangent" gives the series
-// with which a test recomputes this word by word.
+// ⌊2^95 / 2π⌋ in two words. A wrong digit shows in rotations of 2^31 radians, which are tested.
 constexpr std::uint64_t k_inverse_turn_high = 0x145f306dU;
 constexpr std::uint64_t k_inverse_turn_low = 0xc9c882a53f84eafaU;
 
-// ⌊2π · 2^60⌉ and ⌊π/2 · 2^40⌉, π · 2^27.
+// ⌊2π · 2^60⌉ and ⌊π/2 · 2^40⌉: π = 3.243f6a8885a308d3…, hexadecimal.
 constexpr std::uint64_t k_turn_q60 = 0x6487ed5110b4611aU;
 constexpr std::uint64_t k_half_pi_q40 = 0x1921fb54443U;
 
@@ -59,18 +61,22 @@ constexpr WideSinCos sin_cos_first_octant(std::uint64_t r) {
 /// trigonometric functions: multiply by the inverse turn and keep the fraction.)
 constexpr WideSinCos sin_cos_q33(std::uint64_t angle) {
   // The product has 33 + 95 = 128 fraction bits: its low two words are the fraction of a turn.
-  const UInt128 product = multiply_wide(angle, k_inverse_turn_low) +
-                          UInt128{angle * k_inverse_turn_high, 0};
+  const UInt128 product =
+      multiply_wide(angle, k_inverse_turn_low) + UInt128{angle * k_inverse_turn_high, 0};
   const std::uint64_t turns = product.high;
   const std::uint64_t quadrant = (turns + (std::uint64_t{1} << 61)) >> 62;
   const auto rest = static_cast<std::int64_t>(turns - (quadrant << 62));  // within ⅛ turn
   const WideSinCos octant = sin_cos_first_octant(multiply_high(magnitude(rest), k_turn_q60));
   const std::int64_t s = rest < 0 ? -octant.sin : octant.sin;
   switch (quadrant & 3) {
-    case 0: return {s, octant.cos};
-    case 1: return {octant.cos, -s};
-    case 2: return {-s, -octant.cos};
-    default: return {-octant.cos, s};
+    case 0:
+      return {s, octant.cos};
+    case 1:
+      return {octant.cos, -s};
+    case 2:
+      return {-s, -octant.cos};
+    default:
+      return {-octant.cos, s};
   }
 }
 
@@ -106,8 +112,8 @@ WideQuat rotation_about(const Vec3<Unit>& axis, const WideSinCos& half) {
 constexpr int k_arc_steps = 32;
 
 /// atan(i/32) with 40 fraction bits, by Euler's series Σ 2^(2n)·n!²/(2n+1)! · x^(2n+1)/(1+x²)^(n+1)
-/// (Euler, Opera postuma; Chien-Lih, An elementary derivation of Euler's series for the arctangent),
-/// computed with 52.
+/// (Chien-Lih, An elementary derivation of Euler's series for the arctangent function), computed
+/// with 52.
 constexpr std::uint64_t arc_tangent_entry(std::uint64_t i) {
   const std::uint64_t squares = k_arc_steps * k_arc_steps + i * i;
   std::uint64_t term = ((std::uint64_t{1} << 52) / squares) * k_arc_steps * i;
@@ -122,7 +128,8 @@ constexpr std::uint64_t arc_tangent_entry(std::uint64_t i) {
 
 constexpr std::array<std::uint64_t, k_arc_steps + 1> make_arc_table() {
   std::array<std::uint64_t, k_arc_steps + 1> table{};
-  for (std::uint64_t i = 0; i <= k_arc_steps; ++i) table[i] = arc_tangent_entry(i);
+  for (std::uint64_t i = 0; i <= k_arc_steps; ++i)
+    table[i] = arc_tangent_entry(i);
   return table;
 }
 
@@ -178,8 +185,7 @@ WideQuat wide_rotation(const RotationVector& theta) {
       magnitude(theta.x.raw) | magnitude(theta.y.raw) | magnitude(theta.z.raw);
   if ((sizes >> 31) == 0) {
     const auto squared = [](std::int64_t t) { return static_cast<std::uint64_t>(t * t); };
-    const std::uint64_t square =
-        squared(theta.x.raw) + squared(theta.y.raw) + squared(theta.z.raw);
+    const std::uint64_t square = squared(theta.x.raw) + squared(theta.y.raw) + squared(theta.z.raw);
     if (square <= std::uint64_t{1} << 62) return small_rotation(theta, square);
   }
   const Direction split = direction(theta);
@@ -230,7 +236,9 @@ Angle acos(Unit x) {
   return atan2_raw(static_cast<std::int64_t>(sine), cosine);
 }
 
-Quat rotation_from_vector(const RotationVector& theta) { return narrowed(wide_rotation(theta)); }
+Quat rotation_from_vector(const RotationVector& theta) {
+  return narrowed(wide_rotation(theta));
+}
 
 Quat from_axis_angle(const Vec3<Unit>& axis, Angle angle) {
   WideSinCos half = sin_cos_q33(magnitude(angle.raw) << 5);

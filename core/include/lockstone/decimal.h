@@ -78,7 +78,8 @@ struct DigitRun {
 /// `decimal` · 2^frac_bits, rounded; 0 ≤ frac_bits ≤ 62.
 [[nodiscard]] constexpr ScaledDecimal scale_decimal(const Decimal& decimal, int frac_bits) {
   std::uint64_t divisor = 1;
-  for (int i = 0; i < decimal.fraction_digits; ++i) divisor *= 10;
+  for (int i = 0; i < decimal.fraction_digits; ++i)
+    divisor *= 10;
   std::uint64_t magnitude = decimal.whole;
   std::uint64_t remainder = decimal.fraction;
   bool overflow = false;

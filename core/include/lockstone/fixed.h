@@ -162,7 +162,9 @@ struct Fixed {
 
   /// Times a whole number; must fit.
   friend constexpr Fixed operator*(Fixed a, int factor) {
-    const std::int64_t product = static_cast<std::int64_t>(a.raw) * factor;
+    const auto product = static_cast<std::int64_t>(static_cast<std::uint64_t>(a.raw) *
+                                                   static_cast<std::uint64_t>(factor));
+    LKS_ASSERT(factor == 0 || (product / factor == a.raw && product % factor == 0));
     return narrow(product);
   }
 

@@ -1,0 +1,166 @@
+// Random shapes, rotations and pairs for the collision tests.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/manifold.h"
+#include "core/geometry/shape_properties.h"
+#include "tests/geometry/reference.h"
+#include "tests/support/random.h"
+
+namespace lockstone::test {
+
+inline Length metres(double x) {
+  return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Length::frac_bits)))};
+}
+inline Vec3<Length> metres(double x, double y, double z) {
+  return {metres(x), metres(y), metres(z)};
+}
+inline Unit unit(double x) {
+  return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Unit::frac_bits)))};
+}
+
+inline Quat quat(double x, double y, double z, double w) {
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  return {unit(x / length), unit(y / length), unit(z / length), unit(w / length)};
+}
+
+inline Mat3 turned(double x, double y, double z, double angle) {
+  const double length = std::sqrt(x * x + y * y + z * z);
+  const double s = std::sin(angle / 2) / length;
+  return to_matrix(quat(x * s, y * s, z * s, std::cos(angle / 2)));
+}
+
+class Dice : public Random {
+ public:
+  using Random::Random;
+
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(next() >> 11), -53);
+  }
+  bool chance(int one_in) { return between(1, one_in) == 1; }
+
+  Quat orientation() {
+    if (chance(8)) return {};
+    if (chance(6)) return quat(0, uniform(-1, 1), 0, uniform(-1, 1));
+    if (chance(6)) return quat(uniform(-1e-6, 1e-6), uniform(-1e-6, 1e-6), uniform(-1e-6, 1e-6), 1);
+    double q[4];
+    double square = 0;
+    do {
+      square = 0;
+      for (double& c : q) {
+        c = uniform(-1, 1);
+        square += c * c;
+      }
+    } while (square > 1 || square < 1e-2);
+    return quat(q[0], q[1], q[2], q[3]);
+  }
+
+  /// Log-uniform in [low, high].
+  Length size(double low, double high) {
+    const Length x = metres(std::exp(uniform(std::log(low), std::log(high))));
+    return clamp(x, k_min_shape_size, k_max_shape_size);
+  }
+
+  Shape shape(ShapeKind kind, double low, double high) {
+    if (kind == ShapeKind::sphere) return Shape::sphere(size(low, high));
+    if (kind == ShapeKind::capsule) return Shape::capsule(size(low, high), size(low, high));
+    return Shape::box(size(low, high), size(low, high), size(low, high));
+  }
+
+  RealVec direction() {
+    RealVec v;
+    do {
+      v = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+    } while (norm(v) > 1 || norm(v) < 1e-3L);
+    return v * (1 / norm(v));
+  }
+};
+
+/// Two shapes that may meet.
+struct Scene {
+  Shape a;
+  Shape b;
+  Mat3 rotation_a;
+  Mat3 rotation_b;
+  Vec3<Length> offset;
+  Length margin;
+
+  [[nodiscard]] PosedShape posed_a() const { return {a, rotation_a}; }
+  [[nodiscard]] PosedShape posed_b() const { return {b, rotation_b}; }
+  [[nodiscard]] Placed placed_a() const { return {posed_a(), {}}; }
+  [[nodiscard]] Placed placed_b() const { return {posed_b(), real(offset)}; }
+  [[nodiscard]] Manifold collide() const {
+    return lockstone::collide(posed_a(), posed_b(), offset, margin);
+  }
+  /// A length that errors scale with.
+  [[nodiscard]] Real scale() const {
+    return std::max(real(bounding_radius(a)) + real(bounding_radius(b)), norm(real(offset)));
+  }
+};
+
+inline std::string describe(const Mat3& m) {
+  std::string text;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) text += std::to_string(m.column(column)[row].raw) + ",";
+  }
+  return text;
+}
+
+inline std::string describe(const Shape& s) {
+  return std::to_string(static_cast<int>(s.kind)) + ":" + std::to_string(s.size.x.raw) + "," +
+         std::to_string(s.size.y.raw) + "," + std::to_string(s.size.z.raw);
+}
+
+inline std::string describe(const Scene& s) {
+  return "a " + describe(s.a) + " b " + describe(s.b) + " Ra " + describe(s.rotation_a) + " Rb " +
+         describe(s.rotation_b) + " offset " + std::to_string(s.offset.x.raw) + "," +
+         std::to_string(s.offset.y.raw) + "," + std::to_string(s.offset.z.raw) + " margin " +
+         std::to_string(s.margin.raw);
+}
+
+/// A pair placed so that it often just touches: the centres are moved along a random direction to a
+/// random part of the sum of the extents.
+inline Scene random_scene(Dice& dice, ShapeKind kind_a, ShapeKind kind_b, double low, double high) {
+  Scene scene;
+  scene.a = dice.shape(kind_a, low, high);
+  scene.b = dice.shape(kind_b, low, high);
+  scene.rotation_a = to_matrix(dice.orientation());
+  scene.rotation_b = dice.chance(8) ? scene.rotation_a : to_matrix(dice.orientation());
+  const RealVec n = dice.direction();
+  const Real reach = scene.placed_a().reach(n) + scene.placed_b().reach(n);
+  const RealVec d = n * std::min<Real>(reach * dice.uniform(0.2, 1.25), 1990);
+  scene.offset = metres(static_cast<double>(d.x), static_cast<double>(d.y),
+                        static_cast<double>(d.z));
+  scene.margin = metres(dice.chance(4) ? 0 : std::min(64.0, high * dice.uniform(0, 0.5)));
+  return scene;
+}
+
+inline const std::array<ShapeKind, 3> k_all_kinds{ShapeKind::sphere, ShapeKind::capsule,
+                                                  ShapeKind::box};
+
+/// Runs `check(dice, scene)` over all ordered pairs of kinds and several ranges of sizes.
+template <class Check>
+void for_random_scenes(int rounds, Check check) {
+  Dice dice;
+  const std::array<std::array<double, 2>, 4> ranges{
+      {{0.2, 2.0}, {0.001, 0.05}, {0.001, 512.0}, {50.0, 512.0}}};
+  for (const ShapeKind kind_a : k_all_kinds) {
+    for (const ShapeKind kind_b : k_all_kinds) {
+      for (int i = 0; i < rounds; ++i) {
+        const auto& range = ranges[static_cast<std::size_t>(i) % ranges.size()];
+        const Scene scene = random_scene(dice, kind_a, kind_b, range[0], range[1]);
+        check(dice, scene);
+        if (testing::Test::HasFailure()) {
+          ADD_FAILURE() << describe(scene);
+          return;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace lockstone::test

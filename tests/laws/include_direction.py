@@ -1,0 +1,143 @@
+"""Includes point one way: base → math → geometry → collision → dynamics → world within core; net and
+replay see core only through the simulation interface, and never each other; tests and tools are
+seen by nobody."""
+
+import fnmatch
+import pathlib
+
+from cpp_source import Tree, expect_only, includes, run_law
+
+FOLDERS = ["core", "net", "replay"]
+ROOMS = ["base", "math", "geometry", "collision", "dynamics", "world"]
+
+# The room that each public header of core belongs to: its implementation lives there, and the
+# header may include what that room may.
+PUBLIC_ROOMS = {
+    "base": ["assert.h", "bytes.h", "hash.h", "rng.h", "status.h"],
+    "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
+             "transform.h", "trigonometry.h", "units.h", "vec3.h"],
+    "geometry": ["aabb.h", "height_field.h", "hull.h", "mass.h", "mesh.h", "shape.h"],
+    "collision": ["query.h"],
+    "dynamics": ["body.h", "joint.h", "material.h"],
+    "world": ["command.h", "event.h", "simulation.h", "snapshot.h", "world.h"],
+}
+# For tools and tests only, so it sees everything and no library may include it.
+TESTING = "core/include/lockstone/testing/"
+SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "bytes", "status", "hash", "assert")}
+
+# Libraries of others: who may include them.
+THIRD_PARTY = {
+    "xxhash.h": "core/base/",
+    "enet/*": "net/",
+}
+
+
+def public_room(path):
+    name = path.removeprefix("core/include/lockstone/")
+    return next((room for room, names in PUBLIC_ROOMS.items() if name in names), None)
+
+
+def room_of(path):
+    """(area, room) of a file; the room is None outside core and for a header without an entry."""
+    area, _, rest = path.partition("/")
+    if area != "core":
+        return area, None
+    room = public_room(path) if rest.startswith("include/") else rest.partition("/")[0]
+    return area, room if room in ROOMS else None
+
+
+def resolve(name, quoted, tree):
+    """The project's file that an include names, or None when it is not ours."""
+    if quoted:
+        return name
+    if name.startswith("lockstone/"):
+        for area in FOLDERS:
+            if pathlib.PurePosixPath(f"{area}/include/{name}") in tree.files:
+                return f"{area}/include/{name}"
+    return None
+
+
+def refusal(path, target):
+    """Why the file may not include the target, or None."""
+    area, room = room_of(path)
+    other_area, other_room = room_of(target)
+    if other_area not in FOLDERS:
+        return "a library includes only its own headers, by their path from the root"
+    if target.startswith(TESTING):
+        return "this header is for tools and tests only"
+    if area == "core":
+        if other_area != "core":
+            return f"core does not know {other_area}"
+        if room and other_room and ROOMS.index(other_room) > ROOMS.index(room):
+            return f"{room} does not see {other_room}"
+    elif other_area == "core" and target not in SEAM:
+        return f"{area} sees core only through the simulation interface"
+    elif other_area not in (area, "core"):
+        return f"{area} does not see {other_area}"
+    return None
+
+
+def third_party_refusal(path, name):
+    for pattern, place in THIRD_PARTY.items():
+        if fnmatch.fnmatch(name, pattern) and not path.startswith(place):
+            return f"only {place} uses it"
+    return None
+
+
+def without_room(tree):
+    """Files of core that nothing places in a room."""
+    for path in map(str, tree.files):
+        if path.startswith("core/") and not path.startswith(TESTING) and room_of(path)[1] is None:
+            yield (f"{path}: has no room: put it into one of {', '.join(ROOMS)}; for a public header, "
+                   f"by an entry in PUBLIC_ROOMS of tests/laws/include_direction.py")
+
+
+def check(tree):
+    findings = list(without_room(tree))
+    for file, text in tree.items():
+        path = file.as_posix()
+        if path.startswith(TESTING):
+            continue
+        for line, name, quoted in includes(text):
+            target = resolve(name, quoted, tree)
+            why = refusal(path, target) if target else third_party_refusal(path, name)
+            if not target and name.startswith("lockstone/"):
+                why = "there is no such public header"
+            if why:
+                findings.append(f"{path}:{line}: includes {name}: {why}")
+    return findings
+
+
+def control():
+    headers = {f"core/include/lockstone/{name}": "" for names in PUBLIC_ROOMS.values() for name in names}
+    headers |= {"net/include/lockstone/session.h": "", "replay/include/lockstone/log.h": "",
+                "core/include/lockstone/testing/floating.h": "#include <lockstone/world.h>"}
+
+    def found(path, *names):
+        return check(Tree(headers | {path: "".join(f"#include {name}\n" for name in names)}))
+
+    expect_only(found("core/math/a.cpp", "<vector>", '"core/world/world.h"'),
+                "core/math/a.cpp:2: includes core/world/world.h: math does not see world")
+    expect_only(found("core/base/a.cpp", "<lockstone/fixed.h>"), "base does not see math")
+    expect_only(found("core/include/lockstone/vec3.h", "<lockstone/world.h>"), "math does not see world")
+    expect_only(found("core/include/lockstone/novel.h"), "novel.h: has no room")
+    expect_only(found("core/attic/a.cpp"), "core/attic/a.cpp: has no room")
+    expect_only(found("core/world/a.cpp", "<lockstone/session.h>"), "core does not know net")
+    expect_only(found("net/a.cpp", "<lockstone/world.h>"), "simulation interface")
+    expect_only(found("net/a.cpp", '"core/base/arena.h"'), "simulation interface")
+    expect_only(found("net/a.cpp", "<lockstone/log.h>"), "net does not see replay")
+    expect_only(found("replay/a.cpp", '"net/wire.h"'), "replay does not see net")
+    expect_only(found("replay/a.cpp", '"tests/support/toy.h"'), "only its own headers")
+    expect_only(found("core/world/a.cpp", '"tools/scenes/a.h"'), "only its own headers")
+    expect_only(found("core/world/a.cpp", '"step.h"'), "by their path from the root")
+    expect_only(found("core/world/a.cpp", "<lockstone/testing/floating.h>"), "tools and tests only")
+    expect_only(found("core/world/a.cpp", "<lockstone/gone.h>"), "no such public header")
+    expect_only(found("core/world/a.cpp", "<enet/enet.h>"), "only net/ uses it")
+    # What must pass.
+    expect_only(found("core/world/a.cpp", '"core/base/a.h"', "<lockstone/shape.h>", "<xxhash_like.h>"))
+    expect_only(found("net/a.cpp", "<lockstone/simulation.h>", '"net/b.h"', "<lockstone/session.h>", "<enet/enet.h>"))
+    expect_only(check(Tree(headers | {"core/base/a.cpp": "// #include <lockstone/world.h>\n"})))
+
+
+if __name__ == "__main__":
+    run_law(check, control, FOLDERS)

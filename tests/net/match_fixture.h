@@ -1,0 +1,159 @@
+// A whole match over the simulated network: one server, its clients, scripted inputs, all recorded.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <lockstone/net/client.h>
+#include <lockstone/net/server.h>
+#include <lockstone/net/transport_sim.h>
+
+#include "tests/support/toy_simulation.h"
+
+namespace lockstone::net::test {
+
+using lockstone::test::ToyConfig;
+using lockstone::test::ToySimulation;
+
+/// One tick as a peer saw it, comparable.
+struct SeenTick {
+  std::vector<std::byte> bytes;  ///< all slots' inputs
+  std::vector<InputOrigin> origins;
+  friend bool operator==(const SeenTick&, const SeenTick&) = default;
+};
+
+/// What a peer saw of a match.
+struct Seen {
+  std::vector<SeenTick> ticks;
+  std::vector<std::uint64_t> hashes;
+  void add(std::span<const PlayerInput> inputs);
+};
+
+/// A bit to flip in live state, right after `tick` was stepped.
+struct Flip {
+  std::uint64_t tick = 0;
+  std::string store, field;
+  std::uint64_t object = 0;
+  unsigned bit = 0;
+};
+
+/// A toy whose memory is faulty.
+class FaultySimulation final : public Simulation {
+ public:
+  FaultySimulation(const ToyConfig& config, std::vector<Flip> flips)
+      : toy_(config), flips_(std::move(flips)) {}
+  [[nodiscard]] SimulationInfo info() const override { return toy_.info(); }
+  [[nodiscard]] std::uint64_t tick() const override { return toy_.tick(); }
+  void step(std::span<const PlayerInput> inputs) override;
+  [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override {
+    return toy_.snapshot_bytes_max(kind);
+  }
+  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override {
+    return toy_.save(kind, out);
+  }
+  Status load(SnapshotKind kind, ByteView bytes) override { return toy_.load(kind, bytes); }
+  [[nodiscard]] std::uint64_t hash() const override { return toy_.hash(); }
+  [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
+    return toy_.describe(here, there);
+  }
+  [[nodiscard]] ToySimulation& toy() { return toy_; }
+
+ private:
+  ToySimulation toy_;
+  std::vector<Flip> flips_;
+  std::uint64_t stepped_ = 0;
+};
+
+/// Presses what toy_input says.
+class ScriptedInputs final : public InputSource {
+ public:
+  ScriptedInputs(std::uint64_t seed, std::size_t slot) : seed_(seed), slot_(slot) {}
+  void sample(std::uint64_t tick, std::span<std::byte> out) override {
+    lockstone::test::toy_input(seed_, slot_, tick, out);
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::size_t slot_;
+};
+
+struct ServerLog final : ServerObserver {
+  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                   std::optional<std::uint64_t> hash) override;
+  void hash_agreed(std::uint64_t tick, std::uint64_t hash) override;
+  void player_left(std::uint8_t slot, LeaveReason reason) override;
+  void player_silent(std::uint8_t slot, std::int64_t silent_us) override;
+  void player_refused(const Refusal& refusal) override { refusals.push_back(refusal); }
+  void desync_found(const DesyncReport& report) override;
+  void match_finished(FinishReason, std::uint64_t, std::optional<std::uint64_t> hash) override {
+    final_hash = hash;
+  }
+
+  Seen seen;
+  std::vector<std::uint64_t> agreed;
+  std::vector<std::pair<std::uint8_t, LeaveReason>> left;
+  std::vector<std::uint8_t> silent;
+  std::vector<Refusal> refusals;
+  std::vector<DesyncReport> reports;
+  std::vector<std::size_t> dump_sizes;
+  std::optional<std::uint64_t> final_hash;
+};
+
+struct ClientLog final : ClientObserver {
+  void tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                    std::uint64_t hash) override;
+  void desync_reported(const DesyncReport& report) override { reports.push_back(report); }
+  Seen seen;
+  std::vector<DesyncReport> reports;
+};
+
+struct MatchOptions {
+  ToyConfig toy;
+  ServerConfig server;  ///< match_config, info and insecure are filled in
+  ClientConfig client;  ///< insecure and wanted_slot are filled in
+  LinkFaults faults;
+  std::uint64_t seed = 1;
+  bool authoritative = true;
+  std::int64_t step_us = 4'000;
+  std::vector<std::vector<Flip>> flips;  ///< by client; may be shorter
+};
+
+class Match {
+ public:
+  struct Player {
+    SimTransport* transport = nullptr;
+    std::unique_ptr<ScriptedInputs> inputs;
+    std::unique_ptr<ClientLog> log;
+    std::unique_ptr<Client> client;
+    bool paused = false;
+  };
+
+  explicit Match(MatchOptions options);
+
+  /// Runs until everybody is done, or for `limit_us` of virtual time. True if all are done.
+  bool run(std::int64_t limit_us);
+  void run_for(std::int64_t span_us);
+  void step();
+
+  [[nodiscard]] bool done() const;
+
+  /// Checks that every peer saw the same ticks and hashes, and that a run without a network of the
+  /// same inputs has them too. Reports by GoogleTest expectations.
+  void expect_all_equal() const;
+
+  MatchOptions options;
+  SimNetwork network;
+  SimTransport& server_transport;
+  ToySimulation server_simulation;
+  ServerLog server_log;
+  std::unique_ptr<Server> server;
+  std::vector<Player> players;
+  std::int64_t now_us = 0;
+};
+
+/// A rough network: loss in ppm, bursts, doubles, reordering, 30 ms ± jitter.
+[[nodiscard]] LinkFaults rough(std::uint32_t loss_ppm);
+
+}  // namespace lockstone::net::test

@@ -1,0 +1,25 @@
+# cmake -D build_dir=… -D scratch_dir=… … -P run.cmake: see CMakeLists.txt beside this file.
+file(REMOVE_RECURSE ${scratch_dir})
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${build_dir} --config ${config} --prefix ${scratch_dir}/prefix)
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${scratch_dir}/build -G ${generator}
+  -D CMAKE_PREFIX_PATH=${scratch_dir}/prefix
+  -D CMAKE_BUILD_TYPE=${config}
+  -D CMAKE_CXX_COMPILER=${compiler}
+  -D CMAKE_CXX_FLAGS=${flags}
+  -D wanted_version=${version})
+run(${CMAKE_COMMAND} --build ${scratch_dir}/build --config ${config})
+run(${CMAKE_CTEST_COMMAND} --test-dir ${scratch_dir}/build --build-config ${config} --output-on-failure)
+
+# The prefix must hold all that its headers need, and must not point back into the sources.
+file(GLOB_RECURSE package_files ${scratch_dir}/prefix/*.cmake)
+foreach(file IN LISTS package_files)
+  file(STRINGS ${file} leaks REGEX "lockstone_options|${build_dir}")
+  foreach(leak IN LISTS leaks)
+    message(FATAL_ERROR "${file} refers to the build tree: ${leak}")
+  endforeach()
+endforeach()

@@ -1,0 +1,16 @@
+// Watches the program's heap: this test program replaces the global operator new.
+#pragma once
+
+#include <cstddef>
+
+namespace lockstone::test {
+
+struct HeapUse {
+  std::size_t allocations = 0;
+  std::size_t largest_bytes = 0;  ///< the largest single allocation
+};
+
+/// Heap use since the last call.
+HeapUse take_heap_use();
+
+}  // namespace lockstone::test
