@@ -1,0 +1,78 @@
+// The enumerations of a session. The values are on the wire: never renumber, only append.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace lockstone::net {
+
+/// The first ticks of a match have neutral inputs: as many as this at most.
+inline constexpr std::uint8_t k_max_input_delay_ticks = 60;
+
+enum class LatePolicy : std::uint8_t {
+  deadline = 0,  ///< a late input is replaced, and flagged in the tick
+  strict = 1,    ///< the match waits, up to the drop time-out
+};
+
+enum class Pacing : std::uint8_t {
+  real_time = 0,  ///< tick T closes 1/tick_rate after tick T-1
+  fast = 1,       ///< a tick closes once every present player's input is there; always waits
+};
+
+enum class RefuseReason : std::uint8_t {
+  none = 0,
+  protocol_mismatch = 1,
+  insecure_not_allowed = 2,  ///< one side did not ask for a session without encryption
+  simulation_mismatch = 3,   ///< `field` says in what
+  match_full = 4,
+  slot_taken = 5,
+  match_running = 6,
+  handshake_timeout = 7,
+};
+
+/// What differed between server and client.
+enum class RefuseField : std::uint8_t {
+  none = 0,
+  protocol = 1,
+  insecure = 2,
+  abi = 3,
+  config_hash = 4,
+  scene_hash = 5,
+  canary = 6,
+  tick_rate = 7,
+  player_count = 8,
+  input_bytes = 9,
+  slot = 10,
+};
+
+enum class Verdict : std::uint8_t {
+  client_diverged = 0,  ///< the server's own simulation says so
+  minority = 1,         ///< most other players agree with each other, not with this one
+  undecided = 2,        ///< no judge and no majority
+};
+
+enum class FinishReason : std::uint8_t {
+  completed = 0,   ///< all ticks were played
+  stopped = 1,     ///< the server's owner ended it
+  desync = 2,      ///< a state differed, and policy ends the match then
+  no_players = 3,  ///< everybody left
+};
+
+enum class LeaveReason : std::uint8_t {
+  left = 0,            ///< by its own wish
+  disconnected = 1,    ///< the transport lost it
+  timed_out = 2,       ///< silent, or waited for, beyond the drop time-out
+  malformed = 3,       ///< too many packets that break the format
+  desync = 4,          ///< kicked after a desync
+  too_far_behind = 5,  ///< needs ticks that the server no longer keeps
+  match_over = 6,
+};
+
+/// Short lower-case English names, for logs.
+[[nodiscard]] std::string_view to_string(RefuseReason reason);
+[[nodiscard]] std::string_view to_string(RefuseField field);
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+[[nodiscard]] std::string_view to_string(FinishReason reason);
+[[nodiscard]] std::string_view to_string(LeaveReason reason);
+
+}  // namespace lockstone::net

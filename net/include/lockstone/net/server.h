@@ -1,0 +1,124 @@
+// The server's side of a match: seats the players, closes tick after tick, compares states.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <lockstone/net/session.h>
+#include <lockstone/net/transport.h>
+#include <lockstone/simulation.h>
+
+namespace lockstone::net {
+
+/// What stands in for a late input (LatePolicy::deadline).
+enum class Substitute : std::uint8_t {
+  repeat,   ///< the slot's input of the tick before
+  neutral,  ///< all zero
+};
+
+/// What follows a DesyncReport. Without a judge and a majority the match always ends.
+enum class DesyncPolicy : std::uint8_t { end_match, kick };
+
+enum class ServerState : std::uint8_t {
+  lobby,      ///< waits for all players
+  running,    ///< closes ticks
+  finishing,  ///< all ticks closed; waits for the last hashes
+  closing,    ///< says good-bye
+  over,       ///< nothing more will happen
+};
+
+struct ServerConfig {
+  /// There is no encryption yet. Set this to say that the match runs where that does not matter.
+  bool insecure = false;
+  std::vector<std::byte> match_config;  ///< for the clients' SimulationFactory; ≤ 32 KiB
+  SimulationInfo info;                  ///< of a relay; unused where the server simulates
+  std::uint64_t tick_count = 0;         ///< ticks to play; 0: until `stop`
+  std::uint8_t input_delay_ticks = 4;   ///< 0 … 60
+  LatePolicy late_policy = LatePolicy::deadline;
+  Substitute substitute = Substitute::repeat;
+  Pacing pacing = Pacing::real_time;
+  DesyncPolicy desync_policy = DesyncPolicy::end_match;
+  std::uint32_t history_ticks =
+      1024;  ///< closed ticks kept for laggards; power of two, 256 … 65536
+  std::uint32_t snapshot_ticks = 64;      ///< canonical snapshots kept, one a tick; 0 … 4096
+  std::size_t max_dump_bytes = 16 << 20;  ///< of a client's snapshot, where no simulation says
+  Timeouts timeouts;
+};
+
+/// Hears what happens. Called from within Server::update; must not call the server.
+class ServerObserver {
+ public:
+  virtual ~ServerObserver() = default;
+
+  /// A tick is closed. `hash` is the state after it, where the server simulates.
+  virtual void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                           std::optional<std::uint64_t> hash);
+  /// Relay: all players that reported this tick had this hash.
+  virtual void hash_agreed(std::uint64_t tick, std::uint64_t hash);
+  virtual void player_joined(std::uint8_t slot, std::string_view name);
+  virtual void player_left(std::uint8_t slot, LeaveReason reason);
+  /// Nothing came from the player since the silence warning time.
+  virtual void player_silent(std::uint8_t slot, std::int64_t silent_us);
+  virtual void player_refused(const Refusal& refusal);
+  virtual void desync_found(const DesyncReport& report);
+  virtual void match_started();
+  virtual void match_finished(FinishReason reason, std::uint64_t ticks,
+                              std::optional<std::uint64_t> hash);
+};
+
+/// What the server works with; all outlive it. Only `transport` must be given.
+struct ServerParts {
+  Transport* transport = nullptr;
+  /// Steps along and judges (authoritative). Null: relay, the majority of the players judges.
+  Simulation* simulation = nullptr;
+  /// Relay: explains a difference between two dumps. May be null.
+  const Simulation* describer = nullptr;
+  ServerObserver* observer = nullptr;
+};
+
+/// Driven by `update`; one thread. Memory does not grow after creation, except for the dumps of a
+/// desync, which are bounded.
+class Server {
+ public:
+  struct Created {
+    std::unique_ptr<Server> server;  ///< null on an error
+    SetupError error = SetupError::none;
+  };
+  [[nodiscard]] static Created create(const ServerConfig& config, const ServerParts& parts);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Does all that is due: call at least once a tick. `now_us` never runs backwards.
+  void update(std::int64_t now_us);
+
+  /// Ends the match after the ticks closed so far.
+  void stop();
+
+  [[nodiscard]] ServerState state() const;
+  [[nodiscard]] FinishReason finish_reason() const;  ///< once finishing is over
+
+  /// How many ticks are closed: tick 0 … ticks_closed() - 1.
+  [[nodiscard]] std::uint64_t ticks_closed() const;
+
+  /// Bit n: slot n is seated.
+  [[nodiscard]] std::uint16_t present_mask() const;
+
+  /// Bit n: the match waits for slot n's input (LatePolicy::strict, Pacing::fast).
+  [[nodiscard]] std::uint16_t waiting_mask() const;
+
+  /// Counters of a slot's player, kept after it left. `slot` is below the player count.
+  [[nodiscard]] PlayerStats stats(std::uint8_t slot) const;
+
+ private:
+  struct Impl;
+  explicit Server(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lockstone::net

@@ -1,0 +1,102 @@
+// What server and client have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <lockstone/bytes.h>
+#include <lockstone/net/reasons.h>
+#include <lockstone/simulation.h>
+
+namespace lockstone::net {
+
+inline constexpr std::uint8_t k_no_slot = 255;
+
+/// Spans of time, in microseconds; all above 0.
+struct Timeouts {
+  std::int64_t handshake_us = 5'000'000;      ///< from connecting to being seated
+  std::int64_t silence_warning_us = 750'000;  ///< then the observer hears of it
+  std::int64_t drop_us = 5'000'000;           ///< then the peer is gone
+  std::int64_t dump_us = 3'000'000;           ///< for the snapshots after a desync
+  std::int64_t finish_us = 3'000'000;         ///< for the last hashes, and again for the good-byes
+};
+
+/// Why a session could not be made. A programmer's or operator's error, not a peer's.
+enum class SetupError : std::uint8_t {
+  none = 0,
+  insecure_not_requested,  ///< there is no encryption yet: set `insecure` to say that you know
+  match_config_too_long,
+  player_count_out_of_range,
+  input_bytes_out_of_range,
+  tick_rate_out_of_range,  ///< 1 … 1000
+  input_delay_out_of_range,
+  history_out_of_range,
+  timeouts_out_of_range,
+  simulation_already_stepped,
+};
+[[nodiscard]] std::string_view to_string(SetupError error);
+
+/// A number of ticks kept for peers that lag: power of two.
+inline constexpr std::uint32_t k_min_history_ticks = 256;
+inline constexpr std::uint32_t k_max_history_ticks = 1 << 16;
+inline constexpr std::uint32_t k_max_snapshot_ticks = 1 << 12;
+
+/// How far beyond the closed ticks a server takes inputs.
+inline constexpr std::uint32_t k_input_window_ticks = 128;
+
+/// A refusal, with both values of the field that differs.
+struct Refusal {
+  RefuseReason reason = RefuseReason::none;
+  RefuseField field = RefuseField::none;
+  std::uint64_t here = 0;   ///< the server's value
+  std::uint64_t there = 0;  ///< the client's value
+
+  /// `refused: simulation mismatch, config_hash: 0x… here, 0x… there`.
+  [[nodiscard]] std::string to_line() const;
+};
+
+/// Two states of one tick that should have been equal.
+struct DesyncReport {
+  std::uint64_t tick = 0;  ///< the first tick after whose step the states differed
+  std::uint8_t slot = 0;   ///< the player whose state is not the reference's
+  Verdict verdict = Verdict::undecided;
+  std::uint64_t hash_here = 0;  ///< the server's, or of the player that speaks for the others
+  std::uint64_t hash_there = 0;
+  StateDifference difference;  ///< `differs` is false if a dump or a describing simulation lacked
+  ByteView dump_here;  ///< canonical snapshots, valid during the callback; empty when not had
+  ByteView dump_there;
+
+  /// `tick 1842, player 2, body 17 "crate", velocity.y: 0x… here, 0x… there`; with the hashes
+  /// instead of a field where the difference is not known.
+  [[nodiscard]] std::string to_line() const;
+};
+
+/// Counters of one player, since it was seated.
+struct PlayerStats {
+  std::uint64_t bytes_sent = 0;  ///< by the server, payload
+  std::uint64_t bytes_received = 0;
+  std::uint64_t packets_sent = 0;
+  std::uint64_t packets_received = 0;
+  std::int64_t round_trip_us = -1;       ///< -1: the transport does not know
+  std::uint64_t late_inputs = 0;         ///< came after their tick was closed
+  std::uint64_t substituted_inputs = 0;  ///< ticks closed without this player's input
+  std::uint64_t hashes_compared = 0;
+  std::uint64_t hashes_equal = 0;
+  std::uint64_t malformed_packets = 0;
+};
+
+/// Traffic and progress of a client.
+struct ClientStats {
+  std::uint64_t bytes_sent = 0;
+  std::uint64_t bytes_received = 0;
+  std::uint64_t packets_sent = 0;
+  std::uint64_t packets_received = 0;
+  std::int64_t round_trip_us = -1;
+  std::uint64_t substituted_inputs = 0;  ///< own inputs that the server replaced
+  std::uint64_t resends_requested = 0;
+  std::uint64_t malformed_packets = 0;
+};
+
+}  // namespace lockstone::net

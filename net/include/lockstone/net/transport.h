@@ -1,0 +1,68 @@
+// What a session needs from a network: connections that carry datagrams, and no clock of its own.
+//
+// A transport is driven by one thread. It never blocks and keeps no global state. Time comes in as
+// microseconds from any origin, 0 or above, never running backwards; one origin for all calls.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <lockstone/bytes.h>
+#include <lockstone/status.h>
+
+namespace lockstone::net {
+
+/// Names one connection of one transport. Not reused while anybody may still hold it; 0 is none.
+using ConnectionId = std::uint32_t;
+inline constexpr ConnectionId k_no_connection = 0;
+
+/// The most bytes of one unreliable and of one reliable packet that every transport carries.
+inline constexpr std::size_t k_max_datagram_bytes = 1200;
+inline constexpr std::size_t k_max_reliable_bytes = 48 * 1024;
+
+enum class Channel : std::uint8_t {
+  reliable = 0,    ///< arrives once, whole and in order, or the connection ends
+  unreliable = 1,  ///< may be lost, doubled or overtaken
+};
+
+enum class TransportEventKind : std::uint8_t { connected, disconnected, received };
+
+/// Something that happened. `bytes` is valid until the next call of `poll`.
+struct TransportEvent {
+  TransportEventKind kind = TransportEventKind::received;
+  ConnectionId connection = k_no_connection;
+  Channel channel = Channel::reliable;  ///< of a received packet
+  ByteView bytes;                       ///< of a received packet
+};
+
+/// Traffic of one connection. Payload bytes; what headers a transport adds is its own affair.
+struct TransportStats {
+  std::uint64_t bytes_sent = 0;
+  std::uint64_t bytes_received = 0;
+  std::uint64_t packets_sent = 0;
+  std::uint64_t packets_received = 0;
+  std::int64_t round_trip_us = -1;  ///< smoothed; -1 while unknown
+};
+
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  /// Takes the next event. False when nothing is left for now.
+  virtual bool poll(std::int64_t now_us, TransportEvent& event) = 0;
+
+  /// Queues one packet. stale_handle: no such connection; invalid_argument: empty or too long;
+  /// capacity_exhausted: too much is waiting already.
+  virtual Status send(ConnectionId connection, Channel channel, ByteView bytes) = 0;
+
+  /// Hands queued packets to the network now.
+  virtual void flush() = 0;
+
+  /// Ends a connection after what was sent reliably. This side gets no further event of it.
+  virtual void disconnect(ConnectionId connection) = 0;
+
+  /// Zeros for an unknown connection.
+  [[nodiscard]] virtual TransportStats stats(ConnectionId connection) const = 0;
+};
+
+}  // namespace lockstone::net

@@ -1,0 +1,234 @@
+// The messages of a session, byte for byte as in docs/wire-format.md.
+//
+// `encode` writes one message into the caller's buffer and answers its size, 0 if it does not fit.
+// `decode` checks every byte before it answers ok: types, lengths, ranges, nothing left over. On
+// any other status the message's content is unspecified and must not be used. Neither allocates.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <lockstone/bytes.h>
+#include <lockstone/net/reasons.h>
+#include <lockstone/net/transport.h>
+#include <lockstone/simulation.h>
+#include <lockstone/status.h>
+
+namespace lockstone::net {
+
+inline constexpr std::uint32_t k_protocol_magic = 0x4e534b4c;  ///< "LKSN"
+inline constexpr std::uint16_t k_protocol_version = 1;
+inline constexpr std::uint8_t k_any_slot = 255;
+inline constexpr std::uint64_t k_max_tick = std::uint64_t{1} << 62;  ///< no tick or count is above
+inline constexpr std::size_t k_max_name_bytes = 32;
+inline constexpr std::size_t k_max_text_bytes = 96;
+inline constexpr std::size_t k_max_config_bytes = 32 * 1024;
+inline constexpr std::size_t k_max_chunk_bytes = 8 * 1024;
+inline constexpr std::size_t k_max_hashes_per_message = 32;
+inline constexpr std::size_t k_max_ticks_per_message = 255;
+inline constexpr std::size_t k_max_message_bytes = k_max_config_bytes + 64;
+static_assert(k_max_message_bytes <= k_max_reliable_bytes);
+
+enum class MessageType : std::uint8_t {
+  hello = 1,
+  offer = 2,
+  answer = 3,
+  welcome = 4,
+  refuse = 5,
+  start = 6,
+  inputs = 7,
+  ticks = 8,
+  resend = 9,
+  desync = 10,
+  dump_request = 11,
+  dump = 12,
+  finish = 13,
+  bye = 14,
+};
+
+/// Text of bounded length: printable ASCII on the wire.
+template <std::size_t k_capacity>
+class FixedText {
+ public:
+  FixedText() = default;
+  /// Cuts off what does not fit; other characters than printable ASCII become '?'.
+  explicit FixedText(std::string_view text) {
+    size_ = std::min(text.size(), k_capacity);
+    for (std::size_t i = 0; i < size_; ++i) {
+      chars_[i] = text[i] >= ' ' && text[i] <= '~' ? text[i] : '?';
+    }
+  }
+  [[nodiscard]] std::string_view view() const { return {chars_.data(), size_}; }
+
+ private:
+  std::array<char, k_capacity> chars_{};
+  std::size_t size_ = 0;
+};
+using NameText = FixedText<k_max_name_bytes>;
+using FieldText = FixedText<k_max_text_bytes>;
+
+/// Client: the first message. With another `protocol` the rest is not read and keeps its defaults.
+struct Hello {
+  std::uint16_t protocol = k_protocol_version;
+  bool insecure = false;                  ///< asks for a session without encryption
+  std::uint8_t wanted_slot = k_any_slot;  ///< 0 … k_max_players - 1, or k_any_slot
+  NameText name;
+};
+
+/// Server: what to build the simulation from. `config` points into the decoded packet.
+struct Offer {
+  bool insecure = false;
+  ByteView config;
+};
+
+/// Client: what its build and the configuration gave.
+struct Answer {
+  SimulationInfo info;
+};
+
+/// Server: the client sits in `slot`.
+struct Welcome {
+  std::uint8_t slot = 0;
+  std::uint8_t player_count = 0;
+  std::uint8_t input_delay_ticks = 0;  ///< 0 … k_max_input_delay_ticks
+  LatePolicy late_policy = LatePolicy::deadline;
+  Pacing pacing = Pacing::real_time;
+  std::uint64_t tick_count = 0;  ///< 0: until stopped
+};
+
+/// Server: the client does not play. `here` is the server's value, `there` the client's.
+struct Refuse {
+  RefuseReason reason = RefuseReason::none;
+  RefuseField field = RefuseField::none;
+  std::uint64_t here = 0;
+  std::uint64_t there = 0;
+};
+
+/// Server: all are seated, tick 0 begins.
+struct Start {
+  std::uint16_t present_mask = 0;  ///< bit n: somebody sits in slot n
+};
+
+/// How long the parts of a tick are.
+struct TickShape {
+  std::uint8_t player_count = 0;
+  std::uint8_t input_bytes = 0;
+
+  [[nodiscard]] std::size_t origin_bytes() const { return (player_count + std::size_t{3}) / 4; }
+  /// Two bits of origin a slot, then every slot's input.
+  [[nodiscard]] std::size_t record_bytes() const {
+    return origin_bytes() + std::size_t{player_count} * input_bytes;
+  }
+};
+inline constexpr std::size_t k_max_record_bytes =
+    (k_max_players + 3) / 4 + k_max_players * k_max_input_bytes;
+
+/// Client: its inputs from `first_tick` on, in `coded` for a RecordReader of input_bytes; what it
+/// has; and the hashes that the server has not acknowledged.
+struct Inputs {
+  std::uint64_t ticks_received = 0;  ///< closed ticks 0 … ticks_received - 1 are here
+  std::uint64_t first_tick = 0;
+  std::uint8_t count = 0;
+  std::uint64_t first_hash_tick = 0;
+  std::uint8_t hash_count = 0;  ///< 0 … k_max_hashes_per_message
+  std::array<std::uint64_t, k_max_hashes_per_message> hashes{};
+  ByteView coded;
+};
+
+/// Server: closed ticks from `first_tick` on, in `coded` for a RecordReader of record_bytes.
+struct Ticks {
+  std::uint64_t first_tick = 0;
+  std::uint8_t count = 0;
+  std::uint64_t ticks_closed = 0;     ///< how many ticks the server has closed
+  std::uint64_t inputs_received = 0;  ///< this client need not send inputs below
+  std::uint64_t hashes_received = 0;  ///< this client need not send hashes below
+  std::uint16_t waiting_mask = 0;     ///< slots that the match waits for (strict)
+  ByteView coded;
+};
+
+/// Client: closed ticks that are missing between others.
+struct Resend {
+  std::uint64_t first_tick = 0;
+  std::uint16_t count = 0;
+};
+
+/// Server: states differ. The texts are StateDifference's; `differs` is false without dumps.
+struct DesyncNotice {
+  std::uint64_t tick = 0;
+  std::uint8_t slot = 0;
+  Verdict verdict = Verdict::undecided;
+  std::uint64_t hash_here = 0;
+  std::uint64_t hash_there = 0;
+  bool differs = false;
+  std::uint64_t object = 0;
+  FieldText store, name, field, here, there;
+};
+
+/// Server: the canonical snapshot after `tick`, please.
+struct DumpRequest {
+  std::uint64_t tick = 0;
+};
+
+/// Client: a piece of it; total_bytes 0 says that it is not kept any more.
+struct Dump {
+  std::uint64_t tick = 0;
+  std::uint32_t total_bytes = 0;
+  std::uint32_t offset_bytes = 0;
+  ByteView chunk;  ///< at most k_max_chunk_bytes
+};
+
+/// Server: the match is over.
+struct Finish {
+  FinishReason reason = FinishReason::completed;
+  std::uint64_t ticks = 0;
+  bool has_hash = false;
+  std::uint64_t hash = 0;
+};
+
+/// Either: the last message of a connection.
+struct Bye {
+  LeaveReason reason = LeaveReason::left;
+};
+
+/// The type of a packet's message; malformed if empty or unknown.
+[[nodiscard]] Result<MessageType> message_type(ByteView packet);
+
+[[nodiscard]] std::size_t encode(const Hello& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Offer& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Answer& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Welcome& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Refuse& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Start& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Inputs& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Ticks& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Resend& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const DesyncNotice& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const DumpRequest& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Dump& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Finish& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Bye& message, std::span<std::byte> out);
+
+[[nodiscard]] Status decode(ByteView packet, Hello& message);
+[[nodiscard]] Status decode(ByteView packet, Offer& message);
+[[nodiscard]] Status decode(ByteView packet, Answer& message);
+[[nodiscard]] Status decode(ByteView packet, Welcome& message);
+[[nodiscard]] Status decode(ByteView packet, Refuse& message);
+[[nodiscard]] Status decode(ByteView packet, Start& message);
+[[nodiscard]] Status decode(ByteView packet, std::size_t input_bytes, Inputs& message);
+[[nodiscard]] Status decode(ByteView packet, TickShape shape, Ticks& message);
+[[nodiscard]] Status decode(ByteView packet, Resend& message);
+[[nodiscard]] Status decode(ByteView packet, DesyncNotice& message);
+[[nodiscard]] Status decode(ByteView packet, DumpRequest& message);
+[[nodiscard]] Status decode(ByteView packet, Dump& message);
+[[nodiscard]] Status decode(ByteView packet, Finish& message);
+[[nodiscard]] Status decode(ByteView packet, Bye& message);
+
+/// Header bytes of Inputs (without hashes) and Ticks: what is left of a datagram holds the records.
+inline constexpr std::size_t k_inputs_header_bytes = 1 + 8 + 8 + 1 + 8 + 1;
+inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 2;
+
+}  // namespace lockstone::net

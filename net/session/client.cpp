@@ -1,0 +1,304 @@
+// The client's connection, handshake and end.
+#include <algorithm>
+#include <utility>
+
+#include <lockstone/assert.h>
+
+#include "net/session/client_impl.h"
+#include "net/session/setup.h"
+
+namespace lockstone::net {
+namespace {
+
+constexpr std::uint32_t k_max_lead_ticks = 32;
+static_assert(k_max_input_delay_ticks + k_max_lead_ticks + 1 < k_input_window_ticks,
+              "a server refuses inputs beyond its window");
+
+}  // namespace
+
+Client::Created Client::create(const ClientConfig& config, ClientParts parts) {
+  LKS_CHECK(parts.transport != nullptr && parts.inputs != nullptr && parts.factory != nullptr);
+  LKS_CHECK(config.max_steps_per_update > 0);
+  if (!config.insecure) return {nullptr, SetupError::insecure_not_requested};
+  SetupError error = check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);
+  if (config.max_lead_ticks > k_max_lead_ticks) error = SetupError::input_delay_out_of_range;
+  if (error != SetupError::none) return {nullptr, error};
+  return {std::unique_ptr<Client>(new Client(std::make_unique<Impl>(config, std::move(parts)))),
+          SetupError::none};
+}
+
+Client::Client(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Client::~Client() = default;
+void Client::update(std::int64_t now_us) {
+  impl_->update(now_us);
+}
+ClientState Client::state() const {
+  return impl_->state;
+}
+ClientFailure Client::failure() const {
+  return impl_->failure;
+}
+LeaveReason Client::leave_reason() const {
+  return impl_->leave_reason;
+}
+const Refusal& Client::refusal() const {
+  return impl_->refusal;
+}
+FinishReason Client::finish_reason() const {
+  return impl_->finish_reason;
+}
+std::uint8_t Client::slot() const {
+  return impl_->seated ? impl_->seat.slot : k_no_slot;
+}
+std::uint64_t Client::ticks_stepped() const {
+  return impl_->stepped;
+}
+std::uint16_t Client::waiting_mask() const {
+  return impl_->waiting;
+}
+Simulation* Client::simulation() const {
+  return impl_->simulation.get();
+}
+ClientStats Client::stats() const {
+  return impl_->current_stats();
+}
+
+void Client::leave() {
+  if (impl_->active()) impl_->hang_up(ClientState::finished, LeaveReason::left);
+}
+
+Client::Impl::Impl(const ClientConfig& client_config, ClientParts client_parts)
+    : config(client_config),
+      parts(std::move(client_parts)),
+      observer(parts.observer == nullptr ? &silent_observer : parts.observer),
+      out(k_max_message_bytes) {}
+
+void Client::Impl::update(std::int64_t now) {
+  LKS_ASSERT(!updated || now >= now_us);
+  now_us = now;
+  if (!updated) {
+    begun_us = now;
+    watch.heard(now);
+    updated = true;
+  }
+  receive();
+  if (active()) watch_server();
+  if (state == ClientState::running) {
+    step_ticks(unacknowledged_limit());
+    sample_inputs();
+    request_missing();
+    send_dump_chunks();
+  }
+  if (state == ClientState::running || state == ClientState::lobby) send_due_inputs();
+  parts.transport->flush();
+}
+
+void Client::Impl::receive() {
+  TransportEvent event;
+  while (parts.transport->poll(now_us, event)) {
+    if (event.connection != parts.connection || !active()) continue;
+    switch (event.kind) {
+      case TransportEventKind::connected:
+        say_hello();
+        break;
+      case TransportEventKind::disconnected:
+        fail(ClientFailure::connection_lost);
+        break;
+      case TransportEventKind::received:
+        receive_packet(event.bytes);
+        break;
+    }
+  }
+}
+
+void Client::Impl::receive_packet(ByteView packet) {
+  watch.heard(now_us);
+  if (dispatch(packet)) return;
+  ++stats.malformed_packets;
+  if (watch.malformed(now_us)) {
+    hang_up(ClientState::failed, LeaveReason::malformed);
+    failure = ClientFailure::server_malformed;
+  }
+}
+
+// False for a packet that breaks the format or comes out of turn; then it had no effect at all.
+bool Client::Impl::dispatch(ByteView packet) {
+  const Result<MessageType> type = message_type(packet);
+  if (!type) return false;
+  switch (type.value()) {
+    case MessageType::offer:
+      return on_offer(packet);
+    case MessageType::welcome:
+      return on_welcome(packet);
+    case MessageType::refuse:
+      return on_refuse(packet);
+    case MessageType::start:
+      return on_start(packet);
+    case MessageType::ticks:
+      return on_ticks(packet);
+    case MessageType::desync:
+      return on_desync(packet);
+    case MessageType::dump_request:
+      return on_dump_request(packet);
+    case MessageType::finish:
+      return on_finish(packet);
+    case MessageType::bye:
+      return on_bye(packet);
+    default:
+      return false;
+  }
+}
+
+void Client::Impl::watch_server() {
+  if (!seated) {
+    if (now_us - begun_us > config.timeouts.handshake_us) fail(ClientFailure::handshake_timed_out);
+    return;
+  }
+  const std::int64_t silent_us = watch.silent_us(now_us);
+  if (watch.warn(now_us, config.timeouts.silence_warning_us)) observer->server_silent(silent_us);
+  if (silent_us > config.timeouts.drop_us) fail(ClientFailure::server_silent);
+}
+
+void Client::Impl::say_hello() {
+  if (state != ClientState::connecting) return;
+  state = ClientState::handshaking;
+  Hello hello;
+  hello.insecure = config.insecure;
+  hello.wanted_slot = config.wanted_slot;
+  hello.name = NameText(config.name);
+  send(hello);
+}
+
+bool Client::Impl::on_offer(ByteView packet) {
+  Offer offer;
+  if (decode(packet, offer) != Status::ok) return false;
+  if (state != ClientState::handshaking || simulation != nullptr || !offer.insecure) return false;
+  Result<std::unique_ptr<Simulation>> made = parts.factory(offer.config);
+  if (!made || check_info(made.value()->info()) != SetupError::none) {
+    fail(ClientFailure::config_not_understood);
+    return true;
+  }
+  simulation = std::move(made).value();
+  info = simulation->info();
+  shape = {info.player_count, info.input_bytes};
+  tick_us = 1'000'000 / info.tick_rate;
+  reserve_memory();
+  send(Answer{info});
+  return true;
+}
+
+void Client::Impl::reserve_memory() {
+  const std::size_t snapshot_bytes = simulation->snapshot_bytes_max(SnapshotKind::canonical);
+  const bool keeps = snapshot_bytes <= config.max_snapshot_bytes;
+  records = TickRing(config.history_ticks, shape.record_bytes());
+  own_inputs = TickRing(std::size_t{4} * k_input_window_ticks, info.input_bytes);
+  hashes = HashRing(config.history_ticks);
+  snapshots = TickRing(keeps ? config.snapshot_ticks : 0, snapshot_bytes);
+  dump.resize(snapshots.capacity() > 0 ? snapshot_bytes : 0);
+}
+
+bool Client::Impl::on_welcome(ByteView packet) {
+  Welcome welcome;
+  if (decode(packet, welcome) != Status::ok) return false;
+  if (state != ClientState::handshaking || simulation == nullptr) return false;
+  if (welcome.player_count != info.player_count) return false;
+  seat = welcome;
+  seated = true;
+  state = ClientState::lobby;
+  sampled = seat.input_delay_ticks;
+  inputs_acked = sampled;
+  observer->joined(seat.slot);
+  return true;
+}
+
+bool Client::Impl::on_refuse(ByteView packet) {
+  Refuse refuse;
+  if (decode(packet, refuse) != Status::ok || state != ClientState::handshaking) return false;
+  refusal = {refuse.reason, refuse.field, refuse.here, refuse.there};
+  hang_up(ClientState::refused, LeaveReason::left);
+  return true;
+}
+
+bool Client::Impl::on_start(ByteView packet) {
+  Start start;
+  if (decode(packet, start) != Status::ok || state != ClientState::lobby) return false;
+  state = ClientState::running;
+  clock_us = now_us;
+  clock_tick = 0;
+  news = true;
+  observer->match_started();
+  return true;
+}
+
+bool Client::Impl::on_desync(ByteView packet) {
+  DesyncNotice notice;
+  if (decode(packet, notice) != Status::ok || state != ClientState::running) return false;
+  DesyncReport report;
+  report.tick = notice.tick;
+  report.slot = notice.slot;
+  report.verdict = notice.verdict;
+  report.hash_here = notice.hash_here;
+  report.hash_there = notice.hash_there;
+  report.difference = {notice.differs,
+                       std::string(notice.store.view()),
+                       notice.object,
+                       std::string(notice.name.view()),
+                       std::string(notice.field.view()),
+                       std::string(notice.here.view()),
+                       std::string(notice.there.view())};
+  observer->desync_reported(report);
+  return true;
+}
+
+bool Client::Impl::on_finish(ByteView packet) {
+  Finish finish;
+  if (decode(packet, finish) != Status::ok || !seated) return false;
+  const bool played =
+      finish.reason == FinishReason::completed || finish.reason == FinishReason::stopped;
+  if (played && state == ClientState::running) step_ticks(config.history_ticks);
+  finish_reason = finish.reason;
+  hang_up(ClientState::finished, LeaveReason::match_over);
+  observer->match_finished(finish.reason, finish.ticks);
+  return true;
+}
+
+bool Client::Impl::on_bye(ByteView packet) {
+  Bye bye;
+  if (decode(packet, bye) != Status::ok) return false;
+  leave_reason = bye.reason;
+  fail(ClientFailure::dropped);
+  return true;
+}
+
+void Client::Impl::fail(ClientFailure why) {
+  failure = why;
+  hang_up(ClientState::failed, LeaveReason::left);
+}
+
+void Client::Impl::hang_up(ClientState final_state, LeaveReason reason) {
+  stats = current_stats();
+  state = final_state;
+  send(Bye{reason});
+  parts.transport->disconnect(parts.connection);
+}
+
+ClientStats Client::Impl::current_stats() const {
+  ClientStats current = stats;
+  if (!active()) return current;
+  const TransportStats traffic = parts.transport->stats(parts.connection);
+  current.bytes_sent = traffic.bytes_sent;
+  current.bytes_received = traffic.bytes_received;
+  current.packets_sent = traffic.packets_sent;
+  current.packets_received = traffic.packets_received;
+  current.round_trip_us = traffic.round_trip_us;
+  return current;
+}
+
+void ClientObserver::joined(std::uint8_t) {}
+void ClientObserver::match_started() {}
+void ClientObserver::tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t) {}
+void ClientObserver::server_silent(std::int64_t) {}
+void ClientObserver::desync_reported(const DesyncReport&) {}
+void ClientObserver::match_finished(FinishReason, std::uint64_t) {}
+
+}  // namespace lockstone::net

@@ -1,0 +1,114 @@
+// The inside of net::Client, spread over client*.cpp by theme.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <lockstone/net/client.h>
+#include <lockstone/net/wire.h>
+
+#include "net/session/peer_watch.h"
+#include "net/session/tick_ring.h"
+
+namespace lockstone::net {
+
+struct Client::Impl {
+  Impl(const ClientConfig& client_config, ClientParts client_parts);
+
+  // client.cpp: the connection, the handshake, the end.
+  void update(std::int64_t now);
+  void receive();
+  void receive_packet(ByteView packet);
+  [[nodiscard]] bool dispatch(ByteView packet);
+  void watch_server();
+  void say_hello();
+  [[nodiscard]] bool on_offer(ByteView packet);
+  [[nodiscard]] bool on_welcome(ByteView packet);
+  [[nodiscard]] bool on_refuse(ByteView packet);
+  [[nodiscard]] bool on_start(ByteView packet);
+  [[nodiscard]] bool on_desync(ByteView packet);
+  [[nodiscard]] bool on_finish(ByteView packet);
+  [[nodiscard]] bool on_bye(ByteView packet);
+  void reserve_memory();
+  void fail(ClientFailure why);
+  void hang_up(ClientState final_state, LeaveReason reason);
+  [[nodiscard]] bool active() const { return state < ClientState::finished; }
+  [[nodiscard]] ClientStats current_stats() const;
+
+  // client_play.cpp: ticks in, inputs and hashes out.
+  [[nodiscard]] bool on_ticks(ByteView packet);
+  [[nodiscard]] bool on_dump_request(ByteView packet);
+  void take_records(const Ticks& message);
+  void step_ticks(std::uint64_t unacknowledged_limit);
+  void step_one();
+  void sample_inputs();
+  [[nodiscard]] std::uint64_t sample_target();
+  void request_missing();
+  void send_due_inputs();
+  void send_inputs(std::uint64_t first_hash_tick);
+  void send_dump_chunks();
+  [[nodiscard]] std::uint64_t unacknowledged_limit() const;
+
+  template <class Message>
+  void send(const Message& message, Channel channel = Channel::reliable) {
+    const std::size_t size = encode(message, out);
+    // A full queue shows as silence, and silence as a time-out.
+    static_cast<void>(parts.transport->send(parts.connection, channel, ByteView(out).first(size)));
+  }
+
+  ClientConfig config;
+  ClientParts parts;
+  ClientObserver silent_observer;
+  ClientObserver* observer;
+
+  ClientState state = ClientState::connecting;
+  ClientFailure failure = ClientFailure::none;
+  LeaveReason leave_reason = LeaveReason::left;
+  FinishReason finish_reason = FinishReason::completed;
+  Refusal refusal;
+  PeerWatch watch;
+  ClientStats stats;
+  bool updated = false;  ///< before, there is no time to count from
+  std::int64_t now_us = 0;
+  std::int64_t begun_us = 0;  ///< first update
+
+  std::unique_ptr<Simulation> simulation;
+  SimulationInfo info;
+  TickShape shape;
+  std::int64_t tick_us = 0;
+  Welcome seat;
+  bool seated = false;
+
+  TickRing records;                ///< closed ticks
+  std::uint64_t stepped = 0;       ///< ticks below are stepped
+  std::uint64_t received = 0;      ///< ticks below are here
+  std::uint64_t received_end = 0;  ///< no tick from here on has come
+  std::uint64_t gap_tick = 0;      ///< `received` when a gap was last looked for
+  std::int64_t gap_since_us = 0;
+  std::int64_t last_resend_us = 0;
+  std::uint16_t waiting = 0;
+
+  TickRing own_inputs;
+  std::uint64_t sampled = 0;       ///< own inputs below are sampled
+  std::uint64_t inputs_acked = 0;  ///< own inputs below need not be sent
+  std::int64_t clock_us = 0;       ///< at this time …
+  std::uint64_t clock_tick = 0;    ///< … this tick began, by the local clock
+
+  HashRing hashes;
+  std::uint64_t hashes_acked = 0;
+  TickRing snapshots;
+  std::vector<std::byte> dump;  ///< snapshot_bytes_max
+  std::size_t dump_size = 0;
+  std::size_t dump_sent = 0;
+  std::uint64_t dump_tick = 0;
+
+  std::int64_t last_sent_us = 0;
+  bool news = false;  ///< something to say since the last Inputs
+
+  std::vector<std::byte> out;  ///< a message being encoded
+  std::array<std::byte, k_max_datagram_bytes> coded{};
+};
+
+}  // namespace lockstone::net

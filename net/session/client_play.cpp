@@ -1,0 +1,196 @@
+// Closed ticks in; inputs, hashes and, after a desync, snapshots out.
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
+#include "net/session/client_impl.h"
+#include "net/wire/record_coder.h"
+#include "net/wire/tick_record.h"
+
+namespace lockstone::net {
+namespace {
+
+constexpr std::int64_t k_keepalive_us = 250'000;
+constexpr std::int64_t k_fast_retry_us = 20'000;
+constexpr std::int64_t k_resend_interval_us = 100'000;
+constexpr std::int64_t k_gap_patience_us = 30'000;
+constexpr std::uint64_t k_max_resend_ticks = 64;
+constexpr std::uint64_t k_max_hash_packets = 4;
+constexpr int k_dump_chunks_per_update = 8;
+
+}  // namespace
+
+bool Client::Impl::on_ticks(ByteView packet) {
+  // Unreliable, so it may overtake the messages that it presupposes.
+  if (!seated) return state == ClientState::handshaking;
+  Ticks message;
+  if (decode(packet, shape, message) != Status::ok) return false;
+  const bool sane = message.hashes_received <= stepped &&
+                    message.inputs_received <= message.ticks_closed + k_input_window_ticks;
+  if (!sane) return false;
+  if (state != ClientState::running) return true;
+  waiting = message.waiting_mask;
+  inputs_acked = std::max(inputs_acked, message.inputs_received);
+  sampled = std::max(sampled, inputs_acked);  // what the server replaced is not asked for any more
+  hashes_acked = std::max(hashes_acked, message.hashes_received);
+  take_records(message);
+  return true;
+}
+
+void Client::Impl::take_records(const Ticks& message) {
+  RecordReader reader(message.coded, shape.record_bytes());
+  for (std::uint64_t tick = message.first_tick; tick < message.first_tick + message.count; ++tick) {
+    LKS_CHECK(reader.next());  // decode has walked through it
+    if (tick < received || tick >= stepped + config.history_ticks || records.has(tick)) continue;
+    records.put(tick, reader.record());
+    received_end = std::max(received_end, tick + 1);
+    news = true;
+  }
+  while (records.has(received))
+    ++received;
+}
+
+// A client whose hashes nobody acknowledges stops before it loses the snapshots that a report of a
+// difference would need.
+std::uint64_t Client::Impl::unacknowledged_limit() const {
+  const std::size_t kept = snapshots.capacity() > 0 ? snapshots.capacity() : config.history_ticks;
+  return std::min<std::uint64_t>(kept, config.history_ticks);
+}
+
+void Client::Impl::step_ticks(std::uint64_t limit) {
+  for (std::uint32_t i = 0; i < config.max_steps_per_update; ++i) {
+    if (stepped == received || stepped - hashes_acked >= limit) return;
+    step_one();
+  }
+}
+
+void Client::Impl::step_one() {
+  const RecordInputs inputs(records.find(stepped), shape);
+  const PlayerInput& own = inputs.view()[seat.slot];
+  const bool late = stepped >= seat.input_delay_ticks && own.origin != InputOrigin::received;
+  if (late) ++stats.substituted_inputs;
+  simulation->step(inputs.view());
+  const std::uint64_t hash = simulation->hash();
+  hashes.push(hash);
+  if (snapshots.capacity() > 0) {
+    const std::size_t size = simulation->save(SnapshotKind::canonical, snapshots.claim(stepped));
+    snapshots.commit(stepped, size);
+  }
+  news = true;
+  const std::uint64_t tick = stepped++;
+  observer->tick_stepped(tick, inputs.view(), hash);
+}
+
+void Client::Impl::sample_inputs() {
+  const std::uint64_t target = sample_target();
+  for (; sampled < target; ++sampled) {
+    const std::span<std::byte> place = own_inputs.claim(sampled);
+    std::fill(place.begin(), place.end(), std::byte{0});
+    parts.inputs->sample(sampled, place);
+    own_inputs.commit(sampled, place.size());
+    news = true;
+  }
+}
+
+// One past the last tick to have an input for. In real time the local clock drives it, so that a
+// late packet from the server does not make this player's inputs late as well.
+std::uint64_t Client::Impl::sample_target() {
+  std::uint64_t reached = stepped;
+  if (seat.pacing == Pacing::real_time) {
+    const auto elapsed_us = static_cast<std::uint64_t>(now_us - clock_us);
+    const std::uint64_t local = clock_tick + elapsed_us * info.tick_rate / 1'000'000;
+    if (local > stepped + config.max_lead_ticks) {
+      // The match stalls: keep what is sampled, and count anew from where it is.
+      clock_us = now_us;
+      clock_tick = stepped;
+    } else {
+      reached = std::max(reached, local);
+    }
+  }
+  const std::uint64_t target = reached + seat.input_delay_ticks + 1;
+  return seat.tick_count == 0 ? target : std::min(target, seat.tick_count);
+}
+
+// Asks at once for all that lacks between others: one request for each gap would cost as many round
+// trips as there are gaps. What is merely overtaken gets a moment to arrive.
+void Client::Impl::request_missing() {
+  if (gap_tick != received || received == received_end) {
+    gap_tick = received;
+    gap_since_us = now_us;
+    return;
+  }
+  const std::int64_t round_trip_us =
+      std::max<std::int64_t>(0, parts.transport->stats(parts.connection).round_trip_us);
+  if (now_us - gap_since_us < k_gap_patience_us) return;
+  if (now_us - last_resend_us < k_resend_interval_us + round_trip_us) return;
+  std::uint64_t end = std::min(received_end, received + k_max_resend_ticks);
+  while (records.has(end - 1)) --end;  // ends at the gap at `received`, at the latest
+  last_resend_us = now_us;
+  ++stats.resends_requested;
+  send(Resend{received, static_cast<std::uint16_t>(end - received)});
+}
+
+void Client::Impl::send_due_inputs() {
+  const bool fast = seat.pacing == Pacing::fast;
+  const std::int64_t since_us = now_us - last_sent_us;
+  const std::int64_t soonest_us = fast ? 0 : tick_us / 2;
+  const std::int64_t retry_us = fast ? k_fast_retry_us : tick_us;
+  const std::int64_t latest_us = state == ClientState::lobby ? k_keepalive_us : retry_us;
+  if (since_us < soonest_us || (!news && since_us < latest_us)) return;
+  last_sent_us = now_us;
+  news = false;
+  std::uint64_t first_hash_tick = hashes_acked;
+  for (std::uint64_t i = 0; i < k_max_hash_packets; ++i) {
+    send_inputs(first_hash_tick);
+    first_hash_tick += k_max_hashes_per_message;
+    if (first_hash_tick >= stepped) return;
+  }
+}
+
+void Client::Impl::send_inputs(std::uint64_t first_hash_tick) {
+  Inputs message;
+  message.ticks_received = received;
+  message.first_hash_tick = first_hash_tick;
+  const std::uint64_t hash_end = std::min(stepped, first_hash_tick + k_max_hashes_per_message);
+  for (std::uint64_t tick = first_hash_tick; tick < hash_end; ++tick) {
+    message.hashes[message.hash_count++] = hashes.at(tick);
+  }
+  const std::size_t room_bytes =
+      coded.size() - k_inputs_header_bytes - std::size_t{message.hash_count} * 8;
+  RecordWriter writer(std::span<std::byte>(coded).first(room_bytes), info.input_bytes);
+  message.first_tick = inputs_acked;
+  for (std::uint64_t tick = inputs_acked; tick < sampled; ++tick) {
+    const bool full = message.count == k_max_ticks_per_message;
+    if (full || !own_inputs.has(tick) || !writer.add(own_inputs.find(tick))) break;
+    ++message.count;
+  }
+  message.coded = writer.written();
+  send(message, Channel::unreliable);
+}
+
+bool Client::Impl::on_dump_request(ByteView packet) {
+  DumpRequest request;
+  if (decode(packet, request) != Status::ok || state != ClientState::running) return false;
+  if (request.tick >= stepped) return false;
+  const ByteView kept = snapshots.find(request.tick);
+  if (kept.empty()) {
+    send(Dump{request.tick, 0, 0, {}});
+    return true;
+  }
+  std::copy(kept.begin(), kept.end(), dump.begin());
+  dump_tick = request.tick;
+  dump_size = kept.size();
+  dump_sent = 0;
+  return true;
+}
+
+void Client::Impl::send_dump_chunks() {
+  for (int i = 0; i < k_dump_chunks_per_update && dump_sent < dump_size; ++i) {
+    const std::size_t size = std::min(k_max_chunk_bytes, dump_size - dump_sent);
+    send(Dump{dump_tick, static_cast<std::uint32_t>(dump_size),
+              static_cast<std::uint32_t>(dump_sent), ByteView(dump).subspan(dump_sent, size)});
+    dump_sent += size;
+  }
+}
+
+}  // namespace lockstone::net

@@ -1,0 +1,85 @@
+// Finds the first tick at which states differ, from the hashes that the players report.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <lockstone/net/session.h>
+
+#include "net/session/tick_ring.h"
+
+namespace lockstone::net {
+
+/// A difference found. `reference` speaks for the right side: a slot, or k_no_slot for the server.
+struct Mismatch {
+  std::uint64_t tick = 0;
+  std::uint8_t slot = 0;
+  std::uint8_t reference = k_no_slot;
+  Verdict verdict = Verdict::undecided;
+  std::uint64_t hash_here = 0;
+  std::uint64_t hash_there = 0;
+};
+
+/// Every player's hashes are taken in tick order without gaps, and each is compared before the
+/// next: so the first mismatch found for a player is at the first tick that differs.
+class HashJudge {
+ public:
+  /// With `has_own`, the server's own hashes decide; else the majority of the players does.
+  HashJudge(std::size_t player_count, std::size_t history_ticks, bool has_own);
+
+  void push_own(std::uint64_t hash) { own_.push(hash); }
+
+  /// Whether `slot` may report one more: false would overwrite what is not yet compared.
+  [[nodiscard]] bool can_push(std::size_t slot) const;
+  void push(std::size_t slot, std::uint64_t hash) { players_[slot].reported.push(hash); }
+
+  /// The next tick whose hash is wanted of `slot`.
+  [[nodiscard]] std::uint64_t wanted(std::size_t slot) const {
+    return players_[slot].reported.next_tick();
+  }
+
+  /// Players that do not report any more are not waited for.
+  void set_present(std::size_t slot, bool present) { players_[slot].present = present; }
+
+  /// Compares until a mismatch is found or reports are missing. A player found different is left
+  /// out of all further comparison.
+  [[nodiscard]] std::optional<Mismatch> advance();
+
+  /// Ticks below were compared for every present player.
+  [[nodiscard]] std::uint64_t judged_ticks() const;
+
+  [[nodiscard]] std::uint64_t compared(std::size_t slot) const { return players_[slot].compared; }
+  [[nodiscard]] std::uint64_t equal(std::size_t slot) const { return players_[slot].equal; }
+
+  /// The server's hash of a recent tick; in a relay, the one that most players had.
+  [[nodiscard]] std::uint64_t right_hash(std::uint64_t tick) const { return own_.at(tick); }
+  [[nodiscard]] std::uint64_t right_hash_ticks() const { return own_.next_tick(); }
+
+ private:
+  struct Player {
+    HashRing reported;
+    std::uint64_t judged = 0;  ///< next tick to compare, with a hash of our own
+    std::uint64_t compared = 0;
+    std::uint64_t equal = 0;
+    bool present = false;
+    bool ignored = false;  ///< was found different: what follows proves nothing
+  };
+
+  std::optional<Mismatch> compare_with_own(std::uint8_t slot);
+  std::optional<Mismatch> compare_players();
+  void compare_tick(std::uint64_t tick);
+  [[nodiscard]] bool all_reported(std::uint64_t tick) const;
+  [[nodiscard]] bool takes_part(const Player& player, std::uint64_t tick) const;
+  [[nodiscard]] std::uint8_t speaker_of_largest_group(std::size_t& votes, std::size_t& all) const;
+
+  bool has_own_;
+  std::size_t history_ticks_;
+  HashRing own_;  ///< the server's, or in a relay the players'
+  std::vector<Player> players_;
+  std::uint64_t shared_judged_ = 0;  ///< next tick to compare among players
+  std::vector<Mismatch> pending_;    ///< found, not yet answered; at most one a player
+};
+
+}  // namespace lockstone::net

@@ -1,0 +1,305 @@
+// The server's connections, its time-outs, and the end of a match.
+#include <algorithm>
+#include <limits>
+
+#include <lockstone/assert.h>
+
+#include "net/session/server_impl.h"
+#include "net/session/setup.h"
+
+namespace lockstone::net {
+namespace {
+
+constexpr std::size_t k_spare_links = 4;  // for those who are refused
+constexpr std::size_t k_input_ring_ticks = 4 * k_input_window_ticks;
+
+SetupError check(const ServerConfig& config, const SimulationInfo& info) {
+  if (!config.insecure) return SetupError::insecure_not_requested;
+  if (config.match_config.size() > k_max_config_bytes) return SetupError::match_config_too_long;
+  if (config.input_delay_ticks > k_max_input_delay_ticks) {
+    return SetupError::input_delay_out_of_range;
+  }
+  if (config.tick_count > k_max_tick) return SetupError::history_out_of_range;
+  const SetupError info_error = check_info(info);
+  if (info_error != SetupError::none) return info_error;
+  return check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);
+}
+
+std::size_t snapshot_bytes(const Simulation* simulation) {
+  return simulation == nullptr ? 0 : simulation->snapshot_bytes_max(SnapshotKind::canonical);
+}
+
+}  // namespace
+
+Server::Created Server::create(const ServerConfig& config, const ServerParts& parts) {
+  LKS_CHECK(parts.transport != nullptr);
+  const bool simulates = parts.simulation != nullptr;
+  const SetupError error = check(config, simulates ? parts.simulation->info() : config.info);
+  if (error != SetupError::none) return {nullptr, error};
+  if (simulates && parts.simulation->tick() != 0) {
+    return {nullptr, SetupError::simulation_already_stepped};
+  }
+  return {std::unique_ptr<Server>(new Server(std::make_unique<Impl>(config, parts))),
+          SetupError::none};
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Server::~Server() = default;
+void Server::update(std::int64_t now_us) {
+  impl_->update(now_us);
+}
+ServerState Server::state() const {
+  return impl_->state;
+}
+FinishReason Server::finish_reason() const {
+  return impl_->finish_reason;
+}
+std::uint64_t Server::ticks_closed() const {
+  return impl_->closed;
+}
+std::uint16_t Server::present_mask() const {
+  return impl_->present_mask();
+}
+std::uint16_t Server::waiting_mask() const {
+  return impl_->waiting;
+}
+PlayerStats Server::stats(std::uint8_t slot) const {
+  return impl_->stats_of(slot);
+}
+
+void Server::stop() {
+  if (impl_->state > ServerState::running) return;
+  impl_->finish_reason = FinishReason::stopped;
+  impl_->end_tick = impl_->closed;
+  impl_->begin_finishing();
+}
+
+Server::Impl::Impl(const ServerConfig& server_config, const ServerParts& server_parts)
+    : config(server_config),
+      parts(server_parts),
+      observer(parts.observer == nullptr ? &silent_observer : parts.observer),
+      info(parts.simulation == nullptr ? config.info : parts.simulation->info()),
+      shape{info.player_count, info.input_bytes},
+      tick_us(1'000'000 / info.tick_rate),
+      links(info.player_count + k_spare_links),
+      seats(info.player_count),
+      end_tick(config.tick_count == 0 ? k_max_tick : config.tick_count),
+      records(config.history_ticks, shape.record_bytes()),
+      snapshots(parts.simulation == nullptr ? 0 : config.snapshot_ticks,
+                snapshot_bytes(parts.simulation)),
+      judge(info.player_count, config.history_ticks, parts.simulation != nullptr),
+      out(k_max_message_bytes) {
+  for (Seat& place : seats)
+    place.inputs = TickRing(k_input_ring_ticks, info.input_bytes);
+}
+
+void Server::Impl::update(std::int64_t now) {
+  LKS_ASSERT(now >= now_us);
+  if (state == ServerState::over) return;
+  now_us = now;
+  receive();
+  watch_peers();
+  if (state == ServerState::lobby) try_start();
+  if (state == ServerState::running) close_due_ticks();
+  judge_hashes();
+  advance_case();
+  if (state == ServerState::finishing) try_finish();
+  if (state == ServerState::closing) try_end();
+  send_due_ticks();
+  parts.transport->flush();
+}
+
+void Server::Impl::receive() {
+  TransportEvent event;
+  while (parts.transport->poll(now_us, event)) {
+    if (event.kind == TransportEventKind::connected) {
+      accept(event.connection);
+      continue;
+    }
+    Link* link = find_link(event.connection);
+    if (link == nullptr) continue;
+    if (event.kind == TransportEventKind::received) {
+      receive_packet(*link, event);
+    } else {
+      const std::uint8_t slot = link->slot;
+      release(*link);
+      if (slot != k_no_slot) seat_lost(slot, LeaveReason::disconnected);
+    }
+  }
+}
+
+void Server::Impl::receive_packet(Link& link, const TransportEvent& event) {
+  link.watch.heard(now_us);
+  if (dispatch(link, event.bytes)) return;
+  const bool too_many = link.watch.malformed(now_us);
+  if (link.slot != k_no_slot) ++seats[link.slot].stats.malformed_packets;
+  if (too_many) drop(link, LeaveReason::malformed);
+}
+
+// False for a packet that breaks the format or comes out of turn; then it had no effect at all.
+bool Server::Impl::dispatch(Link& link, ByteView packet) {
+  const Result<MessageType> type = message_type(packet);
+  if (!type) return false;
+  Bye bye;
+  switch (type.value()) {
+    case MessageType::hello:
+      return link.stage == Stage::connected && on_hello(link, packet);
+    case MessageType::answer:
+      return link.stage == Stage::offered && on_answer(link, packet);
+    case MessageType::inputs:
+      return link.stage == Stage::seated && on_inputs(link, packet);
+    case MessageType::resend:
+      return link.stage == Stage::seated && on_resend(link, packet);
+    case MessageType::dump:
+      return link.stage == Stage::seated && on_dump(link, packet);
+    case MessageType::bye:
+      if (decode(packet, bye) != Status::ok) return false;
+      drop(link, LeaveReason::left);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Server::Impl::watch_peers() {
+  for (Link& link : links) {
+    if (link.stage == Stage::unused) continue;
+    if (link.stage != Stage::seated) {
+      if (now_us - link.since_us > config.timeouts.handshake_us) {
+        refuse(link, {RefuseReason::handshake_timeout, RefuseField::none, 0, 0});
+      }
+      continue;
+    }
+    const std::int64_t silent_us = link.watch.silent_us(now_us);
+    if (link.watch.warn(now_us, config.timeouts.silence_warning_us)) {
+      observer->player_silent(link.slot, silent_us);
+    }
+    if (silent_us > config.timeouts.drop_us) drop(link, LeaveReason::timed_out);
+  }
+}
+
+// Forgets a connection without a word.
+void Server::Impl::release(Link& link) {
+  if (link.slot != k_no_slot) {
+    PlayerStats& stats = seats[link.slot].stats;
+    stats = stats_of(link.slot);
+    seats[link.slot].link = nullptr;
+  }
+  link = {};
+}
+
+void Server::Impl::drop(Link& link, LeaveReason reason) {
+  const std::uint8_t slot = link.slot;
+  send(link, Bye{reason});
+  const ConnectionId connection = link.connection;
+  release(link);
+  parts.transport->disconnect(connection);
+  if (slot != k_no_slot) seat_lost(slot, reason);
+}
+
+void Server::Impl::seat_lost(std::uint8_t slot, LeaveReason reason) {
+  if (state >= ServerState::closing) return;
+  judge.set_present(slot, false);
+  if (desync) {
+    for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
+      if (transfer->slot == slot && !transfer->done) *transfer = {slot, {}, 0, true};
+    }
+  }
+  observer->player_left(slot, reason);
+  if (state == ServerState::lobby || present_mask() != 0 || desync) return;
+  finish(state == ServerState::running ? FinishReason::no_players : finish_reason);
+}
+
+void Server::Impl::begin_finishing() {
+  const bool began = state == ServerState::running;
+  state = ServerState::finishing;
+  state_since_us = now_us;
+  waiting = 0;
+  if (!began) finish(finish_reason);
+}
+
+// Waits for everybody's last hash, so that a difference in the last tick is found too.
+void Server::Impl::try_finish() {
+  const bool all_judged = judge.judged_ticks() >= closed;
+  const bool timed_out = now_us - state_since_us > config.timeouts.finish_us;
+  if (desync || (!all_judged && !timed_out)) return;
+  finish(finish_reason);
+}
+
+void Server::Impl::finish(FinishReason reason) {
+  if (state >= ServerState::closing) return;
+  finish_reason = reason;
+  state = ServerState::closing;
+  state_since_us = now_us;
+  waiting = 0;
+  const std::optional<std::uint64_t> hash = final_hash();
+  for (const Seat& place : seats) {
+    if (place.link != nullptr) {
+      send(*place.link, Finish{reason, closed, hash.has_value(), hash.value_or(0)});
+    }
+  }
+  observer->match_finished(reason, closed, hash);
+}
+
+// The clients leave; those that do not are left.
+void Server::Impl::try_end() {
+  const bool timed_out = now_us - state_since_us > config.timeouts.finish_us;
+  bool anybody = false;
+  for (Link& link : links) {
+    if (link.stage == Stage::unused) continue;
+    if (link.stage == Stage::seated && !timed_out) {
+      anybody = true;
+    } else {
+      drop(link, LeaveReason::match_over);
+    }
+  }
+  if (!anybody) state = ServerState::over;
+}
+
+Server::Impl::Link* Server::Impl::find_link(ConnectionId connection) {
+  const auto found = std::find_if(links.begin(), links.end(), [connection](const Link& link) {
+    return link.stage != Stage::unused && link.connection == connection;
+  });
+  return found == links.end() ? nullptr : &*found;
+}
+
+std::uint16_t Server::Impl::present_mask() const {
+  unsigned mask = 0;
+  for (std::size_t slot = 0; slot < seats.size(); ++slot) {
+    if (seats[slot].link != nullptr) mask |= 1U << slot;
+  }
+  return static_cast<std::uint16_t>(mask);
+}
+
+PlayerStats Server::Impl::stats_of(std::uint8_t slot) const {
+  LKS_CHECK(slot < seats.size());
+  PlayerStats stats = seats[slot].stats;
+  stats.hashes_compared = judge.compared(slot);
+  stats.hashes_equal = judge.equal(slot);
+  if (seats[slot].link == nullptr) return stats;
+  const TransportStats traffic = parts.transport->stats(seats[slot].link->connection);
+  stats.bytes_sent = traffic.bytes_sent;
+  stats.bytes_received = traffic.bytes_received;
+  stats.packets_sent = traffic.packets_sent;
+  stats.packets_received = traffic.packets_received;
+  stats.round_trip_us = traffic.round_trip_us;
+  return stats;
+}
+
+std::optional<std::uint64_t> Server::Impl::final_hash() const {
+  if (closed == 0 || judge.right_hash_ticks() != closed) return std::nullopt;
+  return judge.right_hash(closed - 1);
+}
+
+void ServerObserver::tick_closed(std::uint64_t, std::span<const PlayerInput>,
+                                 std::optional<std::uint64_t>) {}
+void ServerObserver::hash_agreed(std::uint64_t, std::uint64_t) {}
+void ServerObserver::player_joined(std::uint8_t, std::string_view) {}
+void ServerObserver::player_left(std::uint8_t, LeaveReason) {}
+void ServerObserver::player_silent(std::uint8_t, std::int64_t) {}
+void ServerObserver::player_refused(const Refusal&) {}
+void ServerObserver::desync_found(const DesyncReport&) {}
+void ServerObserver::match_started() {}
+void ServerObserver::match_finished(FinishReason, std::uint64_t, std::optional<std::uint64_t>) {}
+
+}  // namespace lockstone::net

@@ -1,0 +1,126 @@
+// Two states differ: at which tick, in whom, in what.
+//
+// The match freezes while the snapshots of the first bad tick are fetched. They are the ones that
+// were kept when the tick was stepped: stepping again from an older one would not bring back a bit
+// that flipped in memory.
+#include <algorithm>
+
+#include "net/session/server_impl.h"
+
+namespace lockstone::net {
+
+void Server::Impl::judge_hashes() {
+  const bool judging = state == ServerState::running || state == ServerState::finishing;
+  if (!judging || desync) return;
+  const std::optional<Mismatch> found = judge.advance();
+  if (parts.simulation == nullptr) {
+    const bool undecided = found && found->verdict == Verdict::undecided;
+    const std::uint64_t end = undecided ? found->tick : judge.judged_ticks();
+    for (; agreed_told < end; ++agreed_told) {
+      observer->hash_agreed(agreed_told, judge.right_hash(agreed_told));
+    }
+  }
+  if (found) open_case(*found);
+}
+
+void Server::Impl::open_case(const Mismatch& mismatch) {
+  desync.emplace();
+  desync->mismatch = mismatch;
+  desync->since_us = now_us;
+  waiting = 0;
+  if (mismatch.reference == k_no_slot) {
+    const ByteView own = snapshots.find(mismatch.tick);
+    desync->here = {k_no_slot, {own.begin(), own.end()}, own.size(), true};
+  } else {
+    request_dump(desync->here, mismatch.reference);
+  }
+  request_dump(desync->there, mismatch.slot);
+}
+
+void Server::Impl::request_dump(DumpTransfer& transfer, std::uint8_t slot) {
+  transfer.slot = slot;
+  transfer.done = seats[slot].link == nullptr;
+  if (!transfer.done) send(*seats[slot].link, DumpRequest{desync->mismatch.tick});
+}
+
+bool Server::Impl::on_dump(Link& link, ByteView packet) {
+  Dump dump;
+  if (decode(packet, dump) != Status::ok) return false;
+  if (!desync || dump.tick != desync->mismatch.tick) return true;  // asked for, but too late
+  for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
+    if (transfer->slot == link.slot && !transfer->done) return take_chunk(*transfer, dump);
+  }
+  return false;
+}
+
+bool Server::Impl::take_chunk(DumpTransfer& transfer, const Dump& dump) const {
+  const Simulation* known = parts.simulation == nullptr ? parts.describer : parts.simulation;
+  const std::size_t limit =
+      known == nullptr ? config.max_dump_bytes : known->snapshot_bytes_max(SnapshotKind::canonical);
+  if (dump.total_bytes > limit || dump.offset_bytes != transfer.received_bytes) return false;
+  if (transfer.received_bytes == 0) transfer.bytes.resize(dump.total_bytes);
+  if (dump.total_bytes != transfer.bytes.size()) return false;
+  std::copy(dump.chunk.begin(), dump.chunk.end(),
+            std::span(transfer.bytes).subspan(dump.offset_bytes).begin());
+  transfer.received_bytes += dump.chunk.size();
+  transfer.done = transfer.received_bytes == transfer.bytes.size();
+  return true;
+}
+
+void Server::Impl::advance_case() {
+  if (!desync || state >= ServerState::closing) return;
+  const bool timed_out = now_us - desync->since_us > config.timeouts.dump_us;
+  if (!timed_out && !(desync->here.done && desync->there.done)) return;
+  for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
+    if (!transfer->done) transfer->bytes.clear();
+  }
+  const DesyncReport report = report_of_case();
+  observer->desync_found(report);
+  send_notice(report);
+  desync.reset();
+  if (report.verdict == Verdict::undecided || config.desync_policy == DesyncPolicy::end_match) {
+    return finish(FinishReason::desync);
+  }
+  if (seats[report.slot].link != nullptr) drop(*seats[report.slot].link, LeaveReason::desync);
+  if (state == ServerState::running && present_mask() == 0) finish(FinishReason::no_players);
+  rebase_schedule(now_us);
+}
+
+// The views in the answer point into the case.
+DesyncReport Server::Impl::report_of_case() const {
+  const Mismatch& mismatch = desync->mismatch;
+  DesyncReport report;
+  report.tick = mismatch.tick;
+  report.slot = mismatch.slot;
+  report.verdict = mismatch.verdict;
+  report.hash_here = mismatch.hash_here;
+  report.hash_there = mismatch.hash_there;
+  report.dump_here = desync->here.bytes;
+  report.dump_there = desync->there.bytes;
+  const Simulation* describer = parts.simulation == nullptr ? parts.describer : parts.simulation;
+  if (describer != nullptr && !report.dump_here.empty() && !report.dump_there.empty()) {
+    report.difference = describer->describe(report.dump_here, report.dump_there);
+  }
+  return report;
+}
+
+void Server::Impl::send_notice(const DesyncReport& report) {
+  DesyncNotice notice;
+  notice.tick = report.tick;
+  notice.slot = report.slot;
+  notice.verdict = report.verdict;
+  notice.hash_here = report.hash_here;
+  notice.hash_there = report.hash_there;
+  notice.differs = report.difference.differs;
+  notice.object = report.difference.object;
+  notice.store = FieldText(report.difference.store);
+  notice.name = FieldText(report.difference.name);
+  notice.field = FieldText(report.difference.field);
+  notice.here = FieldText(report.difference.here);
+  notice.there = FieldText(report.difference.there);
+  for (const Seat& place : seats) {
+    if (place.link != nullptr) send(*place.link, notice);
+  }
+}
+
+}  // namespace lockstone::net

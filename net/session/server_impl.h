@@ -1,0 +1,162 @@
+// The inside of net::Server, spread over server_*.cpp by theme.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <lockstone/net/server.h>
+#include <lockstone/net/wire.h>
+
+#include "net/session/hash_judge.h"
+#include "net/session/peer_watch.h"
+#include "net/session/tick_ring.h"
+
+namespace lockstone::net {
+
+/// A canonical snapshot on its way from a player.
+struct DumpTransfer {
+  std::uint8_t slot = k_no_slot;  ///< who sends it; k_no_slot: the server's own
+  std::vector<std::byte> bytes;
+  std::size_t received_bytes = 0;
+  bool done = false;  ///< arrived whole, or will not come: then `bytes` is empty
+};
+
+/// A mismatch whose snapshots are being fetched.
+struct DesyncCase {
+  Mismatch mismatch;
+  std::int64_t since_us = 0;
+  DumpTransfer here;
+  DumpTransfer there;
+};
+
+struct Server::Impl {
+  enum class Stage : std::uint8_t { unused, connected, offered, seated };
+
+  struct Link {
+    ConnectionId connection = k_no_connection;
+    Stage stage = Stage::unused;
+    std::uint8_t slot = k_no_slot;  ///< of a seated one
+    std::uint8_t wanted_slot = k_any_slot;
+    std::int64_t since_us = 0;
+    PeerWatch watch;
+    NameText name;
+  };
+
+  struct Seat {
+    Link* link = nullptr;  ///< null: nobody sits here (any more)
+    TickRing inputs;
+    std::uint64_t inputs_next = 0;     ///< inputs below are received or replaced
+    std::uint64_t ticks_received = 0;  ///< closed ticks below are at the client
+    std::uint64_t cursor = 0;          ///< where the next Ticks goes on, if not all fit
+    std::uint64_t last_sent_closed = 0;
+    std::int64_t last_sent_us = 0;
+    std::uint64_t resend_next = 0;  ///< resend_next … resend_end - 1 were asked for
+    std::uint64_t resend_end = 0;
+    PlayerStats stats;
+  };
+
+  Impl(const ServerConfig& server_config, const ServerParts& server_parts);
+
+  // server.cpp: connections, time, the end.
+  void update(std::int64_t now);
+  void receive();
+  void receive_packet(Link& link, const TransportEvent& event);
+  [[nodiscard]] bool dispatch(Link& link, ByteView packet);
+  void watch_peers();
+  void release(Link& link);
+  void drop(Link& link, LeaveReason reason);
+  void seat_lost(std::uint8_t slot, LeaveReason reason);
+  void begin_finishing();
+  void try_finish();
+  void finish(FinishReason reason);
+  void try_end();
+  [[nodiscard]] Link* find_link(ConnectionId connection);
+  [[nodiscard]] std::uint16_t present_mask() const;
+  [[nodiscard]] PlayerStats stats_of(std::uint8_t slot) const;
+  [[nodiscard]] std::optional<std::uint64_t> final_hash() const;
+
+  // server_handshake.cpp
+  void accept(ConnectionId connection);
+  [[nodiscard]] bool on_hello(Link& link, ByteView packet);
+  [[nodiscard]] bool on_answer(Link& link, ByteView packet);
+  [[nodiscard]] Refusal judge_hello(const Hello& hello) const;
+  [[nodiscard]] Refusal judge_seats(std::uint8_t wanted_slot) const;
+  [[nodiscard]] Refusal judge_info(const SimulationInfo& theirs) const;
+  void refuse(Link& link, const Refusal& refusal);
+  void seat(Link& link);
+  void try_start();
+
+  // server_ticks.cpp: inputs in, closed ticks out.
+  [[nodiscard]] bool on_inputs(Link& link, ByteView packet);
+  [[nodiscard]] bool on_resend(Link& link, ByteView packet);
+  void take_inputs(Seat& place, const Inputs& message);
+  void take_hashes(std::uint8_t slot, const Inputs& message);
+  void close_due_ticks();
+  [[nodiscard]] bool may_close_next();
+  void close_tick();
+  void fill_slot(std::span<std::byte> record, std::uint8_t slot);
+  [[nodiscard]] std::optional<std::uint64_t> step_simulation(ByteView record);
+  [[nodiscard]] std::uint16_t missing_inputs_mask() const;
+  [[nodiscard]] bool laggard_holds() const;
+  void drop_waited_for();
+  void drop_laggards();
+  void rebase_schedule(std::int64_t due_us);
+  [[nodiscard]] std::int64_t due_us() const;
+  void send_due_ticks();
+  [[nodiscard]] bool ticks_due(const Seat& place) const;
+  void send_unconfirmed(std::uint8_t slot);
+  std::uint64_t send_ticks(std::uint8_t slot, std::uint64_t first_tick, Channel channel);
+  void send_resends(std::uint8_t slot);
+
+  // server_desync.cpp
+  void judge_hashes();
+  void open_case(const Mismatch& mismatch);
+  void request_dump(DumpTransfer& transfer, std::uint8_t slot);
+  [[nodiscard]] bool on_dump(Link& link, ByteView packet);
+  [[nodiscard]] bool take_chunk(DumpTransfer& transfer, const Dump& dump) const;
+  void advance_case();
+  [[nodiscard]] DesyncReport report_of_case() const;
+  void send_notice(const DesyncReport& report);
+
+  template <class Message>
+  void send(const Link& link, const Message& message) {
+    const std::size_t size = encode(message, out);
+    // A full queue shows as silence, and silence as a time-out.
+    static_cast<void>(
+        parts.transport->send(link.connection, Channel::reliable, ByteView(out).first(size)));
+  }
+
+  ServerConfig config;
+  ServerParts parts;
+  ServerObserver silent_observer;
+  ServerObserver* observer;
+  SimulationInfo info;
+  TickShape shape;
+  std::int64_t tick_us;
+
+  ServerState state = ServerState::lobby;
+  FinishReason finish_reason = FinishReason::completed;
+  std::int64_t now_us = 0;
+  std::int64_t state_since_us = 0;
+
+  std::vector<Link> links;  ///< never resized: seats point into it
+  std::vector<Seat> seats;
+  std::uint64_t closed = 0;          ///< ticks 0 … closed - 1 are closed
+  std::uint64_t end_tick = 0;        ///< the match has ticks below
+  std::uint64_t schedule_tick = 0;   ///< this tick is due …
+  std::int64_t schedule_due_us = 0;  ///< … at this time, the others by the tick rate from it
+  std::uint16_t waiting = 0;
+  std::int64_t waiting_since_us = 0;
+  TickRing records;
+  TickRing snapshots;
+  HashJudge judge;
+  std::uint64_t agreed_told = 0;  ///< hash_agreed was called below
+  std::optional<DesyncCase> desync;
+
+  std::vector<std::byte> out;  ///< a message being encoded
+  std::array<std::byte, k_max_datagram_bytes> coded{};
+};
+
+}  // namespace lockstone::net

@@ -1,0 +1,252 @@
+// Inputs in, closed ticks out.
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
+#include "net/session/server_impl.h"
+#include "net/wire/record_coder.h"
+#include "net/wire/tick_record.h"
+
+namespace lockstone::net {
+namespace {
+
+constexpr std::uint64_t k_max_closes_per_update = 256;
+constexpr std::int64_t k_max_catch_up_us = 250'000;  // a longer pause is not played faster after
+constexpr std::int64_t k_keepalive_us = 250'000;
+constexpr int k_resends_per_update = 4;
+
+}  // namespace
+
+bool Server::Impl::on_inputs(Link& link, ByteView packet) {
+  Inputs message;
+  if (decode(packet, info.input_bytes, message) != Status::ok) return false;
+  Seat& place = seats[link.slot];
+  const std::uint64_t hash_end = message.first_hash_tick + message.hash_count;
+  const bool sane = message.ticks_received <= closed && message.first_tick <= place.inputs_next &&
+                    message.first_tick + message.count <= closed + k_input_window_ticks &&
+                    hash_end <= message.ticks_received;
+  if (!sane) return false;
+  if (state >= ServerState::closing) return true;
+  place.ticks_received = std::max(place.ticks_received, message.ticks_received);
+  take_inputs(place, message);
+  take_hashes(link.slot, message);
+  return true;
+}
+
+void Server::Impl::take_inputs(Seat& place, const Inputs& message) {
+  RecordReader reader(message.coded, info.input_bytes);
+  for (std::uint64_t tick = message.first_tick; tick < message.first_tick + message.count; ++tick) {
+    LKS_CHECK(reader.next());  // decode has walked through it
+    const bool recent = tick + k_input_window_ticks > closed;
+    if (!recent || tick < config.input_delay_ticks || place.inputs.has(tick)) continue;
+    if (tick < place.inputs_next) ++place.stats.late_inputs;
+    place.inputs.put(tick, reader.record());
+    place.inputs_next = std::max(place.inputs_next, tick + 1);
+  }
+}
+
+void Server::Impl::take_hashes(std::uint8_t slot, const Inputs& message) {
+  for (std::size_t i = 0; i < message.hash_count; ++i) {
+    if (message.first_hash_tick + i != judge.wanted(slot)) continue;
+    if (!judge.can_push(slot)) return;  // not acknowledged, so it comes again
+    judge.push(slot, message.hashes[i]);
+  }
+}
+
+bool Server::Impl::on_resend(Link& link, ByteView packet) {
+  Resend message;
+  if (decode(packet, message) != Status::ok) return false;
+  if (message.first_tick + message.count > closed) return false;
+  Seat& place = seats[link.slot];
+  place.resend_next = std::max(message.first_tick, place.ticks_received);
+  place.resend_end = message.first_tick + message.count;
+  return true;
+}
+
+void Server::Impl::close_due_ticks() {
+  for (std::uint64_t i = 0; i < k_max_closes_per_update && !desync; ++i) {
+    if (closed == end_tick) return begin_finishing();
+    if (!may_close_next()) break;
+    close_tick();
+    if (state != ServerState::running) return;
+  }
+  if (waiting != 0 && now_us - waiting_since_us > config.timeouts.drop_us) drop_waited_for();
+}
+
+// Says who is waited for, if that is what keeps the next tick open.
+bool Server::Impl::may_close_next() {
+  const bool fast = config.pacing == Pacing::fast;
+  if (!fast && now_us < due_us()) return false;
+  const bool waits = fast || config.late_policy == LatePolicy::strict;
+  const std::uint16_t missing = waits ? missing_inputs_mask() : std::uint16_t{0};
+  if (missing != 0 && waiting == 0) waiting_since_us = now_us;
+  waiting = missing;
+  if (missing != 0 || (waits && laggard_holds())) return false;
+  if (!fast && now_us - due_us() > k_max_catch_up_us) rebase_schedule(now_us);
+  return true;
+}
+
+std::uint16_t Server::Impl::missing_inputs_mask() const {
+  unsigned mask = 0;
+  for (std::size_t slot = 0; slot < seats.size(); ++slot) {
+    if (seats[slot].link != nullptr && seats[slot].inputs_next <= closed) mask |= 1U << slot;
+  }
+  return static_cast<std::uint16_t>(mask);
+}
+
+// Where the match may wait, it does so before a player loses ticks or snapshots.
+bool Server::Impl::laggard_holds() const {
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    if (seats[slot].link == nullptr) continue;
+    const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
+    if (closed - has >= config.history_ticks / 2) return true;
+  }
+  return false;
+}
+
+void Server::Impl::drop_waited_for() {
+  const std::uint16_t mask = waiting;
+  waiting = 0;
+  for (Seat& place : seats) {
+    if (place.link == nullptr || ((mask >> place.link->slot) & 1) == 0) continue;
+    drop(*place.link, LeaveReason::timed_out);
+  }
+}
+
+void Server::Impl::close_tick() {
+  drop_laggards();
+  if (state != ServerState::running) return;
+  const std::span<std::byte> record = records.claim(closed);
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot)
+    fill_slot(record, slot);
+  records.commit(closed, record.size());
+  const std::optional<std::uint64_t> hash = step_simulation(record);
+  const std::uint64_t tick = closed++;
+  observer->tick_closed(tick, RecordInputs(record, shape).view(), hash);
+}
+
+// The server never waits for them (deadline), so they would ask for what is gone.
+void Server::Impl::drop_laggards() {
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    if (seats[slot].link == nullptr) continue;
+    const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
+    if (closed - has + 1 >= config.history_ticks) {
+      drop(*seats[slot].link, LeaveReason::too_far_behind);
+    }
+  }
+}
+
+void Server::Impl::fill_slot(std::span<std::byte> record, std::uint8_t slot) {
+  constexpr std::array<std::byte, k_max_input_bytes> k_zeros{};
+  const ByteView zeros = ByteView(k_zeros).first(info.input_bytes);
+  Seat& place = seats[slot];
+  if (place.link == nullptr) return set_slot(record, shape, slot, InputOrigin::absent, zeros);
+  if (closed < config.input_delay_ticks) {
+    return set_slot(record, shape, slot, InputOrigin::neutral, zeros);
+  }
+  if (place.inputs_next > closed) {
+    return set_slot(record, shape, slot, InputOrigin::received, place.inputs.find(closed));
+  }
+  place.inputs_next = closed + 1;
+  ++place.stats.substituted_inputs;
+  if (config.substitute == Substitute::neutral) {
+    return set_slot(record, shape, slot, InputOrigin::neutral, zeros);
+  }
+  const ByteView before = closed == 0 ? ByteView{} : records.find(closed - 1);
+  const ByteView last = before.empty() ? zeros : get_slot(before, shape, slot).bytes;
+  set_slot(record, shape, slot, InputOrigin::repeated, last);
+}
+
+std::optional<std::uint64_t> Server::Impl::step_simulation(ByteView record) {
+  if (parts.simulation == nullptr) return std::nullopt;
+  parts.simulation->step(RecordInputs(record, shape).view());
+  const std::uint64_t hash = parts.simulation->hash();
+  judge.push_own(hash);
+  if (snapshots.capacity() > 0) {
+    const std::size_t size =
+        parts.simulation->save(SnapshotKind::canonical, snapshots.claim(closed));
+    snapshots.commit(closed, size);
+  }
+  return hash;
+}
+
+// From now on `closed` is due at `due_us`, and the ticks after it by the tick rate.
+void Server::Impl::rebase_schedule(std::int64_t due_us) {
+  schedule_tick = closed;
+  schedule_due_us = due_us;
+}
+
+std::int64_t Server::Impl::due_us() const {
+  const std::uint64_t ticks = closed - schedule_tick;
+  return schedule_due_us + static_cast<std::int64_t>(ticks * 1'000'000 / info.tick_rate);
+}
+
+void Server::Impl::send_due_ticks() {
+  if (state >= ServerState::closing) return;
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    Seat& place = seats[slot];
+    if (place.link == nullptr) continue;
+    send_resends(slot);
+    if (!ticks_due(place)) continue;
+    place.last_sent_closed = closed;
+    place.last_sent_us = now_us;
+    send_unconfirmed(slot);
+  }
+}
+
+// All that the player has not confirmed. What does not fit one datagram goes round over the next
+// ones, and the newest ticks go along, so that they wait for nothing. If ticks still lack between
+// others, the client asks for them.
+void Server::Impl::send_unconfirmed(std::uint8_t slot) {
+  Seat& place = seats[slot];
+  const std::uint64_t first = std::max(place.cursor, place.ticks_received);
+  const std::uint64_t end = send_ticks(slot, first, Channel::unreliable);
+  place.cursor = end < closed ? end : 0;
+  if (end < closed) send_ticks(slot, std::max(end, closed - (end - first)), Channel::unreliable);
+}
+
+// A player that has fallen silent gets less: its link may be down, and nothing confirms what it
+// got.
+bool Server::Impl::ticks_due(const Seat& place) const {
+  const std::int64_t since_us = now_us - place.last_sent_us;
+  const bool quiet =
+      state == ServerState::lobby || place.link->watch.silent_us(now_us) > k_keepalive_us;
+  if (quiet) return since_us >= k_keepalive_us;
+  return place.last_sent_closed != closed || since_us >= tick_us;
+}
+
+// Sends ticks from `first_tick` on, as many as one datagram holds; answers the first not sent.
+std::uint64_t Server::Impl::send_ticks(std::uint8_t slot, std::uint64_t first_tick,
+                                       Channel channel) {
+  const std::span<std::byte> room = std::span(coded).first(coded.size() - k_ticks_header_bytes);
+  RecordWriter writer(room, shape.record_bytes());
+  std::uint64_t end = first_tick;
+  while (end < closed && end - first_tick < k_max_ticks_per_message) {
+    const ByteView record = records.find(end);
+    if (record.empty() || !writer.add(record)) break;
+    ++end;
+  }
+  Ticks message;
+  message.first_tick = first_tick;
+  message.count = static_cast<std::uint8_t>(end - first_tick);
+  message.ticks_closed = closed;
+  message.inputs_received = seats[slot].inputs_next;
+  message.hashes_received = judge.wanted(slot);
+  message.waiting_mask = waiting;
+  message.coded = writer.written();
+  const std::size_t size = encode(message, out);
+  static_cast<void>(
+      parts.transport->send(seats[slot].link->connection, channel, ByteView(out).first(size)));
+  return end;
+}
+
+void Server::Impl::send_resends(std::uint8_t slot) {
+  Seat& place = seats[slot];
+  for (int i = 0; i < k_resends_per_update && place.resend_next < place.resend_end; ++i) {
+    const std::uint64_t end = send_ticks(slot, place.resend_next, Channel::reliable);
+    if (end == place.resend_next) place.resend_end = end;  // gone from the ring
+    place.resend_next = end;
+  }
+}
+
+}  // namespace lockstone::net

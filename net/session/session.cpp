@@ -1,0 +1,57 @@
+#include <array>
+
+#include <lockstone/net/session.h>
+
+namespace lockstone::net {
+namespace {
+
+std::string hexadecimal(std::uint64_t value) {
+  constexpr std::string_view k_digits = "0123456789abcdef";
+  std::string text = "0x0000000000000000";
+  for (std::size_t i = text.size(); i-- > 2; value >>= 4)
+    text[i] = k_digits[value & 15];
+  return text;
+}
+
+}  // namespace
+
+std::string_view to_string(SetupError error) {
+  switch (error) {
+    case SetupError::none:
+      return "none";
+    case SetupError::insecure_not_requested:
+      return "insecure not requested";
+    case SetupError::match_config_too_long:
+      return "match config too long";
+    case SetupError::player_count_out_of_range:
+      return "player count out of range";
+    case SetupError::input_bytes_out_of_range:
+      return "input bytes out of range";
+    case SetupError::tick_rate_out_of_range:
+      return "tick rate out of range";
+    case SetupError::input_delay_out_of_range:
+      return "input delay out of range";
+    case SetupError::history_out_of_range:
+      return "history out of range";
+    case SetupError::timeouts_out_of_range:
+      return "time-outs out of range";
+    case SetupError::simulation_already_stepped:
+      return "simulation already stepped";
+  }
+  return "unknown";
+}
+
+std::string Refusal::to_line() const {
+  std::string line = "refused: " + std::string(to_string(reason));
+  if (field == RefuseField::none) return line;
+  line += ", " + std::string(to_string(field)) + ": ";
+  return line + hexadecimal(here) + " here, " + hexadecimal(there) + " there";
+}
+
+std::string DesyncReport::to_line() const {
+  std::string line = "tick " + std::to_string(tick) + ", player " + std::to_string(slot) + ", ";
+  if (difference.differs) return line + difference.to_line();
+  return line + "hash: " + hexadecimal(hash_here) + " here, " + hexadecimal(hash_there) + " there";
+}
+
+}  // namespace lockstone::net

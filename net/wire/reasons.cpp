@@ -1,0 +1,46 @@
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include <lockstone/net/reasons.h>
+
+namespace lockstone::net {
+namespace {
+
+constexpr std::array<std::string_view, 8> k_refuse_reasons{
+    "none",       "protocol mismatch", "insecure not allowed", "simulation mismatch",
+    "match full", "slot taken",        "match running",        "handshake timeout"};
+constexpr std::array<std::string_view, 11> k_refuse_fields{
+    "none",   "protocol",  "insecure",     "abi",         "config_hash", "scene_hash",
+    "canary", "tick_rate", "player_count", "input_bytes", "slot"};
+constexpr std::array<std::string_view, 3> k_verdicts{"client diverged", "minority", "undecided"};
+constexpr std::array<std::string_view, 4> k_finish_reasons{"completed", "stopped", "desync",
+                                                           "no players"};
+constexpr std::array<std::string_view, 7> k_leave_reasons{
+    "left", "disconnected", "timed out", "malformed", "desync", "too far behind", "match over"};
+
+template <class E>
+std::string_view name_of(std::span<const std::string_view> names, E value) {
+  const auto index = static_cast<std::size_t>(value);
+  return index < names.size() ? names[index] : "unknown";
+}
+
+}  // namespace
+
+std::string_view to_string(RefuseReason reason) {
+  return name_of(k_refuse_reasons, reason);
+}
+std::string_view to_string(RefuseField field) {
+  return name_of(k_refuse_fields, field);
+}
+std::string_view to_string(Verdict verdict) {
+  return name_of(k_verdicts, verdict);
+}
+std::string_view to_string(FinishReason reason) {
+  return name_of(k_finish_reasons, reason);
+}
+std::string_view to_string(LeaveReason reason) {
+  return name_of(k_leave_reasons, reason);
+}
+
+}  // namespace lockstone::net

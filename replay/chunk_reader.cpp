@@ -1,0 +1,118 @@
+#include "replay/chunk_reader.h"
+
+#include <array>
+#include <utility>
+
+namespace lockstone::replay {
+
+Walk ChunkReader::open() {
+  std::array<std::byte, k_max_file_header_bytes> buffer{};
+  const std::uint64_t size = source_.size();
+  const auto truncated = [&] {
+    return reject_file(
+        {Status::truncated, static_cast<std::size_t>(size), "ends inside the file header"});
+  };
+  if (size < k_file_prefix_bytes) return truncated();
+  const std::span<std::byte> prefix = std::span(buffer).first(k_file_prefix_bytes);
+  if (source_.read_at(0, prefix) != Status::ok) return read_error();
+  std::size_t header_bytes = 0;
+  DecodeFault fault = decode_file_prefix(prefix, header_bytes);
+  if (!fault.ok()) return reject_file(fault);
+  if (size < header_bytes) return truncated();
+  const std::span<std::byte> header = std::span(buffer).first(header_bytes);
+  if (source_.read_at(0, header) != Status::ok) return read_error();
+  fault = decode_file_header(header, log_, previous_);
+  if (!fault.ok()) return reject_file(fault);
+  cursor_ = header_bytes;
+  return Walk::good;
+}
+
+Walk ChunkReader::next_frame() {
+  chunk_offset_ = cursor_;
+  frame_ = {};
+  if (remaining() == 0) return Walk::finished;
+  if (remaining() < k_chunk_header_bytes) {
+    return torn(ChunkType::none, "the log ends inside the frame of a chunk");
+  }
+  std::array<std::byte, k_chunk_header_bytes> bytes{};
+  if (source_.read_at(cursor_, bytes) != Status::ok) return read_error();
+  const DecodeFault fault = decode_chunk_frame(bytes, frame_);
+  if (fault.status == Status::checksum_mismatch) {
+    // The type in a damaged frame may be the damage, so it is not named.
+    frame_.header.type = ChunkType::none;
+    return reject(Status::checksum_mismatch, "frame of " + name_chunk() + ": " + fault.what);
+  }
+  if (!fault.ok()) return reject(fault.status, "frame of " + name_chunk() + ": " + fault.what);
+  return check_place();
+}
+
+Walk ChunkReader::check_place() {
+  if (frame_.header.sequence != sequence_) {
+    return reject(Status::malformed, "chunk " + std::to_string(frame_.header.sequence) +
+                                         " stands where chunk " + std::to_string(sequence_) +
+                                         " belongs: chunks are missing, repeated or out of order");
+  }
+  if (frame_.previous != previous_) {
+    return reject(Status::checksum_mismatch,
+                  name_chunk() + " does not follow what stands before it: it is from another log");
+  }
+  if (remaining() - k_chunk_header_bytes < frame_.header.stored_bytes) {
+    return torn(frame_.header.type, "the log ends inside " + name_chunk());
+  }
+  previous_ = frame_.checksum;
+  ++sequence_;
+  cursor_ += k_chunk_header_bytes + frame_.header.stored_bytes;
+  return Walk::good;
+}
+
+Walk ChunkReader::read_payload() {
+  payload_.resize(frame_.header.stored_bytes);
+  const std::uint64_t offset = chunk_offset_ + k_chunk_header_bytes;
+  if (source_.read_at(offset, payload_) != Status::ok) return read_error();
+  if (payload_checksum(payload_) == frame_.payload_checksum) return Walk::good;
+  return reject(Status::checksum_mismatch, "payload of " + name_chunk() + ": wrong checksum");
+}
+
+std::string ChunkReader::name_chunk() const {
+  const ChunkHeader& header = frame_.header;
+  if (header.type == ChunkType::none) return "chunk " + std::to_string(sequence_);
+  std::string name(to_string(header.type));
+  name +=
+      " chunk " + std::to_string(header.sequence) + " (tick " + std::to_string(header.first_tick);
+  if (header.count > 1 && header.type != ChunkType::event) {
+    name += " to " + std::to_string(header.first_tick + header.count - 1);
+  }
+  return name + ')';
+}
+
+void ChunkReader::reject_payload(const DecodeFault& fault) {
+  report(Walk::damaged, {fault.status, chunk_offset_ + k_chunk_header_bytes + fault.position,
+                         frame_.header.type, name_chunk() + ": " + fault.what});
+}
+
+void ChunkReader::reject_chunk(Status status, const char* what) {
+  reject(status, name_chunk() + ": " + what);
+}
+
+Walk ChunkReader::reject(Status status, std::string what) {
+  return report(Walk::damaged, {status, chunk_offset_, frame_.header.type, std::move(what)});
+}
+
+Walk ChunkReader::reject_file(const DecodeFault& fault) {
+  return report(Walk::damaged, {fault.status, fault.position, ChunkType::none, fault.what});
+}
+
+Walk ChunkReader::torn(ChunkType type, std::string what) {
+  return report(Walk::torn, {Status::truncated, chunk_offset_, type, std::move(what)});
+}
+
+Walk ChunkReader::read_error() {
+  return reject(Status::io_error, "the system refuses to read the log");
+}
+
+Walk ChunkReader::report(Walk walk, Damage damage) {
+  damage_ = std::move(damage);
+  return walk;
+}
+
+}  // namespace lockstone::replay

@@ -1,0 +1,74 @@
+// Walks the chunks of a log and checks everything that needs no knowledge of their content: frames,
+// checksums, sequence, the chain from each chunk to the one before it, lengths.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <lockstone/bytes.h>
+#include <lockstone/replay/format.h>
+#include <lockstone/replay/source.h>
+
+#include "replay/decode_fault.h"
+#include "replay/header_codec.h"
+
+namespace lockstone::replay {
+
+enum class Walk : std::uint8_t {
+  good,      ///< the header, the frame or the payload asked for was read
+  finished,  ///< the log ends where a chunk would begin
+  torn,      ///< the log ends inside a chunk
+  damaged,
+};
+
+class ChunkReader {
+ public:
+  explicit ChunkReader(Source& source) : source_(source) {}
+
+  /// Reads the file header: good or damaged. First, once.
+  [[nodiscard]] Walk open();
+
+  /// Reads the next chunk's frame; the payload of the one before may be left unread.
+  [[nodiscard]] Walk next_frame();
+
+  /// Reads the payload of the chunk whose frame was read: good or damaged.
+  [[nodiscard]] Walk read_payload();
+
+  /// Reports damage found in the current chunk's payload, at the fault's place in it.
+  void reject_payload(const DecodeFault& fault);
+
+  /// Reports that the current chunk as a whole is not acceptable.
+  void reject_chunk(Status status, const char* what);
+
+  [[nodiscard]] const LogHeader& log() const { return log_; }
+  [[nodiscard]] const ChunkHeader& chunk() const { return frame_.header; }
+  [[nodiscard]] std::uint64_t chunk_offset() const { return chunk_offset_; }
+  [[nodiscard]] ByteView payload() const { return payload_; }
+
+  /// What was complained about last; Status::ok before that.
+  [[nodiscard]] const Damage& damage() const { return damage_; }
+
+ private:
+  [[nodiscard]] std::uint64_t remaining() const { return source_.size() - cursor_; }
+  [[nodiscard]] std::string name_chunk() const;
+  Walk reject(Status status, std::string what);
+  Walk reject_file(const DecodeFault& fault);
+  Walk report(Walk walk, Damage damage);
+  Walk read_error();
+  Walk torn(ChunkType type, std::string what);
+  Walk check_place();
+
+  Source& source_;
+  LogHeader log_;
+  ChunkFrame frame_;
+  std::vector<std::byte> payload_;
+  std::uint64_t cursor_ = 0;        ///< where the next chunk begins
+  std::uint64_t chunk_offset_ = 0;  ///< of the current chunk
+  std::uint64_t previous_ = 0;      ///< checksum that the next chunk must name
+  std::uint32_t sequence_ = 0;      ///< of the next chunk
+  Damage damage_;
+};
+
+}  // namespace lockstone::replay

@@ -1,0 +1,215 @@
+#include "replay/header_codec.h"
+
+#include <algorithm>
+
+#include <lockstone/assert.h>
+#include <lockstone/hash.h>
+
+namespace lockstone::replay {
+namespace {
+
+// A byte above 127, both line ends and a control-Z: a transfer as text changes one of them.
+constexpr std::array<std::uint8_t, 8> k_magic{0x89, 'L', 'K', 'S', '\r', '\n', 0x1a, '\n'};
+
+// Seeds keep the three kinds of checksum apart.
+constexpr std::uint64_t k_file_seed = 1;
+constexpr std::uint64_t k_frame_seed = 2;
+constexpr std::uint64_t k_payload_seed = 3;
+
+constexpr std::uint32_t k_sync = 0x434b4ca7;  // bytes a7 'L' 'K' 'C'
+constexpr std::size_t k_frame_checksum_offset = k_chunk_header_bytes - k_checksum_bytes;
+
+// The longest INPUT payload; tests relate it to InputEncoder::bytes_max.
+constexpr std::size_t k_max_input_payload_bytes = 2U << 20;
+
+std::size_t build_bytes(const LogHeader& header) {
+  return std::min(header.match.build.size(), k_max_build_bytes);
+}
+
+bool is_printable(ByteView text) {
+  return std::all_of(text.begin(), text.end(), [](std::byte byte) {
+    return byte >= std::byte{0x20} && byte != std::byte{0x7f};
+  });
+}
+
+DecodeFault check_ranges(const LogHeader& header) {
+  const SimulationInfo& info = header.info;
+  if (info.tick_rate == 0) return malformed(40, "tick rate is 0");
+  if (info.player_count == 0 || info.player_count > k_max_players) {
+    return malformed(42, "player count out of range");
+  }
+  if (info.input_bytes == 0 || info.input_bytes > k_max_input_bytes) {
+    return malformed(43, "input size out of range");
+  }
+  if (header.match.start_tick > k_max_start_tick) return malformed(64, "start tick out of range");
+  return {};
+}
+
+DecodeFault check_lengths(const ChunkHeader& header) {
+  if (header.stored_bytes > max_payload_bytes(header.type) ||
+      header.raw_bytes > max_payload_bytes(header.type)) {
+    return malformed(32, "announces a payload beyond the limit");
+  }
+  if (header.codec == Codec::raw && header.raw_bytes != header.stored_bytes) {
+    return malformed(32, "raw and stored length differ without compression");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::size_t file_header_bytes(const LogHeader& header) {
+  return k_min_file_header_bytes + build_bytes(header);
+}
+
+std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> out) {
+  const std::size_t total_bytes = file_header_bytes(header);
+  ByteWriter writer(out.first(total_bytes));
+  for (std::uint8_t byte : k_magic)
+    writer.put(byte);
+  writer.put(k_format_version);
+  writer.put(static_cast<std::uint16_t>(total_bytes));
+  writer.put(header.info.abi);
+  writer.put(header.info.config_hash);
+  writer.put(header.info.scene_hash);
+  writer.put(header.info.canary);
+  writer.put(header.info.tick_rate);
+  writer.put(header.info.player_count);
+  writer.put(header.info.input_bytes);
+  writer.put(std::uint32_t{0});
+  writer.put(header.match.match_id);
+  writer.put(header.match.seed);
+  writer.put(header.match.start_tick);
+  writer.put(static_cast<std::uint16_t>(build_bytes(header)));
+  writer.put_bytes(std::as_bytes(std::span(header.match.build)).first(build_bytes(header)));
+  const std::uint64_t checksum = hash64(writer.written(), k_file_seed);
+  writer.put(checksum);
+  LKS_CHECK(writer.ok() && writer.size() == total_bytes);
+  return checksum;
+}
+
+DecodeFault decode_file_prefix(ByteView prefix, std::size_t& header_bytes) {
+  ByteReader reader(prefix);
+  for (std::uint8_t byte : k_magic) {
+    const std::size_t position = reader.position();
+    if (reader.get<std::uint8_t>() != byte) return malformed(position, "not a Lockstone log");
+  }
+  (void)reader.get<std::uint16_t>();  // the version counts once the checksum has been seen
+  header_bytes = reader.get<std::uint16_t>();
+  if (header_bytes < k_min_file_header_bytes || header_bytes > k_max_file_header_bytes) {
+    return malformed(10, "file header length out of range");
+  }
+  return {};
+}
+
+DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t& checksum) {
+  const ByteView covered = bytes.first(bytes.size() - k_checksum_bytes);
+  checksum = ByteReader(bytes.last(k_checksum_bytes)).get<std::uint64_t>();
+  if (hash64(covered, k_file_seed) != checksum) {
+    return {Status::checksum_mismatch, 0, "file header: wrong checksum"};
+  }
+  ByteReader reader(covered);
+  (void)reader.get_bytes(k_magic.size());
+  if (reader.get<std::uint16_t>() != k_format_version) {
+    return {Status::unsupported_version, 8, "another format version"};
+  }
+  (void)reader.get<std::uint16_t>();
+  header.info.abi = reader.get<std::uint32_t>();
+  header.info.config_hash = reader.get<std::uint64_t>();
+  header.info.scene_hash = reader.get<std::uint64_t>();
+  header.info.canary = reader.get<std::uint64_t>();
+  header.info.tick_rate = reader.get<std::uint16_t>();
+  header.info.player_count = reader.get<std::uint8_t>();
+  header.info.input_bytes = reader.get<std::uint8_t>();
+  if (reader.get<std::uint32_t>() != 0) return malformed(44, "reserved bytes are not 0");
+  header.match.match_id = reader.get<std::uint64_t>();
+  header.match.seed = reader.get<std::uint64_t>();
+  header.match.start_tick = reader.get<std::uint64_t>();
+  const std::size_t length = reader.get<std::uint16_t>();
+  if (length > k_max_build_bytes) return malformed(72, "build string too long");
+  const ByteView build = reader.get_bytes(length);
+  if (!reader.ok()) return malformed(72, "build string longer than the header");
+  if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the build string");
+  if (!is_printable(build)) return malformed(k_file_fixed_bytes, "control byte in build string");
+  header.match.build.assign(reinterpret_cast<const char*>(build.data()), build.size());
+  return check_ranges(header);
+}
+
+std::uint64_t payload_checksum(ByteView stored) {
+  return hash64(stored, k_payload_seed);
+}
+
+std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
+                                 std::span<std::byte, k_chunk_header_bytes> out) {
+  const ChunkHeader& header = frame.header;
+  ByteWriter writer(out);
+  writer.put(k_sync);
+  writer.put(header.type);
+  writer.put(header.version);
+  writer.put(header.codec);
+  writer.put(header.flags);
+  writer.put(header.sequence);
+  writer.put(header.count);
+  writer.put(header.first_tick);
+  writer.put(header.raw_bytes);
+  writer.put(header.stored_bytes);
+  writer.put(frame.previous);
+  writer.put(frame.payload_checksum);
+  const std::uint64_t checksum = hash64(writer.written(), k_frame_seed);
+  writer.put(checksum);
+  LKS_CHECK(writer.ok() && writer.size() == k_chunk_header_bytes);
+  return checksum;
+}
+
+DecodeFault decode_chunk_frame(std::span<const std::byte, k_chunk_header_bytes> bytes,
+                               ChunkFrame& frame) {
+  ByteReader reader(bytes);
+  if (reader.get<std::uint32_t>() != k_sync) {
+    return {Status::checksum_mismatch, 0, "no chunk begins here"};
+  }
+  ChunkHeader& header = frame.header;
+  header.type = static_cast<ChunkType>(reader.get<std::uint8_t>());
+  header.version = reader.get<std::uint8_t>();
+  header.codec = static_cast<Codec>(reader.get<std::uint8_t>());
+  header.flags = reader.get<std::uint8_t>();
+  header.sequence = reader.get<std::uint32_t>();
+  header.count = reader.get<std::uint32_t>();
+  header.first_tick = reader.get<std::uint64_t>();
+  header.raw_bytes = reader.get<std::uint32_t>();
+  header.stored_bytes = reader.get<std::uint32_t>();
+  frame.previous = reader.get<std::uint64_t>();
+  frame.payload_checksum = reader.get<std::uint64_t>();
+  frame.checksum = reader.get<std::uint64_t>();
+  if (hash64(bytes.first(k_frame_checksum_offset), k_frame_seed) != frame.checksum) {
+    return {Status::checksum_mismatch, 0, "wrong checksum"};
+  }
+  if ((header.flags & ~k_flag_may_skip) != 0) {
+    return {Status::unsupported_version, 7, "unknown flags"};
+  }
+  return check_lengths(header);
+}
+
+std::size_t max_payload_bytes(ChunkType type) {
+  switch (type) {
+    case ChunkType::scene:
+      return k_max_scene_bytes;
+    case ChunkType::input:
+      return k_max_input_payload_bytes;
+    case ChunkType::hash:
+      return k_max_chunk_ticks * sizeof(std::uint64_t);
+    case ChunkType::event:
+      return 1U << 20;
+    case ChunkType::end:
+      return 1024;
+    case ChunkType::keyframe:
+      return k_max_keyframe_bytes + sizeof(std::uint64_t);
+    default:
+      return k_max_keyframe_bytes;
+  }
+}
+
+bool is_known(ChunkType type) {
+  return (type >= ChunkType::scene && type <= ChunkType::event) || type == ChunkType::end;
+}
+
+}  // namespace lockstone::replay

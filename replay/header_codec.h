@@ -1,0 +1,59 @@
+// The file header and the chunk frame as bytes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <lockstone/bytes.h>
+#include <lockstone/replay/format.h>
+
+#include "replay/decode_fault.h"
+
+namespace lockstone::replay {
+
+/// In every format version: magic, version and length come first, the checksum last.
+inline constexpr std::size_t k_file_prefix_bytes = 12;
+inline constexpr std::size_t k_file_fixed_bytes = 74;  ///< up to the build string
+inline constexpr std::size_t k_checksum_bytes = 8;
+inline constexpr std::size_t k_min_file_header_bytes = k_file_fixed_bytes + k_checksum_bytes;
+
+/// Bytes that encode_file_header() writes.
+[[nodiscard]] std::size_t file_header_bytes(const LogHeader& header);
+
+/// Writes the header, with `build` cut to k_max_build_bytes; answers its checksum, which the first
+/// chunk names as its predecessor's. `out` has file_header_bytes() bytes.
+std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> out);
+
+/// Reads magic and length from the first k_file_prefix_bytes.
+[[nodiscard]] DecodeFault decode_file_prefix(ByteView prefix, std::size_t& header_bytes);
+
+/// Reads the whole header: `bytes` is as long as the prefix said.
+[[nodiscard]] DecodeFault decode_file_header(ByteView bytes, LogHeader& header,
+                                             std::uint64_t& checksum);
+
+/// A chunk's frame with what ties it to its payload and to the chunk before it.
+struct ChunkFrame {
+  ChunkHeader header;
+  std::uint64_t previous = 0;  ///< checksum of the frame before, or of the file header
+  std::uint64_t payload_checksum = 0;
+  std::uint64_t checksum = 0;  ///< of the frame itself; covers the two above
+};
+
+[[nodiscard]] std::uint64_t payload_checksum(ByteView stored);
+
+/// Writes the frame and answers its checksum. `frame.checksum` is not read.
+std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
+                                 std::span<std::byte, k_chunk_header_bytes> out);
+
+/// Checks sync word, checksum, version, codec, flags and lengths.
+[[nodiscard]] DecodeFault decode_chunk_frame(std::span<const std::byte, k_chunk_header_bytes> bytes,
+                                             ChunkFrame& frame);
+
+/// The longest payload that a chunk of this type may announce.
+[[nodiscard]] std::size_t max_payload_bytes(ChunkType type);
+
+[[nodiscard]] bool is_known(ChunkType type);
+
+}  // namespace lockstone::replay

@@ -1,0 +1,106 @@
+// Reads a log chunk by chunk, and lets nothing out that it has not checked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <lockstone/replay/format.h>
+#include <lockstone/replay/source.h>
+#include <lockstone/simulation.h>
+
+namespace lockstone::replay {
+
+/// What LogReader::next() came to.
+enum class LogItem : std::uint8_t {
+  scene,     ///< config()
+  inputs,    ///< tick_inputs(), whose hashes should come next
+  hashes,    ///< hashes() of the same ticks; tick_inputs() still holds them
+  keyframe,  ///< keyframe_hash(), snapshot()
+  events,    ///< events()
+  end,       ///< end()
+  skipped,   ///< a chunk of a type that this build does not know, marked as one to skip
+  finished,  ///< no more: the log ends where a chunk would begin. complete() tells whether after
+             ///< END
+  torn,      ///< no more: the log ends inside a chunk. damage() tells where; not an error as such
+  damaged,   ///< no more: damage() tells where and how
+};
+
+/// True for finished, torn and damaged, after which next() repeats itself.
+[[nodiscard]] constexpr bool is_last(LogItem item) {
+  return item >= LogItem::finished;
+}
+
+/// Holds one chunk at a time. Every item is checked whole before it is answered: its checksums, its
+/// place in the chain, and that ticks follow each other. What stands before damage is all
+/// delivered.
+class LogReader {
+ public:
+  /// `source` must outlive the reader.
+  explicit LogReader(Source& source);
+  ~LogReader();
+
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+
+  /// Reads the file header; first, once. truncated, malformed, checksum_mismatch,
+  /// unsupported_version or io_error, with damage() saying more.
+  Status open();
+
+  /// Reads the next chunk. What the accessors below gave before is no longer valid, except that
+  /// tick_inputs() lasts until the next `inputs`.
+  [[nodiscard]] LogItem next();
+
+  [[nodiscard]] const LogHeader& header() const;
+
+  /// The frame of the current chunk, and its offset in the file.
+  [[nodiscard]] const ChunkHeader& chunk() const;
+  [[nodiscard]] std::uint64_t chunk_offset() const;
+
+  [[nodiscard]] ByteView config() const;
+
+  /// Inputs of tick `chunk().first_tick + index`, in slot order; index < chunk().count.
+  [[nodiscard]] std::span<const PlayerInput> tick_inputs(std::size_t index) const;
+
+  /// The state hash after each tick of the chunk.
+  [[nodiscard]] std::span<const std::uint64_t> hashes() const;
+
+  /// The state at tick chunk().first_tick, before that tick's inputs.
+  [[nodiscard]] ByteView snapshot() const;
+  [[nodiscard]] std::uint64_t keyframe_hash() const;
+
+  [[nodiscard]] std::span<const LogEvent> events() const;
+
+  /// The END, once it was read.
+  [[nodiscard]] const LogEnd& end() const;
+
+  /// True once the END was read: nothing of the match is missing.
+  [[nodiscard]] bool complete() const;
+
+  /// Status::ok unless the log is torn or damaged.
+  [[nodiscard]] const Damage& damage() const;
+
+ private:
+  struct Parts;
+
+  [[nodiscard]] LogItem read_next();
+  [[nodiscard]] LogItem read_known();
+  [[nodiscard]] bool check_frame();
+  [[nodiscard]] bool check_order();
+  [[nodiscard]] LogItem read_scene();
+  [[nodiscard]] LogItem read_inputs();
+  [[nodiscard]] LogItem read_hashes();
+  [[nodiscard]] LogItem read_keyframe();
+  [[nodiscard]] LogItem read_events();
+  [[nodiscard]] LogItem read_end();
+
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Counts the ticks that a log holds from its frames alone, without reading the payloads. For
+/// progress: 0 for what is not a log; counting stops at the first damage in a frame.
+[[nodiscard]] std::uint64_t count_ticks(Source& source);
+
+}  // namespace lockstone::replay

@@ -1,0 +1,49 @@
+// Logs may exceed 2 GiB on 32-bit systems.
+#define _FILE_OFFSET_BITS 64
+
+#include <algorithm>
+#include <cerrno>
+
+#include <lockstone/assert.h>
+#include <lockstone/replay/source.h>
+
+namespace lockstone::replay {
+
+Result<std::unique_ptr<FileSource>> FileSource::open(const std::string& path) {
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return errno == ENOENT ? Status::not_found : Status::io_error;
+  const auto end = ::fseeko(file, 0, SEEK_END) == 0 ? ::ftello(file) : -1;
+  const bool rewound = end >= 0 && ::fseeko(file, 0, SEEK_SET) == 0;
+  // A directory opens and seeks; only reading it fails.
+  const bool readable = rewound && (end == 0 || std::fgetc(file) != EOF);
+  if (!readable || ::fseeko(file, 0, SEEK_SET) != 0) {
+    std::fclose(file);
+    return Status::io_error;
+  }
+  return std::unique_ptr<FileSource>(new FileSource(file, static_cast<std::uint64_t>(end)));
+}
+
+FileSource::~FileSource() {
+  std::fclose(file_);
+}
+
+Status FileSource::read_at(std::uint64_t offset, std::span<std::byte> out) {
+  LKS_ASSERT(offset <= size_ && out.size() <= size_ - offset);
+  // Seeking drops the stream's buffer, so it is left out where the reads are sequential.
+  if (offset != position_ && ::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) {
+    return Status::io_error;
+  }
+  const std::size_t got = std::fread(out.data(), 1, out.size(), file_);
+  position_ = offset + got;
+  return got == out.size() ? Status::ok : Status::io_error;
+}
+
+Status MemorySource::read_at(std::uint64_t offset, std::span<std::byte> out) {
+  LKS_CHECK(offset <= bytes_.size() && out.size() <= bytes_.size() - offset);
+  const ByteView from = bytes_.subspan(static_cast<std::size_t>(offset), out.size());
+  std::copy(from.begin(), from.end(), out.begin());
+  return Status::ok;
+}
+
+}  // namespace lockstone::replay
