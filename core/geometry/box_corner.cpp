@@ -62,8 +62,8 @@ struct NearestVertex {
   std::uint64_t square = ~std::uint64_t{0};
 };
 
-/// `edges` are the half edges and `centre` the centre of the box with the vertices, in the axes of the
-/// other, whose half extents are `half`.
+/// `edges` are the half edges and `centre` the centre of the box with the vertices, in the axes of
+/// the other, whose half extents are `half`.
 void find_nearest(NearestVertex& best, bool of_b, const RawVec& centre,
                   const std::array<RawVec, 3>& edges, const RawVec& half) {
   for (int index = 0; index < 8; ++index) {

@@ -7,7 +7,8 @@ namespace lockstone::geometry {
 
 struct EdgeContact {
   Manifold manifold;
-  bool crossing = false;  ///< the closest points lie inside both edges, so the separation is the distance
+  bool crossing =
+      false;  ///< the closest points lie inside both edges, so the separation is the distance
 };
 
 /// One point between the edges that support the axis.

@@ -51,22 +51,28 @@ struct IncidentFace {
   }
 };
 
-int tangent_x(const FaceFrame& frame) { return (frame.face.axis + 1) % 3; }
-int tangent_y(const FaceFrame& frame) { return (frame.face.axis + 2) % 3; }
+int tangent_x(const FaceFrame& frame) {
+  return (frame.face.axis + 1) % 3;
+}
+int tangent_y(const FaceFrame& frame) {
+  return (frame.face.axis + 2) % 3;
+}
 
 std::array<std::int64_t, 3> in_frame(const FaceFrame& frame, const RawVec& v) {
   return {v[tangent_x(frame)], v[tangent_y(frame)], frame.face.sign * v[frame.face.axis]};
 }
 
-RawVec lanes_of(const Vec3<Unit>& v) { return {v.x.raw, v.y.raw, v.z.raw}; }
+RawVec lanes_of(const Vec3<Unit>& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
 
 /// The face most opposed to the reference normal, the first of equals.
 IncidentFace incident_face(const FaceFrame& frame) {
   IncidentFace result;
   std::int64_t most = -1;
   for (int j = 0; j < 3; ++j) {
-    const std::int64_t lean = frame.face.sign *
-                              frame.axes[static_cast<std::size_t>(j)][frame.face.axis].raw;
+    const std::int64_t lean =
+        frame.face.sign * frame.axes[static_cast<std::size_t>(j)][frame.face.axis].raw;
     if (magnitude_of(lean) <= most) continue;
     most = magnitude_of(lean);
     result.axis = j;
@@ -130,10 +136,20 @@ ClipVertex intersection(const ClipVertex& inside, Fine inside_excess, const Clip
   return result;
 }
 
-ClipPolygon clip(ClipPolygon polygon, const Side& side, const IncidentFace& face) {
+/// Snaps the vertices of a polygon that reaches inside; one wholly outside stays outside.
+void snap_all(ClipPolygon& polygon, const Side& side, const IncidentFace& face) {
+  bool reaches_inside = false;
+  for (int i = 0; i < polygon.count; ++i) {
+    reaches_inside = reaches_inside || side.excess(polygon[i]) < 0;
+  }
+  if (!reaches_inside) return;
   for (int i = 0; i < polygon.count; ++i) {
     snap(polygon.vertices[static_cast<std::size_t>(i)], side, face);
   }
+}
+
+ClipPolygon clip(ClipPolygon polygon, const Side& side, const IncidentFace& face) {
+  snap_all(polygon, side, face);
   ClipPolygon result;
   for (int i = 0; i < polygon.count; ++i) {
     const ClipVertex& from = polygon[i];
@@ -176,8 +192,8 @@ RawVec from_frame(const FaceFrame& frame, const FaceVertex& v, Fine height) {
 }  // namespace
 
 FaceFrame frame_on_a(const BoxPair& pair, const FaceAxis& face) {
-  return {pair.a,      pair.offset,       pair.margin, face, pair.centre_in_a,
-          pair.b_in_a, pair.b.shape.size, 1U << 13};
+  return {pair.a,           pair.offset, pair.margin,       face,
+          pair.centre_in_a, pair.b_in_a, pair.b.shape.size, 1U << 13};
 }
 
 FaceFrame frame_on_b(const BoxPair& pair, const FaceAxis& face, const Vec3<Length>& back) {

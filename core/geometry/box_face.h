@@ -11,13 +11,13 @@ namespace lockstone::geometry {
 /// z the height above it.
 struct FaceFrame {
   const PosedShape& reference;
-  const Vec3<Length>& offset;        ///< reference to incident
+  const Vec3<Length>& offset;  ///< reference to incident
   Length margin;
   FaceAxis face;                     ///< of the reference; points to the incident box
   RawVec centre;                     ///< of the incident box, in the reference's axes
   std::array<Vec3<Unit>, 3> axes{};  ///< of the incident box, in the reference's axes
   Vec3<Length> incident_half;
-  std::uint32_t feature_bits = 0;    ///< which box is the reference
+  std::uint32_t feature_bits = 0;  ///< which box is the reference
 };
 
 [[nodiscard]] FaceFrame frame_on_a(const BoxPair& pair, const FaceAxis& face);

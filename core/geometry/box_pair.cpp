@@ -28,12 +28,13 @@ Fine rough_edge_separation(const BoxPair& pair, const RawVec& centre, int i, int
   const Vec3<Length>& half_b = pair.b.shape.size;
   const Fine apart = magnitude_of(centre[i2] * b[i1].raw - centre[i1] * b[i2].raw);
   const Fine reach_a = (half_a[i1] * abs(b[i2]) + half_a[i2] * abs(b[i1])).raw;
-  const Fine reach_b =
-      (half_b[(j + 1) % 3] * abs(b2[i]) + half_b[(j + 2) % 3] * abs(b1[i])).raw;
+  const Fine reach_b = (half_b[(j + 1) % 3] * abs(b2[i]) + half_b[(j + 2) % 3] * abs(b1[i])).raw;
   return apart - reach_a - reach_b;
 }
 
-Vec3<Unit> along_columns(const Mat3& m, const Vec3<Unit>& v) { return rotate_inverse(m, v); }
+Vec3<Unit> along_columns(const Mat3& m, const Vec3<Unit>& v) {
+  return rotate_inverse(m, v);
+}
 
 /// The separation on a unit world axis, exact for that axis up to the rounding of its coordinates.
 Fine separation_on(const BoxPair& pair, const Vec3<Unit>& normal) {
@@ -55,8 +56,14 @@ EdgeAxis edge_axis(const BoxPair& pair, int i, int j) {
 
 BoxPair make_box_pair(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                       Length margin) {
-  BoxPair pair{a, b, offset, margin, half_extents(a.shape), half_extents(b.shape),
-               to_local(a.rotation, offset), to_local(b.rotation, offset)};
+  BoxPair pair{a,
+               b,
+               offset,
+               margin,
+               half_extents(a.shape),
+               half_extents(b.shape),
+               to_local(a.rotation, offset),
+               to_local(b.rotation, offset)};
   for (int j = 0; j < 3; ++j) {
     pair.b_in_a[static_cast<std::size_t>(j)] = to_local(a.rotation, b.rotation.column(j));
   }

@@ -15,9 +15,9 @@ struct BoxPair {
   Length margin;
   RawVec half_a;
   RawVec half_b;
-  RawVec centre_in_a;                   ///< of B, in A's axes
-  RawVec centre_in_b;                   ///< of B seen from A, in B's axes
-  std::array<Vec3<Unit>, 3> b_in_a{};   ///< B's axes in A's axes: [j][i] = a_i · b_j
+  RawVec centre_in_a;                  ///< of B, in A's axes
+  RawVec centre_in_b;                  ///< of B seen from A, in B's axes
+  std::array<Vec3<Unit>, 3> b_in_a{};  ///< B's axes in A's axes: [j][i] = a_i · b_j
 };
 
 [[nodiscard]] BoxPair make_box_pair(const PosedShape& a, const PosedShape& b,
@@ -26,7 +26,7 @@ struct BoxPair {
 /// A face normal that separates most, of one box.
 struct FaceAxis {
   int axis = 0;
-  int sign = 1;         ///< the normal ±axis points from A to B
+  int sign = 1;  ///< the normal ±axis points from A to B
   Fine separation = 0;
 };
 
@@ -39,7 +39,7 @@ struct EdgeAxis {
   bool found = false;
   int axis_a = 0;
   int axis_b = 0;
-  Vec3<Unit> normal;    ///< world axes, from A to B
+  Vec3<Unit> normal;  ///< world axes, from A to B
   Fine separation = 0;
 };
 

@@ -7,7 +7,7 @@ namespace lockstone::geometry {
 
 /// A segment in the axes of a box that is centred on the origin.
 struct LocalSegment {
-  RawVec centre;    ///< fine
+  RawVec centre;  ///< fine
   Vec3<Unit> axis;
   Fine half = 0;
   RawVec box_half;  ///< fine
@@ -34,9 +34,9 @@ struct Interval {
 /// of a box axis with the segment.
 struct OverlapAxis {
   bool is_edge = false;
-  int axis = 0;             ///< of the box
-  Vec3<Unit> normal;        ///< in the box's axes, from the box to the segment's centre
-  Fine separation = 0;      ///< of the segment itself; negative
+  int axis = 0;         ///< of the box
+  Vec3<Unit> normal;    ///< in the box's axes, from the box to the segment's centre
+  Fine separation = 0;  ///< of the segment itself; negative
 };
 [[nodiscard]] OverlapAxis least_overlap(const LocalSegment& segment);
 

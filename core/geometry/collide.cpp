@@ -37,9 +37,12 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
   using namespace geometry;
   if (a.shape.kind == ShapeKind::box) {
     switch (b.shape.kind) {
-      case ShapeKind::sphere: return collide_box_sphere(a, b, offset, margin);
-      case ShapeKind::capsule: return collide_box_capsule(a, b, offset, margin);
-      case ShapeKind::box: return collide_boxes(a, b, offset, margin);
+      case ShapeKind::sphere:
+        return collide_box_sphere(a, b, offset, margin);
+      case ShapeKind::capsule:
+        return collide_box_capsule(a, b, offset, margin);
+      case ShapeKind::box:
+        return collide_boxes(a, b, offset, margin);
     }
   }
   if (a.shape.kind == ShapeKind::sphere) return collide_spheres(a, b, offset, margin);

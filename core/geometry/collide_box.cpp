@@ -9,6 +9,9 @@
 namespace lockstone::geometry {
 namespace {
 
+/// More than any overlap.
+constexpr Fine k_any_separation = Fine{1} << 62;
+
 struct FaceChoice {
   FaceAxis a;
   FaceAxis b;
@@ -55,17 +58,26 @@ bool touches(const Manifold& manifold) {
   return false;
 }
 
-/// No axis separates the boxes by a positive gap, except perhaps one of two edges.
-Manifold collide_overlapping(const BoxPair& pair, const FaceChoice& faces) {
-  const Manifold on_reference = reference_manifold(pair, faces);
-  if (touches(on_reference)) return on_reference;
-  const Manifold on_other = other_manifold(pair, faces);
-  if (touches(on_other)) return on_other;
+/// The deepest vertex below the reference face: the last resort.
+Manifold deepest_vertex(const BoxPair& pair, const FaceChoice& faces) {
   if (!faces.b_is_reference) return support_manifold(pair, faces.a);
   const Vec3<Length> back = -pair.offset;
   const BoxPair reversed = make_box_pair(pair.b, pair.a, back, pair.margin);
-  return flipped(support_manifold(
-      reversed, {faces.b.axis, -faces.b.sign, faces.b.separation}));
+  return flipped(support_manifold(reversed, {faces.b.axis, -faces.b.sign, faces.b.separation}));
+}
+
+/// No axis separates the boxes, and a face is preferred. Where they overlap only beside the face,
+/// two edges meet after all.
+Manifold collide_overlapping(const BoxPair& pair, const FaceChoice& faces) {
+  const Manifold on_reference = reference_manifold(pair, faces);
+  if (touches(on_reference)) return on_reference;
+  const EdgeAxis edge = best_edge(pair, -k_any_separation);
+  if (edge.found) {
+    const EdgeContact contact = edge_contact(pair, edge);
+    if (contact.crossing) return contact.manifold;
+  }
+  const Manifold on_other = other_manifold(pair, faces);
+  return touches(on_other) ? on_other : deepest_vertex(pair, faces);
 }
 
 /// The boxes are apart: the separation of the first manifold that attains the distance is it.
@@ -95,8 +107,7 @@ Manifold collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Leng
   if (!keeps(faces.a.separation, margin)) return {};
   faces.b = best_face_of_b(pair);
   if (!keeps(faces.b.separation, margin)) return {};
-  faces.b_is_reference =
-      faces.b.separation > second_face_threshold(faces.a.separation);
+  faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
 
   const Fine separation = faces.separation();
   if (separation > 0) {

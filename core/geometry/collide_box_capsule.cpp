@@ -26,7 +26,9 @@ struct BoxCapsule {
 constexpr std::uint32_t face_feature(int axis, int sign, int end) {
   return 0x10U | static_cast<std::uint32_t>(axis << 2 | (sign < 0 ? 2 : 0) | end);
 }
-constexpr std::uint32_t edge_feature(int axis) { return 0x20U | static_cast<std::uint32_t>(axis); }
+constexpr std::uint32_t edge_feature(int axis) {
+  return 0x20U | static_cast<std::uint32_t>(axis);
+}
 
 RawVec core_point(const BoxCapsule& pair, Fine s) {
   return fine(pair.offset) + along(pair.axis, s);
@@ -91,14 +93,23 @@ Manifold nearest_point(const BoxCapsule& pair, Fine s, const RawVec& gap) {
   return manifold;
 }
 
+/// Whether the part beside the face comes as near to it as the core comes to the box.
+bool attains(const BoxCapsule& pair, int axis, int sign, const Interval& beside, Fine distance) {
+  const Fine nearest = std::min(height_at(pair, axis, sign, beside.low),
+                                height_at(pair, axis, sign, beside.high));
+  return nearest <= distance + distance / 2048;
+}
+
 Manifold collide_apart(const BoxCapsule& pair, Fine s, const RawVec& gap) {
   const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
   if (!keeps(distance - fine(pair.radius), pair.margin)) return {};
   const int axis = facing_axis(gap);
   if (axis < 0 || is_steep(pair, axis)) return nearest_point(pair, s, gap);
   const Interval beside = beside_face(pair.local, axis);
+  const int sign = sign_of(gap[axis]);
   if (beside.high - beside.low <= fine(pair.radius) / 16) return nearest_point(pair, s, gap);
-  const Manifold manifold = face_manifold(pair, axis, sign_of(gap[axis]), beside);
+  if (!attains(pair, axis, sign, beside, distance)) return nearest_point(pair, s, gap);
+  const Manifold manifold = face_manifold(pair, axis, sign, beside);
   return manifold.count > 0 ? manifold : nearest_point(pair, s, gap);
 }
 
@@ -114,8 +125,8 @@ Segment support_edge(const BoxCapsule& pair, int axis, const Vec3<Unit>& local_n
 }
 
 Manifold edge_manifold(const BoxCapsule& pair, const OverlapAxis& overlap) {
-  const RawVec n = rotate(pair.box.rotation, RawVec{overlap.normal.x.raw, overlap.normal.y.raw,
-                                                    overlap.normal.z.raw});
+  const RawVec n = rotate(pair.box.rotation,
+                          RawVec{overlap.normal.x.raw, overlap.normal.y.raw, overlap.normal.z.raw});
   const Segment edge = support_edge(pair, overlap.axis, overlap.normal);
   const Segment core{fine(pair.offset), pair.axis, pair.half_height};
   const ClosestParameters at = closest_parameters(edge, core);

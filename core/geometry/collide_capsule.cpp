@@ -29,8 +29,8 @@ Vec3<Unit> common_perpendicular(const CorePair& pair) {
   return k == RawVec{} ? perpendicular_to(pair.a.axis) : direction_of(k.x, k.y, k.z);
 }
 
-/// The closest points of the cores. Where the cores cross, the normal is the cross product, which is
-/// exact however near they are; cores that meet leave its sign open, and it stays positive.
+/// The closest points of the cores. Where the cores cross, the normal is the cross product, which
+/// is exact however near they are; cores that meet leave its sign open, and it stays positive.
 CoreContact closest_cores(const CorePair& pair) {
   const ClosestParameters at = closest_parameters(pair.a, pair.b);
   CoreContact contact;
@@ -65,11 +65,11 @@ Overlap overlap_of(const CorePair& pair) {
 }
 
 /// Whether two points describe the contact better than one: an angle below 1/32, a common side of
-/// some length, and so little divergence across the normal that both points stay within 1/2000 of
+/// some length, and so little divergence across the normal that both points stay within 1/1000 of
 /// the smaller radius of the surfaces.
 bool lies_along(const CorePair& pair, const CoreContact& contact, const Overlap& overlap) {
   const RawVec k = cross_of(pair.a.axis, pair.b.axis);
-  const auto sine = static_cast<Fine>(norm(k.x, k.y, k.z) >> 30);  // 30 fraction bits
+  const auto sine = static_cast<Fine>(norm(k.x, k.y, k.z) >> 30);             // 30 fraction bits
   const std::int64_t lean = lockstone::dot(contact.normal, pair.a.axis).raw;  // 60 fraction bits
   if (sine > (Fine{1} << 25) || magnitude_of(lean) > (Fine{1} << 55)) return false;
   const Fine length = overlap.high - overlap.low;
@@ -100,10 +100,11 @@ Manifold collide_capsules(const PosedShape& a, const PosedShape& b, const Vec3<L
   std::uint32_t feature = 1;
   for (const Fine s : {overlap.low, overlap.high}) {
     const RawVec on_a = point_at(pair.a, s);
-    const RawVec on_b = point_at(pair.b, closest_parameter(pair.b, on_a));
+    const RawVec opposite = on_a + along(contact.normal, contact.distance);
+    const RawVec on_b = point_at(pair.b, closest_parameter(pair.b, opposite));
     const Fine separation = dot(on_b - on_a, contact.normal) - pair.radii;
-    add_point(manifold, inflate(on_a, radius_a, on_b, radius_b, contact.normal), offset,
-              separation, margin, feature++);
+    add_point(manifold, inflate(on_a, radius_a, on_b, radius_b, contact.normal), offset, separation,
+              margin, feature++);
   }
   return manifold;
 }

@@ -20,9 +20,8 @@ CoreGap gap_of(const RawVec& v, const Vec3<Unit>& otherwise) {
   return {d.unit, static_cast<Fine>(d.length)};
 }
 
-Manifold round_contact(const RawVec& core_a, Length radius_a, const RawVec& core_b,
-                       Length radius_b, const CoreGap& gap, const Vec3<Length>& offset,
-                       Length margin) {
+Manifold round_contact(const RawVec& core_a, Length radius_a, const RawVec& core_b, Length radius_b,
+                       const CoreGap& gap, const Vec3<Length>& offset, Length margin) {
   Manifold manifold;
   const Fine separation = gap.distance - fine(radius_a) - fine(radius_b);
   if (!keeps(separation, margin)) return manifold;
@@ -76,10 +75,10 @@ Manifold collide_capsule_sphere(const PosedShape& capsule, const PosedShape& sph
   const RawVec centre = fine(offset);
   const RawVec closest = point_at(core, closest_parameter(core, centre));
   const RawVec gap = centre - closest;
-  return round_contact(closest, capsule.shape.size.x, centre, sphere.shape.size.x,
-                       is_negligible(gap) ? CoreGap{perpendicular_to(core.axis), 0}
-                                          : gap_of(gap, core.axis),
-                       offset, margin);
+  return round_contact(
+      closest, capsule.shape.size.x, centre, sphere.shape.size.x,
+      is_negligible(gap) ? CoreGap{perpendicular_to(core.axis), 0} : gap_of(gap, core.axis), offset,
+      margin);
 }
 
 Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,

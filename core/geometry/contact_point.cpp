@@ -42,7 +42,8 @@ void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length
 Manifold flipped(const Manifold& manifold) {
   Manifold result = manifold;
   result.normal = -manifold.normal;
-  for (ManifoldPoint& point : result.points) std::swap(point.anchor_a, point.anchor_b);
+  for (ManifoldPoint& point : result.points)
+    std::swap(point.anchor_a, point.anchor_b);
   return result;
 }
 

@@ -1,4 +1,5 @@
-// Fine lanes: raw 64-bit lengths with 50 fraction bits, the working format of the collision kernels.
+// Fine lanes: raw 64-bit lengths with 50 fraction bits, the working format of the collision
+// kernels.
 //
 // A length (20 bits) times a direction (30 bits) is exact in it, so centres, face distances and
 // vertices enter without rounding. Range ±2^13 m, resolution 2^-50 m. Every rounding is odd
@@ -88,19 +89,27 @@ struct RawVec {
   return rotate_inverse(m, v);
 }
 
-[[nodiscard]] constexpr std::int64_t magnitude_of(std::int64_t x) { return x < 0 ? -x : x; }
+[[nodiscard]] constexpr std::int64_t magnitude_of(std::int64_t x) {
+  return x < 0 ? -x : x;
+}
 
 /// −1 for negative values, else 1.
-[[nodiscard]] constexpr int sign_of(std::int64_t x) { return x < 0 ? -1 : 1; }
+[[nodiscard]] constexpr int sign_of(std::int64_t x) {
+  return x < 0 ? -1 : 1;
+}
 
-[[nodiscard]] constexpr Fine clamp_to(Fine x, Fine bound) { return std::clamp(x, -bound, bound); }
+[[nodiscard]] constexpr Fine clamp_to(Fine x, Fine bound) {
+  return std::clamp(x, -bound, bound);
+}
 
 [[nodiscard]] constexpr Vec3<Unit> signed_axis(const Vec3<Unit>& axis, int sign) {
   return sign < 0 ? -axis : axis;
 }
 
 /// Three half sizes as fine lengths.
-[[nodiscard]] constexpr RawVec half_extents(const Shape& box) { return fine(box.size); }
+[[nodiscard]] constexpr RawVec half_extents(const Shape& box) {
+  return fine(box.size);
+}
 
 /// A fine length as a separation: to nearest, saturating at ±128 m.
 [[nodiscard]] constexpr Displacement to_separation(Fine length) {

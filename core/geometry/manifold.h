@@ -15,13 +15,14 @@ inline constexpr int k_max_manifold_points = 4;
 
 /// One contact point. Anchors are relative to each body's centre, in world axes.
 /// Apart (separation > 0): each anchor is the witness on its own body's surface, so that both meet
-/// when the gap closes. Touching or overlapping: both are the midpoint between the surfaces, so that
-/// an impulse pair exerts no net torque.
+/// when the gap closes. Touching or overlapping: both are the midpoint between the surfaces, so
+/// that an impulse pair exerts no net torque.
 struct ManifoldPoint {
   Vec3<Length> anchor_a;
   Vec3<Length> anchor_b;
-  Displacement separation;    ///< along the normal, negative when overlapping
-  std::uint32_t feature = 0;  ///< names the meeting features, stable from tick to tick; unique within a manifold
+  Displacement separation;  ///< along the normal, negative when overlapping
+  /// Names the meeting features: stable from tick to tick, unique within a manifold.
+  std::uint32_t feature = 0;
 };
 
 /// Up to four points that share one unit normal, which points from A to B.
@@ -31,17 +32,31 @@ struct Manifold {
   std::array<ManifoldPoint, k_max_manifold_points> points{};
 };
 
-/// One side of a pair. The rotation is that of the body, rounded once per tick and shared by all pairs.
+/// One side of a pair. The rotation is that of the body, rounded once per tick and shared by all
+/// pairs.
 struct PosedShape {
   const Shape& shape;
   const Mat3& rotation;
 };
 
-/// Contact points between A and B closer than `margin` (≥ 0, ≤ 64 m). `offset` = centre of B − centre
-/// of A, in world axes, each component within ±2000 m. Depends on nothing but its arguments.
-/// Features are ordered canonically. Mirror images give mirror images.
-[[nodiscard]] Manifold collide(const PosedShape& a, const PosedShape& b,
-                               const Vec3<Length>& offset, Length margin);
+/// Contact points between A and B: those with a separation below `margin` (≥ 0, ≤ 64 m) or not
+/// above zero. `offset` = centre of B − centre of A, in world axes, each component within ±2000 m.
+/// Depends on nothing but its arguments. Points ascend by feature.
+///
+/// Apart, the least separation is the distance: within 2 µm and 4e-9 of the sizes, for two boxes
+/// within 2^-16 m, and beside a box's rim within 1/2048 of the capsule core's distance.
+/// Overlapping, the normal is an axis of least overlap; a face is preferred to an edge whose
+/// overlap is smaller by less than a tenth and 0.5 mm. The normal errs by at most 2^-29 in length.
+/// Separations saturate at ±128 m. Points lie on both surfaces within 2 µm, for two boxes 32 µm
+/// where a flush edge was snapped, and for two points along a capsule within 1/1000 of its radius.
+///
+/// collide(b, a, −offset) gives the same manifold flipped, bit for bit (of two spheres, the anchors
+/// within one step). Mirror images give mirror images bit for bit, except where a tie falls to one
+/// side: concentric shapes, cores that meet, the four of more than four points, equally near
+/// vertices, and the order of equal capsules and boxes when the mirror reverses the axis that
+/// separates their centres most.
+[[nodiscard]] Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                               Length margin);
 
 /// True when A and B overlap or touch: for triggers. Agrees with collide(margin 0) having a point
 /// with separation ≤ 0.

@@ -17,10 +17,16 @@ Flat flat(const FaceVertex& v) {
   return {raw::round_shift(v.x, k_fine_per_length), raw::round_shift(v.y, k_fine_per_length)};
 }
 
-Flat operator-(const Flat& a, const Flat& b) { return {a.x - b.x, a.y - b.y}; }
+Flat operator-(const Flat& a, const Flat& b) {
+  return {a.x - b.x, a.y - b.y};
+}
 
-std::int64_t cross(const Flat& a, const Flat& b) { return a.x * b.y - a.y * b.x; }
-std::int64_t square(const Flat& a) { return a.x * a.x + a.y * a.y; }
+std::int64_t cross(const Flat& a, const Flat& b) {
+  return a.x * b.y - a.y * b.x;
+}
+std::int64_t square(const Flat& a) {
+  return a.x * a.x + a.y * a.y;
+}
 
 struct Triangle {
   Flat a;
@@ -41,13 +47,9 @@ struct Selection {
   std::array<int, 4> taken{};
   int count = 0;
 
-  [[nodiscard]] Flat at(int i) const {
-    return flat(polygon.vertices[static_cast<std::size_t>(i)]);
-  }
+  [[nodiscard]] Flat at(int i) const { return flat(polygon.vertices[static_cast<std::size_t>(i)]); }
   [[nodiscard]] Flat chosen(int i) const { return at(taken[static_cast<std::size_t>(i)]); }
-  [[nodiscard]] Fine height(int i) const {
-    return polygon.vertices[static_cast<std::size_t>(i)].z;
-  }
+  [[nodiscard]] Fine height(int i) const { return polygon.vertices[static_cast<std::size_t>(i)].z; }
   [[nodiscard]] bool has(int i) const {
     return std::find(taken.begin(), taken.begin() + count, i) != taken.begin() + count;
   }
@@ -70,7 +72,9 @@ struct Selection {
 };
 
 /// A direction that is square to no likely edge.
-std::int64_t along_fixed_direction(const Flat& p) { return 5 * p.x + 11 * p.y; }
+std::int64_t along_fixed_direction(const Flat& p) {
+  return 5 * p.x + 11 * p.y;
+}
 
 void take_extreme(Selection& selection) {
   int best = 0;
@@ -128,9 +132,9 @@ void sort_by_feature(FacePolygon& polygon) {
 }  // namespace
 
 void drop_far_vertices(FacePolygon& polygon, Length margin) {
-  const auto end = std::remove_if(polygon.vertices.begin(),
-                                  polygon.vertices.begin() + polygon.count,
-                                  [margin](const FaceVertex& v) { return !keeps(v.z, margin); });
+  const auto end =
+      std::remove_if(polygon.vertices.begin(), polygon.vertices.begin() + polygon.count,
+                     [margin](const FaceVertex& v) { return !keeps(v.z, margin); });
   polygon.count = static_cast<int>(end - polygon.vertices.begin());
 }
 

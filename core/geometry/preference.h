@@ -18,9 +18,12 @@ inline constexpr Fine k_agreement = Fine{1} << (k_fine_bits - 18);
 /// A face contact is accepted this much farther than the nearest axis: 15 µm.
 inline constexpr Fine k_face_slack = Fine{1} << (k_fine_bits - 16);
 
-/// An edge axis replaces a face axis of separation `face` only above this value: an overlap smaller by
-/// a tenth and by k_edge_margin. A relative and an absolute margin, as in Box3D's b3CollideHulls.
-[[nodiscard]] constexpr Fine edge_threshold(Fine face) { return face - face / 10 + k_edge_margin; }
+/// An edge axis replaces a face axis of separation `face` only above this value: an overlap smaller
+/// by a tenth and by k_edge_margin. A relative and an absolute margin, as in Box3D's
+/// b3CollideHulls.
+[[nodiscard]] constexpr Fine edge_threshold(Fine face) {
+  return face - face / 10 + k_edge_margin;
+}
 
 /// The second shape's face replaces the first's only above this value.
 [[nodiscard]] constexpr Fine second_face_threshold(Fine first) {

@@ -21,8 +21,8 @@ std::int64_t largest_lane(const RawVec& v) {
 
 /// The least right shift that brings `largest` below k_max_lane.
 int shift_for(std::int64_t largest) {
-  const int shift = std::max(
-      0, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 31);
+  const int shift =
+      std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest))) - 31);
   return raw::round_shift(largest, shift) > k_max_lane ? shift + 1 : shift;
 }
 
@@ -30,7 +30,9 @@ RawVec shifted(const RawVec& v, int shift) {
   return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
 }
 
-std::int64_t dot(const RawVec& a, const RawVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+std::int64_t dot(const RawVec& a, const RawVec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 /// c · 2^shift / denominator with 60 fraction bits, or a miss when it exceeds 1.
 RoundHit fraction_of(std::int64_t c, int shift, std::uint64_t denominator) {
@@ -51,8 +53,8 @@ RawVec point_on(const RawVec& origin, const RawVec& translation, std::int64_t fr
 
 ShapeRayHit hit_at(std::int64_t fraction, const RawVec& outward) {
   const std::int64_t rounded = raw::round_shift(fraction, k_fraction_bits - Unit::frac_bits);
-  return {true, {static_cast<std::int32_t>(rounded)},
-          direction_of(outward.x, outward.y, outward.z)};
+  return {
+      true, {static_cast<std::int32_t>(rounded)}, direction_of(outward.x, outward.y, outward.z)};
 }
 
 /// v without its part along the axis.

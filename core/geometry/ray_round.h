@@ -6,8 +6,9 @@
 
 namespace lockstone::geometry {
 
-/// The first f ≥ 0 with |origin + f·translation| = radius, from outside. The lanes are cut to 31 bits
-/// each vector by itself, which loses nothing of a sphere's ray; from there the decisions are exact.
+/// The first f ≥ 0 with |origin + f·translation| = radius, from outside. The lanes are cut to 31
+/// bits each vector by itself, which loses nothing of a sphere's ray; from there the decisions are
+/// exact.
 struct RoundHit {
   bool hit = false;
   std::int64_t fraction = 0;  ///< 60 fraction bits, 0 … 2^60; error < 2^-58 for the cut lanes

@@ -54,7 +54,8 @@ ShapeRayHit cast_ray_at_box(const Shape& box, const Mat3& rotation, const Vec3<L
   const RawVec way = to_local(rotation, translation);
   if (is_inside(start, half)) return {true, {}, {}};
   Passage passage;
-  for (int axis = 0; axis < 3; ++axis) narrow(passage, axis, start[axis], way[axis], half[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    narrow(passage, axis, start[axis], way[axis], half[axis]);
   if (!passage.open || passage.axis < 0 || passage.enter.numerator < 0) return {};
   if (passage.leave < passage.enter) return {};  // `leave` starts at 1: this covers the ray's end
   const auto [numerator, denominator] = passage.enter;

@@ -13,9 +13,9 @@ struct ShapeRayHit {
   Vec3<Unit> normal{};  ///< outward, world axes; zero when the ray starts inside (fraction 0)
 };
 
-/// The ray runs from `origin` to `origin + translation`; `origin` is relative to the shape's centre, in
-/// world axes. Components of both within ±1448 m (so that |v|² fits 63 bits). A start inside or on
-/// the surface hits at fraction 0 with a zero normal.
+/// The ray runs from `origin` to `origin + translation`; `origin` is relative to the shape's
+/// centre, in world axes. Components of both within ±1448 m (so that |v|² fits 63 bits). A start
+/// inside or on the surface hits at fraction 0 with a zero normal.
 [[nodiscard]] ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation,
                                    const Vec3<Length>& origin, const Vec3<Length>& translation);
 

@@ -63,7 +63,9 @@ Segment core_segment(const Shape& capsule, const Mat3& rotation, const Vec3<Leng
   return {fine(centre), rotation.y, capsule.size.y};
 }
 
-RawVec point_at(const Segment& segment, Fine s) { return segment.centre + along(segment.axis, s); }
+RawVec point_at(const Segment& segment, Fine s) {
+  return segment.centre + along(segment.axis, s);
+}
 
 Fine closest_parameter(const Segment& segment, const RawVec& point) {
   return clamp_to(dot(point - segment.centre, segment.axis), fine(segment.half));

@@ -7,7 +7,7 @@ namespace lockstone::geometry {
 
 /// The points centre + s·axis, |s| ≤ half.
 struct Segment {
-  RawVec centre;     ///< fine
+  RawVec centre;  ///< fine
   Vec3<Unit> axis;
   Length half;
 };

@@ -3,7 +3,9 @@
 namespace lockstone {
 namespace {
 
-constexpr bool is_size(Length x) { return x >= k_min_shape_size && x <= k_max_shape_size; }
+constexpr bool is_size(Length x) {
+  return x >= k_min_shape_size && x <= k_max_shape_size;
+}
 
 }  // namespace
 
@@ -12,9 +14,15 @@ Status validate(const Shape& shape) {
   constexpr Length none{};
   bool good = false;
   switch (shape.kind) {
-    case ShapeKind::sphere: good = is_size(x) && y == none && z == none; break;
-    case ShapeKind::capsule: good = is_size(x) && is_size(y) && z == none; break;
-    case ShapeKind::box: good = is_size(x) && is_size(y) && is_size(z); break;
+    case ShapeKind::sphere:
+      good = is_size(x) && y == none && z == none;
+      break;
+    case ShapeKind::capsule:
+      good = is_size(x) && is_size(y) && z == none;
+      break;
+    case ShapeKind::box:
+      good = is_size(x) && is_size(y) && is_size(z);
+      break;
   }
   return good ? Status::ok : Status::invalid_argument;
 }

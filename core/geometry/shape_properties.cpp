@@ -10,9 +10,13 @@
 namespace lockstone {
 namespace {
 
-constexpr std::uint64_t square(std::uint64_t x) { return x * x; }
+constexpr std::uint64_t square(std::uint64_t x) {
+  return x * x;
+}
 
-constexpr std::uint64_t raw_of(Length x) { return static_cast<std::uint64_t>(x.raw); }
+constexpr std::uint64_t raw_of(Length x) {
+  return static_cast<std::uint64_t>(x.raw);
+}
 
 /// a · b for a < 2^96.
 constexpr UInt128 multiply(UInt128 a, std::uint32_t b) {
@@ -67,8 +71,8 @@ Unit share(std::uint64_t x, std::uint64_t divisor) {
 ///   across it        (20h³ + 40h²r + 45hr² + 16r³) / (20(3h + 2r)).
 Vec3<Unit> capsule_inertia(std::uint64_t r, std::uint64_t h) {
   const UInt128 axial = multiply_wide(square(r), 2 * (15 * h + 8 * r));
-  const UInt128 across = multiply_wide(square(h), 20 * h + 40 * r) +
-                         multiply_wide(square(r), 45 * h + 16 * r);
+  const UInt128 across =
+      multiply_wide(square(h), 20 * h + 40 * r) + multiply_wide(square(r), 45 * h + 16 * r);
   const std::uint64_t divisor = 20 * (3 * h + 2 * r);
   const auto moment = [divisor](UInt128 numerator) {
     return to_moment(round_shift(UInt128{0, round_divide(numerator, divisor)}, 30).low);
@@ -108,9 +112,12 @@ Vec3<Length> world_half_extents(const Shape& shape, const Mat3& rotation) {
 Mass mass_of(const Shape& shape, Density density) {
   LKS_ASSERT(density.raw >= 0);
   switch (shape.kind) {
-    case ShapeKind::sphere: return mass_of_round(shape.size.x, {}, density);
-    case ShapeKind::capsule: return mass_of_round(shape.size.x, shape.size.y, density);
-    case ShapeKind::box: break;
+    case ShapeKind::sphere:
+      return mass_of_round(shape.size.x, {}, density);
+    case ShapeKind::capsule:
+      return mass_of_round(shape.size.x, shape.size.y, density);
+    case ShapeKind::box:
+      break;
   }
   return mass_of_box(shape.size, density);
 }

@@ -27,8 +27,7 @@ const Shape k_ground = Shape::box(metres(50), metres(1), metres(50));
 TEST(BoxBox, RestingFlatGivesFourPointsWithEqualSeparations) {
   for (const double yaw : {0.0, 1e-6, 1e-3, 0.3, 1.0}) {
     const Mat3 turn = turned(0, 1, 0, yaw);
-    const Manifold m = collide_boxes(k_ground, k_identity, k_cube, turn,
-                                     metres(0, 1.5 - 0.001, 0));
+    const Manifold m = collide_boxes(k_ground, k_identity, k_cube, turn, metres(0, 1.5 - 0.001, 0));
     ASSERT_EQ(m.count, 4) << yaw;
     EXPECT_EQ(m.normal, (Vec3<Unit>{{}, Unit::from_integer(1), {}}));
     Vec3<std::int64_t> sum{};
@@ -61,8 +60,8 @@ TEST(BoxBox, FeaturesOfARestingBoxSurviveTremblingByMicrometres) {
   const Shape slab = Shape::box(metres(0.5), metres(0.25), metres(0.5));
   for (const Shape& below : {k_ground, slab, k_cube}) {
     const double height = std::ldexp(below.size.y.raw, -20) + 0.5;
-    const Manifold rest = collide_boxes(below, k_identity, k_cube, k_identity,
-                                        metres(0, height - 0.0005, 0));
+    const Manifold rest =
+        collide_boxes(below, k_identity, k_cube, k_identity, metres(0, height - 0.0005, 0));
     for (int i = 0; i < 500; ++i) {
       const auto jitter = [&dice] { return dice.uniform(-1e-6, 1e-6); };
       const Mat3 turn = turned(jitter(), 1, jitter(), 4 * jitter());
@@ -74,8 +73,7 @@ TEST(BoxBox, FeaturesOfARestingBoxSurviveTremblingByMicrometres) {
 }
 
 TEST(BoxBox, PartialOverlapClipsToTheCommonRectangle) {
-  const Manifold m = collide_boxes(k_cube, k_identity, k_cube, k_identity,
-                                   metres(0.3, 0.99, -0.2));
+  const Manifold m = collide_boxes(k_cube, k_identity, k_cube, k_identity, metres(0.3, 0.99, -0.2));
   ASSERT_EQ(m.count, 4);
   for (const ManifoldPoint& p : m.points) {
     const double x = static_cast<double>(real(p.anchor_a.x));
@@ -95,8 +93,8 @@ TEST(BoxBox, ABoxWithinAFaceIsMirroredBitForBit) {
   for (int i = 0; i < 2000; ++i) {
     const Mat3 ground = to_matrix(dice.orientation());
     // The cube stands on the ground's own y axis, turned about it and tilted a little.
-    const Mat3 local = turned(dice.uniform(-0.01, 0.01), 1, dice.uniform(-0.01, 0.01),
-                              dice.uniform(-3, 3));
+    const Mat3 local =
+        turned(dice.uniform(-0.01, 0.01), 1, dice.uniform(-0.01, 0.01), dice.uniform(-3, 3));
     const Mat3 cube{rotate(ground, local.x), rotate(ground, local.y), rotate(ground, local.z)};
     const Vec3<Length> offset =
         rotate(ground, metres(dice.uniform(-20, 20), dice.uniform(1.49, 1.51), 3));
@@ -169,8 +167,8 @@ TEST(BoxBox, CrossedEdgesGiveOnePointBetweenThem) {
 }
 
 TEST(BoxBox, CornersApartMeetCornerToCorner) {
-  const Manifold m = collide_boxes(k_cube, k_identity, k_cube, k_identity,
-                                   metres(1.01, 1.02, 1.02));
+  const Manifold m =
+      collide_boxes(k_cube, k_identity, k_cube, k_identity, metres(1.01, 1.02, 1.02));
   ASSERT_EQ(m.count, 1);
   EXPECT_NEAR(static_cast<double>(real(m.points[0].separation)), 0.03, 1e-6);
   EXPECT_EQ(m.points[0].anchor_a, metres(0.5, 0.5, 0.5));
@@ -219,7 +217,9 @@ TEST(BoxBox, FarCornersOfTheRangeDoNotOverflow) {
   Dice dice;
   const Shape huge = Shape::box(k_max_shape_size, k_max_shape_size, k_max_shape_size);
   for (int i = 0; i < 3000; ++i) {
-    const auto extreme = [&dice] { return metres(static_cast<double>(dice.between(-1, 1)) * 2000); };
+    const auto extreme = [&dice] {
+      return metres(static_cast<double>(dice.between(-1, 1)) * 2000);
+    };
     const Mat3 turn_a = to_matrix(dice.orientation());
     const Mat3 turn_b = to_matrix(dice.orientation());
     for (const Shape& b : {huge, Shape::capsule(k_max_shape_size, k_max_shape_size),

@@ -29,11 +29,15 @@ struct RealVec {
   friend RealVec operator*(const RealVec& a, Real s) { return {a.x * s, a.y * s, a.z * s}; }
 };
 
-inline Real dot(const RealVec& a, const RealVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Real dot(const RealVec& a, const RealVec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline RealVec cross(const RealVec& a, const RealVec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline Real norm(const RealVec& a) { return std::sqrt(dot(a, a)); }
+inline Real norm(const RealVec& a) {
+  return std::sqrt(dot(a, a));
+}
 
 template <class D, class R, int F>
 Real real(Fixed<D, R, F> x) {
@@ -68,7 +72,8 @@ struct Placed {
     if (kind == ShapeKind::sphere) return size.x;
     if (kind == ShapeKind::capsule) return size.x + size.y * std::fabs(dot(n, axes[1]));
     Real sum = 0;
-    for (int k = 0; k < 3; ++k) sum += size[k] * std::fabs(dot(n, axes[static_cast<std::size_t>(k)]));
+    for (int k = 0; k < 3; ++k)
+      sum += size[k] * std::fabs(dot(n, axes[static_cast<std::size_t>(k)]));
     return sum;
   }
 };
@@ -91,7 +96,8 @@ inline Real segment_to_segment(const RealVec& a0, const RealVec& a1, const RealV
   const RealVec d = b0 - a0;
   const Real s = dot(cross(d, v), k) / kk;
   const Real t = dot(cross(d, u), k) / kk;
-  if (s >= 0 && s <= 1 && t >= 0 && t <= 1) best = std::min(best, std::fabs(dot(d, k)) / std::sqrt(kk));
+  if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
+    best = std::min(best, std::fabs(dot(d, k)) / std::sqrt(kk));
   return best;
 }
 
@@ -143,7 +149,8 @@ inline std::vector<RealSegment> edges_of(const Placed& box) {
 }
 
 /// The greatest separation over these axes (of cores: radii left out).
-inline Real greatest_separation(const Placed& a, const Placed& b, const std::vector<RealVec>& axes) {
+inline Real greatest_separation(const Placed& a, const Placed& b,
+                                const std::vector<RealVec>& axes) {
   Real best = -1e30L;
   for (const RealVec& axis : axes) {
     const Real length = norm(axis);
@@ -164,7 +171,8 @@ inline Real separating_axes(const Placed& a, const Placed& b) {
   for (const RealVec& u : a.axes) {
     if (b.kind == ShapeKind::capsule) axes.push_back(cross(u, b.axes[1]));
     if (b.kind != ShapeKind::box) continue;
-    for (const RealVec& v : b.axes) axes.push_back(cross(u, v));
+    for (const RealVec& v : b.axes)
+      axes.push_back(cross(u, v));
   }
   return greatest_separation(a, b, axes);
 }
@@ -183,12 +191,12 @@ inline Real apart_boxes(const Placed& a, const Placed& b) {
   const auto edges_b = edges_of(b);
   Real best = 1e30L;
   for (const RealSegment& e : edges_a) {
-    best = std::min({best, point_to_box(b.to_local(e.from), b.size),
-                     point_to_box(b.to_local(e.to), b.size)});
+    best = std::min(
+        {best, point_to_box(b.to_local(e.from), b.size), point_to_box(b.to_local(e.to), b.size)});
   }
   for (const RealSegment& f : edges_b) {
-    best = std::min({best, point_to_box(a.to_local(f.from), a.size),
-                     point_to_box(a.to_local(f.to), a.size)});
+    best = std::min(
+        {best, point_to_box(a.to_local(f.from), a.size), point_to_box(a.to_local(f.to), a.size)});
   }
   for (const RealSegment& e : edges_a) {
     for (const RealSegment& f : edges_b) {

@@ -151,7 +151,8 @@ TEST(BoxCapsule, LyingOnAFaceGivesTwoPoints) {
   const Manifold m = meet(k_box, k_identity, k_rod, k_lying, metres(0.1, 1.26, 0));
   ASSERT_EQ(m.count, 2);
   EXPECT_EQ(m.normal, k_up);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(separation(m, i), 0.01, 2e-6);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(separation(m, i), 0.01, 2e-6);
   EXPECT_EQ(m.points[0].anchor_b.x, metres(-1));
   EXPECT_EQ(m.points[1].anchor_b.x, metres(1));
 }

@@ -105,7 +105,8 @@ struct Scene {
 inline std::string describe(const Mat3& m) {
   std::string text;
   for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) text += std::to_string(m.column(column)[row].raw) + ",";
+    for (int row = 0; row < 3; ++row)
+      text += std::to_string(m.column(column)[row].raw) + ",";
   }
   return text;
 }
@@ -133,8 +134,8 @@ inline Scene random_scene(Dice& dice, ShapeKind kind_a, ShapeKind kind_b, double
   const RealVec n = dice.direction();
   const Real reach = scene.placed_a().reach(n) + scene.placed_b().reach(n);
   const RealVec d = n * std::min<Real>(reach * dice.uniform(0.2, 1.25), 1990);
-  scene.offset = metres(static_cast<double>(d.x), static_cast<double>(d.y),
-                        static_cast<double>(d.z));
+  scene.offset =
+      metres(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z));
   scene.margin = metres(dice.chance(4) ? 0 : std::min(64.0, high * dice.uniform(0, 0.5)));
   return scene;
 }

@@ -7,15 +7,19 @@ namespace {
 
 const Real k_pi = std::acos(Real{-1});
 
-Density kilograms_per_metre3(double x) { return {static_cast<std::int32_t>(std::lround(x * 256))}; }
+Density kilograms_per_metre3(double x) {
+  return {static_cast<std::int32_t>(std::lround(x * 256))};
+}
 
 Real volume_of(const Shape& s) {
   const RealVec size = real(s.size);
   switch (s.kind) {
-    case ShapeKind::sphere: return 4 * k_pi / 3 * size.x * size.x * size.x;
+    case ShapeKind::sphere:
+      return 4 * k_pi / 3 * size.x * size.x * size.x;
     case ShapeKind::capsule:
       return 2 * k_pi * size.x * size.x * size.y + 4 * k_pi / 3 * size.x * size.x * size.x;
-    case ShapeKind::box: break;
+    case ShapeKind::box:
+      break;
   }
   return 8 * size.x * size.y * size.z;
 }
@@ -36,8 +40,8 @@ RealVec inertia_of(const Shape& s) {
   const Real h = size.y;
   const Real cylinder = k_pi * r * r * 2 * h / volume_of(s);
   const Real balls = 1 - cylinder;
-  const Real across = cylinder * (r * r / 4 + h * h / 3) +
-                      balls * (r * r * 2 / 5 + h * h + 2 * h * r * 3 / 8);
+  const Real across =
+      cylinder * (r * r / 4 + h * h / 3) + balls * (r * r * 2 / 5 + h * h + 2 * h * r * 3 / 8);
   return {across, cylinder * r * r / 2 + balls * r * r * 2 / 5, across};
 }
 
