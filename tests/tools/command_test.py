@@ -1,0 +1,166 @@
+"""The lockstone command, without a network.
+
+usage: command_test.py LOCKSTONE SAMPLE_LOGS
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+LOCKSTONE = SAMPLE_LOGS = ""
+OK, DIFFERENT, CORRUPT, INCOMPATIBLE, USAGE = 0, 1, 2, 3, 64
+
+
+def run(*arguments):
+    return subprocess.run([LOCKSTONE, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120)
+
+
+class Case(unittest.TestCase):
+    def expect(self, code, *arguments):
+        done = run(*arguments)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done
+
+
+class Scenes(Case):
+    def test_are_listed_with_what_a_script_needs(self):
+        scenes = json.loads(self.expect(OK, "scenes", "--json").stdout)
+        for scene in scenes:
+            self.assertEqual(set(scene), {"name", "description", "golden_ticks", "bodies"})
+            self.assertLessEqual(scene["golden_ticks"], 300)
+        names = {scene["name"] for scene in scenes}
+        self.assertLessEqual({"stack", "rolling", "capsule", "pyramid", "pile", "bounce", "friction",
+                              "kinematic", "trigger", "spawn", "far", "spin", "commands", "arena"},
+                             names)
+
+    def test_are_listed_as_text(self):
+        self.assertIn("stack", self.expect(OK, "scenes").stdout)
+
+
+class Run(Case):
+    def run_json(self, *arguments):
+        return json.loads(self.expect(OK, "run", "--json", *arguments).stdout)
+
+    def test_repeats_itself(self):
+        first = self.run_json("--scene", "arena", "--ticks", 60, "--seed", 7, "--hash-every", 5)
+        again = self.run_json("--scene", "arena", "--ticks", 60, "--seed", 7, "--hash-every", 5)
+        self.assertEqual(first, again)
+        self.assertEqual([entry["tick"] for entry in first["chain"]], list(range(5, 61, 5)))
+        self.assertEqual(first["final_hash"], first["chain"][-1]["hash"])
+        self.assertRegex(first["final_hash"], re.compile(r"^[0-9a-f]{16}$"))
+        self.assertEqual((first["scene"], first["seed"], first["ticks"]), ("arena", 7, 60))
+
+    def test_differs_with_the_seed(self):
+        hashes = {self.run_json("--scene", "pile", "--ticks", 10, "--seed", seed)["final_hash"]
+                  for seed in (1, 2)}
+        self.assertEqual(len(hashes), 2)
+
+    def test_heavy_gives_the_same_hashes(self):
+        plain = self.run_json("--scene", "spawn", "--ticks", 80)
+        self.assertEqual(plain, self.run_json("--scene", "spawn", "--ticks", 80, "--heavy"))
+
+    def test_prints_the_chain_as_text(self):
+        lines = self.expect(OK, "run", "--scene", "spin", "--ticks", 20).stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines], ["10", "20", "final"])
+        self.assertEqual(lines[-1].split()[1], lines[-2].split()[1])
+
+    def test_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for frames in (1, 4):
+                path = pathlib.Path(folder) / "picture.svg"
+                self.expect(OK, "run", "--scene", "pile", "--ticks", 20, "--svg", path,
+                            "--frames", frames)
+                text = path.read_text()
+                self.assertTrue(text.startswith("<svg") and text.endswith("</svg>\n"))
+
+    def test_refuses_wrong_usage(self):
+        self.expect(USAGE, "run", "--scene", "nothing", "--ticks", 10)
+        self.expect(USAGE, "run", "--scene", "stack")
+        self.expect(USAGE, "run", "--scene", "stack", "--ticks", "many")
+        self.expect(USAGE, "run", "--scene", "stack", "--ticks", 0)
+
+
+class Usage(Case):
+    def test_is_explained(self):
+        self.assertIn("Exit codes", self.expect(OK, "--help").stdout)
+        self.assertIn("Exit codes", self.expect(OK, "verify", "--help").stdout)
+        self.expect(OK, "--version")
+
+    def test_errors_have_their_own_code(self):
+        for arguments in ([], ["nonsense"], ["verify"], ["info"], ["scenes", "--nonsense"]):
+            self.expect(USAGE, *arguments)
+
+
+class Logs(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        subprocess.run([SAMPLE_LOGS, cls.folder], check=True, timeout=120)
+        damaged = bytearray((cls.folder / "good.lks").read_bytes())
+        cls.damaged_at = len(damaged) // 2
+        damaged[cls.damaged_at] ^= 0x10
+        (cls.folder / "damaged.lks").write_bytes(damaged)
+        (cls.folder / "empty.lks").write_bytes(b"")
+        (cls.folder / "text.lks").write_text("this is not a log\n" * 50)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def verify(self, code, name, *options):
+        done = self.expect(code, "verify", "--json", *options, self.folder / name)
+        (report,) = json.loads(done.stdout)
+        self.assertEqual(report["exit_code"], code)
+        return report
+
+    def test_a_good_one_verifies(self):
+        report = self.verify(OK, "good.lks")
+        self.assertEqual(report["ticks_verified"], 700)
+        self.assertTrue(report["complete"])
+        self.expect(OK, "verify", self.folder / "good.lks")
+
+    def test_a_flipped_byte_is_found_and_placed(self):
+        report = self.verify(CORRUPT, "damaged.lks")
+        self.assertLessEqual(report["damage"]["offset"], self.damaged_at)
+        self.assertIn(str(report["damage"]["offset"]), report["line"])
+
+    def test_an_altered_input_with_right_checksums_diverges_at_its_tick(self):
+        report = self.verify(DIFFERENT, "altered.lks")
+        self.assertEqual(report["divergence"]["tick"], 300)
+        self.assertIn("difference", report["divergence"])  # the keyframe at 600 explains it
+
+    def test_another_configuration_is_incompatible(self):
+        report = self.verify(INCOMPATIBLE, "foreign.lks")
+        self.assertEqual([mismatch["field"] for mismatch in report["mismatches"]], ["config hash"])
+
+    def test_one_without_an_end_is_good_unless_strict(self):
+        self.assertFalse(self.verify(OK, "open.lks")["complete"])
+        self.verify(CORRUPT, "open.lks", "--strict")
+
+    def test_what_is_no_log_is_corrupt(self):
+        for name in ("empty.lks", "text.lks", "missing.lks"):
+            self.expect(CORRUPT, "verify", self.folder / name)
+            self.expect(CORRUPT, "info", self.folder / name)
+
+    def test_the_worst_of_several_decides(self):
+        self.expect(CORRUPT, "verify", *(self.folder / name for name in
+                                         ("good.lks", "damaged.lks", "altered.lks")))
+
+    def test_info_sums_up(self):
+        info = json.loads(self.expect(OK, "info", "--json", self.folder / "good.lks").stdout)
+        self.assertEqual(info["ticks"], 700)
+        self.assertEqual(info["keyframe_ticks"], [600])
+        self.assertEqual(info["header"]["players"], 2)
+        self.assertIn("700", self.expect(OK, "info", self.folder / "good.lks").stdout)
+        self.expect(CORRUPT, "info", self.folder / "damaged.lks")
+
+
+if __name__ == "__main__":
+    LOCKSTONE, SAMPLE_LOGS = sys.argv[1:3]
+    unittest.main(argv=sys.argv[:1], verbosity=2)

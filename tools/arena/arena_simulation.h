@@ -1,0 +1,47 @@
+// The arena as a lockstone::Simulation: what a game of your own would look like.
+#pragma once
+
+#include <memory>
+
+#include <lockstone/simulation.h>
+#include <lockstone/world.h>
+
+#include "tools/arena/arena.h"
+
+namespace lockstone::arena {
+
+class ArenaSimulation final : public Simulation {
+ public:
+  /// `config` is within its documented ranges.
+  explicit ArenaSimulation(const ArenaConfig& config);
+
+  [[nodiscard]] SimulationInfo info() const override { return info_; }
+  [[nodiscard]] std::uint64_t tick() const override { return arena_.world.tick(); }
+  void step(std::span<const PlayerInput> inputs) override;
+  [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override;
+  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
+  Status load(SnapshotKind kind, ByteView bytes) override;
+  [[nodiscard]] std::uint64_t hash() const override;
+  [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override;
+
+  /// To look at: for rendering, statistics and the bots.
+  [[nodiscard]] const Arena& arena() const { return arena_; }
+  [[nodiscard]] const StepReport& last_report() const { return last_report_; }
+
+  /// Test hooks: derived data may be dropped, and state changed behind the game's back, at any time.
+  [[nodiscard]] Arena& arena_for_tests() { return arena_; }
+
+ private:
+  struct Parts;
+  [[nodiscard]] Result<Parts> split(ByteView canonical) const;
+  [[nodiscard]] std::string name_of_body(ByteView world_bytes, std::uint64_t index) const;
+
+  Arena arena_;
+  SimulationInfo info_;
+  StepReport last_report_{};
+};
+
+/// Makes the arena from ArenaConfig::encode's bytes.
+[[nodiscard]] Result<std::unique_ptr<Simulation>> make_arena(ByteView config);
+
+}  // namespace lockstone::arena

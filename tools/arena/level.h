@@ -1,0 +1,23 @@
+// Builds the arena: ground, walls, machines, zones, loose bodies and players.
+#pragma once
+
+#include "tools/arena/arena.h"
+
+namespace lockstone::arena {
+
+/// The capacities for a configuration.
+[[nodiscard]] WorldDef world_def(const ArenaConfig& config);
+
+/// A match before its first tick.
+[[nodiscard]] Arena build_arena(const ArenaConfig& config);
+
+/// Where a slot's player starts and returns to.
+[[nodiscard]] Vec3<Position> spawn_point(std::size_t slot);
+
+/// The playing field spans ± this in x and z.
+inline constexpr std::int32_t k_field_half_mm = 20'000;
+
+/// The ferry's way along z: it turns back every so many ticks.
+inline constexpr std::uint64_t k_ferry_leg_ticks = 240;
+
+}  // namespace lockstone::arena

@@ -1,0 +1,38 @@
+// The rules of the game. A tick is: players act, machines move, the world steps, events score.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <lockstone/simulation.h>
+
+#include "tools/arena/arena.h"
+
+namespace lockstone::arena {
+
+inline constexpr std::int32_t k_max_score = 1'000'000'000;
+
+/// One whole tick. Every entry of `inputs` is k_input_bytes long.
+StepReport advance(Arena& arena, std::span<const PlayerInput> inputs);
+
+/// Applies one player's input: aim, walk, jump, push, carry, shoot.
+void control_player(Arena& arena, std::size_t slot, const PlayerInput& input);
+
+/// Carry and throw, of which control_player makes use.
+void carry(Arena& arena, std::size_t slot, bool wants);
+
+/// Puts down what a player holds.
+void release(Arena& arena, std::size_t slot);
+
+/// Ends every hold on a body.
+void release_from_all(Arena& arena, BodyHandle body);
+
+/// What the step's events mean: touches, goals, the hill.
+void score_events(Arena& arena);
+
+/// Returns what fell off and melts old snowballs.
+void retire(Arena& arena);
+
+void add_score(PlayerRecord& player, std::int32_t points);
+
+}  // namespace lockstone::arena

@@ -1,0 +1,26 @@
+// The subcommands: each adds itself to the command line and, when chosen, sets the exit code.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace lockstone::tool {
+
+/// What the command answers to its caller.
+enum ExitCode : int {
+  k_ok = 0,
+  k_different = 1,     ///< states diverged
+  k_corrupt = 2,       ///< damaged or unreadable input
+  k_incompatible = 3,  ///< of another simulation, configuration or format version
+  k_usage = 64,
+  k_unavailable = 69,  ///< the network or the system refused
+};
+
+void add_scenes_command(CLI::App& app, int& exit_code);
+void add_run_command(CLI::App& app, int& exit_code);
+void add_info_command(CLI::App& app, int& exit_code);
+void add_verify_command(CLI::App& app, int& exit_code);
+void add_serve_command(CLI::App& app, int& exit_code);
+void add_join_command(CLI::App& app, int& exit_code);
+void add_demo_command(CLI::App& app, int& exit_code);
+
+}  // namespace lockstone::tool

@@ -1,0 +1,57 @@
+// What the subcommands print alike: hashes, progress, files.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace lockstone::tool {
+
+/// Sixteen lower-case hexadecimal digits.
+[[nodiscard]] std::string hash_text(std::uint64_t hash);
+
+/// A line on the standard error stream.
+void complain(const std::string& line);
+
+/// False, with a complaint, when the system refuses.
+[[nodiscard]] bool write_text_file(const std::string& path, const std::string& text);
+
+/// Seconds since its creation.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  [[nodiscard]] std::int64_t microseconds() const {
+    return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// One line on a terminal's standard error stream that is drawn over and over; nothing when that is
+/// not a terminal. At most ten times a second.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// A bar. `total` 0: unknown.
+  void show(const std::string& label, std::uint64_t done, std::uint64_t total);
+  void show(const std::string& line);
+
+  /// Removes the line, so that something else can be printed.
+  void clear();
+
+ private:
+  bool enabled_;
+  bool drawn_ = false;
+  double next_seconds_ = 0;
+  Stopwatch watch_;
+};
+
+}  // namespace lockstone::tool

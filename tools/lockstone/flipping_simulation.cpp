@@ -1,0 +1,76 @@
+#include "tools/lockstone/flipping_simulation.h"
+
+#include <utility>
+
+#include <lockstone/world.h>
+
+#include "tools/arena/arena_simulation.h"
+#include "tools/scenes/scene_simulation.h"
+
+namespace lockstone::tool {
+namespace {
+
+World* world_to_disturb(Simulation& simulation) {
+  if (auto* game = dynamic_cast<arena::ArenaSimulation*>(&simulation)) {
+    return &game->arena_for_tests().world;
+  }
+  auto* scene = dynamic_cast<scenes::SceneSimulation*>(&simulation);
+  return scene == nullptr ? nullptr : &scene->world_for_tests();
+}
+
+// The lowest bit of the last dynamic body's velocity along y: the smallest error there is.
+void disturb(Simulation& simulation) {
+  World* world = world_to_disturb(simulation);
+  if (world == nullptr) return;
+  for (std::uint32_t index = world->body_limit(); index-- > 0;) {
+    const BodyHandle body = world->body_at(index);
+    if (body.is_null() || world->body(body).motion != MotionType::dynamic) continue;
+    Vec3<Velocity> velocity = world->velocity(body);
+    velocity.y.raw ^= 1;
+    static_cast<void>(world->apply(SetVelocity{body, velocity}));
+    return;
+  }
+}
+
+class FlippingSimulation final : public Simulation {
+ public:
+  FlippingSimulation(std::unique_ptr<Simulation> inner, std::uint64_t tick)
+      : inner_(std::move(inner)), tick_(tick) {}
+
+  [[nodiscard]] SimulationInfo info() const override { return inner_->info(); }
+  [[nodiscard]] std::uint64_t tick() const override { return inner_->tick(); }
+  void step(std::span<const PlayerInput> inputs) override {
+    const bool now = inner_->tick() == tick_;
+    inner_->step(inputs);
+    if (now) disturb(*inner_);
+  }
+  [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override {
+    return inner_->snapshot_bytes_max(kind);
+  }
+  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override {
+    return inner_->save(kind, out);
+  }
+  Status load(SnapshotKind kind, ByteView bytes) override { return inner_->load(kind, bytes); }
+  [[nodiscard]] std::uint64_t hash() const override { return inner_->hash(); }
+  [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
+    return inner_->describe(here, there);
+  }
+  [[nodiscard]] const Simulation& inner() const { return *inner_; }
+
+ private:
+  std::unique_ptr<Simulation> inner_;
+  std::uint64_t tick_;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulation> make_flipping(std::unique_ptr<Simulation> inner, std::uint64_t tick) {
+  return std::make_unique<FlippingSimulation>(std::move(inner), tick);
+}
+
+const Simulation& unwrapped(const Simulation& simulation) {
+  const auto* flipping = dynamic_cast<const FlippingSimulation*>(&simulation);
+  return flipping == nullptr ? simulation : flipping->inner();
+}
+
+}  // namespace lockstone::tool

@@ -1,0 +1,12 @@
+// Ctrl-C and SIGTERM as a question that a loop asks.
+#pragma once
+
+namespace lockstone::tool {
+
+/// From now on SIGINT and SIGTERM no longer end the process.
+void catch_interrupts();
+
+/// True once one of them came.
+[[nodiscard]] bool interrupted();
+
+}  // namespace lockstone::tool

@@ -1,0 +1,211 @@
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <lockstone/net/client.h>
+#include <lockstone/net/transport_enet.h>
+
+#include "tools/arena/arena_simulation.h"
+#include "tools/arena/bots.h"
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+#include "tools/lockstone/flipping_simulation.h"
+#include "tools/lockstone/interrupt.h"
+#include "tools/scenes/play.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct JoinOptions {
+  std::string host = "127.0.0.1";
+  std::uint16_t port = 0;
+  std::uint64_t bot_seed = 1;
+  std::string name = "bot";
+  int slot = net::k_no_slot;
+  std::optional<std::uint64_t> flip_bit_at;
+  bool insecure = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Plays for the local player, on what this client's own simulation shows.
+class BotInputs final : public net::InputSource {
+ public:
+  explicit BotInputs(std::uint64_t seed) : seed_(seed) {}
+
+  void watch(const net::Client& client) { client_ = &client; }
+
+  void sample(std::uint64_t tick, std::span<std::byte> out) override {
+    const Simulation* simulation = client_->simulation();
+    if (simulation == nullptr || client_->slot() == net::k_no_slot) return;
+    const auto* game = dynamic_cast<const arena::ArenaSimulation*>(&unwrapped(*simulation));
+    if (game == nullptr) return;  // a scene without players: neutral inputs
+    arena::Input input = arena::bot_input(game->arena(), seed_, client_->slot());
+    input.sequence = static_cast<std::uint16_t>(tick & 0xffff);
+    input.encode(out);
+  }
+
+ private:
+  std::uint64_t seed_;
+  const net::Client* client_ = nullptr;
+};
+
+class JoinObserver final : public net::ClientObserver {
+ public:
+  explicit JoinObserver(bool quiet) : quiet_(quiet) {}
+
+  void joined(std::uint8_t slot) override {
+    if (!quiet_) fmt::print(stderr, "joined as player {}\n", slot);
+  }
+  void tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t hash) override {
+    final_hash = hash;
+  }
+  void desync_reported(const net::DesyncReport& report) override {
+    desync = report.to_line();
+    if (!quiet_) complain("desync: " + desync);
+  }
+
+  std::uint64_t final_hash = 0;
+  std::string desync;
+
+ private:
+  bool quiet_;
+};
+
+bool is_over(net::ClientState state) {
+  return state == net::ClientState::finished || state == net::ClientState::refused ||
+         state == net::ClientState::failed;
+}
+
+std::string_view failure_text(net::ClientFailure failure) {
+  switch (failure) {
+    case net::ClientFailure::none: return "no failure";
+    case net::ClientFailure::connection_lost: return "the connection was lost";
+    case net::ClientFailure::handshake_timed_out: return "the server did not answer";
+    case net::ClientFailure::server_silent: return "the server fell silent";
+    case net::ClientFailure::server_malformed: return "the server sent malformed packets";
+    case net::ClientFailure::config_not_understood: return "the match's configuration is unknown";
+    case net::ClientFailure::dropped: return "the server dropped this player";
+  }
+  return "unknown failure";
+}
+
+void play(net::Client& client) {
+  using namespace std::chrono_literals;
+  const Stopwatch watch;
+  std::uint64_t seen = 0;
+  bool leaving = false;
+  while (!is_over(client.state())) {
+    client.update(watch.microseconds());
+    if (interrupted() && !leaving) {
+      client.leave();
+      leaving = true;
+    }
+    const bool busy = std::exchange(seen, client.ticks_stepped()) != client.ticks_stepped();
+    if (!busy) std::this_thread::sleep_for(100us);
+  }
+}
+
+void print_json(const net::Client& client, const JoinObserver& observer) {
+  const net::ClientStats stats = client.stats();
+  const nlohmann::ordered_json json{{"slot", client.slot()},
+                                    {"ticks", client.ticks_stepped()},
+                                    {"final_hash", hash_text(observer.final_hash)},
+                                    {"bytes_sent", stats.bytes_sent},
+                                    {"bytes_received", stats.bytes_received},
+                                    {"substituted_inputs", stats.substituted_inputs},
+                                    {"resends_requested", stats.resends_requested},
+                                    {"desync", observer.desync}};
+  fmt::print("{}\n", json.dump(2));
+}
+
+int conclude(const JoinOptions& options, const net::Client& client, const JoinObserver& observer) {
+  if (options.json) print_json(client, observer);
+  if (client.state() == net::ClientState::refused) {
+    complain(client.refusal().to_line());
+    return client.refusal().reason == net::RefuseReason::simulation_mismatch ? k_incompatible
+                                                                             : k_unavailable;
+  }
+  if (!observer.desync.empty()) return k_different;
+  if (client.state() == net::ClientState::failed) {
+    complain(std::string(failure_text(client.failure())));
+    return client.failure() == net::ClientFailure::config_not_understood ? k_incompatible
+                                                                         : k_unavailable;
+  }
+  if (!options.quiet && !options.json) {
+    fmt::print("the match is over: {}, {} ticks, final hash {}\n",
+               to_string(client.finish_reason()), client.ticks_stepped(),
+               hash_text(observer.final_hash));
+  }
+  return k_ok;
+}
+
+SimulationFactory factory_for(const JoinOptions& options) {
+  if (!options.flip_bit_at) return scenes::make_simulation;
+  return [tick = *options.flip_bit_at](ByteView config) -> Result<std::unique_ptr<Simulation>> {
+    Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
+    if (!made) return made;
+    return make_flipping(std::move(made).value(), tick);
+  };
+}
+
+int join(const JoinOptions& options) {
+  catch_interrupts();
+  auto transport = net::EnetTransport::open({});
+  if (!transport) {
+    complain(fmt::format("no socket: {}", to_string(transport.status())));
+    return k_unavailable;
+  }
+  const Result<net::ConnectionId> connection =
+      transport.value()->connect(options.host, options.port);
+  if (!connection) {
+    complain(fmt::format("cannot call {}:{}: {}", options.host, options.port,
+                         to_string(connection.status())));
+    return k_unavailable;
+  }
+  BotInputs inputs(options.bot_seed);
+  JoinObserver observer(options.quiet);
+  net::ClientConfig config;
+  config.insecure = options.insecure;
+  config.name = options.name;
+  config.wanted_slot = static_cast<std::uint8_t>(options.slot);
+  const net::Client::Created created = net::Client::create(
+      config, {transport.value().get(), connection.value(), factory_for(options), &inputs, &observer});
+  if (created.client == nullptr) {
+    complain(std::string(to_string(created.error)));
+    return k_usage;
+  }
+  inputs.watch(*created.client);
+  play(*created.client);
+  return conclude(options, *created.client, observer);
+}
+
+}  // namespace
+
+void add_join_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<JoinOptions>();
+  CLI::App* command = app.add_subcommand("join", "Play in a match over UDP, as a bot");
+  command->add_option("--host", options->host, "Numeric IPv4 address")->capture_default_str();
+  command->add_option("--port", options->port, "UDP port")->required();
+  command->add_option("--bot-seed", options->bot_seed, "What the bot feels like")
+      ->capture_default_str();
+  command->add_option("--name", options->name, "Shown to the server")->capture_default_str();
+  command->add_option("--slot", options->slot, "Player slot; any when not given")
+      ->check(CLI::Range(0, 15));
+  command->add_flag("--insecure", options->insecure,
+                    "There is no encryption yet: say that this network needs none")
+      ->required();
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->add_flag("--quiet", options->quiet, "Print failures only");
+  command->add_option("--flip-bit-at", options->flip_bit_at, "")->group("");  // for tests: hidden
+  command->callback([options, &exit_code] { exit_code = join(*options); });
+}
+
+}  // namespace lockstone::tool

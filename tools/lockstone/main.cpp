@@ -1,0 +1,35 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "tools/lockstone/commands.h"
+
+namespace {
+
+constexpr const char* k_footer =
+    "Exit codes: 0 ok, 1 states differ, 2 damaged or unreadable input, 3 incompatible,\n"
+    "64 wrong usage, 69 the network or the system refused.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Deterministic lockstep physics: scenes, matches and their logs.", "lockstone");
+  app.set_version_flag("--version", "lockstone " LOCKSTONE_VERSION);
+  app.require_subcommand(1);
+  app.footer(k_footer);
+  int exit_code = lockstone::tool::k_ok;
+  lockstone::tool::add_scenes_command(app, exit_code);
+  lockstone::tool::add_run_command(app, exit_code);
+  lockstone::tool::add_info_command(app, exit_code);
+  lockstone::tool::add_verify_command(app, exit_code);
+  lockstone::tool::add_serve_command(app, exit_code);
+  lockstone::tool::add_join_command(app, exit_code);
+  lockstone::tool::add_demo_command(app, exit_code);
+  for (CLI::App* command : app.get_subcommands({})) command->footer(k_footer);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? lockstone::tool::k_ok : lockstone::tool::k_usage;
+  }
+  return exit_code;
+}

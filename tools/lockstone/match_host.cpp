@@ -1,0 +1,248 @@
+#include "tools/lockstone/match_host.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lockstone/hash.h>
+#include <lockstone/replay/sink.h>
+
+#include "tools/arena/config.h"
+#include "tools/lockstone/commands.h"
+#include "tools/scenes/play.h"
+#include "tools/scenes/scene_simulation.h"
+
+namespace lockstone::tool {
+namespace {
+
+std::vector<std::byte> config_bytes(const MatchOptions& options) {
+  const auto to_vector = [](const auto& bytes) {
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  };
+  if (options.scene != "arena") {
+    return to_vector(scenes::encode_config(options.scene, options.seed));
+  }
+  arena::ArenaConfig config;
+  config.seed = options.seed;
+  config.players = static_cast<std::uint8_t>(options.players);
+  config.loose_bodies = options.bodies;
+  return to_vector(config.encode());
+}
+
+net::ServerConfig server_config(const MatchOptions& options, std::vector<std::byte> match_config) {
+  net::ServerConfig config;
+  config.insecure = options.insecure;
+  config.match_config = std::move(match_config);
+  config.tick_count = options.ticks;
+  config.input_delay_ticks = options.input_delay;
+  config.late_policy = options.strict ? net::LatePolicy::strict : net::LatePolicy::deadline;
+  config.pacing = options.fast ? net::Pacing::fast : net::Pacing::real_time;
+  return config;
+}
+
+/// The log of a match, or nothing where none is wanted. After the first error it stays silent: a
+/// full disk must not end the match.
+class MatchLog {
+ public:
+  [[nodiscard]] Status open(const MatchOptions& options, const Simulation& simulation,
+                            ByteView config) {
+    if (options.record.empty()) return Status::ok;
+    auto sink = replay::FileSink::create(options.record);
+    if (!sink) return sink.status();
+    sink_ = std::move(sink).value();
+    replay::RecorderOptions recorder_options;
+    recorder_options.keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical);
+    recorder_.emplace(*sink_, recorder_options);
+    const replay::MatchMetadata match{.match_id = hash64(config, options.seed),
+                                      .seed = options.seed,
+                                      .start_tick = 0,
+                                      .build = "lockstone " LOCKSTONE_VERSION};
+    return note(recorder_->begin(simulation.info(), config, match));
+  }
+
+  void record(const Simulation& simulation, std::uint64_t tick,
+              std::span<const PlayerInput> inputs, std::uint64_t hash) {
+    if (!active()) return;
+    if (note(recorder_->record_tick(tick, inputs, hash)) != Status::ok) return;
+    if (recorder_->keyframe_due()) static_cast<void>(note(recorder_->keyframe(simulation)));
+  }
+
+  void event(replay::EventKind kind, std::uint8_t slot, std::string_view text) {
+    if (!active()) return;
+    static_cast<void>(note(recorder_->event(recorder_->next_tick(), kind, slot, text)));
+  }
+
+  [[nodiscard]] Status finish(std::string_view reason) {
+    if (active()) static_cast<void>(note(recorder_->finish(reason)));
+    return status_;
+  }
+
+ private:
+  [[nodiscard]] bool active() const { return recorder_.has_value() && status_ == Status::ok; }
+
+  Status note(Status status) {
+    if (status != Status::ok && status_ == Status::ok) {
+      status_ = status;
+      complain(fmt::format("the log is given up: {}", to_string(status)));
+    }
+    return status;
+  }
+
+  std::unique_ptr<replay::FileSink> sink_;
+  std::optional<replay::Recorder> recorder_;
+  Status status_ = Status::ok;
+};
+
+}  // namespace
+
+struct MatchHost::Impl final : net::ServerObserver {
+  MatchOptions options;
+  std::vector<std::byte> config;
+  std::unique_ptr<Simulation> simulation;
+  std::unique_ptr<net::EnetTransport> transport;
+  std::unique_ptr<net::Server> server;
+  MatchLog log;
+  Progress progress;
+  Stopwatch watch;
+  MatchSummary summary;
+  double started_seconds = 0;
+  double last_tick_seconds = 0;
+  std::uint64_t ticks_seen = 0;
+
+  void say(const std::string& line) {
+    progress.clear();
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  }
+
+  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                   std::optional<std::uint64_t> hash) override {
+    last_tick_seconds = watch.seconds();
+    summary.final_hash = hash.value_or(0);
+    log.record(*simulation, tick, inputs, summary.final_hash);
+  }
+  void player_joined(std::uint8_t slot, std::string_view name) override {
+    say(fmt::format("player {} joined: {}", slot, name));
+    log.event(replay::EventKind::join, slot, name);
+  }
+  void player_left(std::uint8_t slot, net::LeaveReason reason) override {
+    if (reason != net::LeaveReason::match_over) {
+      say(fmt::format("player {} left: {}", slot, to_string(reason)));
+    }
+    log.event(replay::EventKind::leave, slot, to_string(reason));
+  }
+  void player_silent(std::uint8_t slot, std::int64_t silent_us) override {
+    say(fmt::format("player {} is silent since {} ms", slot, silent_us / 1000));
+  }
+  void player_refused(const net::Refusal& refusal) override { say(refusal.to_line()); }
+  void desync_found(const net::DesyncReport& report) override {
+    ++summary.desyncs;
+    say("desync: " + report.to_line());
+    log.event(replay::EventKind::note, report.slot, "desync: " + report.to_line());
+  }
+  void match_started() override {
+    started_seconds = watch.seconds();
+    say(fmt::format("the match begins: {} players, {} bodies", options.players,
+                    scenes::world_of(*simulation)->body_count()));
+  }
+  void match_finished(net::FinishReason reason, std::uint64_t,
+                      std::optional<std::uint64_t>) override {
+    summary.reason = reason;
+  }
+
+  [[nodiscard]] bool set_up() {
+    config = config_bytes(options);
+    Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
+    if (!made) return refuse(fmt::format("scene {}: {}", options.scene, to_string(made.status())));
+    simulation = std::move(made).value();
+    auto listening = net::EnetTransport::listen({.bind_address = options.bind, .port = options.port});
+    if (!listening) {
+      return refuse(fmt::format("cannot listen on {}:{}: {}", options.bind, options.port,
+                                to_string(listening.status())));
+    }
+    transport = std::move(listening).value();
+    const Status status = log.open(options, *simulation, config);
+    if (status != Status::ok) {
+      return refuse(fmt::format("cannot write {}: {}", options.record, to_string(status)));
+    }
+    net::Server::Created created = net::Server::create(
+        server_config(options, config), {transport.get(), simulation.get(), nullptr, this});
+    server = std::move(created.server);
+    if (server == nullptr) return refuse(std::string(to_string(created.error)));
+    return true;
+  }
+
+  static bool refuse(const std::string& why) {
+    complain(why);
+    return false;
+  }
+};
+
+MatchHost::MatchHost(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MatchHost::~MatchHost() = default;
+
+std::unique_ptr<MatchHost> MatchHost::create(const MatchOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  impl->options = options;
+  if (!impl->set_up()) return nullptr;
+  return std::unique_ptr<MatchHost>(new MatchHost(std::move(impl)));
+}
+
+std::uint16_t MatchHost::port() const { return impl_->transport->port(); }
+
+bool MatchHost::update() {
+  using namespace std::chrono_literals;
+  Impl& impl = *impl_;
+  impl.server->update(impl.watch.microseconds());
+  if (impl.server->state() == net::ServerState::over) return false;
+  // The transport does not wait: give the processor away when there was nothing to do.
+  const bool busy = std::exchange(impl.ticks_seen, ticks_closed()) != ticks_closed();
+  if (!busy) std::this_thread::sleep_for(impl.options.fast ? 100us : 1000us);
+  impl.progress.show(progress_line());
+  return true;
+}
+
+void MatchHost::stop() { impl_->server->stop(); }
+
+MatchSummary MatchHost::finish() {
+  Impl& impl = *impl_;
+  impl.progress.clear();
+  MatchSummary& summary = impl.summary;
+  summary.ticks = ticks_closed();
+  summary.reason = impl.server->finish_reason();
+  summary.seconds = std::max(0.0, impl.last_tick_seconds - impl.started_seconds);
+  summary.record_status = impl.log.finish(to_string(summary.reason));
+  for (unsigned slot = 0; slot < impl.simulation->info().player_count; ++slot) {
+    summary.players.push_back(impl.server->stats(static_cast<std::uint8_t>(slot)));
+  }
+  return summary;
+}
+
+const Simulation& MatchHost::simulation() const { return *impl_->simulation; }
+
+std::uint64_t MatchHost::ticks_closed() const { return impl_->server->ticks_closed(); }
+
+std::string MatchHost::progress_line() const {
+  const int present = std::popcount(impl_->server->present_mask());
+  if (impl_->server->state() == net::ServerState::lobby) {
+    return fmt::format("waiting for players: {} of {}", present, impl_->options.players);
+  }
+  std::string line = fmt::format("tick {}", ticks_closed());
+  if (impl_->options.ticks > 0) line += fmt::format(" of {}", impl_->options.ticks);
+  line += fmt::format(", {} players", present);
+  const std::uint16_t waiting = impl_->server->waiting_mask();
+  if (waiting != 0 && !impl_->options.fast) {
+    line += fmt::format(", waiting for player {}", std::countr_zero(waiting));
+  }
+  return line;
+}
+
+Progress& MatchHost::progress() { return impl_->progress; }
+
+}  // namespace lockstone::tool

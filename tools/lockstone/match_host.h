@@ -1,0 +1,75 @@
+// A server with its simulation and its log: what `serve` and `demo` run.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <lockstone/net/server.h>
+#include <lockstone/net/transport_enet.h>
+#include <lockstone/replay/recorder.h>
+#include <lockstone/simulation.h>
+
+#include "tools/lockstone/console.h"
+
+namespace lockstone::tool {
+
+struct MatchOptions {
+  std::string scene = "arena";
+  unsigned players = 4;
+  std::uint64_t ticks = 3600;  ///< 0: until interrupted
+  std::uint64_t seed = 1;
+  std::uint16_t bodies = 216;  ///< loose bodies of the arena
+  std::string bind = "127.0.0.1";
+  std::uint16_t port = 0;      ///< 0: the system chooses
+  std::uint8_t input_delay = 4;
+  bool strict = false;
+  bool fast = false;
+  bool insecure = false;
+  std::string record;          ///< empty: no log
+};
+
+/// What became of a match.
+struct MatchSummary {
+  std::uint64_t ticks = 0;
+  double seconds = 0;          ///< from the first tick to the last
+  net::FinishReason reason = net::FinishReason::stopped;
+  std::uint64_t final_hash = 0;
+  unsigned desyncs = 0;
+  Status record_status = Status::ok;
+  std::vector<net::PlayerStats> players;
+};
+
+/// One match. Prints joins, leaves, refusals and desyncs as they come.
+class MatchHost {
+ public:
+  /// Null, with a complaint, when it cannot be set up.
+  [[nodiscard]] static std::unique_ptr<MatchHost> create(const MatchOptions& options);
+  ~MatchHost();
+
+  [[nodiscard]] std::uint16_t port() const;
+
+  /// Does what is due; false once the match is over.
+  [[nodiscard]] bool update();
+
+  /// Ends the match after the ticks closed so far.
+  void stop();
+
+  /// Finishes the log and sums up. Once.
+  [[nodiscard]] MatchSummary finish();
+
+  [[nodiscard]] const Simulation& simulation() const;
+  [[nodiscard]] std::uint64_t ticks_closed() const;
+
+  /// A line about how it goes.
+  [[nodiscard]] std::string progress_line() const;
+  [[nodiscard]] Progress& progress();
+
+ private:
+  struct Impl;
+  explicit MatchHost(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lockstone::tool

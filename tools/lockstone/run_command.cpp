@@ -1,0 +1,194 @@
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+#include "tools/render/svg.h"
+#include "tools/scenes/play.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct RunOptions {
+  std::string scene;
+  std::uint64_t ticks = 0;
+  std::uint64_t seed = 1;
+  std::uint64_t hash_every = 10;
+  std::string svg;
+  int frames = 1;
+  bool json = false;
+  bool heavy = false;
+};
+
+struct ChainEntry {
+  std::uint64_t tick;
+  std::uint64_t hash;
+};
+
+// A second copy of the scene that each tick starts from nothing but the canonical bytes of the
+// first: what it does with them shows whether the bytes are the whole state.
+class Twin {
+ public:
+  Twin(scenes::ScenePlay& first, std::unique_ptr<scenes::ScenePlay> second)
+      : first_(first),
+        second_(std::move(second)),
+        bytes_(first.simulation().snapshot_bytes_max(SnapshotKind::canonical)),
+        other_bytes_(bytes_.size()) {}
+
+  /// Steps both; empty, or a line that says how they differ.
+  [[nodiscard]] std::string step() {
+    const Status status = second_->simulation().load(SnapshotKind::canonical, save(first_, bytes_));
+    if (status != Status::ok) return fmt::format("load: {}", to_string(status));
+    second_->step();
+    first_.drop_derived();
+    first_.step();
+    if (first_.simulation().hash() == second_->simulation().hash()) return {};
+    const StateDifference difference =
+        first_.simulation().describe(save(first_, bytes_), save(*second_, other_bytes_));
+    return difference.to_line();
+  }
+
+ private:
+  [[nodiscard]] static ByteView save(scenes::ScenePlay& play, std::span<std::byte> bytes) {
+    return bytes.first(play.simulation().save(SnapshotKind::canonical, bytes));
+  }
+
+  scenes::ScenePlay& first_;
+  std::unique_ptr<scenes::ScenePlay> second_;
+  std::vector<std::byte> bytes_;
+  std::vector<std::byte> other_bytes_;
+};
+
+render::Picture picture_of(const RunOptions& options, scenes::ScenePlay& play) {
+  render::Picture picture;
+  if (options.frames > 1) {
+    picture.width = 640;
+    picture.height = 440;
+  }
+  picture.caption = fmt::format("{}   tick {}   {} bodies   {}", options.scene,
+                                play.simulation().tick(), play.world().body_count(),
+                                hash_text(play.simulation().hash()));
+  if (options.scene == "arena") picture.style = render::arena_look;
+  return picture;
+}
+
+void print_json(const RunOptions& options, const std::vector<ChainEntry>& chain,
+                std::uint64_t final_hash) {
+  nlohmann::ordered_json json{{"scene", options.scene}, {"seed", options.seed},
+                              {"ticks", options.ticks}};
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const ChainEntry& entry : chain) {
+    entries.push_back({{"tick", entry.tick}, {"hash", hash_text(entry.hash)}});
+  }
+  json["chain"] = std::move(entries);
+  json["final_hash"] = hash_text(final_hash);
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(const std::vector<ChainEntry>& chain, std::uint64_t final_hash) {
+  for (const ChainEntry& entry : chain) fmt::print("{:>6} {}\n", entry.tick, hash_text(entry.hash));
+  fmt::print(" final {}\n", hash_text(final_hash));
+}
+
+/// A run of one scene.
+class Run {
+ public:
+  Run(const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
+      : options_(options), play_(std::move(play)) {
+    if (!options.heavy) return;
+    twin_.emplace(*play_, scenes::make_play(options.scene, options.seed).value());
+  }
+
+  int operator()() {
+    for (std::uint64_t tick = 1; tick <= options_.ticks; ++tick) {
+      if (!step(tick)) return k_different;
+    }
+    progress_.clear();
+    const std::uint64_t final_hash = play_->simulation().hash();
+    options_.json ? print_json(options_, chain_, final_hash) : print_text(chain_, final_hash);
+    return write_picture() ? k_ok : k_unavailable;
+  }
+
+ private:
+  [[nodiscard]] bool step(std::uint64_t tick) {
+    progress_.show(options_.scene, tick, options_.ticks);
+    if (!step_worlds(tick)) return false;
+    if (options_.hash_every > 0 && tick % options_.hash_every == 0) {
+      chain_.push_back({tick, play_->simulation().hash()});
+    }
+    const auto frames = static_cast<std::uint64_t>(options_.frames);
+    const std::uint64_t due = (frames_.size() + 1) * options_.ticks / frames;
+    if (!options_.svg.empty() && tick == due) {
+      frames_.push_back(render::draw(play_->world(), picture_of(options_, *play_)));
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool step_worlds(std::uint64_t tick) {
+    if (!twin_) {
+      play_->step();
+      return true;
+    }
+    const std::string difference = twin_->step();
+    if (difference.empty()) return true;
+    progress_.clear();
+    complain(fmt::format("{}, tick {}: a saved and loaded copy went another way: {}",
+                         options_.scene, tick, difference));
+    return false;
+  }
+
+  [[nodiscard]] bool write_picture() const {
+    if (options_.svg.empty()) return true;
+    if (frames_.size() == 1) return write_text_file(options_.svg, frames_.front());
+    constexpr int k_columns = 3;
+    return write_text_file(options_.svg,
+                           render::strip(frames_, picture_of(options_, *play_), k_columns));
+  }
+
+  const RunOptions& options_;
+  std::unique_ptr<scenes::ScenePlay> play_;
+  std::optional<Twin> twin_;
+  std::vector<ChainEntry> chain_;
+  std::vector<std::string> frames_;
+  Progress progress_;
+};
+
+int run(RunOptions options) {
+  Result<std::unique_ptr<scenes::ScenePlay>> play = scenes::make_play(options.scene, options.seed);
+  if (!play) {
+    complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
+    return k_usage;
+  }
+  return Run(options, std::move(play).value())();
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Run a scene and print its hashes");
+  command->add_option("--scene", options->scene, "Name, see `scenes`")->required();
+  command->add_option("--ticks", options->ticks, "Ticks to run")
+      ->required()
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
+  command->add_option("--seed", options->seed, "For scenes with chance in them")
+      ->capture_default_str();
+  command->add_option("--hash-every", options->hash_every, "Ticks between hashes; 0: only the last")
+      ->capture_default_str();
+  command->add_option("--svg", options->svg, "Draw the end into this file");
+  command->add_option("--frames", options->frames, "Draw this many moments instead of one")
+      ->check(CLI::Range(1, 60));
+  command->add_flag("--json", options->json, "Print JSON");
+  command->add_flag("--heavy", options->heavy,
+                    "Each tick, also step a copy loaded from the saved state, and compare");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lockstone::tool

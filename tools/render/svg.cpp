@@ -1,0 +1,275 @@
+#include "tools/render/svg.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lockstone/literals.h>
+
+namespace lockstone::render {
+namespace {
+
+using namespace lockstone::literals;
+
+constexpr double k_pitch = 0.52;  // radians above the horizon
+constexpr double k_yaw = 0.5;
+const Vec k_light = unit({-0.35, 0.85, 0.45});
+
+std::string css(Color color, double brightness) {
+  const auto channel = [&](int value) {
+    return std::clamp(static_cast<int>(std::lround(value * brightness)), 0, 255);
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", channel(color.red), channel(color.green),
+                     channel(color.blue));
+}
+
+double brightness_of(const Vec& normal) { return 0.62 + 0.46 * std::max(0.0, dot(normal, k_light)); }
+
+/// Metres of the picture plane to pixels.
+struct Canvas {
+  const Camera& camera;
+  double scale = 1, left = 0, top = 0;
+  std::string out;
+
+  [[nodiscard]] double x(double right) const { return (right - left) * scale; }
+  [[nodiscard]] double y(double up) const { return (top - up) * scale; }
+  [[nodiscard]] std::string point(const Vec& at) const {
+    const Spot spot = camera.project(at);
+    return fmt::format("{:.1f},{:.1f}", x(spot.right), y(spot.up));
+  }
+};
+
+void draw_face(Canvas& canvas, const Solid& solid, std::size_t axis, double sign) {
+  const double half[] = {solid.size.x, solid.size.y, solid.size.z};
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec middle = solid.center + solid.axes[axis] * (sign * half[axis]);
+  const Vec along_u = solid.axes[u] * half[u], along_v = solid.axes[v] * half[v];
+  const std::string fill = css(solid.color, brightness_of(solid.axes[axis] * sign));
+  canvas.out += fmt::format(
+      "<polygon points='{} {} {} {}' fill='{}' stroke='{}'{}/>\n",
+      canvas.point(middle + along_u + along_v), canvas.point(middle - along_u + along_v),
+      canvas.point(middle - along_u - along_v), canvas.point(middle + along_u - along_v), fill,
+      css(solid.color, 0.55), solid.solid ? "" : " opacity='.35'");
+}
+
+void draw_box(Canvas& canvas, const Solid& solid) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double facing = dot(solid.axes[axis], canvas.camera.toward());
+    draw_face(canvas, solid, axis, facing > 0 ? 1 : -1);
+  }
+}
+
+// A capsule is a thick line with round ends, a ball one without length; lit from the upper left.
+void draw_round(Canvas& canvas, const Solid& solid, const Vec& from, const Vec& to) {
+  const Spot a = canvas.camera.project(from), b = canvas.camera.project(to);
+  const double radius = solid.radius() * canvas.scale;
+  const std::array<std::pair<double, double>, 4> layers{
+      {{1.0, 0.62}, {0.86, 0.85}, {0.62, 1.02}, {0.25, 1.22}}};
+  for (const auto& [share, brightness] : layers) {
+    const double shift = (1 - share) * radius * 0.55;
+    canvas.out += fmt::format(
+        "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}' stroke-width='{:.1f}' "
+        "stroke-linecap='round'/>\n",
+        canvas.x(a.right) - shift, canvas.y(a.up) - shift, canvas.x(b.right) - shift + 0.01,
+        canvas.y(b.up) - shift, css(solid.color, brightness), 2 * radius * share);
+  }
+}
+
+// A stripe around the ball in the plane of two body axes, so that one sees it roll.
+void draw_stripe(Canvas& canvas, const Solid& solid, const Vec& u, const Vec& v) {
+  constexpr int k_parts = 24;
+  std::string points;
+  for (int i = 0; i <= k_parts; ++i) {
+    const double angle = 2 * M_PI * i / k_parts;
+    const Vec out = u * std::cos(angle) + v * std::sin(angle);
+    const bool seen = dot(out, canvas.camera.toward()) > 0;
+    if (seen) points += canvas.point(solid.center + out * (solid.radius() * 0.97)) + ' ';
+    if ((!seen || i == k_parts) && !points.empty()) {
+      canvas.out += fmt::format("<polyline points='{}' fill='none' stroke='{}' "
+                                "stroke-width='{:.1f}'/>\n", points, css(solid.color, 0.5),
+                                std::max(1.0, solid.radius() * canvas.scale * 0.12));
+      points.clear();
+    }
+  }
+}
+
+void draw_solid(Canvas& canvas, const Solid& solid) {
+  if (solid.kind == ShapeKind::box) return draw_box(canvas, solid);
+  const bool capsule = solid.kind == ShapeKind::capsule;
+  const Vec half = capsule ? solid.axes[1] * solid.size.y : Vec{};
+  draw_round(canvas, solid, solid.center - half, solid.center + half);
+  if (capsule) return;
+  draw_stripe(canvas, solid, solid.axes[0], solid.axes[1]);
+  draw_stripe(canvas, solid, solid.axes[1], solid.axes[2]);
+}
+
+void draw_shadow(Canvas& canvas, const Solid& solid) {
+  std::string points;
+  for (const Vec& corner : outline_from_above(solid)) {
+    points += canvas.point({corner.x, solid.shadow_height, corner.z}) + ' ';
+  }
+  const double height = solid.center.y - solid.shadow_height;
+  canvas.out += fmt::format("<polygon points='{}' fill='#101418' opacity='{:.2f}'/>\n", points,
+                            0.34 / (1 + 0.15 * std::max(0.0, height)));
+}
+
+/// A solid and what stands on it.
+struct Item {
+  Solid solid;
+  std::vector<std::size_t> shadows;  // solids that cast one onto this
+  std::string label;
+  BodyHandle body{};
+  bool moves = false;
+};
+
+Item make_item(const World& world, BodyHandle body, const Style& style) {
+  const BodyView view = world.body(body);
+  const Look look = style(body, view);
+  const Mat3 axes = to_matrix(view.orientation);
+  Item item;
+  item.body = body;
+  item.label = look.label;
+  item.moves = view.motion != MotionType::static_body;
+  item.solid.kind = view.shape.kind;
+  item.solid.center = to_vec(view.position);
+  item.solid.axes = {to_vec(axes.x), to_vec(axes.y), to_vec(axes.z)};
+  item.solid.size = to_vec(view.shape.size);
+  item.solid.color = look.color;
+  item.solid.solid = !view.is_trigger;
+  return item;
+}
+
+std::vector<Item> collect(const World& world, const Style& style) {
+  std::vector<Item> items;
+  for (std::uint32_t index = 0; index < world.body_limit(); ++index) {
+    const BodyHandle body = world.body_at(index);
+    if (body.is_null() || !style(body, world.body(body)).visible) continue;
+    items.push_back(make_item(world, body, style));
+  }
+  return items;
+}
+
+// Each moving body throws a shadow onto whatever a ray straight down finds first.
+void cast_shadows(const World& world, std::vector<Item>& items) {
+  std::vector<std::size_t> place(world.body_limit(), items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) place[items[i].body.index] = i;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!items[i].moves || !items[i].solid.solid) continue;
+    const Vec3<Length> down{{}, -40_m, {}};
+    const RayHit hit =
+        world.cast_ray(world.position(items[i].body), down, {.ignore = items[i].body});
+    if (hit.body.is_null() || place[hit.body.index] == items.size()) continue;
+    if (hit.normal.y.raw == 0) continue;  // the ray began inside something
+    items[i].solid.shadow = true;
+    items[i].solid.shadow_height = testing::to_double(hit.point.y) + 0.01;
+    items[place[hit.body.index]].shadows.push_back(i);
+  }
+}
+
+Frame frame_of_those(const std::vector<Item>& items, const Camera& camera, const auto& wanted) {
+  std::optional<Frame> frame;
+  for (const Item& item : items) {
+    if (!wanted(item)) continue;
+    const Frame own = frame_of(item.solid, camera);
+    if (!frame) frame = own;
+    frame->include(own);
+  }
+  return frame.value_or(Frame{-1, 1, -1, 1});
+}
+
+// What moves should be in the picture, unless it is falling out of the world, and scenery that is
+// not much wider than what moves: of a vast floor a part is enough.
+Frame frame_all(const std::vector<Item>& items, const Camera& camera) {
+  constexpr double k_fallen = 0.5, k_vast = 2.5, k_border = 1.5;
+  double floor = 0;
+  for (const Item& item : items) {
+    if (!item.moves) floor = std::min(floor, item.solid.center.y);
+  }
+  const auto moves = [&](const Item& item) {
+    return item.moves && (floor == 0 || item.solid.center.y > floor - k_fallen);
+  };
+  Frame frame = frame_of_those(items, camera, moves);
+  frame = {frame.left - k_border, frame.right + k_border, frame.low - k_border,
+           frame.high + k_border};
+  const double vast = k_vast * std::max(frame.right - frame.left, frame.high - frame.low);
+  frame.include(frame_of_those(items, camera, [&](const Item& item) {
+    const Frame own = frame_of(item.solid, camera);
+    return moves(item) || (!item.moves && own.right - own.left < vast);
+  }));
+  return frame;
+}
+
+Canvas make_canvas(const Camera& camera, const Frame& frame, const Picture& picture) {
+  constexpr double k_margin = 1.06;
+  const double wide = std::max(1.0, (frame.right - frame.left) * k_margin);
+  const double high = std::max(1.0, (frame.high - frame.low) * k_margin);
+  const double scale = std::min(picture.width / wide, picture.height / high);
+  const double middle = (frame.left + frame.right) / 2, center = (frame.low + frame.high) / 2;
+  return {camera, scale, middle - picture.width / scale / 2, center + picture.height / scale / 2, {}};
+}
+
+void draw_items(Canvas& canvas, const std::vector<Item>& items) {
+  std::vector<Solid> solids;
+  for (const Item& item : items) solids.push_back(item.solid);
+  for (const std::size_t i : paint_order(solids, canvas.camera)) {
+    draw_solid(canvas, solids[i]);
+    for (const std::size_t caster : items[i].shadows) draw_shadow(canvas, solids[caster]);
+  }
+}
+
+void draw_labels(Canvas& canvas, const std::vector<Item>& items) {
+  for (const Item& item : items) {
+    if (item.label.empty()) continue;
+    const Vec above{item.solid.center.x, item.solid.reach({0, 1, 0}) + 0.25, item.solid.center.z};
+    const Spot spot = canvas.camera.project(above);
+    canvas.out += fmt::format(
+        "<text x='{:.1f}' y='{:.1f}' font-size='17' font-weight='bold' text-anchor='middle' "
+        "fill='#fff' stroke='#222' stroke-width='3' paint-order='stroke'>{}</text>\n",
+        canvas.x(spot.right), canvas.y(spot.up), item.label);
+  }
+}
+
+std::string open_svg(int width, int height) {
+  return fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' "
+      "stroke-linejoin='round' font-family='sans-serif'>\n"
+      "<defs><linearGradient id='sky' x1='0' y1='0' x2='0' y2='1'><stop offset='0' "
+      "stop-color='#8fb4cf'/><stop offset='1' stop-color='#e3ecf0'/></linearGradient></defs>\n",
+      width, height);
+}
+
+}  // namespace
+
+std::string draw(const World& world, const Picture& picture) {
+  std::vector<Item> items = collect(world, picture.style);
+  cast_shadows(world, items);
+  const Vec target = items.empty() ? Vec{} : items.front().solid.center;
+  const Camera camera(target, k_yaw, k_pitch);
+  Canvas canvas = make_canvas(camera, frame_all(items, camera), picture);
+  canvas.out = open_svg(picture.width, picture.height);
+  canvas.out += "<rect width='100%' height='100%' fill='url(#sky)'/>\n";
+  draw_items(canvas, items);
+  draw_labels(canvas, items);
+  canvas.out += fmt::format(
+      "<text x='16' y='{}' font-size='18' fill='#203040' xml:space='preserve'>{}</text>\n</svg>\n", picture.height - 16,
+      picture.caption);
+  return std::move(canvas.out);
+}
+
+std::string strip(const std::vector<std::string>& pictures, const Picture& picture, int columns) {
+  const int count = static_cast<int>(pictures.size());
+  const int rows = (count + columns - 1) / columns;
+  std::string out = open_svg(picture.width * std::min(columns, count), picture.height * rows);
+  for (int i = 0; i < count; ++i) {
+    out += fmt::format("<svg x='{}' y='{}' width='{}' height='{}'>\n", i % columns * picture.width,
+                       i / columns * picture.height, picture.width, picture.height);
+    out += pictures[static_cast<std::size_t>(i)] + "</svg>\n";
+  }
+  return out + "</svg>\n";
+}
+
+}  // namespace lockstone::render

@@ -1,0 +1,42 @@
+// Pictures of a world, as SVG.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <lockstone/world.h>
+
+#include "tools/render/solid.h"
+
+namespace lockstone::render {
+
+/// How one body is drawn.
+struct Look {
+  Color color;
+  bool visible = true;
+  std::string label;  ///< drawn above the body; empty for none
+};
+using Style = std::function<Look(BodyHandle, const BodyView&)>;
+
+/// By motion type and shape; the color varies a little with the index.
+[[nodiscard]] Look plain_look(BodyHandle handle, const BodyView& view);
+
+/// What the arena's tags say: players in their colors, goals as glass.
+[[nodiscard]] Look arena_look(BodyHandle handle, const BodyView& view);
+
+struct Picture {
+  int width = 1200;          ///< pixels
+  int height = 800;
+  std::string caption = {};  ///< at the lower left
+  Style style = plain_look;
+};
+
+/// One picture of the world as it stands, framed on what moves.
+[[nodiscard]] std::string draw(const World& world, const Picture& picture);
+
+/// Several pictures (each from `draw`, of one size) in rows beneath each other, as one.
+[[nodiscard]] std::string strip(const std::vector<std::string>& pictures, const Picture& picture,
+                                int columns);
+
+}  // namespace lockstone::render

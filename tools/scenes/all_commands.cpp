@@ -1,0 +1,100 @@
+// One scene that uses every command there is. The manifest lists them: a command without a sample
+// here does not compile.
+#include <array>
+#include <type_traits>
+
+#include "tools/scenes/build.h"
+
+namespace lockstone::scenes {
+namespace {
+
+using namespace lockstone::literals;
+
+template <class T>
+using Tag = std::type_identity<T>;
+
+Velocity speed(Random& random) { return Velocity::from_ratio(random.between(-3000, 3000), 1000); }
+Impulse push(Random& random) { return Impulse::from_integer(random.between(-600, 600)); }
+
+Vec3<Impulse> random_impulse(Random& random) {
+  const Impulse x = push(random), z = push(random);
+  return {x, Impulse::from_integer(random.between(0, 900)), z};
+}
+
+Command sample(Tag<CreateBody>, BodyHandle, Random& random) {
+  BodyDef def = loose(random_shape(random), {{}, 6_m, {}});
+  def.linear_damping = 0.1_rps;
+  def.gravity_scale = Number::from_ratio(random.between(5, 10), 10);
+  return CreateBody{def};
+}
+Command sample(Tag<DestroyBody>, BodyHandle body, Random&) { return DestroyBody{body}; }
+Command sample(Tag<Teleport>, BodyHandle body, Random& random) {
+  const Position x = millimetres(random.between(-4000, 4000));
+  return Teleport{body, {x, 3_m, {}}, random_orientation(random)};
+}
+Command sample(Tag<SetVelocity>, BodyHandle body, Random& random) {
+  const Velocity x = speed(random), z = speed(random);
+  return SetVelocity{body, {x, {}, z}};
+}
+Command sample(Tag<SetAngularVelocity>, BodyHandle body, Random& random) {
+  return SetAngularVelocity{body, {{}, AngularVelocity::from_integer(random.between(-9, 9)), {}}};
+}
+Command sample(Tag<ApplyImpulse>, BodyHandle body, Random& random) {
+  return ApplyImpulse{body, random_impulse(random)};
+}
+Command sample(Tag<ApplyImpulseAt>, BodyHandle body, Random& random) {
+  return ApplyImpulseAt{body, random_impulse(random), {0.1_m, {}, -0.1_m}};
+}
+Command sample(Tag<ApplyAngularImpulse>, BodyHandle body, Random& random) {
+  const auto x = AngularImpulse::from_integer(random.between(-50, 50));
+  return ApplyAngularImpulse{body, {x, {}, {}}};
+}
+Command sample(Tag<ApplyForce>, BodyHandle body, Random& random) {
+  return ApplyForce{body, {{}, Force::from_integer(random.between(0, 20000)), {}}};
+}
+Command sample(Tag<SetMaterial>, BodyHandle body, Random& random) {
+  return SetMaterial{body, Coefficient::from_ratio(random.between(0, 10), 10), 0.5_r};
+}
+Command sample(Tag<SetFilter>, BodyHandle body, Random& random) {
+  const std::uint32_t category = random.below(4) == 0 ? 2 : 1;
+  return SetFilter{body, {category, 0xffffffff, 0}};
+}
+Command sample(Tag<SetUserData>, BodyHandle body, Random& random) {
+  return SetUserData{body, random.next()};
+}
+Command sample(Tag<SetGravity>, BodyHandle, Random& random) {
+  const Acceleration x = Acceleration::from_ratio(random.between(-200, 200), 100);
+  return SetGravity{{x, -9.81_mps2, {}}};
+}
+
+using Sampler = Command (*)(BodyHandle, Random&);
+
+#define LKS_SAMPLER(Name) \
+  [](BodyHandle body, Random& random) -> Command { return sample(Tag<Name>{}, body, random); },
+constexpr Sampler k_samplers[] = {LKS_COMMANDS(LKS_SAMPLER)};
+#undef LKS_SAMPLER
+
+void build_commands(World& world, std::uint64_t seed) {
+  add_ground(world, 12_m);
+  Random random(mix(seed));
+  for (int i = 0; i < 12; ++i) {
+    add(world, loose(random_shape(random),
+                     {millimetres(i % 4 * 1500 - 2250), 1_m, millimetres(i / 4 * 1500 - 1500)}));
+  }
+}
+
+// Each command in turn, one a tick, on whatever body chance picks; some name bodies that are gone
+// and must be refused alike everywhere.
+void drive_commands(World& world, std::uint64_t seed) {
+  Random random(mix(seed ^ mix(world.tick() + 1)));
+  const BodyHandle body = world.body_at(1 + random.below(world.body_limit() - 1));
+  const Sampler sampler = k_samplers[world.tick() % std::size(k_samplers)];
+  static_cast<void>(world.apply(sampler(body, random)));
+}
+
+}  // namespace
+
+constinit const Scene k_commands{"commands", "every command in turn on random bodies", 260,
+                                 small_world, build_commands, drive_commands};
+
+}  // namespace lockstone::scenes

@@ -1,0 +1,67 @@
+#include "tools/scenes/build.h"
+
+namespace lockstone::scenes {
+
+using namespace lockstone::literals;
+
+WorldDef small_world() {
+  WorldDef def;
+  def.body_capacity = 256;
+  def.pair_capacity = 4096;
+  def.contact_capacity = 2048;
+  return def;
+}
+
+BodyHandle add(World& world, const BodyDef& def) {
+  const Result<BodyHandle> body = world.create_body(def);
+  LKS_CHECK(body.ok());
+  return body.value();
+}
+
+void order(World& world, const Command& command) {
+  const Status status = world.apply(command);
+  LKS_CHECK(status == Status::ok);
+}
+
+BodyDef fixed_box(const Vec3<Position>& position, const Vec3<Length>& half_extents) {
+  BodyDef def;
+  def.motion = MotionType::static_body;
+  def.shape = Shape::box(half_extents.x, half_extents.y, half_extents.z);
+  def.position = position;
+  return def;
+}
+
+BodyDef loose(const Shape& shape, const Vec3<Position>& position) {
+  BodyDef def;
+  def.shape = shape;
+  def.position = position;
+  return def;
+}
+
+void add_ground(World& world, Length half_width) {
+  add(world, fixed_box({{}, -0.5_m, {}}, {half_width, 0.5_m, half_width}));
+}
+
+void add_stack(World& world, const Vec3<Position>& base, int count) {
+  const Shape box = Shape::box(0.5_m, 0.5_m, 0.5_m);
+  for (int i = 0; i < count; ++i) {
+    add(world, loose(box, base + Vec3<Position>{{}, Position::from_ratio(2 * i + 1, 2), {}}));
+  }
+}
+
+Shape random_shape(Random& random) {
+  const auto size = [&](int low, int high) { return millimetres_long(random.between(low, high)); };
+  switch (random.below(3)) {
+    case 0: return Shape::sphere(size(200, 450));
+    case 1: return Shape::capsule(size(150, 400), size(150, 300));
+    default: return Shape::box(size(150, 450), size(150, 450), size(150, 450));
+  }
+}
+
+Quat random_orientation(Random& random) {
+  const auto component = [&] { return Unit::from_raw(random.between(-(1 << 29), 1 << 29)); };
+  const Unit x = component(), y = component(), z = component(), w = component();
+  return normalized({x, y, z, w});
+}
+
+}  // namespace lockstone::scenes

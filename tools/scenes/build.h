@@ -1,0 +1,49 @@
+// Small helpers to build scenes with.
+#pragma once
+
+#include <lockstone/literals.h>
+#include <lockstone/world.h>
+
+#include "tools/arena/integers.h"
+#include "tools/scenes/scene.h"
+
+namespace lockstone::scenes {
+
+using arena::millimetres;
+using arena::millimetres_long;
+using arena::mix;
+using arena::Random;
+
+inline constexpr Vec3<Unit> k_x_axis{Unit::from_integer(1), {}, {}};
+inline constexpr Vec3<Unit> k_y_axis{{}, Unit::from_integer(1), {}};
+inline constexpr Vec3<Unit> k_z_axis{{}, {}, Unit::from_integer(1)};
+
+/// The world of most scenes: small, default rules.
+[[nodiscard]] WorldDef small_world();
+
+/// A scene's definition fits its world.
+BodyHandle add(World& world, const BodyDef& def);
+
+/// A command that a scene knows to be valid.
+void order(World& world, const Command& command);
+
+[[nodiscard]] BodyDef fixed_box(const Vec3<Position>& position, const Vec3<Length>& half_extents);
+[[nodiscard]] BodyDef loose(const Shape& shape, const Vec3<Position>& position);
+
+/// A static box whose top is the plane y = 0, half as wide as given.
+void add_ground(World& world, Length half_width);
+
+/// `count` boxes of 1 m on top of each other, the lowest on y = 0.
+void add_stack(World& world, const Vec3<Position>& base, int count);
+
+/// A sphere, capsule or box of random size below 1 m.
+[[nodiscard]] Shape random_shape(Random& random);
+[[nodiscard]] Quat random_orientation(Random& random);
+
+// The scenes, by what they show.
+extern const Scene k_stack, k_pyramid, k_far, k_pile;                   // heaps.cpp
+extern const Scene k_rolling, k_capsule, k_bounce, k_friction, k_spin;  // motions.cpp
+extern const Scene k_kinematic, k_trigger, k_spawn;                     // driven.cpp
+extern const Scene k_commands;                                          // all_commands.cpp
+
+}  // namespace lockstone::scenes

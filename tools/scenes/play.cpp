@@ -1,0 +1,96 @@
+#include "tools/scenes/play.h"
+
+#include <array>
+
+#include "tools/arena/arena_simulation.h"
+#include "tools/arena/bots.h"
+#include "tools/scenes/scene.h"
+#include "tools/scenes/scene_simulation.h"
+
+namespace lockstone::scenes {
+namespace {
+
+constexpr std::string_view k_arena_name = "arena";
+constexpr std::string_view k_arena_description = "four bots play among 216 bodies";
+constexpr std::uint32_t k_arena_golden_ticks = 150;
+
+class WorldPlay final : public ScenePlay {
+ public:
+  WorldPlay(const Scene& scene, std::uint64_t seed) : simulation_(scene, seed) {}
+
+  void step() override {
+    constexpr std::array<std::byte, 1> k_nothing{};
+    const PlayerInput input{k_nothing, InputOrigin::absent};
+    simulation_.step({&input, 1});
+  }
+  [[nodiscard]] Simulation& simulation() override { return simulation_; }
+  [[nodiscard]] const World& world() const override { return simulation_.world(); }
+  [[nodiscard]] const StepReport& last_report() const override { return simulation_.last_report(); }
+  void drop_derived() override { simulation_.world_for_tests().drop_derived(); }
+
+ private:
+  SceneSimulation simulation_;
+};
+
+class ArenaPlay final : public ScenePlay {
+ public:
+  explicit ArenaPlay(const arena::ArenaConfig& config) : simulation_(config) {}
+
+  void step() override {
+    const arena::ArenaConfig& config = simulation_.arena().config;
+    std::array<std::array<std::byte, arena::k_input_bytes>, k_max_players> bytes{};
+    std::array<PlayerInput, k_max_players> inputs{};
+    for (std::size_t slot = 0; slot < config.players; ++slot) {
+      arena::bot_input(simulation_.arena(), config.seed, slot).encode(bytes[slot]);
+      inputs[slot] = {bytes[slot], InputOrigin::received};
+    }
+    simulation_.step(std::span(inputs).first(config.players));
+  }
+  [[nodiscard]] Simulation& simulation() override { return simulation_; }
+  [[nodiscard]] const World& world() const override { return simulation_.arena().world; }
+  [[nodiscard]] const StepReport& last_report() const override { return simulation_.last_report(); }
+  void drop_derived() override { simulation_.arena_for_tests().world.drop_derived(); }
+
+ private:
+  arena::ArenaSimulation simulation_;
+};
+
+SceneSummary summarize(std::string_view name, std::string_view description, std::uint32_t ticks) {
+  return {name, description, ticks, make_play(name, 1).value()->world().body_count()};
+}
+
+}  // namespace
+
+std::vector<SceneSummary> list_scenes() {
+  std::vector<SceneSummary> list;
+  for (const Scene& scene : world_scenes()) {
+    list.push_back(summarize(scene.name, scene.description, scene.golden_ticks));
+  }
+  list.push_back(summarize(k_arena_name, k_arena_description, k_arena_golden_ticks));
+  return list;
+}
+
+Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_t seed) {
+  if (name == k_arena_name) {
+    arena::ArenaConfig config;
+    config.seed = seed;
+    return std::unique_ptr<ScenePlay>(std::make_unique<ArenaPlay>(config));
+  }
+  const Scene* scene = find_scene(name);
+  if (scene == nullptr) return Status::not_found;
+  return std::unique_ptr<ScenePlay>(std::make_unique<WorldPlay>(*scene, seed));
+}
+
+Result<std::unique_ptr<Simulation>> make_simulation(ByteView config) {
+  const auto magic = ByteReader(config).get<std::uint32_t>();
+  if (magic == k_config_magic) return make_scene(config);
+  return arena::make_arena(config);
+}
+
+const World* world_of(const Simulation& simulation) {
+  if (const auto* scene = dynamic_cast<const SceneSimulation*>(&simulation)) return &scene->world();
+  const auto* game = dynamic_cast<const arena::ArenaSimulation*>(&simulation);
+  return game == nullptr ? nullptr : &game->arena().world;
+}
+
+}  // namespace lockstone::scenes

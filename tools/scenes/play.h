@@ -1,0 +1,49 @@
+// Any scene, being played: the simulation, its world to look at, and bots in its player slots.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <lockstone/simulation.h>
+#include <lockstone/world.h>
+
+namespace lockstone::scenes {
+
+/// What the list of scenes says about one.
+struct SceneSummary {
+  std::string_view name;
+  std::string_view description;
+  std::uint32_t golden_ticks;
+  std::uint32_t bodies;  ///< at the beginning, for seed 1
+};
+
+/// All scenes, the arena last. Builds each one to count its bodies.
+[[nodiscard]] std::vector<SceneSummary> list_scenes();
+
+/// One scene with everything that it needs to go on by itself.
+class ScenePlay {
+ public:
+  virtual ~ScenePlay() = default;
+
+  /// Advances by one tick with the bots' inputs, if the scene has players.
+  virtual void step() = 0;
+
+  [[nodiscard]] virtual Simulation& simulation() = 0;
+  [[nodiscard]] virtual const World& world() const = 0;
+  [[nodiscard]] virtual const StepReport& last_report() const = 0;
+  virtual void drop_derived() = 0;
+};
+
+/// not_found for an unknown name.
+[[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name,
+                                                           std::uint64_t seed);
+
+/// Makes whatever simulation configuration bytes name: the arena or a scene. For replays and clients.
+[[nodiscard]] Result<std::unique_ptr<Simulation>> make_simulation(ByteView config);
+
+/// The world inside a simulation that make_simulation made.
+[[nodiscard]] const World* world_of(const Simulation& simulation);
+
+}  // namespace lockstone::scenes

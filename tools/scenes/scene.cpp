@@ -1,0 +1,23 @@
+#include "tools/scenes/scene.h"
+
+#include <array>
+
+#include "tools/scenes/build.h"
+
+namespace lockstone::scenes {
+
+std::span<const Scene> world_scenes() {
+  static const std::array k_scenes{k_stack,    k_rolling, k_capsule, k_pyramid, k_pile,
+                                   k_bounce,   k_friction, k_kinematic, k_trigger, k_spawn,
+                                   k_far,      k_spin,    k_commands};
+  return k_scenes;
+}
+
+const Scene* find_scene(std::string_view name) {
+  for (const Scene& scene : world_scenes()) {
+    if (scene.name == name) return &scene;
+  }
+  return nullptr;
+}
+
+}  // namespace lockstone::scenes

@@ -1,0 +1,36 @@
+// The scenes that tests, benchmarks and the command share: each a world to build and, for some, what
+// is done to it tick by tick.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <lockstone/world.h>
+
+namespace lockstone::scenes {
+
+/// A scene has no memory besides its world: what it does in a tick follows from seed, tick and world.
+struct Scene {
+  std::string_view name;
+  std::string_view description;
+  std::uint32_t golden_ticks;  ///< small enough for a slow emulator
+
+  WorldDef (*define)();
+  void (*build)(World& world, std::uint64_t seed);
+
+  /// Commands before a step; may be null.
+  void (*drive)(World& world, std::uint64_t seed) = nullptr;
+
+  /// After a step, while its events can be read; may be null.
+  void (*observe)(World& world) = nullptr;
+};
+
+/// All scenes on a bare world, in the order in which they are listed. The arena, which has players,
+/// is not among them: see play.h.
+[[nodiscard]] std::span<const Scene> world_scenes();
+
+/// Null for an unknown name.
+[[nodiscard]] const Scene* find_scene(std::string_view name);
+
+}  // namespace lockstone::scenes

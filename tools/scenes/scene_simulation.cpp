@@ -1,0 +1,64 @@
+#include "tools/scenes/scene_simulation.h"
+
+#include <lockstone/hash.h>
+
+namespace lockstone::scenes {
+namespace {
+
+constexpr std::size_t k_name_bytes = k_config_bytes - 14;
+
+World make_world(const Scene& scene, std::uint64_t seed) {
+  Result<World> world = World::create(scene.define());
+  LKS_CHECK(world.ok());
+  scene.build(world.value(), seed);
+  return std::move(world).value();
+}
+
+}  // namespace
+
+std::array<std::byte, k_config_bytes> encode_config(std::string_view name, std::uint64_t seed) {
+  LKS_CHECK(name.size() < k_name_bytes);
+  std::array<std::byte, k_config_bytes> bytes{};
+  ByteWriter writer(bytes);
+  writer.put(k_config_magic);
+  writer.put(k_config_version);
+  writer.put(seed);
+  writer.put_bytes(std::as_bytes(std::span(name)));
+  return bytes;
+}
+
+SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed)
+    : scene_(scene), seed_(seed), world_(make_world(scene, seed)) {
+  info_.abi = k_simulation_abi;
+  info_.config_hash = hash64(encode_config(scene.name, seed), config_hash(world_.def()));
+  info_.scene_hash = hash();
+  info_.canary = canary_hash();
+  info_.tick_rate = world_.def().tick_rate;
+  info_.player_count = 1;
+  info_.input_bytes = 1;
+}
+
+void SceneSimulation::step(std::span<const PlayerInput> inputs) {
+  LKS_CHECK(inputs.size() == 1);
+  if (scene_.drive != nullptr) scene_.drive(world_, seed_);
+  last_report_ = world_.step();
+  if (scene_.observe != nullptr) scene_.observe(world_);
+}
+
+Result<std::unique_ptr<Simulation>> make_scene(ByteView config) {
+  ByteReader reader(config);
+  const auto magic = reader.get<std::uint32_t>();
+  const auto version = reader.get<std::uint16_t>();
+  const auto seed = reader.get<std::uint64_t>();
+  const ByteView padded = reader.get_bytes(k_name_bytes);
+  if (!reader.ok()) return Status::truncated;
+  if (magic != k_config_magic || reader.remaining() != 0) return Status::malformed;
+  if (version != k_config_version) return Status::unsupported_version;
+  std::array<char, k_name_bytes> text{};
+  for (std::size_t i = 0; i + 1 < k_name_bytes; ++i) text[i] = static_cast<char>(padded[i]);
+  const Scene* scene = find_scene(text.data());
+  if (scene == nullptr) return Status::not_found;
+  return std::unique_ptr<Simulation>(std::make_unique<SceneSimulation>(*scene, seed));
+}
+
+}  // namespace lockstone::scenes
