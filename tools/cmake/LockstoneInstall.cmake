@@ -1,0 +1,31 @@
+# Install rules and the package that find_package(lockstone) finds.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lockstone)
+
+install(TARGETS lockstone_core lockstone_net lockstone_replay
+  EXPORT lockstone_targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(room IN ITEMS core net replay)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+endforeach()
+if(TARGET lockstone)
+  install(TARGETS lockstone RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(EXPORT lockstone_targets
+  NAMESPACE lockstone:: FILE lockstoneTargets.cmake DESTINATION ${package_dir})
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/tools/cmake/lockstoneConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/lockstoneConfig.cmake
+  INSTALL_DESTINATION ${package_dir}
+  NO_SET_AND_CHECK_MACRO)
+# Before 1.0 every minor version may break.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/lockstoneConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/lockstoneConfig.cmake
+  ${PROJECT_BINARY_DIR}/lockstoneConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/tools/cmake/FindENet.cmake
+  DESTINATION ${package_dir})
