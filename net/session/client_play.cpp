@@ -112,7 +112,8 @@ std::uint64_t Client::Impl::sample_target() {
 }
 
 // Asks at once for all that lacks between others: one request for each gap would cost as many round
-// trips as there are gaps. What is merely overtaken gets a moment to arrive.
+// trips as there are gaps. What is merely overtaken gets a moment to arrive. `received` itself
+// lacks, so the range that is asked for is never empty.
 void Client::Impl::request_missing() {
   if (gap_tick != received || received == received_end) {
     gap_tick = received;
@@ -124,7 +125,8 @@ void Client::Impl::request_missing() {
   if (now_us - gap_since_us < k_gap_patience_us) return;
   if (now_us - last_resend_us < k_resend_interval_us + round_trip_us) return;
   std::uint64_t end = std::min(received_end, received + k_max_resend_ticks);
-  while (records.has(end - 1)) --end;  // ends at the gap at `received`, at the latest
+  while (records.has(end - 1))
+    --end;
   last_resend_us = now_us;
   ++stats.resends_requested;
   send(Resend{received, static_cast<std::uint16_t>(end - received)});

@@ -1,0 +1,137 @@
+// Server and client must not allocate once a match runs. This program counts its allocations.
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/net/client.h>
+#include <lockstone/net/server.h>
+
+#include "tests/support/toy_simulation.h"
+
+namespace {
+std::size_t g_allocations = 0;
+}
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  std::abort();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace lockstone::net {
+namespace {
+
+// Packets in one direction, without faults and without memory of its own beyond this.
+class Pipe {
+ public:
+  bool push(Channel channel, ByteView bytes) {
+    if (end_ - begin_ == slots_.size() || bytes.size() > k_max_datagram_bytes) return false;
+    Slot& slot = slots_[end_++ % slots_.size()];
+    std::copy(bytes.begin(), bytes.end(), slot.bytes.begin());
+    slot.size = bytes.size();
+    slot.channel = channel;
+    return true;
+  }
+
+  bool pop(TransportEvent& event) {
+    if (begin_ == end_) return false;
+    const Slot& slot = slots_[begin_++ % slots_.size()];
+    event.kind = TransportEventKind::received;
+    event.channel = slot.channel;
+    event.bytes = ByteView(slot.bytes).first(slot.size);
+    return true;
+  }
+
+ private:
+  struct Slot {
+    std::array<std::byte, k_max_datagram_bytes> bytes;
+    std::size_t size;
+    Channel channel;
+  };
+  std::array<Slot, 64> slots_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+};
+
+// One end of a pair of pipes; the connection is number 1.
+class PipeTransport final : public Transport {
+ public:
+  PipeTransport(Pipe& in, Pipe& out) : in_(in), out_(out) {}
+  bool poll(std::int64_t, TransportEvent& event) override {
+    event = {TransportEventKind::connected, 1, Channel::reliable, {}};
+    if (connected_) return in_.pop(event);
+    connected_ = true;
+    return true;
+  }
+  Status send(ConnectionId, Channel channel, ByteView bytes) override {
+    return out_.push(channel, bytes) ? Status::ok : Status::capacity_exhausted;
+  }
+  void flush() override {}
+  void disconnect(ConnectionId) override {}
+  [[nodiscard]] TransportStats stats(ConnectionId) const override { return {}; }
+
+ private:
+  Pipe& in_;
+  Pipe& out_;
+  bool connected_ = false;
+};
+
+class Presses final : public InputSource {
+ public:
+  void sample(std::uint64_t tick, std::span<std::byte> out) override {
+    lockstone::test::toy_input(1, 0, tick, out);
+  }
+};
+
+TEST(Allocation, NothingIsAllocatedWhileAMatchRuns) {
+  lockstone::test::ToyConfig toy;
+  toy.player_count = 1;
+  lockstone::test::ToySimulation simulation(toy);
+  const auto up = std::make_unique<Pipe>();
+  const auto down = std::make_unique<Pipe>();
+  PipeTransport server_end(*up, *down);
+  PipeTransport client_end(*down, *up);
+  Presses presses;
+  ServerConfig server_config;
+  server_config.insecure = true;
+  server_config.match_config = toy.encode();
+  ServerParts server_parts;
+  server_parts.transport = &server_end;
+  server_parts.simulation = &simulation;
+  const auto server = Server::create(server_config, server_parts).server;
+  ClientConfig client_config;
+  client_config.insecure = true;
+  ClientParts client_parts;
+  client_parts.transport = &client_end;
+  client_parts.connection = 1;
+  client_parts.factory = lockstone::test::toy_factory();
+  client_parts.inputs = &presses;
+  const auto client = Client::create(client_config, client_parts).client;
+
+  std::int64_t now_us = 0;
+  const auto run_until = [&](std::int64_t end_us) {
+    for (; now_us < end_us; now_us += 4000) {
+      server->update(now_us);
+      client->update(now_us);
+    }
+  };
+  run_until(1'000'000);
+  ASSERT_EQ(client->state(), ClientState::running);
+  const std::size_t before = g_allocations;
+  EXPECT_GT(before, 0U);  // the counter counts
+  run_until(60'000'000);
+  EXPECT_EQ(g_allocations, before);
+  EXPECT_GT(client->ticks_stepped(), 3500U);
+}
+
+}  // namespace
+}  // namespace lockstone::net
