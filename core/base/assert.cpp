@@ -1,7 +1,7 @@
-#include <lockstone/assert.h>
-
 #include <cstdio>
 #include <cstdlib>
+
+#include <lockstone/assert.h>
 
 namespace lockstone {
 

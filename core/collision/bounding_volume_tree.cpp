@@ -140,7 +140,9 @@ void BoundingVolumeTree::swap_nodes(std::uint32_t index, int high, int grandchil
   refit(tall);
 }
 
-int BoundingVolumeTree::height() const { return root_ == k_null ? 0 : nodes_[root_].height; }
+int BoundingVolumeTree::height() const {
+  return root_ == k_null ? 0 : nodes_[root_].height;
+}
 
 bool BoundingVolumeTree::is_valid() const {
   return root_ == k_null || (nodes_[root_].parent == k_null && is_valid_below(root_));

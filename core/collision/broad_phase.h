@@ -13,7 +13,8 @@
 
 namespace lockstone {
 
-/// Two bodies whose bounds overlap. `a` can move; `b` is static, or can move and has the higher index.
+/// Two bodies whose bounds overlap. `a` can move; `b` is static, or can move and has the higher
+/// index.
 struct Pair {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
@@ -35,8 +36,8 @@ class BroadPhase {
   [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].leaf != k_absent; }
   [[nodiscard]] const Bounds& bounds(std::uint32_t body) const { return proxies_[body].bounds; }
 
-  /// All overlapping pairs of bodies below `body_limit` for which `accept(a, b)` holds, sorted. When
-  /// they exceed the capacity, the first ones in that order, and `overflowed` is true.
+  /// All overlapping pairs of bodies below `body_limit` for which `accept(a, b)` holds, sorted.
+  /// When they exceed the capacity, the first ones in that order, and `overflowed` is true.
   template <class Accept>
   std::span<const Pair> find_pairs(std::uint32_t body_limit, Accept&& accept) {
     pairs_.clear();
@@ -87,8 +88,8 @@ class BroadPhase {
 
   BoundingVolumeTree static_tree_;
   BoundingVolumeTree moving_tree_;
-  std::vector<Proxy> proxies_;          // by body index
-  std::vector<std::uint32_t> partners_; // of the body at hand; capacity: all bodies
+  std::vector<Proxy> proxies_;           // by body index
+  std::vector<std::uint32_t> partners_;  // of the body at hand; capacity: all bodies
   std::vector<Pair> pairs_;
   std::size_t pair_capacity_;
   bool overflowed_ = false;

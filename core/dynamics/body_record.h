@@ -19,19 +19,20 @@ enum BodyFlag : std::uint8_t {
 
 /// Canonical state of one body slot; all zero but `generation` when the slot is empty.
 ///
-/// Rotation is kept normalised by the scale s = 2^scale_exponent m, the first power of two not below
-/// the body's radius. `spin` is angular momentum / (mass · s), a velocity: an impulse J at r changes
-/// it by (r/s) × J/mass, as it changes `velocity` by J/mass. Surface speed ω·s follows from it by the
-/// inverse of the normalised inertia. A kinematic body, which has no mass, keeps ω·s itself in `spin`.
+/// Rotation is kept normalised by the scale s = 2^scale_exponent m, the first power of two not
+/// below the body's radius. `spin` is angular momentum / (mass · s), a velocity: an impulse J at r
+/// changes it by (r/s) × J/mass, as it changes `velocity` by J/mass. Surface speed ω·s follows from
+/// it by the inverse of the normalised inertia. A kinematic body, which has no mass, keeps ω·s
+/// itself in `spin`.
 struct BodyRecord {
   Vec3<Position> position{};
   Vec3<Velocity> velocity{};
   Vec3<Velocity> spin{};
   std::uint64_t user_data = 0;
   Quat orientation{{}, {}, {}, {}};
-  Vec3<Length> size{};               // Shape::size
-  Vec3<Unit> inertia{};              // principal moments / (mass · s²), each in (0, 1]
-  std::int32_t inverse_mass = 0;     // mantissa; the exponent is below
+  Vec3<Length> size{};            // Shape::size
+  Vec3<Unit> inertia{};           // principal moments / (mass · s²), each in (0, 1]
+  std::int32_t inverse_mass = 0;  // mantissa; the exponent is below
   Number gravity_scale{};
   Rate linear_damping{};
   Rate angular_damping{};
@@ -40,13 +41,13 @@ struct BodyRecord {
   std::uint32_t category = 0;
   std::uint32_t mask = 0;
   std::int32_t group = 0;
-  std::uint32_t generation = 0;      // of the last body in this slot
-  std::uint8_t motion = 0;           // MotionType, 0 for an empty slot
-  std::uint8_t shape_kind = 0;       // ShapeKind
-  std::uint8_t flags = 0;            // BodyFlag
+  std::uint32_t generation = 0;  // of the last body in this slot
+  std::uint8_t motion = 0;       // MotionType, 0 for an empty slot
+  std::uint8_t shape_kind = 0;   // ShapeKind
+  std::uint8_t flags = 0;        // BodyFlag
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
-  std::uint8_t reserved0 = 0;        // keep the record free of padding; always 0
+  std::uint8_t reserved0 = 0;  // keep the record free of padding; always 0
   std::uint8_t reserved1 = 0;
   std::uint8_t reserved2 = 0;
 
@@ -70,9 +71,7 @@ struct BodyRecord {
   }
 
  private:
-  [[nodiscard]] bool is(MotionType type) const {
-    return motion == static_cast<std::uint8_t>(type);
-  }
+  [[nodiscard]] bool is(MotionType type) const { return motion == static_cast<std::uint8_t>(type); }
 };
 
 // clang-format off

@@ -1,7 +1,7 @@
 // Contact constraints in the form that the solver iterates on.
 //
-// For a direction u (the normal or a tangent) at a point with lever arms rA, rB, with r̄ = r/s the lever
-// arm normalised by the body's scale, and with shares α = (1/m) / (1/mA + 1/mB):
+// For a direction u (the normal or a tangent) at a point with lever arms rA, rB, with r̄ = r/s the
+// lever arm normalised by the body's scale, and with shares α = (1/m) / (1/mA + 1/mB):
 //   relative velocity  v = u·(vB − vA) + jB·LB − jA·LA,   j = M·(r̄ × u),  L = spin
 //   an impulse P (the pair's velocity jump) changes  vB by αB·u·P,  LB by αB·(r̄B × u)·P,
 //                                                   vA by −αA·u·P, LA by −αA·(r̄A × u)·P
@@ -61,7 +61,7 @@ struct ContactConstraint {
   Softness softness;
   ContactAxis normal;
   ContactAxis tangent[2];
-  ContactRow common;            // the normal at the mean of the points; its impulse is not used
+  ContactRow common;  // the normal at the mean of the points; its impulse is not used
   std::int32_t common_soft_mass = 0;
   std::array<ContactPoint, k_max_manifold_points> points;
 };

@@ -11,10 +11,12 @@ namespace {
 
 constexpr std::int64_t k_one_q30 = std::int64_t{1} << 30;
 
-// Contacts are as stiff as the substep resolves, 3/16 of its rate (at 1/4 tall stacks hum, at 1/8 they
-// buckle under their weight), and heavily overdamped, so that penetration is pushed out without
-// adding energy.
-constexpr std::int64_t contact_hertz(std::int64_t substep_rate) { return substep_rate * 3 / 16; }
+// Contacts are as stiff as the substep resolves, 3/16 of its rate (at 1/4 tall stacks hum, at 1/8
+// they buckle under their weight), and heavily overdamped, so that penetration is pushed out
+// without adding energy.
+constexpr std::int64_t contact_hertz(std::int64_t substep_rate) {
+  return substep_rate * 3 / 16;
+}
 constexpr std::int32_t k_contact_damping_ratio = 10;
 
 // 2π in Q28, from the digits 6.28318530717958647692.
@@ -55,8 +57,7 @@ Lanes32 normalized_arm(const Vec3<Length>& r, int scale_exponent, int& saturatio
 // r̄ × u in Q30, clamped to ±1: an arm on or in the body gives no more.
 Lanes32 lever(const Lanes32& r, const Lanes32& u) {
   const auto entry = [](std::int64_t q60) {
-    return static_cast<std::int32_t>(
-        std::clamp(raw::round_shift(q60, 30), -k_one_q30, k_one_q30));
+    return static_cast<std::int32_t>(std::clamp(raw::round_shift(q60, 30), -k_one_q30, k_one_q30));
   };
   return {entry(std::int64_t{r[1]} * u[2] - std::int64_t{r[2]} * u[1]),
           entry(std::int64_t{r[2]} * u[0] - std::int64_t{r[0]} * u[2]),
@@ -110,8 +111,8 @@ struct Tangents {
   Vec3<Unit> second;
 };
 
-// The first tangent lies across a coordinate axis, the second across normal and first. Zero when the
-// normal is that axis.
+// The first tangent lies across a coordinate axis, the second across normal and first. Zero when
+// the normal is that axis.
 Tangents tangents_across(const Vec3<Unit>& n, std::uint8_t axis) {
   const std::int64_t x = n.x.raw, y = n.y.raw, z = n.z.raw;
   const Vec3<Unit> first = axis == 0   ? direction_of(0, z, -y)
@@ -153,8 +154,7 @@ void change_tangents(const Tangents& from, const Tangents& to, ContactPoint& poi
   const auto coordinate = [&](const Vec3<Unit>& axis) {
     const std::int64_t along_first = raw::round_shift(dot(from.first, axis).raw, 30);
     const std::int64_t along_second = raw::round_shift(dot(from.second, axis).raw, 30);
-    return raw::saturate<std::int32_t>(
-        raw::round_shift(p1 * along_first + p2 * along_second, 30));
+    return raw::saturate<std::int32_t>(raw::round_shift(p1 * along_first + p2 * along_second, 30));
   };
   point.tangent[0].impulse = coordinate(to.first);
   point.tangent[1].impulse = coordinate(to.second);

@@ -33,8 +33,8 @@ struct ContactRecord {
   std::uint32_t body_a = 0;
   std::uint32_t body_b = 0;
   std::array<ContactPointRecord, 4> points{};
-  std::uint16_t count = 0;  // 0 … 4
-  std::uint8_t flags = 0;   // ContactFlag
+  std::uint16_t count = 0;        // 0 … 4
+  std::uint8_t flags = 0;         // ContactFlag
   std::uint8_t tangent_axis = 0;  // 0 … 2: the first tangent lies across this axis
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;

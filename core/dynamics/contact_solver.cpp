@@ -108,8 +108,8 @@ void ContactSolver::solve_point_normal(ContactConstraint& contact, ContactPoint&
   apply_normal(contact, point, total);
 }
 
-// All points at once, each by the same share: what is symmetric stays symmetric, which points in turn
-// cannot promise.
+// All points at once, each by the same share: what is symmetric stays symmetric, which points in
+// turn cannot promise.
 void ContactSolver::solve_common_normal(ContactConstraint& contact, bool use_bias) {
   if (contact.count < 2) return;
   std::int64_t bias = 0, impulse = 0;
@@ -162,7 +162,8 @@ void ContactSolver::solve_point_friction(ContactConstraint& contact, ContactPoin
                        static_cast<std::uint64_t>(total[1] * total[1]);
   if (squared > static_cast<std::uint64_t>(limit * limit)) {
     const std::int64_t length = isqrt(squared);  // ≥ 1, and ≥ limit − 1
-    for (std::int64_t& p : total) p = raw::round_divide(p * limit, length);
+    for (std::int64_t& p : total)
+      p = raw::round_divide(p * limit, length);
   }
   for (int t = 0; t < 2; ++t) {
     ContactRow& row = point.tangent[t];

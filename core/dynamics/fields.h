@@ -17,8 +17,8 @@ namespace lockstone {
 
 /// Calls `f` for each integer of `value`. `name` is the field's, `suffix` says which part.
 template <class T, class F>
-  requires(std::is_integral_v<T>)
-constexpr void visit_value(const char* name, const char* suffix, T& value, F&& f) {
+requires(std::is_integral_v<T>) constexpr void visit_value(const char* name, const char* suffix,
+                                                           T& value, F&& f) {
   f(name, suffix, value);
 }
 

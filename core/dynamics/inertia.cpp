@@ -21,7 +21,8 @@ Velocity times(Velocity v, std::int32_t factor, int shift) {
 
 InverseInertia isotropic(std::int64_t value_q30) {
   InverseInertia m;
-  while ((value_q30 >> m.exponent) > (std::int64_t{1} << 30)) ++m.exponent;
+  while ((value_q30 >> m.exponent) > (std::int64_t{1} << 30))
+    ++m.exponent;
   m.xx = m.yy = m.zz = static_cast<std::int32_t>(raw::round_shift(value_q30, m.exponent));
   return m;
 }
@@ -37,14 +38,15 @@ InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
 
   InverseInertia m;
   const std::int64_t largest = std::max({inverse[0], inverse[1], inverse[2]});
-  while ((largest >> m.exponent) > (std::int64_t{1} << 30)) ++m.exponent;
+  while ((largest >> m.exponent) > (std::int64_t{1} << 30))
+    ++m.exponent;
 
   // M = R·diag(1/I)·Rᵀ: column k of R scaled by 1/I_k, times column k again, summed over k.
   std::int64_t sum[6] = {};
   for (int k = 0; k < 3; ++k) {
     const Vec3<Unit>& axis = rotation.column(k);
-    const auto scale =
-        static_cast<std::int32_t>(raw::round_shift(inverse[static_cast<std::size_t>(k)], m.exponent));
+    const auto scale = static_cast<std::int32_t>(
+        raw::round_shift(inverse[static_cast<std::size_t>(k)], m.exponent));
     const std::int32_t x = product_q30(axis.x.raw, scale);
     const std::int32_t y = product_q30(axis.y.raw, scale);
     const std::int32_t z = product_q30(axis.z.raw, scale);

@@ -36,7 +36,8 @@ void damp(Vec3<Velocity>& v, Rate damping, const TimeStep& step) {
   const std::int64_t rate_q20 = std::int64_t{step.tick_rate} << 20;
   const auto factor =
       static_cast<std::int32_t>(raw::round_divide(rate_q20 << 30, rate_q20 + damping.raw));
-  for (int i = 0; i < 3; ++i) v[i].raw = raw::multiply_shift(v[i].raw, factor, 30);
+  for (int i = 0; i < 3; ++i)
+    v[i].raw = raw::multiply_shift(v[i].raw, factor, 30);
 }
 
 // Shortens `v` by limit / |w| when |w| exceeds the speed limit.
@@ -47,8 +48,9 @@ bool shorten(Vec3<Velocity>& v, const Vec3<Velocity>& w) {
   const std::uint64_t speed = norm(w.x.raw, w.y.raw, w.z.raw);
   if (speed <= static_cast<std::uint64_t>(k_limit)) return false;
   const auto ratio = static_cast<std::int32_t>(
-      raw::round_divide(k_limit << 20, static_cast<std::int64_t>(speed >> 10)) );  // Q30
-  for (int i = 0; i < 3; ++i) v[i].raw = raw::multiply_shift(v[i].raw, ratio, 30);
+      raw::round_divide(k_limit << 20, static_cast<std::int64_t>(speed >> 10)));  // Q30
+  for (int i = 0; i < 3; ++i)
+    v[i].raw = raw::multiply_shift(v[i].raw, ratio, 30);
   return true;
 }
 
@@ -124,14 +126,14 @@ SolverBody begin_substeps(const BodyRecord& body, const Mat3& rotation,
 }
 
 void integrate_velocity(SolverBody& body) {
-  for (std::size_t i = 0; i < 3; ++i) body.velocity[i] += body.gravity_step[i];
+  for (std::size_t i = 0; i < 3; ++i)
+    body.velocity[i] += body.gravity_step[i];
 }
 
 void integrate_position(SolverBody& body, const TimeStep& step) {
   const Vec3<Velocity> w = surface_velocity(
-      body.inverse_inertia,
-      {Velocity::from_raw(body.spin[0]), Velocity::from_raw(body.spin[1]),
-       Velocity::from_raw(body.spin[2])});
+      body.inverse_inertia, {Velocity::from_raw(body.spin[0]), Velocity::from_raw(body.spin[1]),
+                             Velocity::from_raw(body.spin[2])});
   for (int i = 0; i < 3; ++i) {
     const auto lane = static_cast<std::size_t>(i);
     body.displacement[lane] += step.substep.times(body.velocity[lane]);

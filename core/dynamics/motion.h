@@ -18,7 +18,8 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia);
 bool limit_position(BodyRecord& body);
 
 /// The exact step of a body that nothing touches, and of a kinematic one. In flight
-/// x ← x + v·dt + g·dt²/2 and spin is constant; the orientation takes a midpoint step, of second order.
+/// x ← x + v·dt + g·dt²/2 and spin is constant; the orientation takes a midpoint step, of second
+/// order.
 ///
 /// What a value per second gives in one tick is rounded so that `tick_rate` ticks in a row, counted
 /// from `tick`, add up to exactly one second's worth: drift and free fall lose nothing.

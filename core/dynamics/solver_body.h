@@ -25,7 +25,8 @@ struct SolverBody {
   std::uint32_t body = 0;
 };
 
-/// Velocities as rows read them: Q20, clamped to ±1024 m/s so that sums of nine products fit 63 bits.
+/// Velocities as rows read them: Q20, clamped to ±1024 m/s so that sums of nine products fit 63
+/// bits.
 [[nodiscard]] constexpr std::int32_t read_velocity(std::int64_t q32) {
   constexpr std::int64_t k_bound = std::int64_t{1} << 30;
   const std::int64_t q20 = raw::round_shift(q32, 12);

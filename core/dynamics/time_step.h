@@ -15,7 +15,8 @@ struct Factor {
   /// 1 / divisor, 1 ≤ divisor < 2^31; relative error ≤ 2^-31.
   [[nodiscard]] static constexpr Factor one_over(std::int64_t divisor) {
     int shift = 30;
-    while ((std::int64_t{1} << (shift - 30)) < divisor) ++shift;
+    while ((std::int64_t{1} << (shift - 30)) < divisor)
+      ++shift;
     // 2^shift / divisor lies in [2^30, 2^31].
     const std::int64_t quotient = raw::round_divide(std::int64_t{1} << shift, divisor);
     return {raw::saturate<std::int32_t>(quotient), shift};

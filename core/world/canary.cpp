@@ -21,7 +21,9 @@ BodyDef falling(const Shape& shape, Position x, Position y) {
   return def;
 }
 
-void add(World& world, const BodyDef& def) { LKS_CHECK(world.create_body(def).ok()); }
+void add(World& world, const BodyDef& def) {
+  LKS_CHECK(world.create_body(def).ok());
+}
 
 }  // namespace
 
@@ -41,7 +43,8 @@ std::uint64_t canary_hash() {
   add(world, falling(Shape::box(0.4_m, 0.3_m, 0.2_m), 0.3_m, 1.5_m));
   add(world, falling(Shape::capsule(0.3_m, 0.2_m), -0.2_m, 2.4_m));
   add(world, falling(Shape::box(0.2_m, 0.2_m, 0.5_m), 0.0_m, 3.2_m));
-  for (int tick = 0; tick < k_canary_ticks; ++tick) (void)world.step();
+  for (int tick = 0; tick < k_canary_ticks; ++tick)
+    (void)world.step();
   return world.hash().total;
 }
 

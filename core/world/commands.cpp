@@ -28,7 +28,9 @@ bool has_unit_range(const Quat& q) {
   return abs(q.x) <= limit && abs(q.y) <= limit && abs(q.z) <= limit && abs(q.w) <= limit;
 }
 
-bool is_valid(const Quat& q) { return has_unit_range(q) && is_usable(q); }
+bool is_valid(const Quat& q) {
+  return has_unit_range(q) && is_usable(q);
+}
 
 bool is_valid_surface(Coefficient friction, Coefficient restitution) {
   return friction >= Coefficient{} && friction <= Coefficient::from_ratio(199, 100) &&
@@ -39,7 +41,8 @@ bool is_valid_surface(Coefficient friction, Coefficient restitution) {
 bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent, Vec3<Velocity>& w) {
   constexpr AngularVelocity k_limit = AngularVelocity::from_integer(1 << 20);
   if (!within(omega, k_limit)) return false;
-  for (int i = 0; i < 3; ++i) w[i].raw = raw::scale_binary(omega[i].raw, exponent);
+  for (int i = 0; i < 3; ++i)
+    w[i].raw = raw::scale_binary(omega[i].raw, exponent);
   return within(w, k_speed_limit);
 }
 
@@ -107,7 +110,8 @@ Vec3<Velocity> velocity_gain(const BodyRecord& body, const Vec3<Impulse>& impuls
 // Sums that cannot overflow before the speed limit brings them back.
 void add_velocity(Vec3<Velocity>& velocity, const Vec3<Velocity>& gain) {
   constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
-  for (int i = 0; i < 3; ++i) velocity[i] += clamp(gain[i], -k_bound, k_bound);
+  for (int i = 0; i < 3; ++i)
+    velocity[i] += clamp(gain[i], -k_bound, k_bound);
 }
 
 // (r/s) × gain, with r/s in Q30.
@@ -117,8 +121,7 @@ Vec3<Velocity> turning_gain(const BodyRecord& body, const Vec3<Length>& point,
   const auto product = [&](Velocity v, Length arm) {
     const std::int32_t arm_q30 =
         raw::saturate<std::int32_t>(std::int64_t{arm.raw} << (10 - body.scale_exponent));
-    return Velocity::from_raw(
-        raw::multiply_shift(clamp(v, -k_bound, k_bound).raw, arm_q30, 30));
+    return Velocity::from_raw(raw::multiply_shift(clamp(v, -k_bound, k_bound).raw, arm_q30, 30));
   };
   return {product(gain.z, point.y) - product(gain.y, point.z),
           product(gain.x, point.z) - product(gain.z, point.x),
@@ -130,12 +133,12 @@ Vec3<Velocity> turning_gain(const BodyRecord& body, const Vec3<Length>& point,
 Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   Vec3<Velocity> surface;
   if (!is_valid(body_def) || !has_valid_mass(body_def) ||
-      !to_surface_velocity(body_def.angular_velocity,
-                                                  scale_exponent(body_def.shape), surface)) {
+      !to_surface_velocity(body_def.angular_velocity, scale_exponent(body_def.shape), surface)) {
     return Status::invalid_argument;
   }
   std::uint32_t slot = free_hint;
-  while (slot < header.body_limit && bodies[slot].exists()) ++slot;
+  while (slot < header.body_limit && bodies[slot].exists())
+    ++slot;
   if (slot == def.body_capacity) return Status::capacity_exhausted;
   free_hint = slot + 1;
   header.body_limit = std::max(header.body_limit, slot + 1);
@@ -211,8 +214,8 @@ Status World::Impl::execute(const ApplyImpulse& command) {
 Status World::Impl::execute(const ApplyImpulseAt& command) {
   BodyRecord* record = find(command.body);
   if (record == nullptr) return Status::stale_handle;
-  const Length reach = Length::from_raw(raw::saturate<std::int32_t>(
-      std::int64_t{2} * bounding_radius(record->shape()).raw));
+  const Length reach = Length::from_raw(
+      raw::saturate<std::int32_t>(std::int64_t{2} * bounding_radius(record->shape()).raw));
   if (!record->is_dynamic() || !within(command.point, reach)) return Status::invalid_argument;
   const Vec3<Velocity> gain = velocity_gain(*record, command.impulse);
   add_velocity(record->velocity, gain);
@@ -243,8 +246,9 @@ Status World::Impl::execute(const ApplyForce& command) {
     const std::int64_t bounded = std::clamp(f.raw, -(std::int64_t{1} << 56), std::int64_t{1} << 56);
     return Impulse::from_raw(raw::round_divide(bounded << 4, def.tick_rate));
   };
-  return execute(ApplyImpulse{
-      command.body, {impulse(command.force.x), impulse(command.force.y), impulse(command.force.z)}});
+  return execute(
+      ApplyImpulse{command.body,
+                   {impulse(command.force.x), impulse(command.force.y), impulse(command.force.z)}});
 }
 
 Status World::Impl::execute(const SetMaterial& command) {
@@ -286,7 +290,9 @@ void World::Impl::drop_contacts_of(std::uint32_t body) {
   header.contact_count = static_cast<std::uint32_t>(end - all.begin());
 }
 
-Result<BodyHandle> World::create_body(const BodyDef& def) { return impl_->create_body(def); }
+Result<BodyHandle> World::create_body(const BodyDef& def) {
+  return impl_->create_body(def);
+}
 
 Status World::apply(const Command& command) {
   return std::visit(

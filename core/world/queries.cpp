@@ -47,10 +47,11 @@ RayHit World::cast_ray(const Vec3<Position>& origin, const Vec3<Length>& transla
   const auto visit = [&](std::uint32_t index) {
     const BodyRecord& body = world.bodies[index];
     if (!is_seen(body, index, filter)) return;
-    const ShapeRayHit hit = lockstone::cast_ray(body.shape(), world.rotations[index],
-                                                saturated<Length>(origin - body.position), translation);
-    const bool nearer = hit.fraction < best.fraction ||
-                        (hit.fraction == best.fraction && index < best.body.index);
+    const ShapeRayHit hit =
+        lockstone::cast_ray(body.shape(), world.rotations[index],
+                            saturated<Length>(origin - body.position), translation);
+    const bool nearer =
+        hit.fraction < best.fraction || (hit.fraction == best.fraction && index < best.body.index);
     if (hit.hit && nearer) best = {{index, body.generation}, hit.fraction, hit.normal, {}};
   };
   world.broad_phase.traverse(test, visit);
@@ -81,7 +82,8 @@ std::size_t World::overlap_sphere(const Vec3<Position>& center, Length radius,
     // Keeps the lowest indices, sorted, whatever the order of visits.
     const std::size_t last = count < out.size() ? count++ : count - 1;
     out[last] = {index, body.generation};
-    for (std::size_t i = last; i > 0 && out[i] < out[i - 1]; --i) std::swap(out[i], out[i - 1]);
+    for (std::size_t i = last; i > 0 && out[i] < out[i - 1]; --i)
+      std::swap(out[i], out[i - 1]);
   };
   world.broad_phase.traverse(test, visit);
   return count;

@@ -8,8 +8,8 @@
 
 #include <lockstone/hash.h>
 
-#include "core/geometry/shape_properties.h"
 #include "core/dynamics/inertia.h"
+#include "core/geometry/shape_properties.h"
 #include "core/world/record_codec.h"
 #include "core/world/snapshot_format.h"
 #include "core/world/world_impl.h"
@@ -51,12 +51,10 @@ bool has_valid_mass(const BodyRecord& record) {
 }
 
 bool has_valid_surface(const BodyRecord& record) {
-  return record.friction >= Coefficient{} &&
-         record.friction <= Coefficient::from_ratio(199, 100) &&
+  return record.friction >= Coefficient{} && record.friction <= Coefficient::from_ratio(199, 100) &&
          record.restitution >= Coefficient{} &&
          record.restitution <= Coefficient::from_integer(1) && record.linear_damping >= Rate{} &&
-         record.angular_damping >= Rate{} &&
-         abs(record.gravity_scale) <= Number::from_integer(100);
+         record.angular_damping >= Rate{} && abs(record.gravity_scale) <= Number::from_integer(100);
 }
 
 bool is_empty_slot(const BodyRecord& record) {
@@ -181,10 +179,9 @@ Status World::load(SnapshotKind kind, ByteView bytes) {
 }
 
 std::size_t World::Impl::save_native(std::span<std::byte> out) const {
-  const ByteView parts[] = {
-      std::as_bytes(std::span(&header, 1)),
-      std::as_bytes(std::span(bodies.data(), header.body_limit)),
-      std::as_bytes(std::span(contact_store.data(), header.contact_count))};
+  const ByteView parts[] = {std::as_bytes(std::span(&header, 1)),
+                            std::as_bytes(std::span(bodies.data(), header.body_limit)),
+                            std::as_bytes(std::span(contact_store.data(), header.contact_count))};
   std::size_t size = 0;
   for (const ByteView part : parts) {
     if (part.size() > out.size() - size) return 0;
@@ -204,7 +201,8 @@ Status World::Impl::load_native(ByteView bytes) {
   const std::size_t body_bytes = loaded.body_limit * sizeof(BodyRecord);
   const std::size_t contact_bytes = loaded.contact_count * sizeof(ContactRecord);
   if (bytes.size() != sizeof(loaded) + body_bytes + contact_bytes) return Status::truncated;
-  for (std::uint32_t i = loaded.body_limit; i < header.body_limit; ++i) bodies[i] = {};
+  for (std::uint32_t i = loaded.body_limit; i < header.body_limit; ++i)
+    bodies[i] = {};
   const std::byte* from = bytes.data() + sizeof(loaded);
   if (body_bytes > 0) std::memcpy(bodies.data(), from, body_bytes);
   if (contact_bytes > 0) std::memcpy(contact_store.data(), from + body_bytes, contact_bytes);
@@ -221,8 +219,10 @@ std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
   writer.put<std::uint16_t>(0);
   writer.put(config_hash(def));
   encode(header, writer);
-  for (std::uint32_t i = 0; i < header.body_limit; ++i) encode(bodies[i], writer);
-  for (const ContactRecord& contact : contacts()) encode(contact, writer);
+  for (std::uint32_t i = 0; i < header.body_limit; ++i)
+    encode(bodies[i], writer);
+  for (const ContactRecord& contact : contacts())
+    encode(contact, writer);
   if (!writer.ok()) return 0;
   writer.put(hash64(writer.written()));
   return writer.ok() ? writer.size() : 0;
@@ -234,8 +234,10 @@ Status World::Impl::load_canonical(ByteView bytes) {
   if (const Status status = view.value().check(); status != Status::ok) return status;
   const std::uint32_t old_limit = header.body_limit;
   header = view.value().header;
-  for (std::uint32_t i = 0; i < header.body_limit; ++i) bodies[i] = view.value().body(i);
-  for (std::uint32_t i = header.body_limit; i < old_limit; ++i) bodies[i] = {};
+  for (std::uint32_t i = 0; i < header.body_limit; ++i)
+    bodies[i] = view.value().body(i);
+  for (std::uint32_t i = header.body_limit; i < old_limit; ++i)
+    bodies[i] = {};
   for (std::uint32_t i = 0; i < header.contact_count; ++i) {
     contact_store[i] = view.value().contact(i);
   }

@@ -40,8 +40,8 @@ StateHash World::hash() const {
   const Impl& world = *impl_;
   StateHash hash;
   hash.header = hash_record(world.header, 0);
-  hash.bodies = hash_store(
-      std::span<const BodyRecord>(world.bodies.data(), world.header.body_limit), 1);
+  hash.bodies =
+      hash_store(std::span<const BodyRecord>(world.bodies.data(), world.header.body_limit), 1);
   hash.contacts = hash_store(world.contacts(), 2);
   std::array<std::byte, 24> parts{};
   ByteWriter writer(parts);

@@ -91,9 +91,9 @@ void World::Impl::collide_pairs(StepReport& report) {
   std::size_t old = 0;
   for (const Pair& pair : pairs) {
     const std::span<const ContactRecord> before = contacts();
-    while (old < before.size() && Pair{before[old].body_a, before[old].body_b} < pair) ++old;
-    const bool known =
-        old < before.size() && Pair{before[old].body_a, before[old].body_b} == pair;
+    while (old < before.size() && Pair{before[old].body_a, before[old].body_b} < pair)
+      ++old;
+    const bool known = old < before.size() && Pair{before[old].body_a, before[old].body_b} == pair;
     ContactRecord record;
     if (known) record = before[old];
     Manifold manifold;
@@ -107,8 +107,8 @@ void World::Impl::collide_pairs(StepReport& report) {
   }
 }
 
-// Answers whether the pair touches or may do so within the tick. `record` keeps the impulses and the
-// touching flag of the tick before.
+// Answers whether the pair touches or may do so within the tick. `record` keeps the impulses and
+// the touching flag of the tick before.
 bool World::Impl::collide_pair(const Pair& pair, ContactRecord& record, Manifold& manifold) const {
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
@@ -169,10 +169,12 @@ void World::Impl::run_substeps(StepReport& report) {
   ContactSolver solver(solver_bodies, constraints, time_step);
   const std::span<SolverBody> moving = std::span(solver_bodies).subspan(1);
   for (int substep = 0; substep < time_step.substeps; ++substep) {
-    for (SolverBody& body : moving) integrate_velocity(body);
+    for (SolverBody& body : moving)
+      integrate_velocity(body);
     solver.warm_start();
     solver.solve(true);
-    for (SolverBody& body : moving) integrate_position(body, time_step);
+    for (SolverBody& body : moving)
+      integrate_position(body, time_step);
     solver.solve(false);
   }
   solver.apply_restitution();
@@ -226,9 +228,8 @@ void World::Impl::move_body(std::uint32_t body, StepReport& report) {
 }
 
 void World::Impl::add_event(EventKind kind, const ContactRecord& record, std::size_t index) {
-  const Velocity approach = kind == EventKind::contact_begin
-                                ? rounded<Velocity>(approach_speeds[index])
-                                : Velocity{};
+  const Velocity approach =
+      kind == EventKind::contact_begin ? rounded<Velocity>(approach_speeds[index]) : Velocity{};
   events.push_back({kind,
                     {record.body_a, bodies[record.body_a].generation},
                     {record.body_b, bodies[record.body_b].generation},
@@ -242,16 +243,16 @@ void World::Impl::find_events() {
   std::size_t i = 0, j = 0;
   while (i < before.size() || j < new_contacts.size()) {
     const auto key = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
-    const bool old_first = j == new_contacts.size() ||
-                           (i < before.size() && key(before[i]) < key(new_contacts[j]));
+    const bool old_first =
+        j == new_contacts.size() || (i < before.size() && key(before[i]) < key(new_contacts[j]));
     const bool both = !old_first && i < before.size() && key(before[i]) == key(new_contacts[j]);
     const ContactRecord& record = old_first ? before[i] : new_contacts[j];
     const bool was = (old_first || both) && (before[i].is_touching() || before[i].is_trigger());
     const bool is = !old_first && (record.is_touching() || record.is_trigger());
     if (record.is_trigger()) {
-      add_event(!is    ? EventKind::trigger_exit
-                : was  ? EventKind::trigger_stay
-                       : EventKind::trigger_enter,
+      add_event(!is   ? EventKind::trigger_exit
+                : was ? EventKind::trigger_stay
+                      : EventKind::trigger_enter,
                 record, j);
     } else if (was != is) {
       add_event(is ? EventKind::contact_begin : EventKind::contact_end, record, j);

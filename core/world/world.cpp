@@ -1,9 +1,8 @@
-#include <lockstone/world.h>
-
 #include <algorithm>
 #include <array>
 
 #include <lockstone/hash.h>
+#include <lockstone/world.h>
 
 #include "core/dynamics/inertia.h"
 #include "core/geometry/shape_properties.h"
@@ -40,7 +39,8 @@ std::uint64_t config_hash(const WorldDef& def) {
   writer.put(def.contact_capacity);
   writer.put(def.tick_rate);
   writer.put(def.substeps);
-  for (int i = 0; i < 3; ++i) writer.put(def.gravity[i].raw);
+  for (int i = 0; i < 3; ++i)
+    writer.put(def.gravity[i].raw);
   LKS_CHECK(writer.ok());
   return hash64(writer.written());
 }
@@ -98,14 +98,30 @@ Result<World> World::create(const WorldDef& def) {
   return World(std::make_unique<Impl>(def));
 }
 
-const WorldDef& World::def() const { return impl_->def; }
-std::uint64_t World::tick() const { return impl_->header.tick; }
-StepReport World::step() { return impl_->step(); }
-std::span<const ContactEvent> World::events() const { return impl_->events; }
-bool World::exists(BodyHandle body) const { return impl_->find(body) != nullptr; }
-std::uint32_t World::body_count() const { return impl_->body_count(); }
-std::uint32_t World::body_limit() const { return impl_->header.body_limit; }
-void World::drop_derived() { impl_->rebuild_derived(); }
+const WorldDef& World::def() const {
+  return impl_->def;
+}
+std::uint64_t World::tick() const {
+  return impl_->header.tick;
+}
+StepReport World::step() {
+  return impl_->step();
+}
+std::span<const ContactEvent> World::events() const {
+  return impl_->events;
+}
+bool World::exists(BodyHandle body) const {
+  return impl_->find(body) != nullptr;
+}
+std::uint32_t World::body_count() const {
+  return impl_->body_count();
+}
+std::uint32_t World::body_limit() const {
+  return impl_->header.body_limit;
+}
+void World::drop_derived() {
+  impl_->rebuild_derived();
+}
 
 BodyHandle World::body_at(std::uint32_t index) const {
   if (index >= impl_->header.body_limit || !impl_->bodies[index].exists()) return {};
@@ -148,8 +164,7 @@ Mass World::mass(BodyHandle body) const {
   LKS_CHECK(record != nullptr);
   if (record->inverse_mass == 0) return {};
   // 1 / (mantissa·2^e) in Q32 = (2^62 / mantissa) · 2^(−e − 30)
-  const std::int64_t quotient =
-      raw::round_divide(std::int64_t{1} << 62, record->inverse_mass);
+  const std::int64_t quotient = raw::round_divide(std::int64_t{1} << 62, record->inverse_mass);
   return Mass::from_raw(raw::scale_binary(quotient, -record->inverse_mass_exponent - 30));
 }
 

@@ -39,7 +39,9 @@ struct World::Impl {
   void refresh(std::uint32_t body);
   void rebuild_derived();
 
-  [[nodiscard]] std::span<ContactRecord> contacts() { return {contact_store.data(), header.contact_count}; }
+  [[nodiscard]] std::span<ContactRecord> contacts() {
+    return {contact_store.data(), header.contact_count};
+  }
   [[nodiscard]] std::span<const ContactRecord> contacts() const {
     return {contact_store.data(), header.contact_count};
   }
@@ -85,7 +87,7 @@ struct World::Impl {
   // Scratch of one step.
   std::span<const Pair> pairs;
   std::vector<ContactRecord> new_contacts;
-  std::vector<Manifold> manifolds;              // by new contact
+  std::vector<Manifold> manifolds;  // by new contact
   std::vector<ContactConstraint> constraints;
   std::vector<SolverBody> solver_bodies;        // entry 0 is the immovable body
   std::vector<std::uint32_t> solver_index;      // by body; 0: not in the solver

@@ -13,7 +13,8 @@ TEST(ByteWriter, WritesLittleEndian) {
   ByteWriter writer(buffer);
   writer.put<std::uint32_t>(0x04030201);
   ASSERT_TRUE(writer.ok());
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(std::to_integer<std::size_t>(buffer[i]), i + 1);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(std::to_integer<std::size_t>(buffer[i]), i + 1);
 }
 
 TEST(ByteWriter, RefusesWhatDoesNotFitAndStaysFailed) {

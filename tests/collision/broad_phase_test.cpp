@@ -90,7 +90,8 @@ TEST(BroadPhase, KeepsTheFirstPairsWhenTheyExceedTheCapacity) {
 
 TEST(BroadPhase, LeavesOutWhatIsNotAccepted) {
   BroadPhase broad_phase(4, 16);
-  for (std::uint32_t body = 0; body < 4; ++body) broad_phase.set_bounds(body, Bounds{}, true);
+  for (std::uint32_t body = 0; body < 4; ++body)
+    broad_phase.set_bounds(body, Bounds{}, true);
   const auto found =
       broad_phase.find_pairs(4, [](std::uint32_t a, std::uint32_t b) { return a + b == 3; });
   ASSERT_EQ(found.size(), 2U);

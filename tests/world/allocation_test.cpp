@@ -20,8 +20,12 @@ void* operator new(std::size_t size) {
   throw std::bad_alloc();
 }
 
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 
 namespace lockstone {
 namespace {
@@ -40,7 +44,8 @@ TEST(World, AllocatesNothingAfterCreation) {
     (void)world.hash();
     const std::size_t size = world.save(SnapshotKind::native, native);
     const std::size_t canonical_size = world.save(SnapshotKind::canonical, canonical);
-    ASSERT_EQ(world.load(SnapshotKind::canonical, ByteView(canonical).first(canonical_size)), Status::ok);
+    ASSERT_EQ(world.load(SnapshotKind::canonical, ByteView(canonical).first(canonical_size)),
+              Status::ok);
     ASSERT_EQ(world.load(SnapshotKind::native, ByteView(native).first(size)), Status::ok);
     (void)world.cast_ray({{}, 5_m, {}}, {{}, -10_m, {}});
     (void)world.overlap_sphere({}, 3_m, found);

@@ -7,7 +7,9 @@ namespace {
 
 using namespace literals;
 
-double value(Velocity v) { return static_cast<double>(v.raw) / 4294967296.0; }
+double value(Velocity v) {
+  return static_cast<double>(v.raw) / 4294967296.0;
+}
 
 TEST(CreateBody, RefusesValuesOutsideTheirRange) {
   World world = test::make_world();
@@ -20,16 +22,19 @@ TEST(CreateBody, RefusesValuesOutsideTheirRange) {
     return status;
   };
   EXPECT_EQ(refused([](BodyDef& d) { d.shape = Shape::sphere({}); }), Status::invalid_argument);
-  EXPECT_EQ(refused([](BodyDef& d) { d.shape = Shape::box(513_m, 1_m, 1_m); }), Status::invalid_argument);
+  EXPECT_EQ(refused([](BodyDef& d) { d.shape = Shape::box(513_m, 1_m, 1_m); }),
+            Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.position.z = 1048577_m; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.velocity.x = -501_mps; }), Status::invalid_argument);
-  EXPECT_EQ(refused([](BodyDef& d) { d.angular_velocity.x = 2000000_rps; }), Status::invalid_argument);
+  EXPECT_EQ(refused([](BodyDef& d) { d.angular_velocity.x = 2000000_rps; }),
+            Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.orientation.w = {}; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.material.friction = -0.1_r; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.material.restitution = 1.1_r; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.material.density = {}; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.linear_damping = {-1}; }), Status::invalid_argument);
-  EXPECT_EQ(refused([](BodyDef& d) { d.motion = static_cast<MotionType>(0); }), Status::invalid_argument);
+  EXPECT_EQ(refused([](BodyDef& d) { d.motion = static_cast<MotionType>(0); }),
+            Status::invalid_argument);
 }
 
 TEST(CreateBody, SaysWhenTheWorldIsFull) {
@@ -57,7 +62,8 @@ TEST(Handle, OfADestroyedBodyNeverNamesAnother) {
 TEST(Handle, SlotsAreReusedLowestFirst) {
   World world = test::make_world();
   std::vector<BodyHandle> bodies;
-  for (int i = 0; i < 5; ++i) bodies.push_back(test::add(world, {}));
+  for (int i = 0; i < 5; ++i)
+    bodies.push_back(test::add(world, {}));
   ASSERT_EQ(world.apply(DestroyBody{bodies[3]}), Status::ok);
   ASSERT_EQ(world.apply(DestroyBody{bodies[1]}), Status::ok);
   EXPECT_EQ(test::add(world, {}).index, 1U);
@@ -67,7 +73,8 @@ TEST(Handle, SlotsAreReusedLowestFirst) {
 
 TEST(ApplyImpulse, ChangesVelocityByImpulseOverMass) {
   World world = test::make_world();
-  const BodyHandle box = test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
+  const BodyHandle box =
+      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
   EXPECT_NEAR(static_cast<double>(world.mass(box).raw) / 4294967296.0, 1000.0, 1e-6);
   ASSERT_EQ(world.apply(ApplyImpulse{box, {2500_Ns, {}, -500_Ns}}), Status::ok);
   EXPECT_NEAR(value(world.velocity(box).x), 2.5, 1e-8);
@@ -76,7 +83,8 @@ TEST(ApplyImpulse, ChangesVelocityByImpulseOverMass) {
 
 TEST(ApplyImpulseAt, TurnsTheBodyByLeverTimesImpulse) {
   World world = test::make_world();
-  const BodyHandle box = test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
+  const BodyHandle box =
+      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
   ASSERT_EQ(world.apply(ApplyImpulseAt{box, {{}, 1000_Ns, {}}, {0.5_m, {}, {}}}), Status::ok);
   // I = m/6 for the unit cube: ω = r·J/I = 0.5·1000/(1000/6) = 3.
   const auto omega = world.body(box).angular_velocity.z;
@@ -86,15 +94,18 @@ TEST(ApplyImpulseAt, TurnsTheBodyByLeverTimesImpulse) {
 
 TEST(ApplyAngularImpulse, ChangesAngularVelocityByImpulseOverInertia) {
   World world = test::make_world();
-  const BodyHandle box = test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
+  const BodyHandle box =
+      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
   const AngularImpulse l = AngularImpulse::from_integer(500);
   ASSERT_EQ(world.apply(ApplyAngularImpulse{box, {{}, l, {}}}), Status::ok);
-  EXPECT_NEAR(static_cast<double>(world.body(box).angular_velocity.y.raw) / 4294967296.0, 3.0, 1e-6);
+  EXPECT_NEAR(static_cast<double>(world.body(box).angular_velocity.y.raw) / 4294967296.0, 3.0,
+              1e-6);
 }
 
 TEST(ApplyForce, ActsForOneTick) {
   World world = test::make_world();
-  const BodyHandle box = test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
+  const BodyHandle box =
+      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, {}, {}));
   ASSERT_EQ(world.apply(ApplyForce{box, {6000_N, {}, {}}}), Status::ok);
   EXPECT_NEAR(value(world.velocity(box).x), 0.1, 1e-7);
 }
@@ -104,10 +115,12 @@ TEST(ApplyImpulse, IsBoundedByTheSpeedLimit) {
   BodyDef def = test::dynamic_body(Shape::sphere(0.01_m), {}, {}, {});
   def.gravity_scale = {};
   const BodyHandle ball = test::add(world, def);
-  ASSERT_EQ(world.apply(ApplyImpulse{ball, {Impulse::max(), Impulse::max(), Impulse::min()}}), Status::ok);
+  ASSERT_EQ(world.apply(ApplyImpulse{ball, {Impulse::max(), Impulse::max(), Impulse::min()}}),
+            Status::ok);
   test::step(world, 2);
   const Vec3<Velocity> v = world.velocity(ball);
-  EXPECT_LE(value(v.x) * value(v.x) + value(v.y) * value(v.y) + value(v.z) * value(v.z), 500.001 * 500.001);
+  EXPECT_LE(value(v.x) * value(v.x) + value(v.y) * value(v.y) + value(v.z) * value(v.z),
+            500.001 * 500.001);
 }
 
 TEST(Impulse, IsRefusedForWhatCannotBePushed) {

@@ -105,8 +105,8 @@ TEST(Box, SlidesAsFarAsFrictionLets) {
 TEST(Box, StaysOnASlopeBelowTheFrictionAngle) {
   World world = test::make_world();
   test::add_ground(world);
-  const BodyHandle box = test::add(
-      world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {}));
+  const BodyHandle box =
+      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {}));
   // Gravity tilted by 20°.
   ASSERT_EQ(world.apply(SetGravity{{3.355_mps2, -9.218_mps2, {}}}), Status::ok);
   test::step(world, 60);
@@ -133,9 +133,9 @@ TEST(Collision, ConservesMomentumExactlyBetweenEqualMasses) {
   World world = test::make_world();
   std::vector<BodyHandle> balls;
   for (int i = 0; i < 60; ++i) {
-    BodyDef def = test::dynamic_body(Shape::sphere(0.3_m), Position::from_ratio(i % 4, 2),
-                                     Position::from_ratio(i / 4 % 4, 2),
-                                     Position::from_ratio(i / 16, 2));
+    BodyDef def =
+        test::dynamic_body(Shape::sphere(0.3_m), Position::from_ratio(i % 4, 2),
+                           Position::from_ratio(i / 4 % 4, 2), Position::from_ratio(i / 16, 2));
     def.gravity_scale = {};
     def.velocity = {Velocity::from_ratio(i % 7 - 3, 2), Velocity::from_ratio(i % 5 - 2, 2),
                     Velocity::from_ratio(i % 3 - 1, 2)};
@@ -143,7 +143,8 @@ TEST(Collision, ConservesMomentumExactlyBetweenEqualMasses) {
   }
   const auto momentum = [&] {
     Vec3<Velocity> sum;
-    for (const BodyHandle ball : balls) sum += world.velocity(ball);
+    for (const BodyHandle ball : balls)
+      sum += world.velocity(ball);
     return sum;
   };
   const Vec3<Velocity> before = momentum();
@@ -157,9 +158,9 @@ TEST(Collision, MirroredSceneGivesTheMirroredResult) {
     test::add_ground(world);
     std::vector<BodyHandle> balls;
     for (int i = 0; i < 12; ++i) {
-      BodyDef def = test::dynamic_body(Shape::sphere(0.3_m), Position::from_ratio(sign * (i % 3), 3),
-                                       Position::from_ratio(3 + 2 * i, 4),
-                                       Position::from_ratio(i % 2, 5));
+      BodyDef def =
+          test::dynamic_body(Shape::sphere(0.3_m), Position::from_ratio(sign * (i % 3), 3),
+                             Position::from_ratio(3 + 2 * i, 4), Position::from_ratio(i % 2, 5));
       def.velocity = {Velocity::from_ratio(sign * (i % 5), 3), {}, {}};
       balls.push_back(test::add(world, def));
     }
@@ -185,9 +186,9 @@ TEST(World, IsTheSameAnywhere) {
     test::add(world, ground);
     BodyHandle last;
     for (int i = 0; i < 8; ++i) {
-      BodyDef def = test::dynamic_body(Shape::box(0.4_m, 0.3_m, 0.5_m),
-                                       east + Position::from_ratio(i, 10),
-                                       Position::from_ratio(4 + 7 * i, 10), {});
+      BodyDef def =
+          test::dynamic_body(Shape::box(0.4_m, 0.3_m, 0.5_m), east + Position::from_ratio(i, 10),
+                             Position::from_ratio(4 + 7 * i, 10), {});
       def.orientation = {0.1_r, 0.2_r, 0.1_r, 0.9_r};
       last = test::add(world, def);
     }
@@ -203,9 +204,11 @@ TEST(World, IsTheSameAnywhere) {
 
 TEST(World, ReportsPairsThatDoNotFitAndStaysDeterministic) {
   const auto run = [] {
-    World world = test::make_world({.body_capacity = 64, .pair_capacity = 100, .contact_capacity = 50});
+    World world =
+        test::make_world({.body_capacity = 64, .pair_capacity = 100, .contact_capacity = 50});
     for (int i = 0; i < 60; ++i) {
-      test::add(world, test::dynamic_body(Shape::sphere(0.5_m), Position::from_ratio(i, 100), {}, {}));
+      test::add(world,
+                test::dynamic_body(Shape::sphere(0.5_m), Position::from_ratio(i, 100), {}, {}));
     }
     const StepReport report = world.step();
     EXPECT_EQ(report.status, Status::capacity_exhausted);

@@ -94,7 +94,8 @@ TEST(Events, ComeInOrderOfPairs) {
   World world = test::make_world();
   test::add_ground(world);
   for (int i = 0; i < 20; ++i) {
-    test::add(world, test::dynamic_body(Shape::sphere(0.5_m), Position::from_integer(37 * i % 40 * 2 - 40), 0.5_m, {}));
+    test::add(world, test::dynamic_body(Shape::sphere(0.5_m),
+                                        Position::from_integer(37 * i % 40 * 2 - 40), 0.5_m, {}));
   }
   (void)world.step();
   const auto events = world.events();

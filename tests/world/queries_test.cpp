@@ -46,13 +46,17 @@ TEST(CastRay, GivesTheSameAnswerAfterDerivedDataIsRebuilt) {
   test::fill_with_random_bodies(world, test::run_seed(), 150);
   test::step(world, 60);
   World copy = test::make_world();
-  ASSERT_EQ(copy.load(SnapshotKind::canonical, test::save(world, SnapshotKind::canonical)), Status::ok);
+  ASSERT_EQ(copy.load(SnapshotKind::canonical, test::save(world, SnapshotKind::canonical)),
+            Status::ok);
   test::Random random;
-  const auto coordinate = [&] { return Length::from_raw(static_cast<std::int32_t>(random.between(-(8 << 20), 8 << 20))); };
+  const auto coordinate = [&] {
+    return Length::from_raw(static_cast<std::int32_t>(random.between(-(8 << 20), 8 << 20)));
+  };
   int hits = 0;
   for (int i = 0; i < 500; ++i) {
     const Vec3<Length> ray{coordinate(), coordinate(), coordinate()};
-    const Vec3<Position> from{rounded<Position>(coordinate()), 6_m, rounded<Position>(coordinate())};
+    const Vec3<Position> from{rounded<Position>(coordinate()), 6_m,
+                              rounded<Position>(coordinate())};
     const RayHit a = world.cast_ray(from, ray), b = copy.cast_ray(from, ray);
     EXPECT_EQ(a.body, b.body);
     EXPECT_EQ(a.fraction, b.fraction);
@@ -65,7 +69,8 @@ TEST(OverlapSphere, GivesTheLowestIndicesInOrder) {
   World world = test::make_world();
   std::vector<BodyHandle> balls;
   for (int i = 0; i < 8; ++i) {
-    balls.push_back(test::add(world, test::dynamic_body(Shape::sphere(0.5_m), Position::from_integer(i), {}, {})));
+    balls.push_back(test::add(
+        world, test::dynamic_body(Shape::sphere(0.5_m), Position::from_integer(i), {}, {})));
   }
   std::array<BodyHandle, 3> few{};
   ASSERT_EQ(world.overlap_sphere({}, 4.2_m, few), 3U);

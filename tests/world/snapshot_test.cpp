@@ -1,6 +1,5 @@
 // State is what is saved is what is hashed.
 
-
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -44,10 +43,12 @@ TEST(Snapshot, LoadedGivesTheSameFuture) {
 TEST(Snapshot, SavingAndLoadingEveryTickChangesNothing) {
   World plain = busy_world(test::run_seed() + 1);
   World heavy = test::make_world();
-  ASSERT_EQ(heavy.load(SnapshotKind::canonical, test::save(plain, SnapshotKind::canonical)), Status::ok);
+  ASSERT_EQ(heavy.load(SnapshotKind::canonical, test::save(plain, SnapshotKind::canonical)),
+            Status::ok);
   for (int tick = 0; tick < 60; ++tick) {
     World fresh = test::make_world();
-    ASSERT_EQ(fresh.load(SnapshotKind::canonical, test::save(heavy, SnapshotKind::canonical)), Status::ok);
+    ASSERT_EQ(fresh.load(SnapshotKind::canonical, test::save(heavy, SnapshotKind::canonical)),
+              Status::ok);
     (void)fresh.step();
     (void)plain.step();
     ASSERT_EQ(fresh.hash().total, plain.hash().total) << "tick " << tick;
@@ -78,7 +79,8 @@ TEST(Snapshot, LoadOverwritesAWorldThatHadMoreBodies) {
   EXPECT_EQ(large.hash().total, small.hash().total);
 }
 
-// Flips the lowest bit of each integer of the record at `offset` in turn; calls `check(bytes, field)`.
+// Flips the lowest bit of each integer of the record at `offset` in turn; calls `check(bytes,
+// field)`.
 template <class Record, class Check>
 void flip_each_field(const std::vector<std::byte>& saved, std::size_t offset, Check&& check) {
   Record record;
@@ -155,7 +157,8 @@ TEST(CanonicalSnapshot, RefusesAnotherConfiguration) {
   WorldDef def = world.def();
   def.substeps = 8;
   World other = test::make_world(def);
-  EXPECT_EQ(other.load(SnapshotKind::canonical, test::save(world, SnapshotKind::canonical)), Status::incompatible);
+  EXPECT_EQ(other.load(SnapshotKind::canonical, test::save(world, SnapshotKind::canonical)),
+            Status::incompatible);
 }
 
 TEST(CanonicalSnapshot, WithARightChecksumButImpossibleValuesIsRefused) {
@@ -170,7 +173,8 @@ TEST(CanonicalSnapshot, WithARightChecksumButImpossibleValuesIsRefused) {
     std::vector<std::byte> forged = saved;
     forged[at] = std::byte{0xff};
     const std::uint64_t hash = hash64(ByteView(forged).first(forged.size() - 8));
-    for (std::size_t i = 0; i < 8; ++i) forged[forged.size() - 8 + i] = static_cast<std::byte>(hash >> (8 * i));
+    for (std::size_t i = 0; i < 8; ++i)
+      forged[forged.size() - 8 + i] = static_cast<std::byte>(hash >> (8 * i));
     World target = test::make_world();
     if (target.load(SnapshotKind::canonical, forged) == Status::ok) {
       test::step(target, 2);
@@ -213,7 +217,9 @@ TEST(NativeSnapshot, IsAsSmallAsPromised) {
   EXPECT_LE(sizeof(ContactRecord), 96U);
 }
 
-TEST(Canary, IsTheSameTwice) { EXPECT_EQ(canary_hash(), canary_hash()); }
+TEST(Canary, IsTheSameTwice) {
+  EXPECT_EQ(canary_hash(), canary_hash());
+}
 
 }  // namespace
 }  // namespace lockstone

@@ -6,9 +6,13 @@ namespace lockstone::test {
 
 using namespace literals;
 
-World make_world(WorldDef def) { return std::move(World::create(def)).value(); }
+World make_world(WorldDef def) {
+  return std::move(World::create(def)).value();
+}
 
-BodyHandle add(World& world, const BodyDef& def) { return world.create_body(def).value(); }
+BodyHandle add(World& world, const BodyDef& def) {
+  return world.create_body(def).value();
+}
 
 BodyHandle add_ground(World& world) {
   BodyDef def;
@@ -28,11 +32,16 @@ BodyDef dynamic_body(const Shape& shape, Position x, Position y, Position z) {
 namespace {
 
 Shape random_shape(Random& random) {
-  const auto size = [&] { return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 17, 1 << 19))); };
+  const auto size = [&] {
+    return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 17, 1 << 19)));
+  };
   switch (random.between(0, 2)) {
-    case 0: return Shape::sphere(size());
-    case 1: return Shape::capsule(size(), size());
-    default: return Shape::box(size(), size(), size());
+    case 0:
+      return Shape::sphere(size());
+    case 1:
+      return Shape::capsule(size(), size());
+    default:
+      return Shape::box(size(), size(), size());
   }
 }
 
@@ -52,7 +61,8 @@ void fill_with_random_bodies(World& world, std::uint64_t seed, int count) {
                     Position::from_ratio(random.between(60, 800), 100),
                     Position::from_ratio(random.between(-400, 400), 100)};
     def.orientation = {random_unit(random), random_unit(random), random_unit(random), 1_r};
-    def.velocity = {Velocity::from_ratio(random.between(-300, 300), 100), {},
+    def.velocity = {Velocity::from_ratio(random.between(-300, 300), 100),
+                    {},
                     Velocity::from_ratio(random.between(-300, 300), 100)};
     def.angular_velocity = {AngularVelocity::from_ratio(random.between(-300, 300), 100), {}, {}};
     def.material.restitution = Unit::from_ratio(random.between(0, 60), 100);
@@ -62,7 +72,8 @@ void fill_with_random_bodies(World& world, std::uint64_t seed, int count) {
 }
 
 void step(World& world, int ticks) {
-  for (int i = 0; i < ticks; ++i) (void)world.step();
+  for (int i = 0; i < ticks; ++i)
+    (void)world.step();
 }
 
 std::vector<std::byte> save(const World& world, SnapshotKind kind) {
@@ -71,6 +82,8 @@ std::vector<std::byte> save(const World& world, SnapshotKind kind) {
   return bytes;
 }
 
-double metres(Position x) { return static_cast<double>(x.raw) / 4294967296.0; }
+double metres(Position x) {
+  return static_cast<double>(x.raw) / 4294967296.0;
+}
 
 }  // namespace lockstone::test

@@ -10,7 +10,8 @@
 namespace lockstone::test {
 
 /// 60 Hz, 4 substeps, room for a few hundred bodies.
-World make_world(WorldDef def = {.body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
+World make_world(WorldDef def = {
+                     .body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
 
 /// A static box, 100 m square, whose top is the plane y = 0.
 BodyHandle add_ground(World& world);

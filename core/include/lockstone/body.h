@@ -35,12 +35,12 @@ enum class MotionType : std::uint8_t {
 /// Surface and substance.
 struct Material {
   Coefficient friction = Coefficient::from_ratio(1, 2);  ///< 0 … 1.99; pairs use √(a·b)
-  Coefficient restitution{};                                        ///< 0 … 1; pairs use the larger
-  Density density = Density::from_integer(1000);                    ///< > 0
+  Coefficient restitution{};                             ///< 0 … 1; pairs use the larger
+  Density density = Density::from_integer(1000);         ///< > 0
 };
 
-/// Which bodies meet. With an equal non-zero group the sign decides: positive always, negative never.
-/// Else both must find the other's category in their mask.
+/// Which bodies meet. With an equal non-zero group the sign decides: positive always, negative
+/// never. Else both must find the other's category in their mask.
 struct CollisionFilter {
   std::uint32_t category = 1;
   std::uint32_t mask = 0xffffffff;
@@ -58,18 +58,18 @@ struct CollisionFilter {
 struct BodyDef {
   MotionType motion = MotionType::dynamic;
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));
-  Vec3<Position> position{};     ///< within ±2^20 m
-  Quat orientation{};            ///< is normalised
-  Vec3<Velocity> velocity{};     ///< at most 500 m/s
+  Vec3<Position> position{};  ///< within ±2^20 m
+  Quat orientation{};         ///< is normalised
+  Vec3<Velocity> velocity{};  ///< at most 500 m/s
   Vec3<AngularVelocity> angular_velocity{};
   Material material{};
   CollisionFilter filter{};
   Number gravity_scale = Number::from_integer(1);
-  Rate linear_damping{};         ///< ≥ 0; velocity falls by the factor 1/(1 + c·dt) a tick
+  Rate linear_damping{};  ///< ≥ 0; velocity falls by the factor 1/(1 + c·dt) a tick
   Rate angular_damping{};
-  bool is_trigger = false;       ///< reports overlaps, pushes nothing
-  bool fixed_rotation = false;   ///< never rotates: a character, say
-  std::uint64_t user_data = 0;   ///< the game's own; part of the state
+  bool is_trigger = false;      ///< reports overlaps, pushes nothing
+  bool fixed_rotation = false;  ///< never rotates: a character, say
+  std::uint64_t user_data = 0;  ///< the game's own; part of the state
 };
 
 /// A body as it stands. A copy: it does not change with the world.

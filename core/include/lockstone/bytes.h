@@ -18,8 +18,7 @@ class ByteWriter {
 
   /// Appends `value` in little-endian order; 1, 2, 4 or 8 bytes by its type.
   template <class T>
-    requires(std::is_integral_v<T> || std::is_enum_v<T>)
-  void put(T value) {
+  requires(std::is_integral_v<T> || std::is_enum_v<T>) void put(T value) {
     if (!reserve(sizeof(T))) return;
     auto bits = static_cast<std::uint64_t>(value);
     for (std::size_t i = 0; i < sizeof(T); ++i, bits >>= 8) {
@@ -29,7 +28,8 @@ class ByteWriter {
 
   void put_bytes(ByteView bytes) {
     if (!reserve(bytes.size())) return;
-    for (std::byte byte : bytes) buffer_[size_++] = byte;
+    for (std::byte byte : bytes)
+      buffer_[size_++] = byte;
   }
 
   [[nodiscard]] bool ok() const { return ok_; }             ///< false once anything did not fit
@@ -54,7 +54,7 @@ class ByteReader {
   explicit ByteReader(ByteView bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires std::is_integral_v<T>
+  requires std::is_integral_v<T>
   [[nodiscard]] T get() {
     if (!available(sizeof(T))) return T{};
     std::uint64_t bits = 0;

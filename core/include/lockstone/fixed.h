@@ -25,8 +25,8 @@ struct Dimension {
 };
 
 template <class A, class B>
-using DimensionProduct = Dimension<A::metres + B::metres, A::kilograms + B::kilograms,
-                                   A::seconds + B::seconds>;
+using DimensionProduct =
+    Dimension<A::metres + B::metres, A::kilograms + B::kilograms, A::seconds + B::seconds>;
 
 /// The raw integer rules that every typed operation is built from.
 namespace raw {
@@ -109,8 +109,10 @@ template <std::signed_integral T>
   LKS_ASSERT(shift >= 1 && shift <= 62);
   // |a| = high · 2^31 + low; both partial products fit in 64 bits.
   const bool negative = (a < 0) != (b < 0);
-  const std::uint64_t ua = a < 0 ? 0 - static_cast<std::uint64_t>(a) : static_cast<std::uint64_t>(a);
-  const std::uint64_t ub = b < 0 ? 0 - static_cast<std::uint64_t>(b) : static_cast<std::uint64_t>(b);
+  const std::uint64_t ua =
+      a < 0 ? 0 - static_cast<std::uint64_t>(a) : static_cast<std::uint64_t>(a);
+  const std::uint64_t ub =
+      b < 0 ? 0 - static_cast<std::uint64_t>(b) : static_cast<std::uint64_t>(b);
   const std::uint64_t low = (ua & 0x7fffffffU) * ub;
   const std::uint64_t high = (ua >> 31) * ub + (low >> 31);  // product = high · 2^31 + rest
   const std::uint64_t rest = low & 0x7fffffffU;
@@ -198,16 +200,17 @@ template <class To, class Rep, int FracBits>
 
 /// As `rounded` to a coarser or equal format, but what does not fit becomes the nearest bound.
 template <class To, class Rep, int FracBits>
-  requires(FracBits >= To::frac_bits)
-[[nodiscard]] constexpr To saturated(Fixed<typename To::Unit, Rep, FracBits> value) {
+requires(FracBits >= To::frac_bits) [[nodiscard]] constexpr To
+    saturated(Fixed<typename To::Unit, Rep, FracBits> value) {
   const std::int64_t scaled = raw::round_shift_any(value.raw, FracBits - To::frac_bits);
   return To{raw::saturate<typename To::Representation>(scaled)};
 }
 
 /// A 64-bit quantity times a 32-bit one, rounded once; the result must fit.
 template <class To, class D1, int F1, class D2, int F2>
-  requires(std::same_as<typename To::Unit, DimensionProduct<D1, D2>> && F1 + F2 > To::frac_bits)
-[[nodiscard]] constexpr To multiply(Fixed<D1, std::int64_t, F1> a, Fixed<D2, std::int32_t, F2> b) {
+requires(std::same_as<typename To::Unit, DimensionProduct<D1, D2>>&& F1 + F2 > To::frac_bits)
+    [[nodiscard]] constexpr To
+    multiply(Fixed<D1, std::int64_t, F1> a, Fixed<D2, std::int32_t, F2> b) {
   const std::int64_t product = raw::multiply_shift(a.raw, b.raw, F1 + F2 - To::frac_bits);
   LKS_ASSERT(product >= To::min().raw && product <= To::max().raw);
   return To{static_cast<typename To::Representation>(product)};

@@ -52,7 +52,9 @@ struct Mat3 {
           rounded<Unit>(a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z)};
 }
 
-[[nodiscard]] constexpr Quat conjugate(const Quat& q) { return {-q.x, -q.y, -q.z, q.w}; }
+[[nodiscard]] constexpr Quat conjugate(const Quat& q) {
+  return {-q.x, -q.y, -q.z, q.w};
+}
 
 /// Body to world: m·v, each component rounded once.
 template <class D, int F>

@@ -12,7 +12,7 @@ namespace lockstone {
 enum class ShapeKind : std::uint8_t { sphere = 0, capsule = 1, box = 2 };
 
 /// Bounds on every shape dimension (radius, half height, half extent).
-inline constexpr Length k_min_shape_size = Length::from_raw(1 << 10);    // 0.98 mm
+inline constexpr Length k_min_shape_size = Length::from_raw(1 << 10);  // 0.98 mm
 inline constexpr Length k_max_shape_size = Length::from_integer(512);
 
 /// A convex shape. `size` means, by kind:

@@ -23,13 +23,13 @@ inline constexpr std::size_t k_max_input_bytes = 64;
 
 /// What two peers must agree on before they play.
 struct SimulationInfo {
-  std::uint32_t abi = 0;           ///< changes whenever the same inputs may give another state
-  std::uint64_t config_hash = 0;   ///< rules, capacities and parameters
-  std::uint64_t scene_hash = 0;    ///< the state before the first tick
-  std::uint64_t canary = 0;        ///< what this build computes for a short built-in scene
-  std::uint16_t tick_rate = 60;    ///< ticks per second
-  std::uint8_t player_count = 0;   ///< slots, 1 … k_max_players
-  std::uint8_t input_bytes = 0;    ///< size of one player's input, 1 … k_max_input_bytes
+  std::uint32_t abi = 0;          ///< changes whenever the same inputs may give another state
+  std::uint64_t config_hash = 0;  ///< rules, capacities and parameters
+  std::uint64_t scene_hash = 0;   ///< the state before the first tick
+  std::uint64_t canary = 0;       ///< what this build computes for a short built-in scene
+  std::uint16_t tick_rate = 60;   ///< ticks per second
+  std::uint8_t player_count = 0;  ///< slots, 1 … k_max_players
+  std::uint8_t input_bytes = 0;   ///< size of one player's input, 1 … k_max_input_bytes
 
   friend bool operator==(const SimulationInfo&, const SimulationInfo&) = default;
 };
@@ -57,11 +57,11 @@ enum class SnapshotKind : std::uint8_t {
 /// The first difference between two states, in canonical order. Text is for people.
 struct StateDifference {
   bool differs = false;
-  std::string store;        ///< "body", "contact", "world", …
-  std::uint64_t object = 0; ///< index within the store
-  std::string name;         ///< the game's name of the object, may be empty
-  std::string field;        ///< "velocity.y"
-  std::string here;         ///< raw value as hexadecimal, "0x0003a2f1"
+  std::string store;         ///< "body", "contact", "world", …
+  std::uint64_t object = 0;  ///< index within the store
+  std::string name;          ///< the game's name of the object, may be empty
+  std::string field;         ///< "velocity.y"
+  std::string here;          ///< raw value as hexadecimal, "0x0003a2f1"
   std::string there;
 
   /// `body 17 "crate", velocity.y: 0x0003a2f1 here, 0x0003a2f0 there`, or "no difference".

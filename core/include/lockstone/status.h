@@ -11,18 +11,18 @@
 namespace lockstone {
 
 /// The outcome of an operation. Every peer of a match gets the same one at the same tick.
-enum class [[nodiscard]] Status : std::uint8_t {
-  ok = 0,
-  capacity_exhausted,    ///< a store of the world is full; nothing was changed
-  stale_handle,          ///< the object that the handle named no longer exists
-  invalid_argument,      ///< a value lies outside its documented range
-  truncated,             ///< the bytes end before what they announce
-  malformed,             ///< the bytes break their format
-  checksum_mismatch,     ///< the bytes were damaged
-  unsupported_version,   ///< the bytes are of another format version
-  incompatible,          ///< the bytes are well formed but belong to another configuration
-  io_error,              ///< the operating system refused to read or write
-  not_found,             ///< the named thing does not exist
+enum class [[nodiscard]] Status : std::uint8_t{
+    ok = 0,
+    capacity_exhausted,   ///< a store of the world is full; nothing was changed
+    stale_handle,         ///< the object that the handle named no longer exists
+    invalid_argument,     ///< a value lies outside its documented range
+    truncated,            ///< the bytes end before what they announce
+    malformed,            ///< the bytes break their format
+    checksum_mismatch,    ///< the bytes were damaged
+    unsupported_version,  ///< the bytes are of another format version
+    incompatible,         ///< the bytes are well formed but belong to another configuration
+    io_error,             ///< the operating system refused to read or write
+    not_found,            ///< the named thing does not exist
 };
 
 /// A short lower-case English name, for logs.

@@ -19,8 +19,8 @@
 
 namespace lockstone {
 
-/// Changes whenever the same commands may give another state. Refused when unequal in a handshake or
-/// a log. History: docs/determinism.md.
+/// Changes whenever the same commands may give another state. Refused when unequal in a handshake
+/// or a log. History: docs/determinism.md.
 inline constexpr std::uint32_t k_simulation_abi = 1;
 
 /// Capacities and rules of a world, fixed for its life.
@@ -40,20 +40,20 @@ struct WorldDef {
 
 /// What one step did. Counters cost nothing and are the same on every peer.
 struct StepReport {
-  Status status = Status::ok;           ///< capacity_exhausted: pairs were left out, alike everywhere
+  Status status = Status::ok;  ///< capacity_exhausted: pairs were left out, alike everywhere
   std::uint32_t moving_bodies = 0;
-  std::uint32_t free_bodies = 0;        ///< took the exact ballistic path, no solver
-  std::uint32_t pairs = 0;              ///< pairs with overlapping bounds
-  std::uint32_t contacts = 0;           ///< pairs with contact points, triggers excluded
+  std::uint32_t free_bodies = 0;  ///< took the exact ballistic path, no solver
+  std::uint32_t pairs = 0;        ///< pairs with overlapping bounds
+  std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
   std::uint32_t contact_points = 0;
-  std::uint32_t saturations = 0;        ///< values clamped to their range
+  std::uint32_t saturations = 0;  ///< values clamped to their range
 };
 
 /// Where a ray first meets a body.
 struct RayHit {
-  BodyHandle body{};            ///< null when nothing was hit
-  Unit fraction{};              ///< of the ray, 0 … 1
-  Vec3<Unit> normal{};          ///< outward; zero when the ray starts inside
+  BodyHandle body{};    ///< null when nothing was hit
+  Unit fraction{};      ///< of the ray, 0 … 1
+  Vec3<Unit> normal{};  ///< outward; zero when the ray starts inside
   Vec3<Position> point{};
 };
 
@@ -61,7 +61,7 @@ struct RayHit {
 struct QueryFilter {
   std::uint32_t mask = 0xffffffff;
   BodyHandle ignore{};
-  bool triggers = false;        ///< whether triggers are seen too
+  bool triggers = false;  ///< whether triggers are seen too
 };
 
 /// Hashes of one state; `total` covers the others.
@@ -86,7 +86,8 @@ class World {
 
   // Commands --------------------------------------------------------------------------------------
 
-  /// Makes a body: capacity_exhausted or invalid_argument when it cannot be. Slots are reused, lowest first.
+  /// Makes a body: capacity_exhausted or invalid_argument when it cannot be. Slots are reused,
+  /// lowest first.
   Result<BodyHandle> create_body(const BodyDef& def);
 
   /// Applies one command now. On any status but ok nothing has changed.
@@ -97,7 +98,8 @@ class World {
   /// Advances by 1 / tick_rate seconds.
   StepReport step();
 
-  /// Events of the last step; empty after `load`. Read them before the next step: they are not state.
+  /// Events of the last step; empty after `load`. Read them before the next step: they are not
+  /// state.
   [[nodiscard]] std::span<const ContactEvent> events() const;
 
   // Bodies ----------------------------------------------------------------------------------------
@@ -127,8 +129,8 @@ class World {
                                 const QueryFilter& filter = {}) const;
 
   /// Bodies that overlap a sphere, by index, as many as `out` holds; answers how many were written.
-  std::size_t overlap_sphere(const Vec3<Position>& center, Length radius,
-                             std::span<BodyHandle> out, const QueryFilter& filter = {}) const;
+  std::size_t overlap_sphere(const Vec3<Position>& center, Length radius, std::span<BodyHandle> out,
+                             const QueryFilter& filter = {}) const;
 
   // State -----------------------------------------------------------------------------------------
 
