@@ -95,8 +95,8 @@ Manifold nearest_point(const BoxCapsule& pair, Fine s, const RawVec& gap) {
 
 /// Whether the part beside the face comes as near to it as the core comes to the box.
 bool attains(const BoxCapsule& pair, int axis, int sign, const Interval& beside, Fine distance) {
-  const Fine nearest = std::min(height_at(pair, axis, sign, beside.low),
-                                height_at(pair, axis, sign, beside.high));
+  const Fine nearest =
+      std::min(height_at(pair, axis, sign, beside.low), height_at(pair, axis, sign, beside.high));
   return nearest <= distance + distance / 2048;
 }
 

@@ -46,15 +46,17 @@ struct PosedShape {
 /// Apart, the least separation is the distance: within 2 µm and 4e-9 of the sizes, for two boxes
 /// within 2^-16 m, and beside a box's rim within 1/2048 of the capsule core's distance.
 /// Overlapping, the normal is an axis of least overlap; a face is preferred to an edge whose
-/// overlap is smaller by less than a tenth and 0.5 mm. The normal errs by at most 2^-29 in length.
-/// Separations saturate at ±128 m. Points lie on both surfaces within 2 µm, for two boxes 32 µm
-/// where a flush edge was snapped, and for two points along a capsule within 1/1000 of its radius.
+/// overlap is smaller by less than a tenth and 0.5 mm, and the first of two boxes by 1/32 and 0.25
+/// mm. The normal errs by at most 2^-29 in length. Separations saturate at ±128 m. Points lie on
+/// both surfaces within 2 µm, for two boxes 32 µm where a flush edge was snapped, and for two
+/// points along a capsule within 1/1000 of its radius; where a capsule's core is inside a box, the
+/// point is the deepest of the core.
 ///
 /// collide(b, a, −offset) gives the same manifold flipped, bit for bit (of two spheres, the anchors
 /// within one step). Mirror images give mirror images bit for bit, except where a tie falls to one
-/// side: concentric shapes, cores that meet, the four of more than four points, equally near
-/// vertices, and the order of equal capsules and boxes when the mirror reverses the axis that
-/// separates their centres most.
+/// side: concentric shapes and centres level along the normal, cores that meet, the four of more
+/// than four points, equally near vertices, and the order of equal capsules and boxes when the
+/// mirror reverses the axis that separates their centres most.
 [[nodiscard]] Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                                Length margin);
 

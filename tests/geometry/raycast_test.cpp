@@ -171,7 +171,7 @@ TEST(CastRay, FractionAndNormalMatchTheReferenceAwayFromGrazing) {
         const RealVec t = real(ray.translation);
         const Real steepness = -dot(truth->normal, t) / norm(t);
         const Real reach = norm(real(ray.origin)) + norm(t);
-    const Real bump = steepness * std::min(placed.size.x, norm(t));
+        const Real bump = steepness * std::min(placed.size.x, norm(t));
         if (steepness < 0.1L || bump < 1e-3L) return;
         EXPECT_NEAR(static_cast<double>(real(hit.fraction)), static_cast<double>(truth->fraction),
                     static_cast<double>(2e-9L + (3e-6L + 4e-9L * reach) / (steepness * norm(t))));
