@@ -21,7 +21,8 @@ class TickInputs {
   void set_origin(std::size_t slot, InputOrigin origin) { inputs_[slot].origin = origin; }
 
   [[nodiscard]] std::span<const PlayerInput> view(std::size_t players) {
-    for (std::size_t slot = 0; slot < players; ++slot) inputs_[slot].bytes = bytes_[slot];
+    for (std::size_t slot = 0; slot < players; ++slot)
+      inputs_[slot].bytes = bytes_[slot];
     return std::span(inputs_).first(players);
   }
 
@@ -34,7 +35,8 @@ class TickInputs {
 
   void press_anything(Random& random) {
     for (auto& slot : bytes_) {
-      for (std::byte& byte : slot) byte = static_cast<std::byte>(random.next() & 0xff);
+      for (std::byte& byte : slot)
+        byte = static_cast<std::byte>(random.next() & 0xff);
     }
     for (PlayerInput& input : inputs_) {
       input.origin = static_cast<InputOrigin>(random.below(4));

@@ -1,12 +1,12 @@
 // The rules and the bots: players move, carry, score, fall and return.
-#include <gtest/gtest.h>
-
 #include <set>
 
+#include <gtest/gtest.h>
+
 #include "tests/tools/arena_match.h"
+#include "tools/arena/level.h"
 #include "tools/arena/motion.h"
 #include "tools/arena/tags.h"
-#include "tools/arena/level.h"
 
 namespace lockstone::arena::test {
 namespace {
@@ -36,9 +36,10 @@ class Solo {
   ArenaSimulation simulation;
 };
 
-constexpr ArenaConfig k_alone{.seed = 1, .loose_bodies = 0, .players = 1, .variant = Variant::empty};
-constexpr ArenaConfig k_with_crate{.seed = 1, .loose_bodies = 1, .players = 1,
-                                   .variant = Variant::empty};
+constexpr ArenaConfig k_alone{
+    .seed = 1, .loose_bodies = 0, .players = 1, .variant = Variant::empty};
+constexpr ArenaConfig k_with_crate{
+    .seed = 1, .loose_bodies = 1, .players = 1, .variant = Variant::empty};
 
 TEST(ArenaRules, APlayerWalksWhereTheStickPoints) {
   Solo solo(k_alone);
@@ -133,8 +134,8 @@ TEST(ArenaIntegers, HeadingsAgreeWithTheirDirections) {
 
 TEST(ArenaIntegers, SpeedsAreShortenedToTheLimit) {
   const SolverVelocity limit = SolverVelocity::from_integer(6);
-  const Vec3<SolverVelocity> fast{SolverVelocity::from_integer(300),
-                                  SolverVelocity::from_integer(-400), {}};
+  const Vec3<SolverVelocity> fast{
+      SolverVelocity::from_integer(300), SolverVelocity::from_integer(-400), {}};
   const Vec3<SolverVelocity> slow = shortened(fast, limit);
   EXPECT_NEAR(slow.x.raw, SolverVelocity::from_ratio(36, 10).raw, 400);
   EXPECT_NEAR(slow.y.raw, SolverVelocity::from_ratio(-48, 10).raw, 400);
@@ -155,12 +156,12 @@ TEST(ArenaBots, MovePressEverythingAndScore) {
     step_with_bots(simulation, 2);
     for (std::size_t slot = 0; slot < deeds.size(); ++slot) {
       const Input input = bot_input(simulation.arena(), 2, slot);
-      deeds[slot].inputs.insert(static_cast<std::uint16_t>(input.yaw) |
-                                std::uint64_t{input.buttons} << 16);
+      deeds[slot].inputs.insert(static_cast<std::uint16_t>(input.yaw) | std::uint64_t{input.buttons}
+                                                                            << 16);
       deeds[slot].buttons |= input.buttons;
       const BodyHandle body = simulation.arena().state.players[slot].body;
-      const std::int64_t way = squared_raw(
-          offset_between(spawn_point(slot), simulation.arena().world.position(body)));
+      const std::int64_t way =
+          squared_raw(offset_between(spawn_point(slot), simulation.arena().world.position(body)));
       deeds[slot].farthest = std::max(deeds[slot].farthest, way);
     }
   }
@@ -177,7 +178,8 @@ TEST(ArenaBots, MovePressEverythingAndScore) {
 
 TEST(ArenaBots, PlayTheSameOnTheSameView) {
   ArenaSimulation a({}), b({});
-  for (int tick = 0; tick < 100; ++tick) step_with_bots(a);
+  for (int tick = 0; tick < 100; ++tick)
+    step_with_bots(a);
   ASSERT_EQ(b.load(SnapshotKind::canonical, saved(a, SnapshotKind::canonical)), Status::ok);
   for (std::size_t slot = 0; slot < 4; ++slot) {
     std::array<std::byte, k_input_bytes> here{}, there{};
@@ -189,7 +191,8 @@ TEST(ArenaBots, PlayTheSameOnTheSameView) {
 
 TEST(Arena, HoldsSixteenPlayers) {
   ArenaSimulation simulation({.seed = 4, .loose_bodies = 216, .players = 16});
-  for (int tick = 0; tick < 400; ++tick) step_with_bots(simulation);
+  for (int tick = 0; tick < 400; ++tick)
+    step_with_bots(simulation);
   EXPECT_EQ(simulation.last_report().status, Status::ok);
   for (std::size_t slot = 0; slot < 16; ++slot) {
     EXPECT_TRUE(simulation.arena().world.exists(simulation.arena().state.players[slot].body));

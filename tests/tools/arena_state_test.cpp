@@ -41,7 +41,8 @@ StateDifference difference_after(Change change) {
 TEST(ArenaState, IsHashedAndKeptByteForByte) {
   const ArenaConfig config{.loose_bodies = 10, .players = 2};
   ArenaSimulation simulation(config);
-  for (int tick = 0; tick < 30; ++tick) step_with_bots(simulation);
+  for (int tick = 0; tick < 30; ++tick)
+    step_with_bots(simulation);
   const std::vector<std::byte> good = saved(simulation, SnapshotKind::canonical);
   const std::uint64_t hash = simulation.hash();
   const std::size_t end = k_header_bytes + encoded_bytes(config.players);
@@ -56,7 +57,8 @@ TEST(ArenaState, IsHashedAndKeptByteForByte) {
 
 TEST(ArenaState, EncodesAndDecodesToTheSame) {
   ArenaSimulation simulation({});
-  for (int tick = 0; tick < 200; ++tick) step_with_bots(simulation);
+  for (int tick = 0; tick < 200; ++tick)
+    step_with_bots(simulation);
   std::array<std::byte, k_max_state_bytes> bytes;
   ByteWriter writer(bytes);
   encode_state(simulation.arena().state, 4, writer);

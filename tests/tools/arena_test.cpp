@@ -32,8 +32,8 @@ void expect_reloading_changes_nothing(SnapshotKind kind) {
 }
 
 TEST(ArenaConfig, ComesBackFromItsBytes) {
-  const ArenaConfig config{.seed = 0x123456789abcdef0, .loose_bodies = 40, .players = 16,
-                           .variant = Variant::empty};
+  const ArenaConfig config{
+      .seed = 0x123456789abcdef0, .loose_bodies = 40, .players = 16, .variant = Variant::empty};
   const Result<ArenaConfig> decoded = ArenaConfig::decode(config.encode());
   ASSERT_TRUE(decoded.ok());
   EXPECT_EQ(decoded.value(), config);
@@ -100,7 +100,8 @@ TEST(Arena, StaysAsItIsWhenASnapshotIsBad) {
   const std::uint64_t seed = fresh_seed();
   SCOPED_TRACE("LOCKSTONE_TEST_SEED=" + std::to_string(seed));
   ArenaSimulation simulation({.loose_bodies = 30, .players = 2});
-  for (int tick = 0; tick < 60; ++tick) step_with_bots(simulation);
+  for (int tick = 0; tick < 60; ++tick)
+    step_with_bots(simulation);
   const std::vector<std::byte> good = saved(simulation, SnapshotKind::canonical);
   const std::uint64_t hash = simulation.hash();
   Random random(seed);
@@ -118,7 +119,8 @@ TEST(Arena, SurvivesWhateverSnapshotItAccepts) {
   SCOPED_TRACE("LOCKSTONE_TEST_SEED=" + std::to_string(seed));
   const ArenaConfig config{.loose_bodies = 30, .players = 4};
   ArenaSimulation start(config), simulation(config);
-  for (int tick = 0; tick < 120; ++tick) step_with_bots(start);
+  for (int tick = 0; tick < 120; ++tick)
+    step_with_bots(start);
   const std::vector<std::byte> good = saved(start, SnapshotKind::canonical);
   Random random(seed);
   for (int i = 0; i < 300; ++i) {
@@ -128,7 +130,8 @@ TEST(Arena, SurvivesWhateverSnapshotItAccepts) {
       bytes[at] ^= static_cast<std::byte>(1U << random.below(8));
     }
     if (simulation.load(SnapshotKind::canonical, bytes) != Status::ok) continue;
-    for (int tick = 0; tick < 5; ++tick) step_with_bots(simulation);
+    for (int tick = 0; tick < 5; ++tick)
+      step_with_bots(simulation);
   }
 }
 

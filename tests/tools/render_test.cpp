@@ -1,8 +1,8 @@
 // Pictures are well formed, and drawing changes nothing.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
@@ -12,7 +12,8 @@ namespace {
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at)
+    ++found;
   return found;
 }
 
@@ -28,7 +29,8 @@ TEST(Render, DrawsEveryBodyOfTheStack) {
 
 TEST(Render, ChangesNothing) {
   const auto play = scenes::make_play("arena", 1).value();
-  for (int tick = 0; tick < 20; ++tick) play->step();
+  for (int tick = 0; tick < 20; ++tick)
+    play->step();
   const std::uint64_t hash = play->simulation().hash();
   EXPECT_EQ(draw(play->world(), {.style = arena_look}), draw(play->world(), {.style = arena_look}));
   EXPECT_EQ(play->simulation().hash(), hash);
@@ -62,7 +64,8 @@ TEST(Render, OutlinesABallAsACircle) {
   ball.kind = ShapeKind::sphere;
   const std::vector<Vec> outline = outline_from_above(ball);
   EXPECT_EQ(outline.size(), 20U);
-  for (const Vec& point : outline) EXPECT_NEAR(std::hypot(point.x - 3, point.z - 1), 0.5, 1e-9);
+  for (const Vec& point : outline)
+    EXPECT_NEAR(std::hypot(point.x - 3, point.z - 1), 0.5, 1e-9);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ bool write_tick(const Sample& sample, arena::ArenaSimulation& game, replay::Reco
   const std::array<PlayerInput, 2> played{PlayerInput{bytes[0]}, PlayerInput{bytes[1]}};
   const std::uint64_t tick = game.tick();
   game.step(played);
-  if (sample.altered && tick == 300) bytes[1][0] ^= std::byte{0x40};  // what is recorded, not played
+  if (sample.altered && tick == 300)
+    bytes[1][0] ^= std::byte{0x40};  // what is recorded, not played
   return recorder.record_tick(tick, played, game.hash()) == Status::ok &&
          (!recorder.keyframe_due() || recorder.keyframe(game) == Status::ok);
 }
@@ -46,8 +47,7 @@ bool write_log(const std::string& folder, const Sample& sample) {
   if (!sink) return false;
   arena::ArenaSimulation game(k_config);
   replay::Recorder recorder(
-      *sink.value(),
-      {.keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical)});
+      *sink.value(), {.keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical)});
   SimulationInfo info = game.info();
   if (sample.foreign) info.config_hash ^= 1;
   if (recorder.begin(info, k_config.encode(), {.match_id = 1, .build = "sample_logs"}) !=

@@ -1,9 +1,8 @@
 // Every scene: builds, repeats itself, and is saved whole.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "tools/scenes/play.h"
 #include "tools/scenes/scene.h"
@@ -16,7 +15,8 @@ constexpr std::uint64_t k_seed = 1;
 
 std::vector<std::string> names() {
   std::vector<std::string> result;
-  for (const SceneSummary& scene : list_scenes()) result.emplace_back(scene.name);
+  for (const SceneSummary& scene : list_scenes())
+    result.emplace_back(scene.name);
   return result;
 }
 
@@ -25,17 +25,19 @@ class EveryScene : public testing::TestWithParam<std::string> {
   [[nodiscard]] std::unique_ptr<ScenePlay> play() const {
     return make_play(GetParam(), k_seed).value();
   }
-  [[nodiscard]] std::uint32_t golden_ticks() const {
-    const std::vector<SceneSummary> list = list_scenes();
-    const auto found = std::find_if(list.begin(), list.end(),
-                                    [&](const SceneSummary& s) { return s.name == GetParam(); });
-    return found->golden_ticks;
+  void SetUp() override {
+    for (const SceneSummary& scene : list_scenes()) {
+      if (scene.name == GetParam()) golden_ticks_ = scene.golden_ticks;
+    }
+    ASSERT_GT(golden_ticks_, 0U);
   }
+
+  std::uint32_t golden_ticks_ = 0;
 };
 
 TEST_P(EveryScene, RepeatsItself) {
   const auto first = play(), second = play();
-  for (std::uint32_t tick = 0; tick < golden_ticks(); ++tick) {
+  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick) {
     first->step();
     second->step();
     ASSERT_EQ(first->simulation().hash(), second->simulation().hash()) << "after tick " << tick;
@@ -47,7 +49,7 @@ TEST_P(EveryScene, RepeatsItself) {
 TEST_P(EveryScene, IsSavedWhole) {
   const auto first = play(), second = play();
   std::vector<std::byte> bytes(first->simulation().snapshot_bytes_max(SnapshotKind::canonical));
-  for (std::uint32_t tick = 0; tick < golden_ticks(); ++tick) {
+  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick) {
     const std::size_t size = first->simulation().save(SnapshotKind::canonical, bytes);
     ASSERT_EQ(second->simulation().load(SnapshotKind::canonical, ByteView(bytes).first(size)),
               Status::ok);
@@ -60,7 +62,8 @@ TEST_P(EveryScene, IsSavedWhole) {
 
 TEST_P(EveryScene, KeepsItsBodiesInTheWorld) {
   const auto scene = play();
-  for (std::uint32_t tick = 0; tick < golden_ticks(); ++tick) scene->step();
+  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick)
+    scene->step();
   const World& world = scene->world();
   for (std::uint32_t index = 0; index < world.body_limit(); ++index) {
     const BodyHandle body = world.body_at(index);
@@ -95,7 +98,8 @@ Vec3<Position> place(const ScenePlay& play, std::uint32_t index) {
 
 TEST(Scenes, TheStackStands) {
   const auto play = make_play("stack", k_seed).value();
-  for (int tick = 0; tick < 600; ++tick) play->step();
+  for (int tick = 0; tick < 600; ++tick)
+    play->step();
   const Vec3<Position> top = place(*play, 10);
   EXPECT_GT(top.y, Position::from_ratio(94, 10));
   EXPECT_LT(abs(top.x), Position::from_ratio(1, 100));
@@ -104,32 +108,36 @@ TEST(Scenes, TheStackStands) {
 
 TEST(Scenes, TheBallRollsDownTheRamp) {
   const auto play = make_play("rolling", k_seed).value();
-  for (int tick = 0; tick < 240; ++tick) play->step();
+  for (int tick = 0; tick < 240; ++tick)
+    play->step();
   EXPECT_GT(place(*play, 3).x, Position::from_integer(3));
   EXPECT_LT(abs(place(*play, 3).z), Position::from_ratio(1, 1000));
 }
 
 TEST(Scenes, TheCharacterStandsAndTheCapsuleFalls) {
   const auto play = make_play("capsule", k_seed).value();
-  for (int tick = 0; tick < 200; ++tick) play->step();
+  for (int tick = 0; tick < 200; ++tick)
+    play->step();
   EXPECT_GT(place(*play, 1).y, Position::from_ratio(88, 100));
   EXPECT_LT(place(*play, 2).y, Position::from_ratio(45, 100));
 }
 
 TEST(Scenes, TheZonesCountWhatCrossesThem) {
   const auto play = make_play("trigger", k_seed).value();
-  for (int tick = 0; tick < 240; ++tick) play->step();
+  for (int tick = 0; tick < 240; ++tick)
+    play->step();
   const World& world = play->world();
   const std::uint64_t first = world.body(world.body_at(1)).user_data;
   const std::uint64_t last = world.body(world.body_at(3)).user_data;
-  EXPECT_EQ(first & 0xffffffff, 5U);  // all entered the first zone
+  EXPECT_EQ(first & 0xffffffff, 5U);         // all entered the first zone
   EXPECT_EQ(last & 0xffffffff, last >> 32);  // whoever got to the last one left it
   EXPECT_GE(last & 0xffffffff, 2U);
 }
 
 TEST(Scenes, ThePlatformCarriesItsBoxes) {
   const auto play = make_play("kinematic", k_seed).value();
-  for (int tick = 0; tick < 300; ++tick) play->step();
+  for (int tick = 0; tick < 300; ++tick)
+    play->step();
   for (std::uint32_t box = 2; box <= 4; ++box) {
     EXPECT_GT(place(*play, box).y, Position::from_ratio(15, 10)) << "box " << box;
   }

@@ -13,11 +13,11 @@ namespace lockstone::arena {
 
 /// Handles that the construction fixed: they follow from the configuration and are not state.
 struct Level {
-  BodyHandle ferry{};                  ///< null in a variant without machines
+  BodyHandle ferry{};  ///< null in a variant without machines
   BodyHandle bar{};
   BodyHandle hill{};
   std::array<BodyHandle, 2> goals{};
-  std::vector<BodyHandle> loose;       ///< never destroyed, only moved
+  std::vector<BodyHandle> loose;  ///< never destroyed, only moved
 };
 
 struct Arena {

@@ -28,7 +28,8 @@ class ArenaSimulation final : public Simulation {
   [[nodiscard]] const Arena& arena() const { return arena_; }
   [[nodiscard]] const StepReport& last_report() const { return last_report_; }
 
-  /// Test hooks: derived data may be dropped, and state changed behind the game's back, at any time.
+  /// Test hooks: derived data may be dropped, and state changed behind the game's back, at any
+  /// time.
   [[nodiscard]] Arena& arena_for_tests() { return arena_; }
 
  private:

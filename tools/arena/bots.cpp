@@ -33,7 +33,7 @@ struct View {
 };
 
 Mood mood_of(const View& view) {
-  constexpr Mood k_moods[] = {Mood::haul, Mood::haul, Mood::haul, Mood::hunt,
+  constexpr Mood k_moods[] = {Mood::haul, Mood::haul,  Mood::haul,   Mood::hunt,
                               Mood::hunt, Mood::climb, Mood::wander, Mood::haul};
   return k_moods[view.whim % 8];
 }
@@ -156,10 +156,18 @@ Input bot_input(const Arena& arena, std::uint64_t seed, std::size_t slot) {
   const View view{arena, slot, tick, mix(seed ^ mix(slot * 0x10001 + epoch * 0x1000003)),
                   arena.world.position(body)};
   switch (mood_of(view)) {
-    case Mood::haul: haul(input, view); break;
-    case Mood::hunt: hunt(input, view); break;
-    case Mood::climb: climb(input, view); break;
-    case Mood::wander: wander(input, view); break;
+    case Mood::haul:
+      haul(input, view);
+      break;
+    case Mood::hunt:
+      hunt(input, view);
+      break;
+    case Mood::climb:
+      climb(input, view);
+      break;
+    case Mood::wander:
+      wander(input, view);
+      break;
   }
   keep_inside(input, view);
   return input;

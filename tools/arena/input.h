@@ -19,12 +19,12 @@ enum Button : std::uint8_t {
 };
 
 struct Input {
-  std::int8_t move_x = 0;       ///< −127 … 127 along +x
-  std::int8_t move_z = 0;       ///< along +z; a longer stick than 127 counts as 127
-  std::int16_t yaw = 0;         ///< where the player aims, 1/65536 turns from +x towards +z
-  std::uint8_t buttons = 0;     ///< set of Button; other bits mean nothing
+  std::int8_t move_x = 0;    ///< −127 … 127 along +x
+  std::int8_t move_z = 0;    ///< along +z; a longer stick than 127 counts as 127
+  std::int16_t yaw = 0;      ///< where the player aims, 1/65536 turns from +x towards +z
+  std::uint8_t buttons = 0;  ///< set of Button; other bits mean nothing
   std::uint8_t reserved = 0;
-  std::uint16_t sequence = 0;   ///< counts the player's inputs; the game ignores it
+  std::uint16_t sequence = 0;  ///< counts the player's inputs; the game ignores it
 
   void encode(std::span<std::byte> out) const {
     ByteWriter writer(out);

@@ -18,6 +18,9 @@ namespace lockstone::arena {
 }
 
 /// A sequence of numbers whose whole state is one word, so that a game can save it.
+///
+/// Draw one number a statement: in f(random.next(), random.next()) the compiler chooses which comes
+/// first, and peers built by different compilers part.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t state) : state_(state) {}

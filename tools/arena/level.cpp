@@ -83,16 +83,11 @@ void add_machines(World& world, Level& level) {
 }
 
 Shape loose_shape(Kind kind, Random& random) {
-  const std::int32_t size = random.between(280, 480);
-  switch (kind) {
-    case Kind::ball: return Shape::sphere(millimetres_long(size));
-    case Kind::barrel:
-      return Shape::capsule(millimetres_long(random.between(150, 400)),
-                            millimetres_long(random.between(220, 340)));
-    default:
-      return Shape::box(millimetres_long(size), millimetres_long(random.between(280, 420)),
-                        millimetres_long(size));
-  }
+  const Length size = millimetres_long(random.between(280, 480));
+  const Length height = millimetres_long(random.between(280, 420));
+  if (kind == Kind::ball) return Shape::sphere(size);
+  if (kind == Kind::barrel) return Shape::capsule(height - Length(0.05_m), size - Length(0.1_m));
+  return Shape::box(size, height, size);
 }
 
 BodyDef loose_body(Kind kind, std::uint16_t number, Random& random) {
@@ -117,8 +112,7 @@ Vec3<Position> loose_position(std::uint32_t cell, Random& random) {
   const std::int32_t layer = static_cast<std::int32_t>(cell / (k_side * k_side));
   const auto along = static_cast<std::int32_t>(place % k_side) * 2000 - 17'000;
   const auto across = static_cast<std::int32_t>(place / k_side) * 2000 - 17'000;
-  return {millimetres(along + random.between(-300, 300)),
-          millimetres(700 + layer * 1500),
+  return {millimetres(along + random.between(-300, 300)), millimetres(700 + layer * 1500),
           millimetres(across + random.between(-300, 300))};
 }
 
@@ -164,7 +158,8 @@ void add_players(Arena& arena) {
 
 WorldDef world_def(const ArenaConfig& config) {
   WorldDef def;
-  def.body_capacity = 32U + config.loose_bodies + config.players + config.players * std::uint32_t{k_shots_per_player};
+  def.body_capacity = 32U + config.loose_bodies + config.players +
+                      config.players * std::uint32_t{k_shots_per_player};
   def.pair_capacity = def.body_capacity * 16;
   def.contact_capacity = def.body_capacity * 8;
   return def;

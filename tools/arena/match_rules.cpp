@@ -152,12 +152,14 @@ void score_events(Arena& arena) {
 }
 
 void retire(Arena& arena) {
-  for (std::size_t slot = 0; slot < arena.config.players; ++slot) return_player(arena, slot);
+  for (std::size_t slot = 0; slot < arena.config.players; ++slot)
+    return_player(arena, slot);
   for (const BodyHandle body : arena.level.loose) {
     const bool exists = arena.world.exists(body);
     if (exists && arena.world.position(body).y < k_fall_height) reappear(arena, body);
   }
-  for (ShotRecord& shot : arena.state.shots) melt(arena, shot);
+  for (ShotRecord& shot : arena.state.shots)
+    melt(arena, shot);
 }
 
 StepReport advance(Arena& arena, std::span<const PlayerInput> inputs) {

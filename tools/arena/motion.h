@@ -7,7 +7,8 @@ namespace lockstone::arena {
 
 /// `direction` (length ≤ 1) at `speed`.
 [[nodiscard]] inline Vec3<SolverVelocity> along(const Vec3<Unit>& direction, SolverVelocity speed) {
-  return {rounded<SolverVelocity>(direction.x * speed), rounded<SolverVelocity>(direction.y * speed),
+  return {rounded<SolverVelocity>(direction.x * speed),
+          rounded<SolverVelocity>(direction.y * speed),
           rounded<SolverVelocity>(direction.z * speed)};
 }
 
@@ -41,7 +42,8 @@ namespace lockstone::arena {
 /// b − a, components clamped to ± 2000 m.
 [[nodiscard]] Vec3<Length> offset_between(const Vec3<Position>& a, const Vec3<Position>& b);
 
-/// The square of a length, in 2^-24 m² (raw, so that distances below 2000 m compare exactly enough).
+/// The square of a length, in 2^-24 m² (raw, so that distances below 2000 m compare exactly
+/// enough).
 [[nodiscard]] std::int64_t squared_raw(const Vec3<Length>& offset);
 
 }  // namespace lockstone::arena

@@ -40,8 +40,7 @@ struct Footing {
 
 Footing find_footing(const World& world, BodyHandle body) {
   const QueryFilter filter{.mask = k_scenery_bit | k_player_bit | k_loose_bit, .ignore = body};
-  const RayHit hit =
-      world.cast_ray(world.position(body), {{}, -k_foot_depth, {}}, filter);
+  const RayHit hit = world.cast_ray(world.position(body), {{}, -k_foot_depth, {}}, filter);
   if (hit.body.is_null()) return {};
   return {true, solver_velocity(world.velocity(hit.body))};
 }
@@ -49,8 +48,8 @@ Footing find_footing(const World& world, BodyHandle body) {
 // The stick as a vector of length ≤ 1.
 Vec3<Unit> stick_direction(const Input& input) {
   std::int32_t x = input.move_x, z = input.move_z;
-  const auto length = static_cast<std::int32_t>(
-      integer_sqrt(static_cast<std::uint64_t>(x * x + z * z)));
+  const auto length =
+      static_cast<std::int32_t>(integer_sqrt(static_cast<std::uint64_t>(x * x + z * z)));
   const std::int32_t full = length > 127 ? length + 1 : 127;
   return {Unit::from_ratio(x, full), {}, Unit::from_ratio(z, full)};
 }

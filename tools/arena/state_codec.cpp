@@ -50,7 +50,8 @@ class Decoder {
 std::string hexadecimal(std::uint64_t value, std::size_t bytes) {
   std::string text(2 + 2 * bytes, '0');
   text[1] = 'x';
-  for (std::size_t i = text.size(); i-- > 2; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
+  for (std::size_t i = text.size(); i-- > 2; value >>= 4)
+    text[i] = "0123456789abcdef"[value & 15];
   return text;
 }
 

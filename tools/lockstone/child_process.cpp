@@ -38,7 +38,8 @@ ChildProcess ChildProcess::start(const std::vector<std::string>& arguments) {
   std::vector<std::string> copies{"lockstone"};
   copies.insert(copies.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
-  for (std::string& argument : copies) pointers.push_back(argument.data());
+  for (std::string& argument : copies)
+    pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t pid = fork();

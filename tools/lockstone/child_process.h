@@ -1,10 +1,10 @@
 // Child processes of the demo: this program again, with other arguments.
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace lockstone::tool {
 

@@ -1,18 +1,21 @@
 #include "tools/lockstone/console.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace lockstone::tool {
 
-std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+std::string hash_text(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
 
-void complain(const std::string& line) { fmt::print(stderr, "lockstone: {}\n", line); }
+void complain(const std::string& line) {
+  fmt::print(stderr, "lockstone: {}\n", line);
+}
 
 bool write_text_file(const std::string& path, const std::string& text) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
@@ -24,7 +27,9 @@ bool write_text_file(const std::string& path, const std::string& text) {
 
 Progress::Progress() : enabled_(isatty(STDERR_FILENO) != 0) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 
 void Progress::show(const std::string& label, std::uint64_t done, std::uint64_t total) {
   constexpr std::uint64_t k_width = 32;

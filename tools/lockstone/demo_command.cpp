@@ -32,11 +32,17 @@ struct DemoOptions {
 std::vector<ChildProcess> start_players(const DemoOptions& options, std::uint16_t port) {
   std::vector<ChildProcess> players;
   for (unsigned slot = 0; slot < options.match.players; ++slot) {
-    std::vector<std::string> arguments{
-        "join",       "--insecure", "--quiet", "--port", std::to_string(port),
-        "--bot-seed", std::to_string(options.match.seed + slot),
-        "--slot",     std::to_string(slot),
-        "--name",     fmt::format("bot {}", slot)};
+    std::vector<std::string> arguments{"join",
+                                       "--insecure",
+                                       "--quiet",
+                                       "--port",
+                                       std::to_string(port),
+                                       "--bot-seed",
+                                       std::to_string(options.match.seed + slot),
+                                       "--slot",
+                                       std::to_string(slot),
+                                       "--name",
+                                       fmt::format("bot {}", slot)};
     if (options.flip_bit_at && slot + 1 == options.match.players) {
       arguments.push_back("--flip-bit-at");
       arguments.push_back(std::to_string(*options.flip_bit_at));
@@ -89,8 +95,8 @@ void print_hashes(const MatchSummary& summary) {
     late += player.late_inputs;
     substituted += player.substituted_inputs;
   }
-  row("hashes", fmt::format("{} compared, {} equal, {} different", compared, equal,
-                            compared - equal));
+  row("hashes",
+      fmt::format("{} compared, {} equal, {} different", compared, equal, compared - equal));
   row("late inputs", fmt::format("{}, {} replaced", late, substituted));
 }
 
@@ -101,7 +107,8 @@ void print_traffic(const MatchSummary& summary, unsigned tick_rate) {
   for (std::size_t slot = 0; slot < summary.players.size(); ++slot) {
     const net::PlayerStats& player = summary.players[slot];
     row(fmt::format("player {}", slot),
-        fmt::format("{:.0f} bytes/s up, {:.0f} down", static_cast<double>(player.bytes_received) / seconds,
+        fmt::format("{:.0f} bytes/s up, {:.0f} down",
+                    static_cast<double>(player.bytes_received) / seconds,
                     static_cast<double>(player.bytes_sent) / seconds));
   }
 }
@@ -151,10 +158,8 @@ bool draw_end(const DemoOptions& options, const MatchHost& host) {
   render::Picture picture;
   picture.style = render::arena_look;
   picture.caption = fmt::format("tick {}   {}   scores {}", host.simulation().tick(),
-                                hash_text(host.simulation().hash()),
-                                scores_of(host.simulation()));
-  return write_text_file(options.svg,
-                         render::draw(*scenes::world_of(host.simulation()), picture));
+                                hash_text(host.simulation().hash()), scores_of(host.simulation()));
+  return write_text_file(options.svg, render::draw(*scenes::world_of(host.simulation()), picture));
 }
 
 int exit_code_for(const MatchSummary& summary, const Verification& verification, bool players_ok) {
@@ -174,7 +179,8 @@ int demo(DemoOptions options) {
   std::vector<ChildProcess> players = start_players(options, host->port());
   play(*host);
   bool players_ok = true;
-  for (ChildProcess& player : players) players_ok = player.wait(5) == k_ok && players_ok;
+  for (ChildProcess& player : players)
+    players_ok = player.wait(5) == k_ok && players_ok;
   const MatchSummary summary = host->finish();
   const Verification verification = verify_log(options.match.record);
   const bool drawn = draw_end(options, *host);

@@ -7,8 +7,8 @@
 
 namespace lockstone::tool {
 
-/// `inner`, but for one bit of one body's velocity, which changes at the end of tick `tick` (that is
-/// in the step from `tick` to `tick` + 1).
+/// `inner`, but for one bit of one body's velocity, which changes at the end of tick `tick` (that
+/// is in the step from `tick` to `tick` + 1).
 [[nodiscard]] std::unique_ptr<Simulation> make_flipping(std::unique_ptr<Simulation> inner,
                                                         std::uint64_t tick);
 

@@ -106,7 +106,8 @@ void print_text(const InfoOptions& options, const LogInfo& info) {
   fmt::print("end           {}\n", info.complete    ? info.end_reason
                                    : info.torn_tail ? "missing, and the last chunk is cut off"
                                                     : "missing");
-  if (info.damage) fmt::print("damage        byte {}: {}\n", info.damage->offset, info.damage->what);
+  if (info.damage)
+    fmt::print("damage        byte {}: {}\n", info.damage->offset, info.damage->what);
   if (!options.events) return;
   for (const replay::LogEvent& event : info.events) {
     fmt::print("  tick {:>8}  {:<12} {:>3}  {}\n", event.tick, to_string(event.kind), event.slot,

@@ -7,7 +7,9 @@ namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
 
-void note(int) { g_interrupted = 1; }
+void note(int) {
+  g_interrupted = 1;
+}
 
 }  // namespace
 
@@ -16,6 +18,8 @@ void catch_interrupts() {
   std::signal(SIGTERM, note);
 }
 
-bool interrupted() { return g_interrupted != 0; }
+bool interrupted() {
+  return g_interrupted != 0;
+}
 
 }  // namespace lockstone::tool

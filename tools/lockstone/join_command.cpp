@@ -86,13 +86,20 @@ bool is_over(net::ClientState state) {
 
 std::string_view failure_text(net::ClientFailure failure) {
   switch (failure) {
-    case net::ClientFailure::none: return "no failure";
-    case net::ClientFailure::connection_lost: return "the connection was lost";
-    case net::ClientFailure::handshake_timed_out: return "the server did not answer";
-    case net::ClientFailure::server_silent: return "the server fell silent";
-    case net::ClientFailure::server_malformed: return "the server sent malformed packets";
-    case net::ClientFailure::config_not_understood: return "the match's configuration is unknown";
-    case net::ClientFailure::dropped: return "the server dropped this player";
+    case net::ClientFailure::none:
+      return "no failure";
+    case net::ClientFailure::connection_lost:
+      return "the connection was lost";
+    case net::ClientFailure::handshake_timed_out:
+      return "the server did not answer";
+    case net::ClientFailure::server_silent:
+      return "the server fell silent";
+    case net::ClientFailure::server_malformed:
+      return "the server sent malformed packets";
+    case net::ClientFailure::config_not_understood:
+      return "the match's configuration is unknown";
+    case net::ClientFailure::dropped:
+      return "the server dropped this player";
   }
   return "unknown failure";
 }
@@ -177,7 +184,8 @@ int join(const JoinOptions& options) {
   config.name = options.name;
   config.wanted_slot = static_cast<std::uint8_t>(options.slot);
   const net::Client::Created created = net::Client::create(
-      config, {transport.value().get(), connection.value(), factory_for(options), &inputs, &observer});
+      config,
+      {transport.value().get(), connection.value(), factory_for(options), &inputs, &observer});
   if (created.client == nullptr) {
     complain(std::string(to_string(created.error)));
     return k_usage;
@@ -199,8 +207,9 @@ void add_join_command(CLI::App& app, int& exit_code) {
   command->add_option("--name", options->name, "Shown to the server")->capture_default_str();
   command->add_option("--slot", options->slot, "Player slot; any when not given")
       ->check(CLI::Range(0, 15));
-  command->add_flag("--insecure", options->insecure,
-                    "There is no encryption yet: say that this network needs none")
+  command
+      ->add_flag("--insecure", options->insecure,
+                 "There is no encryption yet: say that this network needs none")
       ->required();
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_flag("--quiet", options->quiet, "Print failures only");

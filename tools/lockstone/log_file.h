@@ -1,10 +1,7 @@
-// Opening logs for the subcommands that read them.
+// What the subcommands that read logs share.
 #pragma once
 
-#include <memory>
-#include <string>
-
-#include <lockstone/replay/source.h>
+#include <lockstone/status.h>
 
 #include "tools/lockstone/commands.h"
 

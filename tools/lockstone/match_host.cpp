@@ -66,8 +66,8 @@ class MatchLog {
     return note(recorder_->begin(simulation.info(), config, match));
   }
 
-  void record(const Simulation& simulation, std::uint64_t tick,
-              std::span<const PlayerInput> inputs, std::uint64_t hash) {
+  void record(const Simulation& simulation, std::uint64_t tick, std::span<const PlayerInput> inputs,
+              std::uint64_t hash) {
     if (!active()) return;
     if (note(recorder_->record_tick(tick, inputs, hash)) != Status::ok) return;
     if (recorder_->keyframe_due()) static_cast<void>(note(recorder_->keyframe(simulation)));
@@ -161,7 +161,8 @@ struct MatchHost::Impl final : net::ServerObserver {
     Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
     if (!made) return refuse(fmt::format("scene {}: {}", options.scene, to_string(made.status())));
     simulation = std::move(made).value();
-    auto listening = net::EnetTransport::listen({.bind_address = options.bind, .port = options.port});
+    auto listening =
+        net::EnetTransport::listen({.bind_address = options.bind, .port = options.port});
     if (!listening) {
       return refuse(fmt::format("cannot listen on {}:{}: {}", options.bind, options.port,
                                 to_string(listening.status())));
@@ -194,7 +195,9 @@ std::unique_ptr<MatchHost> MatchHost::create(const MatchOptions& options) {
   return std::unique_ptr<MatchHost>(new MatchHost(std::move(impl)));
 }
 
-std::uint16_t MatchHost::port() const { return impl_->transport->port(); }
+std::uint16_t MatchHost::port() const {
+  return impl_->transport->port();
+}
 
 bool MatchHost::update() {
   using namespace std::chrono_literals;
@@ -208,7 +211,9 @@ bool MatchHost::update() {
   return true;
 }
 
-void MatchHost::stop() { impl_->server->stop(); }
+void MatchHost::stop() {
+  impl_->server->stop();
+}
 
 MatchSummary MatchHost::finish() {
   Impl& impl = *impl_;
@@ -224,9 +229,13 @@ MatchSummary MatchHost::finish() {
   return summary;
 }
 
-const Simulation& MatchHost::simulation() const { return *impl_->simulation; }
+const Simulation& MatchHost::simulation() const {
+  return *impl_->simulation;
+}
 
-std::uint64_t MatchHost::ticks_closed() const { return impl_->server->ticks_closed(); }
+std::uint64_t MatchHost::ticks_closed() const {
+  return impl_->server->ticks_closed();
+}
 
 std::string MatchHost::progress_line() const {
   const int present = std::popcount(impl_->server->present_mask());
@@ -243,6 +252,8 @@ std::string MatchHost::progress_line() const {
   return line;
 }
 
-Progress& MatchHost::progress() { return impl_->progress; }
+Progress& MatchHost::progress() {
+  return impl_->progress;
+}
 
 }  // namespace lockstone::tool

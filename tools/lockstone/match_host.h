@@ -22,18 +22,18 @@ struct MatchOptions {
   std::uint64_t seed = 1;
   std::uint16_t bodies = 216;  ///< loose bodies of the arena
   std::string bind = "127.0.0.1";
-  std::uint16_t port = 0;      ///< 0: the system chooses
+  std::uint16_t port = 0;  ///< 0: the system chooses
   std::uint8_t input_delay = 4;
   bool strict = false;
   bool fast = false;
   bool insecure = false;
-  std::string record;          ///< empty: no log
+  std::string record;  ///< empty: no log
 };
 
 /// What became of a match.
 struct MatchSummary {
   std::uint64_t ticks = 0;
-  double seconds = 0;          ///< from the first tick to the last
+  double seconds = 0;  ///< from the first tick to the last
   net::FinishReason reason = net::FinishReason::stopped;
   std::uint64_t final_hash = 0;
   unsigned desyncs = 0;

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/math/wide/target.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/render/svg.h"
@@ -22,6 +24,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::uint64_t hash_every = 10;
   std::string svg;
+  std::string simd;
   int frames = 1;
   bool json = false;
   bool heavy = false;
@@ -72,17 +75,17 @@ render::Picture picture_of(const RunOptions& options, scenes::ScenePlay& play) {
     picture.width = 640;
     picture.height = 440;
   }
-  picture.caption = fmt::format("{}   tick {}   {} bodies   {}", options.scene,
-                                play.simulation().tick(), play.world().body_count(),
-                                hash_text(play.simulation().hash()));
+  picture.caption =
+      fmt::format("{}   tick {}   {} bodies   {}", options.scene, play.simulation().tick(),
+                  play.world().body_count(), hash_text(play.simulation().hash()));
   if (options.scene == "arena") picture.style = render::arena_look;
   return picture;
 }
 
 void print_json(const RunOptions& options, const std::vector<ChainEntry>& chain,
                 std::uint64_t final_hash) {
-  nlohmann::ordered_json json{{"scene", options.scene}, {"seed", options.seed},
-                              {"ticks", options.ticks}};
+  nlohmann::ordered_json json{
+      {"scene", options.scene}, {"seed", options.seed}, {"ticks", options.ticks}};
   nlohmann::ordered_json entries = nlohmann::ordered_json::array();
   for (const ChainEntry& entry : chain) {
     entries.push_back({{"tick", entry.tick}, {"hash", hash_text(entry.hash)}});
@@ -93,7 +96,8 @@ void print_json(const RunOptions& options, const std::vector<ChainEntry>& chain,
 }
 
 void print_text(const std::vector<ChainEntry>& chain, std::uint64_t final_hash) {
-  for (const ChainEntry& entry : chain) fmt::print("{:>6} {}\n", entry.tick, hash_text(entry.hash));
+  for (const ChainEntry& entry : chain)
+    fmt::print("{:>6} {}\n", entry.tick, hash_text(entry.hash));
   fmt::print(" final {}\n", hash_text(final_hash));
 }
 
@@ -161,6 +165,11 @@ class Run {
 };
 
 int run(RunOptions options) {
+  if (!options.simd.empty() && lanes::set_target(options.simd) != Status::ok) {
+    complain(fmt::format("no vectors of the name {}; here are: {}", options.simd,
+                         fmt::join(lanes::supported_targets(), ", ")));
+    return k_usage;
+  }
   Result<std::unique_ptr<scenes::ScenePlay>> play = scenes::make_play(options.scene, options.seed);
   if (!play) {
     complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
@@ -182,6 +191,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--hash-every", options->hash_every, "Ticks between hashes; 0: only the last")
       ->capture_default_str();
+  command->add_option("--simd", options->simd, "Vectors to use: scalar, sse4, avx2, avx512");
   command->add_option("--svg", options->svg, "Draw the end into this file");
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
       ->check(CLI::Range(1, 60));

@@ -63,8 +63,9 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--policy", options->policy, "On a late input: replace it, or wait for it")
       ->check(CLI::IsMember({"deadline", "strict"}))
       ->capture_default_str();
-  command->add_flag("--insecure", options->match.insecure,
-                    "There is no encryption yet: say that this network needs none")
+  command
+      ->add_flag("--insecure", options->match.insecure,
+                 "There is no encryption yet: say that this network needs none")
       ->required();
   command->callback([options, &exit_code] { exit_code = serve(*options); });
 }

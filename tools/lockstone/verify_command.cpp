@@ -66,10 +66,9 @@ VerifyReport verify_file(const std::string& file, const VerifyOptions& options) 
     return report;
   }
   Progress progress;
-  return replay::verify(*source.value(), scenes::make_simulation, {.strict = options.strict},
-                        [&](std::uint64_t ticks, std::uint64_t total) {
-                          progress.show(file, ticks, total);
-                        });
+  return replay::verify(
+      *source.value(), scenes::make_simulation, {.strict = options.strict},
+      [&](std::uint64_t ticks, std::uint64_t total) { progress.show(file, ticks, total); });
 }
 
 // The worst file decides: a diverged one is news, but one that cannot be judged is no pass either.

@@ -20,8 +20,14 @@ void add_absent(CLI::App& app, int& exit_code, const char* name) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& app, int& exit_code) { add_absent(app, exit_code, "serve"); }
-void add_join_command(CLI::App& app, int& exit_code) { add_absent(app, exit_code, "join"); }
-void add_demo_command(CLI::App& app, int& exit_code) { add_absent(app, exit_code, "demo"); }
+void add_serve_command(CLI::App& app, int& exit_code) {
+  add_absent(app, exit_code, "serve");
+}
+void add_join_command(CLI::App& app, int& exit_code) {
+  add_absent(app, exit_code, "join");
+}
+void add_demo_command(CLI::App& app, int& exit_code) {
+  add_absent(app, exit_code, "demo");
+}
 
 }  // namespace lockstone::tool

@@ -24,8 +24,12 @@ struct Vec {
 [[nodiscard]] inline Vec cross(const Vec& a, const Vec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] inline double length(const Vec& a) { return std::sqrt(dot(a, a)); }
-[[nodiscard]] inline Vec unit(const Vec& a) { return a * (1 / length(a)); }
+[[nodiscard]] inline double length(const Vec& a) {
+  return std::sqrt(dot(a, a));
+}
+[[nodiscard]] inline Vec unit(const Vec& a) {
+  return a * (1 / length(a));
+}
 
 template <class T>
 [[nodiscard]] Vec to_vec(const Vec3<T>& v) {

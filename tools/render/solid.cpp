@@ -15,7 +15,8 @@ struct Order {
 };
 
 // The face plane of the box `a` that has the most of `b` on its outer side. If it looks towards the
-// viewer, b is in front. (Solids that overlap a little, as resting ones do, have a small negative gap.)
+// viewer, b is in front. (Solids that overlap a little, as resting ones do, have a small negative
+// gap.)
 Order order_by_faces(const Solid& a, const Solid& b, const Vec& toward) {
   const double half[] = {a.size.x, a.size.y, a.size.z};
   Order best;
@@ -52,7 +53,8 @@ struct Graph {
 
 Graph build_graph(const std::vector<Solid>& solids, const Camera& camera) {
   std::vector<Frame> frames;
-  for (const Solid& solid : solids) frames.push_back(frame_of(solid, camera));
+  for (const Solid& solid : solids)
+    frames.push_back(frame_of(solid, camera));
   Graph graph{std::vector<std::vector<std::size_t>>(solids.size()),
               std::vector<std::size_t>(solids.size())};
   for (std::size_t a = 0; a < solids.size(); ++a) {
@@ -98,15 +100,15 @@ double side(const Vec& a, const Vec& b, const Vec& c) {
 
 // Andrew's monotone chain: the lower hull from left to right, the upper one back.
 std::vector<Vec> outline_from_above(const Solid& solid) {
+  constexpr double k_flat = 1e-9;  // m²: nearer points count as one
   std::vector<Vec> points = outline_points(solid);
-  std::sort(points.begin(), points.end(), [](const Vec& a, const Vec& b) {
-    return std::pair(a.x, a.z) < std::pair(b.x, b.z);
-  });
+  std::sort(points.begin(), points.end(),
+            [](const Vec& a, const Vec& b) { return std::pair(a.x, a.z) < std::pair(b.x, b.z); });
   std::vector<Vec> hull;
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (const Vec& point : points) {
-      while (hull.size() >= start + 2 && side(hull[hull.size() - 2], hull.back(), point) <= 0) {
+      while (hull.size() >= start + 2 && side(hull[hull.size() - 2], hull.back(), point) < k_flat) {
         hull.pop_back();
       }
       hull.push_back(point);
@@ -121,7 +123,8 @@ double Solid::reach(const Vec& direction) const {
   const double at_center = dot(direction, center);
   const double norm = length(direction);
   switch (kind) {
-    case ShapeKind::sphere: return at_center + size.x * norm;
+    case ShapeKind::sphere:
+      return at_center + size.x * norm;
     case ShapeKind::capsule:
       return at_center + std::abs(dot(direction, axes[1])) * size.y + size.x * norm;
     default:

@@ -19,9 +19,9 @@ struct Solid {
   std::array<Vec, 3> axes;  ///< unit vectors of the body's axes
   Vec size;                 ///< as Shape::size
   Color color;
-  bool solid = true;        ///< false for a trigger: drawn as glass
+  bool solid = true;  ///< false for a trigger: drawn as glass
   bool shadow = false;
-  double shadow_height = 0; ///< of the surface below the centre, if `shadow`
+  double shadow_height = 0;  ///< of the surface below the centre, if `shadow`
 
   [[nodiscard]] double radius() const { return size.x; }  ///< of spheres and capsules
 

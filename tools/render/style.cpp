@@ -6,10 +6,22 @@
 namespace lockstone::render {
 namespace {
 
-constexpr std::array<Color, 16> k_player_colors{{
-    {230, 60, 60},  {60, 120, 230}, {60, 180, 75},  {245, 190, 40}, {165, 80, 200}, {40, 190, 200},
-    {240, 130, 50}, {230, 100, 170}, {130, 90, 60}, {150, 200, 60}, {90, 90, 160},  {200, 50, 110},
-    {20, 130, 120}, {120, 120, 40}, {255, 150, 130}, {80, 60, 110}}};
+constexpr std::array<Color, 16> k_player_colors{{{230, 60, 60},
+                                                 {60, 120, 230},
+                                                 {60, 180, 75},
+                                                 {245, 190, 40},
+                                                 {165, 80, 200},
+                                                 {40, 190, 200},
+                                                 {240, 130, 50},
+                                                 {230, 100, 170},
+                                                 {130, 90, 60},
+                                                 {150, 200, 60},
+                                                 {90, 90, 160},
+                                                 {200, 50, 110},
+                                                 {20, 130, 120},
+                                                 {120, 120, 40},
+                                                 {255, 150, 130},
+                                                 {80, 60, 110}}};
 
 Color shade(Color color, int change) {
   const auto clip = [](int value) { return value < 0 ? 0 : value > 255 ? 255 : value; };
@@ -18,15 +30,24 @@ Color shade(Color color, int change) {
 
 Color kind_color(arena::Kind kind) {
   switch (kind) {
-    case arena::Kind::crate: return {196, 148, 92};
-    case arena::Kind::ball: return {222, 222, 230};
-    case arena::Kind::barrel: return {120, 140, 150};
-    case arena::Kind::snowball: return {245, 250, 255};
-    case arena::Kind::goal: return {255, 210, 60};
-    case arena::Kind::hill: return {120, 220, 140};
-    case arena::Kind::ferry: return {150, 110, 180};
-    case arena::Kind::bar: return {200, 70, 60};
-    default: return {158, 166, 152};
+    case arena::Kind::crate:
+      return {196, 148, 92};
+    case arena::Kind::ball:
+      return {222, 222, 230};
+    case arena::Kind::barrel:
+      return {120, 140, 150};
+    case arena::Kind::snowball:
+      return {245, 250, 255};
+    case arena::Kind::goal:
+      return {255, 210, 60};
+    case arena::Kind::hill:
+      return {120, 220, 140};
+    case arena::Kind::ferry:
+      return {150, 110, 180};
+    case arena::Kind::bar:
+      return {200, 70, 60};
+    default:
+      return {158, 166, 152};
   }
 }
 
@@ -45,8 +66,7 @@ Look plain_look(BodyHandle handle, const BodyView& view) {
 Look arena_look(BodyHandle handle, const BodyView& view) {
   const arena::Tag tag = arena::Tag::unpack(view.user_data);
   if (tag.kind == arena::Kind::player) {
-    return {k_player_colors[tag.number % k_player_colors.size()], true,
-            std::to_string(tag.number)};
+    return {k_player_colors[tag.number % k_player_colors.size()], true, std::to_string(tag.number)};
   }
   const int variation = static_cast<int>(handle.index * 37 % 41) - 20;
   const Color color = kind_color(tag.kind);

@@ -27,7 +27,9 @@ std::string css(Color color, double brightness) {
                      channel(color.blue));
 }
 
-double brightness_of(const Vec& normal) { return 0.62 + 0.46 * std::max(0.0, dot(normal, k_light)); }
+double brightness_of(const Vec& normal) {
+  return 0.62 + 0.46 * std::max(0.0, dot(normal, k_light));
+}
 
 /// Metres of the picture plane to pixels.
 struct Canvas {
@@ -89,9 +91,10 @@ void draw_stripe(Canvas& canvas, const Solid& solid, const Vec& u, const Vec& v)
     const bool seen = dot(out, canvas.camera.toward()) > 0;
     if (seen) points += canvas.point(solid.center + out * (solid.radius() * 0.97)) + ' ';
     if ((!seen || i == k_parts) && !points.empty()) {
-      canvas.out += fmt::format("<polyline points='{}' fill='none' stroke='{}' "
-                                "stroke-width='{:.1f}'/>\n", points, css(solid.color, 0.5),
-                                std::max(1.0, solid.radius() * canvas.scale * 0.12));
+      canvas.out += fmt::format(
+          "<polyline points='{}' fill='none' stroke='{}' "
+          "stroke-width='{:.1f}'/>\n",
+          points, css(solid.color, 0.5), std::max(1.0, solid.radius() * canvas.scale * 0.12));
       points.clear();
     }
   }
@@ -156,7 +159,8 @@ std::vector<Item> collect(const World& world, const Style& style) {
 // Each moving body throws a shadow onto whatever a ray straight down finds first.
 void cast_shadows(const World& world, std::vector<Item>& items) {
   std::vector<std::size_t> place(world.body_limit(), items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) place[items[i].body.index] = i;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    place[items[i].body.index] = i;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (!items[i].moves || !items[i].solid.solid) continue;
     const Vec3<Length> down{{}, -40_m, {}};
@@ -209,15 +213,18 @@ Canvas make_canvas(const Camera& camera, const Frame& frame, const Picture& pict
   const double high = std::max(1.0, (frame.high - frame.low) * k_margin);
   const double scale = std::min(picture.width / wide, picture.height / high);
   const double middle = (frame.left + frame.right) / 2, center = (frame.low + frame.high) / 2;
-  return {camera, scale, middle - picture.width / scale / 2, center + picture.height / scale / 2, {}};
+  return {
+      camera, scale, middle - picture.width / scale / 2, center + picture.height / scale / 2, {}};
 }
 
 void draw_items(Canvas& canvas, const std::vector<Item>& items) {
   std::vector<Solid> solids;
-  for (const Item& item : items) solids.push_back(item.solid);
+  for (const Item& item : items)
+    solids.push_back(item.solid);
   for (const std::size_t i : paint_order(solids, canvas.camera)) {
     draw_solid(canvas, solids[i]);
-    for (const std::size_t caster : items[i].shadows) draw_shadow(canvas, solids[caster]);
+    for (const std::size_t caster : items[i].shadows)
+      draw_shadow(canvas, solids[caster]);
   }
 }
 
@@ -255,8 +262,8 @@ std::string draw(const World& world, const Picture& picture) {
   draw_items(canvas, items);
   draw_labels(canvas, items);
   canvas.out += fmt::format(
-      "<text x='16' y='{}' font-size='18' fill='#203040' xml:space='preserve'>{}</text>\n</svg>\n", picture.height - 16,
-      picture.caption);
+      "<text x='16' y='{}' font-size='18' fill='#203040' xml:space='preserve'>{}</text>\n</svg>\n",
+      picture.height - 16, picture.caption);
   return std::move(canvas.out);
 }
 

@@ -26,7 +26,7 @@ using Style = std::function<Look(BodyHandle, const BodyView&)>;
 [[nodiscard]] Look arena_look(BodyHandle handle, const BodyView& view);
 
 struct Picture {
-  int width = 1200;          ///< pixels
+  int width = 1200;  ///< pixels
   int height = 800;
   std::string caption = {};  ///< at the lower left
   Style style = plain_look;

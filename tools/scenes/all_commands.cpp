@@ -13,8 +13,12 @@ using namespace lockstone::literals;
 template <class T>
 using Tag = std::type_identity<T>;
 
-Velocity speed(Random& random) { return Velocity::from_ratio(random.between(-3000, 3000), 1000); }
-Impulse push(Random& random) { return Impulse::from_integer(random.between(-600, 600)); }
+Velocity speed(Random& random) {
+  return Velocity::from_ratio(random.between(-3000, 3000), 1000);
+}
+Impulse push(Random& random) {
+  return Impulse::from_integer(random.between(-600, 600));
+}
 
 Vec3<Impulse> random_impulse(Random& random) {
   const Impulse x = push(random), z = push(random);
@@ -27,7 +31,9 @@ Command sample(Tag<CreateBody>, BodyHandle, Random& random) {
   def.gravity_scale = Number::from_ratio(random.between(5, 10), 10);
   return CreateBody{def};
 }
-Command sample(Tag<DestroyBody>, BodyHandle body, Random&) { return DestroyBody{body}; }
+Command sample(Tag<DestroyBody>, BodyHandle body, Random&) {
+  return DestroyBody{body};
+}
 Command sample(Tag<Teleport>, BodyHandle body, Random& random) {
   const Position x = millimetres(random.between(-4000, 4000));
   return Teleport{body, {x, 3_m, {}}, random_orientation(random)};
@@ -94,7 +100,8 @@ void drive_commands(World& world, std::uint64_t seed) {
 
 }  // namespace
 
-constinit const Scene k_commands{"commands", "every command in turn on random bodies", 260,
-                                 small_world, build_commands, drive_commands};
+constinit const Scene k_commands{
+    "commands",    "every command in turn on random bodies", 260, small_world, build_commands,
+    drive_commands};
 
 }  // namespace lockstone::scenes

@@ -50,12 +50,12 @@ void add_stack(World& world, const Vec3<Position>& base, int count) {
 }
 
 Shape random_shape(Random& random) {
-  const auto size = [&](int low, int high) { return millimetres_long(random.between(low, high)); };
-  switch (random.below(3)) {
-    case 0: return Shape::sphere(size(200, 450));
-    case 1: return Shape::capsule(size(150, 400), size(150, 300));
-    default: return Shape::box(size(150, 450), size(150, 450), size(150, 450));
-  }
+  const auto size = [&] { return millimetres_long(random.between(150, 450)); };
+  const std::uint32_t kind = random.below(3);
+  const Length x = size(), y = size(), z = size();
+  if (kind == 0) return Shape::sphere(x);
+  if (kind == 1) return Shape::capsule(y, Length::from_raw(x.raw * 2 / 3));
+  return Shape::box(x, y, z);
 }
 
 Quat random_orientation(Random& random) {

@@ -36,7 +36,7 @@ void add_ground(World& world, Length half_width);
 /// `count` boxes of 1 m on top of each other, the lowest on y = 0.
 void add_stack(World& world, const Vec3<Position>& base, int count);
 
-/// A sphere, capsule or box of random size below 1 m.
+/// A sphere, capsule or box of random size.
 [[nodiscard]] Shape random_shape(Random& random);
 [[nodiscard]] Quat random_orientation(Random& random);
 

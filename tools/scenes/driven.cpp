@@ -25,7 +25,8 @@ void build_kinematic(World& world, std::uint64_t) {
   platform.material.friction = 1_r;
   add(world, platform);
   for (int i = 0; i < 3; ++i) {
-    BodyDef box = loose(Shape::box(0.4_m, 0.4_m, 0.4_m), {millimetres(-6200 + i * 1200), 1.6_m, {}});
+    BodyDef box =
+        loose(Shape::box(0.4_m, 0.4_m, 0.4_m), {millimetres(-6200 + i * 1200), 1.6_m, {}});
     box.material.friction = 0.8_r;
     add(world, box);
   }
@@ -74,7 +75,9 @@ void observe_trigger(World& world) {
   }
 }
 
-void build_spawn(World& world, std::uint64_t) { add_ground(world, 8_m); }
+void build_spawn(World& world, std::uint64_t) {
+  add_ground(world, 8_m);
+}
 
 Vec3<Position> random_drop(Random& random) {
   const std::int32_t x = random.between(-4000, 4000);
@@ -84,9 +87,11 @@ Vec3<Position> random_drop(Random& random) {
 }
 
 void spawn_one(World& world, Random& random) {
-  BodyDef def = loose(random_shape(random), random_drop(random));
+  const Shape shape = random_shape(random);
+  BodyDef def = loose(shape, random_drop(random));
   def.orientation = random_orientation(random);
-  def.velocity = {Velocity::from_integer(random.between(-4, 4)), {},
+  def.velocity = {Velocity::from_integer(random.between(-4, 4)),
+                  {},
                   Velocity::from_integer(random.between(-4, 4))};
   def.user_data = random.next();
   add(world, def);
@@ -111,11 +116,21 @@ void drive_spawn(World& world, std::uint64_t seed) {
 
 }  // namespace
 
-constinit const Scene k_kinematic{"kinematic", "a platform carries boxes, a bar sweeps balls", 300,
-                                  small_world, build_kinematic, drive_kinematic};
-constinit const Scene k_trigger{"trigger", "bodies cross three zones that count them", 240,
-                                small_world, build_trigger, nullptr, observe_trigger};
-constinit const Scene k_spawn{"spawn", "bodies appear, vanish and jump at random", 300, small_world,
+constinit const Scene k_kinematic{"kinematic",
+                                  "a platform carries boxes, a bar sweeps balls",
+                                  300,
+                                  small_world,
+                                  build_kinematic,
+                                  drive_kinematic};
+constinit const Scene k_trigger{"trigger",
+                                "bodies cross three zones that count them",
+                                240,
+                                small_world,
+                                build_trigger,
+                                nullptr,
+                                observe_trigger};
+constinit const Scene k_spawn{"spawn",     "bodies appear, vanish and jump at random",
+                              300,         small_world,
                               build_spawn, drive_spawn};
 
 }  // namespace lockstone::scenes

@@ -46,8 +46,8 @@ void build_pile(World& world, std::uint64_t seed) {
     const int column = i % 16;
     const std::int32_t x = -2250 + column % 4 * 1500 + random.between(-200, 200);
     const std::int32_t z = -2250 + column / 4 * 1500 + random.between(-200, 200);
-    BodyDef def = loose(random_shape(random), {millimetres(x), millimetres(1200 + i / 16 * 1500),
-                                               millimetres(z)});
+    BodyDef def = loose(random_shape(random),
+                        {millimetres(x), millimetres(1200 + i / 16 * 1500), millimetres(z)});
     def.orientation = random_orientation(random);
     def.material.density = Density::from_integer(random.between(200, 2000));
     add(world, def);

@@ -40,7 +40,8 @@ class ScenePlay {
 [[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name,
                                                            std::uint64_t seed);
 
-/// Makes whatever simulation configuration bytes name: the arena or a scene. For replays and clients.
+/// Makes whatever simulation configuration bytes name: the arena or a scene. For replays and
+/// clients.
 [[nodiscard]] Result<std::unique_ptr<Simulation>> make_simulation(ByteView config);
 
 /// The world inside a simulation that make_simulation made.

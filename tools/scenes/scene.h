@@ -1,5 +1,5 @@
-// The scenes that tests, benchmarks and the command share: each a world to build and, for some, what
-// is done to it tick by tick.
+// The scenes that tests, benchmarks and the command share: each a world to build and, for some,
+// what is done to it tick by tick.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace lockstone::scenes {
 
-/// A scene has no memory besides its world: what it does in a tick follows from seed, tick and world.
+/// A scene has no memory besides its world: what it does in a tick follows from seed, tick and
+/// world.
 struct Scene {
   std::string_view name;
   std::string_view description;

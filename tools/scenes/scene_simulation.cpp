@@ -55,7 +55,8 @@ Result<std::unique_ptr<Simulation>> make_scene(ByteView config) {
   if (magic != k_config_magic || reader.remaining() != 0) return Status::malformed;
   if (version != k_config_version) return Status::unsupported_version;
   std::array<char, k_name_bytes> text{};
-  for (std::size_t i = 0; i + 1 < k_name_bytes; ++i) text[i] = static_cast<char>(padded[i]);
+  for (std::size_t i = 0; i + 1 < k_name_bytes; ++i)
+    text[i] = static_cast<char>(padded[i]);
   const Scene* scene = find_scene(text.data());
   if (scene == nullptr) return Status::not_found;
   return std::unique_ptr<Simulation>(std::make_unique<SceneSimulation>(*scene, seed));
