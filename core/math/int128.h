@@ -150,31 +150,31 @@ __extension__ typedef unsigned __int128 Word;
 }
 
 }  // namespace native
-namespace wide = native;
+namespace words_128 = native;
 #else
-namespace wide = portable;
+namespace words_128 = portable;
 #endif
 
 /// a · b, exact.
 [[nodiscard]] constexpr UInt128 multiply_wide(std::uint64_t a, std::uint64_t b) {
-  return wide::multiply_wide(a, b);
+  return words_128::multiply_wide(a, b);
 }
 
 /// a · b, exact.
 [[nodiscard]] constexpr Int128 multiply_wide(std::int64_t a, std::int64_t b) {
-  const UInt128 product = wide::multiply_wide(magnitude(a), magnitude(b));
+  const UInt128 product = words_128::multiply_wide(magnitude(a), magnitude(b));
   return Int128::from_bits((a < 0) != (b < 0) ? UInt128{} - product : product);
 }
 
 /// ⌊a · b / 2^64⌋.
 [[nodiscard]] constexpr std::uint64_t multiply_high(std::uint64_t a, std::uint64_t b) {
-  return wide::multiply_wide(a, b).high;
+  return words_128::multiply_wide(a, b).high;
 }
 
 /// Quotient and remainder. numerator.high < denominator, so that the quotient fits.
 [[nodiscard]] constexpr Quotient64 divide(UInt128 numerator, std::uint64_t denominator) {
   LKS_ASSERT(numerator.high < denominator);
-  return wide::divide(numerator, denominator);
+  return words_128::divide(numerator, denominator);
 }
 
 /// numerator / denominator to nearest, ties up. The rounded quotient must fit in 64 bits.

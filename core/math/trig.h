@@ -22,6 +22,25 @@ using RotationVector = Vec3<RotationComponent>;
 /// exactly.
 [[nodiscard]] SinCos sin_cos(Angle x);
 
+/// ⌊tan x · 2^result_bits⌉ within ±(2^31 − 1), the nearest bound beyond: next to ±π/2.
+[[nodiscard]] std::int32_t tan_raw_saturating(Angle x, int result_bits);
+
+/// Tangent, within 0.5001 last places; ±To::max() where it does not fit.
+/// tan(−x) = −tan(x) exactly.
+template <class To = Number>
+[[nodiscard]] To tan_saturating(Angle x) {
+  static_assert(sizeof(typename To::Representation) == 4);
+  return To{tan_raw_saturating(x, To::frac_bits)};
+}
+
+/// As `tan_saturating`; |tan x| must be below To::max().
+template <class To = Number>
+[[nodiscard]] To tan(Angle x) {
+  const To tangent = tan_saturating<To>(x);
+  LKS_ASSERT(tangent.raw != To::max().raw && tangent.raw != -To::max().raw);
+  return tangent;
+}
+
 /// The angle of the vector (x, y) in (−π, π], within 1 · 2^-27 (measured: 0.501), for raws of any
 /// scale. (0, 0) gives 0. Odd in y exactly, but for (x < 0, y = 0), which gives +π.
 [[nodiscard]] Angle atan2_raw(std::int64_t y, std::int64_t x);

@@ -5,6 +5,7 @@
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/motion.h"
 #include "core/geometry/shape_properties.h"
+#include "core/math/wide/rotations.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -42,11 +43,14 @@ Vec3<Length> offset_between(const Vec3<Position>& from, const Vec3<Position>& to
 }  // namespace
 
 void World::Impl::refresh(std::uint32_t body) {
+  rotations[body] = to_matrix(bodies[body].orientation);
+  refresh_bounds(body);
+}
+
+void World::Impl::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
-  const Mat3 rotation = to_matrix(record.orientation);
-  rotations[body] = rotation;
   inner_radii[body] = inner_radius(record.shape());
-  const Vec3<Length> half = world_half_extents(record.shape(), rotation);
+  const Vec3<Length> half = world_half_extents(record.shape(), rotations[body]);
   Bounds bounds;
   for (int i = 0; i < 3; ++i) {
     const Position reach = rounded<Position>(half[i]) + rounded<Position>(k_contact_margin / 2);
@@ -65,6 +69,7 @@ StepReport World::Impl::step() {
   run_substeps(report);
   store_impulses();
   move_bodies(report);
+  refresh_moved();
   find_events();
   ++header.tick;
   return report;
@@ -205,9 +210,20 @@ void World::Impl::store_impulses() {
 }
 
 void World::Impl::move_bodies(StepReport& report) {
+  moved.clear();
   for (std::uint32_t body = 0; body < header.body_limit; ++body) {
-    if (bodies[body].moves()) move_body(body, report);
+    if (!bodies[body].moves()) continue;
+    move_body(body, report);
+    moved.push_back(body);
   }
+}
+
+// As `refresh` does for each, with the rotations all at once.
+void World::Impl::refresh_moved() {
+  if (moved.empty()) return;
+  const lanes::QuatField orientations{&bodies.front().orientation, sizeof(BodyRecord)};
+  lanes::compute_rotations(orientations, moved, rotations.data());
+  for (const std::uint32_t body : moved) refresh_bounds(body);
 }
 
 void World::Impl::move_body(std::uint32_t body, StepReport& report) {
@@ -224,7 +240,6 @@ void World::Impl::move_body(std::uint32_t body, StepReport& report) {
   report.saturations += limit_speed(record, inertia) ? 1U : 0U;
   report.saturations += limit_position(record) ? 1U : 0U;
   ++report.moving_bodies;
-  refresh(body);
 }
 
 void World::Impl::add_event(EventKind kind, const ContactRecord& record, std::size_t index) {

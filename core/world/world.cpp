@@ -62,6 +62,7 @@ World::Impl::Impl(const WorldDef& definition)
   constraints.reserve(definition.contact_capacity);
   approach_speeds.reserve(definition.contact_capacity);
   solver_bodies.reserve(std::size_t{definition.body_capacity} + 1);
+  moved.reserve(definition.body_capacity);
 }
 
 BodyRecord* World::Impl::find(BodyHandle body) {

@@ -81,11 +81,14 @@ struct World::Impl {
   void store_impulses();
   void move_bodies(StepReport& report);
   void move_body(std::uint32_t body, StepReport& report);
+  void refresh_moved();
+  void refresh_bounds(std::uint32_t body);
   void find_events();
   void add_event(EventKind kind, const ContactRecord& record, std::size_t index);
 
   // Scratch of one step.
   std::span<const Pair> pairs;
+  std::vector<std::uint32_t> moved;             // bodies, ascending
   std::vector<ContactRecord> new_contacts;
   std::vector<Manifold> manifolds;  // by new contact
   std::vector<ContactConstraint> constraints;

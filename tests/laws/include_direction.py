@@ -29,6 +29,7 @@ SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "bytes", "
 THIRD_PARTY = {
     "xxhash.h": "core/base/",
     "enet/*": "net/",
+    "hwy/*": "core/math/wide/",
 }
 
 

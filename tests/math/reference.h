@@ -38,6 +38,9 @@ class Real {
   friend Real cos(const Real& x) { return apply(mpfr_cos, x); }
   friend Real asin(const Real& x) { return apply(mpfr_asin, x); }
   friend Real acos(const Real& x) { return apply(mpfr_acos, x); }
+  friend Real tan(const Real& x) { return apply(mpfr_tan, x); }
+  friend Real exp2(const Real& x) { return apply(mpfr_exp2, x); }
+  friend Real log2(const Real& x) { return apply(mpfr_log2, x); }
   friend bool operator<(const Real& a, const Real& b) {
     return mpfr_less_p(a.value_, b.value_) != 0;
   }

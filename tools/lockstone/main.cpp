@@ -22,10 +22,13 @@ int main(int argc, char** argv) {
   lockstone::tool::add_run_command(app, exit_code);
   lockstone::tool::add_info_command(app, exit_code);
   lockstone::tool::add_verify_command(app, exit_code);
+  lockstone::tool::add_numerics_command(app, exit_code);
   lockstone::tool::add_serve_command(app, exit_code);
   lockstone::tool::add_join_command(app, exit_code);
   lockstone::tool::add_demo_command(app, exit_code);
-  for (CLI::App* command : app.get_subcommands({})) command->footer(k_footer);
+  lockstone::tool::add_bench_command(app, exit_code);
+  for (CLI::App* command : app.get_subcommands({}))
+    command->footer(k_footer);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

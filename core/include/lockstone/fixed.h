@@ -166,7 +166,9 @@ struct Fixed {
   friend constexpr Fixed operator*(Fixed a, int factor) {
     const auto product = static_cast<std::int64_t>(static_cast<std::uint64_t>(a.raw) *
                                                    static_cast<std::uint64_t>(factor));
-    LKS_ASSERT(factor == 0 || factor == -1 || (product / factor == a.raw && product % factor == 0));
+    // By −1 apart: product / −1 would overflow where the product does.
+    LKS_ASSERT(factor == -1 ? a.raw == 0 || product != a.raw
+                            : factor == 0 || (product / factor == a.raw && product % factor == 0));
     return narrow(product);
   }
 

@@ -1,0 +1,51 @@
+// The kernels, compiled for every target that Highway offers here.
+#include "core/math/wide/highway_setup.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/math/wide/highway_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/math/wide/kernel_table.h"
+
+// What Highway falls back to has one lane and other rules for products: there we use our scalar
+// twins.
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#include "core/math/wide/contact_rows_inl.h"
+#include "core/math/wide/rotations_inl.h"
+#endif
+
+#if HWY_ONCE
+namespace lockstone::lanes {
+namespace {
+
+constexpr Kernels k_tables[] = {
+#if defined(__x86_64__)
+#if HWY_TARGETS & HWY_SSE4
+    {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations},
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations},
+#endif
+#if HWY_TARGETS & HWY_AVX3
+    {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations},
+#endif
+#elif HWY_TARGETS & HWY_NEON
+    {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations},
+#elif HWY_TARGETS & HWY_WASM
+    {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations},
+#endif
+    {},
+};
+
+}  // namespace
+
+const Kernels* highway_kernels(std::string_view target) {
+  for (const Kernels& table : k_tables) {
+    if (table.target == target) return &table;
+  }
+  return nullptr;
+}
+
+}  // namespace lockstone::lanes
+#endif  // HWY_ONCE

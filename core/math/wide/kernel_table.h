@@ -1,0 +1,25 @@
+// One entry for each target that a build has.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/math/wide/contact_rows.h"
+#include "core/math/wide/rotations.h"
+
+namespace lockstone::lanes {
+
+struct Kernels {
+  std::string_view target;
+  void (*solve_contact_rows)(RowBody* bodies, ContactBlock* blocks, std::size_t count);
+  void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
+                            Mat3* matrices);
+};
+
+#if defined(LOCKSTONE_WITH_HIGHWAY)
+/// The kernels of a target, or null when this build has not compiled them.
+[[nodiscard]] const Kernels* highway_kernels(std::string_view target);
+#endif
+
+}  // namespace lockstone::lanes

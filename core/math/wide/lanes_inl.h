@@ -1,0 +1,238 @@
+// Lanes on Highway: as many 64-bit words side by side as a vector of the target holds. What each
+// operation means stands in scalar_lanes.h; the tests hold the two together, bit for bit.
+//
+// Compiled once for each target, hence the guard that Highway resets between targets.
+#if defined(LKS_WIDE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_LANES_INL_H
+#undef LKS_WIDE_LANES_INL_H
+#else
+#define LKS_WIDE_LANES_INL_H
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lockstone::lanes {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::ScalableTag<std::int64_t>;
+using Bits = hn::RebindToUnsigned<Words>;
+using Operands = hn::Repartition<std::int32_t, Words>;
+using UnsignedOperands = hn::Repartition<std::uint32_t, Words>;
+using Lanes = hn::Vec<Words>;
+
+inline constexpr Words k_words{};
+inline constexpr std::size_t k_lanes = HWY_LANES(std::int64_t);
+
+HWY_INLINE HWY_ATTR Lanes load(const std::int64_t* from) {
+  return hn::LoadU(k_words, from);
+}
+HWY_INLINE HWY_ATTR void store(Lanes x, std::int64_t* to) {
+  hn::StoreU(x, k_words, to);
+}
+HWY_INLINE HWY_ATTR Lanes broadcast(std::int64_t x) {
+  return hn::Set(k_words, x);
+}
+
+HWY_INLINE HWY_ATTR Lanes add(Lanes a, Lanes b) {
+  return hn::Add(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes subtract(Lanes a, Lanes b) {
+  return hn::Sub(a, b);
+}
+
+/// The upper operand, copied to the lower half. A shuffle, for shifts are what ports are short of.
+HWY_INLINE HWY_ATTR Lanes upper(Lanes x) {
+  return hn::BitCast(k_words, hn::DupOdd(hn::BitCast(Operands(), x)));
+}
+
+/// The lower halves of two words in one.
+HWY_INLINE HWY_ATTR Lanes pack(Lanes low, Lanes high) {
+  const auto raised = hn::ShiftLeft<32>(high);
+  return hn::BitCast(k_words,
+                     hn::OddEven(hn::BitCast(Operands(), raised), hn::BitCast(Operands(), low)));
+}
+
+/// `low` with the upper half of `other`.
+HWY_INLINE HWY_ATTR Lanes with_upper_of(Lanes low, Lanes other) {
+  return hn::BitCast(k_words,
+                     hn::OddEven(hn::BitCast(Operands(), other), hn::BitCast(Operands(), low)));
+}
+
+HWY_INLINE HWY_ATTR Lanes multiply(Lanes a, Lanes b) {
+  return hn::MulEven(hn::BitCast(Operands(), a), hn::BitCast(Operands(), b));
+}
+HWY_INLINE HWY_ATTR Lanes multiply_add(Lanes sum, Lanes a, Lanes b) {
+  return hn::Add(sum, multiply(a, b));
+}
+HWY_INLINE HWY_ATTR Lanes multiply_subtract(Lanes sum, Lanes a, Lanes b) {
+  return hn::Sub(sum, multiply(a, b));
+}
+
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
+  const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
+  return hn::BitCast(k_words, hn::ShiftRight<shift>(moved));
+}
+
+/// As above with a shift of each lane's own; `half` is 2^(shift − 1).
+HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto moved = hn::Sub(hn::Add(u, hn::BitCast(Bits(), half)), hn::ShiftRight<63>(u));
+  return hn::BitCast(k_words, hn::Shr(moved, hn::BitCast(Bits(), shift)));
+}
+
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift_positive(Lanes x) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
+  const auto keep = hn::Sub(hn::ShiftRight<63>(u), hn::Set(Bits(), std::uint64_t{1}));
+  const auto rounded = hn::And(hn::ShiftRight<shift>(hn::Add(u, half)), keep);
+  // The bound's upper half is zero, so the result is clean.
+  const auto bound = hn::BitCast(UnsignedOperands(), hn::Set(Bits(), std::uint64_t{0x7fffffff}));
+  return hn::BitCast(k_words, hn::Min(hn::BitCast(UnsignedOperands(), rounded), bound));
+}
+
+HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) {
+  return hn::Min(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) {
+  return hn::Max(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes clamp(Lanes x, Lanes lowest, Lanes highest) {
+  return hn::Min(hn::Max(x, lowest), highest);
+}
+HWY_INLINE HWY_ATTR Lanes saturate(Lanes x) {
+  return clamp(x, broadcast(INT32_MIN), broadcast(INT32_MAX));
+}
+HWY_INLINE HWY_ATTR Lanes select_less(Lanes a, Lanes b, Lanes yes, Lanes no) {
+  return hn::IfThenElse(hn::Lt(a, b), yes, no);
+}
+HWY_INLINE HWY_ATTR Lanes select_equal(Lanes a, Lanes b, Lanes yes, Lanes no) {
+  return hn::IfThenElse(hn::Eq(a, b), yes, no);
+}
+
+/// Lane i: base[index[i]], for indices below 2^31.
+HWY_INLINE HWY_ATTR Lanes gather_64(const std::int64_t* base, const std::int64_t* index) {
+  return hn::GatherIndex(k_words, base, load(index));
+}
+HWY_INLINE HWY_ATTR void scatter_64(Lanes x, std::int64_t* base, const std::int64_t* index) {
+  hn::ScatterIndex(x, k_words, base, load(index));
+}
+
+/// Lane i: base[index[i]], its sign extended into the upper half.
+HWY_INLINE HWY_ATTR Lanes gather_32(const std::int32_t* base, const std::int32_t* index) {
+  const hn::Rebind<std::int32_t, Words> half_words;
+  return hn::PromoteTo(k_words, hn::GatherIndex(half_words, base, hn::LoadU(half_words, index)));
+}
+/// The lower halves.
+HWY_INLINE HWY_ATTR void scatter_32(Lanes x, std::int32_t* base, const std::int32_t* index) {
+  const hn::Rebind<std::int32_t, Words> half_words;
+  const auto narrow = hn::TruncateTo(hn::Rebind<std::uint32_t, Words>(), hn::BitCast(Bits(), x));
+  hn::ScatterIndex(hn::BitCast(half_words, narrow), half_words, base, hn::LoadU(half_words, index));
+}
+
+// Records of words, one for each lane, are read and written 16 bytes at a time: a vector is put
+// together from such pieces by inserts, which take them from memory, and a single interleaving step
+// completes the transposition. That beats 4×4 shuffles of whole rows, and gather instructions.
+using Pair = hn::FixedTag<std::int64_t, 2>;
+using Piece = hn::Vec<Pair>;
+inline constexpr Pair k_pair{};
+inline constexpr hn::FixedTag<std::int32_t, 4> k_four_operands{};
+
+HWY_INLINE HWY_ATTR Piece load_piece(const std::int64_t* from) {
+  return hn::LoadU(k_pair, from);
+}
+HWY_INLINE HWY_ATTR Piece load_piece(const std::int32_t* from) {
+  return hn::BitCast(k_pair, hn::LoadU(k_four_operands, from));
+}
+HWY_INLINE HWY_ATTR void store_piece(Piece x, std::int64_t* to) {
+  hn::StoreU(x, k_pair, to);
+}
+HWY_INLINE HWY_ATTR void store_piece(Piece x, std::int32_t* to) {
+  hn::StoreU(hn::BitCast(k_four_operands, x), k_four_operands, to);
+}
+
+/// The pieces of every second record from `i` on: records i, i + 2, i + 4, …
+template <class At>
+HWY_INLINE HWY_ATTR Lanes load_pieces(const At& at, std::size_t i) {
+#if HWY_TARGET == HWY_AVX3
+  const hn::FixedTag<std::int64_t, 4> quad;
+  const auto low = hn::Combine(quad, load_piece(at(i + 2)), load_piece(at(i)));
+  const auto high = hn::Combine(quad, load_piece(at(i + 6)), load_piece(at(i + 4)));
+  return hn::Combine(k_words, high, low);
+#elif HWY_TARGET == HWY_AVX2
+  return hn::Combine(k_words, load_piece(at(i + 2)), load_piece(at(i)));
+#else
+  return load_piece(at(i));
+#endif
+}
+
+template <class At>
+HWY_INLINE HWY_ATTR void store_pieces(Lanes x, const At& at, std::size_t i) {
+#if HWY_TARGET == HWY_AVX3
+  const hn::FixedTag<std::int64_t, 4> quad;
+  const auto low = hn::LowerHalf(quad, x);
+  const auto high = hn::UpperHalf(quad, x);
+  store_piece(hn::LowerHalf(k_pair, low), at(i));
+  store_piece(hn::UpperHalf(k_pair, low), at(i + 2));
+  store_piece(hn::LowerHalf(k_pair, high), at(i + 4));
+  store_piece(hn::UpperHalf(k_pair, high), at(i + 6));
+#elif HWY_TARGET == HWY_AVX2
+  store_piece(hn::LowerHalf(k_pair, x), at(i));
+  store_piece(hn::UpperHalf(k_pair, x), at(i + 2));
+#else
+  store_piece(x, at(i));
+#endif
+}
+
+/// Words 0 and 1 at `at(i)` of each lane i.
+template <class At>
+HWY_INLINE HWY_ATTR void load_two(const At& at, Lanes& first, Lanes& second) {
+  const Lanes even = load_pieces(at, 0);
+  const Lanes odd = load_pieces(at, 1);
+  first = hn::InterleaveLower(k_words, even, odd);
+  second = hn::InterleaveUpper(k_words, even, odd);
+}
+
+template <class At>
+HWY_INLINE HWY_ATTR void store_two(Lanes first, Lanes second, const At& at) {
+  store_pieces(hn::InterleaveLower(k_words, first, second), at, 0);
+  store_pieces(hn::InterleaveUpper(k_words, first, second), at, 1);
+}
+
+/// Where the lanes' records lie: that of lane i at base + index[i] · stride words.
+template <class Word>
+struct RecordsAt {
+  Word* base;
+  const std::uint32_t* index;
+  std::size_t stride;
+
+  HWY_INLINE HWY_ATTR Word* operator()(std::size_t lane) const {
+    return base + index[lane] * stride;
+  }
+};
+
+/// A 4×4 transposition: words 0 … 3 of each lane's record.
+HWY_INLINE HWY_ATTR void load_four(const RecordsAt<const std::int64_t>& at, Lanes (&words)[4]) {
+  load_two(at, words[0], words[1]);
+  load_two(RecordsAt<const std::int64_t>{at.base + 2, at.index, at.stride}, words[2], words[3]);
+}
+
+HWY_INLINE HWY_ATTR void store_four(const Lanes (&words)[4], const RecordsAt<std::int64_t>& at) {
+  store_two(words[0], words[1], at);
+  store_two(words[2], words[3], RecordsAt<std::int64_t>{at.base + 2, at.index, at.stride});
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lockstone::lanes
+HWY_AFTER_NAMESPACE();
+
+#endif  // the guard

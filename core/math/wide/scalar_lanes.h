@@ -1,0 +1,91 @@
+// The meaning of every lane operation, one lane at a time: the scalar twin of lanes_inl.h.
+//
+// A lane is a 64-bit word, held here as int64. As an operand of a product it counts by its lower
+// half alone, a signed 32-bit number; the upper half may hold anything ("dirty"), often a second
+// operand. Sums wrap, so every operation is defined for every input.
+#pragma once
+
+#include <cstdint>
+
+namespace lockstone::lanes::scalar {
+
+using Lane = std::int64_t;
+
+[[nodiscard]] constexpr std::uint64_t bits(Lane x) {
+  return static_cast<std::uint64_t>(x);
+}
+
+[[nodiscard]] constexpr Lane add(Lane a, Lane b) {
+  return static_cast<Lane>(bits(a) + bits(b));
+}
+[[nodiscard]] constexpr Lane subtract(Lane a, Lane b) {
+  return static_cast<Lane>(bits(a) - bits(b));
+}
+
+/// The operand in the lower half.
+[[nodiscard]] constexpr std::int32_t low(Lane x) {
+  return static_cast<std::int32_t>(x);
+}
+
+/// The operand in the upper half.
+[[nodiscard]] constexpr std::int32_t high(Lane x) {
+  return static_cast<std::int32_t>(x >> 32);
+}
+
+/// Two operands in one word: the lower halves of both.
+[[nodiscard]] constexpr Lane pack(std::int64_t low_half, std::int64_t high_half) {
+  return static_cast<Lane>((bits(low_half) & 0xffffffffU) | (bits(high_half) << 32));
+}
+
+/// The product of the lower halves, exact.
+[[nodiscard]] constexpr Lane multiply(Lane a, Lane b) {
+  return Lane{low(a)} * low(b);
+}
+
+[[nodiscard]] constexpr Lane multiply_add(Lane sum, Lane a, Lane b) {
+  return add(sum, multiply(a, b));
+}
+[[nodiscard]] constexpr Lane multiply_subtract(Lane sum, Lane a, Lane b) {
+  return subtract(sum, multiply(a, b));
+}
+
+/// x · 2^-shift to nearest, ties away from zero, in the lower half; the upper half is dirty, for
+/// the shift is a logical one: AVX2 and older have no arithmetic one. 1 ≤ shift ≤ 32.
+[[nodiscard]] constexpr Lane round_shift_low(Lane x, int shift) {
+  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
+  return static_cast<Lane>((bits(x) + half - (bits(x) >> 63)) >> shift);
+}
+
+/// max(0, x · 2^-shift to nearest), at most 2^31 − 1. x < 2^(32 + shift) − 2^(shift − 1).
+[[nodiscard]] constexpr Lane round_shift_positive(Lane x, int shift) {
+  if (x < 0) return 0;
+  const auto rounded =
+      static_cast<std::uint32_t>((bits(x) + (std::uint64_t{1} << (shift - 1))) >> shift);
+  return rounded > 0x7fffffffU ? 0x7fffffff : static_cast<Lane>(rounded);
+}
+
+[[nodiscard]] constexpr Lane min(Lane a, Lane b) {
+  return b < a ? b : a;
+}
+[[nodiscard]] constexpr Lane max(Lane a, Lane b) {
+  return a < b ? b : a;
+}
+[[nodiscard]] constexpr Lane clamp(Lane x, Lane lowest, Lane highest) {
+  return min(max(x, lowest), highest);
+}
+
+/// Clamps to the range of int32.
+[[nodiscard]] constexpr Lane saturate(Lane x) {
+  return clamp(x, -(Lane{1} << 31), (Lane{1} << 31) - 1);
+}
+
+/// a < b ? yes : no.
+[[nodiscard]] constexpr Lane select_less(Lane a, Lane b, Lane yes, Lane no) {
+  return a < b ? yes : no;
+}
+/// a = b ? yes : no.
+[[nodiscard]] constexpr Lane select_equal(Lane a, Lane b, Lane yes, Lane no) {
+  return a == b ? yes : no;
+}
+
+}  // namespace lockstone::lanes::scalar

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <lockstone/transform.h>
+
+#include "tests/math/reference.h"
+
+namespace lockstone {
+namespace {
+
+using test::Raws;
+
+Transform random_transform(Raws& raws) {
+  const auto unit = [&] { return Unit::from_raw(raws.any32()); };
+  const auto far = [&] { return Position::from_raw(raws.signed_below_bits(52)); };
+  return {{far(), far(), far()}, normalized({unit(), unit(), unit(), unit()})};
+}
+
+void expect_near(const Vec3<Position>& a, const Vec3<Position>& b, std::int64_t tolerance) {
+  for (int axis = 0; axis < 3; ++axis)
+    ASSERT_NEAR(static_cast<double>(a[axis].raw - b[axis].raw), 0, static_cast<double>(tolerance));
+}
+
+TEST(Transform, IdentityChangesNothing) {
+  Raws raws;
+  const Transform t = random_transform(raws);
+  EXPECT_EQ(apply({}, t.position), t.position);
+  EXPECT_EQ(apply_inverse({}, t.position), t.position);
+  EXPECT_EQ(compose({}, t).position, t.position);
+  EXPECT_EQ(compose(t, {}).position, t.position);
+}
+
+TEST(Transform, QuarterTurnsAreExact) {
+  const Unit half = Unit::from_raw(1 << 29);
+  const Transform turn{{{5}, {6}, {7}}, {half, half, half, half}};  // x → y → z → x
+  EXPECT_EQ(apply(turn, Vec3<Position>{{1}, {2}, {3}}), (Vec3<Position>{{8}, {7}, {9}}));
+  EXPECT_EQ(apply(turn, Vec3<Length>{{1}, {2}, {3}}),
+            (Vec3<Position>{{5 + (3 << 12)}, {6 + (1 << 12)}, {7 + (2 << 12)}}));
+  EXPECT_EQ(apply_inverse(turn, {{8}, {7}, {9}}), (Vec3<Position>{{1}, {2}, {3}}));
+  EXPECT_EQ(compose(turn, compose(turn, turn)).orientation,
+            (Quat{{}, {}, {}, -Unit::from_integer(1)}));
+}
+
+// Points within 2^30 raw (¼ m): the matrix errs by 2^-30 per entry, so a few raws; a point 2^20 m
+// away is off by 2^-30 of that.
+TEST(Transform, InverseUndoesWithinTheMatrixError) {
+  Raws raws;
+  for (int i = 0; i < 50000; ++i) {
+    const Transform t = random_transform(raws);
+    const auto near = [&] { return Position::from_raw(raws.signed_below_bits(30)); };
+    const Vec3<Position> p{near(), near(), near()};
+    expect_near(apply_inverse(t, apply(t, p)), p, 8);
+    expect_near(apply(inverse(t), apply(t, p)), p, 1 << 25);
+  }
+}
+
+TEST(Transform, ComposeAppliesTheSecondFirst) {
+  Raws raws;
+  for (int i = 0; i < 50000; ++i) {
+    const Transform a = random_transform(raws), b = random_transform(raws);
+    const auto near = [&] { return Position::from_raw(raws.signed_below_bits(30)); };
+    const Vec3<Position> p{near(), near(), near()};
+    expect_near(apply(compose(a, b), p), apply(a, apply(b, p)), 1 << 4);
+  }
+}
+
+TEST(Transform, RotationOfWidePositionsIsRoundedOnce) {
+  Raws raws;
+  for (int i = 0; i < 20000; ++i) {
+    const Mat3 m = to_matrix(random_transform(raws).orientation);
+    const Vec3<Position> v{
+        {raws.signed_below_bits(60)}, {raws.signed_below_bits(60)}, {raws.signed_below_bits(60)}};
+    const Vec3<Position> turned = rotate(m, v), back = rotate_inverse(m, v);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto exact = [&](auto entry) {
+        return test::Real(entry(0).raw, 30) * test::Real(v.x.raw) +
+               test::Real(entry(1).raw, 30) * test::Real(v.y.raw) +
+               test::Real(entry(2).raw, 30) * test::Real(v.z.raw);
+      };
+      ASSERT_LE(exact([&](int j) { return m.column(j)[axis]; }).error_of(turned[axis].raw, 0), 0.5);
+      ASSERT_LE(exact([&](int j) { return m.column(axis)[j]; }).error_of(back[axis].raw, 0), 0.5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lockstone

@@ -1,0 +1,90 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/fixed.h>
+
+#include "core/math/wide/scalar_lanes.h"
+#include "core/math/wide/target.h"
+#include "tests/math/wide/check.h"
+#include "tests/math/wide/values.h"
+
+namespace lockstone::lanes {
+namespace {
+
+using lockstone::test::Random;
+using lockstone::test::run_seed;
+
+TEST(WideTargets, ScalarIsAlwaysThereAndTheBestIsInForce) {
+  ASSERT_FALSE(supported_targets().empty());
+  EXPECT_EQ(supported_targets().front(), "scalar");
+  EXPECT_EQ(current_target(), supported_targets().back());
+}
+
+TEST(WideTargets, AreForcedByName) {
+  for (const std::string_view name : supported_targets()) {
+    EXPECT_EQ(set_target(name), Status::ok);
+    EXPECT_EQ(current_target(), name);
+  }
+}
+
+TEST(WideTargets, AnUnknownNameChangesNothing) {
+  ASSERT_EQ(set_target("scalar"), Status::ok);
+  EXPECT_EQ(set_target("abacus"), Status::not_found);
+  EXPECT_EQ(current_target(), "scalar");
+  ASSERT_EQ(set_target(supported_targets().back()), Status::ok);
+}
+
+// The scalar twins are the meaning of the lanes; here they meet the rules of the whole project.
+TEST(ScalarLanes, RoundAsTheProjectDoes) {
+  Random random;
+  for (int i = 0; i < 200'000; ++i) {
+    const std::int64_t x = test::word(random);
+    const int shift = static_cast<int>(random.between(1, 32));
+    EXPECT_EQ(scalar::low(scalar::round_shift_low(x, shift)),
+              static_cast<std::int32_t>(raw::round_shift_any(x, shift)))
+        << x << " by " << shift;
+  }
+}
+
+TEST(ScalarLanes, KeepThePositivePartWithinItsRange) {
+  Random random;
+  for (int i = 0; i < 200'000; ++i) {
+    const std::int64_t x = test::word(random) >> 1;  // below 2^62
+    const std::int64_t rounded = raw::round_shift_any(x, 30);
+    if (rounded >= std::int64_t{1} << 32) continue;
+    const std::int64_t wanted = std::clamp<std::int64_t>(rounded, 0, INT32_MAX);
+    EXPECT_EQ(scalar::round_shift_positive(x, 30), wanted) << x;
+  }
+}
+
+TEST(ScalarLanes, PackAndSplitOperands) {
+  Random random;
+  for (int i = 0; i < 10'000; ++i) {
+    const std::int32_t low = test::operand(random), high = test::operand(random);
+    const scalar::Lane packed = scalar::pack(low, high);
+    EXPECT_EQ(scalar::low(packed), low);
+    EXPECT_EQ(scalar::high(packed), high);
+  }
+}
+
+#if defined(LOCKSTONE_WITH_HIGHWAY)
+TEST(WideLanes, ComputeWhatTheirScalarTwinsDo) {
+  EXPECT_EQ(test::check_operations(run_seed()), "");
+}
+
+TEST(WideLanes, MoveWordsAndRecords) {
+  EXPECT_EQ(test::check_memory_operations(run_seed()), "");
+}
+#endif
+
+TEST(WideKernels, SolveContactRowsAsTheScalarTwinDoes) {
+  EXPECT_EQ(test::check_contact_rows(run_seed()), "");
+}
+
+TEST(WideKernels, MakeTheMatricesOfToMatrix) {
+  EXPECT_EQ(test::check_rotations(run_seed()), "");
+}
+
+}  // namespace
+}  // namespace lockstone::lanes

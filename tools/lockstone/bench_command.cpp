@@ -1,0 +1,15 @@
+#include "tools/lockstone/commands.h"
+
+namespace lockstone::tool {
+
+void add_bench_numerics_command(CLI::App& bench, int& exit_code);
+void add_bench_rows_command(CLI::App& bench, int& exit_code);
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure parts of the core by themselves");
+  bench->require_subcommand(1);
+  add_bench_numerics_command(*bench, exit_code);
+  add_bench_rows_command(*bench, exit_code);
+}
+
+}  // namespace lockstone::tool

@@ -1,0 +1,91 @@
+// What the lists of functions share: domains, and words to quantities and back.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include <lockstone/quat.h>
+#include <lockstone/transform.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+#include "core/math/int128.h"
+#include "core/math/roots.h"
+#include "tools/numerics/vectors.h"
+
+namespace lockstone::numerics {
+
+inline constexpr std::int64_t k_max64 = std::numeric_limits<std::int64_t>::max();
+inline constexpr std::int64_t k_max32 = std::numeric_limits<std::int32_t>::max();
+
+inline constexpr Domain k_any64{std::numeric_limits<std::int64_t>::min(), k_max64};
+inline constexpr Domain k_any32{std::numeric_limits<std::int32_t>::min(), k_max32};
+inline constexpr Domain k_positive64{1, k_max64};
+inline constexpr Domain k_positive32{1, k_max32};
+
+/// |x| < 2^bits
+[[nodiscard]] constexpr Domain below(int bits) {
+  const std::int64_t bound = (std::int64_t{1} << bits) - 1;
+  return {-bound, bound};
+}
+
+[[nodiscard]] constexpr std::int32_t i32(std::int64_t word) {
+  return static_cast<std::int32_t>(word);
+}
+[[nodiscard]] constexpr std::uint64_t u64(std::int64_t word) {
+  return static_cast<std::uint64_t>(word);
+}
+[[nodiscard]] constexpr std::int64_t i64(std::uint64_t word) {
+  return static_cast<std::int64_t>(word);
+}
+
+template <class T>
+[[nodiscard]] Vec3<T> vec3_at(const Words& in, std::size_t at) {
+  using Rep = typename T::Representation;
+  return {T{static_cast<Rep>(in[at])}, T{static_cast<Rep>(in[at + 1])},
+          T{static_cast<Rep>(in[at + 2])}};
+}
+
+[[nodiscard]] inline Quat quat_at(const Words& in, std::size_t at) {
+  return {{i32(in[at])}, {i32(in[at + 1])}, {i32(in[at + 2])}, {i32(in[at + 3])}};
+}
+
+[[nodiscard]] inline Transform transform_at(const Words& in, std::size_t at) {
+  return {vec3_at<Position>(in, at), quat_at(in, at + 3)};
+}
+
+template <class T>
+[[nodiscard]] Words words(const Vec3<T>& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
+
+[[nodiscard]] inline Words words(const Quat& q) {
+  return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
+}
+
+[[nodiscard]] inline Words words(const Transform& t) {
+  Words all = words(t.position);
+  for (const std::int64_t word : words(t.orientation))
+    all.push_back(word);
+  return all;
+}
+
+/// Four words from `at` on become a unit quaternion; what is near one stays.
+inline void normalise_at(Words& in, std::size_t at) {
+  const Quat q = quat_at(in, at);
+  if (is_near_unit(norm_squared(q))) return;
+  const Words unit = words(normalized(q));
+  for (std::size_t i = 0; i < 4; ++i)
+    in[at + i] = unit[i];
+}
+
+/// `list` repeated into one list of inputs.
+[[nodiscard]] inline std::vector<Domain> inputs(
+    std::initializer_list<std::pair<Domain, std::size_t>> list) {
+  std::vector<Domain> all;
+  for (const auto& [domain, count] : list)
+    all.insert(all.end(), count, domain);
+  return all;
+}
+
+}  // namespace lockstone::numerics
