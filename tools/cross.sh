@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Builds the lockstone command for several processors, compilers and optimisation levels, runs the
-# golden scenes on each (under qemu where it must) and compares every hash on the way.
+# golden scenes and the golden vectors of the numerics on each (under qemu where it must) and compares
+# every hash on the way.
 #
 # usage: tools/cross.sh [TARGET…]     default: all of them
 #
-#   gcc-O0 gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
-#   aarch64 riscv64 armhf s390x       cross compilers and qemu-user
+#   gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
+#   aarch64 riscv64 armhf s390x              cross compilers and qemu-user
 #
 # Exits 1 when a hash differs, a run fails, or a target named on the command line cannot be built or
 # run here. Without named targets such a target is reported and left out. Missing Debian packages are
@@ -14,7 +15,7 @@
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-all=(gcc-O0 gcc-O3 clang-O0 clang-O3 aarch64 riscv64 armhf s390x)
+all=(gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3 aarch64 riscv64 armhf s390x)
 
 # compiler_of TARGET
 compiler_of() {

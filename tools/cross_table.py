@@ -1,4 +1,5 @@
-"""Runs the golden scenes of several builds of the lockstone command and compares their hashes.
+"""Runs the golden scenes of several builds of the lockstone command and compares their hashes; has each
+check the golden vectors of the numerics.
 
 usage: cross_table.py [--jobs N] TARGET=COMMAND…
 
@@ -35,6 +36,14 @@ def run_scene(command, scene):
         return str(error)
 
 
+def check_numerics(command):
+    """(table cell, complaint or None) of the golden vectors."""
+    try:
+        return f"{ask(command, 'numerics', '--check')['vectors']} same", None
+    except (RuntimeError, OSError, ValueError, KeyError, subprocess.TimeoutExpired) as error:
+        return "differ !", str(error)
+
+
 def first_difference(chain, reference):
     """Where two chains part, for the message."""
     for position, (here, there) in enumerate(zip(chain, reference)):
@@ -62,10 +71,12 @@ def print_table(rows):
         print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
 
 
-def report(targets, scenes, results):
+def report(targets, scenes, results, numerics):
     """Prints the table and what is wrong; answers the number of complaints."""
-    complaints = []
-    rows = [["scene", "ticks", *targets]]
+    complaints = [f"numerics on {target}: {complaint}"
+                  for target, (_, complaint) in numerics.items() if complaint]
+    rows = [["scene", "ticks", *targets],
+            ["numerics", "", *(numerics[target][0] for target in targets)]]
     for scene in scenes:
         name = scene["name"]
         reference = results[next(iter(targets)), name]
@@ -102,9 +113,11 @@ def main():
         # Slow ones first: emulators are named last.
         jobs = {(name, scene["name"]): pool.submit(run_scene, command, scene)
                 for name, command in reversed(targets.items()) for scene in scenes}
+        checks = {name: pool.submit(check_numerics, command) for name, command in targets.items()}
         results = {key: job.result() for key, job in jobs.items()}
+        numerics = {name: job.result() for name, job in checks.items()}
 
-    complaints = report(targets, scenes, results)
+    complaints = report(targets, scenes, results, numerics)
     verdict = f"{complaints} of them differ or failed" if complaints else "all equal"
     print(f"{len(results)} runs of {len(scenes)} scenes on {len(targets)} targets: {verdict}")
     return 1 if complaints else 0
