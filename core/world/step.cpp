@@ -103,7 +103,7 @@ void World::Impl::collide_pairs(StepReport& report) {
     if (known) record = before[old];
     Manifold manifold;
     if (!collide_pair(pair, record, manifold)) continue;
-    if (new_contacts.size() == new_contacts.capacity()) {
+    if (new_contacts.size() == def.contact_capacity) {
       report.status = Status::capacity_exhausted;
       return;
     }
