@@ -9,6 +9,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 require_packages build
+build_targets=(lockstone)
 build_preset release
 # Paths among the options are the caller's.
 cd "$OLDPWD"

@@ -84,11 +84,15 @@ require_packages() {
   rm -f "$log"
 }
 
-# build_preset PRESET [CMAKE-OPTION…]: configures and builds everything of a preset.
+# What build_preset builds: these targets, or everything.
+build_targets=()
+
+# build_preset PRESET [CMAKE-OPTION…]: configures and builds a preset.
 build_preset() {
   local preset=$1
   shift
   say "build $preset"
   cmake --preset "$preset" "$@" >/dev/null  # errors and warnings go to stderr
-  cmake --build --preset "$preset" --parallel "$jobs"
+  cmake --build --preset "$preset" --parallel "$jobs" \
+    ${build_targets[@]+--target "${build_targets[@]}"}
 }
