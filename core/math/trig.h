@@ -18,8 +18,8 @@ struct SinCos {
 using RotationComponent = Fixed<Scalar, std::int64_t, 32>;
 using RotationVector = Vec3<RotationComponent>;
 
-/// Sine and cosine, each within 1 · 2^-30 (measured: 0.72). sin(−x) = −sin(x), cos(−x) = cos(x),
-/// exactly.
+/// Sine and cosine, each within 1 · 2^-30 (measured over all inputs: 0.77). sin(−x) = −sin(x) and
+/// cos(−x) = cos(x), exactly.
 [[nodiscard]] SinCos sin_cos(Angle x);
 
 /// ⌊tan x · 2^result_bits⌉ within ±(2^31 − 1), the nearest bound beyond: next to ±π/2.
