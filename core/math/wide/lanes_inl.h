@@ -65,7 +65,15 @@ HWY_INLINE HWY_ATTR Lanes with_upper_of(Lanes low, Lanes other) {
 }
 
 HWY_INLINE HWY_ATTR Lanes multiply(Lanes a, Lanes b) {
+#if HWY_TARGET == HWY_WASM
+  // Highway 1.0.3 multiplies signed operands here as if they were unsigned (MulEven,
+  // wasm_128-inl.h).
+  const Lanes low_a = hn::ShiftRight<32>(hn::ShiftLeft<32>(a));
+  const Lanes low_b = hn::ShiftRight<32>(hn::ShiftLeft<32>(b));
+  return Lanes{wasm_i64x2_mul(low_a.raw, low_b.raw)};
+#else
   return hn::MulEven(hn::BitCast(Operands(), a), hn::BitCast(Operands(), b));
+#endif
 }
 HWY_INLINE HWY_ATTR Lanes multiply_add(Lanes sum, Lanes a, Lanes b) {
   return hn::Add(sum, multiply(a, b));
@@ -82,11 +90,26 @@ HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x) {
   return hn::BitCast(k_words, hn::ShiftRight<shift>(moved));
 }
 
+/// Every lane by a shift of its own, logically. Highway 1.0 has none for words of 64 bits on
+/// WebAssembly, nor has the processor.
+HWY_INLINE HWY_ATTR hn::Vec<Bits> shift_right_each(hn::Vec<Bits> x, hn::Vec<Bits> shift) {
+#if HWY_TARGET == HWY_WASM
+  HWY_ALIGN std::uint64_t words[k_lanes], shifts[k_lanes];
+  hn::Store(x, Bits(), words);
+  hn::Store(shift, Bits(), shifts);
+  for (std::size_t lane = 0; lane < k_lanes; ++lane)
+    words[lane] >>= shifts[lane];
+  return hn::Load(Bits(), words);
+#else
+  return hn::Shr(x, shift);
+#endif
+}
+
 /// As above with a shift of each lane's own; `half` is 2^(shift − 1).
 HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
   const auto u = hn::BitCast(Bits(), x);
   const auto moved = hn::Sub(hn::Add(u, hn::BitCast(Bits(), half)), hn::ShiftRight<63>(u));
-  return hn::BitCast(k_words, hn::Shr(moved, hn::BitCast(Bits(), shift)));
+  return hn::BitCast(k_words, shift_right_each(moved, hn::BitCast(Bits(), shift)));
 }
 
 template <int shift>
