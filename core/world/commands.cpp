@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dynamics/inertia.h"
+#include "core/dynamics/limits.h"
 #include "core/dynamics/motion.h"
 #include "core/geometry/shape_properties.h"
 #include "core/math/block_float.h"
@@ -32,11 +33,6 @@ bool is_valid(const Quat& q) {
   return has_unit_range(q) && is_usable(q);
 }
 
-bool is_valid_surface(Coefficient friction, Coefficient restitution) {
-  return friction >= Coefficient{} && friction <= Coefficient::from_ratio(199, 100) &&
-         restitution >= Coefficient{} && restitution <= Coefficient::from_integer(1);
-}
-
 // ω·2^k in m/s, the speed of the surface.
 bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent, Vec3<Velocity>& w) {
   constexpr AngularVelocity k_limit = AngularVelocity::from_integer(1 << 20);
@@ -47,7 +43,6 @@ bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent, Vec3<
 }
 
 bool is_valid(const BodyDef& def) {
-  constexpr Number k_gravity_scale_limit = Number::from_integer(100);
   return (def.motion == MotionType::static_body || def.motion == MotionType::kinematic ||
           def.motion == MotionType::dynamic) &&
          validate(def.shape) == Status::ok && within(def.position, k_world_limit) &&
@@ -277,7 +272,7 @@ Status World::Impl::execute(const SetUserData& command) {
 }
 
 Status World::Impl::execute(const SetGravity& command) {
-  if (!within(command.gravity, Acceleration::from_integer(1000))) return Status::invalid_argument;
+  if (!is_valid_gravity(command.gravity)) return Status::invalid_argument;
   header.gravity = command.gravity;
   return Status::ok;
 }

@@ -9,6 +9,7 @@
 #include <lockstone/hash.h>
 
 #include "core/dynamics/inertia.h"
+#include "core/dynamics/limits.h"
 #include "core/geometry/shape_properties.h"
 #include "core/world/record_codec.h"
 #include "core/world/snapshot_format.h"
@@ -51,22 +52,14 @@ bool has_valid_mass(const BodyRecord& record) {
 }
 
 bool has_valid_surface(const BodyRecord& record) {
-  return record.friction >= Coefficient{} && record.friction <= Coefficient::from_ratio(199, 100) &&
-         record.restitution >= Coefficient{} &&
-         record.restitution <= Coefficient::from_integer(1) && record.linear_damping >= Rate{} &&
-         record.angular_damping >= Rate{} && abs(record.gravity_scale) <= Number::from_integer(100);
+  return is_valid_surface(record.friction, record.restitution) && record.linear_damping >= Rate{} &&
+         record.angular_damping >= Rate{} && abs(record.gravity_scale) <= k_gravity_scale_limit;
 }
 
 bool is_empty_slot(const BodyRecord& record) {
   BodyRecord empty;
   empty.generation = record.generation;
   return record == empty;
-}
-
-Status check_gravity(const Vec3<Acceleration>& g) {
-  constexpr Acceleration limit = Acceleration::from_integer(1000);
-  const bool ok = abs(g.x) <= limit && abs(g.y) <= limit && abs(g.z) <= limit;
-  return ok ? Status::ok : Status::malformed;
 }
 
 bool has_valid_points(const ContactRecord& record) {
@@ -157,7 +150,7 @@ ContactRecord SnapshotView::contact(std::uint32_t index) const {
 }
 
 Status SnapshotView::check() const {
-  if (check_gravity(header.gravity) != Status::ok) return Status::malformed;
+  if (!is_valid_gravity(header.gravity)) return Status::malformed;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (validate(body(i)) != Status::ok) return Status::malformed;
   }

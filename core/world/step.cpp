@@ -223,13 +223,15 @@ void World::Impl::refresh_moved() {
   if (moved.empty()) return;
   const lanes::QuatField orientations{&bodies.front().orientation, sizeof(BodyRecord)};
   lanes::compute_rotations(orientations, moved, rotations.data());
-  for (const std::uint32_t body : moved) refresh_bounds(body);
+  for (const std::uint32_t body : moved)
+    refresh_bounds(body);
 }
 
 void World::Impl::move_body(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
-  const InverseInertia inertia = inverse_inertia(record, rotations[body]);
   const std::uint32_t solver = solver_index[body];
+  const InverseInertia inertia = solver != 0 ? solver_bodies[solver].inverse_inertia
+                                             : inverse_inertia(record, rotations[body]);
   if (solver != 0) {
     end_substeps(record, solver_bodies[solver]);
   } else {

@@ -5,6 +5,7 @@
 #include <lockstone/world.h>
 
 #include "core/dynamics/inertia.h"
+#include "core/dynamics/limits.h"
 #include "core/geometry/shape_properties.h"
 #include "core/math/block_float.h"
 #include "core/world/world_impl.h"
@@ -14,12 +15,6 @@ namespace {
 
 constexpr bool within(std::uint32_t value, std::uint32_t low, std::uint32_t high) {
   return value >= low && value <= high;
-}
-
-// 1000 m/s²: far above any game, and g·dt stays a small part of the speed limit.
-constexpr bool is_valid_gravity(const Vec3<Acceleration>& gravity) {
-  constexpr Acceleration limit = Acceleration::from_integer(1000);
-  return abs(gravity.x) <= limit && abs(gravity.y) <= limit && abs(gravity.z) <= limit;
 }
 
 bool is_valid(const WorldDef& def) {
