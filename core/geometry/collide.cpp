@@ -36,14 +36,9 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
                          Length margin) {
   using namespace geometry;
   if (a.shape.kind == ShapeKind::box) {
-    switch (b.shape.kind) {
-      case ShapeKind::sphere:
-        return collide_box_sphere(a, b, offset, margin);
-      case ShapeKind::capsule:
-        return collide_box_capsule(a, b, offset, margin);
-      case ShapeKind::box:
-        return collide_boxes(a, b, offset, margin);
-    }
+    if (b.shape.kind == ShapeKind::sphere) return collide_box_sphere(a, b, offset, margin);
+    if (b.shape.kind == ShapeKind::capsule) return collide_box_capsule(a, b, offset, margin);
+    return collide_boxes(a, b, offset, margin);
   }
   if (a.shape.kind == ShapeKind::sphere) return collide_spheres(a, b, offset, margin);
   if (b.shape.kind == ShapeKind::sphere) return collide_capsule_sphere(a, b, offset, margin);

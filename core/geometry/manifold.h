@@ -11,6 +11,10 @@
 
 namespace lockstone {
 
+namespace geometry {
+struct Polytope;
+}
+
 inline constexpr int k_max_manifold_points = 4;
 
 /// One contact point. Anchors are relative to each body's centre, in world axes.
@@ -37,6 +41,7 @@ struct Manifold {
 struct PosedShape {
   const Shape& shape;
   const Mat3& rotation;
+  const geometry::Polytope* polytope = nullptr;  ///< of a hull; its frame is the shape's
 };
 
 /// Contact points between A and B: those with a separation below `margin` (≥ 0, ≤ 64 m) or not

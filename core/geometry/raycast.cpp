@@ -9,13 +9,12 @@ namespace lockstone {
 ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation, const Vec3<Length>& origin,
                      const Vec3<Length>& translation) {
   using namespace geometry;
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return cast_ray_at_sphere(shape.size.x, origin, translation);
-    case ShapeKind::capsule:
-      return cast_ray_at_capsule(shape, rotation, origin, translation);
-    case ShapeKind::box:
-      break;
+  LKS_ASSERT(is_primitive(shape.kind));
+  if (shape.kind == ShapeKind::sphere) {
+    return cast_ray_at_sphere(shape.size.x, origin, translation);
+  }
+  if (shape.kind == ShapeKind::capsule) {
+    return cast_ray_at_capsule(shape, rotation, origin, translation);
   }
   return cast_ray_at_box(shape, rotation, origin, translation);
 }

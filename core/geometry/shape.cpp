@@ -23,7 +23,15 @@ Status validate(const Shape& shape) {
     case ShapeKind::box:
       good = is_size(x) && is_size(y) && is_size(z);
       break;
+    case ShapeKind::half_space:
+    case ShapeKind::hull:
+    case ShapeKind::mesh:
+    case ShapeKind::height_field:
+    case ShapeKind::compound:
+      good = shape.size == Vec3<Length>{};
+      break;
   }
+  if (is_asset(shape.kind) == shape.asset.is_null()) return Status::invalid_argument;
   return good ? Status::ok : Status::invalid_argument;
 }
 

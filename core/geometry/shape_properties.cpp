@@ -111,13 +111,10 @@ Vec3<Length> world_half_extents(const Shape& shape, const Mat3& rotation) {
 
 Mass mass_of(const Shape& shape, Density density) {
   LKS_ASSERT(density.raw >= 0);
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return mass_of_round(shape.size.x, {}, density);
-    case ShapeKind::capsule:
-      return mass_of_round(shape.size.x, shape.size.y, density);
-    case ShapeKind::box:
-      break;
+  LKS_ASSERT(is_primitive(shape.kind));
+  if (shape.kind == ShapeKind::sphere) return mass_of_round(shape.size.x, {}, density);
+  if (shape.kind == ShapeKind::capsule) {
+    return mass_of_round(shape.size.x, shape.size.y, density);
   }
   return mass_of_box(shape.size, density);
 }

@@ -13,13 +13,9 @@ Density kilograms_per_metre3(double x) {
 
 Real volume_of(const Shape& s) {
   const RealVec size = real(s.size);
-  switch (s.kind) {
-    case ShapeKind::sphere:
-      return 4 * k_pi / 3 * size.x * size.x * size.x;
-    case ShapeKind::capsule:
-      return 2 * k_pi * size.x * size.x * size.y + 4 * k_pi / 3 * size.x * size.x * size.x;
-    case ShapeKind::box:
-      break;
+  if (s.kind == ShapeKind::sphere) return 4 * k_pi / 3 * size.x * size.x * size.x;
+  if (s.kind == ShapeKind::capsule) {
+    return 2 * k_pi * size.x * size.x * size.y + 4 * k_pi / 3 * size.x * size.x * size.x;
   }
   return 8 * size.x * size.y * size.z;
 }
@@ -71,7 +67,7 @@ TEST(Validate, AcceptsTheBoundsAndNothingBeyond) {
   EXPECT_EQ(validate(Shape::capsule({}, high)), Status::invalid_argument);
   EXPECT_EQ(validate(Shape::box(low, high, low)), Status::ok);
   EXPECT_EQ(validate(Shape::box(low, high, -low)), Status::invalid_argument);
-  EXPECT_EQ(validate({ShapeKind::sphere, {low, low, {}}}), Status::invalid_argument);
+  EXPECT_EQ(validate({ShapeKind::sphere, {low, low, {}}, {}}), Status::invalid_argument);
   EXPECT_EQ(validate({static_cast<ShapeKind>(7), {low, low, low}}), Status::invalid_argument);
 }
 

@@ -16,7 +16,7 @@ PUBLIC_ROOMS = {
     "base": ["assert.h", "bytes.h", "hash.h", "rng.h", "status.h"],
     "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h"],
-    "geometry": ["aabb.h", "height_field.h", "hull.h", "mass.h", "mesh.h", "shape.h"],
+    "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "mesh.h", "shape.h"],
     "collision": ["query.h"],
     "dynamics": ["body.h", "joint.h", "material.h"],
     "world": ["command.h", "event.h", "simulation.h", "snapshot.h", "world.h"],

@@ -1,4 +1,5 @@
-// Shapes: plain values, centred on the body's centre of mass, axes along the body's axes.
+// Shapes: plain values. Sphere, capsule, box and half-space are complete in themselves; the others
+// name an asset.
 #pragma once
 
 #include <cstdint>
@@ -9,34 +10,66 @@
 
 namespace lockstone {
 
-enum class ShapeKind : std::uint8_t { sphere = 0, capsule = 1, box = 2 };
+enum class ShapeKind : std::uint8_t {
+  sphere = 0,
+  capsule = 1,
+  box = 2,
+  hull = 3,          ///< convex polyhedron (asset)
+  half_space = 4,    ///< everything below a plane; never on a dynamic body
+  mesh = 5,          ///< triangles (asset); never on a dynamic body
+  height_field = 6,  ///< a terrain (asset); never on a dynamic body
+  compound = 7,      ///< several convex shapes (asset)
+};
+
+/// Whether shapes of this kind name an asset.
+[[nodiscard]] constexpr bool is_asset(ShapeKind kind) {
+  return kind == ShapeKind::hull || kind > ShapeKind::half_space;
+}
+
+/// Whether this is one of the three that are complete in themselves, solid and bounded.
+[[nodiscard]] constexpr bool is_primitive(ShapeKind kind) {
+  return kind <= ShapeKind::box;
+}
+
+/// Names an asset by its content: the hash of its canonical bytes. 0: no asset.
+struct AssetId {
+  std::uint64_t value = 0;
+
+  friend constexpr auto operator<=>(AssetId, AssetId) = default;
+  [[nodiscard]] constexpr bool is_null() const { return value == 0; }
+};
 
 /// Bounds on every shape dimension (radius, half height, half extent).
 inline constexpr Length k_min_shape_size = Length::from_raw(1 << 10);  // 0.98 mm
 inline constexpr Length k_max_shape_size = Length::from_integer(512);
 
-/// A convex shape. `size` means, by kind:
+/// The shape of a body. `size` means, by kind:
 ///   sphere:  x = radius
 ///   capsule: x = radius, y = half the length of the core segment, which lies on the body's y axis
 ///   box:     half extents along the body's axes
+///   others:  zero; a half-space lies below the plane y = 0 of its body
+/// Sphere, capsule and box are centred on the body's origin; an asset keeps its own frame.
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
   Vec3<Length> size{};
+  AssetId asset{};
 
   friend constexpr bool operator==(const Shape&, const Shape&) = default;
 
   [[nodiscard]] static constexpr Shape sphere(Length radius) {
-    return {ShapeKind::sphere, {radius, {}, {}}};
+    return {ShapeKind::sphere, {radius, {}, {}}, {}};
   }
   [[nodiscard]] static constexpr Shape capsule(Length half_height, Length radius) {
-    return {ShapeKind::capsule, {radius, half_height, {}}};
+    return {ShapeKind::capsule, {radius, half_height, {}}, {}};
   }
   [[nodiscard]] static constexpr Shape box(Length half_x, Length half_y, Length half_z) {
-    return {ShapeKind::box, {half_x, half_y, half_z}};
+    return {ShapeKind::box, {half_x, half_y, half_z}, {}};
   }
+  [[nodiscard]] static constexpr Shape half_space() { return {ShapeKind::half_space, {}, {}}; }
 };
 
-/// ok, or invalid_argument when a dimension lies outside [k_min_shape_size, k_max_shape_size].
+/// ok, or invalid_argument when a dimension lies outside [k_min_shape_size, k_max_shape_size], or
+/// an asset is named where none belongs or missing where one does.
 [[nodiscard]] Status validate(const Shape& shape);
 
 }  // namespace lockstone

@@ -1,0 +1,31 @@
+#include <algorithm>
+
+#include <lockstone/asset.h>
+#include <lockstone/hash.h>
+
+namespace lockstone {
+
+AssetSet::AssetSet(std::vector<AssetPtr> assets) : assets_(std::move(assets)) {
+  LKS_CHECK(std::ranges::none_of(assets_, [](const AssetPtr& asset) { return asset == nullptr; }));
+  const auto id = [](const AssetPtr& asset) { return asset->id(); };
+  std::ranges::sort(assets_, {}, id);
+  const auto repeated = std::ranges::unique(assets_, {}, id);
+  assets_.erase(repeated.begin(), repeated.end());
+}
+
+const Asset* AssetSet::find(AssetId id) const {
+  const auto by_id = [](const AssetPtr& asset) { return asset->id(); };
+  const auto found = std::ranges::lower_bound(assets_, id, {}, by_id);
+  return found != assets_.end() && (*found)->id() == id ? found->get() : nullptr;
+}
+
+std::uint64_t AssetSet::hash() const {
+  if (assets_.empty()) return 0;
+  std::vector<std::byte> bytes(assets_.size() * sizeof(std::uint64_t));
+  ByteWriter writer(bytes);
+  for (const AssetPtr& asset : assets_)
+    writer.put(asset->id().value);
+  return hash64(writer.written());
+}
+
+}  // namespace lockstone

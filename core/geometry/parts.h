@@ -1,0 +1,64 @@
+// The convex parts that assets consist of, as visitors see them.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/asset.h>
+#include <lockstone/quat.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+#include "core/geometry/polytope.h"
+
+namespace lockstone::geometry {
+
+/// A closed box in an asset's frame.
+struct LocalBounds {
+  Vec3<Length> lower{};
+  Vec3<Length> upper{};
+
+  friend constexpr bool operator==(const LocalBounds&, const LocalBounds&) = default;
+};
+
+[[nodiscard]] constexpr bool overlap(const LocalBounds& a, const LocalBounds& b) {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+/// How a triangle's edges and vertices may be met. An edge is inactive where its neighbour
+/// continues it flat or concave: there only the faces push. Bit i: edge from vertex i to i + 1.
+struct TriangleTopology {
+  bool is_triangle = false;
+  std::uint8_t active_edges = 0;     ///< bits 0 … 2
+  std::uint8_t active_vertices = 0;  ///< bits 0 … 2: vertices with at least one active edge
+};
+
+/// A convex piece. Valid only during the visit.
+struct Part {
+  std::uint32_t index = 0;             ///< triangle, cell half or child: stable, ascending
+  Shape shape{};                       ///< sphere, capsule, box or hull
+  const Polytope* polytope = nullptr;  ///< of a hull or a triangle
+  Vec3<Length> position{};             ///< of its origin in the asset's frame
+  Mat3 rotation{};                     ///< its axes in the asset's frame
+  const Surface* surface = nullptr;    ///< null: the body's own
+  TriangleTopology triangle{};
+};
+
+class PartVisitor {
+ public:
+  virtual void visit(const Part& part) = 0;
+
+ protected:
+  ~PartVisitor() = default;
+};
+
+class RayPartVisitor {
+ public:
+  /// Answers the fraction of the ray beyond which nothing more is asked for: at most what it was.
+  virtual Unit visit(const Part& part) = 0;
+
+ protected:
+  ~RayPartVisitor() = default;
+};
+
+}  // namespace lockstone::geometry

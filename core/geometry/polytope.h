@@ -1,0 +1,56 @@
+// Convex polyhedra as the kernels see them: hulls, and triangles as polyhedra of two faces.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+#include "core/geometry/fine.h"
+
+namespace lockstone::geometry {
+
+struct PolytopeKernels;
+
+/// A plane and the loop of half edges around it. Every vertex v of the polytope has
+/// n · v ≤ offset, exactly, and one has equality.
+struct PolytopeFace {
+  Vec3<Unit> normal{};  ///< outward, norm 1 within 2^-29
+  Fine offset = 0;      ///< the greatest n · v, exact
+  std::uint16_t first_edge = 0;
+  std::uint16_t edge_count = 0;
+};
+
+/// Half edges of a face follow one another, counter-clockwise seen from outside.
+struct HalfEdge {
+  std::uint16_t origin = 0;  ///< vertex
+  std::uint16_t twin = 0;    ///< the half edge that runs the other way
+  std::uint16_t face = 0;
+
+  friend constexpr bool operator==(const HalfEdge&, const HalfEdge&) = default;
+};
+
+/// A view; what it names must outlive it. All in the shape's own frame.
+struct Polytope {
+  std::span<const Vec3<Length>> vertices;
+  std::span<const PolytopeFace> faces;
+  std::span<const HalfEdge> edges;
+  Vec3<Length> interior{};  ///< a point inside, or on a flat one
+  const PolytopeKernels* kernels = nullptr;
+};
+
+inline constexpr int k_max_polytope_vertices = 128;
+inline constexpr int k_max_polytope_faces = 252;
+inline constexpr int k_max_polytope_edges = 756;       ///< half edges
+inline constexpr int k_max_polytope_face_edges = 128;  ///< half edges around one face
+
+/// Half edge after `edge` around its face.
+[[nodiscard]] constexpr std::uint16_t next_edge(const Polytope& p, std::uint16_t edge) {
+  const PolytopeFace& face = p.faces[p.edges[edge].face];
+  const int after = edge + 1;
+  const bool wraps = after == face.first_edge + face.edge_count;
+  return static_cast<std::uint16_t>(wraps ? face.first_edge : after);
+}
+
+}  // namespace lockstone::geometry

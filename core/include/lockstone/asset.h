@@ -1,0 +1,107 @@
+// Assets: immutable geometry, named by content, shared between worlds and threads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <lockstone/bytes.h>
+#include <lockstone/shape.h>
+#include <lockstone/status.h>
+#include <lockstone/units.h>
+
+namespace lockstone {
+
+namespace geometry {
+struct LocalBounds;
+struct Polytope;
+struct Solid;
+class PartVisitor;
+class RayPartVisitor;
+}  // namespace geometry
+
+/// Coordinates of an asset in its own frame lie within ±1000 m.
+inline constexpr Length k_max_asset_coordinate = Length::from_integer(1000);
+
+/// What a part of an asset is made of, where that differs from the body's own material.
+struct Surface {
+  Coefficient friction = Coefficient::from_ratio(1, 2);  ///< 0 … 1.99
+  Coefficient restitution{};                             ///< 0 … 1
+
+  friend constexpr bool operator==(const Surface&, const Surface&) = default;
+};
+
+/// Surfaces an asset may have, and the index that stands for the body's own material.
+inline constexpr int k_max_surfaces = 255;
+inline constexpr std::uint8_t k_own_surface = 255;
+
+/// Geometry made once by a builder (Hull, Mesh, HeightField, Compound) and never changed.
+class Asset {
+ public:
+  virtual ~Asset() = default;
+  Asset(const Asset&) = delete;
+  Asset& operator=(const Asset&) = delete;
+
+  [[nodiscard]] ShapeKind kind() const { return kind_; }
+  [[nodiscard]] AssetId id() const { return id_; }
+
+  /// The shape that names this asset.
+  [[nodiscard]] Shape shape() const { return {kind_, {}, id_}; }
+
+  /// The canonical form: little-endian, versioned, the same for the same geometry. The id is its
+  /// hash. What can be derived is not in it: the builder derives it anew.
+  [[nodiscard]] virtual std::vector<std::byte> canonical_bytes() const = 0;
+
+  // What the engine asks; internal types
+  // -----------------------------------------------------------
+
+  [[nodiscard]] virtual const geometry::LocalBounds& bounds() const = 0;
+
+  /// Mass distribution; null for what no dynamic body can have.
+  [[nodiscard]] virtual const geometry::Solid* solid() const { return nullptr; }
+
+  /// The polyhedron when the asset is a single convex one.
+  [[nodiscard]] virtual const geometry::Polytope* polytope() const { return nullptr; }
+
+  /// Calls the visitor for every part whose bounds meet `region` (asset frame, closed), in
+  /// ascending order of part.
+  virtual void visit_parts(const geometry::LocalBounds& region,
+                           geometry::PartVisitor& visitor) const = 0;
+
+  /// Calls the visitor for parts whose bounds a ray meets within the fraction that the visitor
+  /// still asks for; order not promised. The ray runs from `origin` by `translation`, asset frame.
+  virtual void visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                  geometry::RayPartVisitor& visitor) const = 0;
+
+ protected:
+  Asset(ShapeKind kind, AssetId id) : kind_(kind), id_(id) {}
+
+ private:
+  ShapeKind kind_;
+  AssetId id_;
+};
+
+using AssetPtr = std::shared_ptr<const Asset>;
+
+/// The assets that bodies of a world may use, sorted by id. Every peer must hold the same set: its
+/// hash is part of the configuration.
+class AssetSet {
+ public:
+  AssetSet() = default;
+
+  /// Sorts and drops duplicates. No entry may be null.
+  explicit AssetSet(std::vector<AssetPtr> assets);
+
+  [[nodiscard]] const Asset* find(AssetId id) const;  ///< null when unknown
+  [[nodiscard]] std::span<const AssetPtr> all() const { return assets_; }
+
+  /// 0 for the empty set.
+  [[nodiscard]] std::uint64_t hash() const;
+
+ private:
+  std::vector<AssetPtr> assets_;
+};
+
+}  // namespace lockstone
