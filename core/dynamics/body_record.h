@@ -14,10 +14,12 @@ namespace lockstone {
 enum BodyFlag : std::uint8_t {
   k_body_trigger = 1,
   k_body_fixed_rotation = 2,
-  k_all_body_flags = k_body_trigger | k_body_fixed_rotation,
+  k_body_bullet = 4,
+  k_all_body_flags = k_body_trigger | k_body_fixed_rotation | k_body_bullet,
 };
 
-/// Canonical state of one body slot; all zero but `generation` when the slot is empty.
+/// Canonical state of one body slot; all zero but `generation` when the slot is empty. Position and
+/// orientation are those of the centre of mass and the principal axes.
 ///
 /// Rotation is kept normalised by the scale s = 2^scale_exponent m, the first power of two not
 /// below the body's radius. `spin` is angular momentum / (mass · s), a velocity: an impulse J at r
@@ -29,6 +31,7 @@ struct BodyRecord {
   Vec3<Velocity> velocity{};
   Vec3<Velocity> spin{};
   std::uint64_t user_data = 0;
+  AssetId asset{};  // Shape::asset
   Quat orientation{{}, {}, {}, {}};
   Vec3<Length> size{};            // Shape::size
   Vec3<Unit> inertia{};           // principal moments / (mass · s²), each in (0, 1]
@@ -58,8 +61,9 @@ struct BodyRecord {
   [[nodiscard]] bool is_static() const { return is(MotionType::static_body); }
   [[nodiscard]] bool is_dynamic() const { return is(MotionType::dynamic); }
   [[nodiscard]] bool is_trigger() const { return (flags & k_body_trigger) != 0; }
+  [[nodiscard]] bool is_bullet() const { return (flags & k_body_bullet) != 0; }
   [[nodiscard]] bool rotates() const { return (flags & k_body_fixed_rotation) == 0; }
-  [[nodiscard]] Shape shape() const { return {static_cast<ShapeKind>(shape_kind), size}; }
+  [[nodiscard]] Shape shape() const { return {static_cast<ShapeKind>(shape_kind), size, asset}; }
   [[nodiscard]] CollisionFilter filter() const { return {category, mask, group}; }
 
   /// 1/kg; zero unless dynamic.
@@ -76,7 +80,7 @@ struct BodyRecord {
 
 // clang-format off
 #define LKS_BODY_FIELDS(X) \
-  X(position) X(velocity) X(spin) X(user_data) X(orientation) X(size) X(inertia) X(inverse_mass) \
+  X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) X(inverse_mass) \
   X(gravity_scale) X(linear_damping) X(angular_damping) X(friction) X(restitution) X(category) \
   X(mask) X(group) X(generation) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
   X(inverse_mass_exponent) X(reserved0) X(reserved1) X(reserved2)

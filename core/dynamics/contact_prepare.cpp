@@ -200,8 +200,8 @@ int prepare_contact(const ContactInput& in, const ContactSoftness& softness,
   const Tangents tangents = tangents_across(in.manifold.normal, out.tangent_axis);
   out.exponent = std::max(a.inertia.exponent, b.inertia.exponent);
   out.count = in.manifold.count;
-  out.friction = mixed_friction(in.body_a.friction, in.body_b.friction);
-  out.restitution = std::max(in.body_a.restitution, in.body_b.restitution).raw;
+  out.friction = mixed_friction(in.surfaces.a.friction, in.surfaces.b.friction);
+  out.restitution = std::max(in.surfaces.a.restitution, in.surfaces.b.restitution).raw;
   const bool immovable = a.share == 0 || b.share == 0;
   out.softness = immovable ? softness.against_immovable : softness.between_moving;
   out.normal = make_axis(in.manifold.normal, a, b);

@@ -1,6 +1,8 @@
 // From manifolds to constraints, once a tick.
 #pragma once
 
+#include <lockstone/asset.h>
+
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/contact_constraint.h"
 #include "core/dynamics/contact_record.h"
@@ -16,6 +18,12 @@ struct ContactSoftness {
   [[nodiscard]] static ContactSoftness of(const TimeStep& step);
 };
 
+/// What meets what.
+struct SurfacePair {
+  Surface a;
+  Surface b;
+};
+
 /// Everything that one constraint is made of. The record gives the impulses to start from.
 struct ContactInput {
   const BodyRecord& body_a;
@@ -24,6 +32,7 @@ struct ContactInput {
   const SolverBody& solver_b;
   const Manifold& manifold;
   const ContactRecord& record;
+  const SurfacePair& surfaces;
 };
 
 /// Fills `constraint` but its body and record indices. Answers how many values were clamped.

@@ -28,10 +28,22 @@ struct ContactPointRecord {
   friend bool operator==(const ContactPointRecord&, const ContactPointRecord&) = default;
 };
 
-/// Records are sorted by (body_a, body_b); unused points are zero.
+/// What a contact is between. A part names a piece of a compound, or a group of triangles.
+struct ContactKey {
+  std::uint32_t body_a = 0;
+  std::uint32_t body_b = 0;
+  std::uint32_t part_a = 0;
+  std::uint32_t part_b = 0;
+
+  friend constexpr auto operator<=>(const ContactKey&, const ContactKey&) = default;
+};
+
+/// Records are sorted by key; unused points are zero.
 struct ContactRecord {
   std::uint32_t body_a = 0;
   std::uint32_t body_b = 0;
+  std::uint32_t part_a = 0;
+  std::uint32_t part_b = 0;
   std::array<ContactPointRecord, 4> points{};
   std::uint16_t count = 0;        // 0 … 4
   std::uint8_t flags = 0;         // ContactFlag
@@ -39,6 +51,7 @@ struct ContactRecord {
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
+  [[nodiscard]] ContactKey key() const { return {body_a, body_b, part_a, part_b}; }
   [[nodiscard]] bool is_trigger() const { return (flags & k_contact_trigger) != 0; }
   [[nodiscard]] bool is_touching() const { return (flags & k_contact_touching) != 0; }
 };
@@ -48,6 +61,8 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
   constexpr const char* k_point_names[] = {"point[0]", "point[1]", "point[2]", "point[3]"};
   visit_value("body_a", "", record.body_a, f);
   visit_value("body_b", "", record.body_b, f);
+  visit_value("part_a", "", record.part_a, f);
+  visit_value("part_b", "", record.part_b, f);
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     ContactPointRecord& point = record.points[i];
     visit_value(k_point_names[i], ".feature", point.feature, f);

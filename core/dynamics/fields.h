@@ -11,6 +11,7 @@
 
 #include <lockstone/fixed.h>
 #include <lockstone/quat.h>
+#include <lockstone/shape.h>
 #include <lockstone/vec3.h>
 
 namespace lockstone {
@@ -20,6 +21,11 @@ template <class T, class F>
 requires(std::is_integral_v<T>) constexpr void visit_value(const char* name, const char* suffix,
                                                            T& value, F&& f) {
   f(name, suffix, value);
+}
+
+template <class F>
+constexpr void visit_value(const char* name, const char* suffix, AssetId& value, F&& f) {
+  f(name, suffix, value.value);
 }
 
 template <class D, class R, int N, class F>

@@ -6,6 +6,9 @@
 
 namespace lockstone {
 
+/// 2^10 m holds every asset: the scale of bodies that never move.
+inline constexpr int k_largest_scale_exponent = 10;
+
 inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
 
 /// At most 1000 m/s² an axis: far above any game, and g·dt stays a small part of the speed limit.

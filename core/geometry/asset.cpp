@@ -4,6 +4,18 @@
 #include <lockstone/hash.h>
 
 namespace lockstone {
+namespace {
+
+std::uint64_t hash_of(std::span<const AssetPtr> assets) {
+  if (assets.empty()) return 0;
+  std::vector<std::byte> bytes(assets.size() * sizeof(std::uint64_t));
+  ByteWriter writer(bytes);
+  for (const AssetPtr& asset : assets)
+    writer.put(asset->id().value);
+  return hash64(writer.written());
+}
+
+}  // namespace
 
 AssetSet::AssetSet(std::vector<AssetPtr> assets) : assets_(std::move(assets)) {
   LKS_CHECK(std::ranges::none_of(assets_, [](const AssetPtr& asset) { return asset == nullptr; }));
@@ -11,21 +23,13 @@ AssetSet::AssetSet(std::vector<AssetPtr> assets) : assets_(std::move(assets)) {
   std::ranges::sort(assets_, {}, id);
   const auto repeated = std::ranges::unique(assets_, {}, id);
   assets_.erase(repeated.begin(), repeated.end());
+  hash_ = hash_of(assets_);
 }
 
 const Asset* AssetSet::find(AssetId id) const {
   const auto by_id = [](const AssetPtr& asset) { return asset->id(); };
   const auto found = std::ranges::lower_bound(assets_, id, {}, by_id);
   return found != assets_.end() && (*found)->id() == id ? found->get() : nullptr;
-}
-
-std::uint64_t AssetSet::hash() const {
-  if (assets_.empty()) return 0;
-  std::vector<std::byte> bytes(assets_.size() * sizeof(std::uint64_t));
-  ByteWriter writer(bytes);
-  for (const AssetPtr& asset : assets_)
-    writer.put(asset->id().value);
-  return hash64(writer.written());
 }
 
 }  // namespace lockstone

@@ -25,6 +25,18 @@ struct LocalBounds {
          b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
+/// The bounds of a polytope's vertices.
+[[nodiscard]] constexpr LocalBounds bounds_of(const Polytope& polytope) {
+  LocalBounds bounds{polytope.vertices.front(), polytope.vertices.front()};
+  for (const Vec3<Length>& v : polytope.vertices) {
+    for (int i = 0; i < 3; ++i) {
+      bounds.lower[i] = min(bounds.lower[i], v[i]);
+      bounds.upper[i] = max(bounds.upper[i], v[i]);
+    }
+  }
+  return bounds;
+}
+
 /// How a triangle's edges and vertices may be met. An edge is inactive where its neighbour
 /// continues it flat or concave: there only the faces push. Bit i: edge from vertex i to i + 1.
 struct TriangleTopology {

@@ -6,6 +6,7 @@
 #include "core/dynamics/limits.h"
 #include "core/dynamics/motion.h"
 #include "core/geometry/shape_properties.h"
+#include "core/geometry/solid.h"
 #include "core/math/block_float.h"
 #include "core/world/world_impl.h"
 
@@ -52,31 +53,41 @@ bool is_valid(const BodyDef& def) {
          def.linear_damping >= Rate{} && def.angular_damping >= Rate{};
 }
 
-// Lighter or heavier bodies would leave the formats of the solver.
-bool has_valid_mass(const BodyDef& def) {
+Mass mass_of(const BodyDef& def, const Asset* asset) {
+  if (asset == nullptr) return mass_of(def.shape, def.material.density);
+  return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
+}
+
+// What has no volume cannot be dynamic, and only what has a centre of mass can move. Lighter or
+// heavier bodies would leave the formats of the solver.
+bool has_valid_mass(const BodyDef& def, const Asset* asset) {
+  const bool has_solid =
+      asset != nullptr ? asset->solid() != nullptr : is_primitive(def.shape.kind);
+  if (!has_solid) return def.motion == MotionType::static_body;
   if (def.motion != MotionType::dynamic) return true;
-  const Mass mass = mass_of(def.shape, def.material.density);
+  const Mass mass = mass_of(def, asset);
   return mass >= k_min_mass && mass <= k_max_mass;
 }
 
 // The fields that follow from shape and density.
-void set_mass(BodyRecord& record, const BodyDef& def) {
-  const Vec3<Unit> inertia = normalized_inertia(def.shape);
-  record.scale_exponent = static_cast<std::int8_t>(scale_exponent(def.shape));
-  record.inertia = {max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),
-                    max(inertia.z, k_min_inertia)};
+void set_mass(BodyRecord& record, const BodyDef& def, const Asset* asset) {
+  const ShapeProperties properties = properties_of(def.shape, asset);
+  record.scale_exponent = static_cast<std::int8_t>(properties.scale_exponent);
+  record.inertia = properties.inertia;
   if (def.motion != MotionType::dynamic) return;
-  const BlockFloat inverse = inverse_of(mass_of(def.shape, def.material.density));
+  const BlockFloat inverse = inverse_of(mass_of(def, asset));
   record.inverse_mass = inverse.mantissa;
   record.inverse_mass_exponent = inverse.exponent;
 }
 
-BodyRecord make_record(const BodyDef& def, std::uint32_t generation) {
+BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t generation) {
   BodyRecord record;
-  record.position = def.position;
-  record.orientation = normalized(def.orientation);
+  const Transform pose = body_pose(asset, {def.position, def.orientation});
+  record.position = pose.position;
+  record.orientation = pose.orientation;
   record.user_data = def.user_data;
   record.size = def.shape.size;
+  record.asset = def.shape.asset;
   record.gravity_scale = def.gravity_scale;
   record.linear_damping = def.linear_damping;
   record.angular_damping = def.angular_damping;
@@ -89,8 +100,9 @@ BodyRecord make_record(const BodyDef& def, std::uint32_t generation) {
   record.motion = static_cast<std::uint8_t>(def.motion);
   record.shape_kind = static_cast<std::uint8_t>(def.shape.kind);
   record.flags = static_cast<std::uint8_t>((def.is_trigger ? k_body_trigger : 0) |
-                                           (def.fixed_rotation ? k_body_fixed_rotation : 0));
-  set_mass(record, def);
+                                           (def.fixed_rotation ? k_body_fixed_rotation : 0) |
+                                           (def.is_bullet ? k_body_bullet : 0));
+  set_mass(record, def, asset);
   return record;
 }
 
@@ -123,12 +135,41 @@ Vec3<Velocity> turning_gain(const BodyRecord& body, const Vec3<Length>& point,
           product(gain.y, point.x) - product(gain.x, point.y)};
 }
 
+// The asset that a shape names; null without error for a shape that names none.
+Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
+  if (!is_asset(shape.kind)) return nullptr;
+  const Asset* asset = assets.find(shape.asset);
+  if (asset == nullptr) return Status::not_found;
+  if (asset->kind() != shape.kind) return Status::invalid_argument;
+  return asset;
+}
+
 }  // namespace
 
+ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
+  const auto bounded = [](const Vec3<Unit>& inertia) {
+    return Vec3<Unit>{max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),
+                      max(inertia.z, k_min_inertia)};
+  };
+  if (is_primitive(shape.kind)) {
+    return {bounded(normalized_inertia(shape)), scale_exponent(shape), bounding_radius(shape)};
+  }
+  if (asset != nullptr && asset->solid() != nullptr) {
+    const geometry::Solid& solid = *asset->solid();
+    return {bounded(solid.inertia), solid.scale_exponent, solid.radius};
+  }
+  return {bounded({}), k_largest_scale_exponent, {}};
+}
+
 Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
+  if (!is_valid(body_def)) return Status::invalid_argument;
+  const Result<const Asset*> found = asset_of(body_def.shape, *assets);
+  if (!found.ok()) return found.status();
+  const Asset* asset = found.value();
   Vec3<Velocity> surface;
-  if (!is_valid(body_def) || !has_valid_mass(body_def) ||
-      !to_surface_velocity(body_def.angular_velocity, scale_exponent(body_def.shape), surface)) {
+  if (!has_valid_mass(body_def, asset) ||
+      !to_surface_velocity(body_def.angular_velocity,
+                           properties_of(body_def.shape, asset).scale_exponent, surface)) {
     return Status::invalid_argument;
   }
   std::uint32_t slot = free_hint;
@@ -139,7 +180,8 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   header.body_limit = std::max(header.body_limit, slot + 1);
 
   BodyRecord& record = bodies[slot];
-  record = make_record(body_def, record.generation + 1);
+  record = make_record(body_def, asset, record.generation + 1);
+  body_assets[slot] = asset;
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
@@ -172,8 +214,10 @@ Status World::Impl::execute(const Teleport& command) {
     return Status::invalid_argument;
   }
   drop_contacts_of(command.body.index);
-  record->position = command.position;
-  record->orientation = normalized(command.orientation);
+  const Transform pose =
+      body_pose(body_assets[command.body.index], {command.position, command.orientation});
+  record->position = pose.position;
+  record->orientation = pose.orientation;
   refresh(command.body.index);
   return Status::ok;
 }
@@ -209,8 +253,8 @@ Status World::Impl::execute(const ApplyImpulse& command) {
 Status World::Impl::execute(const ApplyImpulseAt& command) {
   BodyRecord* record = find(command.body);
   if (record == nullptr) return Status::stale_handle;
-  const Length reach = Length::from_raw(
-      raw::saturate<std::int32_t>(std::int64_t{2} * bounding_radius(record->shape()).raw));
+  const Length radius = properties_of(record->shape(), body_assets[command.body.index]).radius;
+  const Length reach = Length::from_raw(raw::saturate<std::int32_t>(std::int64_t{2} * radius.raw));
   if (!record->is_dynamic() || !within(command.point, reach)) return Status::invalid_argument;
   const Vec3<Velocity> gain = velocity_gain(*record, command.impulse);
   add_velocity(record->velocity, gain);

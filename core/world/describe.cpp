@@ -75,9 +75,9 @@ StateDifference compare_contacts(const SnapshotView& here, const SnapshotView& t
 }  // namespace
 
 StateDifference World::describe_difference(ByteView here, ByteView there) const {
-  const Result<SnapshotView> a = SnapshotView::open(here, impl_->def);
+  const Result<SnapshotView> a = SnapshotView::open(here, impl_->def, *impl_->assets);
   if (!a.ok()) return unreadable("here", a.status());
-  const Result<SnapshotView> b = SnapshotView::open(there, impl_->def);
+  const Result<SnapshotView> b = SnapshotView::open(there, impl_->def, *impl_->assets);
   if (!b.ok()) return unreadable("there", b.status());
   WorldHeader common = b.value().header;  // store sizes differ because records do: name those first
   common.body_limit = a.value().header.body_limit;

@@ -56,6 +56,16 @@ bool has_valid_surface(const BodyRecord& record) {
          record.angular_damping >= Rate{} && abs(record.gravity_scale) <= k_gravity_scale_limit;
 }
 
+constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
+
+// The asset exists, and what has no mass distribution does not move.
+bool has_known_shape(const BodyRecord& record, const Asset* asset) {
+  const ShapeKind kind = record.shape().kind;
+  if (is_asset(kind) && (asset == nullptr || asset->kind() != kind)) return false;
+  const bool has_solid = is_primitive(kind) || (asset != nullptr && asset->solid() != nullptr);
+  return has_solid || record.is_static();
+}
+
 bool is_empty_slot(const BodyRecord& record) {
   BodyRecord empty;
   empty.generation = record.generation;
@@ -74,15 +84,18 @@ bool has_valid_points(const ContactRecord& record) {
 
 }  // namespace
 
-Status validate(const BodyRecord& record) {
+Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (record.generation == 0 || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
-  const bool known = record.shape_kind <= 2 && (record.flags & ~k_all_body_flags) == 0 &&
-                     record.reserved0 == 0 && record.reserved1 == 0 && record.reserved2 == 0;
+  const bool known = record.shape_kind <= k_last_shape_kind &&
+                     (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0 &&
+                     record.reserved1 == 0 && record.reserved2 == 0;
   if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
-  const bool consistent = record.scale_exponent == scale_exponent(record.shape()) &&
-                          has_valid_inertia(record.inertia) && has_valid_mass(record) &&
-                          has_valid_surface(record);
+  const Asset* asset = assets.find(record.asset);
+  if (!has_known_shape(record, asset)) return Status::malformed;
+  const int scale = properties_of(record.shape(), asset).scale_exponent;
+  const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
+                          has_valid_mass(record) && has_valid_surface(record);
   const bool in_world = in_range(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation);
   return consistent && in_world ? Status::ok : Status::malformed;
@@ -104,16 +117,16 @@ Status SnapshotView::check_contacts() const {
     }
     if (i == 0) continue;
     const ContactRecord last = contact(i - 1);
-    if (Pair{last.body_a, last.body_b} >= Pair{record.body_a, record.body_b}) {
-      return Status::malformed;
-    }
+    if (last.key() >= record.key()) return Status::malformed;
   }
   return Status::ok;
 }
 
-Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def) {
+Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def,
+                                        const AssetSet& assets) {
   ByteReader reader(bytes);
   SnapshotView view;
+  view.assets_ = &assets;
   const auto magic = reader.get<std::uint32_t>();
   const auto version = reader.get<std::uint16_t>();
   const auto reserved = reader.get<std::uint16_t>();
@@ -122,7 +135,7 @@ Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def) {
   if (!reader.ok()) return Status::truncated;
   if (magic != k_snapshot_magic || reserved != 0) return Status::malformed;
   if (version != k_snapshot_version) return Status::unsupported_version;
-  if (config != config_hash(def)) return Status::incompatible;
+  if (config != config_hash(def, assets.hash())) return Status::incompatible;
   if (view.header.body_limit > def.body_capacity ||
       view.header.contact_count > def.contact_capacity) {
     return Status::malformed;
@@ -152,7 +165,7 @@ ContactRecord SnapshotView::contact(std::uint32_t index) const {
 Status SnapshotView::check() const {
   if (!is_valid_gravity(header.gravity)) return Status::malformed;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    if (validate(body(i)) != Status::ok) return Status::malformed;
+    if (validate(body(i), *assets_) != Status::ok) return Status::malformed;
   }
   return check_contacts();
 }
@@ -210,7 +223,7 @@ std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
   writer.put(k_snapshot_magic);
   writer.put(k_snapshot_version);
   writer.put<std::uint16_t>(0);
-  writer.put(config_hash(def));
+  writer.put(config_hash(def, assets->hash()));
   encode(header, writer);
   for (std::uint32_t i = 0; i < header.body_limit; ++i)
     encode(bodies[i], writer);
@@ -222,7 +235,7 @@ std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
 }
 
 Status World::Impl::load_canonical(ByteView bytes) {
-  const Result<SnapshotView> view = SnapshotView::open(bytes, def);
+  const Result<SnapshotView> view = SnapshotView::open(bytes, def, *assets);
   if (!view.ok()) return view.status();
   if (const Status status = view.value().check(); status != Status::ok) return status;
   const std::uint32_t old_limit = header.body_limit;

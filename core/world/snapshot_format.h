@@ -16,8 +16,9 @@ inline constexpr std::size_t k_snapshot_frame_bytes = 4 + 2 + 2 + 8 + 8;
 
 class SnapshotView {
  public:
-  /// Checks frame, sizes and checksum, and that the snapshot belongs to `def`.
-  static Result<SnapshotView> open(ByteView bytes, const WorldDef& def);
+  /// Checks frame, sizes and checksum, and that the snapshot belongs to `def` and `assets`, which
+  /// must outlive the view.
+  static Result<SnapshotView> open(ByteView bytes, const WorldDef& def, const AssetSet& assets);
 
   /// Checks every record: what passes can be simulated.
   [[nodiscard]] Status check() const;
@@ -30,6 +31,7 @@ class SnapshotView {
  private:
   [[nodiscard]] Status check_contacts() const;
 
+  const AssetSet* assets_ = nullptr;
   ByteView bodies_;
   ByteView contacts_;
 };

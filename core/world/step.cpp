@@ -36,10 +36,6 @@ Length speculative_distance(const BodyRecord& a, const BodyRecord& b, Length thi
   return k_contact_margin + min(min(reach, thickness), k_max_speculation);
 }
 
-Vec3<Length> offset_between(const Vec3<Position>& from, const Vec3<Position>& to) {
-  return saturated<Length>(to - from);
-}
-
 }  // namespace
 
 void World::Impl::refresh(std::uint32_t body) {
@@ -49,14 +45,14 @@ void World::Impl::refresh(std::uint32_t body) {
 
 void World::Impl::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
-  inner_radii[body] = inner_radius(record.shape());
-  const Vec3<Length> half = world_half_extents(record.shape(), rotations[body]);
+  inner_radii[body] = inner_radius(record.shape(), body_assets[body]);
+  const WorldBox box = world_box(placed(body));
   Bounds bounds;
   for (int i = 0; i < 3; ++i) {
-    const Position reach = rounded<Position>(half[i]) + rounded<Position>(k_contact_margin / 2);
+    const Position margin = rounded<Position>(k_contact_margin / 2);
     const Position swept = travel(record.velocity[i], time_step);
-    bounds.lower[i] = round_down(record.position[i] - reach + min(swept, Position{}));
-    bounds.upper[i] = round_up(record.position[i] + reach + max(swept, Position{}));
+    bounds.lower[i] = round_down(box.lower[i] - margin + min(swept, Position{}));
+    bounds.upper[i] = round_up(box.upper[i] + margin + max(swept, Position{}));
   }
   broad_phase.set_bounds(body, bounds, record.moves());
 }
@@ -89,48 +85,80 @@ void World::Impl::find_pairs(StepReport& report) {
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
 }
 
-// Both contact lists are sorted by pair, so that one pass carries records over.
+// Both contact lists are sorted by key, so that one pass carries records over.
 void World::Impl::collide_pairs(StepReport& report) {
   new_contacts.clear();
   manifolds.clear();
-  std::size_t old = 0;
+  surfaces.clear();
+  std::span<const ContactRecord> before = contacts();
+  const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
   for (const Pair& pair : pairs) {
-    const std::span<const ContactRecord> before = contacts();
-    while (old < before.size() && Pair{before[old].body_a, before[old].body_b} < pair)
-      ++old;
-    const bool known = old < before.size() && Pair{before[old].body_a, before[old].body_b} == pair;
-    ContactRecord record;
-    if (known) record = before[old];
-    Manifold manifold;
-    if (!collide_pair(pair, record, manifold)) continue;
-    if (new_contacts.size() == def.contact_capacity) {
-      report.status = Status::capacity_exhausted;
-      return;
-    }
-    new_contacts.push_back(record);
-    manifolds.push_back(manifold);
+    while (!before.empty() && bodies_of(before.front()) < pair)
+      before = before.subspan(1);
+    std::size_t known = 0;
+    while (known < before.size() && bodies_of(before[known]) == pair)
+      ++known;
+    collide_pair(pair, before.first(known), report);
+    before = before.subspan(known);
   }
 }
 
-// Answers whether the pair touches or may do so within the tick. `record` keeps the impulses and
-// the touching flag of the tick before.
-bool World::Impl::collide_pair(const Pair& pair, ContactRecord& record, Manifold& manifold) const {
+// `before`: the records of this pair a tick ago.
+void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> before,
+                               StepReport& report) {
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
-  const Shape shape_a = a.shape(), shape_b = b.shape();
-  const PosedShape posed_a{shape_a, rotations[pair.a]};
-  const PosedShape posed_b{shape_b, rotations[pair.b]};
-  const Vec3<Length> offset = offset_between(a.position, b.position);
-  record.body_a = pair.a;
-  record.body_b = pair.b;
   if (a.is_trigger() || b.is_trigger()) {
-    record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
-    return overlaps(posed_a, posed_b, offset);
+    if (bodies_overlap(placed(pair.a), placed(pair.b))) add_trigger(pair, before, report);
+    return;
   }
   const Length thickness = max(inner_radii[pair.a], inner_radii[pair.b]);
   const Length margin = speculative_distance(a, b, thickness, time_step);
-  manifold = collide(posed_a, posed_b, offset, margin);
-  return manifold.count > 0;
+  collide_bodies(placed(pair.a), placed(pair.b), margin, part_contacts);
+  if (part_contacts.overflowed) report.status = Status::capacity_exhausted;
+  for (const PartContact& contact : part_contacts)
+    add_contact(pair, contact, before, report);
+}
+
+void World::Impl::add_trigger(const Pair& pair, std::span<const ContactRecord> before,
+                              StepReport& report) {
+  ContactRecord record;
+  if (!before.empty()) record = before.front();
+  record.body_a = pair.a;
+  record.body_b = pair.b;
+  record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
+  if (!add_record(record, report)) return;
+  manifolds.emplace_back();
+  surfaces.emplace_back();
+}
+
+// The record keeps the impulses and the touching flag of the tick before.
+void World::Impl::add_contact(const Pair& pair, const PartContact& contact,
+                              std::span<const ContactRecord> before, StepReport& report) {
+  const ContactKey key{pair.a, pair.b, contact.part_a, contact.part_b};
+  const auto old = std::ranges::find(before, key, &ContactRecord::key);
+  ContactRecord record;
+  if (old != before.end()) record = *old;
+  record.body_a = key.body_a;
+  record.body_b = key.body_b;
+  record.part_a = key.part_a;
+  record.part_b = key.part_b;
+  if (!add_record(record, report)) return;
+  manifolds.push_back(contact.manifold);
+  const auto surface = [](const BodyRecord& body, const Surface* part) {
+    return part != nullptr ? *part : Surface{body.friction, body.restitution};
+  };
+  surfaces.push_back(
+      {surface(bodies[pair.a], contact.surface_a), surface(bodies[pair.b], contact.surface_b)});
+}
+
+bool World::Impl::add_record(const ContactRecord& record, StepReport& report) {
+  if (new_contacts.size() == def.contact_capacity) {
+    report.status = Status::capacity_exhausted;
+    return false;
+  }
+  new_contacts.push_back(record);
+  return true;
 }
 
 // Bodies enter the solver when a constraint first names them.
@@ -162,7 +190,7 @@ void World::Impl::prepare_contacts(StepReport& report) {
     contact.record = static_cast<std::uint32_t>(i);
     report.saturations += static_cast<std::uint32_t>(
         prepare_contact({bodies[record.body_a], bodies[record.body_b], solver_bodies[a],
-                         solver_bodies[b], manifolds[i], record},
+                         solver_bodies[b], manifolds[i], record, surfaces[i]},
                         softness, contact));
     report.contact_points += static_cast<std::uint32_t>(contact.count);
   }
@@ -244,38 +272,55 @@ void World::Impl::move_body(std::uint32_t body, StepReport& report) {
   ++report.moving_bodies;
 }
 
-void World::Impl::add_event(EventKind kind, const ContactRecord& record, std::size_t index) {
+// Begin, stay or end of what a pair of bodies did before and does now.
+void World::Impl::add_event(const PairState& before, const PairState& now) {
+  const bool was = before.touching, is = now.touching;
+  const bool trigger = before.trigger || now.trigger;
+  if (!trigger && was == is) return;
+  const Pair pair = now.exists ? now.bodies : before.bodies;
+  const EventKind kind = trigger ? (!is   ? EventKind::trigger_exit
+                                    : was ? EventKind::trigger_stay
+                                          : EventKind::trigger_enter)
+                                 : (is ? EventKind::contact_begin : EventKind::contact_end);
   const Velocity approach =
-      kind == EventKind::contact_begin ? rounded<Velocity>(approach_speeds[index]) : Velocity{};
-  events.push_back({kind,
-                    {record.body_a, bodies[record.body_a].generation},
-                    {record.body_b, bodies[record.body_b].generation},
-                    approach});
+      kind == EventKind::contact_begin ? rounded<Velocity>(now.approach) : Velocity{};
+  events.push_back(
+      {kind, {pair.a, bodies[pair.a].generation}, {pair.b, bodies[pair.b].generation}, approach});
+}
+
+// What the records of the first pair of bodies say together; they are taken from the list. The
+// approach speed is the greatest of its contacts.
+World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& records,
+                                              std::span<const SolverVelocity> approaches) {
+  PairState state;
+  state.exists = true;
+  state.bodies = {records.front().body_a, records.front().body_b};
+  while (!records.empty() && Pair{records.front().body_a, records.front().body_b} == state.bodies) {
+    const ContactRecord& record = records.front();
+    state.trigger = state.trigger || record.is_trigger();
+    state.touching = state.touching || record.is_touching() || record.is_trigger();
+    if (!approaches.empty()) {
+      const std::size_t index = approaches.size() - records.size();
+      state.approach = max(state.approach, approaches[index]);
+    }
+    records = records.subspan(1);
+  }
+  return state;
 }
 
 // Merges the old and the new contacts, both sorted by pair, and makes the new ones the state.
 void World::Impl::find_events() {
   events.clear();
-  const std::span<ContactRecord> before = contacts();
-  std::size_t i = 0, j = 0;
-  while (i < before.size() || j < new_contacts.size()) {
-    const auto key = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
-    const bool old_first =
-        j == new_contacts.size() || (i < before.size() && key(before[i]) < key(new_contacts[j]));
-    const bool both = !old_first && i < before.size() && key(before[i]) == key(new_contacts[j]);
-    const ContactRecord& record = old_first ? before[i] : new_contacts[j];
-    const bool was = (old_first || both) && (before[i].is_touching() || before[i].is_trigger());
-    const bool is = !old_first && (record.is_touching() || record.is_trigger());
-    if (record.is_trigger()) {
-      add_event(!is   ? EventKind::trigger_exit
-                : was ? EventKind::trigger_stay
-                      : EventKind::trigger_enter,
-                record, j);
-    } else if (was != is) {
-      add_event(is ? EventKind::contact_begin : EventKind::contact_end, record, j);
-    }
-    i += old_first || both ? 1 : 0;
-    j += old_first ? 0 : 1;
+  std::span<const ContactRecord> before = contacts(), now = new_contacts;
+  while (!before.empty() || !now.empty()) {
+    const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
+    const bool take_old =
+        now.empty() || (!before.empty() && bodies_of(before.front()) <= bodies_of(now.front()));
+    const bool take_new =
+        before.empty() || (!now.empty() && bodies_of(now.front()) <= bodies_of(before.front()));
+    const PairState was = take_old ? take_pair(before, {}) : PairState{};
+    const PairState is = take_new ? take_pair(now, approach_speeds) : PairState{};
+    add_event(was, is);
   }
   std::copy(new_contacts.begin(), new_contacts.end(), contact_store.begin());
   header.contact_count = static_cast<std::uint32_t>(new_contacts.size());

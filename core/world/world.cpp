@@ -25,8 +25,8 @@ bool is_valid(const WorldDef& def) {
 
 }  // namespace
 
-std::uint64_t config_hash(const WorldDef& def) {
-  std::array<std::byte, 48> buffer{};
+std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
+  std::array<std::byte, 56> buffer{};
   ByteWriter writer(buffer);
   writer.put(k_simulation_abi);
   writer.put(def.body_capacity);
@@ -36,17 +36,20 @@ std::uint64_t config_hash(const WorldDef& def) {
   writer.put(def.substeps);
   for (int i = 0; i < 3; ++i)
     writer.put(def.gravity[i].raw);
+  writer.put(assets);
   LKS_CHECK(writer.ok());
   return hash64(writer.written());
 }
 
-World::Impl::Impl(const WorldDef& definition)
+World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets)
     : def(definition),
+      assets(std::move(known_assets)),
       time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
       softness(ContactSoftness::of(time_step)),
       bodies(definition.body_capacity),
       contact_store(definition.contact_capacity),
       rotations(definition.body_capacity),
+      body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
       broad_phase(definition.body_capacity, definition.pair_capacity),
       solver_index(definition.body_capacity) {
@@ -54,6 +57,7 @@ World::Impl::Impl(const WorldDef& definition)
   events.reserve(std::size_t{2} * definition.contact_capacity);
   new_contacts.reserve(definition.contact_capacity);
   manifolds.reserve(definition.contact_capacity);
+  surfaces.reserve(definition.contact_capacity);
   constraints.reserve(definition.contact_capacity);
   approach_speeds.reserve(definition.contact_capacity);
   solver_bodies.reserve(std::size_t{definition.body_capacity} + 1);
@@ -80,8 +84,15 @@ void World::Impl::rebuild_derived() {
   broad_phase.clear();
   free_hint = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    if (bodies[i].exists()) refresh(i);
+    if (!bodies[i].exists()) continue;
+    body_assets[i] = assets->find(bodies[i].asset);
+    refresh(i);
   }
+}
+
+PlacedShape World::Impl::placed(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
+  return place(record.shape(), body_assets[body], record.position, rotations[body]);
 }
 
 World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -89,13 +100,17 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
-Result<World> World::create(const WorldDef& def) {
+Result<World> World::create(const WorldDef& def, std::shared_ptr<const AssetSet> assets) {
   if (!is_valid(def)) return Status::invalid_argument;
-  return World(std::make_unique<Impl>(def));
+  if (assets == nullptr) assets = std::make_shared<const AssetSet>();
+  return World(std::make_unique<Impl>(def, std::move(assets)));
 }
 
 const WorldDef& World::def() const {
   return impl_->def;
+}
+const std::shared_ptr<const AssetSet>& World::assets() const {
+  return impl_->assets;
 }
 std::uint64_t World::tick() const {
   return impl_->header.tick;
@@ -132,21 +147,26 @@ BodyView World::body(BodyHandle body) const {
   const auto angular = [&](Velocity v) {
     return AngularVelocity::from_raw(raw::scale_binary(v.raw, -record->scale_exponent));
   };
+  const Transform pose =
+      shape_pose(impl_->body_assets[body.index], {record->position, record->orientation});
   return {.motion = static_cast<MotionType>(record->motion),
           .shape = record->shape(),
-          .position = record->position,
-          .orientation = record->orientation,
+          .position = pose.position,
+          .orientation = pose.orientation,
+          .centre_of_mass = record->position,
           .velocity = record->velocity,
           .angular_velocity = {angular(w.x), angular(w.y), angular(w.z)},
           .filter = record->filter(),
           .is_trigger = record->is_trigger(),
+          .is_bullet = record->is_bullet(),
           .user_data = record->user_data};
 }
 
 Vec3<Position> World::position(BodyHandle body) const {
   const BodyRecord* record = impl_->find(body);
   LKS_CHECK(record != nullptr);
-  return record->position;
+  return shape_pose(impl_->body_assets[body.index], {record->position, record->orientation})
+      .position;
 }
 
 Vec3<Velocity> World::velocity(BodyHandle body) const {

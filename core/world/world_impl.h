@@ -8,6 +8,8 @@
 #include <lockstone/world.h>
 
 #include "core/collision/broad_phase.h"
+#include "core/collision/collide_bodies.h"
+#include "core/collision/placed_shape.h"
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/contact_constraint.h"
 #include "core/dynamics/contact_prepare.h"
@@ -20,7 +22,7 @@
 namespace lockstone {
 
 struct World::Impl {
-  explicit Impl(const WorldDef& definition);
+  Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
   // The tick, one function a stage (step.cpp).
   StepReport step();
@@ -34,6 +36,9 @@ struct World::Impl {
   [[nodiscard]] BodyRecord* find(BodyHandle body);
   [[nodiscard]] const BodyRecord* find(BodyHandle body) const;
   [[nodiscard]] std::uint32_t body_count() const;
+
+  /// The body's shape where it is.
+  [[nodiscard]] PlacedShape placed(std::uint32_t body) const;
 
   /// Brings what is derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
@@ -54,6 +59,7 @@ struct World::Impl {
   Status load_canonical(ByteView bytes);
 
   const WorldDef def;
+  const std::shared_ptr<const AssetSet> assets;
   const TimeStep time_step;
   const ContactSoftness softness;
 
@@ -64,6 +70,7 @@ struct World::Impl {
 
   // Derived, by body index.
   std::vector<Mat3> rotations;
+  std::vector<const Asset*> body_assets;  // null: a shape complete in itself
   std::vector<Length> inner_radii;
   BroadPhase broad_phase;
   std::uint32_t free_hint = 0;  // no slot below this is empty
@@ -74,7 +81,11 @@ struct World::Impl {
  private:
   void find_pairs(StepReport& report);
   void collide_pairs(StepReport& report);
-  bool collide_pair(const Pair& pair, ContactRecord& record, Manifold& manifold) const;
+  void collide_pair(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
+  void add_contact(const Pair& pair, const PartContact& contact,
+                   std::span<const ContactRecord> before, StepReport& report);
+  void add_trigger(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
+  bool add_record(const ContactRecord& record, StepReport& report);
   void prepare_contacts(StepReport& report);
   std::uint32_t solver_body_of(std::uint32_t body);
   void run_substeps(StepReport& report);
@@ -84,13 +95,26 @@ struct World::Impl {
   void refresh_moved();
   void refresh_bounds(std::uint32_t body);
   void find_events();
-  void add_event(EventKind kind, const ContactRecord& record, std::size_t index);
+
+  // The contacts of a pair of bodies taken together.
+  struct PairState {
+    Pair bodies;
+    bool exists = false;
+    bool trigger = false;
+    bool touching = false;  // of a trigger: overlapping
+    SolverVelocity approach{};
+  };
+  static PairState take_pair(std::span<const ContactRecord>& records,
+                             std::span<const SolverVelocity> approaches);
+  void add_event(const PairState& before, const PairState& now);
 
   // Scratch of one step.
   std::span<const Pair> pairs;
-  std::vector<std::uint32_t> moved;             // bodies, ascending
+  std::vector<std::uint32_t> moved;  // bodies, ascending
   std::vector<ContactRecord> new_contacts;
-  std::vector<Manifold> manifolds;  // by new contact
+  std::vector<Manifold> manifolds;    // by new contact
+  std::vector<SurfacePair> surfaces;  // by new contact
+  PartContacts part_contacts;         // of the pair at hand
   std::vector<ContactConstraint> constraints;
   std::vector<SolverBody> solver_bodies;        // entry 0 is the immovable body
   std::vector<std::uint32_t> solver_index;      // by body; 0: not in the solver
@@ -98,6 +122,14 @@ struct World::Impl {
 };
 
 /// ok, or what makes a stored record impossible. For bytes from outside.
-[[nodiscard]] Status validate(const BodyRecord& record);
+[[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
+
+/// What follows from a body's shape alone.
+struct ShapeProperties {
+  Vec3<Unit> inertia{};  // principal moments / (mass · s²), at least k_min_inertia
+  int scale_exponent = 0;
+  Length radius{};
+};
+[[nodiscard]] ShapeProperties properties_of(const Shape& shape, const Asset* asset);
 
 }  // namespace lockstone

@@ -204,7 +204,8 @@ TEST(DescribeDifference, NamesTheBodyAndTheFieldOfOneFlippedBit) {
   EXPECT_EQ(velocity.object, 17U);
   EXPECT_EQ(velocity.field, "velocity.y");
   const std::size_t contacts = k_header + world.body_limit() * sizeof(BodyRecord);
-  const StateDifference impulse = flipped_at(contacts + 3 * sizeof(ContactRecord) + 12);
+  const StateDifference impulse =
+      flipped_at(contacts + 3 * sizeof(ContactRecord) + offsetof(ContactRecord, points) + 4);
   EXPECT_EQ(impulse.store, "contact");
   EXPECT_EQ(impulse.object, 3U);
   EXPECT_EQ(impulse.field, "point[0].normal_impulse");

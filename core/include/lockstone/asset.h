@@ -98,10 +98,11 @@ class AssetSet {
   [[nodiscard]] std::span<const AssetPtr> all() const { return assets_; }
 
   /// 0 for the empty set.
-  [[nodiscard]] std::uint64_t hash() const;
+  [[nodiscard]] std::uint64_t hash() const { return hash_; }
 
  private:
   std::vector<AssetPtr> assets_;
+  std::uint64_t hash_ = 0;
 };
 
 }  // namespace lockstone

@@ -54,7 +54,8 @@ struct CollisionFilter {
   return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
 }
 
-/// A body to be made. Position and orientation are those of the centre of mass.
+/// A body to be made. Position and orientation place the frame of its shape; velocities are those
+/// of the centre of mass, which of sphere, capsule and box is the same point.
 struct BodyDef {
   MotionType motion = MotionType::dynamic;
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));
@@ -69,6 +70,7 @@ struct BodyDef {
   Rate angular_damping{};
   bool is_trigger = false;      ///< reports overlaps, pushes nothing
   bool fixed_rotation = false;  ///< never rotates: a character, say
+  bool is_bullet = false;       ///< never passes through dynamic bodies either, at a price
   std::uint64_t user_data = 0;  ///< the game's own; part of the state
 };
 
@@ -76,12 +78,14 @@ struct BodyDef {
 struct BodyView {
   MotionType motion{};
   Shape shape{};
-  Vec3<Position> position{};
+  Vec3<Position> position{};  ///< of the shape's frame
   Quat orientation{};
-  Vec3<Velocity> velocity{};
+  Vec3<Position> centre_of_mass{};
+  Vec3<Velocity> velocity{};                 ///< of the centre of mass
   Vec3<AngularVelocity> angular_velocity{};  ///< rad/s, error ≤ 1e-8 relative
   CollisionFilter filter{};
   bool is_trigger = false;
+  bool is_bullet = false;
   std::uint64_t user_data = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <type_traits>
 
+#include <lockstone/asset.h>
 #include <lockstone/body.h>
 #include <lockstone/bytes.h>
 #include <lockstone/command.h>
@@ -21,7 +22,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 1;
+inline constexpr std::uint32_t k_simulation_abi = 2;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
@@ -35,8 +36,9 @@ struct WorldDef {
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };
 
-/// A hash over everything in `def`: peers compare it before they play.
-[[nodiscard]] std::uint64_t config_hash(const WorldDef& def);
+/// A hash over everything in `def` and the set of assets (`AssetSet::hash`, 0 for none): peers
+/// compare it before they play.
+[[nodiscard]] std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets = 0);
 
 /// What one step did. Counters cost nothing and are the same on every peer.
 struct StepReport {
@@ -74,20 +76,23 @@ struct StateHash {
 
 class World {
  public:
-  /// invalid_argument when a value of `def` is outside its range. The only allocation.
-  static Result<World> create(const WorldDef& def);
+  /// invalid_argument when a value of `def` is outside its range. The only allocation. Bodies may
+  /// use the assets of the set; worlds may share one.
+  static Result<World> create(const WorldDef& def,
+                              std::shared_ptr<const AssetSet> assets = nullptr);
 
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
 
   [[nodiscard]] const WorldDef& def() const;
-  [[nodiscard]] std::uint64_t tick() const;  ///< ticks stepped
+  [[nodiscard]] const std::shared_ptr<const AssetSet>& assets() const;  ///< never null
+  [[nodiscard]] std::uint64_t tick() const;                             ///< ticks stepped
 
   // Commands --------------------------------------------------------------------------------------
 
-  /// Makes a body: capacity_exhausted or invalid_argument when it cannot be. Slots are reused,
-  /// lowest first.
+  /// Makes a body: capacity_exhausted, invalid_argument or, for an unknown asset, not_found when it
+  /// cannot be. Slots are reused, lowest first.
   Result<BodyHandle> create_body(const BodyDef& def);
 
   /// Applies one command now. On any status but ok nothing has changed.
@@ -113,7 +118,7 @@ class World {
 
   /// The body must exist.
   [[nodiscard]] BodyView body(BodyHandle body) const;
-  [[nodiscard]] Vec3<Position> position(BodyHandle body) const;
+  [[nodiscard]] Vec3<Position> position(BodyHandle body) const;  ///< of the shape's frame
   [[nodiscard]] Vec3<Velocity> velocity(BodyHandle body) const;
 
   /// Mass in kilograms, error ≤ 2^-30 relative; 0 for static and kinematic bodies.

@@ -1,0 +1,53 @@
+// Contacts of two bodies, part by part.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <lockstone/asset.h>
+#include <lockstone/units.h>
+
+#include "core/collision/placed_shape.h"
+#include "core/geometry/manifold.h"
+
+namespace lockstone {
+
+/// One manifold of a pair of bodies. Anchors are relative to the centres of mass.
+struct PartContact {
+  std::uint32_t part_a = 0;
+  std::uint32_t part_b = 0;
+  const Surface* surface_a = nullptr;  ///< null: the body's own
+  const Surface* surface_b = nullptr;
+  Manifold manifold;
+};
+
+/// Manifolds of one pair of bodies, ascending by parts. What does not fit is left out, the last
+/// first, and `overflowed` says so.
+struct PartContacts {
+  static constexpr int k_capacity = 64;
+
+  std::array<PartContact, k_capacity> contacts{};
+  int count = 0;
+  bool overflowed = false;
+
+  [[nodiscard]] const PartContact* begin() const { return contacts.data(); }
+  [[nodiscard]] const PartContact* end() const { return contacts.data() + count; }
+
+  void clear() {
+    count = 0;
+    overflowed = false;
+  }
+  void add(const PartContact& contact) {
+    overflowed = overflowed || count == k_capacity;
+    if (count < k_capacity) contacts[static_cast<std::size_t>(count++)] = contact;
+  }
+};
+
+/// All contacts between two placed shapes, as `collide` finds them for each pair of parts; `out` is
+/// filled anew. At most one of the two is a half-space, mesh or height field.
+void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, PartContacts& out);
+
+/// Whether the two touch or overlap.
+[[nodiscard]] bool bodies_overlap(const PlacedShape& a, const PlacedShape& b);
+
+}  // namespace lockstone

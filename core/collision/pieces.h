@@ -1,0 +1,60 @@
+// Convex pieces of placed shapes: the one piece of a simple shape, the parts of an asset.
+#pragma once
+
+#include <cstdint>
+
+#include "core/collision/placed_shape.h"
+#include "core/geometry/manifold.h"
+#include "core/geometry/parts.h"
+
+namespace lockstone {
+
+/// Valid only during the visit.
+struct Piece {
+  Shape shape{};
+  const geometry::Polytope* polytope = nullptr;
+  Vec3<Position> origin{};  ///< of the piece's frame
+  Mat3 rotation{};
+  std::uint32_t part = 0;
+  const Surface* surface = nullptr;  ///< null: the body's own
+  geometry::TriangleTopology triangle{};
+
+  [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
+};
+
+class PieceVisitor {
+ public:
+  virtual void visit(const Piece& piece) = 0;
+
+ protected:
+  ~PieceVisitor() = default;
+};
+
+/// A box in the world, turned as its rotation says.
+struct OrientedBox {
+  Vec3<Position> centre{};
+  Mat3 rotation{};
+  Vec3<Length> half_extents{};
+};
+
+/// One convex shape, or a polyhedron: no parts to visit.
+[[nodiscard]] inline bool is_single(const PlacedShape& placed) {
+  return placed.asset == nullptr || placed.asset->polytope() != nullptr;
+}
+
+/// The piece of a single shape.
+[[nodiscard]] Piece single_piece(const PlacedShape& placed);
+
+/// A part of a placed asset, placed.
+[[nodiscard]] Piece piece_of(const PlacedShape& placed, const geometry::Part& part);
+
+/// A box that holds the piece or the shape; a half-space has none.
+[[nodiscard]] OrientedBox oriented_box(const Piece& piece);
+[[nodiscard]] OrientedBox oriented_box(const PlacedShape& placed);
+
+/// Calls the visitor for every piece whose bounds come within `margin` of the box, ascending by
+/// part; a single shape's piece always.
+void visit_pieces(const PlacedShape& placed, const OrientedBox& region, Length margin,
+                  PieceVisitor& visitor);
+
+}  // namespace lockstone

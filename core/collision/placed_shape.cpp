@@ -1,0 +1,99 @@
+#include "core/collision/placed_shape.h"
+
+#include "core/geometry/parts.h"
+#include "core/geometry/shape_properties.h"
+#include "core/geometry/solid.h"
+
+namespace lockstone {
+namespace {
+
+const geometry::Solid* solid_of(const Asset* asset) {
+  return asset == nullptr ? nullptr : asset->solid();
+}
+
+// Beyond any coordinate of a world, within what bounds can hold.
+constexpr Position k_everywhere = Position::from_integer((1 << 21) - 1);
+
+// A half-space with an upright normal ends at its plane; a tilted one is everywhere.
+WorldBox half_space_box(const PlacedShape& placed) {
+  WorldBox box{{-k_everywhere, -k_everywhere, -k_everywhere},
+               {k_everywhere, k_everywhere, k_everywhere}};
+  if (placed.rotation.y == Mat3{}.y) box.upper.y = placed.origin.y;
+  return box;
+}
+
+Vec3<Position> widened(const Vec3<Length>& v) {
+  return {rounded<Position>(v.x), rounded<Position>(v.y), rounded<Position>(v.z)};
+}
+
+// The bounds of a turned box: the middle turned, the half extents by the magnitudes of the axes.
+WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& local) {
+  const auto middle = [](Length low, Length high) {
+    return Position::from_raw((std::int64_t{low.raw} + high.raw) << 11);
+  };
+  const Vec3<Position> centre{middle(local.lower.x, local.upper.x),
+                              middle(local.lower.y, local.upper.y),
+                              middle(local.lower.z, local.upper.z)};
+  const Vec3<Length> half{(local.upper.x - local.lower.x + Length::from_raw(1)) / 2,
+                          (local.upper.y - local.lower.y + Length::from_raw(1)) / 2,
+                          (local.upper.z - local.lower.z + Length::from_raw(1)) / 2};
+  const Vec3<Position> at = placed.origin + rotate(placed.rotation, centre);
+  const Vec3<Position> reach =
+      widened(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
+  return {at - reach, at + reach};
+}
+
+}  // namespace
+
+Mat3 compose(const Mat3& a, const Mat3& b) {
+  return {rotate(a, b.x), rotate(a, b.y), rotate(a, b.z)};
+}
+
+Mat3 transposed(const Mat3& m) {
+  return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
+}
+
+PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
+                  const Mat3& rotation) {
+  const geometry::Solid* solid = solid_of(asset);
+  if (solid == nullptr) return {shape, asset, centre, rotation, centre};
+  const bool turned = solid->axes != Quat{};
+  const Mat3 frame = turned ? compose(rotation, transposed(to_matrix(solid->axes))) : rotation;
+  return {shape, asset, centre - rotate(frame, widened(solid->centre)), frame, centre};
+}
+
+Transform body_pose(const Asset* asset, const Transform& shape_pose) {
+  const Quat orientation = normalized(shape_pose.orientation);
+  const geometry::Solid* solid = solid_of(asset);
+  if (solid == nullptr) return {shape_pose.position, orientation};
+  return {apply({shape_pose.position, orientation}, solid->centre),
+          normalized(multiply(orientation, solid->axes))};
+}
+
+Transform shape_pose(const Asset* asset, const Transform& body_pose) {
+  const geometry::Solid* solid = solid_of(asset);
+  if (solid == nullptr) return body_pose;
+  const Quat orientation = normalized(multiply(body_pose.orientation, conjugate(solid->axes)));
+  return {apply({body_pose.position, orientation}, -solid->centre), orientation};
+}
+
+WorldBox world_box(const PlacedShape& placed) {
+  if (placed.shape.kind == ShapeKind::half_space) return half_space_box(placed);
+  if (placed.asset != nullptr) return turned_box(placed, placed.asset->bounds());
+  const Vec3<Position> reach = widened(world_half_extents(placed.shape, placed.rotation));
+  return {placed.origin - reach, placed.origin + reach};
+}
+
+Length bounding_radius(const Shape& shape, const Asset* asset) {
+  if (is_primitive(shape.kind)) return bounding_radius(shape);
+  const geometry::Solid* solid = solid_of(asset);
+  return solid == nullptr ? Length{} : solid->radius;
+}
+
+Length inner_radius(const Shape& shape, const Asset* asset) {
+  if (is_primitive(shape.kind)) return inner_radius(shape);
+  const geometry::Solid* solid = solid_of(asset);
+  return solid == nullptr ? Length{} : solid->inner_radius;
+}
+
+}  // namespace lockstone

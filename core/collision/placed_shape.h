@@ -1,0 +1,48 @@
+// A body's shape where it is: what pairs, bounds and queries work on.
+#pragma once
+
+#include <lockstone/asset.h>
+#include <lockstone/quat.h>
+#include <lockstone/shape.h>
+#include <lockstone/transform.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+namespace lockstone {
+
+/// The shape's frame in the world, and the centre of mass that contact anchors are relative to.
+struct PlacedShape {
+  Shape shape{};
+  const Asset* asset = nullptr;  ///< null for shapes that are complete in themselves
+  Vec3<Position> origin{};       ///< of the shape's frame
+  Mat3 rotation{};               ///< of the shape's frame
+  Vec3<Position> centre{};       ///< of mass; of a shape without mass its origin
+};
+
+/// Places a shape on a body whose centre of mass is at `centre` and whose principal axes are the
+/// columns of `rotation`. Within 2^-32 m and 2^-29 of the exact pose.
+[[nodiscard]] PlacedShape place(const Shape& shape, const Asset* asset,
+                                const Vec3<Position>& centre, const Mat3& rotation);
+
+/// Between the pose of a shape's frame and that of its body: centre of mass and principal axes. The
+/// two are the same but for assets with mass. Orientations are normalised.
+[[nodiscard]] Transform body_pose(const Asset* asset, const Transform& shape_pose);
+[[nodiscard]] Transform shape_pose(const Asset* asset, const Transform& body_pose);
+
+/// World-axis bounds, rounded outward; a half-space's reach to the ends of what bounds can hold.
+struct WorldBox {
+  Vec3<Position> lower{};
+  Vec3<Position> upper{};
+};
+[[nodiscard]] WorldBox world_box(const PlacedShape& placed);
+
+/// Radius about the centre of mass of a sphere that holds the shape (0 for shapes without mass
+/// distribution), and of one that the shape holds.
+[[nodiscard]] Length bounding_radius(const Shape& shape, const Asset* asset);
+[[nodiscard]] Length inner_radius(const Shape& shape, const Asset* asset);
+
+/// a · b, each entry rounded once.
+[[nodiscard]] Mat3 compose(const Mat3& a, const Mat3& b);
+[[nodiscard]] Mat3 transposed(const Mat3& m);
+
+}  // namespace lockstone
