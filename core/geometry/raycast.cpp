@@ -1,6 +1,8 @@
 #include "core/geometry/raycast.h"
 
 #include "core/geometry/fine.h"
+#include "core/geometry/polytope.h"
+#include "core/geometry/polytope_kernels.h"
 #include "core/geometry/ray_round.h"
 #include "core/geometry/ray_slabs.h"
 
@@ -17,6 +19,12 @@ ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation, const Vec3<Length
     return cast_ray_at_capsule(shape, rotation, origin, translation);
   }
   return cast_ray_at_box(shape, rotation, origin, translation);
+}
+
+ShapeRayHit cast_ray(const PosedShape& posed, const Vec3<Length>& origin,
+                     const Vec3<Length>& translation) {
+  if (posed.polytope == nullptr) return cast_ray(posed.shape, posed.rotation, origin, translation);
+  return posed.polytope->kernels->cast_ray(*posed.polytope, posed.rotation, origin, translation);
 }
 
 }  // namespace lockstone

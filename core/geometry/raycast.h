@@ -4,6 +4,8 @@
 #include <lockstone/quat.h>
 #include <lockstone/shape.h>
 
+#include "core/geometry/manifold.h"
+
 namespace lockstone {
 
 /// Where a ray first meets a shape. `fraction` of the ray's length, 0 … 1.
@@ -18,5 +20,9 @@ struct ShapeRayHit {
 /// inside or on the surface hits at fraction 0 with a zero normal.
 [[nodiscard]] ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation,
                                    const Vec3<Length>& origin, const Vec3<Length>& translation);
+
+/// The same for every convex shape.
+[[nodiscard]] ShapeRayHit cast_ray(const PosedShape& posed, const Vec3<Length>& origin,
+                                   const Vec3<Length>& translation);
 
 }  // namespace lockstone

@@ -2,91 +2,152 @@
 
 #include <algorithm>
 
-#include "core/geometry/manifold.h"
-#include "core/geometry/raycast.h"
+#include "core/collision/cast_placed.h"
+#include "core/collision/segment_probe.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 namespace {
 
 bool is_seen(const BodyRecord& body, std::uint32_t index, const QueryFilter& filter) {
-  const bool ignored = !filter.ignore.is_null() && filter.ignore.index == index &&
-                       filter.ignore.generation == body.generation;
-  return !ignored && (body.category & filter.mask) != 0 && (filter.triggers || !body.is_trigger());
+  const BodyHandle handle{index, body.generation};
+  return handle != filter.ignore && (body.category & filter.mask) != 0 &&
+         (filter.triggers || !body.is_trigger()) &&
+         (filter.accept == nullptr || filter.accept(filter.context, handle));
 }
 
-Bounds bounds_of(const Vec3<Position>& a, const Vec3<Position>& b) {
-  return {{round_down(min(a.x, b.x)), round_down(min(a.y, b.y)), round_down(min(a.z, b.z))},
-          {round_up(max(a.x, b.x)), round_up(max(a.y, b.y)), round_up(max(a.z, b.z))}};
+Bounds bounds_of(const WorldBox& box) {
+  return {{round_down(box.lower.x), round_down(box.lower.y), round_down(box.lower.z)},
+          {round_up(box.upper.x), round_up(box.upper.y), round_up(box.upper.z)}};
 }
 
-Vec3<Position> along(const Vec3<Position>& origin, const Vec3<Length>& translation, Unit part) {
-  const auto go = [&](Position start, Length step) {
-    return start + Position::from_raw(raw::round_shift((step * part).raw, 18));
+constexpr bool is_in_reach(const Vec3<Length>& translation) {
+  return abs(translation.x) <= k_max_cast && abs(translation.y) <= k_max_cast &&
+         abs(translation.z) <= k_max_cast;
+}
+
+// Keeps the first `out.size()` items in their order, whatever the order they come in.
+template <class T, class Before>
+void insert_sorted(const T& item, std::span<T> out, std::size_t& count, Before&& before) {
+  if (out.empty() || (count == out.size() && !before(item, out.back()))) return;
+  const std::size_t last = count < out.size() ? count++ : count - 1;
+  out[last] = item;
+  for (std::size_t i = last; i > 0 && before(out[i], out[i - 1]); --i)
+    std::swap(out[i], out[i - 1]);
+}
+
+bool is_nearer(const RayHit& a, const RayHit& b) {
+  return a.fraction != b.fraction ? a.fraction < b.fraction : a.body.index < b.body.index;
+}
+
+// A ray on its way through a world: calls `found(hit)` for each body that it meets within what
+// `limit` still asks for.
+template <class World, class Found>
+void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, const Unit& limit,
+              Found&& found) {
+  LKS_CHECK(is_in_reach(ray.translation));
+  SegmentProbe probe(ray.origin, ray.translation, {});
+  const auto test = [&](const Bounds& bounds) { return probe.meets(bounds); };
+  const auto visit = [&](std::uint32_t index) {
+    const BodyRecord& body = world.bodies[index];
+    if (!is_seen(body, index, filter)) return;
+    const PlacedRayHit hit = cast_ray(world.placed(index), ray.origin, ray.translation, limit);
+    if (!hit.hit) return;
+    const Unit before = limit;
+    found(RayHit{{index, body.generation},
+                 hit.fraction,
+                 hit.normal,
+                 along(ray.origin, ray.translation, hit.fraction),
+                 hit.part});
+    if (limit != before) probe.shorten(limit);
   };
-  return {go(origin.x, translation.x), go(origin.y, translation.y), go(origin.z, translation.z)};
+  world.broad_phase.traverse(test, visit);
 }
 
-Vec3<Position> widened(const Vec3<Length>& v) {
-  return {rounded<Position>(v.x), rounded<Position>(v.y), rounded<Position>(v.z)};
-}
-
-constexpr Length k_ray_limit = Length::from_integer(512);
+constexpr Unit k_whole_way = Unit::from_integer(1);
 
 }  // namespace
 
 RayHit World::cast_ray(const Vec3<Position>& origin, const Vec3<Length>& translation,
                        const QueryFilter& filter) const {
-  LKS_CHECK(abs(translation.x) <= k_ray_limit && abs(translation.y) <= k_ray_limit &&
-            abs(translation.z) <= k_ray_limit);
-  const Impl& world = *impl_;
-  const Bounds reach = bounds_of(origin, origin + widened(translation));
   RayHit best;
-  best.fraction = Unit::max();
-  const auto test = [&](const Bounds& bounds) { return overlap(reach, bounds); };
-  const auto visit = [&](std::uint32_t index) {
-    const BodyRecord& body = world.bodies[index];
-    if (!is_seen(body, index, filter)) return;
-    const ShapeRayHit hit =
-        lockstone::cast_ray(body.shape(), world.rotations[index],
-                            saturated<Length>(origin - body.position), translation);
-    const bool nearer =
-        hit.fraction < best.fraction || (hit.fraction == best.fraction && index < best.body.index);
-    if (hit.hit && nearer) best = {{index, body.generation}, hit.fraction, hit.normal, {}};
-  };
-  world.broad_phase.traverse(test, visit);
-  if (best.body.is_null()) return {};
-  best.point = along(origin, translation, best.fraction);
+  Unit limit = k_whole_way;
+  walk_ray(*impl_, {origin, translation}, filter, limit, [&](const RayHit& hit) {
+    if (!best.body.is_null() && !is_nearer(hit, best)) return;
+    best = hit;
+    limit = hit.fraction;
+  });
   return best;
 }
 
-std::size_t World::overlap_sphere(const Vec3<Position>& center, Length radius,
-                                  std::span<BodyHandle> out, const QueryFilter& filter) const {
-  const Shape ball = Shape::sphere(radius);
-  LKS_CHECK(validate(ball) == Status::ok);
+bool World::is_ray_blocked(const Vec3<Position>& origin, const Vec3<Length>& translation,
+                           const QueryFilter& filter) const {
+  bool blocked = false;
+  Unit limit = k_whole_way;
+  walk_ray(*impl_, {origin, translation}, filter, limit, [&](const RayHit&) {
+    blocked = true;
+    limit = {};
+  });
+  return blocked;
+}
+
+std::size_t World::cast_ray_all(const Vec3<Position>& origin, const Vec3<Length>& translation,
+                                std::span<RayHit> out, const QueryFilter& filter) const {
+  std::size_t count = 0;
+  const Unit limit = k_whole_way;
+  walk_ray(*impl_, {origin, translation}, filter, limit,
+           [&](const RayHit& hit) { insert_sorted(hit, out, count, is_nearer); });
+  return count;
+}
+
+void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> out,
+                      const QueryFilter& filter) const {
+  LKS_CHECK(rays.size() == out.size());
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    out[i] = cast_ray(rays[i].origin, rays[i].translation, filter);
+}
+
+std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,
+                                 std::span<BodyHandle> out, const QueryFilter& filter) const {
   const Impl& world = *impl_;
-  const Mat3 identity;
-  const Vec3<Position> r = widened({radius, radius, radius});
-  const Bounds reach = bounds_of(center - r, center + r);
+  const PlacedShape probe = world.placed_query(shape, pose);
+  const Bounds reach = bounds_of(world_box(probe));
   std::size_t count = 0;
   const auto test = [&](const Bounds& bounds) { return overlap(reach, bounds); };
   const auto visit = [&](std::uint32_t index) {
     const BodyRecord& body = world.bodies[index];
-    if (!is_seen(body, index, filter) || out.empty()) return;
-    if (count == out.size() && index > out.back().index) return;
-    const Shape shape = body.shape();
-    if (!overlaps({shape, world.rotations[index]}, {ball, identity},
-                  saturated<Length>(center - body.position))) {
-      return;
-    }
-    // Keeps the lowest indices, sorted, whatever the order of visits.
-    const std::size_t last = count < out.size() ? count++ : count - 1;
-    out[last] = {index, body.generation};
-    for (std::size_t i = last; i > 0 && out[i] < out[i - 1]; --i)
-      std::swap(out[i], out[i - 1]);
+    const BodyHandle handle{index, body.generation};
+    if (count == out.size() && (out.empty() || handle > out.back())) return;
+    if (!is_seen(body, index, filter) || !bodies_overlap(probe, world.placed(index))) return;
+    insert_sorted(handle, out, count, std::less<>());
   };
   world.broad_phase.traverse(test, visit);
   return count;
+}
+
+std::size_t World::overlap_sphere(const Vec3<Position>& center, Length radius,
+                                  std::span<BodyHandle> out, const QueryFilter& filter) const {
+  return overlap_shape(Shape::sphere(radius), {center, {}}, out, filter);
+}
+
+std::size_t World::bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
+                             const QueryFilter& filter) const {
+  std::size_t count = 0;
+  const Unit limit = k_whole_way;
+  // A ray without length meets what it starts in, or on.
+  const auto before = [](BodyHandle a, BodyHandle b) { return a < b; };
+  walk_ray(*impl_, {point, {}}, filter, limit,
+           [&](const RayHit& hit) { insert_sorted(hit.body, out, count, before); });
+  return count;
+}
+
+PlacedShape World::Impl::placed_query(const Shape& shape, const Transform& pose) const {
+  LKS_CHECK(validate(shape) == Status::ok);
+  const Asset* asset = is_asset(shape.kind) ? assets->find(shape.asset) : nullptr;
+  const bool convex =
+      is_primitive(shape.kind) || (asset != nullptr && asset->polytope() != nullptr);
+  LKS_CHECK(convex);
+  return {shape, asset, pose.position, to_matrix(normalized(pose.orientation)), pose.position};
 }
 
 }  // namespace lockstone

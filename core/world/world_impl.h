@@ -40,6 +40,10 @@ struct World::Impl {
   /// The body's shape where it is.
   [[nodiscard]] PlacedShape placed(std::uint32_t body) const;
 
+  /// A convex shape to ask with. One that is not, or that names an unknown asset, is a programmer's
+  /// error.
+  [[nodiscard]] PlacedShape placed_query(const Shape& shape, const Transform& pose) const;
+
   /// Brings what is derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
   void rebuild_derived();

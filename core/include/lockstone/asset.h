@@ -22,8 +22,8 @@ class PartVisitor;
 class RayPartVisitor;
 }  // namespace geometry
 
-/// Coordinates of an asset in its own frame lie within ±1000 m.
-inline constexpr Length k_max_asset_coordinate = Length::from_integer(1000);
+/// Coordinates of an asset in its own frame lie within ±512 m.
+inline constexpr Length k_max_asset_coordinate = Length::from_integer(512);
 
 /// What a part of an asset is made of, where that differs from the body's own material.
 struct Surface {

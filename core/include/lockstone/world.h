@@ -15,6 +15,7 @@
 #include <lockstone/bytes.h>
 #include <lockstone/command.h>
 #include <lockstone/event.h>
+#include <lockstone/query.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
 
@@ -49,21 +50,6 @@ struct StepReport {
   std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
   std::uint32_t contact_points = 0;
   std::uint32_t saturations = 0;  ///< values clamped to their range
-};
-
-/// Where a ray first meets a body.
-struct RayHit {
-  BodyHandle body{};    ///< null when nothing was hit
-  Unit fraction{};      ///< of the ray, 0 … 1
-  Vec3<Unit> normal{};  ///< outward; zero when the ray starts inside
-  Vec3<Position> point{};
-};
-
-/// Which bodies a query sees: those whose category is in `mask`, except `ignore`.
-struct QueryFilter {
-  std::uint32_t mask = 0xffffffff;
-  BodyHandle ignore{};
-  bool triggers = false;  ///< whether triggers are seen too
 };
 
 /// Hashes of one state; `total` covers the others.
@@ -127,15 +113,36 @@ class World {
   /// Two bodies have a contact point with separation ≤ 0 or an impulse, as of the last step.
   [[nodiscard]] bool touching(BodyHandle a, BodyHandle b) const;
 
-  // Queries: read-only, results in canonical order ------------------------------------------------
+  // Queries: read-only, safe from several threads, results in canonical order (query.h) ----------
 
-  /// The first body along `translation` (at most 512 m an axis); ties go to the lower index.
+  /// The first body along the ray; ties go to the lower index.
   [[nodiscard]] RayHit cast_ray(const Vec3<Position>& origin, const Vec3<Length>& translation,
                                 const QueryFilter& filter = {}) const;
+
+  /// Whether anything is in the way: stops at the first body found.
+  [[nodiscard]] bool is_ray_blocked(const Vec3<Position>& origin, const Vec3<Length>& translation,
+                                    const QueryFilter& filter = {}) const;
+
+  /// Every body along the ray, each where the ray enters it, nearest first and the lower index of
+  /// equals, as many as `out` holds; answers how many were written.
+  std::size_t cast_ray_all(const Vec3<Position>& origin, const Vec3<Length>& translation,
+                           std::span<RayHit> out, const QueryFilter& filter = {}) const;
+
+  /// `cast_ray` for each; `out` is as long as `rays`.
+  void cast_rays(std::span<const Ray> rays, std::span<RayHit> out,
+                 const QueryFilter& filter = {}) const;
 
   /// Bodies that overlap a sphere, by index, as many as `out` holds; answers how many were written.
   std::size_t overlap_sphere(const Vec3<Position>& center, Length radius, std::span<BodyHandle> out,
                              const QueryFilter& filter = {}) const;
+
+  /// The same for a convex shape.
+  std::size_t overlap_shape(const Shape& shape, const Transform& pose, std::span<BodyHandle> out,
+                            const QueryFilter& filter = {}) const;
+
+  /// Bodies that hold a point, surface included.
+  std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
+                        const QueryFilter& filter = {}) const;
 
   // State -----------------------------------------------------------------------------------------
 
