@@ -36,7 +36,7 @@ geometry::LocalBounds local_region(const PlacedShape& placed, const OrientedBox&
   const Vec3<Length> centre =
       saturated<Length>(rotate_inverse(placed.rotation, region.centre - placed.origin));
   const Shape box{ShapeKind::box, region.half_extents, {}};
-  const Vec3<Length> half = world_half_extents(box, compose(to_asset, region.rotation));
+  const Vec3<Length> half = world_half_extents(box, multiply(to_asset, region.rotation));
   geometry::LocalBounds bounds;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t reach = std::int64_t{half[i].raw} + margin.raw + k_frame_error.raw;
@@ -66,7 +66,7 @@ Piece piece_of(const PlacedShape& placed, const geometry::Part& part) {
   return {part.shape,
           part.polytope,
           moved ? placed.origin + rotate(placed.rotation, widened(part.position)) : placed.origin,
-          turned ? compose(placed.rotation, part.rotation) : placed.rotation,
+          turned ? multiply(placed.rotation, part.rotation) : placed.rotation,
           part.index,
           part.surface,
           part.triangle};

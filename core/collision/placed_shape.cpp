@@ -45,20 +45,12 @@ WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& loca
 
 }  // namespace
 
-Mat3 compose(const Mat3& a, const Mat3& b) {
-  return {rotate(a, b.x), rotate(a, b.y), rotate(a, b.z)};
-}
-
-Mat3 transposed(const Mat3& m) {
-  return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
-}
-
 PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
                   const Mat3& rotation) {
   const geometry::Solid* solid = solid_of(asset);
   if (solid == nullptr) return {shape, asset, centre, rotation, centre};
   const bool turned = solid->axes != Quat{};
-  const Mat3 frame = turned ? compose(rotation, transposed(to_matrix(solid->axes))) : rotation;
+  const Mat3 frame = turned ? multiply(rotation, transposed(to_matrix(solid->axes))) : rotation;
   return {shape, asset, centre - rotate(frame, widened(solid->centre)), frame, centre};
 }
 

@@ -41,8 +41,4 @@ struct WorldBox {
 [[nodiscard]] Length bounding_radius(const Shape& shape, const Asset* asset);
 [[nodiscard]] Length inner_radius(const Shape& shape, const Asset* asset);
 
-/// a · b, each entry rounded once.
-[[nodiscard]] Mat3 compose(const Mat3& a, const Mat3& b);
-[[nodiscard]] Mat3 transposed(const Mat3& m);
-
 }  // namespace lockstone

@@ -66,6 +66,15 @@ template <class D, int F>
           rounded<T>(m.x.z * v.x + m.y.z * v.y + m.z.z * v.z)};
 }
 
+/// a · b, each entry rounded once.
+[[nodiscard]] constexpr Mat3 multiply(const Mat3& a, const Mat3& b) {
+  return {rotate(a, b.x), rotate(a, b.y), rotate(a, b.z)};
+}
+
+[[nodiscard]] constexpr Mat3 transposed(const Mat3& m) {
+  return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
+}
+
 /// World to body: mᵀ·v, each component rounded once.
 template <class D, int F>
 [[nodiscard]] constexpr Vec3<Fixed<D, std::int32_t, F>> rotate_inverse(
