@@ -1,0 +1,140 @@
+#include "core/geometry/gjk.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/geometry/contact_point.h"
+
+namespace lockstone {
+namespace geometry {
+namespace {
+
+constexpr int k_max_iterations = 512;
+
+auto key_of(const Vec3<Unit>& v) {
+  return std::tuple(v.x, v.y, v.z);
+}
+auto key_of(const Vec3<Length>& v) {
+  return std::tuple(v.x, v.y, v.z);
+}
+
+/// −1, 0 or 1: the order of two vertex lists.
+int compare(const Polytope* a, const Polytope* b) {
+  if (a == b) return 0;
+  if (a == nullptr || b == nullptr) return a == nullptr ? -1 : 1;
+  if (a->vertices.size() != b->vertices.size()) {
+    return a->vertices.size() < b->vertices.size() ? -1 : 1;
+  }
+  for (std::size_t i = 0; i < a->vertices.size(); ++i) {
+    const auto order = key_of(a->vertices[i]) <=> key_of(b->vertices[i]);
+    if (order != 0) return order < 0 ? -1 : 1;
+  }
+  return 0;
+}
+
+auto pose_key(const PosedShape& s) {
+  return std::tuple(key_of(s.rotation.x), key_of(s.rotation.y), key_of(s.rotation.z));
+}
+
+}  // namespace
+
+bool is_exchanged(const PosedShape& a, const PosedShape& b, const RawVec& offset) {
+  if (a.shape.kind != b.shape.kind) return a.shape.kind < b.shape.kind;
+  const auto sizes = key_of(a.shape.size) <=> key_of(b.shape.size);
+  if (sizes != 0) return sizes < 0;
+  const int vertices = compare(a.polytope, b.polytope);
+  if (vertices != 0) return vertices < 0;
+  const auto poses = pose_key(a) <=> pose_key(b);
+  if (poses != 0) return poses < 0;
+  return std::tuple(offset.x, offset.y, offset.z) < std::tuple(0, 0, 0);
+}
+
+GjkResult gjk(const LatticePair& pair, const RawVec& guess) {
+  GjkResult result;
+  result.simplex = simplex_of(least_along(pair, guess));
+  result.overlapping = result.simplex.normal == RawVec{};
+  while (!result.overlapping) {
+    ++result.iterations;
+    LKS_ASSERT(result.iterations <= k_max_iterations);
+    if (result.iterations > k_max_iterations) break;
+    const DifferenceVertex next = least_along(pair, direction_to(result.simplex));
+    if (!improves(result.simplex, next.point)) break;
+    result.overlapping = extend(result.simplex, next);
+  }
+  return result;
+}
+
+bool GapQuery::find(const RawVec& offset) {
+  offset_ = offset;
+  const RawVec between = reference_offset(a_, b_, offset);
+  const int shift = lattice_shift(a_, b_, between);
+  if (shift != shift_) to_lattice(a_, b_, shift, lattice_);
+  shift_ = shift;
+  set_offset(between, lattice_);
+  RawVec guess = truncated(lattice_.offset, 31);
+  if (guess == RawVec{}) guess.y = 1;
+  const GjkResult result = gjk(lattice_, guess);
+  simplex_ = result.simplex;
+  if (result.overlapping) return false;
+  gap_ = refine(fine_pair(), lattice_, simplex_, Side::beyond);
+  return true;
+}
+
+namespace {
+
+ClosestFeature feature_of(const Simplex& simplex) {
+  ClosestFeature feature;
+  feature.count = simplex.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i) {
+    feature.a[i] = simplex.vertices[i].a;
+    feature.b[i] = simplex.vertices[i].b;
+  }
+  return feature;
+}
+
+ClosestPoints with_surfaces(const CoreGap& gap, Length radius_a, Length radius_b,
+                            const RawVec& offset) {
+  ClosestPoints result;
+  const Fine apart = gap.distance - fine(radius_a) - fine(radius_b);
+  result.overlapping = apart <= 0;
+  result.distance = {
+      raw::round_shift(std::max(apart, Fine{0}), k_fine_bits - Position::frac_bits)};
+  result.normal = gap.normal;
+  const Witnesses surface = inflate(gap.on_a, radius_a, gap.on_b, radius_b, gap.normal);
+  result.point_a = to_length(surface.on_a);
+  result.point_b = to_length(surface.on_b - offset);
+  return result;
+}
+
+ClosestPoints ordered_distance(const PosedShape& a, const PosedShape& b, const RawVec& offset) {
+  GapQuery query(a, b);
+  if (!query.find(offset)) {
+    ClosestPoints inside;
+    inside.overlapping = true;
+    inside.cores_overlap = true;
+    return inside;
+  }
+  ClosestPoints result = with_surfaces(query.gap(), query.a().radius, query.b().radius, offset);
+  result.feature = feature_of(query.simplex());
+  return result;
+}
+
+ClosestPoints exchanged(const ClosestPoints& points) {
+  ClosestPoints result = points;
+  result.normal = -points.normal;
+  std::swap(result.point_a, result.point_b);
+  std::swap(result.feature.a, result.feature.b);
+  return result;
+}
+
+}  // namespace
+}  // namespace geometry
+
+ClosestPoints distance(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset) {
+  using namespace geometry;
+  const RawVec between = fine(offset);
+  if (!is_exchanged(a, b, between)) return ordered_distance(a, b, between);
+  return exchanged(ordered_distance(b, a, -between));
+}
+
+}  // namespace lockstone

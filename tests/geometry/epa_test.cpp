@@ -1,0 +1,112 @@
+// Depth of overlapping convex shapes.
+#include "core/geometry/epa.h"
+
+#include "tests/geometry/convex_scene.h"
+
+namespace lockstone::test {
+namespace {
+
+constexpr Real k_micrometre = 1e-6L;
+
+Real tolerance(const RealPair& pair) {
+  return 2 * k_micrometre + 4e-9L * pair.size;
+}
+
+Penetration penetration_of(ConvexPair& pair) {
+  return penetration(pair.a.posed(), pair.b.posed(), pair.offset);
+}
+
+/// The least overlap over the directions in which a polytope's edges and faces can separate.
+Real least_overlap(const RealPair& pair) {
+  std::vector<RealVec> edges_a;
+  std::vector<RealVec> edges_b;
+  const auto list_edges = [](const std::vector<RealVec>& points, std::vector<RealVec>& edges) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k)
+        edges.push_back(points[i] - points[k]);
+    }
+  };
+  list_edges(pair.a, edges_a);
+  list_edges(pair.b, edges_b);
+  std::vector<RealVec> axes;
+  const auto add_crosses = [&axes](const auto& us, const auto& vs) {
+    for (const RealVec& u : us) {
+      for (const RealVec& v : vs)
+        axes.push_back(cross(u, v));
+    }
+  };
+  add_crosses(edges_a, edges_a);
+  add_crosses(edges_b, edges_b);
+  add_crosses(edges_a, edges_b);
+  Real most = -1e30L;
+  for (const RealVec& axis : axes) {
+    if (norm(axis) < 1e-9L * pair.size * pair.size) continue;
+    const RealVec n = axis * (1 / norm(axis));
+    most = std::max({most, pair.separation(n), pair.separation(n * -1)});
+  }
+  return -most;
+}
+
+TEST(Penetration, IsNeverMoreThanTheLeastOverlapAndSeparates) {
+  int deep = 0;
+  for_convex_pairs(200, [&deep](Dice&, ConvexPair& pair) {
+    const Penetration found = penetration_of(pair);
+    if (!found.overlapping) return;
+    ++deep;
+    const RealPair reals(pair);
+    const Real slack = tolerance(reals);
+    const Real depth = real(found.depth);
+    const RealVec n = real(found.normal);
+    EXPECT_TRUE(found.exact);
+    ASSERT_NEAR(static_cast<double>(norm(n)), 1.0, std::ldexp(1.0, -29));
+    EXPECT_NEAR(static_cast<double>(depth), static_cast<double>(-reals.separation(n)),
+                static_cast<double>(slack));
+    const RealVec gap = real(found.point_b) + real(pair.offset) - real(found.point_a);
+    EXPECT_NEAR(static_cast<double>(norm(gap + n * depth)), 0, static_cast<double>(2 * slack));
+  });
+  EXPECT_GT(deep, 500);
+}
+
+TEST(Penetration, IsTheLeastOverlapOfAllSeparatingAxes) {
+  int compared = 0;
+  for_convex_pairs(150, [&compared](Dice&, ConvexPair& pair) {
+    const RealPair reals(pair);
+    if (reals.a.size() * reals.b.size() > 32 || reals.a.size() * reals.b.size() < 8) return;
+    const ClosestPoints apart = distance(pair.a.posed(), pair.b.posed(), pair.offset);
+    if (!apart.cores_overlap) return;
+    ++compared;
+    EXPECT_NEAR(static_cast<double>(real(penetration_of(pair).depth)),
+                static_cast<double>(least_overlap(reals)), static_cast<double>(tolerance(reals)));
+  });
+  EXPECT_GT(compared, 200);
+}
+
+TEST(Penetration, IsThatOfSeparatingAxesForBoxesAndCapsules) {
+  for_random_scenes(500, [](Dice&, const Scene& scene) {
+    const Real truth = signed_distance(scene.placed_a(), scene.placed_b());
+    const Penetration found = penetration(scene.posed_a(), scene.posed_b(), scene.offset);
+    const Real slack = 2 * k_micrometre + 4e-9L * scene.scale();
+    if (std::fabs(truth) > slack) {
+      EXPECT_EQ(found.overlapping, truth < 0);
+    }
+    if (truth > 0) return;
+    EXPECT_NEAR(static_cast<double>(real(found.depth)), static_cast<double>(-truth),
+                static_cast<double>(slack));
+  });
+}
+
+TEST(Penetration, SwappingTheShapesMirrorsTheResultBitForBit) {
+  for_convex_pairs(100, [](Dice& dice, ConvexPair& pair) {
+    if (dice.chance(6)) pair.b = pair.a;
+    const Penetration one = penetration_of(pair);
+    const Penetration two = penetration(pair.b.posed(), pair.a.posed(), -pair.offset);
+    EXPECT_EQ(one.overlapping, two.overlapping);
+    EXPECT_EQ(one.depth, two.depth);
+    EXPECT_EQ(one.normal, -two.normal);
+    EXPECT_EQ(one.point_a, two.point_b);
+    EXPECT_EQ(one.point_b, two.point_a);
+  });
+}
+
+}  // namespace
+}  // namespace lockstone::test
