@@ -89,8 +89,8 @@ CoreGap keep_lattice_triangle(FineFeatures& features, const Simplex& simplex) {
   const auto& [a, b, c, unused] = simplex.vertices;
   const TriangleWeights weights = weights_of(a.point, b.point, c.point);
   features.weight[1] = weight_of(weights.numerators[1], weights.denominator);
-  features.weight[2] = std::min(weight_of(weights.numerators[2], weights.denominator),
-                                k_whole - features.weight[1]);
+  features.weight[2] =
+      std::min(weight_of(weights.numerators[2], weights.denominator), k_whole - features.weight[1]);
   CoreGap gap = gap_between(features, simplex);
   gap.normal = direction_of(simplex.normal.x, simplex.normal.y, simplex.normal.z);
   gap.distance = std::max(Fine{0}, dot(blend(features, features.difference), gap.normal));

@@ -95,8 +95,7 @@ auto wide_product_with(const RawVec& d) {
 }
 
 RawVec shifted(const RawVec& v, int shift) {
-  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift),
-          raw::round_shift(v.z, shift)};
+  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
 }
 
 void to_lattice(const ConvexCore& core, int shift, LatticeCore& lattice) {

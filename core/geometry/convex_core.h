@@ -1,5 +1,5 @@
-// Cores of convex shapes, exact and on a lattice: a point, a segment, a box or a polytope's vertices,
-// which a radius makes round.
+// Cores of convex shapes, exact and on a lattice: a point, a segment, a box or a polytope's
+// vertices, which a radius makes round.
 //
 // On the lattice every point of the difference B − A has a norm of at most 2^30 (and a little for
 // rounding), so that dot and cross products of differences fit in int64, and the determinants that

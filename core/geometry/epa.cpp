@@ -128,8 +128,7 @@ Penetration ordered_penetration(const PosedShape& a, const PosedShape& b, const 
     return penetration_of(query.gap(), depth, query);
   }
   const CoreOverlap overlap = core_overlap(query);
-  Penetration result =
-      penetration_of(overlap.gap, overlap.gap.distance + query.radii(), query);
+  Penetration result = penetration_of(overlap.gap, overlap.gap.distance + query.radii(), query);
   result.exact = overlap.exact;
   return result;
 }

@@ -24,16 +24,16 @@ struct Penetration {
 
 namespace geometry {
 
-/// The depth of overlapping cores. `normal` points from A to B, and the points are the deepest ones:
-/// on_b = on_a − normal · distance.
+/// The depth of overlapping cores. `normal` points from A to B, and the points are the deepest
+/// ones: on_b = on_a − normal · distance.
 struct CoreOverlap {
   CoreGap gap{};
   bool exact = true;
 };
 
 /// Of cores that `query` found to overlap: the nearest face of the hull of B − A on the lattice.
-/// Every step adds a vertex of that hull; after 124 of them the nearest plane that supports it so far
-/// stands, which separates, if not by the least way.
+/// Every step adds a vertex of that hull; after 124 of them the nearest plane that supports it so
+/// far stands, which separates, if not by the least way.
 [[nodiscard]] CoreOverlap core_overlap(const GapQuery& query);
 
 }  // namespace geometry

@@ -71,11 +71,12 @@ bool GapQuery::find(const RawVec& offset) {
   if (shift != shift_) to_lattice(a_, b_, shift, lattice_);
   shift_ = shift;
   set_offset(between, lattice_);
-  RawVec guess = truncated(lattice_.offset, 31);
-  if (guess == RawVec{}) guess.y = 1;
-  const GjkResult result = gjk(lattice_, guess);
+  if (guess_ == RawVec{}) guess_ = truncated(lattice_.offset, 31);
+  if (guess_ == RawVec{}) guess_.y = 1;
+  const GjkResult result = gjk(lattice_, guess_);
   simplex_ = result.simplex;
   if (result.overlapping) return false;
+  guess_ = direction_to(simplex_);
   gap_ = refine(fine_pair(), lattice_, simplex_, Side::beyond);
   return true;
 }
@@ -97,8 +98,7 @@ ClosestPoints with_surfaces(const CoreGap& gap, Length radius_a, Length radius_b
   ClosestPoints result;
   const Fine apart = gap.distance - fine(radius_a) - fine(radius_b);
   result.overlapping = apart <= 0;
-  result.distance = {
-      raw::round_shift(std::max(apart, Fine{0}), k_fine_bits - Position::frac_bits)};
+  result.distance = {raw::round_shift(std::max(apart, Fine{0}), k_fine_bits - Position::frac_bits)};
   result.normal = gap.normal;
   const Witnesses surface = inflate(gap.on_a, radius_a, gap.on_b, radius_b, gap.normal);
   result.point_a = to_length(surface.on_a);

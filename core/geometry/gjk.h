@@ -18,12 +18,12 @@ struct ClosestFeature {
 
 /// How far two shapes are apart.
 struct ClosestPoints {
-  bool overlapping = false;      ///< the shapes share a point
-  bool cores_overlap = false;    ///< what lies within the radii does: then no more is known
-  Position distance{};           ///< m; zero when overlapping
-  Vec3<Unit> normal{};           ///< from A to B, world axes; zero when the cores overlap
-  Vec3<Length> point_a{};        ///< on A's surface, from A's centre, world axes
-  Vec3<Length> point_b{};        ///< on B's surface, from B's centre
+  bool overlapping = false;    ///< the shapes share a point
+  bool cores_overlap = false;  ///< what lies within the radii does: then no more is known
+  Position distance{};         ///< m; zero when overlapping
+  Vec3<Unit> normal{};         ///< from A to B, world axes; zero when the cores overlap
+  Vec3<Length> point_a{};      ///< on A's surface, from A's centre, world axes
+  Vec3<Length> point_b{};      ///< on B's surface, from B's centre
   ClosestFeature feature{};
 };
 
@@ -47,8 +47,8 @@ struct GjkResult {
 
 /// The closest simplex of B − A to the origin, begun with the vertex least along `guess` (not
 /// zero, components below 2^31). Each step strictly lessens the simplex' exact distance, so none
-/// comes twice and the search ends; 512 steps are asserted, and beyond them the last simplex stands,
-/// which is not nearer than the closest.
+/// comes twice and the search ends; 512 steps are asserted, and beyond them the last simplex
+/// stands, which is not nearer than the closest.
 [[nodiscard]] GjkResult gjk(const LatticePair& pair, const RawVec& guess);
 
 /// Whether the pair has to be exchanged so that both orders of the arguments run one computation.
@@ -63,10 +63,11 @@ class GapQuery {
     make_core(b, b_);
   }
 
-  /// GJK with the centre of B at `offset`, fine, from that of A. False when the cores overlap.
+  /// GJK with the centre of B at `offset`, fine, from that of A, begun where the last query ended.
+  /// False when the cores overlap.
   [[nodiscard]] bool find(const RawVec& offset);
 
-  [[nodiscard]] const CoreGap& gap() const { return gap_; }        ///< unless the cores overlap
+  [[nodiscard]] const CoreGap& gap() const { return gap_; }  ///< unless the cores overlap
   [[nodiscard]] const Simplex& simplex() const { return simplex_; }
   [[nodiscard]] const LatticePair& lattice() const { return lattice_; }
   [[nodiscard]] FinePair fine_pair() const { return {a_, b_, offset_}; }
@@ -81,6 +82,7 @@ class GapQuery {
   RawVec offset_{};
   LatticePair lattice_;
   int shift_ = -1;  ///< of the lattice at hand
+  RawVec guess_{};
   Simplex simplex_{};
   CoreGap gap_{};
 };

@@ -77,8 +77,7 @@ bool extend_edge(Simplex& simplex, const Vertex& u) {
 /// `u` is strictly on the origin's side of the triangle, so the origin lies in the tetrahedron
 /// exactly when it is beyond none of the three new faces.
 bool extend_triangle(Simplex& simplex, const Vertex& u) {
-  const std::array<Vertex, 3> others{simplex.vertices[0], simplex.vertices[1],
-                                     simplex.vertices[2]};
+  const std::array<Vertex, 3> others{simplex.vertices[0], simplex.vertices[1], simplex.vertices[2]};
   bool inside = true;
   for (std::size_t i = 0; i < 3; ++i) {
     // The normal points away from the origin and from u, so the origin's weight at vertex i has the

@@ -119,15 +119,15 @@ inline Real reach_along(const std::vector<RealVec>& points, const RealVec& n) {
 /// it.
 inline ConvexPair random_pair(Dice& dice, int kind_a, int kind_b, double low, double high,
                               double least = 0.2, double most = 1.3) {
-  ConvexPair pair{random_convex(dice, kind_a, low, high), random_convex(dice, kind_b, low, high),
-                  {}};
+  ConvexPair pair{
+      random_convex(dice, kind_a, low, high), random_convex(dice, kind_b, low, high), {}};
   if (dice.chance(8)) pair.b.rotation = pair.a.rotation;
   const RealVec n = dice.direction();
-  const Real reach = reach_along(pair.a.points(), n) + reach_along(pair.b.points(), n * -1) +
-                     pair.radii();
+  const Real reach =
+      reach_along(pair.a.points(), n) + reach_along(pair.b.points(), n * -1) + pair.radii();
   const RealVec d = n * std::min<Real>(reach * dice.uniform(least, most), 1990);
-  pair.offset = metres(static_cast<double>(d.x), static_cast<double>(d.y),
-                       static_cast<double>(d.z));
+  pair.offset =
+      metres(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z));
   return pair;
 }
 
@@ -140,8 +140,8 @@ void for_convex_pairs(int rounds, Check check) {
   for (int kinds = 0; kinds < k_convex_kinds * k_convex_kinds; ++kinds) {
     for (int i = 0; i < rounds; ++i) {
       const auto& range = ranges[static_cast<std::size_t>(i) % ranges.size()];
-      ConvexPair pair = random_pair(dice, kinds / k_convex_kinds, kinds % k_convex_kinds, range[0],
-                                    range[1]);
+      ConvexPair pair =
+          random_pair(dice, kinds / k_convex_kinds, kinds % k_convex_kinds, range[0], range[1]);
       check(dice, pair);
       if (testing::Test::HasFailure()) {
         ADD_FAILURE() << describe(pair);

@@ -78,10 +78,12 @@ TEST(Distance, IsThatOfAllPairsOfFeatures) {
     const ClosestPoints found = distance_of(pair);
     Real truth = 0;
     if (is_primitive_pair(pair)) {
-      const Real known = signed_distance(Placed(pair.a.posed(), {}),
-                                         Placed(pair.b.posed(), real(pair.offset)));
+      const Real known =
+          signed_distance(Placed(pair.a.posed(), {}), Placed(pair.b.posed(), real(pair.offset)));
       truth = std::max(Real{0}, known);
-      if (std::fabs(known) > slack) EXPECT_EQ(found.overlapping, known < 0);
+      if (std::fabs(known) > slack) {
+        EXPECT_EQ(found.overlapping, known < 0);
+      }
     } else if (reals.a.size() <= 4 && reals.b.size() <= 4 && !found.cores_overlap) {
       truth = std::max(Real{0}, apart_simplices(reals.a, reals.b) - reals.radii);
     } else {

@@ -1,0 +1,100 @@
+#include "core/geometry/shape_cast.h"
+
+#include "core/geometry/contact_point.h"
+#include "core/geometry/epa.h"
+
+namespace lockstone {
+namespace geometry {
+namespace {
+
+constexpr int k_max_steps = 96;
+
+/// Fractions of the translation, 60 bits.
+using Fraction = std::int64_t;
+constexpr int k_fraction_bits = 60;
+constexpr Fraction k_whole = Fraction{1} << k_fraction_bits;
+
+/// The part of a translation, fine.
+Fine travelled(Length way, Fraction fraction) {
+  constexpr int shift = k_fraction_bits + Length::frac_bits - k_fine_bits;
+  return static_cast<Fine>(round_shift(multiply_wide(std::int64_t{way.raw}, fraction), shift).low);
+}
+
+RawVec travelled(const Vec3<Length>& way, Fraction fraction) {
+  return {travelled(way.x, fraction), travelled(way.y, fraction), travelled(way.z, fraction)};
+}
+
+/// How much nearer along the normal the whole translation brings B, with what the normal's rounding
+/// may hide.
+Fine approach(const Vec3<Length>& way, const Vec3<Unit>& normal) {
+  const Fine rounding = magnitude_of(way.x.raw) + magnitude_of(way.y.raw) + magnitude_of(way.z.raw);
+  return rounding - lockstone::dot(way, normal).raw;
+}
+
+/// distance / approach, rounded down; 1 and more give k_whole.
+Fraction quotient(Fine distance, Fine approach) {
+  if (distance >= approach) return k_whole;
+  const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(distance)} << k_fraction_bits;
+  return static_cast<Fraction>(divide(numerator, static_cast<std::uint64_t>(approach)).quotient);
+}
+
+/// The distance that each step leaves: half the resolution of a length and two lattice steps.
+Fine clearance(const GapQuery& query) {
+  return (Fine{1} << (k_fine_per_length - 1)) + (Fine{2} << query.lattice().shift);
+}
+
+ShapeCastHit hit_at(Fraction fraction, const CoreGap& gap, const GapQuery& query) {
+  ShapeCastHit hit;
+  hit.hit = true;
+  hit.fraction = {static_cast<std::int32_t>(fraction >> (k_fraction_bits - Unit::frac_bits))};
+  hit.normal = gap.normal;
+  const Witnesses surface =
+      inflate(gap.on_a, query.a().radius, gap.on_b, query.b().radius, gap.normal);
+  hit.point_a = to_length(surface.on_a);
+  hit.point_b = to_length(surface.on_b - query.fine_pair().offset);
+  return hit;
+}
+
+ShapeCastHit overlapping_hit(const CoreGap& gap, const GapQuery& query) {
+  ShapeCastHit hit = hit_at(0, gap, query);
+  hit.overlapping = true;
+  return hit;
+}
+
+ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec& start,
+                          const Vec3<Length>& way) {
+  GapQuery query(a, b);
+  if (!query.find(start)) return overlapping_hit(core_overlap(query).gap, query);
+  if (query.gap().distance <= query.radii()) return overlapping_hit(query.gap(), query);
+  Fraction fraction = 0;
+  // A plane separates the shapes up to `fraction`.
+  for (int step = 0; step < k_max_steps; ++step) {
+    const Fine apart = query.gap().distance - query.radii();
+    const Fine leave = clearance(query);
+    const Fine nearer = approach(way, query.gap().normal);
+    if (nearer <= 0) return {};
+    const Fraction advance = quotient(std::max(Fine{0}, apart - leave), nearer);
+    if (advance > k_whole - fraction) return {};
+    if (apart <= 2 * leave) break;
+    const ShapeCastHit here = hit_at(fraction, query.gap(), query);
+    fraction += advance;
+    if (!query.find(start + travelled(way, fraction))) return here;
+  }
+  return hit_at(fraction, query.gap(), query);
+}
+
+}  // namespace
+}  // namespace geometry
+
+ShapeCastHit cast_shape(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                        const Vec3<Length>& translation) {
+  using namespace geometry;
+  const RawVec start = fine(offset);
+  if (!is_exchanged(a, b, start)) return ordered_cast(a, b, start, translation);
+  ShapeCastHit hit = ordered_cast(b, a, -start, -translation);
+  hit.normal = -hit.normal;
+  std::swap(hit.point_a, hit.point_b);
+  return hit;
+}
+
+}  // namespace lockstone
