@@ -33,10 +33,12 @@ void BoundingVolumeTree::release(std::uint32_t node) {
   free_ = node;
 }
 
-std::uint32_t BoundingVolumeTree::insert(const Bounds& bounds, std::uint32_t body) {
+std::uint32_t BoundingVolumeTree::insert(const Bounds& bounds, const Layers& layers,
+                                         std::uint32_t body) {
   const std::uint32_t leaf = allocate();
   nodes_[leaf].bounds = bounds;
-  nodes_[leaf].body = body;
+  nodes_[leaf].layers = layers;
+  nodes_[leaf].child[1] = body;
   if (root_ == k_null) {
     root_ = leaf;
     return leaf;
@@ -52,6 +54,51 @@ std::uint32_t BoundingVolumeTree::insert(const Bounds& bounds, std::uint32_t bod
   replace_child(grandparent, sibling, parent);
   refit_upward(parent);
   return leaf;
+}
+
+BoundingVolumeTree::Item BoundingVolumeTree::make_leaf(const Bounds& bounds, const Layers& layers,
+                                                       std::uint32_t body) {
+  const std::uint32_t leaf = allocate();
+  nodes_[leaf].bounds = bounds;
+  nodes_[leaf].layers = layers;
+  nodes_[leaf].child[1] = body;
+  Item item;
+  for (int i = 0; i < 3; ++i)
+    item.middle[i].raw = bounds.lower[i].raw / 2 + bounds.upper[i].raw / 2;
+  item.leaf = leaf;
+  return item;
+}
+
+void BoundingVolumeTree::build(std::span<Item> items) {
+  root_ = items.empty() ? k_null : build_below(items);
+}
+
+// Halves by the median along the axis where the middles lie farthest apart.
+std::uint32_t BoundingVolumeTree::build_below(std::span<Item> items) {
+  if (items.size() == 1) return items.front().leaf;
+  Bounds spread{items.front().middle, items.front().middle};
+  for (const Item& item : items)
+    spread = united(spread, {item.middle, item.middle});
+  int axis = 0;
+  const auto length = [&](int i) {
+    return std::int64_t{spread.upper[i].raw} - spread.lower[i].raw;
+  };
+  for (int i = 1; i < 3; ++i) {
+    if (length(i) > length(axis)) axis = i;
+  }
+  const std::size_t half = items.size() / 2;
+  std::nth_element(
+      items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+      [axis](const Item& a, const Item& b) { return a.middle[axis] < b.middle[axis]; });
+  const std::uint32_t node = allocate();
+  const std::uint32_t children[] = {build_below(items.first(half)),
+                                    build_below(items.subspan(half))};
+  for (int side = 0; side < 2; ++side) {
+    nodes_[node].child[side] = children[side];
+    nodes_[children[side]].parent = node;
+  }
+  refit(node);
+  return node;
 }
 
 void BoundingVolumeTree::remove(std::uint32_t leaf) {
@@ -111,7 +158,8 @@ void BoundingVolumeTree::refit(std::uint32_t index) {
   const Node& a = nodes_[node.child[0]];
   const Node& b = nodes_[node.child[1]];
   node.bounds = united(a.bounds, b.bounds);
-  node.height = 1 + std::max(a.height, b.height);
+  node.layers = united(a.layers, b.layers);
+  node.height = static_cast<std::int16_t>(1 + std::max(a.height, b.height));
 }
 
 // An AVL-like rule: when one side is more than one level higher, its higher child changes places
@@ -154,6 +202,7 @@ bool BoundingVolumeTree::is_valid_below(std::uint32_t index) const {
   const Node& a = nodes_[node.child[0]];
   const Node& b = nodes_[node.child[1]];
   return a.parent == index && b.parent == index && node.bounds == united(a.bounds, b.bounds) &&
+         node.layers == united(a.layers, b.layers) &&
          node.height == 1 + std::max(a.height, b.height) && is_valid_below(node.child[0]) &&
          is_valid_below(node.child[1]);
 }

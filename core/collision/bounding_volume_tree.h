@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/collision/bounds.h"
+#include "core/collision/proxy.h"
 
 namespace lockstone {
 
@@ -19,12 +21,22 @@ class BoundingVolumeTree {
   void clear();
 
   /// Adds a leaf; answers the node that stands for it until `remove`.
-  std::uint32_t insert(const Bounds& bounds, std::uint32_t body);
+  std::uint32_t insert(const Bounds& bounds, const Layers& layers, std::uint32_t body);
   void remove(std::uint32_t leaf);
 
-  [[nodiscard]] const Bounds& bounds(std::uint32_t leaf) const { return nodes_[leaf].bounds; }
+  /// A leaf for `build`: `middle` is that of its bounds.
+  struct Item {
+    Vec3<BoundsCoordinate> middle;
+    std::uint32_t leaf = k_null;
+  };
 
-  /// Calls `visit(body)` for every leaf whose bounds pass `test(bounds)`, in no promised order.
+  /// Building at once, after `clear`: a leaf that no node holds yet, and all of them as one tree.
+  /// Changes the order of `items`.
+  [[nodiscard]] Item make_leaf(const Bounds& bounds, const Layers& layers, std::uint32_t body);
+  void build(std::span<Item> items);
+
+  /// Calls `visit(body)` for every leaf whose bounds and layers pass `test(bounds, layers)`, in no
+  /// promised order. What fails for a box must fail for all that it contains.
   template <class Test, class Visit>
   void traverse(Test&& test, Visit&& visit) const {
     std::uint32_t stack[k_stack_capacity];
@@ -32,9 +44,9 @@ class BoundingVolumeTree {
     if (root_ != k_null) stack[size++] = root_;
     while (size > 0) {
       const Node& node = nodes_[stack[--size]];
-      if (!test(node.bounds)) continue;
+      if (!test(node.bounds, node.layers)) continue;
       if (node.is_leaf()) {
-        visit(node.body);
+        visit(node.body());
         continue;
       }
       LKS_CHECK(size + 2 <= k_stack_capacity);
@@ -55,14 +67,16 @@ class BoundingVolumeTree {
 
   struct Node {
     Bounds bounds;
-    std::uint32_t parent = k_null;  // the next free node when this one is free
-    std::uint32_t child[2] = {k_null, k_null};
-    std::uint32_t body = 0;
-    std::int32_t height = 0;  // -1: free
+    Layers layers;
+    std::int16_t height = 0;                    // -1: free
+    std::uint32_t parent = k_null;              // the next free node when this one is free
+    std::uint32_t child[2] = {k_null, k_null};  // of a leaf: null and the body
 
     [[nodiscard]] bool is_leaf() const { return child[0] == k_null; }
+    [[nodiscard]] std::uint32_t body() const { return child[1]; }
   };
 
+  std::uint32_t build_below(std::span<Item> items);
   std::uint32_t allocate();
   void release(std::uint32_t node);
   [[nodiscard]] std::uint32_t best_sibling(const Bounds& bounds) const;

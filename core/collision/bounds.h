@@ -28,9 +28,13 @@ struct Bounds {
   return BoundsCoordinate::from_raw(raw::saturate<std::int32_t>(-((-x.raw) >> 22)));
 }
 
+// Without a branch: which comparison fails cannot be foretold.
 [[nodiscard]] constexpr bool overlap(const Bounds& a, const Bounds& b) {
-  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
-         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+  int all = 1;
+  for (int i = 0; i < 3; ++i) {
+    all &= static_cast<int>(a.lower[i] <= b.upper[i]) & static_cast<int>(b.lower[i] <= a.upper[i]);
+  }
+  return all != 0;
 }
 
 [[nodiscard]] constexpr bool contains(const Bounds& outer, const Bounds& inner) {

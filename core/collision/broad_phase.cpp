@@ -5,54 +5,200 @@
 namespace lockstone {
 namespace {
 
-// How far a moving body may go before its leaf is put anew.
+// How far a body may go before its fat box is put anew: an eighth of a metre on every side, and
+// ahead as far as it goes in the next ticks at its present speed, but no farther than it is long.
 constexpr BoundsCoordinate k_fat_margin = BoundsCoordinate::from_ratio(1, 8);
+constexpr std::int64_t k_ticks_ahead = 8;
+
+// Candidates for each pair that the world has room for.
+constexpr std::size_t k_candidates_per_pair = 2;
+
+// How long nothing but full searches are made once the candidates did not fit.
+constexpr std::uint32_t k_pause_ticks = 64;
+
+BoundsCoordinate plus(BoundsCoordinate x, std::int64_t distance) {
+  return BoundsCoordinate::from_raw(raw::saturate<std::int32_t>(std::int64_t{x.raw} + distance));
+}
+
+std::int64_t length(BoundsCoordinate low, BoundsCoordinate high) {
+  return std::int64_t{high.raw} - low.raw;
+}
+
+Bounds fattened(const Bounds& before, const Bounds& now) {
+  Bounds fat = inflated(now, k_fat_margin);
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t limit = length(now.lower[i], now.upper[i]);
+    const std::int64_t ahead = k_ticks_ahead * length(before.lower[i], now.lower[i]);
+    if (ahead > 0) fat.upper[i] = plus(fat.upper[i], std::min(ahead, limit));
+    if (ahead < 0) fat.lower[i] = plus(fat.lower[i], std::max(ahead, -limit));
+  }
+  return fat;
+}
+
+// A body that was fast and is slow has a fat box that meets too many.
+bool is_too_fat(const Bounds& fat, const Bounds& before, const Bounds& now) {
+  bool too_fat = false;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t step = length(before.lower[i], now.lower[i]);
+    const std::int64_t spare =
+        length(fat.lower[i], fat.upper[i]) - length(now.lower[i], now.upper[i]);
+    too_fat |= spare > 4 * k_fat_margin.raw + 2 * k_ticks_ahead * (step < 0 ? -step : step);
+  }
+  return too_fat;
+}
+
+std::variant<TreeSearch, SweepAndPrune> make_search(BroadPhaseKind kind, std::uint32_t capacity) {
+  if (kind == BroadPhaseKind::sweep_and_prune) return SweepAndPrune(capacity);
+  return TreeSearch(capacity);
+}
 
 }  // namespace
 
-BroadPhase::BroadPhase(std::uint32_t body_capacity, std::uint32_t pair_capacity)
-    : static_tree_(body_capacity),
-      moving_tree_(body_capacity),
+BroadPhase::BroadPhase(BroadPhaseKind kind, std::uint32_t body_capacity,
+                       std::uint32_t pair_capacity)
+    : search_(make_search(kind, body_capacity)),
+      bounds_(body_capacity),
       proxies_(body_capacity),
-      pair_capacity_(pair_capacity) {
-  partners_.reserve(body_capacity);
-  pairs_.reserve(pair_capacity);
+      is_touched_(body_capacity),
+      candidates_(body_capacity, k_candidates_per_pair * pair_capacity),
+      pairs_(pair_capacity) {
+  touched_.reserve(body_capacity);
 }
 
 void BroadPhase::clear() {
-  static_tree_.clear();
-  moving_tree_.clear();
+  std::visit([](auto& search) { search.clear(); }, search_);
   std::fill(proxies_.begin(), proxies_.end(), Proxy{});
+  release_touched();
+  body_limit_ = 0;
+  has_candidates_ = false;
+  ticks_without_candidates_ = 0;
+  changed_ = true;
 }
 
-void BroadPhase::set_bounds(std::uint32_t body, const Bounds& bounds, bool moves) {
+void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits& traits) {
   Proxy& proxy = proxies_[body];
-  proxy.bounds = bounds;
-  if (proxy.leaf != k_absent && proxy.moves == moves &&
-      contains(tree(moves).bounds(proxy.leaf), bounds)) {
-    return;
+  if (proxy.present && proxy.traits == traits) {
+    if (bounds_[body] == bounds) return;
+    const Bounds before = bounds_[body];
+    bounds_[body] = bounds;
+    changed_ = true;
+    if (contains(proxy.fat, bounds) && !is_too_fat(proxy.fat, before, bounds)) return;
+    proxy.fat = traits.moves ? fattened(before, bounds) : bounds;
+  } else {
+    bounds_[body] = bounds;
+    proxy = {inflated(bounds, traits.moves ? k_fat_margin : BoundsCoordinate{}), traits, true};
+    body_limit_ = std::max(body_limit_, body + 1);
   }
-  if (proxy.leaf != k_absent) tree(proxy.moves).remove(proxy.leaf);
-  proxy.moves = moves;
-  proxy.leaf = tree(moves).insert(moves ? inflated(bounds, k_fat_margin) : bounds, body);
+  touch(body);
+  std::visit([&](auto& search) { search.put(body); }, search_);
 }
 
 void BroadPhase::remove(std::uint32_t body) {
-  Proxy& proxy = proxies_[body];
-  if (proxy.leaf == k_absent) return;
-  tree(proxy.moves).remove(proxy.leaf);
-  proxy = Proxy{};
+  if (!has(body)) return;
+  proxies_[body] = {};
+  touch(body);
+  std::visit([&](auto& search) { search.remove(body); }, search_);
 }
 
-void BroadPhase::append_sorted(std::uint32_t body) {
-  std::sort(partners_.begin(), partners_.end());
-  for (const std::uint32_t other : partners_) {
-    if (pairs_.size() == pair_capacity_) {
-      overflowed_ = true;
-      return;
-    }
-    pairs_.push_back({body, other});
+void BroadPhase::touch(std::uint32_t body) {
+  changed_ = true;
+  if (is_touched_[body] != 0) return;
+  is_touched_[body] = 1;
+  touched_.push_back(body);
+}
+
+void BroadPhase::touch_all() {
+  for (std::uint32_t body = 0; body < body_limit_; ++body)
+    touch(body);
+}
+
+void BroadPhase::release_touched() {
+  for (const std::uint32_t body : touched_)
+    is_touched_[body] = 0;
+  touched_.clear();
+}
+
+std::span<const Pair> BroadPhase::find_pairs() {
+  effort_ = {};
+  if (!changed_) return pairs_.pairs();
+  settle();
+  if (auto* sweep = std::get_if<SweepAndPrune>(&search_)) {
+    sweep->refresh(touched_, proxies_, is_touched_);
   }
+  pairs_.clear();
+  if (update_candidates()) {
+    refine_candidates();
+  } else {
+    search_all();
+  }
+  release_touched();
+  changed_ = false;
+  return pairs_.pairs();
+}
+
+// Calls `emit(pair)` for what may meet and overlaps in fat boxes, if one of the two is touched.
+template <class Emit>
+bool BroadPhase::search(Emit&& emit) {
+  effort_.searched = static_cast<std::uint32_t>(touched_.size());
+  const auto keep = [&](std::uint32_t one, std::uint32_t other) {
+    const ProxyTraits& traits = proxies_[one].traits;
+    const ProxyTraits& others = proxies_[other].traits;
+    if (!can_meet(traits, others)) return true;
+    const bool in_order = traits.moves && (!others.moves || one < other);
+    return emit(in_order ? Pair{one, other} : Pair{other, one});
+  };
+  const auto run = [&](auto& search) {
+    return search.search(touched_, proxies_, is_touched_, keep);
+  };
+  return std::visit(run, search_);
+}
+
+void BroadPhase::settle() {
+  const auto proxies = std::span<const Proxy>(proxies_).first(body_limit_);
+  if (auto* trees = std::get_if<TreeSearch>(&search_)) trees->refresh(proxies);
+}
+
+// Answers whether the candidates are all there.
+bool BroadPhase::update_candidates() {
+  if (ticks_without_candidates_ > 0) {
+    --ticks_without_candidates_;
+    return false;
+  }
+  if (!has_candidates_) {
+    candidates_.clear();
+    touch_all();
+  }
+  if (touched_.empty()) return true;
+  has_candidates_ = search([&](const Pair& pair) { return candidates_.add(pair); }) &&
+                    candidates_.merge(std::span(is_touched_).first(body_limit_));
+  if (!has_candidates_) ticks_without_candidates_ = k_pause_ticks;
+  return has_candidates_;
+}
+
+void BroadPhase::refine_candidates() {
+  candidates_.for_each([&](std::uint32_t body, std::span<const std::uint32_t> partners) {
+    const Bounds bounds = bounds_[body];
+    for (const std::uint32_t partner : partners) {
+      if (overlap(bounds, bounds_[partner]) && !pairs_.append({body, partner})) return;
+    }
+  });
+}
+
+void BroadPhase::search_all() {
+  effort_.searched_all = true;
+  touch_all();
+  (void)search([&](const Pair& pair) {
+    if (overlap(bounds_[pair.a], bounds_[pair.b])) pairs_.offer(pair);
+    return true;
+  });
+  pairs_.sort();
+}
+
+bool BroadPhase::is_valid() const {
+  for (std::uint32_t body = 0; body < body_limit_; ++body) {
+    if (has(body) && !contains(proxies_[body].fat, bounds_[body])) return false;
+  }
+  return std::visit([](const auto& search) { return search.is_valid(); }, search_);
 }
 
 }  // namespace lockstone

@@ -1,98 +1,106 @@
-// Finds the pairs of bodies whose bounds overlap.
+// Finds the pairs of bodies whose bounds overlap and that may meet.
 //
-// The pair set is a function of the tight bounds alone. Trees hold fattened boxes only so that a
-// body that moves a little need not be moved in its tree.
+// The pair set is a function of the tight bounds and the traits of the bodies alone. All else is
+// derived: each body has a fat box around its bounds; the pairs whose fat boxes overlap are kept as
+// candidates, and only a body that left its fat box is searched for anew (the move buffer of
+// E. Catto, Box2D and Box3D). What a tick pays when no body does is one test for each candidate,
+// and nothing at all when no bounds changed.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
-#include "core/collision/bounding_volume_tree.h"
+#include <lockstone/collision.h>
+
 #include "core/collision/bounds.h"
+#include "core/collision/candidate_pairs.h"
+#include "core/collision/pair_list.h"
+#include "core/collision/proxy.h"
+#include "core/collision/sweep_and_prune.h"
+#include "core/collision/tree_search.h"
 
 namespace lockstone {
 
-/// Two bodies whose bounds overlap. `a` can move; `b` is static, or can move and has the higher
-/// index.
-struct Pair {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-
-  friend constexpr auto operator<=>(const Pair&, const Pair&) = default;
-};
-
 class BroadPhase {
  public:
-  BroadPhase(std::uint32_t body_capacity, std::uint32_t pair_capacity);
+  BroadPhase(BroadPhaseKind kind, std::uint32_t body_capacity, std::uint32_t pair_capacity);
 
   /// Forgets all bodies.
   void clear();
 
-  /// Sets a body's tight bounds, adding the body if it is new. `moves`: kinematic or dynamic.
-  void set_bounds(std::uint32_t body, const Bounds& bounds, bool moves);
+  /// Sets a body's tight bounds and traits, adding the body if it is new.
+  void set(std::uint32_t body, const Bounds& bounds, const ProxyTraits& traits);
   void remove(std::uint32_t body);
 
-  [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].leaf != k_absent; }
-  [[nodiscard]] const Bounds& bounds(std::uint32_t body) const { return proxies_[body].bounds; }
+  [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].present; }
+  [[nodiscard]] const Bounds& bounds(std::uint32_t body) const { return bounds_[body]; }
 
-  /// All overlapping pairs of bodies below `body_limit` for which `accept(a, b)` holds, sorted.
-  /// When they exceed the capacity, the first ones in that order, and `overflowed` is true.
-  template <class Accept>
-  std::span<const Pair> find_pairs(std::uint32_t body_limit, Accept&& accept) {
-    pairs_.clear();
-    overflowed_ = false;
-    for (std::uint32_t body = 0; body < body_limit && !overflowed_; ++body) {
-      if (has(body) && proxies_[body].moves) find_pairs_of(body, accept);
-    }
-    return pairs_;
-  }
+  /// Prepares for queries; without it they are right, but slower after many changes. Does nothing
+  /// that `find_pairs` would not do.
+  void settle();
 
-  [[nodiscard]] bool overflowed() const { return overflowed_; }
+  /// All pairs whose bounds overlap and for which `can_meet` holds, sorted. When they exceed the
+  /// capacity, the first ones in that order, and `overflowed` is true. Valid until the next call.
+  std::span<const Pair> find_pairs();
 
-  /// Calls `visit(body)` for every body whose fattened bounds pass `test(bounds)`.
+  [[nodiscard]] bool overflowed() const { return pairs_.overflowed(); }
+
+  /// Calls `visit(body)` for every body whose category is in `mask` and whose bounds pass
+  /// `test(bounds)`, in no promised order. What fails for a box must fail for all that it contains.
   template <class Test, class Visit>
-  void traverse(Test&& test, Visit&& visit) const {
-    static_tree_.traverse(test, visit);
-    moving_tree_.traverse(test, visit);
+  void traverse(std::uint32_t mask, Test&& test, Visit&& visit) const {
+    const auto look = [&](std::uint32_t body) {
+      const Proxy& proxy = proxies_[body];
+      if (proxy.present && (proxy.traits.filter.category & mask) != 0 && test(bounds_[body])) {
+        visit(body);
+      }
+    };
+    if (const auto* trees = std::get_if<TreeSearch>(&search_)) {
+      trees->traverse(mask, test, look);
+      return;
+    }
+    // The sorted list is in order only after a search for pairs, and along one axis a query would
+    // still pass half of it: looking at all costs little more and leaves nothing to keep up.
+    for (std::uint32_t body = 0; body < body_limit_; ++body)
+      look(body);
   }
 
-  [[nodiscard]] bool is_valid() const { return static_tree_.is_valid() && moving_tree_.is_valid(); }
+  /// Counts of the last `find_pairs`, for tests and measurements: bodies searched for anew, and
+  /// whether the candidates had no room, so that everything was searched.
+  struct Effort {
+    std::uint32_t searched = 0;
+    bool searched_all = false;
+  };
+  [[nodiscard]] const Effort& effort() const { return effort_; }
+
+  [[nodiscard]] bool is_valid() const;
 
  private:
-  static constexpr std::uint32_t k_absent = BoundingVolumeTree::k_null;
+  void touch(std::uint32_t body);
+  void touch_all();
+  void release_touched();
+  bool update_candidates();
+  void refine_candidates();
+  void search_all();
+  template <class Emit>
+  bool search(Emit&& emit);
 
-  struct Proxy {
-    Bounds bounds;
-    std::uint32_t leaf = k_absent;
-    bool moves = false;
-  };
+  std::variant<TreeSearch, SweepAndPrune> search_;
+  std::vector<Bounds> bounds_;  // tight, by body index
+  std::vector<Proxy> proxies_;  // by body index
+  std::uint32_t body_limit_ = 0;
 
-  template <class Accept>
-  void find_pairs_of(std::uint32_t body, Accept&& accept) {
-    const Bounds& bounds = proxies_[body].bounds;
-    partners_.clear();
-    const auto test = [&](const Bounds& other) { return overlap(bounds, other); };
-    const auto keep = [&](std::uint32_t other) {
-      const Proxy& proxy = proxies_[other];
-      const bool mine = !proxy.moves || other > body;
-      if (mine && overlap(bounds, proxy.bounds) && accept(body, other)) partners_.push_back(other);
-    };
-    traverse(test, keep);
-    append_sorted(body);
-  }
+  std::vector<std::uint32_t> touched_;    // since the last find_pairs: new, gone, changed, or out
+  std::vector<std::uint8_t> is_touched_;  // by body
+  bool changed_ = false;                  // anything at all since then
 
-  void append_sorted(std::uint32_t body);
-
-  [[nodiscard]] BoundingVolumeTree& tree(bool moves) { return moves ? moving_tree_ : static_tree_; }
-
-  BoundingVolumeTree static_tree_;
-  BoundingVolumeTree moving_tree_;
-  std::vector<Proxy> proxies_;           // by body index
-  std::vector<std::uint32_t> partners_;  // of the body at hand; capacity: all bodies
-  std::vector<Pair> pairs_;
-  std::size_t pair_capacity_;
-  bool overflowed_ = false;
+  CandidatePairs candidates_;
+  std::uint32_t ticks_without_candidates_ = 0;  // to come
+  bool has_candidates_ = false;
+  PairList pairs_;
+  Effort effort_;
 };
 
 }  // namespace lockstone

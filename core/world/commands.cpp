@@ -305,6 +305,7 @@ Status World::Impl::execute(const SetFilter& command) {
   record->category = command.filter.category;
   record->mask = command.filter.mask;
   record->group = command.filter.group;
+  refresh(command.body.index);
   return Status::ok;
 }
 

@@ -9,10 +9,10 @@
 namespace lockstone {
 namespace {
 
+// The mask is the broad phase's to check.
 bool is_seen(const BodyRecord& body, std::uint32_t index, const QueryFilter& filter) {
   const BodyHandle handle{index, body.generation};
-  return handle != filter.ignore && (body.category & filter.mask) != 0 &&
-         (filter.triggers || !body.is_trigger()) &&
+  return handle != filter.ignore && (filter.triggers || !body.is_trigger()) &&
          (filter.accept == nullptr || filter.accept(filter.context, handle));
 }
 
@@ -61,7 +61,7 @@ void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, con
                  hit.part});
     if (limit != before) probe.shorten(limit);
   };
-  world.broad_phase.traverse(test, visit);
+  world.broad_phase.traverse(filter.mask, test, visit);
 }
 
 constexpr Unit k_whole_way = Unit::from_integer(1);
@@ -121,7 +121,7 @@ std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,
     if (!is_seen(body, index, filter) || !bodies_overlap(probe, world.placed(index))) return;
     insert_sorted(handle, out, count, std::less<>());
   };
-  world.broad_phase.traverse(test, visit);
+  world.broad_phase.traverse(filter.mask, test, visit);
   return count;
 }
 

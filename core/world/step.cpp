@@ -54,7 +54,8 @@ void World::Impl::refresh_bounds(std::uint32_t body) {
     bounds.lower[i] = round_down(box.lower[i] - margin + min(swept, Position{}));
     bounds.upper[i] = round_up(box.upper[i] + margin + max(swept, Position{}));
   }
-  broad_phase.set_bounds(body, bounds, record.moves());
+  broad_phase.set(body, bounds,
+                  {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger()});
 }
 
 StepReport World::Impl::step() {
@@ -72,15 +73,7 @@ StepReport World::Impl::step() {
 }
 
 void World::Impl::find_pairs(StepReport& report) {
-  const auto accept = [this](std::uint32_t i, std::uint32_t j) {
-    const BodyRecord& a = bodies[i];
-    const BodyRecord& b = bodies[j];
-    const bool can_push = a.is_dynamic() || b.is_dynamic();
-    const bool senses = a.is_trigger() != b.is_trigger();
-    return (can_push || senses) && !(a.is_trigger() && b.is_trigger()) &&
-           should_collide(a.filter(), b.filter());
-  };
-  pairs = broad_phase.find_pairs(header.body_limit, accept);
+  pairs = broad_phase.find_pairs();
   report.pairs = static_cast<std::uint32_t>(pairs.size());
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
 }
@@ -253,6 +246,7 @@ void World::Impl::refresh_moved() {
   lanes::compute_rotations(orientations, moved, rotations.data());
   for (const std::uint32_t body : moved)
     refresh_bounds(body);
+  broad_phase.settle();
 }
 
 void World::Impl::move_body(std::uint32_t body, StepReport& report) {

@@ -20,7 +20,8 @@ constexpr bool within(std::uint32_t value, std::uint32_t low, std::uint32_t high
 bool is_valid(const WorldDef& def) {
   return within(def.body_capacity, 1, 1U << 20) && within(def.pair_capacity, 1, 1U << 24) &&
          within(def.contact_capacity, 1, 1U << 24) && within(def.tick_rate, 10, 480) &&
-         within(def.substeps, 1, 16) && is_valid_gravity(def.gravity);
+         within(def.substeps, 1, 16) && is_valid_gravity(def.gravity) &&
+         def.broad_phase <= BroadPhaseKind::sweep_and_prune;
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       rotations(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
-      broad_phase(definition.body_capacity, definition.pair_capacity),
+      broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
       solver_index(definition.body_capacity) {
   header.gravity = definition.gravity;
   events.reserve(std::size_t{2} * definition.contact_capacity);
@@ -88,6 +89,7 @@ void World::Impl::rebuild_derived() {
     body_assets[i] = assets->find(bodies[i].asset);
     refresh(i);
   }
+  broad_phase.settle();
 }
 
 PlacedShape World::Impl::placed(std::uint32_t body) const {

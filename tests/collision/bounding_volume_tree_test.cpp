@@ -22,7 +22,7 @@ Bounds random_bounds(test::Random& random, std::int64_t spread, std::int64_t siz
 
 std::vector<std::uint32_t> bodies_in(const BoundingVolumeTree& tree, const Bounds& area) {
   std::vector<std::uint32_t> found;
-  tree.traverse([&](const Bounds& b) { return overlap(area, b); },
+  tree.traverse([&](const Bounds& b, const Layers&) { return overlap(area, b); },
                 [&](std::uint32_t body) { found.push_back(body); });
   std::sort(found.begin(), found.end());
   return found;
@@ -47,7 +47,7 @@ TEST(BoundingVolumeTree, FindsWhatAFullSearchFindsWhileLeavesComeAndGo) {
       leaf[body] = BoundingVolumeTree::k_null;
     } else {
       bounds[body] = random_bounds(random, 20000, 3000);
-      leaf[body] = tree.insert(bounds[body], body);
+      leaf[body] = tree.insert(bounds[body], {}, body);
     }
     if (round % 50 != 0) continue;
     ASSERT_TRUE(tree.is_valid());
@@ -66,7 +66,7 @@ TEST(BoundingVolumeTree, StaysFlatWhenLeavesComeInSortedOrder) {
     Bounds bounds;
     bounds.lower.x.raw = i * 2000;
     bounds.upper.x.raw = i * 2000 + 1000;
-    tree.insert(bounds, static_cast<std::uint32_t>(i));
+    tree.insert(bounds, {}, static_cast<std::uint32_t>(i));
   }
   EXPECT_TRUE(tree.is_valid());
   EXPECT_LE(tree.height(), 30);
@@ -81,7 +81,7 @@ TEST(BoundingVolumeTree, TakesBoxesAtTheEdgeOfItsRange) {
       bounds.lower = {BoundsCoordinate::min(), BoundsCoordinate::min(), BoundsCoordinate::min()};
       bounds.upper = {BoundsCoordinate::max(), BoundsCoordinate::max(), BoundsCoordinate::max()};
     }
-    tree.insert(bounds, i);
+    tree.insert(bounds, {}, i);
   }
   EXPECT_TRUE(tree.is_valid());
 }

@@ -17,7 +17,7 @@ PUBLIC_ROOMS = {
     "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h"],
     "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "mesh.h", "shape.h"],
-    "collision": [],
+    "collision": ["collision.h"],
     "dynamics": ["body.h", "joint.h", "material.h"],
     "world": ["command.h", "event.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
 }

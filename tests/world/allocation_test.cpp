@@ -32,8 +32,11 @@ namespace {
 
 using namespace literals;
 
-TEST(World, AllocatesNothingAfterCreation) {
-  World world = test::make_world();
+void expect_no_allocation(BroadPhaseKind broad_phase) {
+  World world = test::make_world({.body_capacity = 512,
+                                  .pair_capacity = 8192,
+                                  .contact_capacity = 4096,
+                                  .broad_phase = broad_phase});
   test::fill_with_random_bodies(world, 1, 150);
   std::vector<std::byte> native(world.snapshot_bytes_max(SnapshotKind::native));
   std::vector<std::byte> canonical(world.snapshot_bytes_max(SnapshotKind::canonical));
@@ -53,6 +56,11 @@ TEST(World, AllocatesNothingAfterCreation) {
     ASSERT_EQ(world.apply(DestroyBody{extra}), Status::ok);
   }
   EXPECT_EQ(g_allocations, before);
+}
+
+TEST(World, AllocatesNothingAfterCreation) {
+  expect_no_allocation(BroadPhaseKind::tree);
+  expect_no_allocation(BroadPhaseKind::sweep_and_prune);
 }
 
 TEST(AllocationCounter, CountsAnAllocation) {

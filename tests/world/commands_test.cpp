@@ -162,6 +162,12 @@ TEST(WorldDef, IsCheckedAndHashed) {
   WorldDef changed;
   changed.substeps = 8;
   EXPECT_NE(config_hash(changed), config_hash({}));
+  EXPECT_EQ(World::create({.broad_phase = static_cast<BroadPhaseKind>(2)}).status(),
+            Status::invalid_argument);
+}
+
+TEST(WorldDef, LeavesTheBroadPhaseToEachPeer) {
+  EXPECT_EQ(config_hash({.broad_phase = BroadPhaseKind::sweep_and_prune}), config_hash({}));
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
@@ -78,6 +80,52 @@ TEST(OverlapSphere, GivesTheLowestIndicesInOrder) {
   EXPECT_EQ(few[2], balls[2]);
   std::array<BodyHandle, 16> many{};
   EXPECT_EQ(world.overlap_sphere({}, 4.2_m, many), 5U);  // centres to 4.7 m
+}
+
+// A mixed world after some steps and some commands since.
+World world_in_motion(BroadPhaseKind broad_phase) {
+  World world = test::make_world({.body_capacity = 512,
+                                  .pair_capacity = 8192,
+                                  .contact_capacity = 4096,
+                                  .broad_phase = broad_phase});
+  test::Random random;
+  test::fill_with_random_bodies(world, random.next(), 100);
+  test::step(world, 30);
+  for (std::uint32_t index = 1; index < 60; ++index) {
+    const BodyHandle body = world.body_at(index);
+    const auto category = 1U << random.between(0, 3);
+    EXPECT_EQ(world.apply(SetFilter{body, {.category = category}}), Status::ok);
+    if (index % 3 != 0) continue;
+    const Position x = Position::from_ratio(random.between(-400, 400), 100);
+    EXPECT_EQ(world.apply(Teleport{body, {x, 1_m, {}}, {}}), Status::ok);
+    if (index % 2 != 0) continue;
+    EXPECT_EQ(world.apply(DestroyBody{body}), Status::ok);
+  }
+  return world;
+}
+
+TEST(Queries, AnswerTheSameFromBothBroadPhases) {
+  const World tree = world_in_motion(BroadPhaseKind::tree);
+  const World sweep = world_in_motion(BroadPhaseKind::sweep_and_prune);
+  test::Random random;
+  int hits = 0;
+  for (int round = 0; round < 500; ++round) {
+    const auto place = [&] { return Position::from_ratio(random.between(-500, 500), 100); };
+    const auto reach = [&] { return Length::from_ratio(random.between(-800, 800), 100); };
+    const QueryFilter filter{.mask = static_cast<std::uint32_t>(random.between(0, 15))};
+    const Position x = place(), y = place(), z = place();
+    const Length u = reach(), v = reach(), w = reach();
+    const RayHit one = tree.cast_ray({x, y, z}, {u, v, w}, filter);
+    const RayHit other = sweep.cast_ray({x, y, z}, {u, v, w}, filter);
+    ASSERT_EQ(one.body, other.body);
+    ASSERT_EQ(one.fraction, other.fraction);
+    hits += one.body.is_null() ? 0 : 1;
+    std::array<BodyHandle, 5> found{}, others{};
+    ASSERT_EQ(tree.overlap_sphere({x, y, z}, 2_m, found, filter),
+              sweep.overlap_sphere({x, y, z}, 2_m, others, filter));
+    ASSERT_EQ(found, others);
+  }
+  EXPECT_GT(hits, 0);
 }
 
 }  // namespace

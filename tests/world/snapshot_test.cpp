@@ -20,8 +20,11 @@ namespace {
 
 using namespace literals;
 
-World busy_world(std::uint64_t seed) {
-  World world = test::make_world();
+World busy_world(std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree) {
+  World world = test::make_world({.body_capacity = 512,
+                                  .pair_capacity = 8192,
+                                  .contact_capacity = 4096,
+                                  .broad_phase = broad_phase});
   test::fill_with_random_bodies(world, seed, 80);
   test::step(world, 90);
   return world;
@@ -56,9 +59,11 @@ TEST(Snapshot, SavingAndLoadingEveryTickChangesNothing) {
   }
 }
 
-TEST(DropDerived, EveryTickChangesNothing) {
+class DropDerived : public testing::TestWithParam<BroadPhaseKind> {};
+
+TEST_P(DropDerived, EveryTickChangesNothing) {
   World plain = busy_world(test::run_seed() + 2);
-  World heavy = busy_world(test::run_seed() + 2);
+  World heavy = busy_world(test::run_seed() + 2, GetParam());
   for (int tick = 0; tick < 120; ++tick) {
     heavy.drop_derived();
     (void)heavy.step();
@@ -66,6 +71,9 @@ TEST(DropDerived, EveryTickChangesNothing) {
     ASSERT_EQ(heavy.hash().total, plain.hash().total) << "tick " << tick;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(BroadPhases, DropDerived,
+                         testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune));
 
 TEST(Snapshot, LoadOverwritesAWorldThatHadMoreBodies) {
   World small = test::make_world();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <lockstone/collision.h>
 #include <lockstone/quat.h>
 #include <lockstone/shape.h>
 #include <lockstone/units.h>
@@ -38,21 +39,6 @@ struct Material {
   Coefficient restitution{};                             ///< 0 … 1; pairs use the larger
   Density density = Density::from_integer(1000);         ///< > 0
 };
-
-/// Which bodies meet. With an equal non-zero group the sign decides: positive always, negative
-/// never. Else both must find the other's category in their mask.
-struct CollisionFilter {
-  std::uint32_t category = 1;
-  std::uint32_t mask = 0xffffffff;
-  std::int32_t group = 0;
-
-  friend constexpr bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
-};
-
-[[nodiscard]] constexpr bool should_collide(const CollisionFilter& a, const CollisionFilter& b) {
-  if (a.group != 0 && a.group == b.group) return a.group > 0;
-  return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
-}
 
 /// A body to be made. Position and orientation place the frame of its shape; velocities are those
 /// of the centre of mass, which of sphere, capsule and box is the same point.

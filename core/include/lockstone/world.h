@@ -13,6 +13,7 @@
 #include <lockstone/asset.h>
 #include <lockstone/body.h>
 #include <lockstone/bytes.h>
+#include <lockstone/collision.h>
 #include <lockstone/command.h>
 #include <lockstone/event.h>
 #include <lockstone/query.h>
@@ -32,12 +33,13 @@ struct WorldDef {
   std::uint32_t contact_capacity = 8192;  ///< touching pairs, 1 … 2^24
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
+  BroadPhaseKind broad_phase{};           ///< changes no result, so peers may differ in it
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };
 
-/// A hash over everything in `def` and the set of assets (`AssetSet::hash`, 0 for none): peers
+/// A hash over everything in `def` that can change a result, and the set of assets (`AssetSet::hash`, 0 for none): peers
 /// compare it before they play.
 [[nodiscard]] std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets = 0);
 

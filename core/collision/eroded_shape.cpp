@@ -1,0 +1,53 @@
+#include "core/collision/eroded_shape.h"
+
+#include <algorithm>
+
+#include "core/geometry/shape_properties.h"
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace {
+
+// The least distance of the interior point from a face.
+Length inner_radius_of(const geometry::Polytope& polytope) {
+  std::int64_t least = geometry::fine(k_max_shape_size);
+  for (const geometry::PolytopeFace& face : polytope.faces)
+    least = std::min(least, face.offset - dot(face.normal, polytope.interior).raw);
+  return {
+      static_cast<std::int32_t>(std::max<std::int64_t>(least, 0) >> geometry::k_fine_per_length)};
+}
+
+}  // namespace
+
+Length erosion_depth(const Piece& piece) {
+  const Length inner =
+      piece.polytope != nullptr ? inner_radius_of(*piece.polytope) : inner_radius(piece.shape);
+  return inner / 2;
+}
+
+ErodedShape::ErodedShape(const Piece& piece) : shape(piece.shape), depth(erosion_depth(piece)) {
+  if (piece.polytope != nullptr) return erode_vertices(*piece.polytope);
+  const int axes = shape.kind == ShapeKind::box ? 3 : 1;  // the radius is in x
+  for (int i = 0; i < axes; ++i)
+    shape.size[i] -= depth;
+}
+
+void ErodedShape::erode_vertices(const geometry::Polytope& full) {
+  std::array<geometry::RawVec, geometry::k_max_polytope_vertices> normals{};
+  for (const geometry::HalfEdge& edge : full.edges) {
+    const Vec3<Unit>& n = full.faces[edge.face].normal;
+    geometry::RawVec& sum = normals[edge.origin];
+    sum = sum + geometry::RawVec{n.x.raw, n.y.raw, n.z.raw};
+  }
+  for (std::size_t i = 0; i < full.vertices.size(); ++i) {
+    const geometry::RawVec& n = normals[i];
+    const Vec3<Unit> outward = direction_of(n.x, n.y, n.z);
+    for (int axis = 0; axis < 3; ++axis)
+      vertices_[i][axis] = full.vertices[i][axis] - rounded<Length>(outward[axis] * depth);
+  }
+  polytope = full;
+  polytope.vertices = std::span(vertices_).first(full.vertices.size());
+  is_polytope = true;
+}
+
+}  // namespace lockstone

@@ -1,0 +1,46 @@
+// When a body in motion first runs into another: continuous collision of two bodies.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/asset.h>
+#include <lockstone/quat.h>
+#include <lockstone/shape.h>
+
+#include "core/collision/placed_shape.h"
+#include "core/math/trig.h"
+
+namespace lockstone {
+
+/// A motion of a body over some interval: its centre of mass goes evenly along a line while it
+/// turns evenly about it.
+struct BodyMotion {
+  Vec3<Position> centre{};
+  Quat orientation{};  ///< of the principal axes
+  Vec3<Position> translation{};
+  RotationVector rotation{};  ///< world axes
+};
+
+struct MovingShape {
+  const Shape& shape;
+  const Asset* asset;
+  const BodyMotion& motion;
+};
+
+struct Impact {
+  bool hit = false;
+  Unit fraction{};  ///< of the interval; the shapes are then about k_impact_gap apart
+  std::uint32_t part_a = 0;
+  std::uint32_t part_b = 0;
+};
+
+/// The gap that is left at an impact, or a part of the thickness of what is thinner.
+inline constexpr Length k_impact_gap = Length::from_ratio(1, 2000);
+
+/// The first moment at which A would run into B by more than half of A's thickness. What touches or
+/// overlaps at the beginning and only slides along, or sinks in less than that, is no impact: that
+/// is the contact solver's. Of a mesh only the fronts are met. Every part of B near A's way is
+/// tried; ties go to the lower parts.
+[[nodiscard]] Impact first_impact(const MovingShape& a, const MovingShape& b);
+
+}  // namespace lockstone

@@ -1,0 +1,91 @@
+#include "core/collision/tree_search.h"
+
+#include <algorithm>
+
+namespace lockstone {
+namespace {
+
+// A tree is built anew when more than this part of its leaves changes at once.
+constexpr std::uint32_t k_rebuilt_part = 4;
+
+}  // namespace
+
+void TreeSearch::clear() {
+  for (int i = 0; i < 2; ++i) {
+    trees_[i].clear();
+    leaves_[i] = 0;
+  }
+  std::fill(places_.begin(), places_.end(), Place{});
+  waiting_.clear();
+}
+
+void TreeSearch::put(std::uint32_t body) {
+  Place& place = places_[body];
+  place.waits = true;
+  if (place.listed) return;
+  place.listed = true;
+  waiting_.push_back(body);
+}
+
+void TreeSearch::remove(std::uint32_t body) {
+  Place& place = places_[body];
+  place.waits = false;
+  remove_leaf(place);
+}
+
+void TreeSearch::remove_leaf(Place& place) {
+  if (place.leaf == k_null) return;
+  trees_[place.moves ? 1 : 0].remove(place.leaf);
+  --leaves_[place.moves ? 1 : 0];
+  place.leaf = k_null;
+}
+
+void TreeSearch::insert(std::uint32_t body, const Proxy& proxy) {
+  Place& place = places_[body];
+  remove_leaf(place);
+  place.moves = proxy.traits.moves;
+  place.leaf = trees_[place.moves ? 1 : 0].insert(proxy.fat, layers_of(proxy.traits.filter), body);
+  ++leaves_[place.moves ? 1 : 0];
+}
+
+void TreeSearch::refresh(std::span<const Proxy> proxies) {
+  std::uint32_t coming[2] = {};
+  for (const std::uint32_t body : waiting_) {
+    if (places_[body].waits) ++coming[proxies[body].traits.moves ? 1 : 0];
+  }
+  bool rebuilt[2];
+  for (int i = 0; i < 2; ++i)
+    rebuilt[i] = coming[i] > 8 && coming[i] > leaves_[i] / k_rebuilt_part;
+  for (const std::uint32_t body : waiting_) {
+    Place& place = places_[body];
+    place.listed = false;
+    if (!place.waits) continue;
+    place.waits = false;
+    const bool moves = proxies[body].traits.moves;
+    if (!rebuilt[moves ? 1 : 0])
+      insert(body, proxies[body]);
+    else if (place.moves != moves)
+      remove_leaf(place);
+  }
+  waiting_.clear();
+  for (int i = 0; i < 2; ++i) {
+    if (rebuilt[i]) rebuild(i == 1, proxies);
+  }
+}
+
+void TreeSearch::rebuild(bool moves, std::span<const Proxy> proxies) {
+  BoundingVolumeTree& tree = trees_[moves ? 1 : 0];
+  tree.clear();
+  items_.clear();
+  for (std::uint32_t body = 0; body < proxies.size(); ++body) {
+    const Proxy& proxy = proxies[body];
+    if (!proxy.present || proxy.traits.moves != moves) continue;
+    items_.push_back(tree.make_leaf(proxy.fat, layers_of(proxy.traits.filter), body));
+    places_[body].leaf = items_.back().leaf;
+    places_[body].moves = moves;
+  }
+  leaves_[moves ? 1 : 0] = static_cast<std::uint32_t>(items_.size());
+  tree.build(items_);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,161 @@
+#include "core/dynamics/impact_response.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/math/block_float.h"
+#include "core/math/int128.h"
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace {
+
+constexpr int k_sweeps = 12;
+
+// Approach speeds below this do not bounce, as in the contact solver.
+constexpr Velocity k_restitution_threshold = Velocity::from_integer(1);
+
+// r / 2^k, 30 bits, at most 2.
+Vec3<Unit> normalized_arm(const Vec3<Length>& r, int scale_exponent) {
+  const auto entry = [&](Length x) {
+    return Unit{raw::saturate<std::int32_t>(std::int64_t{x.raw} << (10 - scale_exponent))};
+  };
+  return {entry(r.x), entry(r.y), entry(r.z)};
+}
+
+Velocity times(Velocity v, Unit factor) {
+  return Velocity::from_raw(raw::multiply_shift(v.raw, factor.raw, Unit::frac_bits));
+}
+
+Velocity dot(const Vec3<Velocity>& v, const Vec3<Unit>& u) {
+  return times(v.x, u.x) + times(v.y, u.y) + times(v.z, u.z);
+}
+
+Vec3<Velocity> times(const Vec3<Unit>& u, Velocity v) {
+  return {times(v, u.x), times(v, u.y), times(v, u.z)};
+}
+
+// r × v
+Vec3<Velocity> cross(const Vec3<Unit>& r, const Vec3<Velocity>& v) {
+  return {times(v.z, r.y) - times(v.y, r.z), times(v.x, r.z) - times(v.z, r.x),
+          times(v.y, r.x) - times(v.x, r.y)};
+}
+
+// One side of the pair.
+struct Side {
+  ImpactBody body;
+  Unit share;  // α: its part of the pair's velocity jump
+  bool turns;
+
+  [[nodiscard]] Vec3<Velocity> velocity_at(const Vec3<Unit>& arm) const {
+    const Vec3<Velocity> w = surface_velocity(body.inertia, body.record.spin);
+    return body.record.velocity - cross(arm, w);  // ω × r = −(r × ω)
+  }
+
+  // The jump P, or −P, at a point.
+  void push(const Vec3<Velocity>& jump, const Vec3<Unit>& arm) const {
+    const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
+    body.record.velocity += own;
+    if (turns) body.record.spin += cross(arm, own);
+  }
+
+  // α (r̄ × u) · M (r̄ × u), 32 bits
+  [[nodiscard]] std::int64_t compliance(const Vec3<Unit>& arm, const Vec3<Unit>& u) const {
+    if (!turns || share == Unit{}) return 0;
+    const Vec3<Velocity> axis = cross(arm, times(u, Velocity::from_integer(1)));
+    const Vec3<Velocity> w = surface_velocity(body.inertia, axis);
+    const auto product = [](Velocity a, Velocity b) {
+      return saturate_to_int64(round_shift(multiply_wide(a.raw, b.raw), 32));
+    };
+    const std::int64_t sum = product(axis.x, w.x) + product(axis.y, w.y) + product(axis.z, w.z);
+    return raw::multiply_shift(std::max<std::int64_t>(sum, 0), share.raw, Unit::frac_bits);
+  }
+};
+
+struct Point {
+  Vec3<Unit> arm_a, arm_b;
+  Velocity wanted{};   // the speed apart to reach, ≥ 0
+  Velocity impulse{};  // along the normal so far
+};
+
+class ImpactSolver {
+ public:
+  ImpactSolver(const Side& a, const Side& b, const ImpactContact& contact)
+      : a_(a), b_(b), contact_(contact), normal_(contact.manifold.normal) {
+    for (int i = 0; i < contact.manifold.count; ++i) {
+      const ManifoldPoint& from = contact.manifold.points[static_cast<std::size_t>(i)];
+      Point& point = points_[static_cast<std::size_t>(i)];
+      point.arm_a = normalized_arm(from.anchor_a, a.body.record.scale_exponent);
+      point.arm_b = normalized_arm(from.anchor_b, b.body.record.scale_exponent);
+      const Velocity approach = -dot(relative(point), normal_);
+      greatest_approach_ = max(greatest_approach_, approach);
+      if (approach > k_restitution_threshold) point.wanted = times(approach, contact.restitution);
+    }
+  }
+
+  Velocity run() {
+    for (int sweep = 0; sweep < k_sweeps; ++sweep) {
+      for (int i = 0; i < contact_.manifold.count; ++i)
+        solve(points_[static_cast<std::size_t>(i)]);
+    }
+    return greatest_approach_;
+  }
+
+ private:
+  [[nodiscard]] Vec3<Velocity> relative(const Point& point) const {
+    return b_.velocity_at(point.arm_b) - a_.velocity_at(point.arm_a);
+  }
+
+  // The jump that changes the relative velocity along u by `change`.
+  [[nodiscard]] Velocity jump_for(Velocity change, const Point& point, const Vec3<Unit>& u) const {
+    const std::int64_t one = std::int64_t{1} << 32;
+    const std::int64_t stiffness =
+        one + a_.compliance(point.arm_a, u) + b_.compliance(point.arm_b, u);
+    return Velocity::from_raw(round_divide(Int128::from(change.raw) << 32, stiffness));
+  }
+
+  void push(const Point& point, const Vec3<Velocity>& jump) {
+    a_.push(-jump, point.arm_a);
+    b_.push(jump, point.arm_b);
+  }
+
+  void solve(Point& point) {
+    const Velocity missing = point.wanted - dot(relative(point), normal_);
+    const Velocity before = point.impulse;
+    point.impulse = max(before + jump_for(missing, point, normal_), Velocity{});
+    const Velocity change = point.impulse - before;
+    push(point, times(normal_, change));
+    if (change > Velocity{}) slow_sliding(point, times(change, contact_.friction));
+  }
+
+  // Friction for this much more normal impulse.
+  void slow_sliding(const Point& point, Velocity limit) {
+    const Vec3<Velocity> v = relative(point);
+    const Vec3<Velocity> across = v - times(normal_, dot(v, normal_));
+    if (across == Vec3<Velocity>{}) return;
+    const Vec3<Unit> direction = direction_of(across);
+    const Velocity stop = jump_for(dot(across, direction), point, direction);
+    push(point, times(direction, -min(stop, limit)));
+  }
+
+  const Side& a_;
+  const Side& b_;
+  const ImpactContact& contact_;
+  Vec3<Unit> normal_;
+  std::array<Point, k_max_manifold_points> points_{};
+  Velocity greatest_approach_{};
+};
+
+Side side_of(ImpactBody body, ImpactBody other) {
+  const Unit share = ratio(body.record.inverse_mass_value(), other.record.inverse_mass_value());
+  return {body, share, body.record.rotates() && body.record.is_dynamic()};
+}
+
+}  // namespace
+
+Velocity answer_impact(ImpactBody a, ImpactBody b, const ImpactContact& contact) {
+  const Side side_a = side_of(a, b), side_b = side_of(b, a);
+  return ImpactSolver(side_a, side_b, contact).run();
+}
+
+}  // namespace lockstone

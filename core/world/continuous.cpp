@@ -1,0 +1,204 @@
+// Continuous collision: what moved far in a tick is followed along its way, stopped where it runs
+// into something, answered by impulses and sent on for the rest of the tick.
+
+#include <algorithm>
+
+#include "core/collision/first_impact.h"
+#include "core/dynamics/impact_response.h"
+#include "core/dynamics/motion.h"
+#include "core/geometry/time_of_impact.h"
+#include "core/math/rotation_log.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+// A ball in a corner meets three walls; what has had so many impacts in a tick stays where it is.
+constexpr int k_max_impacts = 4;
+
+constexpr Unit k_whole = Unit::from_integer(1);
+
+Transform pose_of(const BodyRecord& body) {
+  return {body.position, body.orientation};
+}
+
+BodyMotion motion_between(const Transform& start, const Transform& end) {
+  return {start.position, start.orientation, end.position - start.position,
+          rotation_between(start.orientation, end.orientation)};
+}
+
+Transform pose_at(const BodyMotion& motion, Unit fraction) {
+  return pose_at(Sweep{{motion.centre, motion.orientation}, motion.translation, motion.rotation},
+                 fraction);
+}
+
+// What is left of a motion after a fraction of it.
+BodyMotion rest_of(const BodyMotion& motion, Unit fraction) {
+  const std::int64_t left = (k_whole - fraction).raw;
+  const auto part = [&](std::int64_t x) { return raw::multiply_shift(x, left, Unit::frac_bits); };
+  BodyMotion rest = motion;
+  const Transform pose = pose_at(motion, fraction);
+  rest.centre = pose.position;
+  rest.orientation = pose.orientation;
+  for (int i = 0; i < 3; ++i) {
+    rest.translation[i].raw = part(motion.translation[i].raw);
+    rest.rotation[i].raw = part(motion.rotation[i].raw);
+  }
+  return rest;
+}
+
+// |x| + |y| + |z|
+std::int64_t sum_of_magnitudes(const Vec3<Position>& v) {
+  return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
+}
+
+// At most the way of any point of a body about its centre, 32 bits: |Δq| is half the angle or more
+// than 2/π of it.
+std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {
+  const auto change = [](Unit a, Unit b) { return std::int64_t{abs(a - b).raw}; };
+  const std::int64_t sum =
+      change(from.x, to.x) + change(from.y, to.y) + change(from.z, to.z) + change(from.w, to.w);
+  return raw::multiply_shift(std::min(sum, std::int64_t{1} << 31), std::int64_t{radius.raw} * 4,
+                             Unit::frac_bits - 12);
+}
+
+Bounds bounds_of_way(const BodyMotion& motion, Length radius) {
+  const Position reach = rounded<Position>(radius);
+  Bounds bounds;
+  for (int i = 0; i < 3; ++i) {
+    const Position start = motion.centre[i], end = start + motion.translation[i];
+    bounds.lower[i] = round_down(min(start, end) - reach);
+    bounds.upper[i] = round_up(max(start, end) + reach);
+  }
+  return bounds;
+}
+
+}  // namespace
+
+void World::Impl::stop_at_impacts(StepReport& report) {
+  impacts.clear();
+  for (const std::uint32_t body : moved) {
+    if (!went_far(body)) continue;
+    ++report.continuous_bodies;
+    follow(body, report);
+  }
+}
+
+// Farther than half of what it is thick: less cannot take it through anything.
+bool World::Impl::went_far(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
+  if (!record.is_dynamic() || record.is_trigger()) return false;
+  const Transform& start = starts[body];
+  const std::int64_t limit = rounded<Position>(inner_radii[body] / 2).raw;
+  const std::int64_t way = sum_of_magnitudes(record.position - start.position);
+  if (way > limit) return true;
+  if (start.orientation == record.orientation) return false;
+  const Length radius = bounding_radius(record.shape(), body_assets[body]);
+  return radius > inner_radii[body] &&
+         way + turned_way(start.orientation, record.orientation, radius) > limit;
+}
+
+void World::Impl::follow(std::uint32_t body, StepReport& report) {
+  BodyRecord& record = bodies[body];
+  BodyMotion motion = motion_between(starts[body], pose_of(record));
+  Unit done{};  // of the tick
+  for (int i = 0; i < k_max_impacts; ++i) {
+    const NextImpact next = find_impact(body, motion, done);
+    if (!next.impact.hit) return;
+    ++report.impacts;
+    const Transform pose = pose_at(motion, next.impact.fraction);
+    record.position = pose.position;
+    record.orientation = pose.orientation;
+    const Unit left = k_whole - done;
+    done = k_whole - rounded<Unit>(left * (k_whole - next.impact.fraction));
+    answer(body, next.body, done);
+    motion = remaining_motion(record, k_whole - done);
+    const bool last = i + 1 == k_max_impacts;
+    if (last) return;
+    const Transform end = pose_at(motion, k_whole);
+    record.position = end.position;
+    record.orientation = end.orientation;
+  }
+}
+
+// The way for the rest of a tick at the velocities at hand, which already hold the whole tick's
+// gravity.
+BodyMotion World::Impl::remaining_motion(const BodyRecord& record, Unit left) const {
+  const InverseInertia inertia = inverse_inertia(record, to_matrix(record.orientation));
+  const Vec3<Velocity> w = surface_velocity(inertia, record.spin);
+  BodyMotion motion{record.position, record.orientation, {}, {}};
+  const auto way = [&](Velocity v) {
+    return raw::multiply_shift(time_step.tick.times(v.raw), left.raw, Unit::frac_bits);
+  };
+  for (int i = 0; i < 3; ++i) {
+    motion.translation[i].raw = way(record.velocity[i]);
+    motion.rotation[i].raw = raw::scale_binary(way(w[i]), -record.scale_exponent);
+  }
+  return motion;
+}
+
+// How a body moves from `done` to the end of the tick, itself followed or not.
+BodyMotion World::Impl::motion_of(std::uint32_t body, Unit done) const {
+  const BodyRecord& record = bodies[body];
+  if (!record.moves()) return {record.position, record.orientation, {}, {}};
+  return rest_of(motion_between(starts[body], pose_of(record)), done);
+}
+
+World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const BodyMotion& motion,
+                                                 Unit done) const {
+  const BodyRecord& record = bodies[body];
+  const Shape shape = record.shape();
+  const Bounds way = bounds_of_way(motion, bounding_radius(shape, body_assets[body]));
+  NextImpact next;
+  const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
+  const auto visit = [&](std::uint32_t other) {
+    const BodyRecord& obstacle = bodies[other];
+    const bool considered = other != body && !obstacle.is_trigger() &&
+                            (record.is_bullet() || !obstacle.is_dynamic()) &&
+                            should_collide(record.filter(), obstacle.filter());
+    if (!considered) return;
+    const Shape other_shape = obstacle.shape();
+    const BodyMotion other_motion = motion_of(other, done);
+    const Impact impact = first_impact({shape, body_assets[body], motion},
+                                       {other_shape, body_assets[other], other_motion});
+    const bool sooner =
+        impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
+                       (impact.fraction == next.impact.fraction && other < next.body));
+    if (sooner) next = {other, impact};
+  };
+  broad_phase.traverse(test, visit);
+  return next;
+}
+
+// Impulses between the two where they are at `done`. Velocities hold the whole tick's gravity; what
+// has not yet worked is taken off for the time of the impact.
+void World::Impl::answer(std::uint32_t body, std::uint32_t other, Unit done) {
+  BodyRecord& a = bodies[body];
+  BodyRecord& b = bodies[other];
+  const BodyMotion other_motion = motion_of(other, done);
+  const Mat3 rotation_a = to_matrix(a.orientation),
+             rotation_b = to_matrix(other_motion.orientation);
+  collide_bodies(place(a.shape(), body_assets[body], a.position, rotation_a),
+                 place(b.shape(), body_assets[other], other_motion.centre, rotation_b),
+                 k_impact_gap * 4, part_contacts);
+  const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
+  const InverseInertia inertia_b = inverse_inertia(b, rotation_b);
+  const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole - done);
+  a.velocity -= to_come;
+  Velocity approach{};
+  for (const PartContact& contact : part_contacts) {
+    const SurfacePair surface = surfaces_of({body, other}, contact);
+    approach =
+        max(approach,
+            answer_impact({a, inertia_a}, {b, inertia_b},
+                          {contact.manifold, mixed_friction(surface), mixed_restitution(surface)}));
+  }
+  a.velocity += to_come;
+  (void)limit_speed(a, inertia_a);
+  if (b.is_dynamic()) (void)limit_speed(b, inertia_b);
+  if (impacts.size() < impacts.capacity()) {
+    impacts.push_back({EventKind::impact, {body, a.generation}, {other, b.generation}, approach});
+  }
+}
+
+}  // namespace lockstone
