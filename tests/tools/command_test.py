@@ -62,6 +62,9 @@ class Run(Case):
 
     def test_heavy_gives_the_same_hashes(self):
         plain = self.run_json("--scene", "spawn", "--ticks", 80)
+        for kind in ("tree", "sweep"):
+            self.assertEqual(plain, self.run_json("--scene", "spawn", "--ticks", 80,
+                                                  "--broad-phase", kind))
         self.assertEqual(plain, self.run_json("--scene", "spawn", "--ticks", 80, "--heavy"))
 
     def test_prints_the_chain_as_text(self):

@@ -60,6 +60,20 @@ TEST_P(EveryScene, IsSavedWhole) {
   }
 }
 
+TEST_P(EveryScene, ComesOutTheSameFromBothBroadPhases) {
+  const auto tree = make_play(GetParam(), k_seed, BroadPhaseKind::tree).value();
+  const auto sweep = make_play(GetParam(), k_seed, BroadPhaseKind::sweep_and_prune).value();
+  ASSERT_EQ(sweep->world().def().broad_phase, BroadPhaseKind::sweep_and_prune);
+  EXPECT_EQ(tree->simulation().info(), sweep->simulation().info());
+  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick) {
+    if (tick % 16 == 15) sweep->drop_derived();
+    tree->step();
+    sweep->step();
+    ASSERT_EQ(tree->simulation().hash(), sweep->simulation().hash()) << "after tick " << tick;
+    ASSERT_EQ(tree->last_report().pairs, sweep->last_report().pairs) << "at tick " << tick;
+  }
+}
+
 TEST_P(EveryScene, KeepsItsBodiesInTheWorld) {
   const auto scene = play();
   for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick)

@@ -30,7 +30,8 @@ struct ArenaSimulation::Parts {
   ByteView world;
 };
 
-ArenaSimulation::ArenaSimulation(const ArenaConfig& config) : arena_(build_arena(config)) {
+ArenaSimulation::ArenaSimulation(const ArenaConfig& config, BroadPhaseKind broad_phase)
+    : arena_(build_arena(config, broad_phase)) {
   info_.abi = k_simulation_abi << 16 | k_rules_version;
   info_.config_hash = hash64(config.encode(), config_hash(arena_.world.def()));
   info_.scene_hash = hash();

@@ -13,7 +13,8 @@ namespace lockstone::arena {
 class ArenaSimulation final : public Simulation {
  public:
   /// `config` is within its documented ranges.
-  explicit ArenaSimulation(const ArenaConfig& config);
+  explicit ArenaSimulation(const ArenaConfig& config,
+                           BroadPhaseKind broad_phase = BroadPhaseKind::tree);
 
   [[nodiscard]] SimulationInfo info() const override { return info_; }
   [[nodiscard]] std::uint64_t tick() const override { return arena_.world.tick(); }

@@ -172,8 +172,10 @@ Vec3<Position> spawn_point(std::size_t slot) {
   return {millimetres(along), millimetres(4000), millimetres(slot % 2 == 0 ? 7000 : -7000)};
 }
 
-Arena build_arena(const ArenaConfig& config) {
-  Result<World> world = World::create(world_def(config));
+Arena build_arena(const ArenaConfig& config, BroadPhaseKind broad_phase) {
+  WorldDef def = world_def(config);
+  def.broad_phase = broad_phase;
+  Result<World> world = World::create(def);
   LKS_CHECK(world.ok());
   Arena arena{config, std::move(world).value(), {}, {}};
   Random random(mix(config.seed));

@@ -9,7 +9,8 @@ namespace lockstone::arena {
 [[nodiscard]] WorldDef world_def(const ArenaConfig& config);
 
 /// A match before its first tick.
-[[nodiscard]] Arena build_arena(const ArenaConfig& config);
+[[nodiscard]] Arena build_arena(const ArenaConfig& config,
+                                BroadPhaseKind broad_phase = BroadPhaseKind::tree);
 
 /// Where a slot's player starts and returns to.
 [[nodiscard]] Vec3<Position> spawn_point(std::size_t slot);

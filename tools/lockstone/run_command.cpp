@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,7 @@ struct RunOptions {
   std::uint64_t hash_every = 10;
   std::string svg;
   std::string simd;
+  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
   int frames = 1;
   bool json = false;
   bool heavy = false;
@@ -107,7 +109,8 @@ class Run {
   Run(const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
       : options_(options), play_(std::move(play)) {
     if (!options.heavy) return;
-    twin_.emplace(*play_, scenes::make_play(options.scene, options.seed).value());
+    twin_.emplace(*play_,
+                  scenes::make_play(options.scene, options.seed, options.broad_phase).value());
   }
 
   int operator()() {
@@ -170,7 +173,8 @@ int run(RunOptions options) {
                          fmt::join(lanes::supported_targets(), ", ")));
     return k_usage;
   }
-  Result<std::unique_ptr<scenes::ScenePlay>> play = scenes::make_play(options.scene, options.seed);
+  Result<std::unique_ptr<scenes::ScenePlay>> play =
+      scenes::make_play(options.scene, options.seed, options.broad_phase);
   if (!play) {
     complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
     return k_usage;
@@ -192,6 +196,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--hash-every", options->hash_every, "Ticks between hashes; 0: only the last")
       ->capture_default_str();
   command->add_option("--simd", options->simd, "Vectors to use: scalar, sse4, avx2, avx512");
+  const std::map<std::string, BroadPhaseKind> broad_phases{
+      {"tree", BroadPhaseKind::tree}, {"sweep", BroadPhaseKind::sweep_and_prune}};
+  command->add_option("--broad-phase", options->broad_phase, "How pairs are found: tree, sweep")
+      ->transform(CLI::CheckedTransformer(broad_phases));
   command->add_option("--svg", options->svg, "Draw the end into this file");
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
       ->check(CLI::Range(1, 60));

@@ -16,7 +16,8 @@ constexpr std::uint32_t k_arena_golden_ticks = 150;
 
 class WorldPlay final : public ScenePlay {
  public:
-  WorldPlay(const Scene& scene, std::uint64_t seed) : simulation_(scene, seed) {}
+  WorldPlay(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase)
+      : simulation_(scene, seed, broad_phase) {}
 
   void step() override {
     constexpr std::array<std::byte, 1> k_nothing{};
@@ -34,7 +35,8 @@ class WorldPlay final : public ScenePlay {
 
 class ArenaPlay final : public ScenePlay {
  public:
-  explicit ArenaPlay(const arena::ArenaConfig& config) : simulation_(config) {}
+  ArenaPlay(const arena::ArenaConfig& config, BroadPhaseKind broad_phase)
+      : simulation_(config, broad_phase) {}
 
   void step() override {
     const arena::ArenaConfig& config = simulation_.arena().config;
@@ -70,15 +72,16 @@ std::vector<SceneSummary> list_scenes() {
   return list;
 }
 
-Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_t seed) {
+Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_t seed,
+                                             BroadPhaseKind broad_phase) {
   if (name == k_arena_name) {
     arena::ArenaConfig config;
     config.seed = seed;
-    return std::unique_ptr<ScenePlay>(std::make_unique<ArenaPlay>(config));
+    return std::unique_ptr<ScenePlay>(std::make_unique<ArenaPlay>(config, broad_phase));
   }
   const Scene* scene = find_scene(name);
   if (scene == nullptr) return Status::not_found;
-  return std::unique_ptr<ScenePlay>(std::make_unique<WorldPlay>(*scene, seed));
+  return std::unique_ptr<ScenePlay>(std::make_unique<WorldPlay>(*scene, seed, broad_phase));
 }
 
 Result<std::unique_ptr<Simulation>> make_simulation(ByteView config) {

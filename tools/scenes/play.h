@@ -36,9 +36,9 @@ class ScenePlay {
   virtual void drop_derived() = 0;
 };
 
-/// not_found for an unknown name.
-[[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name,
-                                                           std::uint64_t seed);
+/// not_found for an unknown name. The broad phase changes no result.
+[[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(
+    std::string_view name, std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree);
 
 /// Makes whatever simulation configuration bytes name: the arena or a scene. For replays and
 /// clients.

@@ -7,8 +7,10 @@ namespace {
 
 constexpr std::size_t k_name_bytes = k_config_bytes - 14;
 
-World make_world(const Scene& scene, std::uint64_t seed) {
-  Result<World> world = World::create(scene.define());
+World make_world(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase) {
+  WorldDef def = scene.define();
+  def.broad_phase = broad_phase;
+  Result<World> world = World::create(def);
   LKS_CHECK(world.ok());
   scene.build(world.value(), seed);
   return std::move(world).value();
@@ -27,8 +29,8 @@ std::array<std::byte, k_config_bytes> encode_config(std::string_view name, std::
   return bytes;
 }
 
-SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed)
-    : scene_(scene), seed_(seed), world_(make_world(scene, seed)) {
+SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase)
+    : scene_(scene), seed_(seed), world_(make_world(scene, seed, broad_phase)) {
   info_.abi = k_simulation_abi;
   info_.config_hash = hash64(encode_config(scene.name, seed), config_hash(world_.def()));
   info_.scene_hash = hash();

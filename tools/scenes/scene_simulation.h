@@ -24,7 +24,8 @@ inline constexpr std::size_t k_config_bytes = 32;
 
 class SceneSimulation final : public Simulation {
  public:
-  SceneSimulation(const Scene& scene, std::uint64_t seed);
+  SceneSimulation(const Scene& scene, std::uint64_t seed,
+                  BroadPhaseKind broad_phase = BroadPhaseKind::tree);
 
   [[nodiscard]] SimulationInfo info() const override { return info_; }
   [[nodiscard]] std::uint64_t tick() const override { return world_.tick(); }
