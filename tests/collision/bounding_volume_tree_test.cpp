@@ -72,6 +72,49 @@ TEST(BoundingVolumeTree, StaysFlatWhenLeavesComeInSortedOrder) {
   EXPECT_LE(tree.height(), 30);
 }
 
+TEST(BoundingVolumeTree, BuiltAtOnceIsFlatAndFindsWhatAFullSearchFinds) {
+  test::Random random;
+  constexpr std::uint32_t k_count = 500;
+  BoundingVolumeTree tree(k_count);
+  std::vector<BoundingVolumeTree::Item> items;
+  std::vector<Bounds> bounds;
+  for (std::uint32_t body = 0; body < k_count; ++body) {
+    bounds.push_back(random_bounds(random, 20000, 3000));
+    items.push_back(tree.make_leaf(bounds.back(), {}, body));
+  }
+  tree.build(items);
+  ASSERT_TRUE(tree.is_valid());
+  EXPECT_EQ(tree.height(), 9);
+  for (int round = 0; round < 50; ++round) {
+    const Bounds area = random_bounds(random, 20000, 8000);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < k_count; ++i) {
+      if (overlap(area, bounds[i])) expected.push_back(i);
+    }
+    ASSERT_EQ(bodies_in(tree, area), expected);
+  }
+}
+
+TEST(BoundingVolumeTree, SkipsWhatItsLayersRuleOut) {
+  constexpr Layers k_one{.categories = 1, .masks = 1};
+  constexpr Layers k_two{.categories = 2, .masks = 2};
+  BoundingVolumeTree tree(100);
+  for (std::uint32_t body = 0; body < 100; ++body)
+    tree.insert({}, k_one, body);
+  int tests = 0;
+  const auto count_tests = [&](const Layers& mine) {
+    tests = 0;
+    const auto test = [&](const Bounds&, const Layers& others) {
+      ++tests;
+      return may_collide(mine, others);
+    };
+    tree.traverse(test, [](std::uint32_t) {});
+    return tests;
+  };
+  EXPECT_EQ(count_tests(k_two), 1);
+  EXPECT_EQ(count_tests(k_one), 199);
+}
+
 TEST(BoundingVolumeTree, TakesBoxesAtTheEdgeOfItsRange) {
   BoundingVolumeTree tree(64);
   test::Random random;
