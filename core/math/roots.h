@@ -52,8 +52,11 @@ inline constexpr std::array<std::uint16_t, 192> k_start = make_table();
   const std::int64_t s_above = static_cast<std::int64_t>(s >> 32) + 1;  // so that e errs down
   const std::int64_t e0 = one - y0 * y0 * s_above;
   const auto y1 = static_cast<std::uint64_t>((y0 << 16) + ((y0 * (e0 >> 14)) >> 33));
-  // y ← y · (1 + e/2 + 3e²/8); now 0 ≤ e < 2^48 because the step before undershoots.
-  const std::uint64_t e1 = static_cast<std::uint64_t>(one) - multiply_high(s, y1 * y1);
+  // y ← y · (1 + e/2 + 3e²/8); now 0 ≤ e < 2^48 because the step before undershoots. The product is
+  // rounded up, so that e errs down.
+  const std::uint64_t product = multiply_high(s, y1 * y1);
+  const std::uint64_t e1 =
+      product < static_cast<std::uint64_t>(one) ? static_cast<std::uint64_t>(one) - product - 1 : 0;
   const std::uint64_t square = ((e1 >> 16) * (e1 >> 16)) >> 32;  // 60 fraction bits
   const std::uint64_t factor = (e1 >> 1) + ((3 * square) >> 1);
   return (y1 << 31) + ((y1 * (factor >> 16)) >> 15);

@@ -74,6 +74,26 @@ TEST(Isqrt128, FloorsInputsOfEveryScaleAndNeighboursOfSquares) {
   check({~std::uint64_t{0}, ~std::uint64_t{0}});
 }
 
+// Where Newton's last step has nothing left to add, rounding must not lift the estimate above the
+// root: 2^126 / y² for an estimate y of 31 fraction bits, and a case that once did not end.
+TEST(Isqrt128, EndsWhereTheEstimateIsAlreadyExact) {
+  Raws raws;
+  const auto check = [](UInt128 n) {
+    const std::uint64_t root = isqrt128(n);
+    const UInt128 square = multiply_wide(root, root);
+    ASSERT_TRUE(square <= n && n - square <= (UInt128{0, root} << 1)) << n.high << ' ' << n.low;
+  };
+  check({9, 12113780222731940864U});
+  for (int i = 0; i < 1000000; ++i) {
+    const std::uint64_t y = (std::uint64_t{1} << 31) | raws.below_bits(31) | 1;
+    const std::uint64_t s = divide(UInt128{std::uint64_t{1} << 62, 0}, y * y).quotient;
+    if (s < std::uint64_t{1} << 62) continue;
+    check({s, raws.bits64()});
+    check({s - (i % 2 == 0 ? 1U : 0U), ~std::uint64_t{0}});
+    check({s + 1, 0});
+  }
+}
+
 TEST(Norm, IsRoundedCorrectlyForVectorsOfAnyScale) {
   Raws raws;
   double worst = 0;
