@@ -1,5 +1,7 @@
 #include "core/collision/cast_placed.h"
 
+#include "core/geometry/gjk.h"
+
 namespace lockstone {
 namespace {
 
@@ -33,7 +35,40 @@ class RayPieces final : public geometry::RayPartVisitor {
   PlacedRayHit best_;
 };
 
+class NearestPiece final : public PieceVisitor {
+ public:
+  NearestPiece(const Vec3<Position>& point, Length reach) : point_(point), reach_(reach) {}
+
+  void visit(const Piece& piece) override {
+    const Shape dot = Shape::sphere({});
+    const Mat3 identity;
+    const ClosestPoints found = lockstone::distance(piece.posed(), {dot, identity},
+                                                    saturated<Length>(point_ - piece.origin));
+    const Length distance = saturated<Length>(found.distance);
+    if (distance > reach_ || (best_.found && distance >= best_.distance)) return;
+    best_ = {true, piece.part, distance,
+             found.overlapping ? point_ : piece.origin + widened(found.point_a)};
+  }
+
+  [[nodiscard]] const PlacedClosest& best() const { return best_; }
+
+ private:
+  static Vec3<Position> widened(const Vec3<Length>& v) {
+    return {rounded<Position>(v.x), rounded<Position>(v.y), rounded<Position>(v.z)};
+  }
+
+  const Vec3<Position>& point_;
+  Length reach_;
+  PlacedClosest best_;
+};
+
 }  // namespace
+
+PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& point, Length reach) {
+  NearestPiece nearest(point, reach);
+  visit_pieces(placed, {point, Mat3{}, {}}, reach, nearest);
+  return nearest.best();
+}
 
 PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
                       const Vec3<Length>& translation, Unit limit) {

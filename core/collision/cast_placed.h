@@ -19,4 +19,15 @@ struct PlacedRayHit {
 [[nodiscard]] PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
                                     const Vec3<Length>& translation, Unit limit);
 
+struct PlacedClosest {
+  bool found = false;
+  std::uint32_t part = 0;
+  Length distance{};
+  Vec3<Position> point{};
+};
+
+/// The nearest point within `reach`, of the lowest part of equals.
+[[nodiscard]] PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& point,
+                                          Length reach);
+
 }  // namespace lockstone

@@ -19,20 +19,21 @@ Length inner_radius_of(const geometry::Polytope& polytope) {
 
 }  // namespace
 
-Length erosion_depth(const Piece& piece) {
-  const Length inner =
-      piece.polytope != nullptr ? inner_radius_of(*piece.polytope) : inner_radius(piece.shape);
-  return inner / 2;
+Length inner_radius_of(const Piece& piece) {
+  return piece.polytope != nullptr ? inner_radius_of(*piece.polytope) : inner_radius(piece.shape);
 }
 
-ErodedShape::ErodedShape(const Piece& piece) : shape(piece.shape), depth(erosion_depth(piece)) {
-  if (piece.polytope != nullptr) return erode_vertices(*piece.polytope);
+ErodedShape::ErodedShape(const Piece& piece, Length depth) : shape(piece.shape) {
+  if (piece.polytope != nullptr) {
+    erode_vertices(*piece.polytope, depth);
+    return;
+  }
   const int axes = shape.kind == ShapeKind::box ? 3 : 1;  // the radius is in x
   for (int i = 0; i < axes; ++i)
     shape.size[i] -= depth;
 }
 
-void ErodedShape::erode_vertices(const geometry::Polytope& full) {
+void ErodedShape::erode_vertices(const geometry::Polytope& full, Length depth) {
   std::array<geometry::RawVec, geometry::k_max_polytope_vertices> normals{};
   for (const geometry::HalfEdge& edge : full.edges) {
     const Vec3<Unit>& n = full.faces[edge.face].normal;

@@ -8,15 +8,15 @@
 
 namespace lockstone {
 
-/// A piece whose surface lies deeper by about half of its inner radius. Of a polytope each vertex
-/// goes inward by that much along the mean normal of its faces; the faces are not to be used.
+/// A piece whose surface lies deeper by about `depth`, less than its inner radius. Of a polytope
+/// each vertex goes inward by that much along the mean normal of its faces; the faces are not to be
+/// used.
 struct ErodedShape {
-  explicit ErodedShape(const Piece& piece);
+  ErodedShape(const Piece& piece, Length depth);
   ErodedShape(const ErodedShape&) = delete;
   ErodedShape& operator=(const ErodedShape&) = delete;
 
   Shape shape;
-  Length depth{};
   geometry::Polytope polytope{};  ///< only of polytopes
   bool is_polytope = false;
 
@@ -25,12 +25,12 @@ struct ErodedShape {
   }
 
  private:
-  void erode_vertices(const geometry::Polytope& full);
+  void erode_vertices(const geometry::Polytope& full, Length depth);
 
   std::array<Vec3<Length>, geometry::k_max_polytope_vertices> vertices_;
 };
 
-/// Half of the radius of a ball that the piece holds.
-[[nodiscard]] Length erosion_depth(const Piece& piece);
+/// Radius of a ball that the piece holds.
+[[nodiscard]] Length inner_radius_of(const Piece& piece);
 
 }  // namespace lockstone

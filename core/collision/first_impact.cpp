@@ -25,9 +25,9 @@ struct PieceSweep {
 };
 
 // Thin pieces are stopped nearer to the surface.
-TimeOfImpactLimits limits_for(Length erosion) {
+TimeOfImpactLimits limits_for(Length inner_radius) {
   constexpr Length k_least = Length::from_raw(8);
-  const Length gap = max(min(k_impact_gap, erosion / 4), k_least);
+  const Length gap = max(min(k_impact_gap, inner_radius / 16), k_least);
   return {gap, max(gap / 4, k_least / 4), 64};
 }
 
@@ -66,39 +66,58 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   return box;
 }
 
-bool is_impact(const TimeOfImpact& time) {
-  return time.state == TimeOfImpactState::hit || time.state == TimeOfImpactState::unfinished;
-}
+// Depths in eighths of the inner radius. At the last two it is decided whether this is an impact at
+// all; then the moment is that of the least depth to which A has not sunk from the beginning.
+constexpr int k_half_depth = 4;
+constexpr int k_last_depth = 7;
 
 // Tries every piece of B near the way of one piece of A.
 class PiecesOfB final : public PieceVisitor {
  public:
   PiecesOfB(const Piece& a, const BodyMotion& motion_a, const BodyMotion& motion_b, Impact& best)
-      : a_(a), eroded_(a), sweep_a_(a, motion_a), motion_b_(motion_b), best_(best) {}
+      : a_(a),
+        inner_radius_(inner_radius_of(a)),
+        limits_(limits_for(inner_radius_)),
+        sweep_a_(a, motion_a),
+        motion_b_(motion_b),
+        best_(best) {}
 
   void visit(const Piece& piece) override {
     const bool unbounded = piece.shape.kind == ShapeKind::half_space;
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
     if (is_behind(a_, b)) return;
     const PieceSweep sweep_b(b, motion_b_);
-    const TimeOfImpactLimits limits = limits_for(eroded_.depth);
-    const SweptShape other{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
-    const SweptShape core{eroded_.shape, sweep_a_.sweep, eroded_.polytope_or_null(),
-                          sweep_a_.origin};
-    const TimeOfImpact deep = time_of_impact(core, other, limits);
-    if (!is_impact(deep) || deep.fraction == Unit{}) return;
-    const SweptShape whole{a_.shape, sweep_a_.sweep, a_.polytope, sweep_a_.origin};
-    const TimeOfImpact full = time_of_impact(whole, other, limits);
-    // What touched from the beginning stops where it has sunk in.
-    const bool clean = is_impact(full) && full.fraction > Unit{};
-    const Unit fraction = clean ? full.fraction : deep.fraction;
-    if (best_.hit && fraction >= best_.fraction) return;
-    best_ = {true, fraction, a_.part, b.part};
+    const Unit time = impact_time({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
+    if (time == k_never || (best_.hit && time >= best_.fraction)) return;
+    best_ = {true, time, a_.part, b.part};
   }
 
  private:
+  static constexpr Unit k_never = Unit::max();
+
+  [[nodiscard]] Unit impact_time(const SweptShape& b) const {
+    const Unit half = time_at(k_half_depth, b);
+    if (half == k_never) return k_never;
+    const Unit deep = half > Unit{} ? half : time_at(k_last_depth, b);
+    if (deep == k_never || deep == Unit{}) return k_never;
+    for (const int depth : {0, 1, 2}) {
+      const Unit time = time_at(depth, b);
+      if (time != k_never && time > Unit{}) return time;
+    }
+    return deep;
+  }
+
+  // When A, eroded to a depth, comes to B; 0 when it is there from the beginning.
+  [[nodiscard]] Unit time_at(int depth, const SweptShape& b) const {
+    const ErodedShape core(a_, inner_radius_ / 8 * depth);
+    const SweptShape a{core.shape, sweep_a_.sweep, core.polytope_or_null(), sweep_a_.origin};
+    const TimeOfImpact found = time_of_impact(a, b, limits_);
+    return found.state == TimeOfImpactState::separated ? k_never : found.fraction;
+  }
+
   const Piece& a_;
-  const ErodedShape eroded_;
+  const Length inner_radius_;
+  const TimeOfImpactLimits limits_;
   const PieceSweep sweep_a_;
   const BodyMotion& motion_b_;
   Impact& best_;

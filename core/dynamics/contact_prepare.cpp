@@ -131,11 +131,6 @@ std::uint8_t choose_tangent_axis(const Vec3<Unit>& n, const ContactRecord& recor
   return y <= z ? 1 : 2;
 }
 
-// √(a·b) in Q30.
-std::int32_t mixed_friction(Coefficient a, Coefficient b) {
-  return static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>((a * b).raw)));
-}
-
 // The impulses that a point of the same features ended with a tick ago.
 void start_from(const ContactRecord& record, std::uint32_t feature, ContactPoint& point) {
   for (std::size_t i = 0; i < record.count; ++i) {
@@ -200,8 +195,8 @@ int prepare_contact(const ContactInput& in, const ContactSoftness& softness,
   const Tangents tangents = tangents_across(in.manifold.normal, out.tangent_axis);
   out.exponent = std::max(a.inertia.exponent, b.inertia.exponent);
   out.count = in.manifold.count;
-  out.friction = mixed_friction(in.surfaces.a.friction, in.surfaces.b.friction);
-  out.restitution = std::max(in.surfaces.a.restitution, in.surfaces.b.restitution).raw;
+  out.friction = mixed_friction(in.surfaces).raw;
+  out.restitution = mixed_restitution(in.surfaces).raw;
   const bool immovable = a.share == 0 || b.share == 0;
   out.softness = immovable ? softness.against_immovable : softness.between_moving;
   out.normal = make_axis(in.manifold.normal, a, b);

@@ -6,6 +6,7 @@
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/contact_constraint.h"
 #include "core/dynamics/contact_record.h"
+#include "core/dynamics/surface.h"
 #include "core/dynamics/time_step.h"
 
 namespace lockstone {
@@ -16,12 +17,6 @@ struct ContactSoftness {
   Softness against_immovable;
 
   [[nodiscard]] static ContactSoftness of(const TimeStep& step);
-};
-
-/// What meets what.
-struct SurfacePair {
-  Surface a;
-  Surface b;
 };
 
 /// Everything that one constraint is made of. The record gives the impulses to start from.

@@ -111,6 +111,16 @@ void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravi
   turn_free(body, rotation, step);
 }
 
+Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
+                            const TimeStep& step, Unit fraction) {
+  const Vec3<Acceleration> g = gravity_on(body, gravity);
+  const auto gain = [&](Acceleration x) {
+    return Velocity::from_raw(
+        raw::multiply_shift(step.tick.times(x.raw), fraction.raw, Unit::frac_bits));
+  };
+  return {gain(g.x), gain(g.y), gain(g.z)};
+}
+
 SolverBody begin_substeps(const BodyRecord& body, const Mat3& rotation,
                           const Vec3<Acceleration>& gravity, const TimeStep& step) {
   SolverBody solver;

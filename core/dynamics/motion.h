@@ -26,6 +26,10 @@ bool limit_position(BodyRecord& body);
 void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
          const TimeStep& step, std::uint64_t tick);
 
+/// What gravity adds to a body's velocity in a fraction of a tick.
+[[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
+                                          const TimeStep& step, Unit fraction);
+
 /// Starts a body's substeps.
 [[nodiscard]] SolverBody begin_substeps(const BodyRecord& body, const Mat3& rotation,
                                         const Vec3<Acceleration>& gravity, const TimeStep& step);

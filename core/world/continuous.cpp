@@ -2,6 +2,7 @@
 // into something, answered by impulses and sent on for the rest of the tick.
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/collision/first_impact.h"
 #include "core/dynamics/impact_response.h"
@@ -15,6 +16,8 @@ namespace {
 
 // A ball in a corner meets three walls; what has had so many impacts in a tick stays where it is.
 constexpr int k_max_impacts = 4;
+
+constexpr std::uint32_t k_every_category = 0xffffffff;  // groups override categories
 
 constexpr Unit k_whole = Unit::from_integer(1);
 
@@ -34,7 +37,7 @@ Transform pose_at(const BodyMotion& motion, Unit fraction) {
 
 // What is left of a motion after a fraction of it.
 BodyMotion rest_of(const BodyMotion& motion, Unit fraction) {
-  const std::int64_t left = (k_whole - fraction).raw;
+  const std::int32_t left = (k_whole - fraction).raw;
   const auto part = [&](std::int64_t x) { return raw::multiply_shift(x, left, Unit::frac_bits); };
   BodyMotion rest = motion;
   const Transform pose = pose_at(motion, fraction);
@@ -55,11 +58,11 @@ std::int64_t sum_of_magnitudes(const Vec3<Position>& v) {
 // At most the way of any point of a body about its centre, 32 bits: |Δq| is half the angle or more
 // than 2/π of it.
 std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {
-  const auto change = [](Unit a, Unit b) { return std::int64_t{abs(a - b).raw}; };
+  const auto change = [](Unit a, Unit b) { return std::abs(std::int64_t{a.raw} - b.raw); };
   const std::int64_t sum =
       change(from.x, to.x) + change(from.y, to.y) + change(from.z, to.z) + change(from.w, to.w);
-  return raw::multiply_shift(std::min(sum, std::int64_t{1} << 31), std::int64_t{radius.raw} * 4,
-                             Unit::frac_bits - 12);
+  constexpr int k_times_four = 2;
+  return raw::multiply_shift(sum, radius.raw, Unit::frac_bits - 12 - k_times_four);
 }
 
 Bounds bounds_of_way(const BodyMotion& motion, Length radius) {
@@ -166,7 +169,7 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const BodyM
                        (impact.fraction == next.impact.fraction && other < next.body));
     if (sooner) next = {other, impact};
   };
-  broad_phase.traverse(test, visit);
+  broad_phase.traverse(k_every_category, test, visit);
   return next;
 }
 

@@ -141,6 +141,34 @@ std::size_t World::bodies_at(const Vec3<Position>& point, std::span<BodyHandle> 
   return count;
 }
 
+ClosestHit World::closest_point(const Vec3<Position>& point, Length reach,
+                                const QueryFilter& filter) const {
+  LKS_CHECK(reach >= Length{} && reach <= k_max_cast);
+  const Impl& world = *impl_;
+  ClosestHit best;
+  best.distance = reach;
+  const auto around = [&](Length r) {
+    const Position wide = rounded<Position>(r);
+    const Vec3<Position> span{wide, wide, wide};
+    return bounds_of({point - span, point + span});
+  };
+  Bounds region = around(reach);
+  const auto test = [&](const Bounds& bounds) { return overlap(region, bounds); };
+  const auto visit = [&](std::uint32_t index) {
+    const BodyRecord& body = world.bodies[index];
+    if (!is_seen(body, index, filter)) return;
+    const PlacedClosest found = lockstone::closest_point(world.placed(index), point, best.distance);
+    const bool nearer = found.found && (best.body.is_null() || found.distance < best.distance ||
+                                        index < best.body.index);
+    if (!nearer) return;
+    best = {{index, body.generation}, found.distance, found.point, found.part};
+    region = around(found.distance);
+  };
+  world.broad_phase.traverse(filter.mask, test, visit);
+  if (best.body.is_null()) best.distance = {};
+  return best;
+}
+
 PlacedShape World::Impl::placed_query(const Shape& shape, const Transform& pose) const {
   LKS_CHECK(validate(shape) == Status::ok);
   const Asset* asset = is_asset(shape.kind) ? assets->find(shape.asset) : nullptr;

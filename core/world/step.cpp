@@ -66,6 +66,7 @@ StepReport World::Impl::step() {
   run_substeps(report);
   store_impulses();
   move_bodies(report);
+  stop_at_impacts(report);
   refresh_moved();
   find_events();
   ++header.tick;
@@ -138,11 +139,15 @@ void World::Impl::add_contact(const Pair& pair, const PartContact& contact,
   record.part_b = key.part_b;
   if (!add_record(record, report)) return;
   manifolds.push_back(contact.manifold);
+  surfaces.push_back(surfaces_of(pair, contact));
+}
+
+// A part's own surface, or the body's.
+SurfacePair World::Impl::surfaces_of(const Pair& pair, const PartContact& contact) const {
   const auto surface = [](const BodyRecord& body, const Surface* part) {
     return part != nullptr ? *part : Surface{body.friction, body.restitution};
   };
-  surfaces.push_back(
-      {surface(bodies[pair.a], contact.surface_a), surface(bodies[pair.b], contact.surface_b)});
+  return {surface(bodies[pair.a], contact.surface_a), surface(bodies[pair.b], contact.surface_b)};
 }
 
 bool World::Impl::add_record(const ContactRecord& record, StepReport& report) {
@@ -234,6 +239,7 @@ void World::Impl::move_bodies(StepReport& report) {
   moved.clear();
   for (std::uint32_t body = 0; body < header.body_limit; ++body) {
     if (!bodies[body].moves()) continue;
+    starts[body] = {bodies[body].position, bodies[body].orientation};
     move_body(body, report);
     moved.push_back(body);
   }
@@ -316,6 +322,7 @@ void World::Impl::find_events() {
     const PairState is = take_new ? take_pair(now, approach_speeds) : PairState{};
     add_event(was, is);
   }
+  events.insert(events.end(), impacts.begin(), impacts.end());
   std::copy(new_contacts.begin(), new_contacts.end(), contact_store.begin());
   header.contact_count = static_cast<std::uint32_t>(new_contacts.size());
 }

@@ -55,7 +55,9 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
       solver_index(definition.body_capacity) {
   header.gravity = definition.gravity;
-  events.reserve(std::size_t{2} * definition.contact_capacity);
+  events.reserve(std::size_t{2} * definition.contact_capacity + definition.body_capacity);
+  impacts.reserve(definition.body_capacity);
+  starts.resize(definition.body_capacity);
   new_contacts.reserve(definition.contact_capacity);
   manifolds.reserve(definition.contact_capacity);
   surfaces.reserve(definition.contact_capacity);

@@ -9,6 +9,7 @@
 
 #include "core/collision/broad_phase.h"
 #include "core/collision/collide_bodies.h"
+#include "core/collision/first_impact.h"
 #include "core/collision/placed_shape.h"
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/contact_constraint.h"
@@ -90,6 +91,7 @@ struct World::Impl {
                    std::span<const ContactRecord> before, StepReport& report);
   void add_trigger(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
   bool add_record(const ContactRecord& record, StepReport& report);
+  [[nodiscard]] SurfacePair surfaces_of(const Pair& pair, const PartContact& contact) const;
   void prepare_contacts(StepReport& report);
   std::uint32_t solver_body_of(std::uint32_t body);
   void run_substeps(StepReport& report);
@@ -97,6 +99,21 @@ struct World::Impl {
   void move_bodies(StepReport& report);
   void move_body(std::uint32_t body, StepReport& report);
   void refresh_moved();
+
+  // Continuous collision (continuous.cpp).
+  struct NextImpact {
+    std::uint32_t body = 0;
+    Impact impact{};
+  };
+  void stop_at_impacts(StepReport& report);
+  [[nodiscard]] bool went_far(std::uint32_t body) const;
+  void follow(std::uint32_t body, StepReport& report);
+  [[nodiscard]] NextImpact find_impact(std::uint32_t body, const BodyMotion& motion,
+                                       Unit done) const;
+  void answer(std::uint32_t body, std::uint32_t other, Unit done);
+  [[nodiscard]] BodyMotion remaining_motion(const BodyRecord& record, Unit left) const;
+  [[nodiscard]] BodyMotion motion_of(std::uint32_t body, Unit done) const;
+
   void refresh_bounds(std::uint32_t body);
   void find_events();
 
@@ -115,6 +132,8 @@ struct World::Impl {
   // Scratch of one step.
   std::span<const Pair> pairs;
   std::vector<std::uint32_t> moved;  // bodies, ascending
+  std::vector<Transform> starts;  // by body: where it was before it moved
+  std::vector<ContactEvent> impacts;
   std::vector<ContactRecord> new_contacts;
   std::vector<Manifold> manifolds;    // by new contact
   std::vector<SurfacePair> surfaces;  // by new contact

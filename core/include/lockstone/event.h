@@ -13,6 +13,7 @@ enum class EventKind : std::uint8_t {
   trigger_enter = 2,  ///< one of the two is a trigger and they overlap, and did not a tick ago
   trigger_stay = 3,
   trigger_exit = 4,
+  impact = 5,  ///< `a` was stopped on its way by `b` within the tick and may have left it again
 };
 
 /// Destroying or teleporting a body drops its contacts without an event.
@@ -20,7 +21,7 @@ struct ContactEvent {
   EventKind kind{};
   BodyHandle a{};
   BodyHandle b{};
-  Velocity approach_speed{};  ///< contact_begin: speed along the normal before the solver, ≥ 0
+  Velocity approach_speed{};  ///< contact_begin, impact: speed along the normal before, ≥ 0
 };
 
 }  // namespace lockstone

@@ -51,7 +51,9 @@ struct StepReport {
   std::uint32_t pairs = 0;        ///< pairs with overlapping bounds
   std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
   std::uint32_t contact_points = 0;
-  std::uint32_t saturations = 0;  ///< values clamped to their range
+  std::uint32_t continuous_bodies = 0;  ///< moved far enough to be followed along their way
+  std::uint32_t impacts = 0;            ///< stops on the way
+  std::uint32_t saturations = 0;        ///< values clamped to their range
 };
 
 /// Hashes of one state; `total` covers the others.
@@ -141,6 +143,11 @@ class World {
   /// The same for a convex shape.
   std::size_t overlap_shape(const Shape& shape, const Transform& pose, std::span<BodyHandle> out,
                             const QueryFilter& filter = {}) const;
+
+  /// The nearest point of any body within `reach` (at most k_max_cast); ties go to the lower index,
+  /// then the lower part.
+  [[nodiscard]] ClosestHit closest_point(const Vec3<Position>& point, Length reach,
+                                         const QueryFilter& filter = {}) const;
 
   /// Bodies that hold a point, surface included.
   std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,

@@ -1,0 +1,139 @@
+// Continuous collision: nothing fast passes through anything.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/world/world_fixture.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+using test::metres;
+
+BodyDef wall(Length half_thickness) {
+  BodyDef def;
+  def.motion = MotionType::static_body;
+  def.shape = Shape::box(half_thickness, 20_m, 20_m);
+  return def;
+}
+
+World weightless() {
+  return test::make_world({.body_capacity = 16, .gravity = {}});
+}
+
+// Centimetre walls, bullets of a few centimetres at up to 500 m/s, from anywhere, at any angle.
+TEST(Continuous, NoBulletPassesAWallOfOneCentimetre) {
+  test::Random random(test::run_seed());
+  int impacts = 0;
+  for (int run = 0; run < 2000; ++run) {
+    World world = weightless();
+    test::add(world, wall(0.005_m));
+    const Length size =
+        Length::from_raw(static_cast<std::int32_t>(random.between(1 << 14, 1 << 16)));
+    const auto kind = random.between(0, 2);
+    const Shape shape = kind == 0   ? Shape::sphere(size)
+                        : kind == 1 ? Shape::capsule(size, size)
+                                    : Shape::box(size, size, size);
+    BodyDef def = test::dynamic_body(shape, {}, {}, {});
+    def.position.x.raw = -random.between(std::int64_t{1} << 30, std::int64_t{20} << 32);
+    def.velocity.x.raw = random.between(std::int64_t{20} << 32, std::int64_t{400} << 32);
+    def.velocity.y.raw = random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
+    def.angular_velocity.z.raw =
+        random.between(-(std::int64_t{100} << 32), std::int64_t{100} << 32);
+    def.material.restitution.raw = static_cast<std::int32_t>(random.between(0, 1 << 30));
+    const BodyHandle bullet = test::add(world, def);
+    for (int tick = 0; tick < 30; ++tick) {
+      impacts += static_cast<int>(world.step().impacts);
+      const BodyView view = world.body(bullet);
+      const bool beyond_the_rim = metres(abs(view.position.y)) > 19;
+      if (beyond_the_rim) break;
+      ASSERT_LT(metres(view.position.x), 0.0)
+          << "run " << run << " tick " << tick << " kind " << kind << " size " << size.raw
+          << " start " << def.position.x.raw << " velocity " << def.velocity.x.raw << ", "
+          << def.velocity.y.raw << " spin " << def.angular_velocity.z.raw;
+    }
+  }
+  EXPECT_GT(impacts, 1000);
+}
+
+TEST(Continuous, ABouncingBallKeepsTheRestOfTheTick) {
+  World world = weightless();
+  test::add(world, wall(0.05_m));
+  BodyDef def = test::dynamic_body(Shape::sphere(0.1_m), -10_m, {}, {});
+  def.velocity = {300_mps, {}, {}};
+  def.material.restitution = 1_r;
+  const BodyHandle ball = test::add(world, def);
+  test::step(world, 6);  // 30 m: 9.85 to the wall and 20.15 back
+  EXPECT_NEAR(metres(world.position(ball).x), -0.15 - 20.15, 0.05);
+  EXPECT_NEAR(metres(Position::from_raw(world.velocity(ball).x.raw)), -300, 1e-3);
+}
+
+TEST(Continuous, ASpinningRodDoesNotReachThroughAWall) {
+  test::Random random(test::run_seed());
+  for (int run = 0; run < 300; ++run) {
+    World world = weightless();
+    test::add(world, wall(0.01_m));
+    BodyDef def = test::dynamic_body(Shape::capsule(1_m, 0.02_m), -1.1_m, {}, {});
+    def.angular_velocity.z.raw = random.between(std::int64_t{20} << 32, std::int64_t{150} << 32);
+    def.velocity.x.raw = random.between(std::int64_t{0}, std::int64_t{60} << 32);
+    const BodyHandle rod = test::add(world, def);
+    for (int tick = 0; tick < 60; ++tick) {
+      (void)world.step();
+      ASSERT_LT(metres(world.body(rod).centre_of_mass.x), 0.0) << "run " << run;
+    }
+  }
+}
+
+TEST(Continuous, OnlyBulletsAreStoppedByDynamicBodies) {
+  for (const bool bullet : {false, true}) {
+    World world = weightless();
+    BodyDef plate = test::dynamic_body(Shape::box(0.01_m, 2_m, 2_m), 4_m, {}, {});
+    const BodyHandle target = test::add(world, plate);
+    BodyDef def = test::dynamic_body(Shape::sphere(0.05_m), {}, {}, {});
+    def.velocity = {450_mps, {}, {}};
+    def.is_bullet = bullet;
+    const BodyHandle ball = test::add(world, def);
+    int impacts = 0;
+    for (int tick = 0; tick < 4; ++tick) {
+      (void)world.step();
+      impacts += static_cast<int>(
+          std::ranges::count(world.events(), EventKind::impact, &ContactEvent::kind));
+    }
+    EXPECT_EQ(impacts > 0, bullet);
+    EXPECT_EQ(world.velocity(target).x > Velocity{}, bullet);
+    EXPECT_EQ(world.position(ball).x > 6_m, !bullet);
+  }
+}
+
+TEST(Continuous, WhatIsSlowOrRollsIsNotFollowed) {
+  World world = test::make_world();
+  test::add_ground(world);
+  BodyDef def = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
+  def.velocity = {12_mps, {}, {}};  // 0.2 m a tick, less than a quarter of a metre
+  test::add(world, def);
+  for (int tick = 0; tick < 60; ++tick) {
+    const StepReport report = world.step();
+    ASSERT_EQ(report.continuous_bodies, 0U);
+    ASSERT_EQ(report.impacts, 0U);
+  }
+}
+
+TEST(Continuous, SlidingFastIsNoImpact) {
+  World world = test::make_world();
+  test::add_ground(world);
+  BodyDef def = test::dynamic_body(Shape::box(0.25_m, 0.25_m, 0.25_m), -40_m, 0.25_m, {});
+  def.velocity = {80_mps, {}, {}};
+  def.material.friction = {};
+  const BodyHandle box = test::add(world, def);
+  for (int tick = 0; tick < 45; ++tick) {
+    const StepReport report = world.step();
+    ASSERT_EQ(report.continuous_bodies, 1U);
+    ASSERT_EQ(report.impacts, 0U) << "tick " << tick;
+  }
+  EXPECT_NEAR(metres(world.position(box).x), 20, 1e-3);
+}
+
+}  // namespace
+}  // namespace lockstone
