@@ -21,8 +21,8 @@ AssetSet::AssetSet(std::vector<AssetPtr> assets) : assets_(std::move(assets)) {
   LKS_CHECK(std::ranges::none_of(assets_, [](const AssetPtr& asset) { return asset == nullptr; }));
   const auto id = [](const AssetPtr& asset) { return asset->id(); };
   std::ranges::sort(assets_, {}, id);
-  const auto repeated = std::ranges::unique(assets_, {}, id);
-  assets_.erase(repeated.begin(), repeated.end());
+  const auto same = [&id](const AssetPtr& a, const AssetPtr& b) { return id(a) == id(b); };
+  assets_.erase(std::unique(assets_.begin(), assets_.end(), same), assets_.end());
   hash_ = hash_of(assets_);
 }
 
