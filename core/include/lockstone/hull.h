@@ -94,8 +94,9 @@ class Hull final : public Asset {
 struct [[nodiscard]] HullResult {
   std::shared_ptr<const Hull> hull;  ///< null exactly when there is a fault
   HullFault fault = HullFault::none;
-  /// The most by which a point given lies beyond the plane of a face: about the tolerance, unless
-  /// max_vertices cut more.
+  /// The most by which a point given lies beyond the plane of a face. As a rule within the
+  /// tolerance; more where max_vertices cut, or a vertex between two merged faces was dropped from
+  /// a slender edge.
   Length deviation{};
 
   [[nodiscard]] bool ok() const { return hull != nullptr; }
