@@ -1,9 +1,9 @@
 #include "core/geometry/box_face.h"
 
 #include "core/geometry/contact_point.h"
-#include "core/geometry/manifold_reduction.h"
+#include "core/geometry/cut.h"
 #include "core/geometry/normals.h"
-#include "core/math/int128.h"
+#include "core/geometry/preference.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -120,18 +120,10 @@ void snap(ClipVertex& vertex, const Side& side, const IncidentFace& face) {
 /// so that the order of the two does not matter.
 ClipVertex intersection(const ClipVertex& inside, Fine inside_excess, const ClipVertex& outside,
                         Fine outside_excess, const Side& side) {
-  // share = depth / (depth + excess), 64 fraction bits, below 1: so fine that an edge cut by two
-  // opposite sides is cut alike in either order.
-  const auto depth = static_cast<std::uint64_t>(-inside_excess);
-  const auto whole = depth + static_cast<std::uint64_t>(outside_excess);
-  const std::uint64_t share = divide(UInt128{depth, 0}, whole).quotient;
+  const std::uint64_t share = share_inside(-inside_excess, outside_excess);
   ClipVertex result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Fine rise = raw::subtract(outside.at[k], inside.at[k]);
-    const UInt128 part = multiply_wide(magnitude(rise), share);
-    const auto size = static_cast<Fine>(part.high + (part.low >> 63));
-    result.at[k] = rise < 0 ? inside.at[k] - size : inside.at[k] + size;
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    result.at[k] = cut_between(inside.at[k], outside.at[k], share);
   result.at[side.axis] = side.sign * side.half;
   return result;
 }
@@ -234,8 +226,8 @@ FacePolygon clip_incident_face(const FaceFrame& frame) {
 
 Manifold face_manifold(const FaceFrame& frame) {
   FacePolygon polygon = clip_incident_face(frame);
-  drop_far_vertices(polygon, frame.margin);
-  reduce_to_four(polygon);
+  polygon.count = drop_far_vertices(polygon.used(), frame.margin);
+  polygon.count = reduce_to_four(polygon.used(), k_fine_per_length);
   Manifold manifold;
   if (polygon.count == 0) return manifold;
   const Mat3& rotation = frame.reference.rotation;

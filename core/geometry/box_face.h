@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/geometry/box_pair.h"
+#include "core/geometry/manifold_reduction.h"
 
 namespace lockstone::geometry {
 
@@ -26,17 +27,13 @@ struct FaceFrame {
 [[nodiscard]] FaceFrame frame_on_b(const BoxPair& pair, const FaceAxis& face,
                                    const Vec3<Length>& back);
 
-/// A vertex of the clipped polygon, fine.
-struct FaceVertex {
-  Fine x = 0;
-  Fine y = 0;
-  Fine z = 0;
-  std::uint32_t feature = 0;  ///< incident face and the two polygon edges that meet here
-};
-
 struct FacePolygon {
   std::array<FaceVertex, 8> vertices{};
   int count = 0;
+
+  [[nodiscard]] std::span<FaceVertex> used() {
+    return std::span(vertices).first(static_cast<std::size_t>(count));
+  }
 };
 
 /// The part of the incident face above or below the reference face, convex, in order.
@@ -44,9 +41,6 @@ struct FacePolygon {
 /// k_snap is moved onto it along the incident face and keeps its feature, so that boxes stacked
 /// flush do not change features as they tremble.
 [[nodiscard]] FacePolygon clip_incident_face(const FaceFrame& frame);
-
-/// 31 µm.
-inline constexpr Fine k_snap = Fine{1} << (k_fine_bits - 15);
 
 /// The manifold from the reference to the incident box.
 [[nodiscard]] Manifold face_manifold(const FaceFrame& frame);

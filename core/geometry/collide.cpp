@@ -2,6 +2,8 @@
 
 #include "core/geometry/collide_pairs.h"
 #include "core/geometry/contact_point.h"
+#include "core/geometry/polytope.h"
+#include "core/geometry/polytope_kernels.h"
 
 namespace lockstone {
 namespace {
@@ -15,25 +17,33 @@ int dominant_sign(const Vec3<Length>& offset) {
   return geometry::sign_of(offset[dominant].raw);
 }
 
-auto size_key(const Shape& shape) {
-  return std::tuple(shape.size.x, shape.size.y, shape.size.z);
+/// Of one kind, the greater comes first: what is one-sided, then by asset, then by sizes.
+auto rank(const PosedShape& posed) {
+  const bool one_sided = posed.polytope != nullptr && posed.polytope->one_sided;
+  const Shape& shape = posed.shape;
+  return std::tuple(one_sided, shape.asset.value, shape.size.x, shape.size.y, shape.size.z);
 }
 
-/// Whether B takes the first place: the higher kind, then the greater sizes, then the lower place
-/// along the axis that separates the centres most. So either order of the arguments runs the same
-/// computation, and what rests on another keeps its role while it wobbles. Spheres stay as they
-/// are: they have no roles.
-bool belongs_first(const Shape& b, const Shape& a, const Vec3<Length>& offset) {
-  if (a.kind != b.kind) return b.kind > a.kind;
-  if (a.kind == ShapeKind::sphere) return false;
-  const auto key_a = size_key(a);
-  const auto key_b = size_key(b);
-  if (key_a != key_b) return key_b > key_a;
+auto lanes(const Mat3& m) {
+  return std::tuple(m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z);
+}
+
+/// Whether B takes the first place: the higher kind, then the higher rank, then the lower place
+/// along the axis that separates the centres most; concentric ones go by their rotations. So either
+/// order of the arguments runs the same computation, and what rests on another keeps its role while
+/// it wobbles. Spheres stay as they are: they have no roles.
+bool belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>& offset) {
+  if (a.shape.kind != b.shape.kind) return b.shape.kind > a.shape.kind;
+  if (a.shape.kind == ShapeKind::sphere) return false;
+  const auto rank_a = rank(a);
+  const auto rank_b = rank(b);
+  if (rank_a != rank_b) return rank_b > rank_a;
+  if (offset == Vec3<Length>{}) return lanes(b.rotation) > lanes(a.rotation);
   return dominant_sign(offset) < 0;
 }
 
-Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                         Length margin) {
+Manifold collide_primitives(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                            Length margin) {
   using namespace geometry;
   if (a.shape.kind == ShapeKind::box) {
     if (b.shape.kind == ShapeKind::sphere) return collide_box_sphere(a, b, offset, margin);
@@ -45,12 +55,21 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
   return collide_capsules(a, b, offset, margin);
 }
 
+Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                         Length margin) {
+  if (a.shape.kind <= ShapeKind::box) return collide_primitives(a, b, offset, margin);
+  if (a.shape.kind == ShapeKind::half_space)
+    return geometry::collide_half_space(a, b, offset, margin);
+  LKS_ASSERT(a.shape.kind == ShapeKind::hull && a.polytope != nullptr);
+  return a.polytope->kernels->collide(a, b, offset, margin);
+}
+
 }  // namespace
 
 Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                  Length margin) {
   LKS_ASSERT(margin >= Length{} && margin <= Length::from_integer(64));
-  if (!belongs_first(b.shape, a.shape, offset)) return collide_ordered(a, b, offset, margin);
+  if (!belongs_first(b, a, offset)) return collide_ordered(a, b, offset, margin);
   return geometry::flipped(collide_ordered(b, a, -offset, margin));
 }
 

@@ -3,14 +3,11 @@
 #include "core/geometry/box_face.h"
 #include "core/geometry/box_pair.h"
 #include "core/geometry/collide_pairs.h"
-#include "core/geometry/contact_point.h"
+#include "core/geometry/contact_choice.h"
 #include "core/geometry/preference.h"
 
 namespace lockstone::geometry {
 namespace {
-
-/// More than any overlap.
-constexpr Fine k_any_separation = Fine{1} << 62;
 
 struct FaceChoice {
   FaceAxis a;
@@ -36,26 +33,6 @@ Manifold reference_manifold(const BoxPair& pair, const FaceChoice& faces) {
 
 Manifold other_manifold(const BoxPair& pair, const FaceChoice& faces) {
   return faces.b_is_reference ? manifold_on_a(pair, faces) : manifold_on_b(pair, faces);
-}
-
-/// Whether the manifold's deepest point is as near as the separating axis says: then its face is
-/// where the boxes are nearest.
-bool attains(const Manifold& manifold, Fine separation) {
-  const std::int64_t least = to_separation(separation - k_agreement).raw;
-  const std::int64_t most = to_separation(separation + k_face_slack).raw;
-  std::int64_t deepest = most + 1;
-  for (int i = 0; i < manifold.count; ++i) {
-    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
-    deepest = std::min<std::int64_t>(deepest, point.separation.raw);
-  }
-  return deepest >= least && deepest <= most;
-}
-
-bool touches(const Manifold& manifold) {
-  for (int i = 0; i < manifold.count; ++i) {
-    if (manifold.points[static_cast<std::size_t>(i)].separation.raw <= 0) return true;
-  }
-  return false;
 }
 
 /// The deepest vertex below the reference face: the last resort.

@@ -1,21 +1,18 @@
 #include "core/geometry/manifold_reduction.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/geometry/contact_point.h"
 
 namespace lockstone::geometry {
 namespace {
 
-/// A vertex seen from above, 20 fraction bits: products of two differences fit 62 bits.
+/// A vertex seen from above: products of two differences fit 62 bits.
 struct Flat {
   std::int64_t x = 0;
   std::int64_t y = 0;
 };
-
-Flat flat(const FaceVertex& v) {
-  return {raw::round_shift(v.x, k_fine_per_length), raw::round_shift(v.y, k_fine_per_length)};
-}
 
 Flat operator-(const Flat& a, const Flat& b) {
   return {a.x - b.x, a.y - b.y};
@@ -43,13 +40,18 @@ struct Triangle {
 
 /// Vertices by index, and which of them are taken.
 struct Selection {
-  const FacePolygon& polygon;
+  std::span<const FaceVertex> polygon;
+  int shift;
   std::array<int, 4> taken{};
   int count = 0;
 
-  [[nodiscard]] Flat at(int i) const { return flat(polygon.vertices[static_cast<std::size_t>(i)]); }
+  [[nodiscard]] int size() const { return static_cast<int>(polygon.size()); }
+  [[nodiscard]] Flat at(int i) const {
+    const FaceVertex& v = polygon[static_cast<std::size_t>(i)];
+    return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift)};
+  }
   [[nodiscard]] Flat chosen(int i) const { return at(taken[static_cast<std::size_t>(i)]); }
-  [[nodiscard]] Fine height(int i) const { return polygon.vertices[static_cast<std::size_t>(i)].z; }
+  [[nodiscard]] Fine height(int i) const { return polygon[static_cast<std::size_t>(i)].z; }
   [[nodiscard]] bool has(int i) const {
     return std::find(taken.begin(), taken.begin() + count, i) != taken.begin() + count;
   }
@@ -60,7 +62,7 @@ struct Selection {
   void take_best(Score score) {
     int best = -1;
     std::int64_t best_score = 0;
-    for (int i = 0; i < polygon.count; ++i) {
+    for (int i = 0; i < size(); ++i) {
       if (has(i)) continue;
       const std::int64_t candidate = score(at(i));
       if (candidate <= best_score + best_score / 16) continue;
@@ -78,7 +80,7 @@ std::int64_t along_fixed_direction(const Flat& p) {
 
 void take_extreme(Selection& selection) {
   int best = 0;
-  for (int i = 1; i < selection.polygon.count; ++i) {
+  for (int i = 1; i < selection.size(); ++i) {
     if (along_fixed_direction(selection.at(i)) > along_fixed_direction(selection.at(best))) {
       best = i;
     }
@@ -89,7 +91,7 @@ void take_extreme(Selection& selection) {
 /// The widest support is worth nothing if the deepest vertex is not held.
 void include_deepest(Selection& selection) {
   int deepest = 0;
-  for (int i = 1; i < selection.polygon.count; ++i) {
+  for (int i = 1; i < selection.size(); ++i) {
     if (selection.height(i) < selection.height(deepest)) deepest = i;
   }
   Fine taken_depth = selection.height(selection.taken[0]);
@@ -107,8 +109,8 @@ void include_deepest(Selection& selection) {
   selection.taken[static_cast<std::size_t>(nearest)] = deepest;
 }
 
-Selection select_four(const FacePolygon& polygon) {
-  Selection selection{polygon};
+Selection select_four(std::span<const FaceVertex> polygon, int shift) {
+  Selection selection{polygon, shift};
   take_extreme(selection);
   selection.take_best([&](const Flat& p) { return square(p - selection.chosen(0)); });
   if (selection.count == 2) {
@@ -124,31 +126,33 @@ Selection select_four(const FacePolygon& polygon) {
   return selection;
 }
 
-void sort_by_feature(FacePolygon& polygon) {
-  std::sort(polygon.vertices.begin(), polygon.vertices.begin() + polygon.count,
+void sort_by_feature(std::span<FaceVertex> polygon) {
+  std::sort(polygon.begin(), polygon.end(),
             [](const FaceVertex& a, const FaceVertex& b) { return a.feature < b.feature; });
 }
 
 }  // namespace
 
-void drop_far_vertices(FacePolygon& polygon, Length margin) {
-  const auto end =
-      std::remove_if(polygon.vertices.begin(), polygon.vertices.begin() + polygon.count,
-                     [margin](const FaceVertex& v) { return !keeps(v.z, margin); });
-  polygon.count = static_cast<int>(end - polygon.vertices.begin());
+int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
+  const auto end = std::remove_if(polygon.begin(), polygon.end(), [margin](const FaceVertex& v) {
+    return !keeps(v.z, margin);
+  });
+  return static_cast<int>(end - polygon.begin());
 }
 
-void reduce_to_four(FacePolygon& polygon) {
+int reduce_to_four(std::span<FaceVertex> polygon, int shift) {
   sort_by_feature(polygon);
-  if (polygon.count <= 4) return;
-  const Selection selection = select_four(polygon);
-  FacePolygon reduced;
-  for (int i = 0; i < selection.count; ++i) {
-    const auto taken = static_cast<std::size_t>(selection.taken[static_cast<std::size_t>(i)]);
-    reduced.vertices[static_cast<std::size_t>(reduced.count++)] = polygon.vertices[taken];
-  }
-  polygon = reduced;
-  sort_by_feature(polygon);
+  const auto repeated = std::ranges::unique(polygon, {}, &FaceVertex::feature);
+  polygon = polygon.first(polygon.size() - repeated.size());
+  if (polygon.size() <= 4) return static_cast<int>(polygon.size());
+  const Selection selection = select_four(polygon, shift);
+  std::array<FaceVertex, 4> chosen;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(selection.count); ++i)
+    chosen[i] = polygon[static_cast<std::size_t>(selection.taken[i])];
+  std::copy_n(chosen.begin(), selection.count, polygon.begin());
+  const auto reduced = polygon.first(static_cast<std::size_t>(selection.count));
+  sort_by_feature(reduced);
+  return selection.count;
 }
 
 }  // namespace lockstone::geometry

@@ -1,18 +1,33 @@
-// From the clipped polygon to at most four points.
+// From a clipped polygon to at most four points.
 #pragma once
 
-#include "core/geometry/box_face.h"
+#include <span>
+
+#include "core/geometry/fine.h"
 
 namespace lockstone::geometry {
 
-/// Removes vertices whose separation `keeps` refuses. Keeps the order.
-void drop_far_vertices(FacePolygon& polygon, Length margin);
+/// A vertex of a clipped polygon in the frame of a reference face: x and y along the face, z the
+/// height above it. Fine.
+struct FaceVertex {
+  // No initialisers: arrays of these are long, and little of them is used.
+  Fine x;
+  Fine y;
+  Fine z;
+  std::uint32_t feature;  ///< incident face and the two polygon edges that meet here
+};
 
-/// Leaves at most four vertices, ascending by feature: the one farthest in a fixed direction, the
-/// one farthest from it, the one that spans the largest triangle with both, and the one that adds
-/// most area to that. Each later candidate must be better by a sixteenth, so that equals do not
-/// alternate. A vertex more than k_deeper deeper than the four replaces the nearest of them.
-void reduce_to_four(FacePolygon& polygon);
+/// Removes vertices whose separation `keeps` refuses. Keeps the order of the rest, which come
+/// first; answers how many.
+[[nodiscard]] int drop_far_vertices(std::span<FaceVertex> polygon, Length margin);
+
+/// Brings at most four vertices to the front, ascending by feature, each once, and answers how many: the one
+/// farthest in a fixed direction, the one farthest from it, the one that spans the largest triangle
+/// with both, and the one that adds most area to that. Each later candidate must be better by a
+/// sixteenth, so that equals do not alternate. A vertex more than k_deeper deeper than the four
+/// replaces the nearest of them. Areas are measured with x and y shifted right by `shift`, which
+/// brings their differences within 2^30.
+[[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift);
 
 /// 7.6 µm.
 inline constexpr Fine k_deeper = Fine{1} << (k_fine_bits - 17);

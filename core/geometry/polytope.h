@@ -38,7 +38,15 @@ struct Polytope {
   std::span<const HalfEdge> edges;
   Vec3<Length> interior{};  ///< a point inside, or on a flat one
   const PolytopeKernels* kernels = nullptr;
+  /// Of a flat one that is the skin of a solid: only face 0 pushes, and what has its centre behind
+  /// that face is not met at all.
+  bool one_sided = false;
 };
+
+/// Two faces, back to back, that have all vertices in common: a triangle, say.
+[[nodiscard]] constexpr bool is_flat(const Polytope& p) {
+  return p.faces.size() == 2;
+}
 
 inline constexpr int k_max_polytope_vertices = 128;
 inline constexpr int k_max_polytope_faces = 252;
@@ -52,5 +60,35 @@ inline constexpr int k_max_polytope_face_edges = 128;  ///< half edges around on
   const bool wraps = after == face.first_edge + face.edge_count;
   return static_cast<std::uint16_t>(wraps ? face.first_edge : after);
 }
+
+[[nodiscard]] constexpr const Vec3<Length>& start_of(const Polytope& p, int edge) {
+  return p.vertices[p.edges[static_cast<std::size_t>(edge)].origin];
+}
+[[nodiscard]] constexpr const Vec3<Length>& end_of(const Polytope& p, int edge) {
+  return start_of(p, p.edges[static_cast<std::size_t>(edge)].twin);
+}
+
+/// Exact: coordinates within ±1000 m differ by less than 2048 m.
+[[nodiscard]] constexpr Vec3<Length> edge_vector(const Polytope& p, int edge) {
+  return end_of(p, edge) - start_of(p, edge);
+}
+
+/// Of the two half edges of an edge, the one that stands for both.
+[[nodiscard]] constexpr bool is_first_half(const Polytope& p, int edge) {
+  return edge < p.edges[static_cast<std::size_t>(edge)].twin;
+}
+
+struct Support {
+  int vertex = 0;
+  Fine height = 0;
+};
+
+/// The vertex with the greatest n · v, the first of equals; exact.
+[[nodiscard]] Support support_of(const Polytope& polytope, const Vec3<Unit>& n);
+
+/// Of the faces around `vertex`, the one with the least n · direction, the first of
+/// equals.
+[[nodiscard]] int most_opposed_face(const Polytope& polytope, int vertex,
+                                    const Vec3<Unit>& direction);
 
 }  // namespace lockstone::geometry

@@ -18,6 +18,9 @@ inline constexpr Fine k_agreement = Fine{1} << (k_fine_bits - 18);
 /// A face contact is accepted this much farther than the nearest axis: 15 µm.
 inline constexpr Fine k_face_slack = Fine{1} << (k_fine_bits - 16);
 
+/// How far a polygon's vertex beyond a side may be and yet be moved onto it: 31 µm.
+inline constexpr Fine k_snap = Fine{1} << (k_fine_bits - 15);
+
 /// An edge axis replaces a face axis of separation `face` only above this value: an overlap smaller
 /// by a tenth and by k_edge_margin. A relative and an absolute margin, as in Box3D's
 /// b3CollideHulls.

@@ -2,20 +2,10 @@
 
 #include "core/geometry/fine.h"
 #include "core/geometry/normals.h"
-#include "core/math/int128.h"
+#include "core/geometry/ray_ratio.h"
 
 namespace lockstone::geometry {
 namespace {
-
-/// numerator / denominator, denominator > 0.
-struct Ratio {
-  std::int64_t numerator = 0;
-  std::int64_t denominator = 1;
-
-  friend bool operator<(const Ratio& a, const Ratio& b) {
-    return multiply_wide(a.numerator, b.denominator) < multiply_wide(b.numerator, a.denominator);
-  }
-};
 
 bool is_inside(const RawVec& point, const RawVec& half) {
   return magnitude_of(point.x) <= half.x && magnitude_of(point.y) <= half.y &&
@@ -24,8 +14,8 @@ bool is_inside(const RawVec& point, const RawVec& half) {
 
 /// The part of the ray between all slabs looked at so far.
 struct Passage {
-  Ratio enter{-1, 1};
-  Ratio leave{1, 1};
+  RayRatio enter{-1, 1};
+  RayRatio leave{1, 1};
   int axis = -1;  ///< of the face it enters by
   bool open = true;
 };
@@ -36,8 +26,8 @@ void narrow(Passage& passage, int axis, std::int64_t start, std::int64_t way, Fi
     return;
   }
   const std::int64_t ahead = way < 0 ? -start : start;
-  const Ratio enter{-half - ahead, magnitude_of(way)};
-  const Ratio leave{half - ahead, magnitude_of(way)};
+  const RayRatio enter{-half - ahead, magnitude_of(way)};
+  const RayRatio leave{half - ahead, magnitude_of(way)};
   if (passage.axis < 0 || passage.enter < enter) {
     passage.enter = enter;
     passage.axis = axis;
@@ -58,12 +48,9 @@ ShapeRayHit cast_ray_at_box(const Shape& box, const Mat3& rotation, const Vec3<L
     narrow(passage, axis, start[axis], way[axis], half[axis]);
   if (!passage.open || passage.axis < 0 || passage.enter.numerator < 0) return {};
   if (passage.leave < passage.enter) return {};  // `leave` starts at 1: this covers the ray's end
-  const auto [numerator, denominator] = passage.enter;
-  const std::int64_t fraction =
-      round_divide(multiply_wide(numerator, std::int64_t{1} << Unit::frac_bits), denominator);
   const Vec3<Unit> outward =
       signed_axis(rotation.column(passage.axis), way[passage.axis] > 0 ? -1 : 1);
-  return {true, {static_cast<std::int32_t>(fraction)}, unit_axis(outward)};
+  return {true, rounded(passage.enter), unit_axis(outward)};
 }
 
 }  // namespace lockstone::geometry

@@ -21,7 +21,9 @@ struct ShapeRayHit {
 [[nodiscard]] ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation,
                                    const Vec3<Length>& origin, const Vec3<Length>& translation);
 
-/// The same for every convex shape.
+/// Likewise, and of hulls and half-spaces. The rays of a flat polytope meet its polygon, those of a
+/// one-sided one only from the front; those of a half-space what is below its plane, each within
+/// 2 µm.
 [[nodiscard]] ShapeRayHit cast_ray(const PosedShape& posed, const Vec3<Length>& origin,
                                    const Vec3<Length>& translation);
 

@@ -1,0 +1,18 @@
+// What a manifold has to do with the axis that was found: shared by the pairs of solids.
+#pragma once
+
+#include "core/geometry/contact_point.h"
+
+namespace lockstone::geometry {
+
+/// Whether the manifold's deepest point is as near as the separating axis says: then its face is
+/// where the solids are nearest.
+[[nodiscard]] bool attains(const Manifold& manifold, Fine separation);
+
+/// Whether some point touches or overlaps.
+[[nodiscard]] bool touches(const Manifold& manifold);
+
+/// More than any overlap.
+inline constexpr Fine k_any_separation = Fine{1} << 62;
+
+}  // namespace lockstone::geometry

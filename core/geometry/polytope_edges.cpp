@@ -1,0 +1,147 @@
+#include "core/geometry/polytope_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "core/math/roots.h"
+
+namespace lockstone::geometry {
+namespace {
+
+/// Half edges by index.
+struct EdgeList {
+  std::array<std::uint16_t, k_max_polytope_edges / 2> at;
+  int count;
+};
+
+/// Bit i: witness i is not above the plane by more than the threshold.
+using WitnessMask = std::uint8_t;
+
+WitnessMask mask_of(const PolytopeFace& face, const Witness& witness, Fine threshold) {
+  unsigned mask = 0;
+  for (int i = 0; i < witness.count; ++i) {
+    const RawVec& p = witness.points[static_cast<std::size_t>(i)];
+    if (lean_of(p, face.normal) - face.offset + k_witness_slack <= threshold) mask |= 1U << i;
+  }
+  return static_cast<WitnessMask>(mask);
+}
+
+/// On an axis between the normals of the edge's faces the separation is at most the greater height
+/// of a witness over the two, when that is not above zero: dividing a sum of heights by the length
+/// of the sum of normals, which is below 1, only lowers it.
+void collect_edges(const Polytope& own, const Witness& witness, Fine threshold, EdgeList& list) {
+  std::array<WitnessMask, k_max_polytope_faces> masks;
+  const Fine bound = std::min(threshold, Fine{0});
+  for (std::size_t i = 0; i < own.faces.size(); ++i)
+    masks[i] = mask_of(own.faces[i], witness, bound);
+  list.count = 0;
+  const int count = static_cast<int>(own.edges.size());
+  for (int edge = 0; edge < count; ++edge) {
+    const HalfEdge& half = own.edges[static_cast<std::size_t>(edge)];
+    if (edge > half.twin) continue;
+    if ((masks[half.face] & masks[own.edges[half.twin].face]) != 0) continue;
+    list.at[static_cast<std::size_t>(list.count++)] = static_cast<std::uint16_t>(edge);
+  }
+}
+
+/// An edge with the normals on its left and right, seen from outside.
+struct GaussArc {
+  RawVec edge;  ///< narrow; left × right points along it
+  Vec3<Unit> left;
+  Vec3<Unit> right;
+};
+
+GaussArc arc_of(const Polytope& p, int edge) {
+  const HalfEdge& half = p.edges[static_cast<std::size_t>(edge)];
+  return {lanes_of(edge_vector(p, edge)), p.faces[half.face].normal,
+          p.faces[p.edges[half.twin].face].normal};
+}
+
+/// B's arc as a vertex of A sees it: normals reversed, in A's axes.
+GaussArc opposed_arc(const PolytopeView& view, int edge) {
+  const GaussArc arc = arc_of(view.other, edge);
+  const RawVec along_edge = turned(view.axes, edge_vector(view.other, edge));
+  return {narrowed(along_edge, 30), -lockstone::rotate(view.axes, arc.left),
+          -lockstone::rotate(view.axes, arc.right)};
+}
+
+/// +1 or −1 when the arcs cross, the sign of the crossing along a.edge × b.edge; else 0.
+int crossing_sign(const GaussArc& a, const GaussArc& b) {
+  const std::int64_t left = lean_of(b.edge, a.left);
+  const std::int64_t right = lean_of(b.edge, a.right);
+  if (left == 0 || right == 0 || (left < 0) == (right < 0)) return 0;
+  const std::int64_t b_left = lean_of(a.edge, b.left);
+  const std::int64_t b_right = lean_of(a.edge, b.right);
+  if (b_left == 0 || b_right == 0 || (b_left < 0) == (b_right < 0)) return 0;
+  if ((b_left < 0) != (right < 0)) return 0;  // they cross on opposite hemispheres
+  return left > 0 ? 1 : -1;
+}
+
+struct EdgeSearch {
+  const PolytopePair& pair;
+  const Facing& front;
+  Fine threshold;
+  EdgeSupport best{};
+
+  void look_at(int edge_a, int edge_b, const Vec3<Unit>& normal) {
+    const PolytopeView& view = pair.from_a;
+    const RawVec gap = view.to_own_coarse(start_of(view.other, edge_b)) -
+                       lanes_of(start_of(view.own, edge_a));
+    // Of any two points; that of the supports is not above it.
+    if (lean_of(gap, normal) + k_witness_slack <= threshold) return;
+    const Fine separation = separation_on(pair, normal);
+    if (separation <= threshold) return;
+    if (separation <= 0 && !front.allows(-normal)) return;
+    best = {true, edge_a, edge_b, normal, separation};
+    threshold = separation;
+  }
+};
+
+}  // namespace
+
+RawVec narrowed(const RawVec& v, int bits) {
+  const auto size = static_cast<std::uint64_t>(magnitude_of(v.x) | magnitude_of(v.y) |
+                                               magnitude_of(v.z));
+  const int shift = static_cast<int>(std::bit_width(size)) - bits;
+  if (shift <= 0) return v;
+  // Rounding may reach 2^bits itself, which the users of the lanes have room for.
+  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
+}
+
+EdgeSupport best_edge(const PolytopePair& pair, Fine threshold, const Facing& front,
+                      const Witness& of_a, const Witness& of_b) {
+  EdgeList edges_a;
+  EdgeList edges_b;
+  collect_edges(pair.from_a.own, of_b, threshold, edges_a);
+  if (edges_a.count == 0) return {};
+  collect_edges(pair.from_b.own, of_a, threshold, edges_b);
+  EdgeSearch search{pair, front, threshold};
+  for (int j = 0; j < edges_b.count; ++j) {
+    const int edge_b = edges_b.at[static_cast<std::size_t>(j)];
+    const GaussArc b = opposed_arc(pair.from_a, edge_b);
+    for (int i = 0; i < edges_a.count; ++i) {
+      const int edge_a = edges_a.at[static_cast<std::size_t>(i)];
+      const GaussArc a = arc_of(pair.from_a.own, edge_a);
+      const int sign = crossing_sign(a, b);
+      if (sign == 0) continue;
+      const RawVec k = cross_narrow(a.edge, b.edge);
+      if (k == RawVec{}) continue;
+      search.look_at(edge_a, edge_b, signed_axis(direction_of(k.x, k.y, k.z), sign));
+    }
+  }
+  return search.best;
+}
+
+Segment edge_segment(const Polytope& polytope, int edge, const Mat3& rotation,
+                     const RawVec& origin) {
+  const RawVec from = turned(rotation, start_of(polytope, edge));
+  const RawVec to = turned(rotation, end_of(polytope, edge));
+  const RawVec way = to - from;
+  const Direction d = direction(way.x, way.y, way.z);
+  const auto half = raw::round_shift(static_cast<Fine>(d.length), k_fine_per_length + 1);
+  const RawVec middle{from.x + way.x / 2, from.y + way.y / 2, from.z + way.z / 2};
+  return {origin + middle, d.unit, {static_cast<std::int32_t>(half)}};
+}
+
+}  // namespace lockstone::geometry

@@ -1,0 +1,130 @@
+#include "core/geometry/polytope_pair.h"
+
+namespace lockstone::geometry {
+namespace {
+
+Vec3<Unit> row(const Mat3& m, int i) {
+  return {m.x[i], m.y[i], m.z[i]};
+}
+
+Mat3 transposed(const Mat3& m) {
+  return {row(m, 0), row(m, 1), row(m, 2)};
+}
+
+/// B's axes in A's, each entry rounded once.
+Mat3 relative(const Mat3& a, const Mat3& b) {
+  return {to_local(a, b.x), to_local(a, b.y), to_local(a, b.z)};
+}
+
+Fine coarse_dot(const RawVec& point, const Vec3<Unit>& n) {
+  return point.x * n.x.raw + point.y * n.y.raw + point.z * n.z.raw;
+}
+
+/// The search for the best face: what is known so far.
+struct FaceSearch {
+  const PolytopeView& view;
+  Witness& witness;
+  FaceSupport best{};
+
+  [[nodiscard]] Fine height(int face, const RawVec& point) const {
+    const PolytopeFace& f = view.own.faces[static_cast<std::size_t>(face)];
+    return coarse_dot(point, f.normal) - f.offset;
+  }
+
+  /// Whether some witness shows that the face is worse than the best.
+  [[nodiscard]] bool is_worse(int face) const {
+    for (int i = 0; i < witness.count; ++i) {
+      const Fine bound = height(face, witness.points[static_cast<std::size_t>(i)]);
+      if (bound + k_witness_slack < best.separation) return true;
+    }
+    return false;
+  }
+
+  void look_at(int face) {
+    const PolytopeFace& f = view.own.faces[static_cast<std::size_t>(face)];
+    const Vec3<Unit> n = view.to_other(f.normal);
+    const Fine base = dot(view.origin, f.normal) - f.offset;
+    const Support deepest = support_of(view.other, -n);
+    const Fine separation = base - deepest.height;
+    witness.add(view.to_own_coarse(view.other.vertices[static_cast<std::size_t>(deepest.vertex)]));
+    if (best.face >= 0 && separation < best.separation) return;
+    if (best.face >= 0 && separation == best.separation && face > best.face) return;
+    best = {face, deepest.vertex, separation};
+  }
+};
+
+}  // namespace
+
+SplitVec split(const RawVec& v) {
+  const RawVec coarse{raw::round_shift(v.x, k_fine_per_length),
+                      raw::round_shift(v.y, k_fine_per_length),
+                      raw::round_shift(v.z, k_fine_per_length)};
+  constexpr std::int64_t unit = std::int64_t{1} << k_fine_per_length;
+  return {coarse, {v.x - coarse.x * unit, v.y - coarse.y * unit, v.z - coarse.z * unit}};
+}
+
+RawVec PolytopeView::to_own(const Vec3<Length>& v) const {
+  const RawVec turn = turned(axes, v);
+  constexpr std::int64_t unit = std::int64_t{1} << k_fine_per_length;
+  return {turn.x + (origin.coarse.x * unit + origin.rest.x),
+          turn.y + (origin.coarse.y * unit + origin.rest.y),
+          turn.z + (origin.coarse.z * unit + origin.rest.z)};
+}
+
+RawVec PolytopeView::to_own_coarse(const Vec3<Length>& v) const {
+  const RawVec turn = turned(axes, v);
+  return {origin.coarse.x + raw::round_shift(turn.x, k_fine_per_length),
+          origin.coarse.y + raw::round_shift(turn.y, k_fine_per_length),
+          origin.coarse.z + raw::round_shift(turn.z, k_fine_per_length)};
+}
+
+PolytopePair make_polytope_pair(const Polytope& a, const Mat3& rotation_a, const Polytope& b,
+                                const Mat3& rotation_b, const Vec3<Length>& offset, Length margin) {
+  const Mat3 b_in_a = relative(rotation_a, rotation_b);
+  return {rotation_a,
+          rotation_b,
+          offset,
+          margin,
+          {a, b, rotation_a, b_in_a, split(to_local(rotation_a, offset))},
+          {b, a, rotation_b, transposed(b_in_a), split(-to_local(rotation_b, offset))}};
+}
+
+Fine separation_on(const PolytopePair& pair, const Vec3<Unit>& normal_in_a) {
+  const PolytopeView& view = pair.from_a;
+  return dot(view.origin, normal_in_a) - support_of(view.own, normal_in_a).height -
+         support_of(view.other, -view.to_other(normal_in_a)).height;
+}
+
+void Witness::add(const RawVec& point) {
+  points[static_cast<std::size_t>(next)] = point;
+  next = next + 1 < static_cast<int>(points.size()) ? next + 1 : 0;
+  count = std::min(count + 1, static_cast<int>(points.size()));
+}
+
+FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enough,
+                      Witness& witness) {
+  FaceSearch search{view, witness};
+  const RawVec inside = view.to_own_coarse(view.other.interior);
+  const int count = static_cast<int>(view.own.faces.size());
+  // The plane highest below the other's inside is the likeliest to be the best.
+  int first = -1;
+  Fine highest = 0;
+  for (int face = 0; face < count; ++face) {
+    const Fine height = search.height(face, inside);
+    if (first >= 0 && height <= highest) continue;
+    if (!facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) continue;
+    first = face;
+    highest = height;
+  }
+  if (first < 0) return {};
+  search.look_at(first);
+  for (int face = 0; face < count && search.best.separation <= enough; ++face) {
+    if (face == first || search.height(face, inside) + k_witness_slack < search.best.separation)
+      continue;
+    if (search.is_worse(face)) continue;
+    if (facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) search.look_at(face);
+  }
+  return search.best;
+}
+
+}  // namespace lockstone::geometry
