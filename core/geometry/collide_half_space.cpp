@@ -43,12 +43,14 @@ Manifold below_capsule(const PlaneMeeting& plane) {
   const Vec3<Unit>& axis = plane.b.rotation.y;
   Manifold manifold;
   manifold.normal = plane.normal;
-  std::uint32_t feature = 0;
-  for (const Length s : {-half, half}) {
-    const RawVec end = along(axis, s);
+  const std::int64_t lean = lockstone::dot(axis, plane.normal).raw;
+  const bool steep = magnitude_of(lean) > std::int64_t{1} << 55;  // 1/32, as against a box
+  for (const int sign : {-1, 1}) {
+    if (steep && sign == sign_of(lean)) continue;
+    const RawVec end = along(axis, half * sign);
     const RawVec pole = fine(plane.offset) + end - along(plane.normal, radius);
     add_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),
-              feature++);
+              sign < 0 ? 0 : 1);
   }
   return manifold;
 }
@@ -60,8 +62,8 @@ struct LowPolygon {
   int count = 0;
   int shift = k_fine_per_length + 3;  ///< coordinates within ±4096 m differ by less than 2^30 so
 
-  void add(const PlaneMeeting& plane, const Vec3<Unit>& u, const Vec3<Unit>& v,
-           const RawVec& point, std::uint32_t feature) {
+  void add(const PlaneMeeting& plane, const Vec3<Unit>& u, const Vec3<Unit>& v, const RawVec& point,
+           std::uint32_t feature) {
     const auto i = static_cast<std::size_t>(count++);
     points[i] = point;
     vertices[i] = {dot(point, u), dot(point, v), plane.centre_height + dot(point, plane.normal),

@@ -114,9 +114,9 @@ Manifold vertex_manifold(const Meeting& meeting) {
   manifold.normal = best.of_b ? d.unit : -d.unit;
   const Witnesses witnesses =
       best.of_b ? Witnesses{foot, foot + gap} : Witnesses{centre + foot + gap, centre + foot};
-  add_point(manifold, witnesses, pair.offset, static_cast<Fine>(d.length), pair.margin,
-            k_hull_vertex_bits | (best.of_b ? k_hull_of_b : 0) |
-                static_cast<std::uint32_t>(best.vertex));
+  add_point(
+      manifold, witnesses, pair.offset, static_cast<Fine>(d.length), pair.margin,
+      k_hull_vertex_bits | (best.of_b ? k_hull_of_b : 0) | static_cast<std::uint32_t>(best.vertex));
   return manifold;
 }
 
@@ -207,8 +207,7 @@ Manifold collide_front(const PolytopePair& pair) {
   const RawVec centre = view.to_own(view.other.interior);
   if (height_above(front, split(centre)) < 0) return {};
   const Vec3<Unit> n = front.normal;
-  const Manifold manifold =
-      collide_pair(pair, {-n, -k_backward}, {view.to_other(n), -k_backward});
+  const Manifold manifold = collide_pair(pair, {n, -k_backward}, {view.to_other(n), -k_backward});
   const Vec3<Unit> world = lockstone::rotate(pair.rotation_a, n);
   return lockstone::dot(manifold.normal, world).raw < k_backward ? Manifold{} : manifold;
 }
@@ -222,8 +221,8 @@ Manifold collide_views(const PolytopePair& pair) {
 Manifold collide_polytopes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                            Length margin) {
   if (b.polytope != nullptr) {
-    return collide_views(make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation,
-                                            offset, margin));
+    return collide_views(
+        make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation, offset, margin));
   }
   const BoxPolytope box(b.shape.size);
   const Polytope view = box.view();

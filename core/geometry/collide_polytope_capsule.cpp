@@ -63,8 +63,7 @@ bool is_steep(const PolytopeCapsule& pair, int face) {
 
 Manifold face_manifold(const PolytopeCapsule& pair, int face, const BesideFace& beside) {
   Manifold manifold;
-  manifold.normal =
-      unit_axis(lockstone::rotate(pair.polytope.rotation, pair.face(face).normal));
+  manifold.normal = unit_axis(lockstone::rotate(pair.polytope.rotation, pair.face(face).normal));
   const bool low_is_deeper = slope_over(pair, face) > 0;
   const bool both = !is_steep(pair, face) && beside.low < beside.high;
   if (low_is_deeper || both)
@@ -118,8 +117,7 @@ Manifold collide_apart(const PolytopeCapsule& pair, const SegmentNearest& neares
 }
 
 Manifold edge_manifold(const PolytopeCapsule& pair, const SegmentEdge& best) {
-  const Segment edge =
-      edge_segment(pair.local.polytope, best.edge, pair.polytope.rotation, {});
+  const Segment edge = edge_segment(pair.local.polytope, best.edge, pair.polytope.rotation, {});
   const Segment core{fine(pair.offset), pair.axis, pair.half_height};
   const ClosestParameters at = closest_parameters(edge, core);
   Manifold manifold;
@@ -154,17 +152,16 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
   const Polytope& p = *polytope.polytope;
   const RawVec centre = to_local(polytope.rotation, offset);
   if (p.one_sided && height_above(p.faces[0], split(centre)) < 0) return {};
-  const Facing backward =
-      p.one_sided ? Facing{p.faces[0].normal, -k_backward} : Facing{};
+  const Facing backward = p.one_sided ? Facing{p.faces[0].normal, -k_backward} : Facing{};
   const Vec3<Unit>& axis = capsule.rotation.y;
-  const PolytopeCapsule pair{polytope,
-                             offset,
-                             capsule.shape.size.x,
-                             margin,
-                             capsule.shape.size.y,
-                             axis,
-                             {p, centre, to_local(polytope.rotation, axis),
-                              fine(capsule.shape.size.y), backward}};
+  const PolytopeCapsule pair{
+      polytope,
+      offset,
+      capsule.shape.size.x,
+      margin,
+      capsule.shape.size.y,
+      axis,
+      {p, centre, to_local(polytope.rotation, axis), fine(capsule.shape.size.y), backward}};
   const Fine limit = fine(pair.radius) + fine(margin);
   const SegmentFace face = best_face(pair.local);
   if (face.separation > limit) return {};
@@ -172,8 +169,7 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
     const SegmentEdge edge =
         best_edge(pair.local, std::min(edge_threshold(face.separation), Fine{0}));
     if (edge.found && edge.separation <= 0) return edge_manifold(pair, edge);
-    if (!edge.found)
-      return collide_inside(pair, face, nearest_to_segment(pair.local, limit));
+    if (!edge.found) return collide_inside(pair, face, nearest_to_segment(pair.local, limit));
   }
   const SegmentNearest nearest = nearest_to_segment(pair.local, limit);
   if (!nearest.found) return {};

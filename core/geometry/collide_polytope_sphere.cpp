@@ -38,8 +38,8 @@ Manifold collide_polytope_sphere(const PosedShape& polytope, const PosedShape& s
   Fine distance = at.distance;
   if (at.face >= 0 || is_negligible(at.gap)) {
     const int face = face_of(p, at, position);
-    manifold.normal = unit_axis(lockstone::rotate(
-        polytope.rotation, p.faces[static_cast<std::size_t>(face)].normal));
+    manifold.normal = unit_axis(
+        lockstone::rotate(polytope.rotation, p.faces[static_cast<std::size_t>(face)].normal));
   } else {
     const RawVec gap = rotate(polytope.rotation, at.gap);
     const Direction d = direction(gap.x, gap.y, gap.z);

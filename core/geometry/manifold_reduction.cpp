@@ -134,9 +134,8 @@ void sort_by_feature(std::span<FaceVertex> polygon) {
 }  // namespace
 
 int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
-  const auto end = std::remove_if(polygon.begin(), polygon.end(), [margin](const FaceVertex& v) {
-    return !keeps(v.z, margin);
-  });
+  const auto end = std::remove_if(polygon.begin(), polygon.end(),
+                                  [margin](const FaceVertex& v) { return !keeps(v.z, margin); });
   return static_cast<int>(end - polygon.begin());
 }
 

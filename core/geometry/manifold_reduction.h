@@ -21,12 +21,12 @@ struct FaceVertex {
 /// first; answers how many.
 [[nodiscard]] int drop_far_vertices(std::span<FaceVertex> polygon, Length margin);
 
-/// Brings at most four vertices to the front, ascending by feature, each once, and answers how many: the one
-/// farthest in a fixed direction, the one farthest from it, the one that spans the largest triangle
-/// with both, and the one that adds most area to that. Each later candidate must be better by a
-/// sixteenth, so that equals do not alternate. A vertex more than k_deeper deeper than the four
-/// replaces the nearest of them. Areas are measured with x and y shifted right by `shift`, which
-/// brings their differences within 2^30.
+/// Brings at most four vertices to the front, ascending by feature, each once, and answers how
+/// many: the one farthest in a fixed direction, the one farthest from it, the one that spans the
+/// largest triangle with both, and the one that adds most area to that. Each later candidate must
+/// be better by a sixteenth, so that equals do not alternate. A vertex more than k_deeper deeper
+/// than the four replaces the nearest of them. Areas are measured with x and y shifted right by
+/// `shift`, which brings their differences within 2^30.
 [[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift);
 
 /// 7.6 µm.

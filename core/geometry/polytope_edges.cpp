@@ -86,8 +86,8 @@ struct EdgeSearch {
 
   void look_at(int edge_a, int edge_b, const Vec3<Unit>& normal) {
     const PolytopeView& view = pair.from_a;
-    const RawVec gap = view.to_own_coarse(start_of(view.other, edge_b)) -
-                       lanes_of(start_of(view.own, edge_a));
+    const RawVec gap =
+        view.to_own_coarse(start_of(view.other, edge_b)) - lanes_of(start_of(view.own, edge_a));
     // Of any two points; that of the supports is not above it.
     if (lean_of(gap, normal) + k_witness_slack <= threshold) return;
     const Fine separation = separation_on(pair, normal);
@@ -101,8 +101,8 @@ struct EdgeSearch {
 }  // namespace
 
 RawVec narrowed(const RawVec& v, int bits) {
-  const auto size = static_cast<std::uint64_t>(magnitude_of(v.x) | magnitude_of(v.y) |
-                                               magnitude_of(v.z));
+  const auto size =
+      static_cast<std::uint64_t>(magnitude_of(v.x) | magnitude_of(v.y) | magnitude_of(v.z));
   const int shift = static_cast<int>(std::bit_width(size)) - bits;
   if (shift <= 0) return v;
   // Rounding may reach 2^bits itself, which the users of the lanes have room for.

@@ -257,8 +257,8 @@ void add_face_point(Manifold& manifold, const Frame& frame, const FaceVertex& v)
   const FaceMeeting& meeting = frame.meeting;
   const Vec3<Unit>& n = frame.face.normal;
   const Fine lift = frame.face.offset - lockstone::dot(frame.corner, n).raw;
-  const RawVec on_own = fine(frame.corner) + along(frame.u, v.x) + along(frame.v, v.y) +
-                        along(n, lift);
+  const RawVec on_own =
+      fine(frame.corner) + along(frame.u, v.x) + along(frame.v, v.y) + along(n, lift);
   const Mat3& rotation = meeting.view.rotation;
   const Witnesses witnesses{rotate(rotation, on_own), rotate(rotation, on_own + along(n, v.z))};
   add_point(manifold, witnesses, meeting.offset, v.z, meeting.margin, v.feature);
@@ -278,8 +278,7 @@ Manifold manifold_of(const Frame& frame, const ClipPolygon& polygon) {
   count = reduce_to_four(used(), frame.shift);
   Manifold manifold;
   if (count == 0) return manifold;
-  manifold.normal =
-      unit_axis(lockstone::rotate(frame.meeting.view.rotation, frame.face.normal));
+  manifold.normal = unit_axis(lockstone::rotate(frame.meeting.view.rotation, frame.face.normal));
   for (const FaceVertex& v : used())
     add_face_point(manifold, frame, v);
   return manifold;

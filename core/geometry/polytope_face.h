@@ -1,4 +1,5 @@
-// Face contacts of two polytopes: the incident face clipped against the sides of the reference face.
+// Face contacts of two polytopes: the incident face clipped against the sides of the reference
+// face.
 #pragma once
 
 #include "core/geometry/polytope_pair.h"

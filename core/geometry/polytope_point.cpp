@@ -57,8 +57,7 @@ RawVec gap_to_edge(const Polytope& polytope, int edge, const RawVec& point) {
   const RawVec rest = shifted(gap, k_fine_per_length);
   if (cut == 0 || size_of(rest) >> 29 != 0) return gap;
   const std::int64_t missing = narrow_dot(rest, lanes);
-  return without(gap, way,
-                 clamped_ratio(missing, Unit::frac_bits - 2 * cut, whole, k_whole_share));
+  return without(gap, way, clamped_ratio(missing, Unit::frac_bits - 2 * cut, whole, k_whole_share));
 }
 
 struct EdgeChoice {

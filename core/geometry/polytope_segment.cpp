@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/preference.h"
 #include "core/geometry/segment.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
@@ -36,6 +37,35 @@ void take_nearer(SegmentNearest& best, const SegmentNearest& other) {
 void try_end(const PolytopeSegment& segment, Fine s, Fine limit, SegmentNearest& best) {
   const NearestPoint at = nearest_point(segment.polytope, segment.at(s), limit);
   if (at.found) take_nearer(best, {true, s, at.point, at.gap, at.distance});
+}
+
+void try_vertex(const Segment& core, const Vec3<Length>& vertex, Fine limit, SegmentNearest& best) {
+  const RawVec point = fine(vertex);
+  const Fine s = closest_parameter(core, point);
+  const RawVec gap = point_at(core, s) - point;
+  const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
+  if (distance <= limit) take_nearer(best, {true, s, point, gap, distance});
+}
+
+/// Where the edge and the core cross, the gap lies along their product, whose direction is exact
+/// however near they are; else an end of the edge is nearest.
+void try_edge(const PolytopeSegment& segment, const Segment& core, int edge, int sign, Fine limit,
+              SegmentNearest& best) {
+  const Polytope& p = segment.polytope;
+  const Segment side = edge_segment(p, edge, k_identity, {});
+  const ClosestParameters closest = closest_parameters(side, core);
+  if (!closest.crossing) {
+    try_vertex(core, start_of(p, edge), limit, best);
+    try_vertex(core, end_of(p, edge), limit, best);
+    return;
+  }
+  const RawVec k = cross_narrow(lanes_of(edge_vector(p, edge)), lanes_of(segment.axis));
+  const Vec3<Unit> n = signed_axis(direction_of(k.x, k.y, k.z), sign);
+  const RawVec point = point_at(side, closest.on_a);
+  const Fine outward = dot(point_at(core, closest.on_b) - point, n);
+  if (outward < -k_agreement || outward > limit) return;  // the far side of the polytope, or far
+  const Fine distance = std::max(outward, Fine{0});
+  take_nearer(best, {true, closest.on_b, point, along(n, distance), distance});
 }
 
 /// Signed height of a point over a side plane, times the length of the edge; and its rise along
@@ -130,9 +160,9 @@ BesideFace beside_face(const PolytopeSegment& segment, int face) {
     }
   }
   // Clamping hides a segment that is wholly outside a side.
-  const bool middle_outside = !is_beside(
-      segment.polytope, face,
-      segment.at(result.low + (raw::subtract(result.high, result.low)) / 2));
+  const bool middle_outside =
+      !is_beside(segment.polytope, face,
+                 segment.at(result.low + (raw::subtract(result.high, result.low)) / 2));
   if (result.low >= result.high && middle_outside) return {1, 0};
   return result;
 }
@@ -146,13 +176,8 @@ SegmentNearest nearest_to_segment(const PolytopeSegment& segment, Fine limit) {
   const Segment core{segment.centre, segment.axis, half};
   for (int edge = 0; edge < static_cast<int>(p.edges.size()); ++edge) {
     if (!is_first_half(p, edge)) continue;
-    if (crossing_sign(segment, p.edges[static_cast<std::size_t>(edge)]) == 0) continue;
-    const Segment side = edge_segment(p, edge, k_identity, {});
-    const ClosestParameters closest = closest_parameters(side, core);
-    const RawVec point = point_at(side, closest.on_a);
-    const RawVec gap = point_at(core, closest.on_b) - point;
-    const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
-    if (distance <= limit) take_nearer(best, {true, closest.on_b, point, gap, distance});
+    const int sign = crossing_sign(segment, p.edges[static_cast<std::size_t>(edge)]);
+    if (sign != 0) try_edge(segment, core, edge, sign, limit, best);
   }
   return best;
 }

@@ -118,10 +118,13 @@ class TestPolytope {
     RealVec sum;
     for (const auto& v : vertices_)
       sum = sum + real(v) * (Real{1} / static_cast<Real>(vertices_.size()));
-    view_ = {vertices_, faces_, edges_,
-             metres(static_cast<double>(sum.x), static_cast<double>(sum.y),
-                    static_cast<double>(sum.z)),
-             &geometry::polytope_kernels(), false};
+    view_ = {
+        vertices_,
+        faces_,
+        edges_,
+        metres(static_cast<double>(sum.x), static_cast<double>(sum.y), static_cast<double>(sum.z)),
+        &geometry::polytope_kernels(),
+        false};
   }
 
   void add_face(const std::vector<std::uint16_t>& loop) {
@@ -213,16 +216,16 @@ inline TestPolytopePtr random_polytope(Dice& dice, double size) {
   const double x = part(), y = part(), z = part();
   switch (dice.between(0, 7)) {
     case 0:
-      return std::make_unique<TestPolytope>(std::vector{
-          metres(x, 0, 0), metres(-x, 0, y), metres(-x, 0, -y), metres(0, z, 0)});
+      return std::make_unique<TestPolytope>(
+          std::vector{metres(x, 0, 0), metres(-x, 0, y), metres(-x, 0, -y), metres(0, z, 0)});
     case 1:
-      return std::make_unique<TestPolytope>(
-          std::vector{metres(x, 0, 0), metres(-x, 0, 0), metres(0, y, 0), metres(0, -y, 0),
-                      metres(0, 0, z), metres(0, 0, -z)});
+      return std::make_unique<TestPolytope>(std::vector{metres(x, 0, 0), metres(-x, 0, 0),
+                                                        metres(0, y, 0), metres(0, -y, 0),
+                                                        metres(0, 0, z), metres(0, 0, -z)});
     case 2:
-      return std::make_unique<TestPolytope>(
-          std::vector{metres(-x, -y, -z), metres(x, -y, -z), metres(-x, -y, z), metres(x, -y, z),
-                      metres(-x, y, 0), metres(x, y, 0)});
+      return std::make_unique<TestPolytope>(std::vector{metres(-x, -y, -z), metres(x, -y, -z),
+                                                        metres(-x, -y, z), metres(x, -y, z),
+                                                        metres(-x, y, 0), metres(x, y, 0)});
     case 3:
       return std::make_unique<TestPolytope>(
           prism_points(static_cast<int>(dice.between(3, 8)), x, y));
@@ -371,10 +374,18 @@ inline Real surface_distance(const RealSolid& solid, const RealVec& p) {
   for (std::size_t i = 0; i < solid.normals.size(); ++i)
     inside = std::max(inside, dot(p - solid.faces[i][0], solid.normals[i]));
   if (solid.faces.size() > 2 && inside <= 0) return std::fabs(inside);
-  if (solid.vertices.size() == 1)
-    return std::fabs(norm(p - solid.vertices[0]) - solid.radius);
+  if (solid.vertices.size() == 1) return std::fabs(norm(p - solid.vertices[0]) - solid.radius);
   return std::fabs(distance_by_features(solid, point) - solid.radius);
 }
+
+/// A shape with its rotation, by value.
+struct Body {
+  Shape shape;
+  Mat3 rotation;
+  const geometry::Polytope* polytope = nullptr;
+
+  [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
+};
 
 /// A pair of which one at least is a polytope.
 struct PolytopeScene {
