@@ -23,7 +23,7 @@ RawVec difference(const Vec3<Length>& a, const Vec3<Length>& b) {
           std::int64_t{a.z.raw} - b.z.raw};
 }
 
-/// Differences are at most 2000 m: each product is below 2^62 / 1.04.
+/// Differences are at most 2^30: each product is at most 2^60.
 RawVec cross(const RawVec& a, const RawVec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

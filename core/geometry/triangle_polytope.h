@@ -14,10 +14,10 @@ namespace lockstone::geometry {
 using TriangleVertices = std::array<Vec3<Length>, 3>;
 
 /// The front normal, norm 1 within 2^-29; zero for a triangle without area. Coordinates within
-/// ±1000 m: then the cross product is exact in 64 bits.
+/// ±512 m: then the cross product is exact in 64 bits.
 [[nodiscard]] Vec3<Unit> triangle_normal(const TriangleVertices& triangle);
 
-/// Whether the vertices lie on one line, exactly. Coordinates within ±1000 m.
+/// Whether the vertices lie on one line, exactly. Coordinates within ±512 m.
 [[nodiscard]] bool is_degenerate(const TriangleVertices& triangle);
 
 [[nodiscard]] LocalBounds bounds_of(const TriangleVertices& triangle);

@@ -28,7 +28,7 @@ struct TriangleIndices {
 
 /// What a mesh is built from; read during `Mesh::build` only.
 struct MeshDef {
-  std::span<const Vec3<Length>> vertices;  ///< within ±1000 m; at most k_max_mesh_vertices
+  std::span<const Vec3<Length>> vertices;  ///< within ±512 m; at most k_max_mesh_vertices
   std::span<const TriangleIndices> triangles;
 
   /// For each triangle an index into `surfaces`, or k_own_surface; empty: all k_own_surface.
