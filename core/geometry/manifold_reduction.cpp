@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "core/geometry/contact_point.h"
 
@@ -126,9 +127,18 @@ Selection select_four(std::span<const FaceVertex> polygon, int shift) {
   return selection;
 }
 
+/// The lowest of repeated features first.
 void sort_by_feature(std::span<FaceVertex> polygon) {
-  std::sort(polygon.begin(), polygon.end(),
-            [](const FaceVertex& a, const FaceVertex& b) { return a.feature < b.feature; });
+  std::sort(polygon.begin(), polygon.end(), [](const FaceVertex& a, const FaceVertex& b) {
+    return std::tie(a.feature, a.z, a.x, a.y) < std::tie(b.feature, b.z, b.x, b.y);
+  });
+}
+
+/// Of a sorted polygon: each feature once.
+std::span<FaceVertex> without_repeats(std::span<FaceVertex> polygon) {
+  const auto same = [](const FaceVertex& a, const FaceVertex& b) { return a.feature == b.feature; };
+  const auto end = std::unique(polygon.begin(), polygon.end(), same);
+  return polygon.first(static_cast<std::size_t>(end - polygon.begin()));
 }
 
 }  // namespace
@@ -141,8 +151,7 @@ int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
 
 int reduce_to_four(std::span<FaceVertex> polygon, int shift) {
   sort_by_feature(polygon);
-  const auto repeated = std::ranges::unique(polygon, {}, &FaceVertex::feature);
-  polygon = polygon.first(polygon.size() - repeated.size());
+  polygon = without_repeats(polygon);
   if (polygon.size() <= 4) return static_cast<int>(polygon.size());
   const Selection selection = select_four(polygon, shift);
   std::array<FaceVertex, 4> chosen;
