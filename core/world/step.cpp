@@ -69,11 +69,13 @@ StepReport World::Impl::step() {
   stop_at_impacts(report);
   refresh_moved();
   find_events();
+  profiler.count_step();
   ++header.tick;
   return report;
 }
 
 void World::Impl::find_pairs(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::find_pairs);
   pairs = broad_phase.find_pairs();
   report.pairs = static_cast<std::uint32_t>(pairs.size());
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
@@ -81,6 +83,7 @@ void World::Impl::find_pairs(StepReport& report) {
 
 // Both contact lists are sorted by key, so that one pass carries records over.
 void World::Impl::collide_pairs(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::collide);
   new_contacts.clear();
   manifolds.clear();
   surfaces.clear();
@@ -102,6 +105,7 @@ void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> 
                                StepReport& report) {
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
+  PairTimer timer(profiler, a.shape().kind, b.shape().kind);
   if (a.is_trigger() || b.is_trigger()) {
     if (bodies_overlap(placed(pair.a), placed(pair.b))) add_trigger(pair, before, report);
     return;
@@ -109,6 +113,7 @@ void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> 
   const Length thickness = max(inner_radii[pair.a], inner_radii[pair.b]);
   const Length margin = speculative_distance(a, b, thickness, time_step);
   collide_bodies(placed(pair.a), placed(pair.b), margin, part_contacts);
+  timer.found(part_contacts.count);
   if (part_contacts.overflowed) report.status = Status::capacity_exhausted;
   for (const PartContact& contact : part_contacts)
     add_contact(pair, contact, before, report);
@@ -172,6 +177,7 @@ std::uint32_t World::Impl::solver_body_of(std::uint32_t body) {
 }
 
 void World::Impl::prepare_contacts(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::prepare);
   constraints.clear();
   solver_bodies.clear();
   solver_bodies.emplace_back();
@@ -196,6 +202,7 @@ void World::Impl::prepare_contacts(StepReport& report) {
 }
 
 void World::Impl::run_substeps(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::solve);
   if (constraints.empty()) return;
   ContactSolver solver(solver_bodies, constraints, time_step);
   const std::span<SolverBody> moving = std::span(solver_bodies).subspan(1);
@@ -214,6 +221,7 @@ void World::Impl::run_substeps(StepReport& report) {
 
 // The new records: what each point ended with, and whether the surfaces met.
 void World::Impl::store_impulses() {
+  const StageTimer timer(profiler, StepStage::store);
   for (const ContactConstraint& contact : constraints) {
     ContactRecord& record = new_contacts[contact.record];
     record.points = {};
@@ -236,6 +244,7 @@ void World::Impl::store_impulses() {
 }
 
 void World::Impl::move_bodies(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::move);
   moved.clear();
   for (std::uint32_t body = 0; body < header.body_limit; ++body) {
     if (!bodies[body].moves()) continue;
@@ -247,6 +256,7 @@ void World::Impl::move_bodies(StepReport& report) {
 
 // As `refresh` does for each, with the rotations all at once.
 void World::Impl::refresh_moved() {
+  const StageTimer timer(profiler, StepStage::refresh);
   if (moved.empty()) return;
   const lanes::QuatField orientations{&bodies.front().orientation, sizeof(BodyRecord)};
   lanes::compute_rotations(orientations, moved, rotations.data());
@@ -310,6 +320,7 @@ World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& re
 
 // Merges the old and the new contacts, both sorted by pair, and makes the new ones the state.
 void World::Impl::find_events() {
+  const StageTimer timer(profiler, StepStage::events);
   events.clear();
   std::span<const ContactRecord> before = contacts(), now = new_contacts;
   while (!before.empty() || !now.empty()) {

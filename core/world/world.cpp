@@ -125,6 +125,12 @@ StepReport World::step() {
 std::span<const ContactEvent> World::events() const {
   return impl_->events;
 }
+void World::set_clock(ProfileClock now, ProfileDetail detail) {
+  impl_->profiler.set_clock(now, detail);
+}
+const StepProfile& World::profile() const {
+  return impl_->profiler.profile();
+}
 bool World::exists(BodyHandle body) const {
   return impl_->find(body) != nullptr;
 }

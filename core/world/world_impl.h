@@ -18,6 +18,7 @@
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
+#include "core/world/profiler.h"
 #include "core/world/world_header.h"
 
 namespace lockstone {
@@ -82,6 +83,8 @@ struct World::Impl {
 
   // Of the last step only.
   std::vector<ContactEvent> events;
+
+  Profiler profiler;
 
  private:
   void find_pairs(StepReport& report);

@@ -16,6 +16,7 @@
 #include <lockstone/collision.h>
 #include <lockstone/command.h>
 #include <lockstone/event.h>
+#include <lockstone/profile.h>
 #include <lockstone/query.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
@@ -96,6 +97,11 @@ class World {
   /// Events of the last step; empty after `load`. Read them before the next step: they are not
   /// state.
   [[nodiscard]] std::span<const ContactEvent> events() const;
+
+  /// Clears the profile and takes times by `now` from here on; null, as at first, takes none. No
+  /// result depends on it.
+  void set_clock(ProfileClock now, ProfileDetail detail = ProfileDetail::stages);
+  [[nodiscard]] const StepProfile& profile() const;
 
   // Bodies ----------------------------------------------------------------------------------------
 
