@@ -8,6 +8,7 @@
 #include "core/math/wide/target.h"
 #include "tools/bench/rows/float_rows.h"
 #include "tools/bench/rows/integer_rows.h"
+#include "tools/bench/support/measure.h"
 
 namespace lockstone::bench {
 namespace {
@@ -69,9 +70,7 @@ class IntegerRuns {
 }  // namespace
 
 double RowBenchResult::quantile(double share) const {
-  std::vector<double> sorted = times;
-  std::sort(sorted.begin(), sorted.end());
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  return bench::quantile(times, share);
 }
 
 bool RowBench::hashes_agree() const {

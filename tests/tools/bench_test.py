@@ -1,0 +1,82 @@
+"""lockstone bench: that it runs, that what it prints can be read, and that it computes the same state
+every time. Times are not judged.
+
+usage: bench_test.py LOCKSTONE
+"""
+
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+LOCKSTONE = ""
+OK, USAGE = 0, 64
+HASH = r"^[0-9a-f]{16}$"
+
+
+class Case(unittest.TestCase):
+    def expect(self, code, *arguments):
+        done = subprocess.run([LOCKSTONE, "bench", *map(str, arguments)], capture_output=True, text=True,
+                              timeout=240)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def json_of(self, *arguments):
+        return json.loads(self.expect(OK, *arguments, "--json"))
+
+
+class Speed(Case):
+    @classmethod
+    def setUpClass(cls):
+        run = ("speed", "--scene", "mixed-pile", "--ticks", 50)
+        cls.scene, = cls().json_of(*run, "--repeats", 2)["scenes"]
+        cls.again, = cls().json_of(*run, "--repeats", 1, "--detail")["scenes"]
+
+    def test_repeats_itself(self):
+        self.assertRegex(self.scene["final_hash"], HASH)
+        for key in ("final_hash", "bodies", "contacts", "contact_points", "saturations", "ticks"):
+            self.assertEqual(self.scene[key], self.again[key], key)
+        self.assertTrue(self.scene["hashes_agree"] and self.again["hashes_agree"])
+        self.assertEqual((self.scene["status"], self.scene["ticks"]), ("ok", 50))
+
+    def test_the_stages_lie_within_the_tick(self):
+        scene = self.again  # a single run: medians of several need not add up
+        self.assertEqual(list(scene["stage_ns"])[:2], ["find_pairs", "collide"])
+        self.assertLessEqual(sum(scene["stage_ns"].values()), scene["tick_ns"]["mean"])
+
+    def test_the_detail_names_the_pairs(self):
+        pairs = {row["kinds"]: row for row in self.again["pairs"]}
+        self.assertLessEqual({"sphere-box", "capsule-box", "box-box"}, set(pairs))
+        for row in pairs.values():
+            self.assertLessEqual(row["in_contact"], row["pairs"])
+            self.assertLessEqual(row["reused"], row["manifolds"])
+
+    def test_what_cannot_run_is_absent_with_a_reason(self):
+        report = self.json_of("speed", "--scene", "joint-grid")
+        self.assertEqual(report["scenes"], [])
+        self.assertEqual(report["absent"], [{"scene": "joint-grid", "needs": "joints"}])
+
+    def test_lists_its_scenes(self):
+        self.assertIn("large-pyramid", self.expect(OK, "speed", "--list"))
+
+    def test_writes_a_line_a_tick(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "ticks.csv"
+            text = self.expect(OK, "speed", "--scene", "ball-rain", "--ticks", 12, "--repeats", 1, "--csv", path)
+            self.assertIn("ball-rain", text)
+            with path.open() as file:
+                rows = list(csv.DictReader(file))
+        self.assertEqual([row["tick"] for row in rows], [str(tick) for tick in range(12)])
+        self.assertTrue(all(int(row["ns"]) >= int(row["solve_ns"]) for row in rows))
+
+    def test_refuses_wrong_usage(self):
+        self.expect(USAGE, "speed", "--scene", "nothing")
+        self.expect(USAGE, "speed", "--ticks", 0)
+
+
+if __name__ == "__main__":
+    LOCKSTONE = sys.argv[1]
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,38 @@
+// The scenes that `lockstone bench speed` times: large, without anything to save or replay.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <lockstone/world.h>
+
+namespace lockstone::bench {
+
+/// A scene has no memory besides its world. One that the engine cannot do yet is listed with what
+/// it waits for, so that a table never looks complete when it is not.
+struct SpeedScene {
+  std::string_view name;
+  std::string_view description;
+  std::uint32_t ticks = 0;
+  World (*make)() = nullptr;              ///< null: absent
+  void (*drive)(World& world) = nullptr;  ///< commands before a step; may be null
+  std::string_view needs = {};            ///< of an absent scene
+
+  [[nodiscard]] bool is_absent() const { return make == nullptr; }
+};
+
+/// All, in the order in which they are listed.
+[[nodiscard]] std::span<const SpeedScene* const> speed_scenes();
+
+/// Null for an unknown name.
+[[nodiscard]] const SpeedScene* find_speed_scene(std::string_view name);
+
+/// An empty world of the default rules with room for that much.
+[[nodiscard]] World make_speed_world(std::uint32_t bodies, std::uint32_t pairs,
+                                     std::uint32_t contacts);
+
+extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // pyramids.cpp
+extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp
+
+}  // namespace lockstone::bench

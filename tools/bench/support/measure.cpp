@@ -1,0 +1,32 @@
+#include "tools/bench/support/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+namespace lockstone::bench {
+
+std::uint64_t now_nanoseconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+double clock_overhead() {
+  constexpr int k_intervals = 1000;
+  std::vector<double> times;
+  for (int i = 0; i < k_intervals; ++i) {
+    const std::uint64_t begin = now_nanoseconds();
+    times.push_back(static_cast<double>(now_nanoseconds() - begin));
+  }
+  return median(std::move(times));
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
+}
+
+}  // namespace lockstone::bench

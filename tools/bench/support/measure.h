@@ -1,0 +1,23 @@
+// What the benchmarks measure with: one clock, and quantiles of what it said.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lockstone::bench {
+
+/// Nanoseconds of the steady clock.
+[[nodiscard]] std::uint64_t now_nanoseconds();
+
+/// How much of its own time an interval between two calls of the clock holds, in nanoseconds: the
+/// median of many empty ones.
+[[nodiscard]] double clock_overhead();
+
+/// The value below which a share (0 … 1) of the values lie; one of them. 0 for none.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
+[[nodiscard]] inline double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
+
+}  // namespace lockstone::bench

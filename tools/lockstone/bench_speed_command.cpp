@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tools/bench/support/measure.h"
+#include "tools/lockstone/bench_speed_print.h"
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct BenchSpeedOptions {
+  std::vector<std::string> scenes;  // none: all
+  std::uint32_t ticks = 0;
+  int repeats = 0;  // 0: by `quick`
+  bool quick = false;
+  bool detail = false;
+  bool json = false;
+  std::string csv;
+};
+
+// Empty when a name is unknown.
+std::vector<const bench::SpeedScene*> chosen_scenes(const std::vector<std::string>& names) {
+  const auto all = bench::speed_scenes();
+  if (names.empty()) return {all.begin(), all.end()};
+  std::vector<const bench::SpeedScene*> chosen;
+  for (const std::string& name : names) {
+    const bench::SpeedScene* scene = bench::find_speed_scene(name);
+    if (scene != nullptr) {
+      chosen.push_back(scene);
+      continue;
+    }
+    complain(fmt::format("no scene is named {}; --list names them", name));
+    return {};
+  }
+  return chosen;
+}
+
+bench::SpeedOptions measure_of(const BenchSpeedOptions& options, const bench::SpeedScene& scene) {
+  bench::SpeedOptions measure;
+  measure.detail = options.detail;
+  measure.repeats = options.repeats != 0 ? options.repeats : options.quick ? 1 : 3;
+  measure.ticks = options.ticks;
+  if (options.ticks == 0 && options.quick) measure.ticks = std::max(scene.ticks / 5, 1U);
+  return measure;
+}
+
+void list_scenes(const std::vector<const bench::SpeedScene*>& scenes) {
+  for (const bench::SpeedScene* scene : scenes) {
+    const std::string remark =
+        scene->is_absent() ? fmt::format("; absent: needs {}", scene->needs) : "";
+    fmt::print("{:<14} {:>5} ticks  {}{}\n", scene->name, scene->ticks, scene->description, remark);
+  }
+}
+
+SpeedReport measure(const BenchSpeedOptions& options,
+                    const std::vector<const bench::SpeedScene*>& scenes) {
+  SpeedReport report;
+  report.detail = options.detail;
+  report.clock_nanoseconds = bench::clock_overhead();
+  Progress progress;
+  for (const bench::SpeedScene* scene : scenes) {
+    if (scene->is_absent()) {
+      report.absent.push_back(scene);
+      continue;
+    }
+    progress.show(std::string(scene->name));
+    report.results.push_back(bench::run_speed(*scene, measure_of(options, *scene)));
+  }
+  return report;
+}
+
+// A faster wrong answer must not pass for a good one.
+int verdict(const SpeedReport& report) {
+  int code = k_ok;
+  for (const bench::SpeedResult& result : report.results) {
+    if (result.status() == Status::ok && result.hashes_agree) continue;
+    complain(fmt::format("{}: {}", result.scene->name,
+                         result.hashes_agree ? "a tick did not do all of its work"
+                                             : "repeats ended in different states"));
+    code = k_different;
+  }
+  return code;
+}
+
+int run(const BenchSpeedOptions& options, bool list) {
+  const std::vector<const bench::SpeedScene*> scenes = chosen_scenes(options.scenes);
+  if (scenes.empty()) return k_usage;
+  if (list) {
+    list_scenes(scenes);
+    return k_ok;
+  }
+  const SpeedReport report = measure(options, scenes);
+  options.json ? print_speed_json(report) : print_speed_tables(report);
+  if (!options.csv.empty() && !write_text_file(options.csv, speed_csv(report)))
+    return k_unavailable;
+  return verdict(report);
+}
+
+}  // namespace
+
+void add_bench_speed_command(CLI::App& bench, int& exit_code) {
+  auto options = std::make_shared<BenchSpeedOptions>();
+  auto list = std::make_shared<bool>(false);
+  CLI::App* command = bench.add_subcommand("speed", "Time per tick of large scenes, by stage");
+  command->add_option("--scene", options->scenes, "Only these");
+  command->add_option("--ticks", options->ticks, "Instead of the scene's own number")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--repeats", options->repeats, "A tick's time is the median over these (3)")
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--quick", options->quick, "A fifth of the ticks, once");
+  command->add_flag("--detail", options->detail, "Also a table of pairs by kinds of shape");
+  command->add_flag("--list", *list, "Only name the scenes");
+  command->add_flag("--json", options->json, "Print JSON");
+  command->add_option("--csv", options->csv, "Write a file with one line a tick");
+  command->callback([options, list, &exit_code] { exit_code = run(*options, *list); });
+}
+
+}  // namespace lockstone::tool
