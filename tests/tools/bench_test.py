@@ -77,6 +77,49 @@ class Speed(Case):
         self.expect(USAGE, "speed", "--ticks", 0)
 
 
+class Queries(Case):
+    @classmethod
+    def setUpClass(cls):
+        run = ("queries", "--bodies", 300, "--queries", 200, "--repeats", 1)
+        cls.report = cls().json_of(*run)
+        cls.again = cls().json_of(*run)
+        cls.other = cls().json_of(*run, "--seed", 2)
+
+    def test_repeat_themselves(self):
+        def hashes(report):
+            return [report["world_hash"], *(row["answers_hash"] for row in report["rows"])]
+        self.assertEqual(hashes(self.report), hashes(self.again))
+        self.assertFalse(set(hashes(self.report)) & set(hashes(self.other)))
+        for text in hashes(self.report):
+            self.assertRegex(text, HASH)
+
+    def test_are_answered_right(self):
+        for row in self.report["rows"]:
+            ours = row["engines"][0]
+            self.assertEqual(ours["right"], 1, row["query"])
+            self.assertLessEqual(ours["worst_metres"], 2e-6, row["query"])
+        judges = [row["judge"] for row in self.report["rows"]]
+        self.assertGreater(judges.count("double"), judges.count("lockstone"))
+
+    def test_are_of_all_kinds(self):
+        names = {row["query"]: row["found"] for row in self.report["rows"]}
+        self.assertLessEqual({"ray closest 5 m", "ray any 100 m", "ray all 100 m", "overlap box 1 m", "point"},
+                             set(names))
+        self.assertTrue(all(found > 0 for found in names.values()), names)
+
+    def test_a_peer_is_there_or_absent(self):
+        engines = {engine["engine"].split()[0] for engine in self.report["rows"][0]["engines"]}
+        self.assertEqual(engines | set(self.report["absent"]), {"lockstone", "Bullet"})
+
+    def test_are_printed_as_text(self):
+        text = self.expect(OK, "queries", "--bodies", 100, "--queries", 20, "--repeats", 1)
+        self.assertIn("ray closest 5 m", text)
+        self.assertIn("Bullet", text)
+
+    def test_refuse_wrong_usage(self):
+        self.expect(USAGE, "queries", "--bodies", 0)
+
+
 if __name__ == "__main__":
     LOCKSTONE = sys.argv[1]
     unittest.main(argv=sys.argv[:1], verbosity=2)

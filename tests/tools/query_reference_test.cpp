@@ -1,0 +1,63 @@
+// The judge of the query benchmark agrees with the world, and would notice if it were wrong.
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/literals.h>
+
+#include "tools/bench/queries/query_engine.h"
+#include "tools/bench/queries/query_scene.h"
+
+namespace lockstone::bench {
+namespace {
+
+using namespace lockstone::literals;
+
+std::vector<QueryAnswer> answers_of(QueryEngine& engine, const QueryRow& row) {
+  std::vector<QueryAnswer> answers(row.size());
+  EXPECT_TRUE(engine.answer(row, answers)) << row.name;
+  return answers;
+}
+
+std::size_t differences(const QueryScene& judged, const World& world, const QueryRow& row) {
+  const auto ours = answers_of(*make_lockstone_engine(world), row);
+  const auto right = answers_of(*make_reference_engine(judged), row);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < ours.size(); ++i)
+    count += ours[i].count != right[i].count || ours[i].body != right[i].body ? 1U : 0U;
+  return count;
+}
+
+TEST(QueryReference, AgreesWithTheWorld) {
+  const QueryScene scene = make_query_scene(200, 3);
+  const World world = make_query_world(scene);
+  for (const QueryRow& row : make_query_rows(scene, world, 300, 3)) {
+    if (row.shape.kind == ShapeKind::box) continue;  // it has no such answer
+    EXPECT_EQ(differences(scene, world, row), 0U) << row.name;
+  }
+}
+
+TEST(QueryReference, NoticesBodiesThatAreElsewhere) {
+  const QueryScene scene = make_query_scene(200, 3);
+  const World world = make_query_world(scene);
+  QueryScene moved = scene;
+  for (QueryBody& body : moved.bodies)
+    body.pose.position.y += 0.3_m;
+  for (const QueryRow& row : make_query_rows(scene, world, 300, 3)) {
+    if (row.shape.kind == ShapeKind::box) continue;
+    EXPECT_GT(differences(moved, world, row), 0U) << row.name;
+  }
+}
+
+TEST(QueryReference, RefusesWhatItDoesNotKnow) {
+  QueryScene scene = make_query_scene(16, 1);
+  QueryRow row{"box", QueryKind::overlap, {}, Shape::box(1_m, 1_m, 1_m), {Transform{}}};
+  std::array<QueryAnswer, 1> answers{};
+  EXPECT_FALSE(make_reference_engine(scene)->answer(row, answers));
+  scene.bodies[3].shape = Shape::half_space();
+  EXPECT_EQ(make_reference_engine(scene), nullptr);
+}
+
+}  // namespace
+}  // namespace lockstone::bench

@@ -1,0 +1,43 @@
+// What answers the questions of `lockstone bench queries`: ours, and peers beside it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tools/bench/queries/query_scene.h"
+
+namespace lockstone::bench {
+
+inline constexpr std::uint32_t k_no_body = 0xffffffff;
+
+/// By kind: a closest ray fills `body` and `fraction`, all kinds `count` (1 or 0 of rays that ask
+/// for one body).
+struct QueryAnswer {
+  std::uint32_t count = 0;
+  std::uint32_t body = k_no_body;
+  double fraction = 1;
+};
+
+class QueryEngine {
+ public:
+  virtual ~QueryEngine() = default;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+
+  /// Answers a whole row; false when the engine has no such question.
+  virtual bool answer(const QueryRow& row, std::span<QueryAnswer> out) = 0;
+};
+
+/// Refers to the world for its life.
+[[nodiscard]] std::unique_ptr<QueryEngine> make_lockstone_engine(const World& world);
+
+/// Judges the others: in double, one body after the other. Knows spheres, capsules and boxes and
+/// all questions but the overlap with a box; null for a scene with other bodies.
+[[nodiscard]] std::unique_ptr<QueryEngine> make_reference_engine(const QueryScene& scene);
+
+/// Of everything that our answers to a row say, normals and points included.
+[[nodiscard]] std::uint64_t hash_of_answers(const World& world, const QueryRow& row);
+
+}  // namespace lockstone::bench
