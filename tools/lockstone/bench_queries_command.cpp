@@ -39,7 +39,7 @@ void print_peer(const bench::QueryTimes& peer, double ours) {
     return;
   }
   const double theirs = median_of(peer);
-  fmt::print("  {:<11} {:>7.0f}", peer.engine, theirs);
+  fmt::print("  {:<12} {:>7.0f}", peer.engine, theirs);
   print_agreement(peer.agreement);
   fmt::print(" {:>6.2f}", ours / theirs);
 }
@@ -48,7 +48,7 @@ void print_table(const bench::QueryBench& bench) {
   fmt::print("{} bodies, {} of them static, world {}{}\n", bench.bodies, bench.static_bodies,
              hash_text(bench.world_hash), k_build_remark);
   fmt::print(
-      "{:<20} {:>6} {:<9} {:>7} {:>7} {:>7} {:>8} {:>9}  {:<16}  {:<11} {:>7} {:>8} {:>9} {:>6}\n",
+      "{:<20} {:>6} {:<9} {:>7} {:>7} {:>7} {:>8} {:>9}  {:<16}  {:<12} {:>7} {:>8} {:>9} {:>6}\n",
       "ns per query", "found", "judge", "ours", "p99", "M/s", "right", "worst mm", "answers",
       "peer", "", "right", "worst mm", "ratio");
   for (const bench::QueryResult& result : bench.results) {

@@ -105,7 +105,9 @@ class BulletEngine final : public QueryEngine {
 
   [[nodiscard]] std::string name() const override {
     const int version = btGetVersion();
-    return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100);
+    const char* precision = sizeof(btScalar) == sizeof(double) ? "d" : "f";
+    return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100) +
+           precision;
   }
 
   bool answer(const QueryRow& row, std::span<QueryAnswer> out) override {
