@@ -66,7 +66,7 @@ class NearestPiece final : public PieceVisitor {
 
 PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& point, Length reach) {
   NearestPiece nearest(point, reach);
-  visit_pieces(placed, {point, Mat3{}, {}}, reach, nearest);
+  visit_pieces(brought_near(placed, point), {point, Mat3{}, {}}, reach, nearest);
   return nearest.best();
 }
 
@@ -74,7 +74,7 @@ PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
                       const Vec3<Length>& translation, Unit limit) {
   RayPieces pieces(placed, origin, translation, limit);
   if (is_single(placed)) {
-    pieces.visit(single_piece(placed));
+    pieces.visit(single_piece(brought_near(placed, origin)));
     return pieces.best();
   }
   const Vec3<Length> local_origin =

@@ -1,6 +1,8 @@
 #include "core/collision/collide_bodies.h"
 
 #include "core/collision/pieces.h"
+#include "core/geometry/contact_point.h"
+#include "core/geometry/mesh_kernels.h"
 
 namespace lockstone {
 namespace {
@@ -37,47 +39,69 @@ void add_pieces(const BodyPair& pair, const Piece& a, const Piece& b, PartContac
   out.add({a.part, b.part, a.surface, b.surface, manifold});
 }
 
+// One piece of A against the triangles of B. The kernels see the mesh as A.
+void add_triangles(const BodyPair& pair, const Piece& a, TriangleScratch& scratch,
+                   PartContacts& out) {
+  const Piece mesh = {pair.b.shape, nullptr, pair.b.origin, pair.b.rotation, 0, nullptr, {}};
+  const PosedShape shape = a.posed();
+  const Vec3<Length> offset = saturated<Length>(a.origin - mesh.origin);
+  pair.b.asset->mesh_kernels()->collide(*pair.b.asset, {mesh.rotation, shape, offset, pair.margin},
+                                        local_region(pair.b, oriented_box(a), pair.margin),
+                                        scratch.contacts, scratch.manifolds);
+  out.overflowed =
+      out.overflowed || scratch.contacts.left_out() != 0 || scratch.manifolds.left_out != 0;
+  for (std::size_t i = 0; i < scratch.manifolds.count; ++i) {
+    const geometry::MeshManifold& group = scratch.manifolds.manifolds[i];
+    PartContact contact{a.part, group.key, a.surface, group.surface,
+                        geometry::flipped(group.manifold)};
+    shift_anchors(pair, a, mesh, contact.manifold);
+    out.add(contact);
+  }
+}
+
+// Calls `f(piece)` for every piece of A near B.
+template <class F>
+class EachPiece final : public PieceVisitor {
+ public:
+  explicit EachPiece(F& f) : f_(f) {}
+  void visit(const Piece& piece) override { f_(piece); }
+
+ private:
+  F& f_;
+};
+
+template <class F>
+void for_each_piece_of_a(const BodyPair& pair, F&& f) {
+  if (is_single(pair.a)) return f(single_piece(pair.a));
+  EachPiece<F> visitor(f);
+  const bool unbounded = pair.b.shape.kind == ShapeKind::half_space;
+  visit_pieces(pair.a, oriented_box(unbounded ? pair.a : pair.b), pair.margin, visitor);
+}
+
 // Calls `f(piece_a, piece_b)` for all pieces that come near each other.
 template <class F>
-class EachOfB final : public PieceVisitor {
- public:
-  EachOfB(const Piece& a, F& f) : a_(a), f_(f) {}
-  void visit(const Piece& b) override { f_(a_, b); }
-
- private:
-  const Piece& a_;
-  F& f_;
-};
-
-template <class F>
-class EachOfA final : public PieceVisitor {
- public:
-  EachOfA(const BodyPair& pair, F& f) : pair_(pair), f_(f) {}
-  void visit(const Piece& a) override {
-    EachOfB<F> inner(a, f_);
-    visit_pieces(pair_.b, oriented_box(a), pair_.margin, inner);
-  }
-
- private:
-  const BodyPair& pair_;
-  F& f_;
-};
-
-template <class F>
 void for_each_pair_of_pieces(const BodyPair& pair, F&& f) {
-  EachOfA<F> outer(pair, f);
-  if (is_single(pair.a)) return outer.visit(single_piece(pair.a));
-  const bool unbounded = pair.b.shape.kind == ShapeKind::half_space;
-  visit_pieces(pair.a, oriented_box(unbounded ? pair.a : pair.b), pair.margin, outer);
+  for_each_piece_of_a(pair, [&](const Piece& a) {
+    auto with_a = [&](const Piece& b) { f(a, b); };
+    EachPiece<decltype(with_a)> visitor(with_a);
+    visit_pieces(pair.b, oriented_box(a), pair.margin, visitor);
+  });
 }
 
 }  // namespace
 
-void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, PartContacts& out) {
+void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
+                    TriangleScratch* scratch, PartContacts& out) {
   out.clear();
-  const BodyPair pair{a, b, margin};
+  const PlacedShape near_b = brought_near(b, a.centre);
+  const BodyPair pair{a, near_b, margin};
   if (is_single(a) && is_single(b)) {
     add_pieces(pair, single_piece(a), single_piece(b), out);
+    return;
+  }
+  if (b.asset != nullptr && b.asset->mesh_kernels() != nullptr) {
+    LKS_CHECK(scratch != nullptr);
+    for_each_piece_of_a(pair, [&](const Piece& pa) { add_triangles(pair, pa, *scratch, out); });
     return;
   }
   for_each_pair_of_pieces(pair,
@@ -85,7 +109,8 @@ void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, P
 }
 
 bool bodies_overlap(const PlacedShape& a, const PlacedShape& b) {
-  const BodyPair pair{a, b, {}};
+  const PlacedShape near_a = brought_near(a, b.centre), near_b = brought_near(b, a.centre);
+  const BodyPair pair{near_a, near_b, {}};
   bool found = false;
   for_each_pair_of_pieces(pair, [&](const Piece& pa, const Piece& pb) {
     found = found || collide_pieces(pair, pa, pb).count > 0;

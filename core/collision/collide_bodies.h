@@ -9,6 +9,7 @@
 
 #include "core/collision/placed_shape.h"
 #include "core/geometry/manifold.h"
+#include "core/geometry/mesh_contacts.h"
 
 namespace lockstone {
 
@@ -43,9 +44,18 @@ struct PartContacts {
   }
 };
 
-/// All contacts between two placed shapes, as `collide` finds them for each pair of parts; `out` is
-/// filled anew. At most one of the two is a half-space, mesh or height field.
-void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, PartContacts& out);
+/// What colliding with triangles needs room for; only worlds that know such assets have it.
+struct TriangleScratch {
+  geometry::TriangleContacts contacts;
+  geometry::MeshManifolds manifolds;
+};
+
+/// All contacts between two placed shapes; `out` is filled anew. Each pair of convex parts gives a
+/// manifold, as `collide` finds it; the triangles of a mesh or height field give one for each plane
+/// and surface, whose key stands for the part. Of half-spaces, meshes and height fields only B may
+/// be one. `scratch` may be null when B has no triangles.
+void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
+                    TriangleScratch* scratch, PartContacts& out);
 
 /// Whether the two touch or overlap.
 [[nodiscard]] bool bodies_overlap(const PlacedShape& a, const PlacedShape& b);

@@ -26,6 +26,20 @@ Vec3<Length> primitive_extents(const Shape& shape) {
   return world_half_extents(shape, Mat3{});
 }
 
+// Places parts of an asset in the world.
+class Placer final : public geometry::PartVisitor {
+ public:
+  Placer(const PlacedShape& placed, PieceVisitor& visitor) : placed_(placed), visitor_(visitor) {}
+
+  void visit(const geometry::Part& part) override { visitor_.visit(piece_of(placed_, part)); }
+
+ private:
+  const PlacedShape& placed_;
+  PieceVisitor& visitor_;
+};
+
+}  // namespace
+
 // Rounding of the frames between box and asset, at most 2^-28 of a size: 8 µm.
 constexpr Length k_frame_error = Length::from_raw(8);
 
@@ -46,20 +60,6 @@ geometry::LocalBounds local_region(const PlacedShape& placed, const OrientedBox&
   return bounds;
 }
 
-// Places parts of an asset in the world.
-class Placer final : public geometry::PartVisitor {
- public:
-  Placer(const PlacedShape& placed, PieceVisitor& visitor) : placed_(placed), visitor_(visitor) {}
-
-  void visit(const geometry::Part& part) override { visitor_.visit(piece_of(placed_, part)); }
-
- private:
-  const PlacedShape& placed_;
-  PieceVisitor& visitor_;
-};
-
-}  // namespace
-
 Piece piece_of(const PlacedShape& placed, const geometry::Part& part) {
   const bool moved = part.position != Vec3<Length>{};
   const bool turned = part.rotation != Mat3{};
@@ -75,6 +75,16 @@ Piece piece_of(const PlacedShape& placed, const geometry::Part& part) {
 Piece single_piece(const PlacedShape& placed) {
   const geometry::Polytope* polytope = placed.asset == nullptr ? nullptr : placed.asset->polytope();
   return {placed.shape, polytope, placed.origin, placed.rotation, 0, nullptr, {}};
+}
+
+PlacedShape brought_near(const PlacedShape& placed, const Vec3<Position>& point) {
+  if (placed.shape.kind != ShapeKind::half_space) return placed;
+  PlacedShape near = placed;
+  Vec3<Position> local = rotate_inverse(placed.rotation, point - placed.origin);
+  local.y = {};
+  near.origin = placed.origin + rotate(placed.rotation, local);
+  near.centre = near.origin;
+  return near;
 }
 
 OrientedBox oriented_box(const Piece& piece) {

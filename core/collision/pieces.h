@@ -30,6 +30,11 @@ class PieceVisitor {
   ~PieceVisitor() = default;
 };
 
+/// What a placed asset has near a box, in its own frame.
+struct OrientedBox;
+[[nodiscard]] geometry::LocalBounds local_region(const PlacedShape& placed,
+                                                 const OrientedBox& region, Length margin);
+
 /// A box in the world, turned as its rotation says.
 struct OrientedBox {
   Vec3<Position> centre{};
@@ -51,6 +56,10 @@ struct OrientedBox {
 /// A box that holds the piece or the shape; a half-space has none.
 [[nodiscard]] OrientedBox oriented_box(const Piece& piece);
 [[nodiscard]] OrientedBox oriented_box(const PlacedShape& placed);
+
+/// A half-space has no middle: its frame is moved along its plane to where `point` is, so that
+/// offsets stay small. Other shapes stay as they are.
+[[nodiscard]] PlacedShape brought_near(const PlacedShape& placed, const Vec3<Position>& point);
 
 /// Calls the visitor for every piece whose bounds come within `margin` of the box, ascending by
 /// part; a single shape's piece always.

@@ -1,6 +1,8 @@
 // Polytope against capsule. Apart: the point of the core nearest to the polytope. A core inside:
 // the axis of least overlap. Where a face meets the side, the core is clipped against the face's
 // side planes and gives two points.
+#include <algorithm>
+
 #include "core/geometry/contact_point.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/polytope_collide.h"
@@ -128,11 +130,17 @@ Manifold edge_manifold(const PolytopeCapsule& pair, const SegmentEdge& best) {
   return manifold;
 }
 
+/// Cores farther away than this do not meet.
+Fine limit_of(const PolytopeCapsule& pair) {
+  return fine(pair.radius) + fine(pair.margin);
+}
+
 /// The core meets the polytope, or only its plane when that is flat and the core lies in it.
 Manifold collide_inside(const PolytopeCapsule& pair, const SegmentFace& face,
-                        const SegmentNearest& nearest) {
+                        const SegmentHeights& heights) {
   const BesideFace beside = beside_face(pair.local, face.face);
   if (beside.low <= beside.high) return face_manifold(pair, face.face, beside);
+  const SegmentNearest nearest = nearest_to_segment(pair.local, heights, limit_of(pair));
   if (nearest.found && !is_negligible(nearest.gap) && nearest.distance > 0)
     return collide_apart(pair, nearest);
   const Fine s = nearest.found ? nearest.s : 0;
@@ -162,18 +170,20 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
       capsule.shape.size.y,
       axis,
       {p, centre, to_local(polytope.rotation, axis), fine(capsule.shape.size.y), backward}};
-  const Fine limit = fine(pair.radius) + fine(margin);
-  const SegmentFace face = best_face(pair.local);
+  const Fine limit = limit_of(pair);
+  SegmentHeights heights;
+  measure(pair.local, heights);
+  const SegmentFace face = best_face(pair.local, heights);
   if (face.separation > limit) return {};
   if (face.separation <= 0) {
-    const SegmentEdge edge =
-        best_edge(pair.local, std::min(edge_threshold(face.separation), Fine{0}));
+    const Fine threshold = std::min(edge_threshold(face.separation), Fine{0});
+    const SegmentEdge edge = best_edge(pair.local, heights, threshold);
     if (edge.found && edge.separation <= 0) return edge_manifold(pair, edge);
-    if (!edge.found) return collide_inside(pair, face, nearest_to_segment(pair.local, limit));
+    if (!edge.found) return collide_inside(pair, face, heights);
   }
-  const SegmentNearest nearest = nearest_to_segment(pair.local, limit);
+  const SegmentNearest nearest = nearest_to_segment(pair.local, heights, limit);
   if (!nearest.found) return {};
-  if (is_negligible(nearest.gap)) return collide_inside(pair, face, nearest);
+  if (is_negligible(nearest.gap)) return collide_inside(pair, face, heights);
   return without_backward(pair, collide_apart(pair, nearest));
 }
 

@@ -5,7 +5,7 @@
 
 #include <lockstone/compound.h>
 
-#include "core/geometry/asset_format.h"
+#include "core/geometry/asset_frame.h"
 #include "core/geometry/compound_solid.h"
 #include "core/geometry/parts.h"
 #include "core/geometry/shape_properties.h"
@@ -15,6 +15,7 @@ namespace {
 
 using geometry::LocalBounds;
 
+constexpr std::uint16_t k_version = 1;
 constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + 8;
 constexpr Number k_max_density = Number::from_integer(1024);
 constexpr Number k_min_density = Number::from_ratio(1, 1024);
@@ -33,13 +34,6 @@ Quat normalized_once(const Quat& q) {
   return error <= k_bound && error >= -k_bound ? q : normalized(q);
 }
 
-bool is_good(const Surface& surface) {
-  return surface.friction >= Coefficient{} &&
-         surface.friction <= Coefficient::from_ratio(199, 100) &&
-         surface.restitution >= Coefficient{} &&
-         surface.restitution <= Coefficient::from_integer(1);
-}
-
 CompoundFault fault_of(const CompoundChild& child) {
   const bool hull = child.shape.kind == ShapeKind::hull;
   if (!is_primitive(child.shape.kind) && !hull) return CompoundFault::invalid_shape;
@@ -51,7 +45,7 @@ CompoundFault fault_of(const CompoundChild& child) {
   if (child.density < k_min_density || child.density > k_max_density) {
     return CompoundFault::invalid_density;
   }
-  if (child.surface && !is_good(*child.surface)) return CompoundFault::invalid_surface;
+  if (child.surface && !geometry::is_valid(*child.surface)) return CompoundFault::invalid_surface;
   return CompoundFault::none;
 }
 
@@ -89,48 +83,28 @@ LocalBounds united(const LocalBounds& a, const LocalBounds& b) {
 }
 
 bool is_in_range(const LocalBounds& bounds) {
-  for (int i = 0; i < 3; ++i) {
-    if (bounds.lower[i] < -k_max_asset_coordinate || bounds.upper[i] > k_max_asset_coordinate) {
-      return false;
-    }
-  }
-  return true;
-}
-
-template <class T>
-void put(ByteWriter& writer, const Vec3<T>& v) {
-  writer.put(v.x.raw);
-  writer.put(v.y.raw);
-  writer.put(v.z.raw);
-}
-
-Vec3<Length> get_lengths(ByteReader& reader) {
-  const auto x = reader.get<std::int32_t>();
-  const auto y = reader.get<std::int32_t>();
-  const auto z = reader.get<std::int32_t>();
-  return {{x}, {y}, {z}};
+  return geometry::is_asset_coordinate(bounds.lower) && geometry::is_asset_coordinate(bounds.upper);
 }
 
 void encode(const CompoundChild& child, ByteWriter& writer) {
   writer.put(child.shape.kind);
-  put(writer, child.shape.size);
+  geometry::put_vector(writer, child.shape.size);
   writer.put(child.shape.asset.value);
-  put(writer, child.position);
+  geometry::put_vector(writer, child.position);
   for (const Unit c :
        {child.orientation.x, child.orientation.y, child.orientation.z, child.orientation.w}) {
     writer.put(c.raw);
   }
   writer.put(child.density.raw);
   writer.put(static_cast<std::uint8_t>(child.surface.has_value()));
-  const Surface surface = child.surface.value_or(Surface{{}, {}});
-  writer.put(surface.friction.raw);
-  writer.put(surface.restitution.raw);
+  geometry::put_surface(writer, child.surface.value_or(Surface{{}, {}}));
 }
 
 std::vector<std::byte> encode(std::span<const CompoundChild> children) {
-  std::vector<std::byte> bytes(geometry::k_asset_head_bytes + 4 + children.size() * k_child_bytes);
+  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 4 +
+                               children.size() * k_child_bytes);
   ByteWriter writer(bytes);
-  geometry::put_asset_head(writer, ShapeKind::compound);
+  geometry::put_asset_header(writer, ShapeKind::compound, k_version);
   writer.put(static_cast<std::uint32_t>(children.size()));
   for (const CompoundChild& child : children)
     encode(child, writer);
@@ -142,18 +116,16 @@ std::vector<std::byte> encode(std::span<const CompoundChild> children) {
 CompoundChild decode_child(ByteReader& reader, const AssetSet& hulls) {
   CompoundChild child;
   child.shape.kind = static_cast<ShapeKind>(reader.get<std::uint8_t>());
-  child.shape.size = get_lengths(reader);
+  child.shape.size = geometry::get_vector(reader);
   child.shape.asset.value = reader.get<std::uint64_t>();
-  child.position = get_lengths(reader);
+  child.position = geometry::get_vector(reader);
   child.orientation.x.raw = reader.get<std::int32_t>();
   child.orientation.y.raw = reader.get<std::int32_t>();
   child.orientation.z.raw = reader.get<std::int32_t>();
   child.orientation.w.raw = reader.get<std::int32_t>();
   child.density.raw = reader.get<std::int32_t>();
   const bool has_surface = reader.get<std::uint8_t>() != 0;
-  Surface surface;
-  surface.friction.raw = reader.get<std::int32_t>();
-  surface.restitution.raw = reader.get<std::int32_t>();
+  const Surface surface = geometry::get_surface(reader);
   if (has_surface) child.surface = surface;
   for (const AssetPtr& hull : hulls.all()) {
     if (hull->id() == child.shape.asset) child.asset = hull;
@@ -253,14 +225,14 @@ CompoundResult Compound::build(std::span<const CompoundChild> children) {
     if (is_in_range(data->placed[i].bounds)) continue;
     return {nullptr, CompoundFault::coordinate_out_of_range, static_cast<std::uint32_t>(i)};
   }
-  const AssetId id = geometry::asset_id_of(encode(data->children));
+  const AssetId id = geometry::id_of(encode(data->children));
   return {std::shared_ptr<const Compound>(new Compound(id, std::move(data)))};
 }
 
 Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
                                                              const AssetSet& hulls) {
   ByteReader reader(bytes);
-  const Status head = geometry::read_asset_head(reader, ShapeKind::compound);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::compound, k_version);
   if (head != Status::ok) return head;
   const auto count = reader.get<std::uint32_t>();
   if (!reader.ok()) return Status::truncated;

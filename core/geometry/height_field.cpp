@@ -4,6 +4,7 @@
 
 #include "core/geometry/asset_frame.h"
 #include "core/geometry/height_field_data.h"
+#include "core/geometry/mesh_kernels.h"
 
 namespace lockstone {
 namespace geometry {
@@ -185,6 +186,10 @@ std::vector<std::byte> HeightField::canonical_bytes() const {
 
 const geometry::LocalBounds& HeightField::bounds() const {
   return data_->bounds;
+}
+
+const geometry::MeshKernels* HeightField::mesh_kernels() const {
+  return &geometry::mesh_kernels();
 }
 
 }  // namespace lockstone

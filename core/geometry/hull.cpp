@@ -5,11 +5,12 @@
 
 #include <lockstone/hull.h>
 
-#include "core/geometry/asset_format.h"
+#include "core/geometry/asset_frame.h"
 #include "core/geometry/exact_plane.h"
 #include "core/geometry/hull_faces.h"
 #include "core/geometry/parts.h"
 #include "core/geometry/polytope.h"
+#include "core/geometry/polytope_kernels.h"
 #include "core/geometry/solid.h"
 #include "core/geometry/solid_integrals.h"
 
@@ -35,12 +36,9 @@ struct Hull::Data {
 
 namespace {
 
-using Points = std::vector<Vec3<Length>>;
+constexpr std::uint16_t k_version = 1;
 
-/// What is called for shapes of this kind; null while a build has no such kernels.
-const geometry::PolytopeKernels* kernels_of_hulls() {
-  return nullptr;
-}
+using Points = std::vector<Vec3<Length>>;
 
 void sort_unique(Points& points) {
   const auto key = [](const Vec3<Length>& p) { return std::tie(p.x, p.y, p.z); };
@@ -202,9 +200,9 @@ Length deviation_of(const std::vector<PolytopeFace>& faces, std::span<const Vec3
 }
 
 std::vector<std::byte> encode(std::span<const Vec3<Length>> vertices, Length tolerance) {
-  std::vector<std::byte> bytes(geometry::k_asset_head_bytes + 6 + 12 * vertices.size());
+  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 6 + 12 * vertices.size());
   ByteWriter writer(bytes);
-  geometry::put_asset_head(writer, ShapeKind::hull);
+  geometry::put_asset_header(writer, ShapeKind::hull, k_version);
   writer.put(tolerance.raw);
   writer.put(static_cast<std::uint16_t>(vertices.size()));
   for (const Vec3<Length>& v : vertices)
@@ -240,15 +238,16 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   data->edges = half_edges_of(surface.faces, data->vertices.size());
   data->bounds = bounds_of(data->vertices);
   data->tolerance = options.tolerance;
-  data->polytope = {data->vertices, data->faces, data->edges, solid->centre, kernels_of_hulls()};
-  const AssetId id = geometry::asset_id_of(encode(data->vertices, options.tolerance));
+  data->polytope = {data->vertices, data->faces, data->edges, solid->centre,
+                    &geometry::polytope_kernels()};
+  const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance));
   const Length deviation = deviation_of(data->faces, points);
   return {std::shared_ptr<const Hull>(new Hull(id, std::move(data))), HullFault::none, deviation};
 }
 
 Result<std::shared_ptr<const Hull>> Hull::from_bytes(ByteView bytes) {
   ByteReader reader(bytes);
-  const Status head = geometry::read_asset_head(reader, ShapeKind::hull);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::hull, k_version);
   if (head != Status::ok) return head;
   const auto tolerance = Length::from_raw(reader.get<std::int32_t>());
   const std::size_t count = reader.get<std::uint16_t>();

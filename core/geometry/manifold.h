@@ -41,7 +41,7 @@ struct Manifold {
 struct PosedShape {
   const Shape& shape;
   const Mat3& rotation;
-  const geometry::Polytope* polytope = nullptr;  ///< of a hull; its frame is the shape's
+  const geometry::Polytope* polytope = nullptr;  ///< of a hull or triangle; frame: the shape's
 };
 
 /// Contact points between A and B: those with a separation below `margin` (≥ 0, ≤ 64 m) or not
@@ -57,11 +57,19 @@ struct PosedShape {
 /// points along a capsule within 1/1000 of its radius; where a capsule's core is inside a box, the
 /// point is the deepest of the core.
 ///
+/// What has a polytope keeps to the same bounds as boxes; where more than four points were reduced,
+/// the deepest may be 7.6 µm deeper than those kept. Without points, its normal may be that of a
+/// plane which separates by the margin and more (see `separated_along`). A one-sided polytope (a
+/// triangle of a mesh) meets nothing whose centre (of a hull: the interior point) is behind its
+/// front, and its normals lean backward by at most 2^-10. A half-space meets everything but its
+/// like.
+///
 /// collide(b, a, −offset) gives the same manifold flipped, bit for bit (of two spheres, the anchors
-/// within one step). Mirror images give mirror images bit for bit, except where a tie falls to one
-/// side: concentric shapes and centres level along the normal, cores that meet, the four of more
-/// than four points, equally near vertices, and the order of equal capsules and boxes when the
-/// mirror reverses the axis that separates their centres most.
+/// within one step; equal shapes with one centre and one rotation have no order). Mirror images
+/// give mirror images bit for bit, except where a tie falls to one side: concentric shapes and
+/// centres level along the normal, cores that meet, the four of more than four points, equally near
+/// vertices, and the order of equal capsules and boxes when the mirror reverses the axis that
+/// separates their centres most.
 [[nodiscard]] Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                                Length margin);
 

@@ -4,6 +4,7 @@
 
 #include "core/geometry/asset_frame.h"
 #include "core/geometry/mesh_data.h"
+#include "core/geometry/mesh_kernels.h"
 
 namespace lockstone {
 namespace geometry {
@@ -202,6 +203,10 @@ std::vector<std::byte> Mesh::canonical_bytes() const {
 
 const geometry::LocalBounds& Mesh::bounds() const {
   return data_->tree.bounds();
+}
+
+const geometry::MeshKernels* Mesh::mesh_kernels() const {
+  return &geometry::mesh_kernels();
 }
 
 void Mesh::visit_parts(const geometry::LocalBounds& region, geometry::PartVisitor& visitor) const {

@@ -20,10 +20,9 @@ using WitnessMask = std::uint8_t;
 
 WitnessMask mask_of(const PolytopeFace& face, const Witness& witness, Fine threshold) {
   unsigned mask = 0;
-  for (int i = 0; i < witness.count; ++i) {
-    const RawVec& p = witness.points[static_cast<std::size_t>(i)];
-    if (lean_of(p, face.normal) - face.offset + k_witness_slack <= threshold) mask |= 1U << i;
-  }
+  const Fine bound = threshold + face.offset - k_witness_slack;
+  for (std::size_t i = 0; i < witness.points.size(); ++i)
+    mask |= static_cast<unsigned>(lean_of(witness.points[i], face.normal) <= bound) << i;
   return static_cast<WitnessMask>(mask);
 }
 

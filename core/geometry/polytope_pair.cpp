@@ -3,14 +3,6 @@
 namespace lockstone::geometry {
 namespace {
 
-Vec3<Unit> row(const Mat3& m, int i) {
-  return {m.x[i], m.y[i], m.z[i]};
-}
-
-Mat3 transposed(const Mat3& m) {
-  return {row(m, 0), row(m, 1), row(m, 2)};
-}
-
 /// B's axes in A's, each entry rounded once.
 Mat3 relative(const Mat3& a, const Mat3& b) {
   return {to_local(a, b.x), to_local(a, b.y), to_local(a, b.z)};
@@ -96,6 +88,7 @@ Fine separation_on(const PolytopePair& pair, const Vec3<Unit>& normal_in_a) {
 }
 
 void Witness::add(const RawVec& point) {
+  if (count == 0) points.fill(point);
   points[static_cast<std::size_t>(next)] = point;
   next = next + 1 < static_cast<int>(points.size()) ? next + 1 : 0;
   count = std::min(count + 1, static_cast<int>(points.size()));

@@ -70,7 +70,7 @@ struct FaceSupport {
 };
 
 /// Points of the other polytope in the own frame, 20 fraction bits: the separation of a plane is at
-/// most the height of any of them.
+/// most the height of any of them. The first stands in for those that are missing.
 struct Witness {
   std::array<RawVec, 4> points{};
   int count = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/geometry/polytope_edges.h"
 #include "core/geometry/preference.h"
@@ -124,12 +125,14 @@ NearestPoint nearest_point(const Polytope& polytope, const RawVec& point, Fine l
   const SplitVec position = split(point);
   Heights heights;
   std::size_t highest = 0;
+  Fine height = std::numeric_limits<Fine>::min();
   for (std::size_t i = 0; i < polytope.faces.size(); ++i) {
     heights[i] = height_above(polytope.faces[i], position);
     if (heights[i] > limit) return {};
-    if (heights[i] > heights[highest]) highest = i;
+    if (heights[i] <= height) continue;
+    height = heights[i];
+    highest = i;
   }
-  const Fine height = heights[highest];
   if (height <= 0 && !is_flat(polytope))
     return on_face(polytope, static_cast<int>(highest), height, point, true);
   const int face = face_beside(polytope, heights, height, point);

@@ -12,16 +12,42 @@ namespace {
 
 constexpr Mat3 k_identity{};
 
+/// The two faces of an edge.
+struct FacePair {
+  std::size_t left;
+  std::size_t right;
+};
+
+FacePair faces_of(const Polytope& p, int edge) {
+  const HalfEdge& half = p.edges[static_cast<std::size_t>(edge)];
+  return {half.face, p.edges[half.twin].face};
+}
+
 /// The arc of the edge crosses the great circle square to the segment: +1 or −1, the sign of the
 /// crossing along edge × axis; else 0.
-int crossing_sign(const PolytopeSegment& segment, const HalfEdge& half) {
-  const Polytope& p = segment.polytope;
-  const std::int64_t left = lockstone::dot(p.faces[half.face].normal, segment.axis).raw;
-  const std::int64_t right =
-      lockstone::dot(p.faces[p.edges[half.twin].face].normal, segment.axis).raw;
+int crossing_sign(const SegmentHeights& heights, const FacePair& faces) {
+  const std::int64_t left = heights.lean[faces.left];
+  const std::int64_t right = heights.lean[faces.right];
   if (left == 0 && right == 0) return 0;
   if ((left > 0 && right > 0) || (left < 0 && right < 0)) return 0;
   return left > 0 || right < 0 ? 1 : -1;
+}
+
+/// Whether an end is not above either plane by more than the threshold ≤ 0: then no axis between
+/// their normals separates by more (as `best_edge` of two polytopes has it).
+bool cannot_beat(const SegmentHeights& heights, const FacePair& faces, Fine threshold) {
+  const Fine first = std::max(heights.first[faces.left], heights.first[faces.right]);
+  const Fine last = std::max(heights.last[faces.left], heights.last[faces.right]);
+  return std::min(first, last) + k_witness_slack <= threshold;
+}
+
+/// Whether the edge may be nearest: some end is above one of its planes, and neither plane is
+/// farther than what was found.
+bool may_be_nearest(const SegmentHeights& heights, const FacePair& faces, Fine found) {
+  const Fine first = std::max(heights.first[faces.left], heights.first[faces.right]);
+  const Fine last = std::max(heights.last[faces.left], heights.last[faces.right]);
+  if (std::max(first, last) < -k_agreement) return false;
+  return std::max(heights.low[faces.left], heights.low[faces.right]) <= found + k_agreement;
 }
 
 /// Half the width of the segment along a unit axis.
@@ -107,27 +133,38 @@ Fine crossing_parameter(const SidePlane& side, Fine half) {
 
 }  // namespace
 
-SegmentFace best_face(const PolytopeSegment& segment) {
-  const SplitVec low = split(segment.at(-segment.half));
-  const SplitVec high = split(segment.at(segment.half));
-  SegmentFace best{-1, 0};
+void measure(const PolytopeSegment& segment, SegmentHeights& heights) {
+  const SplitVec first = split(segment.at(-segment.half));
+  const SplitVec last = split(segment.at(segment.half));
   for (std::size_t i = 0; i < segment.polytope.faces.size(); ++i) {
     const PolytopeFace& face = segment.polytope.faces[i];
-    if (!segment.backward.allows(-face.normal)) continue;
-    const Fine separation = std::min(height_above(face, low), height_above(face, high));
-    if (best.face < 0 || separation > best.separation) best = {static_cast<int>(i), separation};
+    heights.lean[i] = lockstone::dot(face.normal, segment.axis).raw;
+    heights.first[i] = height_above(face, first);
+    heights.last[i] = height_above(face, last);
+    heights.low[i] = std::min(heights.first[i], heights.last[i]);
+  }
+}
+
+SegmentFace best_face(const PolytopeSegment& segment, const SegmentHeights& heights) {
+  SegmentFace best{-1, 0};
+  for (std::size_t i = 0; i < segment.polytope.faces.size(); ++i) {
+    if (!segment.backward.allows(-segment.polytope.faces[i].normal)) continue;
+    if (best.face >= 0 && heights.low[i] <= best.separation) continue;
+    best = {static_cast<int>(i), heights.low[i]};
   }
   return best;
 }
 
-SegmentEdge best_edge(const PolytopeSegment& segment, Fine threshold) {
+SegmentEdge best_edge(const PolytopeSegment& segment, const SegmentHeights& heights,
+                      Fine threshold) {
   const Polytope& p = segment.polytope;
   const SplitVec centre = split(segment.centre);
   SegmentEdge best;
   for (int edge = 0; edge < static_cast<int>(p.edges.size()); ++edge) {
+    const FacePair faces = faces_of(p, edge);
     if (!is_first_half(p, edge)) continue;
-    const int sign = crossing_sign(segment, p.edges[static_cast<std::size_t>(edge)]);
-    if (sign == 0) continue;
+    const int sign = crossing_sign(heights, faces);
+    if (sign == 0 || cannot_beat(heights, faces, std::min(threshold, Fine{0}))) continue;
     const RawVec k = cross_narrow(lanes_of(edge_vector(p, edge)), lanes_of(segment.axis));
     if (k == RawVec{}) continue;
     const Vec3<Unit> normal = signed_axis(direction_of(k.x, k.y, k.z), sign);
@@ -167,17 +204,21 @@ BesideFace beside_face(const PolytopeSegment& segment, int face) {
   return result;
 }
 
-SegmentNearest nearest_to_segment(const PolytopeSegment& segment, Fine limit) {
+SegmentNearest nearest_to_segment(const PolytopeSegment& segment, const SegmentHeights& heights,
+                                  Fine limit) {
   const Polytope& p = segment.polytope;
   SegmentNearest best;
   try_end(segment, -segment.half, limit, best);
-  try_end(segment, segment.half, limit, best);
+  try_end(segment, segment.half, best.found ? best.distance : limit, best);
   const Length half{static_cast<std::int32_t>(raw::round_shift(segment.half, k_fine_per_length))};
   const Segment core{segment.centre, segment.axis, half};
   for (int edge = 0; edge < static_cast<int>(p.edges.size()); ++edge) {
+    const FacePair faces = faces_of(p, edge);
     if (!is_first_half(p, edge)) continue;
-    const int sign = crossing_sign(segment, p.edges[static_cast<std::size_t>(edge)]);
-    if (sign != 0) try_edge(segment, core, edge, sign, limit, best);
+    const int sign = crossing_sign(heights, faces);
+    const Fine found = best.found ? best.distance : limit;
+    if (sign != 0 && may_be_nearest(heights, faces, found))
+      try_edge(segment, core, edge, sign, limit, best);
   }
   return best;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/fine.h"
-#include "core/geometry/triangle_kernels.h"
+#include "core/geometry/polytope_kernels.h"
 #include "core/math/predicates.h"
 #include "core/math/roots.h"
 
@@ -81,7 +81,8 @@ TrianglePolytope::TrianglePolytope() {
   view_.vertices = vertices_;
   view_.faces = faces_;
   view_.edges = k_half_edges;
-  view_.kernels = triangle_kernels();
+  view_.kernels = &polytope_kernels();
+  view_.one_sided = true;
 }
 
 const Polytope& TrianglePolytope::set(const TriangleVertices& triangle) {

@@ -79,6 +79,7 @@ Bounds bounds_of_way(const BodyMotion& motion, Length radius) {
 }  // namespace
 
 void World::Impl::stop_at_impacts(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::continuous);
   impacts.clear();
   for (const std::uint32_t body : moved) {
     if (!went_far(body)) continue;
@@ -183,7 +184,7 @@ void World::Impl::answer(std::uint32_t body, std::uint32_t other, Unit done) {
              rotation_b = to_matrix(other_motion.orientation);
   collide_bodies(place(a.shape(), body_assets[body], a.position, rotation_a),
                  place(b.shape(), body_assets[other], other_motion.centre, rotation_b),
-                 k_impact_gap * 4, part_contacts);
+                 k_impact_gap * 4, triangle_scratch.get(), part_contacts);
   const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
   const InverseInertia inertia_b = inverse_inertia(b, rotation_b);
   const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole - done);

@@ -112,7 +112,7 @@ void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> 
   }
   const Length thickness = max(inner_radii[pair.a], inner_radii[pair.b]);
   const Length margin = speculative_distance(a, b, thickness, time_step);
-  collide_bodies(placed(pair.a), placed(pair.b), margin, part_contacts);
+  collide_bodies(placed(pair.a), placed(pair.b), margin, triangle_scratch.get(), part_contacts);
   timer.found(part_contacts.count);
   if (part_contacts.overflowed) report.status = Status::capacity_exhausted;
   for (const PartContact& contact : part_contacts)

@@ -55,6 +55,10 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
       solver_index(definition.body_capacity) {
   header.gravity = definition.gravity;
+  const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
+  if (std::ranges::any_of(assets->all(), has_triangles)) {
+    triangle_scratch = std::make_unique<TriangleScratch>();
+  }
   events.reserve(std::size_t{2} * definition.contact_capacity + definition.body_capacity);
   impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);

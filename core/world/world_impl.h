@@ -135,8 +135,9 @@ struct World::Impl {
   // Scratch of one step.
   std::span<const Pair> pairs;
   std::vector<std::uint32_t> moved;  // bodies, ascending
-  std::vector<Transform> starts;  // by body: where it was before it moved
+  std::vector<Transform> starts;     // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
+  std::unique_ptr<TriangleScratch> triangle_scratch;  // null when no asset has triangles
   std::vector<ContactRecord> new_contacts;
   std::vector<Manifold> manifolds;    // by new contact
   std::vector<SurfacePair> surfaces;  // by new contact

@@ -6,7 +6,6 @@
 
 #include "core/geometry/contact_point.h"
 #include "core/geometry/polytope_kernels.h"
-#include "core/geometry/triangle_kernels.h"
 #include "tests/geometry/asset_parts.h"
 
 namespace lockstone::test {
@@ -214,8 +213,6 @@ Real plane_separation(const Pose& pose, const RealVec& up) {
 }
 
 void expect_flat_grid_is_a_plane(ShapeKind kind, int rounds) {
-  if (kind != ShapeKind::sphere && geometry::triangle_kernels() == nullptr)
-    GTEST_SKIP() << "no polytope kernels in this build";
   Dice dice;
   const auto mesh = flat_grid(24, 0.25);
   for (int i = 0; i < rounds && !testing::Test::HasFailure(); ++i) {
@@ -266,7 +263,6 @@ MeshManifold standing_box(const Asset& mesh, double x, double z) {
 }
 
 TEST(MeshContacts, ABoxKeepsItsFourFeaturesAsItSlidesOverAGrid) {
-  if (geometry::triangle_kernels() == nullptr) GTEST_SKIP() << "no polytope kernels";
   const auto mesh = flat_grid(24, 0.25);
   const MeshManifold first = standing_box(*mesh, 0, 0);
   ASSERT_EQ(first.manifold.count, 4);
@@ -316,7 +312,6 @@ TEST(MeshContacts, InACornerOnlyTheTwoPlanesPush) {
 }
 
 TEST(MeshContacts, ABoxThatRunsIntoAWallFeelsTheFloorAndTheWall) {
-  if (geometry::triangle_kernels() == nullptr) GTEST_SKIP() << "no polytope kernels";
   const auto mesh = built(corner(12, 0.25));
   for (int i = 0; i < 100; ++i) {
     const Pose pose{Shape::box(metres(0.4), metres(0.3), metres(0.5)),

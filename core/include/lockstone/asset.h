@@ -16,6 +16,7 @@ namespace lockstone {
 
 namespace geometry {
 struct LocalBounds;
+struct MeshKernels;
 struct Polytope;
 struct Solid;
 class PartVisitor;
@@ -64,6 +65,9 @@ class Asset {
 
   /// The polyhedron when the asset is a single convex one.
   [[nodiscard]] virtual const geometry::Polytope* polytope() const { return nullptr; }
+
+  /// What collides with its triangles; null for what has none.
+  [[nodiscard]] virtual const geometry::MeshKernels* mesh_kernels() const { return nullptr; }
 
   /// Calls the visitor for every part whose bounds meet `region` (asset frame, closed), in
   /// ascending order of part.

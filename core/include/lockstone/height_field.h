@@ -87,6 +87,7 @@ class HeightField final : public Asset {
 
   [[nodiscard]] std::vector<std::byte> canonical_bytes() const override;
   [[nodiscard]] const geometry::LocalBounds& bounds() const override;
+  [[nodiscard]] const geometry::MeshKernels* mesh_kernels() const override;
   void visit_parts(const geometry::LocalBounds& region,
                    geometry::PartVisitor& visitor) const override;
   void visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,

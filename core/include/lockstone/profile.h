@@ -23,6 +23,7 @@ using ProfileClock = std::uint64_t (*)();
   X(solve)                 \
   X(store)                 \
   X(move)                  \
+  X(continuous)            \
   X(refresh)               \
   X(events)
 

@@ -40,8 +40,8 @@ struct WorldDef {
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };
 
-/// A hash over everything in `def` that can change a result, and the set of assets (`AssetSet::hash`, 0 for none): peers
-/// compare it before they play.
+/// A hash over everything in `def` that can change a result, and the set of assets
+/// (`AssetSet::hash`, 0 for none): peers compare it before they play.
 [[nodiscard]] std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets = 0);
 
 /// What one step did. Counters cost nothing and are the same on every peer.
