@@ -1,6 +1,7 @@
 #include "core/geometry/convex_core.h"
 
 #include <bit>
+#include <limits>
 
 #include "core/geometry/wide_vectors.h"
 
@@ -94,6 +95,32 @@ auto wide_product_with(const RawVec& d) {
   return [d](std::int64_t x, std::int64_t y, std::int64_t z) { return wide_dot(d, {x, y, z}); };
 }
 
+/// The vertex greatest along a direction of any length. Of listed vertices, those are compared
+/// exactly that the direction's leading 31 bits put close to the greatest: what is cut is below 1
+/// in each component, so a product errs by less than |x| + |y| + |z| < 2^32.
+std::uint8_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& direction) {
+  if (core.vertex_count == 0) return greatest_vertex(core, wide_product_with(direction));
+  const RawVec leading = truncated(direction, 31);
+  const auto product = product_with(leading);
+  const auto count = at(core.vertex_count);
+  std::array<std::int64_t, k_max_polytope_vertices> near;
+  std::int64_t greatest = std::numeric_limits<std::int64_t>::min();
+  for (std::size_t i = 0; i < count; ++i) {
+    near[i] = product(core.x[i], core.y[i], core.z[i]);
+    greatest = std::max(greatest, near[i]);
+  }
+  std::size_t best = count;
+  Int128 most;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (greatest - near[i] > std::int64_t{1} << 33) continue;
+    const Int128 value = wide_dot(direction, {core.x[i], core.y[i], core.z[i]});
+    if (best != count && value <= most) continue;
+    most = value;
+    best = i;
+  }
+  return static_cast<std::uint8_t>(best);
+}
+
 RawVec shifted(const RawVec& v, int shift) {
   return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
 }
@@ -177,8 +204,8 @@ DifferenceVertex least_along(const LatticePair& pair, const RawVec& direction) {
 }
 
 DifferenceVertex greatest_along(const LatticePair& pair, const RawVec& direction) {
-  return difference(pair, greatest_vertex(pair.a, wide_product_with(-direction)),
-                    greatest_vertex(pair.b, wide_product_with(direction)));
+  return difference(pair, exactly_greatest_vertex(pair.a, -direction),
+                    exactly_greatest_vertex(pair.b, direction));
 }
 
 }  // namespace lockstone::geometry

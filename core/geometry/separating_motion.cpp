@@ -41,10 +41,20 @@ Metres norm_above(const RawVec& v) {
   return v == RawVec{} ? 0 : static_cast<Metres>(norm(v.x, v.y, v.z)) + 1;
 }
 
-/// A fine vector's norm, rounded up, or 0.
-Metres fine_norm_above(const RawVec& v) {
+/// Above the square of a fine vector's norm, 36 fraction bits; 0 of the zero vector.
+std::uint64_t square_above(const RawVec& v) {
   if (v == RawVec{}) return 0;
-  return static_cast<Metres>(norm(v.x, v.y, v.z) >> k_fine_per_metre) + 1;
+  const auto square = [](Fine x) {
+    const std::uint64_t steps = (magnitude(x) >> 32) + 1;
+    return steps * steps;
+  };
+  return square(v.x) + square(v.y) + square(v.z);
+}
+
+/// The root of such a square, rounded up.
+Metres root_above(std::uint64_t square) {
+  if (square == 0) return 0;
+  return (Metres{isqrt(square)} + 1) * (Metres{1} << (k_metre_bits - 18));
 }
 
 Metres sum_above(Metres a, Metres b) {
@@ -105,7 +115,8 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
   }
   projection.count = core.vertex_count != 0 ? core.vertex_count : 1 << core.generator_count;
   projection.rate = along_normal(normal, drift);
-  Reach reach;
+  std::uint64_t from_centre = 0;
+  std::uint64_t from_plane = 0;
   for (int i = 0; i < projection.count; ++i) {
     const RawVec vertex = vertex_of(core, i) + body.shape;
     const RawVec lever = vertex - body.centre;
@@ -113,9 +124,10 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
     projection.lines[static_cast<std::size_t>(i)] = {
         to_metres(dot(vertex, normal)),
         projection.rate + turning_speed(axis, lever) - turning_speed(frame_axis, from_frame)};
-    reach.from_centre = std::max(reach.from_centre, fine_norm_above(lever));
-    reach.from_frame = std::max(reach.from_frame, fine_norm_above(from_frame));
+    from_centre = std::max(from_centre, square_above(lever));
+    from_plane = std::max(from_plane, square_above(from_frame));
   }
+  const Reach reach{root_above(from_centre), root_above(from_plane)};
   projection.turning_rate = product_above(norm_above(axis), reach.from_centre);
   projection.acceleration = still ? 0 : acceleration_in(body, frame, normal, reach);
 }
