@@ -34,6 +34,11 @@ struct ConvexCore {
 /// The core of a sphere, capsule, box or polytope, written into `core`.
 void make_core(const PosedShape& shape, ConvexCore& core);
 
+/// How many indices of vertices there are.
+[[nodiscard]] constexpr int vertex_count(const ConvexCore& core) {
+  return core.vertex_count != 0 ? core.vertex_count : 1 << core.generator_count;
+}
+
 /// Where a vertex is, from the shape's centre.
 [[nodiscard]] RawVec vertex_of(const ConvexCore& core, int index);
 

@@ -2,6 +2,7 @@
 
 #include "core/geometry/contact_point.h"
 #include "core/geometry/expanding_polytope.h"
+#include "core/geometry/half_space_gap.h"
 #include "core/geometry/normals.h"
 #include "core/math/roots.h"
 
@@ -111,7 +112,7 @@ namespace {
 Penetration penetration_of(const CoreGap& gap, Fine depth, const GapQuery& query) {
   Penetration result;
   result.overlapping = true;
-  result.depth = {raw::round_shift(depth, k_fine_bits - Position::frac_bits)};
+  result.depth = to_position(depth);
   result.normal = gap.normal;
   const Witnesses surface =
       inflate(gap.on_a, query.a().radius, gap.on_b, query.b().radius, gap.normal);
@@ -133,17 +134,37 @@ Penetration ordered_penetration(const PosedShape& a, const PosedShape& b, const 
   return result;
 }
 
+Penetration half_space_penetration(const PosedShape& half_space, const PosedShape& shape,
+                                   const RawVec& offset) {
+  const HalfSpaceGap gap = half_space_gap(half_space, shape, offset);
+  if (gap.distance > 0) return {};
+  return {true,
+          to_position(-gap.distance),
+          gap.normal,
+          to_length(gap.on_plane),
+          to_length(gap.on_shape),
+          true};
+}
+
+Penetration exchanged(const Penetration& penetration) {
+  Penetration result = penetration;
+  result.normal = -penetration.normal;
+  std::swap(result.point_a, result.point_b);
+  return result;
+}
+
 }  // namespace
 }  // namespace geometry
 
 Penetration penetration(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset) {
   using namespace geometry;
   const RawVec between = fine(offset);
+  if (a.shape.kind == ShapeKind::half_space) return half_space_penetration(a, b, between);
+  if (b.shape.kind == ShapeKind::half_space) {
+    return exchanged(half_space_penetration(b, a, -between));
+  }
   if (!is_exchanged(a, b, between)) return ordered_penetration(a, b, between);
-  Penetration result = ordered_penetration(b, a, -between);
-  result.normal = -result.normal;
-  std::swap(result.point_a, result.point_b);
-  return result;
+  return exchanged(ordered_penetration(b, a, -between));
 }
 
 }  // namespace lockstone

@@ -14,7 +14,7 @@ struct Penetration {
   bool exact = true;         ///< false when the search ran out of room: `depth` still separates
 };
 
-/// The least translation that separates the shapes, for what `distance` takes but half-spaces: the
+/// The least translation that separates the shapes, for what `distance` takes: the
 /// same bounds on the offset, the same error, and mirrored bit for bit for exchanged arguments. Of
 /// equal ways out the first found. Cores that overlap in a flat difference (crossing segments, a
 /// point on a segment) have depth zero along its normal, away from A's centre; concentric points

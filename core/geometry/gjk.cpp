@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/geometry/contact_point.h"
+#include "core/geometry/half_space_gap.h"
 
 namespace lockstone {
 namespace geometry {
@@ -98,7 +99,7 @@ ClosestPoints with_surfaces(const CoreGap& gap, Length radius_a, Length radius_b
   ClosestPoints result;
   const Fine apart = gap.distance - fine(radius_a) - fine(radius_b);
   result.overlapping = apart <= 0;
-  result.distance = {raw::round_shift(std::max(apart, Fine{0}), k_fine_bits - Position::frac_bits)};
+  result.distance = to_position(std::max(apart, Fine{0}));
   result.normal = gap.normal;
   const Witnesses surface = inflate(gap.on_a, radius_a, gap.on_b, radius_b, gap.normal);
   result.point_a = to_length(surface.on_a);
@@ -119,6 +120,19 @@ ClosestPoints ordered_distance(const PosedShape& a, const PosedShape& b, const R
   return result;
 }
 
+ClosestPoints half_space_distance(const PosedShape& half_space, const PosedShape& shape,
+                                  const RawVec& offset) {
+  const HalfSpaceGap gap = half_space_gap(half_space, shape, offset);
+  ClosestPoints result;
+  result.overlapping = gap.distance <= 0;
+  result.distance = to_position(std::max(gap.distance, Fine{0}));
+  result.normal = gap.normal;
+  result.point_a = to_length(gap.on_plane);
+  result.point_b = to_length(gap.on_shape);
+  result.feature = {1, {}, {gap.vertex}};
+  return result;
+}
+
 ClosestPoints exchanged(const ClosestPoints& points) {
   ClosestPoints result = points;
   result.normal = -points.normal;
@@ -133,6 +147,8 @@ ClosestPoints exchanged(const ClosestPoints& points) {
 ClosestPoints distance(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset) {
   using namespace geometry;
   const RawVec between = fine(offset);
+  if (a.shape.kind == ShapeKind::half_space) return half_space_distance(a, b, between);
+  if (b.shape.kind == ShapeKind::half_space) return exchanged(half_space_distance(b, a, -between));
   if (!is_exchanged(a, b, between)) return ordered_distance(a, b, between);
   return exchanged(ordered_distance(b, a, -between));
 }

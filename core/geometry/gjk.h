@@ -18,12 +18,14 @@ struct ClosestFeature {
 
 /// How far two shapes are apart.
 struct ClosestPoints {
-  bool overlapping = false;    ///< the shapes share a point
-  bool cores_overlap = false;  ///< what lies within the radii does: then no more is known
-  Position distance{};         ///< m; zero when overlapping
-  Vec3<Unit> normal{};         ///< from A to B, world axes; zero when the cores overlap
-  Vec3<Length> point_a{};      ///< on A's surface, from A's centre, world axes
-  Vec3<Length> point_b{};      ///< on B's surface, from B's centre
+  bool overlapping = false;  ///< the shapes share a point
+  /// What lies within the radii does: then no more is known. Never set beside a half-space, whose
+  /// normal and points are always given.
+  bool cores_overlap = false;
+  Position distance{};     ///< m; zero when overlapping
+  Vec3<Unit> normal{};     ///< from A to B, world axes; zero when the cores overlap
+  Vec3<Length> point_a{};  ///< on A's surface, from A's centre, world axes
+  Vec3<Length> point_b{};  ///< on B's surface, from B's centre
   ClosestFeature feature{};
 };
 
@@ -37,6 +39,11 @@ struct ClosestPoints {
                                      const Vec3<Length>& offset);
 
 namespace geometry {
+
+/// A fine length as a position's coordinate, to nearest.
+[[nodiscard]] constexpr Position to_position(Fine length) {
+  return {raw::round_shift(length, k_fine_bits - Position::frac_bits)};
+}
 
 /// What GJK ends with on the lattice.
 struct GjkResult {

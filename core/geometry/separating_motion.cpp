@@ -113,7 +113,7 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
     frame_centre = frame.body->centre;
     drift = drift - raws(frame.body->sweep.translation);
   }
-  projection.count = core.vertex_count != 0 ? core.vertex_count : 1 << core.generator_count;
+  projection.count = vertex_count(core);
   projection.rate = along_normal(normal, drift);
   std::uint64_t from_centre = 0;
   std::uint64_t from_plane = 0;
