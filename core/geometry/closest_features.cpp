@@ -61,42 +61,6 @@ RawVec blend(const FineFeatures& features, const std::array<RawVec, 3>& points) 
   return sum;
 }
 
-/// The gap whose vector from A to B is the blend of the differences. Where that is too short to
-/// have a direction, the lattice's stands in.
-CoreGap gap_between(const FineFeatures& features, const Simplex& simplex) {
-  const RawVec v = blend(features, features.difference);
-  const Direction d = direction(v.x, v.y, v.z);
-  CoreGap gap{d.unit, static_cast<Fine>(d.length), blend(features, features.a),
-              blend(features, features.b)};
-  if (is_negligible(v)) {
-    const RawVec along_lattice = direction_to(simplex);
-    gap.normal = direction_of(along_lattice.x, along_lattice.y, along_lattice.z);
-  }
-  return gap;
-}
-
-CoreGap refine_edge(FineFeatures& features, const Simplex& simplex) {
-  const RawVec edge = features.difference[1] - features.difference[0];
-  const Int128 square = wide_dot(edge, edge);
-  if (!is_zero(square)) {
-    features.weight[1] = weight_of(-wide_dot(features.difference[0], edge), square);
-  }
-  return gap_between(features, simplex);
-}
-
-/// Weights as on the lattice, direction and distance along its normal.
-CoreGap keep_lattice_triangle(FineFeatures& features, const Simplex& simplex) {
-  const auto& [a, b, c, unused] = simplex.vertices;
-  const TriangleWeights weights = weights_of(a.point, b.point, c.point);
-  features.weight[1] = weight_of(weights.numerators[1], weights.denominator);
-  features.weight[2] =
-      std::min(weight_of(weights.numerators[2], weights.denominator), k_whole - features.weight[1]);
-  CoreGap gap = gap_between(features, simplex);
-  gap.normal = direction_of(simplex.normal.x, simplex.normal.y, simplex.normal.z);
-  gap.distance = std::max(Fine{0}, dot(blend(features, features.difference), gap.normal));
-  return gap;
-}
-
 /// Whether no vertex of the lattice's difference lies more than 4 steps beyond the features along
 /// `normal`.
 bool is_supported(const LatticePair& lattice, const Simplex& simplex, const RawVec& normal,
@@ -107,6 +71,46 @@ bool is_supported(const LatticePair& lattice, const Simplex& simplex, const RawV
   const std::int64_t step =
       std::max({magnitude_of(inward.x), magnitude_of(inward.y), magnitude_of(inward.z)});
   return beyond <= 4 * step;
+}
+
+/// The gap whose vector from A to B is the blend of the differences. Where that is too short to
+/// have a direction, or its direction does not separate as well, the lattice's stands in.
+CoreGap gap_between(const FineFeatures& features, const LatticePair& lattice,
+                    const Simplex& simplex, Side rest) {
+  const RawVec v = blend(features, features.difference);
+  const Direction d = direction(v.x, v.y, v.z);
+  CoreGap gap{d.unit, static_cast<Fine>(d.length), blend(features, features.a),
+              blend(features, features.b)};
+  if (is_negligible(v) || !is_supported(lattice, simplex, v, rest)) {
+    const RawVec along_lattice = direction_to(simplex);
+    gap.normal = direction_of(along_lattice.x, along_lattice.y, along_lattice.z);
+    gap.distance = std::max(Fine{0}, dot(v, gap.normal));
+  }
+  return gap;
+}
+
+CoreGap refine_edge(FineFeatures& features, const LatticePair& lattice, const Simplex& simplex,
+                    Side rest) {
+  const RawVec edge = features.difference[1] - features.difference[0];
+  const Int128 square = wide_dot(edge, edge);
+  if (!is_zero(square)) {
+    features.weight[1] = weight_of(-wide_dot(features.difference[0], edge), square);
+  }
+  return gap_between(features, lattice, simplex, rest);
+}
+
+/// Weights as on the lattice, direction and distance along its normal.
+CoreGap keep_lattice_triangle(FineFeatures& features, const Simplex& simplex) {
+  const auto& [a, b, c, unused] = simplex.vertices;
+  const TriangleWeights weights = weights_of(a.point, b.point, c.point);
+  features.weight[1] = weight_of(weights.numerators[1], weights.denominator);
+  features.weight[2] =
+      std::min(weight_of(weights.numerators[2], weights.denominator), k_whole - features.weight[1]);
+  const RawVec& n = simplex.normal;
+  const Vec3<Unit> normal = direction_of(n.x, n.y, n.z);
+  const Fine distance = dot(blend(features, features.difference), normal);
+  return {normal, std::max(Fine{0}, distance), blend(features, features.a),
+          blend(features, features.b)};
 }
 
 int greatest_axis(const RawVec& v) {
@@ -184,8 +188,8 @@ CoreGap refine(const FinePair& fine_pair, const LatticePair& lattice, const Simp
   LKS_ASSERT(simplex.count >= 1 && simplex.count <= 3);
   FineFeatures features = features_of(fine_pair, simplex);
   if (simplex.count == 3) return refine_triangle(features, lattice, simplex, rest);
-  if (simplex.count == 2) return refine_edge(features, simplex);
-  return gap_between(features, simplex);
+  if (simplex.count == 2) return refine_edge(features, lattice, simplex, rest);
+  return gap_between(features, lattice, simplex, rest);
 }
 
 }  // namespace lockstone::geometry

@@ -157,7 +157,7 @@ TEST(Distance, OfACrumbBesideAGiantIsExactToTheMicrometre) {
     pair.a = convex(Shape::box(metres(500), metres(500), metres(500)), pair.a.rotation);
     // Over the middle of the face that A's x axis leaves by.
     const RealVec n = real(pair.a.rotation.x);
-    const RealVec there = n * (500 + static_cast<Real>(dice.uniform(0.003, 0.02)));
+    const RealVec there = n * (500 + static_cast<Real>(dice.uniform(0.006, 0.02)));
     pair.offset = metres(static_cast<double>(there.x), static_cast<double>(there.y),
                          static_cast<double>(there.z));
     const ClosestPoints found = distance_of(pair);
