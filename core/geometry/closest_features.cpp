@@ -61,7 +61,7 @@ RawVec blend(const FineFeatures& features, const std::array<RawVec, 3>& points) 
   return sum;
 }
 
-/// Whether no vertex of the lattice's difference lies more than 4 steps beyond the features along
+/// Whether no vertex of the lattice's difference lies more than a step beyond the features along
 /// `normal`.
 bool is_supported(const LatticePair& lattice, const Simplex& simplex, const RawVec& normal,
                   Side rest) {
@@ -70,7 +70,7 @@ bool is_supported(const LatticePair& lattice, const Simplex& simplex, const RawV
   const std::int64_t beyond = narrow_dot(inward, simplex.vertices[0].point - extreme);
   const std::int64_t step =
       std::max({magnitude_of(inward.x), magnitude_of(inward.y), magnitude_of(inward.z)});
-  return beyond <= 4 * step;
+  return beyond <= step;
 }
 
 /// The gap whose vector from A to B is the blend of the differences. Where that is too short to

@@ -30,7 +30,7 @@ enum class Side : std::uint8_t {
 
 /// The vector from the origin to the closest point of the simplex (of one to three vertices).
 /// Recomputed in fine lanes where the finer normal supports the features as well as the lattice's
-/// does, within 4 steps; elsewhere (slivers, crumbs beside giants) the lattice's normal stays.
+/// does, within a step; elsewhere (slivers, crumbs beside giants) the lattice's normal stays.
 [[nodiscard]] CoreGap refine(const FinePair& fine_pair, const LatticePair& lattice,
                              const Simplex& simplex, Side rest);
 
