@@ -48,6 +48,14 @@ TEST(Isqrt, FloorsAtNeighboursOfPerfectSquares) {
   EXPECT_EQ(isqrt_rounded(~std::uint64_t{0}), std::uint64_t{1} << 32);
 }
 
+TEST(Isqrt, FloorsBelowSquaresWhereTheReciprocalIsHigh) {
+  // Of k from 2^30 to 2^32, these are among the ten where it is high enough to reach k.
+  for (const std::uint64_t k : {3484768811U, 3752242361U, 3771691627U, 3885463971U, 3940446411U}) {
+    EXPECT_EQ(isqrt(k * k - 1), k - 1);
+    EXPECT_EQ(isqrt(k * k), k);
+  }
+}
+
 TEST(Isqrt, FloorsRandomInputsOfEveryScale) {
   Raws raws;
   for (int i = 0; i < 3000000; ++i) {
@@ -55,6 +63,13 @@ TEST(Isqrt, FloorsRandomInputsOfEveryScale) {
     const std::uint64_t root = isqrt(n);
     ASSERT_TRUE(root * root <= n && n - root * root <= 2 * root) << n;
   }
+}
+
+TEST(Isqrt128, FloorsWhereTheFirstEstimateIsHigh) {
+  // reciprocal_sqrt of the high word is above 1/√ by 4e-20 of it, and the root by a last place.
+  const UInt128 n{0xb69bad757d373f1cU, 0x8e04ea8000000000U};
+  EXPECT_EQ(isqrt128(n), 0xd8364d008a904673U);
+  EXPECT_EQ(isqrt128(n >> 36), 0xd8364d008a904673U >> 18);
 }
 
 TEST(Isqrt128, FloorsInputsOfEveryScaleAndNeighboursOfSquares) {
