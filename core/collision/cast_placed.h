@@ -19,6 +19,19 @@ struct PlacedRayHit {
 [[nodiscard]] PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
                                     const Vec3<Length>& translation, Unit limit);
 
+struct PlacedShapeHit {
+  bool hit = false;
+  std::uint32_t part = 0;
+  Unit fraction{};
+  Vec3<Unit> normal{};  ///< from the placed shape to the one cast
+  Vec3<Position> point{};
+};
+
+/// The first part of `placed` that a convex shape meets on its way by `translation`, the lowest of
+/// equals; triangles from the front only.
+[[nodiscard]] PlacedShapeHit cast_shape(const PlacedShape& placed, const PlacedShape& convex,
+                                        const Vec3<Length>& translation);
+
 struct PlacedClosest {
   bool found = false;
   std::uint32_t part = 0;

@@ -31,14 +31,6 @@ TimeOfImpactLimits limits_for(Length inner_radius) {
   return {gap, max(gap / 4, k_least / 4), 64};
 }
 
-// A triangle is met from its front only.
-bool is_behind(const Piece& a, const Piece& b) {
-  if (!b.triangle.is_triangle) return false;
-  const geometry::PolytopeFace& front = b.polytope->faces.front();
-  const Vec3<Length> centre = rotate_inverse(b.rotation, saturated<Length>(a.origin - b.origin));
-  return dot(front.normal, centre).raw < front.offset;
-}
-
 // A half-space as a box under A that nothing can get round within one interval.
 Piece as_box(const Piece& half_space, const Vec3<Position>& above) {
   constexpr Length k_half = k_max_shape_size;
@@ -85,7 +77,7 @@ class PiecesOfB final : public PieceVisitor {
   void visit(const Piece& piece) override {
     const bool unbounded = piece.shape.kind == ShapeKind::half_space;
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
-    if (is_behind(a_, b)) return;
+    if (is_behind(a_.origin, b)) return;
     const PieceSweep sweep_b(b, motion_b_);
     const Unit time = impact_time({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
     if (time == k_never || (best_.hit && time >= best_.fraction)) return;

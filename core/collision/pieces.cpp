@@ -77,6 +77,14 @@ Piece single_piece(const PlacedShape& placed) {
   return {placed.shape, polytope, placed.origin, placed.rotation, 0, nullptr, {}};
 }
 
+bool is_behind(const Vec3<Position>& point, const Piece& piece) {
+  if (!piece.triangle.is_triangle) return false;
+  const geometry::PolytopeFace& front = piece.polytope->faces.front();
+  const Vec3<Length> local =
+      rotate_inverse(piece.rotation, saturated<Length>(point - piece.origin));
+  return dot(front.normal, local).raw < front.offset;
+}
+
 PlacedShape brought_near(const PlacedShape& placed, const Vec3<Position>& point) {
   if (placed.shape.kind != ShapeKind::half_space) return placed;
   PlacedShape near = placed;

@@ -53,6 +53,10 @@ struct OrientedBox {
 /// A part of a placed asset, placed.
 [[nodiscard]] Piece piece_of(const PlacedShape& placed, const geometry::Part& part);
 
+/// Whether the piece is a triangle of a mesh and the point lies behind it: triangles are met from
+/// the front only.
+[[nodiscard]] bool is_behind(const Vec3<Position>& point, const Piece& piece);
+
 /// A box that holds the piece or the shape; a half-space has none.
 [[nodiscard]] OrientedBox oriented_box(const Piece& piece);
 [[nodiscard]] OrientedBox oriented_box(const PlacedShape& placed);

@@ -36,7 +36,9 @@ void insert_sorted(const T& item, std::span<T> out, std::size_t& count, Before&&
     std::swap(out[i], out[i - 1]);
 }
 
-bool is_nearer(const RayHit& a, const RayHit& b) {
+// Of rays and shapes: by fraction, then by index.
+template <class Hit>
+bool is_nearer(const Hit& a, const Hit& b) {
   return a.fraction != b.fraction ? a.fraction < b.fraction : a.body.index < b.body.index;
 }
 
@@ -59,6 +61,32 @@ void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, con
                  hit.normal,
                  along(ray.origin, ray.translation, hit.fraction),
                  hit.part});
+    if (limit != before) probe.shorten(limit);
+  };
+  world.broad_phase.traverse(filter.mask, test, visit);
+}
+
+// The same for a convex shape on its way.
+template <class World, class Found>
+void walk_shape(const World& world, const ShapeCast& cast, const QueryFilter& filter,
+                const Unit& limit, Found&& found) {
+  LKS_CHECK(is_in_reach(cast.translation));
+  const PlacedShape shape = world.placed_query(cast.shape, cast.start);
+  const WorldBox box = world_box(shape);
+  Vec3<Length> reach;
+  for (int i = 0; i < 3; ++i) {
+    const Position far = max(box.upper[i] - shape.origin[i], shape.origin[i] - box.lower[i]);
+    reach[i] = saturated<Length>(far) + Length::from_raw(1);
+  }
+  SegmentProbe probe(shape.origin, cast.translation, reach);
+  const auto test = [&](const Bounds& bounds) { return probe.meets(bounds); };
+  const auto visit = [&](std::uint32_t index) {
+    const BodyRecord& body = world.bodies[index];
+    if (!is_seen(body, index, filter)) return;
+    const PlacedShapeHit hit = cast_shape(world.placed(index), shape, cast.translation);
+    if (!hit.hit || hit.fraction > limit) return;
+    const Unit before = limit;
+    found(ShapeHit{{index, body.generation}, hit.fraction, hit.normal, hit.point, hit.part});
     if (limit != before) probe.shorten(limit);
   };
   world.broad_phase.traverse(filter.mask, test, visit);
@@ -96,7 +124,7 @@ std::size_t World::cast_ray_all(const Vec3<Position>& origin, const Vec3<Length>
   std::size_t count = 0;
   const Unit limit = k_whole_way;
   walk_ray(*impl_, {origin, translation}, filter, limit,
-           [&](const RayHit& hit) { insert_sorted(hit, out, count, is_nearer); });
+           [&](const RayHit& hit) { insert_sorted(hit, out, count, is_nearer<RayHit>); });
   return count;
 }
 
@@ -105,6 +133,33 @@ void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> out,
   LKS_CHECK(rays.size() == out.size());
   for (std::size_t i = 0; i < rays.size(); ++i)
     out[i] = cast_ray(rays[i].origin, rays[i].translation, filter);
+}
+
+ShapeHit World::cast_shape(const ShapeCast& cast, const QueryFilter& filter) const {
+  ShapeHit best;
+  Unit limit = k_whole_way;
+  walk_shape(*impl_, cast, filter, limit, [&](const ShapeHit& hit) {
+    if (!best.body.is_null() && !is_nearer(hit, best)) return;
+    best = hit;
+    limit = hit.fraction;
+  });
+  return best;
+}
+
+std::size_t World::cast_shape_all(const ShapeCast& cast, std::span<ShapeHit> out,
+                                  const QueryFilter& filter) const {
+  std::size_t count = 0;
+  const Unit limit = k_whole_way;
+  walk_shape(*impl_, cast, filter, limit,
+             [&](const ShapeHit& hit) { insert_sorted(hit, out, count, is_nearer<ShapeHit>); });
+  return count;
+}
+
+void World::cast_shapes(std::span<const ShapeCast> casts, std::span<ShapeHit> out,
+                        const QueryFilter& filter) const {
+  LKS_CHECK(casts.size() == out.size());
+  for (std::size_t i = 0; i < casts.size(); ++i)
+    out[i] = cast_shape(casts[i], filter);
 }
 
 std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,

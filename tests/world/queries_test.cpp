@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <lockstone/testing/floating.h>
+
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 
@@ -126,6 +128,94 @@ TEST(Queries, AnswerTheSameFromBothBroadPhases) {
     ASSERT_EQ(found, others);
   }
   EXPECT_GT(hits, 0);
+}
+
+World world_of_three() {
+  World world = test::make_world();
+  test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), 4_m, {}, {}));
+  test::add(world, test::dynamic_body(Shape::sphere(0.5_m), 8_m, {}, {}));
+  BodyDef ground;
+  ground.motion = MotionType::static_body;
+  ground.shape = Shape::half_space();
+  ground.position.y = -2_m;
+  test::add(world, ground);
+  return world;
+}
+
+TEST(CastShape, StopsWhereTheShapesTouch) {
+  const World world = world_of_three();
+  const ShapeCast cast{Shape::sphere(0.25_m), {}, {10_m, {}, {}}};
+  const ShapeHit hit = world.cast_shape(cast);
+  EXPECT_EQ(hit.body, world.body_at(0));
+  EXPECT_NEAR(testing::to_double(hit.fraction) * 10, 4 - 0.5 - 0.25, 4e-6);
+  EXPECT_EQ(hit.normal.x, Unit::from_integer(-1));
+  EXPECT_NEAR(metres(hit.point.x), 3.5, 4e-6);
+  ShapeHit all[4];
+  ASSERT_EQ(world.cast_shape_all(cast, all), 2U);
+  EXPECT_EQ(all[0].body, world.body_at(0));
+  EXPECT_EQ(all[1].body, world.body_at(1));
+  EXPECT_TRUE(world.cast_shape({Shape::sphere(0.25_m), {}, {2_m, {}, {}}}).body.is_null());
+}
+
+TEST(CastShape, MeetsAHalfSpaceWhereTheLowestPointDoes) {
+  const World world = world_of_three();
+  const ShapeHit hit =
+      world.cast_shape({Shape::box(1_m, 0.5_m, 1_m), {{{}, {}, 10_m}, {}}, {64_m, -6_m, {}}});
+  EXPECT_EQ(hit.body, world.body_at(2));
+  EXPECT_NEAR(testing::to_double(hit.fraction), 1.5 / 6, 1e-6);
+  EXPECT_EQ(hit.normal.y, Unit::from_integer(1));
+}
+
+TEST(CastShape, HitsAtOnceWhereItStartsInside) {
+  const World world = world_of_three();
+  const ShapeHit hit =
+      world.cast_shape({Shape::sphere(0.25_m), {{4_m, {}, {}}, {}}, {1_m, {}, {}}});
+  EXPECT_EQ(hit.body, world.body_at(0));
+  EXPECT_EQ(hit.fraction, Unit{});
+}
+
+TEST(CastRay, ListsAllBodiesNearestFirstAndTellsWhetherAnyIsInTheWay) {
+  const World world = world_of_three();
+  RayHit all[3];
+  ASSERT_EQ(world.cast_ray_all({12_m, {}, {}}, {-12_m, {}, {}}, all), 2U);
+  EXPECT_EQ(all[0].body, world.body_at(1));
+  EXPECT_EQ(all[1].body, world.body_at(0));
+  ASSERT_EQ(world.cast_ray_all({12_m, {}, {}}, {-12_m, {}, {}}, std::span(all).first(1)), 1U);
+  EXPECT_EQ(all[0].body, world.body_at(1));
+  EXPECT_TRUE(world.is_ray_blocked({12_m, {}, {}}, {-12_m, {}, {}}));
+  EXPECT_FALSE(world.is_ray_blocked({12_m, 5_m, {}}, {-12_m, {}, {}}));
+}
+
+TEST(CastRay, AsksTheCallerAboutEachBody) {
+  const World world = world_of_three();
+  BodyHandle refused = world.body_at(0);
+  const auto accept = [](void* context, BodyHandle body) {
+    return body != *static_cast<BodyHandle*>(context);
+  };
+  const RayHit hit = world.cast_ray({}, {12_m, {}, {}}, {.accept = accept, .context = &refused});
+  EXPECT_EQ(hit.body, world.body_at(1));
+}
+
+TEST(ClosestPoint, IsTheNearestOfAllBodiesWithinReach) {
+  const World world = world_of_three();
+  const ClosestHit hit = world.closest_point({6.5_m, {}, {}}, 3_m);
+  EXPECT_EQ(hit.body, world.body_at(1));
+  EXPECT_NEAR(testing::to_double(hit.distance), 1, 2e-6);
+  EXPECT_NEAR(metres(hit.point.x), 7.5, 2e-6);
+  EXPECT_EQ(world.closest_point({5.5_m, {}, {}}, 3_m).body, world.body_at(0));
+  EXPECT_EQ(world.closest_point({4_m, {}, {}}, 1_m).distance, Length{});
+  EXPECT_TRUE(world.closest_point({6_m, 4_m, {}}, 1_m).body.is_null());
+  EXPECT_EQ(world.closest_point({100_m, -1.5_m, {}}, 1_m).body, world.body_at(2));
+}
+
+TEST(BodiesAt, HoldThePoint) {
+  const World world = world_of_three();
+  BodyHandle found[2];
+  ASSERT_EQ(world.bodies_at({8.25_m, {}, {}}, found), 1U);
+  EXPECT_EQ(found[0], world.body_at(1));
+  EXPECT_EQ(world.bodies_at({6_m, {}, {}}, found), 0U);
+  ASSERT_EQ(world.bodies_at({500_m, -3_m, {}}, found), 1U);
+  EXPECT_EQ(found[0], world.body_at(2));
 }
 
 }  // namespace

@@ -150,6 +150,18 @@ class World {
   std::size_t overlap_shape(const Shape& shape, const Transform& pose, std::span<BodyHandle> out,
                             const QueryFilter& filter = {}) const;
 
+  /// The first body that a convex shape meets on its way; ties go to the lower index. A cast that
+  /// starts in an overlap hits at fraction 0.
+  [[nodiscard]] ShapeHit cast_shape(const ShapeCast& cast, const QueryFilter& filter = {}) const;
+
+  /// Every body on the way, nearest first, as `cast_ray_all`.
+  std::size_t cast_shape_all(const ShapeCast& cast, std::span<ShapeHit> out,
+                             const QueryFilter& filter = {}) const;
+
+  /// `cast_shape` for each; `out` is as long as `casts`.
+  void cast_shapes(std::span<const ShapeCast> casts, std::span<ShapeHit> out,
+                   const QueryFilter& filter = {}) const;
+
   /// The nearest point of any body within `reach` (at most k_max_cast); ties go to the lower index,
   /// then the lower part.
   [[nodiscard]] ClosestHit closest_point(const Vec3<Position>& point, Length reach,
