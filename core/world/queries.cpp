@@ -92,6 +92,30 @@ void walk_shape(const World& world, const ShapeCast& cast, const QueryFilter& fi
   world.broad_phase.traverse(filter.mask, test, visit);
 }
 
+// Room for triangles only where there are any: tens of kilobytes.
+void collide_anywhere(const PlacedShape& a, const PlacedShape& b, Length margin,
+                      PartContacts& out) {
+  if (b.asset == nullptr || b.asset->mesh_kernels() == nullptr) {
+    return collide_bodies(a, b, margin, nullptr, out);
+  }
+  TriangleScratch scratch;
+  collide_bodies(a, b, margin, &scratch, out);
+}
+
+// The deepest point of a manifold, the first of equals, seen from the body.
+ShapeContact to_contact(const PlacedShape& probe, BodyHandle body, const PartContact& contact) {
+  const Manifold& manifold = contact.manifold;
+  const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
+  const ManifoldPoint& deepest = *std::ranges::min_element(points, {}, &ManifoldPoint::separation);
+  Vec3<Position> point = probe.centre;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t apart = (manifold.normal[i] * deepest.separation).raw;  // 54 fraction bits
+    point[i] += rounded<Position>(deepest.anchor_a[i]);
+    if (deepest.separation.raw > 0) point[i] += Position::from_raw(raw::round_shift(apart, 22));
+  }
+  return {body, -manifold.normal, deepest.separation, point, contact.part_b};
+}
+
 constexpr Unit k_whole_way = Unit::from_integer(1);
 
 }  // namespace
@@ -175,6 +199,33 @@ std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,
     if (count == out.size() && (out.empty() || handle > out.back())) return;
     if (!is_seen(body, index, filter) || !bodies_overlap(probe, world.placed(index))) return;
     insert_sorted(handle, out, count, std::less<>());
+  };
+  world.broad_phase.traverse(filter.mask, test, visit);
+  return count;
+}
+
+std::size_t World::contacts_of_shape(const Shape& shape, const Transform& pose, Length margin,
+                                     std::span<ShapeContact> out, const QueryFilter& filter) const {
+  const Impl& world = *impl_;
+  const PlacedShape probe = world.placed_query(shape, pose);
+  WorldBox box = world_box(probe);
+  for (int i = 0; i < 3; ++i) {
+    box.lower[i] -= rounded<Position>(margin);
+    box.upper[i] += rounded<Position>(margin);
+  }
+  const Bounds reach = bounds_of(box);
+  std::size_t count = 0;
+  const auto before = [](const ShapeContact& a, const ShapeContact& b) {
+    return std::pair(a.body.index, a.part) < std::pair(b.body.index, b.part);
+  };
+  const auto test = [&](const Bounds& bounds) { return overlap(reach, bounds); };
+  const auto visit = [&](std::uint32_t index) {
+    const BodyRecord& body = world.bodies[index];
+    if (!is_seen(body, index, filter)) return;
+    PartContacts found;
+    collide_anywhere(probe, world.placed(index), margin, found);
+    for (const PartContact& contact : found)
+      insert_sorted(to_contact(probe, {index, body.generation}, contact), out, count, before);
   };
   world.broad_phase.traverse(filter.mask, test, visit);
   return count;

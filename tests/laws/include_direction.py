@@ -19,7 +19,7 @@ PUBLIC_ROOMS = {
     "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "mesh.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "joint.h", "material.h"],
-    "world": ["command.h", "event.h", "profile.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
+    "world": ["character.h", "command.h", "event.h", "profile.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"

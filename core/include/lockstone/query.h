@@ -57,6 +57,17 @@ struct ShapeHit {
   std::uint32_t part = 0;  ///< of the body's asset
 };
 
+/// One manifold between a shape and a body.
+struct ShapeContact {
+  BodyHandle body{};
+  Vec3<Unit> normal{};        ///< from the body to the shape
+  Displacement separation{};  ///< of the deepest point; negative when overlapping
+  Vec3<Position> point{};     ///< the deepest, on the body
+  std::uint32_t part = 0;     ///< of the body's asset; a group of triangles is named by its key
+
+  friend constexpr bool operator==(const ShapeContact&, const ShapeContact&) = default;
+};
+
 /// The point of a body that is nearest to another point.
 struct ClosestHit {
   BodyHandle body{};       ///< null when nothing is near enough

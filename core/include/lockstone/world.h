@@ -167,6 +167,11 @@ class World {
   [[nodiscard]] ClosestHit closest_point(const Vec3<Position>& point, Length reach,
                                          const QueryFilter& filter = {}) const;
 
+  /// How a convex shape meets bodies: the manifolds of all points nearer than `margin` (at most 64
+  /// m) or overlapping, by body and part, as many as `out` holds.
+  std::size_t contacts_of_shape(const Shape& shape, const Transform& pose, Length margin,
+                                std::span<ShapeContact> out, const QueryFilter& filter = {}) const;
+
   /// Bodies that hold a point, surface included.
   std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
                         const QueryFilter& filter = {}) const;
