@@ -8,6 +8,7 @@
 #include "tools/lockstone/bench_names.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/options.h"
 
 namespace lockstone::tool {
 namespace {
@@ -16,6 +17,7 @@ using Json = nlohmann::ordered_json;
 
 struct BenchQueriesOptions {
   bench::QueryOptions measure;
+  bool cpu = false;
   bool quick = false;
   bool json = false;
 };
@@ -102,6 +104,7 @@ int run(BenchQueriesOptions options) {
     options.measure.queries = 1024;
     options.measure.repeats = 5;
   }
+  if (options.cpu) options.measure.clock = bench::thread_nanoseconds;
   const bench::QueryBench bench = bench::run_query_bench(options.measure);
   options.json ? print_json(bench) : print_table(bench);
   return k_ok;
@@ -124,6 +127,8 @@ void add_bench_queries_command(CLI::App& bench, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000));
   command->add_option("--seed", measure.seed, "Of bodies and questions")->capture_default_str();
+  add_broad_phase_option(*command, measure.broad_phase);
+  command->add_flag("--cpu", options->cpu, "Count only the time that the thread itself ran");
   command->add_flag("--quick", options->quick, "1024 questions, 5 repeats");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -9,6 +9,7 @@
 #include "tools/lockstone/bench_speed_print.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/options.h"
 
 namespace lockstone::tool {
 namespace {
@@ -17,6 +18,8 @@ struct BenchSpeedOptions {
   std::vector<std::string> scenes;  // none: all
   std::uint32_t ticks = 0;
   int repeats = 0;  // 0: by `quick`
+  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  bool cpu = false;
   bool quick = false;
   bool detail = false;
   bool json = false;
@@ -43,6 +46,8 @@ std::vector<const bench::SpeedScene*> chosen_scenes(const std::vector<std::strin
 bench::SpeedOptions measure_of(const BenchSpeedOptions& options, const bench::SpeedScene& scene) {
   bench::SpeedOptions measure;
   measure.detail = options.detail;
+  measure.broad_phase = options.broad_phase;
+  if (options.cpu) measure.clock = bench::thread_nanoseconds;
   measure.repeats = options.repeats != 0 ? options.repeats : options.quick ? 1 : 3;
   measure.ticks = options.ticks;
   if (options.ticks == 0 && options.quick) measure.ticks = std::max(scene.ticks / 5, 1U);
@@ -61,6 +66,7 @@ SpeedReport measure(const BenchSpeedOptions& options,
                     const std::vector<const bench::SpeedScene*>& scenes) {
   SpeedReport report;
   report.detail = options.detail;
+  report.clock_name = options.cpu ? "thread" : "steady";
   report.clock_nanoseconds = bench::clock_overhead();
   Progress progress;
   for (const bench::SpeedScene* scene : scenes) {
@@ -112,6 +118,8 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--repeats", options->repeats, "A tick's time is the median over these (3)")
       ->check(CLI::Range(1, 1000));
+  add_broad_phase_option(*command, options->broad_phase);
+  command->add_flag("--cpu", options->cpu, "Count only the time that the thread itself ran");
   command->add_flag("--quick", options->quick, "A fifth of the ticks, once");
   command->add_flag("--detail", options->detail, "Also a table of pairs by kinds of shape");
   command->add_flag("--list", *list, "Only name the scenes");

@@ -62,6 +62,7 @@ Json scene_of(const SpeedReport& report, const bench::SpeedResult& result) {
 void print_speed_json(const SpeedReport& report) {
   Json json{{"vectors", lanes::current_target()},
             {"asserts", k_asserts},
+            {"clock", report.clock_name},
             {"clock_ns", report.clock_nanoseconds},
             {"scenes", Json::array()},
             {"absent", Json::array()}};

@@ -12,7 +12,8 @@ namespace {
 constexpr double k_ns_per_ms = 1e6;
 
 void print_overview(const SpeedReport& report) {
-  fmt::print("vectors: {}{}\n", lanes::current_target(), k_build_remark);
+  fmt::print("vectors: {}; clock: {}{}\n", lanes::current_target(), report.clock_name,
+             k_build_remark);
   fmt::print("{:<14} {:>6} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}  {:<16}  {}\n", "scene",
              "bodies", "contacts", "points", "ms/tick", "p99", "ns/contact", "ns/body", "hash us",
              "final hash", "status");

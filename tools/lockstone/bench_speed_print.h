@@ -12,6 +12,7 @@ struct SpeedReport {
   std::vector<bench::SpeedResult> results;
   std::vector<const bench::SpeedScene*> absent;
   bool detail = false;
+  std::string clock_name;
   double clock_nanoseconds = 0;  ///< what a call of the clock adds to an interval
 };
 

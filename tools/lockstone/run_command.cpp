@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +12,7 @@
 #include "core/math/wide/target.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/options.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
 
@@ -196,10 +196,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--hash-every", options->hash_every, "Ticks between hashes; 0: only the last")
       ->capture_default_str();
   command->add_option("--simd", options->simd, "Vectors to use: scalar, sse4, avx2, avx512");
-  const std::map<std::string, BroadPhaseKind> broad_phases{
-      {"tree", BroadPhaseKind::tree}, {"sweep", BroadPhaseKind::sweep_and_prune}};
-  command->add_option("--broad-phase", options->broad_phase, "How pairs are found: tree, sweep")
-      ->transform(CLI::CheckedTransformer(broad_phases));
+  add_broad_phase_option(*command, options->broad_phase);
   command->add_option("--svg", options->svg, "Draw the end into this file");
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
       ->check(CLI::Range(1, 60));

@@ -7,7 +7,6 @@
 #include <lockstone/testing/floating.h>
 
 #include "tools/bench/peers/peers.h"
-#include "tools/bench/support/measure.h"
 
 namespace lockstone::bench {
 namespace {
@@ -45,31 +44,31 @@ double found_per_query(const Answers& answers) {
 }
 
 // ns a query; negative when the engine has no answer.
-double time_row(QueryEngine& engine, const QueryRow& row, Answers& answers) {
-  const std::uint64_t begin = now_nanoseconds();
+double time_row(QueryEngine& engine, const QueryRow& row, Clock clock, Answers& answers) {
+  const std::uint64_t begin = clock();
   if (!engine.answer(row, answers)) return -1;
-  const auto time = static_cast<double>(now_nanoseconds() - begin);
+  const auto time = static_cast<double>(clock() - begin);
   return time / static_cast<double>(row.size());
 }
 
-void time_engines(const QueryRow& row, const Engines& engines, int repeats,
+void time_engines(const QueryRow& row, const Engines& engines, const QueryOptions& options,
                   std::vector<Answers>& answers, QueryResult& result) {
-  for (int repeat = -1; repeat < repeats; ++repeat) {  // the first is to warm up
+  for (int repeat = -1; repeat < options.repeats; ++repeat) {  // the first is to warm up
     for (std::size_t i = 0; i < engines.size(); ++i) {
-      const double time = time_row(*engines[i], row, answers[i]);
+      const double time = time_row(*engines[i], row, options.clock, answers[i]);
       if (repeat >= 0 && time >= 0) result.engines[i].times.push_back(time);
     }
   }
 }
 
 QueryResult run_row(const QueryRow& row, const Engines& engines, QueryEngine* reference,
-                    int repeats) {
+                    const QueryOptions& options) {
   QueryResult result;
   result.name = row.name;
   std::vector<Answers> answers(engines.size(), Answers(row.size()));
   for (const auto& engine : engines)
     result.engines.push_back({engine->name(), {}, {}});
-  time_engines(row, engines, repeats, answers, result);
+  time_engines(row, engines, options, answers, result);
   result.found = found_per_query(answers.front());
   Answers right(row.size());
   const bool judged = reference != nullptr && reference->answer(row, right);
@@ -98,7 +97,7 @@ Engines make_engines(const QueryScene& scene, const World& world,
 
 QueryBench run_query_bench(const QueryOptions& options) {
   const QueryScene scene = make_query_scene(options.bodies, options.seed);
-  const World world = make_query_world(scene);
+  const World world = make_query_world(scene, options.broad_phase);
   QueryBench bench;
   bench.bodies = options.bodies;
   bench.static_bodies = static_cast<std::uint32_t>(
@@ -107,7 +106,7 @@ QueryBench run_query_bench(const QueryOptions& options) {
   const Engines engines = make_engines(scene, world, bench.absent);
   const std::unique_ptr<QueryEngine> reference = make_reference_engine(scene);
   for (const QueryRow& row : make_query_rows(scene, world, options.queries, options.seed)) {
-    bench.results.push_back(run_row(row, engines, reference.get(), options.repeats));
+    bench.results.push_back(run_row(row, engines, reference.get(), options));
     bench.results.back().hash = hash_of_answers(world, row);
   }
   return bench;

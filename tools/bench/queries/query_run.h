@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/bench/queries/query_engine.h"
+#include "tools/bench/support/measure.h"
 
 namespace lockstone::bench {
 
@@ -14,6 +15,8 @@ struct QueryOptions {
   std::size_t queries = 4096;  ///< a row
   int repeats = 31;
   std::uint64_t seed = 1;
+  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  Clock clock = now_nanoseconds;
 };
 
 /// How an engine's answers to a row compare with those of the judge.

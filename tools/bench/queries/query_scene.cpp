@@ -121,8 +121,9 @@ QueryScene make_query_scene(std::uint32_t bodies, std::uint64_t seed) {
   return scene;
 }
 
-World make_query_world(const QueryScene& scene) {
+World make_query_world(const QueryScene& scene, BroadPhaseKind broad_phase) {
   WorldDef def;
+  def.broad_phase = broad_phase;
   def.body_capacity = static_cast<std::uint32_t>(scene.bodies.size());
   Result<World> made = World::create(def, scene.assets);
   LKS_CHECK(made.ok());

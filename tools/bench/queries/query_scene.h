@@ -27,7 +27,8 @@ struct QueryScene {
 /// in five are static and larger.
 [[nodiscard]] QueryScene make_query_scene(std::uint32_t bodies, std::uint64_t seed);
 
-[[nodiscard]] World make_query_world(const QueryScene& scene);
+[[nodiscard]] World make_query_world(const QueryScene& scene,
+                                     BroadPhaseKind broad_phase = BroadPhaseKind::tree);
 
 enum class QueryKind : std::uint8_t {
   closest_ray,  ///< the first body along a ray

@@ -17,8 +17,8 @@ Length half_pit(int more_mm) {
   return arena::millimetres_long(k_pit_mm + more_mm);
 }
 
-World make_pit() {
-  World world = make_speed_world(8192, 131072, 65536);
+World make_pit(BroadPhaseKind broad_phase) {
+  World world = make_speed_world(speed_def(broad_phase, 8192, 131072, 65536));
   scenes::add_ground(world, half_pit(1000));
   for (const int side : {-1, 1}) {
     const Position place = millimetres(side * (k_pit_mm + 500));
@@ -64,20 +64,20 @@ Shape random_box(Random& random) {
   return Shape::box(x, y, between_mm(random, 150, 350));
 }
 
-World make_ball_rain() {
-  World world = make_pit();
+World make_ball_rain(BroadPhaseKind broad_phase) {
+  World world = make_pit(broad_phase);
   add_rain(world, 12, random_ball);
   return world;
 }
 
-World make_capsule_pile() {
-  World world = make_pit();
+World make_capsule_pile(BroadPhaseKind broad_phase) {
+  World world = make_pit(broad_phase);
   add_rain(world, 8, random_capsule);
   return world;
 }
 
-World make_box_rain() {
-  World world = make_pit();
+World make_box_rain(BroadPhaseKind broad_phase) {
+  World world = make_pit(broad_phase);
   for (int i = 0; i < k_columns * k_columns; ++i) {
     const Vec3<Position> place{
         millimetres(column_mm(i % k_columns)), {}, millimetres(column_mm(i / k_columns))};
@@ -89,8 +89,8 @@ World make_box_rain() {
   return world;
 }
 
-World make_mixed() {
-  World world = make_pit();
+World make_mixed(BroadPhaseKind broad_phase) {
+  World world = make_pit(broad_phase);
   add_rain(world, 8, scenes::random_shape);
   return world;
 }

@@ -24,19 +24,19 @@ void add_pyramid(World& world, int rows, int left_mm, int z_mm) {
   }
 }
 
-World make_large_pyramid() {
+World make_large_pyramid(BroadPhaseKind broad_phase) {
   constexpr int k_rows = 100;
-  World world = make_speed_world(8192, 65536, 32768);
+  World world = make_speed_world(speed_def(broad_phase, 8192, 65536, 32768));
   scenes::add_ground(world, 400_m);
   add_pyramid(world, k_rows, -k_rows * k_half_mm, 0);
   return world;
 }
 
-World make_many_pyramids() {
+World make_many_pyramids(BroadPhaseKind broad_phase) {
   constexpr int k_rows = 10, k_side = 14;
   constexpr int k_ground_mm = k_half_mm * k_side * (k_rows + 1);
   constexpr int k_reach_mm = k_ground_mm - 2 * k_half_mm;
-  World world = make_speed_world(16384, 131072, 65536);
+  World world = make_speed_world(speed_def(broad_phase, 16384, 131072, 65536));
   scenes::add_ground(world, arena::millimetres_long(k_ground_mm));
   for (int i = 0; i < k_side; ++i) {
     for (int j = 0; j < k_side; ++j) {

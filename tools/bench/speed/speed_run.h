@@ -8,13 +8,16 @@
 #include <lockstone/world.h>
 
 #include "tools/bench/speed/speed_scene.h"
+#include "tools/bench/support/measure.h"
 
 namespace lockstone::bench {
 
 struct SpeedOptions {
   std::uint32_t ticks = 0;  ///< 0: as many as the scene says
   int repeats = 3;          ///< each from the beginning; a tick's time is the median over them
-  bool detail = false;      ///< one more run with a clock around each pair
+  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  Clock clock = now_nanoseconds;
+  bool detail = false;  ///< one more run with a clock around each pair
 };
 
 /// Of one tick, in nanoseconds.

@@ -15,8 +15,6 @@ constexpr SpeedScene k_convex_pile =
     absent("convex-pile", "5,120 hulls of 32 points", "convex hulls");
 constexpr SpeedScene k_junkyard =
     absent("junkyard", "10,584 rocks swept by a pusher", "convex hulls");
-constexpr SpeedScene k_washer =
-    absent("washer", "8,000 cubes in a turning drum of 40 pieces", "compounds");
 constexpr SpeedScene k_ragdoll_rain =
     absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints, meshes");
 constexpr SpeedScene k_terrain =
@@ -24,8 +22,8 @@ constexpr SpeedScene k_terrain =
 constexpr SpeedScene k_city = absent("city", "10,000 bodies asleep", "sleeping");
 
 constexpr const SpeedScene* k_scenes[] = {
-    &k_large_pyramid, &k_many_pyramids, &k_ball_rain,   &k_capsule_pile, &k_box_rain,
-    &k_mixed,         &k_joint_grid,    &k_convex_pile, &k_junkyard,     &k_washer,
+    &k_large_pyramid, &k_many_pyramids, &k_ball_rain,  &k_capsule_pile, &k_box_rain,
+    &k_mixed,         &k_washer,        &k_joint_grid, &k_convex_pile,  &k_junkyard,
     &k_ragdoll_rain,  &k_terrain,       &k_city,
 };
 
@@ -41,11 +39,17 @@ const SpeedScene* find_speed_scene(std::string_view name) {
   return found == std::end(k_scenes) ? nullptr : *found;
 }
 
-World make_speed_world(std::uint32_t bodies, std::uint32_t pairs, std::uint32_t contacts) {
+WorldDef speed_def(BroadPhaseKind broad_phase, std::uint32_t bodies, std::uint32_t pairs,
+                   std::uint32_t contacts) {
   WorldDef def;
   def.body_capacity = bodies;
   def.pair_capacity = pairs;
   def.contact_capacity = contacts;
+  def.broad_phase = broad_phase;
+  return def;
+}
+
+World make_speed_world(const WorldDef& def) {
   Result<World> world = World::create(def);
   LKS_CHECK(world.ok());
   return std::move(world.value());

@@ -15,9 +15,9 @@ struct SpeedScene {
   std::string_view name;
   std::string_view description;
   std::uint32_t ticks = 0;
-  World (*make)() = nullptr;              ///< null: absent
-  void (*drive)(World& world) = nullptr;  ///< commands before a step; may be null
-  std::string_view needs = {};            ///< of an absent scene
+  World (*make)(BroadPhaseKind broad_phase) = nullptr;  ///< null: absent
+  void (*drive)(World& world) = nullptr;                ///< commands before a step; may be null
+  std::string_view needs = {};                          ///< of an absent scene
 
   [[nodiscard]] bool is_absent() const { return make == nullptr; }
 };
@@ -28,11 +28,15 @@ struct SpeedScene {
 /// Null for an unknown name.
 [[nodiscard]] const SpeedScene* find_speed_scene(std::string_view name);
 
-/// An empty world of the default rules with room for that much.
-[[nodiscard]] World make_speed_world(std::uint32_t bodies, std::uint32_t pairs,
-                                     std::uint32_t contacts);
+/// The default rules with room for that much.
+[[nodiscard]] WorldDef speed_def(BroadPhaseKind broad_phase, std::uint32_t bodies,
+                                 std::uint32_t pairs, std::uint32_t contacts);
+
+/// An empty world without assets.
+[[nodiscard]] World make_speed_world(const WorldDef& def);
 
 extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // pyramids.cpp
 extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp
+extern const SpeedScene k_washer;                                          // washer.cpp
 
 }  // namespace lockstone::bench

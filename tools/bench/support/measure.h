@@ -9,6 +9,12 @@ namespace lockstone::bench {
 /// Nanoseconds of the steady clock.
 [[nodiscard]] std::uint64_t now_nanoseconds();
 
+/// Nanoseconds that this thread itself ran: what a busy machine takes away does not count. A call
+/// costs several times one of the steady clock.
+[[nodiscard]] std::uint64_t thread_nanoseconds();
+
+using Clock = std::uint64_t (*)();
+
 /// How much of its own time an interval between two calls of the clock holds, in nanoseconds: the
 /// median of many empty ones.
 [[nodiscard]] double clock_overhead();
