@@ -107,7 +107,8 @@ class Queries(Case):
 
     def test_are_of_all_kinds(self):
         names = {row["query"]: row["found"] for row in self.report["rows"]}
-        self.assertLessEqual({"ray closest 5 m", "ray any 100 m", "ray all 100 m", "overlap box 1 m", "point"},
+        self.assertLessEqual({"ray closest 5 m", "ray any 100 m", "ray all 100 m", "overlap box 1 m", "point",
+                              "near point 10 m"},
                              set(names))
         self.assertTrue(all(found > 0 for found in names.values()), names)
 

@@ -52,7 +52,7 @@ TEST(QueryReference, NoticesBodiesThatAreElsewhere) {
 
 TEST(QueryReference, RefusesWhatItDoesNotKnow) {
   QueryScene scene = make_query_scene(16, 1);
-  QueryRow row{"box", QueryKind::overlap, {}, Shape::box(1_m, 1_m, 1_m), {Transform{}}};
+  QueryRow row{"box", QueryKind::overlap, {}, Shape::box(1_m, 1_m, 1_m), {Transform{}}, {}};
   std::array<QueryAnswer, 1> answers{};
   EXPECT_FALSE(make_reference_engine(scene)->answer(row, answers));
   scene.bodies[3].shape = Shape::half_space();

@@ -67,7 +67,8 @@ SpeedReport measure(const BenchSpeedOptions& options,
   SpeedReport report;
   report.detail = options.detail;
   report.clock_name = options.cpu ? "thread" : "steady";
-  report.clock_nanoseconds = bench::clock_overhead();
+  report.clock_nanoseconds =
+      bench::clock_overhead(options.cpu ? bench::thread_nanoseconds : bench::now_nanoseconds);
   Progress progress;
   for (const bench::SpeedScene* scene : scenes) {
     if (scene->is_absent()) {

@@ -121,6 +121,7 @@ class BulletEngine final : public QueryEngine {
       case QueryKind::overlap:
         return ask_overlaps(row, out);
       case QueryKind::point:
+      case QueryKind::near_point:
         return false;  // it has none
     }
     return false;

@@ -46,6 +46,9 @@ class LockstoneEngine final : public QueryEngine {
       case QueryKind::point:
         ask_each(row.rays, out, [&](const Ray& ray) { return point(ray); });
         return true;
+      case QueryKind::near_point:
+        ask_each(row.rays, out, [&](const Ray& ray) { return near(ray, row.reach); });
+        return true;
     }
     return false;
   }
@@ -73,6 +76,12 @@ class LockstoneEngine final : public QueryEngine {
 
   QueryAnswer point(const Ray& ray) { return {counted(world_.bodies_at(ray.origin, bodies_))}; }
 
+  QueryAnswer near(const Ray& ray, Length reach) const {
+    const ClosestHit hit = world_.closest_point(ray.origin, reach);
+    if (hit.body.is_null()) return {};
+    return {1, hit.body.index, testing::to_double(hit.distance)};
+  }
+
   const World& world_;
   std::array<RayHit, k_most_found> hits_{};
   std::array<BodyHandle, k_most_found> bodies_{};
@@ -97,6 +106,14 @@ class Digest {
       add(hit.normal[i].raw), add(hit.point[i].raw);
   }
 
+  void add(const ClosestHit& hit) {
+    add(hit.body.index);
+    add(hit.body.generation);
+    add(hit.distance.raw);
+    for (int i = 0; i < 3; ++i)
+      add(hit.point[i].raw);
+  }
+
   void add(std::span<const BodyHandle> bodies) {
     for (const BodyHandle body : bodies)
       add(body.index);
@@ -109,13 +126,15 @@ class Digest {
   std::uint64_t hash_ = 0;
 };
 
-void add_answers_of_ray(const World& world, QueryKind kind, const Ray& ray, Digest& digest) {
+void add_answers_of_ray(const World& world, const QueryRow& row, const Ray& ray, Digest& digest) {
+  const QueryKind kind = row.kind;
   std::vector<RayHit> hits(k_most_found);
   std::vector<BodyHandle> bodies(k_most_found);
   if (kind == QueryKind::closest_ray)
     return digest.add(world.cast_ray(ray.origin, ray.translation));
   if (kind == QueryKind::blocked_ray)
     return digest.add(world.is_ray_blocked(ray.origin, ray.translation) ? 1 : 0);
+  if (kind == QueryKind::near_point) return digest.add(world.closest_point(ray.origin, row.reach));
   if (kind == QueryKind::point)
     return digest.add(std::span(bodies).first(world.bodies_at(ray.origin, bodies)));
   const std::size_t count = world.cast_ray_all(ray.origin, ray.translation, hits);
@@ -134,7 +153,7 @@ std::uint64_t hash_of_answers(const World& world, const QueryRow& row) {
   Digest digest;
   std::vector<BodyHandle> bodies(k_most_found);
   for (const Ray& ray : row.rays)
-    add_answers_of_ray(world, row.kind, ray, digest);
+    add_answers_of_ray(world, row, ray, digest);
   for (const Transform& pose : row.poses)
     digest.add(std::span(bodies).first(world.overlap_shape(row.shape, pose, bodies)));
   return digest.value();

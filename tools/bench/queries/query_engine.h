@@ -12,12 +12,12 @@ namespace lockstone::bench {
 
 inline constexpr std::uint32_t k_no_body = 0xffffffff;
 
-/// By kind: a closest ray fills `body` and `fraction`, all kinds `count` (1 or 0 of rays that ask
-/// for one body).
+/// All kinds fill `count`, 1 or 0 where one body is asked for. A closest ray and a near point name
+/// the `body`, and `where`: a fraction of the ray, or metres from the point.
 struct QueryAnswer {
   std::uint32_t count = 0;
   std::uint32_t body = k_no_body;
-  double fraction = 1;
+  double where = 1;
 };
 
 class QueryEngine {

@@ -28,7 +28,8 @@ Agreement compare(const QueryRow& row, const Answers& judge, const Answers& thei
     ++both;
     if (judge[i].body != theirs[i].body) continue;
     ++same_body;
-    const double apart = std::abs(judge[i].fraction - theirs[i].fraction) * length_of(row.rays[i]);
+    const double unit = row.kind == QueryKind::closest_ray ? length_of(row.rays[i]) : 1;
+    const double apart = std::abs(judge[i].where - theirs[i].where) * unit;
     agreement.worst_metres = std::max(agreement.worst_metres, apart);
   }
   agreement.same = static_cast<double>(same) / static_cast<double>(judge.size());

@@ -22,8 +22,8 @@ struct QueryOptions {
 /// How an engine's answers to a row compare with those of the judge.
 struct Agreement {
   double same = 0;          ///< share of equal counts: hit or miss, how many bodies
-  double same_body = 0;     ///< of closest rays that hit in both: the same body
-  double worst_metres = 0;  ///< of these: largest distance between the two points
+  double same_body = 0;     ///< of those that name a body in both: the same one
+  double worst_metres = 0;  ///< of these: largest difference of the two distances
 };
 
 /// One engine's times of one row, in nanoseconds a query, one a repeat. No times: no such question.

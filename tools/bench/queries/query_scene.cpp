@@ -70,7 +70,7 @@ class RowMaker {
       : scene_(scene), world_(world), count_(count), random_(arena::mix(seed ^ 0x71)) {}
 
   QueryRow rays(std::string_view name, QueryKind kind, int metres) {
-    QueryRow row{name, kind, {}, {}, {}};
+    QueryRow row{name, kind, {}, {}, {}, {}};
     while (row.rays.size() < count_) {
       const Vec3<Position> origin = random_place(random_, scene_.half_width);
       const Vec3<Length> translation = random_translation(random_, metres);
@@ -80,15 +80,15 @@ class RowMaker {
     return row;
   }
 
-  QueryRow points(std::string_view name) {
-    QueryRow row{name, QueryKind::point, {}, {}, {}};
+  QueryRow points(std::string_view name, QueryKind kind, Length reach) {
+    QueryRow row{name, kind, {}, {}, {}, reach};
     for (std::size_t i = 0; i < count_; ++i)
       row.rays.push_back({random_place(random_, scene_.half_width), {}});
     return row;
   }
 
   QueryRow overlaps(std::string_view name, const Shape& shape) {
-    QueryRow row{name, QueryKind::overlap, {}, shape, {}};
+    QueryRow row{name, QueryKind::overlap, {}, shape, {}, {}};
     for (std::size_t i = 0; i < count_; ++i) {
       const Vec3<Position> place = random_place(random_, scene_.half_width);
       row.poses.push_back({place, scenes::random_orientation(random_)});
@@ -134,6 +134,7 @@ World make_query_world(const QueryScene& scene, BroadPhaseKind broad_phase) {
     body_def.orientation = body.pose.orientation;
     scenes::add(world, body_def);
   }
+  world.drop_derived();  // as after a step or a load: the trees are built at once
   return world;
 }
 
@@ -150,7 +151,8 @@ std::vector<QueryRow> make_query_rows(const QueryScene& scene, const World& worl
   rows.push_back(make.overlaps("overlap sphere 0.5 m", Shape::sphere(0.5_m)));
   rows.push_back(make.overlaps("overlap sphere 4 m", Shape::sphere(4_m)));
   rows.push_back(make.overlaps("overlap box 1 m", Shape::box(0.5_m, 0.5_m, 0.5_m)));
-  rows.push_back(make.points("point"));
+  rows.push_back(make.points("point", QueryKind::point, {}));
+  rows.push_back(make.points("near point 10 m", QueryKind::near_point, 10_m));
   return rows;
 }
 

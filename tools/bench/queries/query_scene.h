@@ -36,6 +36,7 @@ enum class QueryKind : std::uint8_t {
   all_rays,     ///< how many there are
   overlap,      ///< how many bodies overlap a sphere or box
   point,        ///< how many bodies hold a point
+  near_point,   ///< the body nearest to a point, within a reach
 };
 
 /// Questions of one kind. Rays have an origin and a translation; an overlap has a shape and a pose;
@@ -46,6 +47,7 @@ struct QueryRow {
   std::vector<Ray> rays;
   Shape shape{};
   std::vector<Transform> poses;
+  Length reach{};
 
   [[nodiscard]] std::size_t size() const { return shape_asked() ? poses.size() : rays.size(); }
   [[nodiscard]] bool shape_asked() const { return kind == QueryKind::overlap; }

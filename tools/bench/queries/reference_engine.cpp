@@ -136,6 +136,8 @@ class ReferenceEngine final : public QueryEngine {
  private:
   QueryAnswer answer_one(const QueryRow& row, std::size_t i) const {
     if (row.kind == QueryKind::point) return near(vector(row.rays[i].origin), 0);
+    if (row.kind == QueryKind::near_point)
+      return nearest(vector(row.rays[i].origin), testing::to_double(row.reach));
     if (row.kind == QueryKind::overlap)
       return near(vector(row.poses[i].position), testing::to_double(row.shape.size.x));
     QueryAnswer answer = along(vector(row.rays[i].origin), vector(row.rays[i].translation));
@@ -150,9 +152,19 @@ class ReferenceEngine final : public QueryEngine {
       const Entry entry = enter(bodies_[i], origin, way);
       if (!entry) continue;
       ++answer.count;
-      if (answer.body != k_no_body && *entry >= answer.fraction) continue;
+      if (answer.body != k_no_body && *entry >= answer.where) continue;
       answer.body = static_cast<std::uint32_t>(i);
-      answer.fraction = *entry;
+      answer.where = *entry;
+    }
+    return answer;
+  }
+
+  QueryAnswer nearest(const Vector& point, double reach) const {
+    QueryAnswer answer;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const double away = distance(bodies_[i], point);
+      if (away > reach || (answer.count != 0 && away >= answer.where)) continue;
+      answer = {1, static_cast<std::uint32_t>(i), away};
     }
     return answer;
   }

@@ -73,11 +73,10 @@ TickTimes median_tick(const std::vector<Pass>& passes, std::size_t tick) {
   return times;
 }
 
-// By the steady clock: the other is too slow to be called for each pair.
-StepProfile run_in_detail(const SpeedScene& scene, BroadPhaseKind broad_phase, std::uint32_t ticks,
+StepProfile run_in_detail(const SpeedScene& scene, const SpeedOptions& options, std::uint32_t ticks,
                           std::uint64_t& hash) {
-  World world = scene.make(broad_phase);
-  world.set_clock(now_nanoseconds, ProfileDetail::pairs);
+  World world = scene.make(options.broad_phase);
+  world.set_clock(options.clock, ProfileDetail::pairs);
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     drive(scene, world);
     (void)world.step();
@@ -138,7 +137,7 @@ SpeedResult run_speed(const SpeedScene& scene, const SpeedOptions& options) {
     result.hashes_agree = result.hashes_agree && pass.hash == result.hash;
   if (options.detail) {
     std::uint64_t hash = 0;
-    result.detail = run_in_detail(scene, options.broad_phase, ticks, hash);
+    result.detail = run_in_detail(scene, options, ticks, hash);
     result.hashes_agree = result.hashes_agree && hash == result.hash;
   }
   return result;

@@ -12,13 +12,13 @@ constexpr SpeedScene absent(std::string_view name, std::string_view description,
 
 constexpr SpeedScene k_joint_grid = absent("joint-grid", "100 x 100 balls in a net", "joints");
 constexpr SpeedScene k_convex_pile =
-    absent("convex-pile", "5,120 hulls of 32 points", "convex hulls");
+    absent("convex-pile", "5,120 hulls of 32 points", "contacts of hulls");
 constexpr SpeedScene k_junkyard =
-    absent("junkyard", "10,584 rocks swept by a pusher", "convex hulls");
+    absent("junkyard", "10,584 rocks swept by a pusher", "contacts of hulls");
 constexpr SpeedScene k_ragdoll_rain =
-    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints, meshes");
+    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints, contacts of meshes");
 constexpr SpeedScene k_terrain =
-    absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "meshes");
+    absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "contacts of meshes");
 constexpr SpeedScene k_city = absent("city", "10,000 bodies asleep", "sleeping");
 
 constexpr const SpeedScene* k_scenes[] = {
@@ -49,8 +49,8 @@ WorldDef speed_def(BroadPhaseKind broad_phase, std::uint32_t bodies, std::uint32
   return def;
 }
 
-World make_speed_world(const WorldDef& def) {
-  Result<World> world = World::create(def);
+World make_speed_world(const WorldDef& def, std::vector<AssetPtr> assets) {
+  Result<World> world = World::create(def, std::make_shared<const AssetSet>(std::move(assets)));
   LKS_CHECK(world.ok());
   return std::move(world.value());
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <lockstone/world.h>
 
@@ -32,8 +33,8 @@ struct SpeedScene {
 [[nodiscard]] WorldDef speed_def(BroadPhaseKind broad_phase, std::uint32_t bodies,
                                  std::uint32_t pairs, std::uint32_t contacts);
 
-/// An empty world without assets.
-[[nodiscard]] World make_speed_world(const WorldDef& def);
+/// An empty world that knows these assets.
+[[nodiscard]] World make_speed_world(const WorldDef& def, std::vector<AssetPtr> assets = {});
 
 extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // pyramids.cpp
 extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp

@@ -20,12 +20,12 @@ std::uint64_t thread_nanoseconds() {
          static_cast<std::uint64_t>(time.tv_nsec);
 }
 
-double clock_overhead() {
+double clock_overhead(Clock clock) {
   constexpr int k_intervals = 1000;
   std::vector<double> times;
   for (int i = 0; i < k_intervals; ++i) {
-    const std::uint64_t begin = now_nanoseconds();
-    times.push_back(static_cast<double>(now_nanoseconds() - begin));
+    const std::uint64_t begin = clock();
+    times.push_back(static_cast<double>(clock() - begin));
   }
   return median(std::move(times));
 }

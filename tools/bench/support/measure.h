@@ -15,9 +15,9 @@ namespace lockstone::bench {
 
 using Clock = std::uint64_t (*)();
 
-/// How much of its own time an interval between two calls of the clock holds, in nanoseconds: the
+/// How much of its own time an interval between two calls of a clock holds, in nanoseconds: the
 /// median of many empty ones.
-[[nodiscard]] double clock_overhead();
+[[nodiscard]] double clock_overhead(Clock clock);
 
 /// The value below which a share (0 … 1) of the values lie; one of them. 0 for none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
