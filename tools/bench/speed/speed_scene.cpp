@@ -11,14 +11,12 @@ constexpr SpeedScene absent(std::string_view name, std::string_view description,
 }
 
 constexpr SpeedScene k_joint_grid = absent("joint-grid", "100 x 100 balls in a net", "joints");
-constexpr SpeedScene k_convex_pile =
-    absent("convex-pile", "5,120 hulls of 32 points", "contacts of hulls");
 constexpr SpeedScene k_junkyard =
-    absent("junkyard", "10,584 rocks swept by a pusher", "contacts of hulls");
+    absent("junkyard", "10,584 rocks swept by a pusher", "a file of its own");
 constexpr SpeedScene k_ragdoll_rain =
-    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints, contacts of meshes");
+    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints");
 constexpr SpeedScene k_terrain =
-    absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "contacts of meshes");
+    absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "a file of its own");
 constexpr SpeedScene k_city = absent("city", "10,000 bodies asleep", "sleeping");
 
 constexpr const SpeedScene* k_scenes[] = {

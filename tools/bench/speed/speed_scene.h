@@ -38,6 +38,7 @@ struct SpeedScene {
 
 extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // pyramids.cpp
 extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp
+extern const SpeedScene k_convex_pile;                                     // convex_pile.cpp
 extern const SpeedScene k_washer;                                          // washer.cpp
 
 }  // namespace lockstone::bench
