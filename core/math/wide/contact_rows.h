@@ -1,7 +1,8 @@
 // Normal rows of four-point contacts, laid out for vectors: the kernel that a solver sweep over one
 // colour of the constraint graph spends its time in.
 //
-// For each point, with the symbols of core/dynamics/contact_constraint.h:
+// For each point, with L = spin, M what turns it into surface speed, jA = M·(r̄A × n) and
+// α = (1/m) / (1/mA + 1/mB):
 //   v  = n·(vB − vA) + jB·LB − jA·LA                      rounded once
 //   P' = max(0, keep·P − m̄·(v + bias))                    rounded once
 //   vB += αB·n·(P' − P), LB += αB·(r̄B × n)·(P' − P), and the opposite for A: exact, not rounded.

@@ -8,32 +8,11 @@
 
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/lanes_inl.h"
+#include "core/math/wide/row_bodies_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
-
-/// The bodies of as many contacts as there are lanes.
-struct BodyLanes {
-  Lanes velocity[3];
-  Lanes spin[3];
-};
-
-HWY_INLINE HWY_ATTR void load_bodies(const std::int64_t* bodies, const std::uint32_t* index,
-                                     BodyLanes& x) {
-  using At = RecordsAt<const std::int64_t>;
-  load_two(At{bodies, index, 1}, x.velocity[0], x.velocity[1]);
-  load_two(At{bodies + 2, index, 1}, x.velocity[2], x.spin[0]);
-  load_two(At{bodies + 4, index, 1}, x.spin[1], x.spin[2]);
-}
-
-HWY_INLINE HWY_ATTR void store_bodies(const BodyLanes& x, std::int64_t* bodies,
-                                      const std::uint32_t* index) {
-  using At = RecordsAt<std::int64_t>;
-  store_two(x.velocity[0], x.velocity[1], At{bodies, index, 1});
-  store_two(x.velocity[2], x.spin[0], At{bodies + 2, index, 1});
-  store_two(x.spin[1], x.spin[2], At{bodies + 4, index, 1});
-}
 
 HWY_INLINE HWY_ATTR Lanes read_velocity(Lanes x) {
   return round_shift_low<k_velocity_bits - 20>(x);

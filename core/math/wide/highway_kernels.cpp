@@ -12,6 +12,8 @@
 // twins.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "core/math/wide/contact_rows_inl.h"
+#include "core/math/wide/manifold_prepare_inl.h"
+#include "core/math/wide/manifold_sweep_inl.h"
 #include "core/math/wide/rotations_inl.h"
 #endif
 
@@ -19,21 +21,42 @@
 namespace lockstone::lanes {
 namespace {
 
+#define LKS_MANIFOLD_KERNELS(target)                                                               \
+  constexpr ManifoldKernels k_manifolds_##target{target::prepare_manifolds,                        \
+                                                 target::solve_manifolds, target::relax_manifolds, \
+                                                 target::bounce_manifolds};
+
+#if defined(__x86_64__)
+#if HWY_TARGETS & HWY_SSE4
+LKS_MANIFOLD_KERNELS(N_SSE4)
+#endif
+#if HWY_TARGETS & HWY_AVX2
+LKS_MANIFOLD_KERNELS(N_AVX2)
+#endif
+#if HWY_TARGETS & HWY_AVX3
+LKS_MANIFOLD_KERNELS(N_AVX3)
+#endif
+#elif HWY_TARGETS & HWY_NEON
+LKS_MANIFOLD_KERNELS(N_NEON)
+#elif HWY_TARGETS & HWY_WASM
+LKS_MANIFOLD_KERNELS(N_WASM)
+#endif
+
 constexpr Kernels k_tables[] = {
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
-    {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations},
+    {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations, &k_manifolds_N_SSE4},
 #endif
 #if HWY_TARGETS & HWY_AVX2
-    {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations},
+    {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations, &k_manifolds_N_AVX2},
 #endif
 #if HWY_TARGETS & HWY_AVX3
-    {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations},
+    {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations, &k_manifolds_N_AVX3},
 #endif
 #elif HWY_TARGETS & HWY_NEON
-    {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations},
+    {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations, &k_manifolds_N_NEON},
 #elif HWY_TARGETS & HWY_WASM
-    {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations},
+    {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations, &k_manifolds_N_WASM},
 #endif
     {},
 };

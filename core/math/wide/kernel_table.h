@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/math/wide/contact_rows.h"
+#include "core/math/wide/manifold_block.h"
 #include "core/math/wide/rotations.h"
 
 namespace lockstone::lanes {
@@ -15,6 +16,7 @@ struct Kernels {
   void (*solve_contact_rows)(RowBody* bodies, ContactBlock* blocks, std::size_t count);
   void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
                             Mat3* matrices);
+  const ManifoldKernels* manifolds;
 };
 
 #if defined(LOCKSTONE_WITH_HIGHWAY)

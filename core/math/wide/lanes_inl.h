@@ -64,6 +64,18 @@ HWY_INLINE HWY_ATTR Lanes with_upper_of(Lanes low, Lanes other) {
                      hn::OddEven(hn::BitCast(Operands(), other), hn::BitCast(Operands(), low)));
 }
 
+HWY_INLINE HWY_ATTR Lanes lower_part(Lanes x) {
+  return hn::And(x, broadcast(0xffffffff));
+}
+HWY_INLINE HWY_ATTR Lanes upper_part(Lanes x) {
+  return hn::BitCast(k_words, hn::ShiftRight<32>(hn::BitCast(Bits(), x)));
+}
+
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes shift_left(Lanes x) {
+  return hn::ShiftLeft<shift>(x);
+}
+
 HWY_INLINE HWY_ATTR Lanes multiply(Lanes a, Lanes b) {
 #if HWY_TARGET == HWY_WASM
   // Highway 1.0.3 multiplies signed operands here as if they were unsigned (MulEven,
@@ -105,6 +117,18 @@ HWY_INLINE HWY_ATTR hn::Vec<Bits> shift_right_each(hn::Vec<Bits> x, hn::Vec<Bits
 #endif
 }
 
+HWY_INLINE HWY_ATTR Lanes power_of_two(Lanes exponent) {
+#if HWY_TARGET == HWY_WASM
+  HWY_ALIGN std::int64_t words[k_lanes];
+  hn::Store(exponent, k_words, words);
+  for (std::size_t lane = 0; lane < k_lanes; ++lane)
+    words[lane] = static_cast<std::int64_t>(std::uint64_t{1} << words[lane]);
+  return hn::Load(k_words, words);
+#else
+  return hn::Shl(broadcast(1), exponent);
+#endif
+}
+
 /// As above with a shift of each lane's own; `half` is 2^(shift − 1).
 HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
   const auto u = hn::BitCast(Bits(), x);
@@ -123,6 +147,20 @@ HWY_INLINE HWY_ATTR Lanes round_shift_positive(Lanes x) {
   return hn::BitCast(k_words, hn::Min(hn::BitCast(UnsignedOperands(), rounded), bound));
 }
 
+template <int bits_dropped>
+HWY_INLINE HWY_ATTR Lanes round_to_multiple(Lanes x) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (bits_dropped - 1));
+  const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
+  const auto dropped = hn::Set(Bits(), (std::uint64_t{1} << bits_dropped) - 1);
+  return hn::BitCast(k_words, hn::AndNot(dropped, moved));
+}
+
+HWY_INLINE HWY_ATTR Lanes at_most(Lanes x, std::int32_t bound) {
+  const auto most = hn::BitCast(UnsignedOperands(), broadcast(bound));
+  return hn::BitCast(k_words, hn::Min(hn::BitCast(UnsignedOperands(), x), most));
+}
+
 HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) {
   return hn::Min(a, b);
 }
@@ -137,6 +175,9 @@ HWY_INLINE HWY_ATTR Lanes saturate(Lanes x) {
 }
 HWY_INLINE HWY_ATTR Lanes select_less(Lanes a, Lanes b, Lanes yes, Lanes no) {
   return hn::IfThenElse(hn::Lt(a, b), yes, no);
+}
+HWY_INLINE HWY_ATTR bool any_less(Lanes a, Lanes b) {
+  return !hn::AllFalse(k_words, hn::Lt(a, b));
 }
 HWY_INLINE HWY_ATTR Lanes select_equal(Lanes a, Lanes b, Lanes yes, Lanes no) {
   return hn::IfThenElse(hn::Eq(a, b), yes, no);

@@ -37,6 +37,29 @@ using Lane = std::int64_t;
   return static_cast<Lane>((bits(low_half) & 0xffffffffU) | (bits(high_half) << 32));
 }
 
+/// `low_half` with the upper half of `other`.
+[[nodiscard]] constexpr Lane with_upper_of(Lane low_half, Lane other) {
+  return pack(low_half, high(other));
+}
+
+/// The lower half, and the upper one, as numbers without sign.
+[[nodiscard]] constexpr Lane low_part(Lane x) {
+  return static_cast<Lane>(bits(x) & 0xffffffffU);
+}
+[[nodiscard]] constexpr Lane high_part(Lane x) {
+  return static_cast<Lane>(bits(x) >> 32);
+}
+
+/// x · 2^shift, 0 ≤ shift ≤ 63; what leaves the word is lost.
+[[nodiscard]] constexpr Lane shift_left(Lane x, int shift) {
+  return static_cast<Lane>(bits(x) << shift);
+}
+
+/// 2^exponent, 0 ≤ exponent ≤ 63.
+[[nodiscard]] constexpr Lane power_of_two(Lane exponent) {
+  return static_cast<Lane>(std::uint64_t{1} << exponent);
+}
+
 /// The product of the lower halves, exact.
 [[nodiscard]] constexpr Lane multiply(Lane a, Lane b) {
   return Lane{low(a)} * low(b);
@@ -64,6 +87,20 @@ using Lane = std::int64_t;
   return rounded > 0x7fffffffU ? 0x7fffffff : static_cast<Lane>(rounded);
 }
 
+/// x to the nearest multiple of 2^bits_dropped, ties away from zero. 1 ≤ bits_dropped ≤ 62.
+[[nodiscard]] constexpr Lane round_to_multiple(Lane x, int bits_dropped) {
+  const std::uint64_t half = std::uint64_t{1} << (bits_dropped - 1);
+  return static_cast<Lane>((bits(x) + half - (bits(x) >> 63)) & ~(2 * half - 1));
+}
+
+/// The lower half, as a number without sign, but no more than `bound`; the upper half alike but at
+/// most 0.
+[[nodiscard]] constexpr Lane at_most(Lane x, std::int32_t bound) {
+  const auto half = static_cast<std::uint32_t>(x);
+  const auto most = static_cast<std::uint32_t>(bound);
+  return Lane{half < most ? half : most};
+}
+
 [[nodiscard]] constexpr Lane min(Lane a, Lane b) {
   return b < a ? b : a;
 }
@@ -82,6 +119,10 @@ using Lane = std::int64_t;
 /// a < b ? yes : no.
 [[nodiscard]] constexpr Lane select_less(Lane a, Lane b, Lane yes, Lane no) {
   return a < b ? yes : no;
+}
+/// Whether a < b in any lane.
+[[nodiscard]] constexpr bool any_less(Lane a, Lane b) {
+  return a < b;
 }
 /// a = b ? yes : no.
 [[nodiscard]] constexpr Lane select_equal(Lane a, Lane b, Lane yes, Lane no) {

@@ -8,7 +8,8 @@
 namespace lockstone::lanes {
 namespace {
 
-constexpr Kernels k_scalar{"scalar", solve_contact_rows_scalar, compute_rotations_scalar};
+constexpr Kernels k_scalar{"scalar", solve_contact_rows_scalar, compute_rotations_scalar,
+                           &k_scalar_manifolds};
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -79,6 +80,10 @@ Status set_target(std::string_view name) {
     return Status::ok;
   }
   return Status::not_found;
+}
+
+const ManifoldKernels& manifold_kernels() {
+  return *current().manifolds;
 }
 
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace lockstone::lanes::test {
@@ -12,5 +13,10 @@ namespace lockstone::lanes::test {
 [[nodiscard]] std::string check_memory_operations(std::uint64_t seed);
 [[nodiscard]] std::string check_contact_rows(std::uint64_t seed);
 [[nodiscard]] std::string check_rotations(std::uint64_t seed);
+[[nodiscard]] std::string check_manifolds(std::uint64_t seed);
+
+/// Runs `check` on every target, names those where it finds something, and leaves the best in
+/// force.
+[[nodiscard]] std::string on_each_target(const std::function<std::string()>& check);
 
 }  // namespace lockstone::lanes::test

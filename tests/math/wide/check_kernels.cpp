@@ -15,17 +15,6 @@ namespace {
 
 using lockstone::test::Random;
 
-// Runs `check` on every target and leaves the best in force.
-std::string on_each_target(const std::function<std::string()>& check) {
-  std::string report;
-  for (const std::string_view target : supported_targets()) {
-    if (set_target(target) != Status::ok) return "a supported target is refused\n";
-    const std::string found = check();
-    if (!found.empty()) report += std::string(target) + " " + found;
-  }
-  return report;
-}
-
 struct Rows {
   std::vector<RowBody> bodies;
   std::vector<ContactBlock> blocks;
@@ -152,6 +141,16 @@ std::string compare_rotations(std::size_t count, Random& random) {
 }
 
 }  // namespace
+
+std::string on_each_target(const std::function<std::string()>& check) {
+  std::string report;
+  for (const std::string_view target : supported_targets()) {
+    if (set_target(target) != Status::ok) return "a supported target is refused\n";
+    const std::string found = check();
+    if (!found.empty()) report += std::string(target) + " " + found;
+  }
+  return report;
+}
 
 std::string check_contact_rows(std::uint64_t seed) {
   Random random(seed);

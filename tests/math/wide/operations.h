@@ -30,6 +30,12 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
   X(upper, upper(a), high(a), k_low_bits)                                                         \
   X(pack, pack(a, b), pack(a, b), k_all_bits)                                                     \
   X(with_upper_of, with_upper_of(a, b), pack(a, high(b)), k_all_bits)                             \
+  X(lower_part, lower_part(a), low_part(a), k_all_bits)                                           \
+  X(upper_part, upper_part(a), high_part(a), k_all_bits)                                          \
+  X(left_15, shift_left<15>(a), shift_left(a, 15), k_all_bits)                                    \
+  X(power_of_two, power_of_two(shift), power_of_two(shift), k_all_bits)       \
+  X(multiple_18, round_to_multiple<18>(a), round_to_multiple(a, 18), k_all_bits)                  \
+  X(at_most, at_most(a, 12345678), at_most(a, 12345678), k_all_bits)                              \
   X(multiply, multiply(a, b), multiply(a, b), k_all_bits)                                         \
   X(multiply_upper, multiply(upper(a), b), multiply(high(a), b), k_all_bits)                      \
   X(multiply_add, multiply_add(a, b, c), multiply_add(a, b, c), k_all_bits)                       \

@@ -82,6 +82,10 @@ TEST(WideKernels, SolveContactRowsAsTheScalarTwinDoes) {
   EXPECT_EQ(test::check_contact_rows(run_seed()), "");
 }
 
+TEST(WideKernels, SweepManifoldsAsTheScalarTwinDoes) {
+  EXPECT_EQ(test::check_manifolds(run_seed()), "");
+}
+
 TEST(WideKernels, MakeTheMatricesOfToMatrix) {
   EXPECT_EQ(test::check_rotations(run_seed()), "");
 }

@@ -1,0 +1,53 @@
+// Colours for constraints, so that those of one colour share no body and can be solved side by
+// side.
+//
+// Greedy, in the order in which constraints are added: each gets the first colour that neither of
+// its bodies has. Added in canonical order, the colours follow from the state alone. The idea of
+// colouring for wide solvers: E. Catto, "SIMD Matters", 2024.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lockstone {
+
+/// Colours for constraints side by side; what finds none of them overflows.
+inline constexpr std::size_t k_graph_colors = 32;
+inline constexpr std::size_t k_overflow_color = k_graph_colors;
+
+class ConstraintGraph {
+ public:
+  /// No function but this allocates.
+  ConstraintGraph(std::size_t body_capacity, std::size_t constraint_capacity);
+
+  /// Leaves body 0 alone.
+  void clear();
+
+  /// Bodies are named 0, 1, 2, … in the order of adding.
+  void add_body() { taken_.push_back(0); }
+
+  /// A body that is not `pushed` conflicts with nothing: constraints may share it.
+  void add(std::uint32_t body_a, bool pushed_a, std::uint32_t body_b, bool pushed_b);
+
+  /// Where a constraint stands: the how-manieth of its colour, in the order of adding.
+  struct Place {
+    std::uint32_t color;
+    std::uint32_t rank;
+  };
+  [[nodiscard]] std::span<const Place> places() const { return places_; }
+
+  /// Constraints of a colour, the overflow included.
+  [[nodiscard]] std::uint32_t count(std::size_t color) const { return counts_[color]; }
+
+  /// Colours in use, the overflow not counted.
+  [[nodiscard]] std::uint32_t colors() const;
+
+ private:
+  std::vector<std::uint32_t> taken_;  // by body: a bit a colour
+  std::vector<Place> places_;
+  std::uint32_t counts_[k_graph_colors + 1] = {};
+};
+
+}  // namespace lockstone

@@ -1,0 +1,172 @@
+// Contact constraints laid out for vectors: eight manifolds in a block, a word a lane.
+//
+// A manifold is solved at its centre c, in its own axes: normal n and tangents t, b = n × t. What
+// its points see of two bodies are six numbers,
+//   u = vB − vA + ωB × rB − ωA × rA  along n, t, b,   Ω = ℓ·(ωB − ωA)  along n, t, b,
+// with ℓ = 2^k m a length of the size of the smaller body, and what its points do to them are six
+// impulses. Point i at the offset ℓ·(x t + y b) from the centre moves apart at
+//   vᵢ = u_n + y·Ω_t − x·Ω_b,
+// and an impulse P there is P along n, with torques P·y about t and −P·x about b.
+//
+// Bodies are written in normalised quantities (core/dynamics/body_record.h): w = M·L is the surface
+// speed ω·s, r̄ = r/s a lever arm, s = 2^exponent m. Impulses are the pair's velocity jump, so B
+// gains αB·J and A loses J − αB·J of velocity; both gain α·r̄ × J of spin.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/math/wide/contact_rows.h"
+
+namespace lockstone::lanes {
+
+inline constexpr std::size_t k_block_points = 4;
+
+/// Fraction bits of the velocities that impulses leave: what a RowBody holds is a multiple of
+/// 2^-32 m/s, so that bodies of equal mass gain and lose exactly the same.
+inline constexpr int k_grid_bits = 32;
+
+/// The greatest impulse of a point: 2^30 − 1 in Q20, 1024 m/s. Two of them make an operand.
+inline constexpr std::int32_t k_most_impulse = 0x3fffffff;
+
+/// Eight manifolds that share no body, save one that nothing moves (zero gains). `pack(low, high)`
+/// holds two operands. `shift` is 16 … 28, and Q(shift) the format of what grows with the inverse
+/// inertia. A lane without a manifold has zero gains.
+struct alignas(64) ManifoldBlock {
+  std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
+  std::array<std::uint32_t, k_block_lanes> body_b{};
+
+  // Read and written by every sweep.
+  struct Point {
+    BlockWord impulse{};     // low: P ≥ 0, high: the greatest P so far; m/s, Q20
+    BlockWord separation{};  // low: at the tick's beginning, high: now; m, Q24
+    BlockWord offset{};      // low: x, high: y; Q30
+
+    friend bool operator==(const Point&, const Point&) = default;
+  };
+  Point points[k_block_points];
+  BlockWord mass_01{}, mass_23{};  // 1 / (the response of each point to itself), Q30; 0: no point
+  BlockWord common{};              // low: mass of all points at once / count, high: 1/count; Q30
+  // Responses: what a unit impulse at one point adds to the speed at another, Q(shift).
+  BlockWord response_00_11{}, response_22_33{};
+  BlockWord response_01_23{}, response_02_13{}, response_03_12{};
+  BlockWord soft{};     // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
+  BlockWord rest{};     // (1 − κ)·load, what a soft row adds; m/s, Q50
+  BlockWord axes[5]{};  // (n.x, n.y) (n.z, t.x) (t.y, t.z) (b.x, b.y), Q30; (b.z, shift)
+  BlockWord inertia[6]{};   // low: M of A, high: of B; xx, yy, zz, xy, xz, yz, Q(shift)
+  BlockWord arm[3]{};       // low: r̄A, high: r̄B of the centre, Q30
+  BlockWord gain_arm[3]{};  // the same times α
+  BlockWord scale{};        // low: ℓ/sA, high: ℓ/sB, at most 1, Q30
+  BlockWord gain_turn{};    // the same times α
+  BlockWord share{};        // low: αB, Q30, high: coefficient of friction, Q30
+
+  // Read by sweeps with friction. Rows t, b and the twist about n at the radius ρ.
+  BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
+  BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
+  BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
+  BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)
+  BlockWord friction{};         // low: impulse along t, high: along b; m/s, Q20
+  BlockWord twist{};            // low: twist impulse, m/s, Q20; high: ρ/ℓ, Q30
+
+  friend bool operator==(const ManifoldBlock&, const ManifoldBlock&) = default;
+};
+
+/// One manifold as geometry and bodies give it, in pieces of 16 bytes.
+struct alignas(64) ManifoldSource {
+  std::array<std::int32_t, 3> normal{};    // Q30
+  std::int32_t one_over_count = 0;         // Q30; 0 without a manifold
+  std::array<std::int32_t, 3> friction{};  // impulse of the tick before in world axes, m/s, Q20
+  std::int32_t twist = 0;                  // m/s, Q20
+  struct Point {
+    std::array<std::int32_t, 3> anchor_a{}, anchor_b{};  // m, Q20
+    std::int32_t separation = 0;                         // m, Q24
+    std::int32_t impulse = 0;  // of the tick before, 0 … k_most_impulse, m/s, Q20
+  };
+  std::array<Point, k_block_points> points{};  // zero beyond the count
+  std::int32_t share_b = 1 << 30;              // αB, Q30
+  std::int32_t coefficient = 0;                // of friction, Q30
+  std::int32_t scale_a = 0, scale_b = 0;       // ℓ/s, Q30
+  std::int32_t bias_rate = 0;                  // as in ManifoldBlock::soft
+  std::int32_t keep = 1 << 30;
+  std::int32_t load = 0;                      // m/s, Q20
+  std::int32_t count = 0;                     // of points
+  std::int32_t inertia_a = 1, inertia_b = 1;  // 2^(12 − pair's exponent + body's), 1 … 2^12
+  std::int32_t inverse_scale_a = 0, inverse_scale_b = 0;  // 2^11/s, 1 … 2^18; 0: cannot turn
+  std::int32_t offset_shift = 20;                         // 20 + k: 13 … 31
+  std::int32_t shift = 28;
+  std::array<std::int32_t, 10> unused{};
+};
+static_assert(sizeof(ManifoldSource) == 256);
+
+/// What preparation reads of a body: M = entry · 2^-30 · 2^exponent, exponent told by the pair.
+struct alignas(32) SourceBody {
+  std::array<std::int32_t, 6> inertia{};  // xx, yy, zz, xy, xz, yz
+  std::array<std::int32_t, 2> unused{};
+};
+
+/// The manifolds of a block.
+struct ManifoldSources {
+  std::array<std::uint32_t, k_block_lanes> body_a{}, body_b{};  // row_body_offset of the index
+  std::array<ManifoldSource, k_block_lanes> lanes{};
+};
+
+/// Of each point, the relative normal velocity before the solver, m/s, Q20.
+struct alignas(64) ManifoldApproach {
+  BlockWord speed[k_block_points]{};
+  BlockWord clamped{};  // lever arms that were clamped
+
+  friend bool operator==(const ManifoldApproach&, const ManifoldApproach&) = default;
+};
+
+/// Where bodies have gone since the tick began, as the sum of what `RowBody` held at the end of
+/// each substep: velocity and surface velocity, m/s, Q32.
+struct alignas(64) RowTravel {
+  std::array<std::int64_t, 3> velocity{};
+  std::array<std::int64_t, 3> surface{};
+  std::array<std::int64_t, 2> unused{};
+
+  friend bool operator==(const RowTravel&, const RowTravel&) = default;
+};
+
+/// Constants of a sweep.
+struct SweepRules {
+  std::int32_t substep_rate = 240;  // 1/s
+  std::int32_t push_out = 0;        // overlap goes at most this fast, m/s, Q20
+  std::int32_t skin = 0;            // what is nearer counts as touching, m, Q24
+  std::int32_t overlap = 0;         // where touching points come to rest, m, Q24
+  std::int32_t step_mantissa = 0;   // substep = mantissa · 2^-(24 − 17 + step_shift)
+  std::int32_t step_shift = 32;     // 1 … 32
+};
+
+/// The sweeps, as one target computes them. No block of a call may name a body twice, nor may two
+/// blocks of a call to `solve`, `relax` or `bounce`; but for the scalar twin's, which goes manifold
+/// by manifold, lane by lane, and stands anything.
+struct ManifoldKernels {
+  /// Fills a block. The impulses to start from are added to `warm`, by body; `bodies` tells the
+  /// approach.
+  void (*prepare)(const ManifoldSources& sources, const SourceBody* inertias, const RowBody* bodies,
+                  RowBody* warm, ManifoldBlock& block, ManifoldApproach& approach);
+
+  /// A sweep that pushes overlap out, by soft rows: normals only, at the separations that the last
+  /// `relax` saw.
+  void (*solve)(RowBody* bodies, ManifoldBlock* blocks, std::size_t count, const SweepRules& rules);
+
+  /// A sweep without bias, with friction. Separations are brought up to date first.
+  void (*relax)(RowBody* bodies, const RowTravel* travel, ManifoldBlock* blocks, std::size_t count,
+                const SweepRules& rules);
+
+  /// Points that came in faster than `threshold` (m/s, Q20) and were pushed leave at restitution
+  /// (Q30, by lane) times that.
+  void (*bounce)(RowBody* bodies, ManifoldBlock& block, const ManifoldApproach& approach,
+                 const BlockWord& restitution, std::int32_t threshold);
+};
+
+/// Those of the target in force.
+[[nodiscard]] const ManifoldKernels& manifold_kernels();
+
+/// What they mean.
+extern const ManifoldKernels k_scalar_manifolds;
+
+}  // namespace lockstone::lanes

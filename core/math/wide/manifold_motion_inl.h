@@ -1,0 +1,200 @@
+// What a manifold sees of its two bodies, and what it does to them: see manifold_block.h.
+#if defined(LKS_WIDE_MANIFOLD_MOTION_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_MANIFOLD_MOTION_INL_H
+#undef LKS_WIDE_MANIFOLD_MOTION_INL_H
+#else
+#define LKS_WIDE_MANIFOLD_MOTION_INL_H
+#endif
+
+#include "core/math/wide/manifold_block.h"
+#include "core/math/wide/row_bodies_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lockstone::lanes {
+namespace HWY_NAMESPACE {
+
+struct Vector {
+  Lanes x, y, z;
+};
+
+HWY_INLINE HWY_ATTR Lanes dot(const Vector& a, const Vector& b) {
+  return multiply_add(multiply_add(multiply(a.x, b.x), a.y, b.y), a.z, b.z);
+}
+HWY_INLINE HWY_ATTR Vector cross(const Vector& a, const Vector& b) {
+  return {multiply_subtract(multiply(a.y, b.z), a.z, b.y),
+          multiply_subtract(multiply(a.z, b.x), a.x, b.z),
+          multiply_subtract(multiply(a.x, b.y), a.y, b.x)};
+}
+HWY_INLINE HWY_ATTR Vector add(const Vector& a, const Vector& b) {
+  return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
+}
+HWY_INLINE HWY_ATTR Vector subtract(const Vector& a, const Vector& b) {
+  return {subtract(a.x, b.x), subtract(a.y, b.y), subtract(a.z, b.z)};
+}
+HWY_INLINE HWY_ATTR Vector multiply(const Vector& a, Lanes factor) {
+  return {multiply(a.x, factor), multiply(a.y, factor), multiply(a.z, factor)};
+}
+template <int shift>
+HWY_INLINE HWY_ATTR Vector shift_left(const Vector& a) {
+  return {shift_left<shift>(a.x), shift_left<shift>(a.y), shift_left<shift>(a.z)};
+}
+template <int shift>
+HWY_INLINE HWY_ATTR Vector round_shift_low(const Vector& a) {
+  return {round_shift_low<shift>(a.x), round_shift_low<shift>(a.y), round_shift_low<shift>(a.z)};
+}
+template <int bits>
+HWY_INLINE HWY_ATTR Vector round_to_multiple(const Vector& a) {
+  return {round_to_multiple<bits>(a.x), round_to_multiple<bits>(a.y), round_to_multiple<bits>(a.z)};
+}
+HWY_INLINE HWY_ATTR Vector upper(const Vector& a) {
+  return {upper(a.x), upper(a.y), upper(a.z)};
+}
+HWY_INLINE HWY_ATTR Vector load_vector(const BlockWord (&words)[3], std::size_t lane) {
+  return {load(&words[0][lane]), load(&words[1][lane]), load(&words[2][lane])};
+}
+HWY_INLINE HWY_ATTR Vector pack(const Vector& low, const Vector& high) {
+  return {pack(low.x, high.x), pack(low.y, high.y), pack(low.z, high.z)};
+}
+HWY_INLINE HWY_ATTR void store_vector(const Vector& v, BlockWord (&words)[3], std::size_t lane) {
+  store(v.x, &words[0][lane]);
+  store(v.y, &words[1][lane]);
+  store(v.z, &words[2][lane]);
+}
+
+/// Rounds by a shift of each lane's own.
+struct EachShift {
+  Lanes shift, half;
+
+  HWY_INLINE HWY_ATTR Lanes round(Lanes x) const { return round_shift_low(x, shift, half); }
+  HWY_INLINE HWY_ATTR Vector round(const Vector& v) const {
+    return {round(v.x), round(v.y), round(v.z)};
+  }
+};
+
+HWY_INLINE HWY_ATTR EachShift each_shift(Lanes shift) {
+  return {shift, power_of_two(subtract(shift, broadcast(1)))};
+}
+
+/// A symmetric tensor times a vector: xx, yy, zz, xy, xz, yz.
+struct Tensor {
+  Lanes xx, yy, zz, xy, xz, yz;
+
+  HWY_INLINE HWY_ATTR Vector times(const Vector& v) const {
+    return {multiply_add(multiply_add(multiply(xx, v.x), xy, v.y), xz, v.z),
+            multiply_add(multiply_add(multiply(xy, v.x), yy, v.y), yz, v.z),
+            multiply_add(multiply_add(multiply(xz, v.x), yz, v.y), zz, v.z)};
+  }
+};
+
+/// A manifold's axes in the world, Q30.
+struct Axes {
+  Vector n, t, b;
+  EachShift by;
+};
+
+HWY_INLINE HWY_ATTR Axes load_axes(const ManifoldBlock& block, std::size_t lane) {
+  const Lanes word_0 = load(&block.axes[0][lane]), word_1 = load(&block.axes[1][lane]);
+  const Lanes word_2 = load(&block.axes[2][lane]), word_3 = load(&block.axes[3][lane]);
+  const Lanes word_4 = load(&block.axes[4][lane]);
+  return {{word_0, upper(word_0), word_1},
+          {upper(word_1), word_2, upper(word_2)},
+          {word_3, upper(word_3), word_4},
+          each_shift(upper_part(word_4))};
+}
+
+/// Both bodies of each manifold.
+struct BodyPair {
+  BodyLanes a, b;
+
+  HWY_INLINE HWY_ATTR void load_from(const std::int64_t* bodies, const ManifoldBlock& block,
+                                     std::size_t lane) {
+    load_bodies(bodies, &block.body_a[lane], a);
+    load_bodies(bodies, &block.body_b[lane], b);
+  }
+  HWY_INLINE HWY_ATTR void store_to(std::int64_t* bodies, const ManifoldBlock& block,
+                                    std::size_t lane) const {
+    store_bodies(a, bodies, &block.body_a[lane]);
+    store_bodies(b, bodies, &block.body_b[lane]);
+  }
+};
+
+/// What B does against A at the centre: velocity (Q50) and, as ℓ·ω, turning (Q20, operands).
+struct CenterMotion {
+  Vector velocity;
+  Vector turning;
+};
+
+/// u = vB − vA + wB × r̄B − wA × r̄A, Ω = wB·ℓ/sB − wA·ℓ/sA, from w in Q(n), v in Q(n + 30).
+HWY_INLINE HWY_ATTR CenterMotion motion_of_center(const ManifoldBlock& block, std::size_t lane,
+                                                  const Vector& apart, const Vector& surface_a,
+                                                  const Vector& surface_b) {
+  const Vector arm = load_vector(block.arm, lane);
+  const Lanes scale = load(&block.scale[lane]);
+  const Vector around = subtract(cross(surface_b, upper(arm)), cross(surface_a, arm));
+  const Vector turned = subtract(multiply(surface_b, upper(scale)), multiply(surface_a, scale));
+  return {add(apart, around), round_shift_low<30>(turned)};
+}
+
+HWY_INLINE HWY_ATTR CenterMotion read_motion(const ManifoldBlock& block, std::size_t lane,
+                                             const Axes& axes, const BodyPair& bodies) {
+  Lanes m[6];
+  for (std::size_t i = 0; i < 6; ++i)
+    m[i] = load(&block.inertia[i][lane]);
+  const Tensor of_a{m[0], m[1], m[2], m[3], m[4], m[5]};
+  const Tensor of_b{upper(m[0]), upper(m[1]), upper(m[2]), upper(m[3]), upper(m[4]), upper(m[5])};
+  const auto& a = bodies.a;
+  const auto& b = bodies.b;
+  const Vector spin_a = round_shift_low<30>(Vector{a.spin[0], a.spin[1], a.spin[2]});
+  const Vector spin_b = round_shift_low<30>(Vector{b.spin[0], b.spin[1], b.spin[2]});
+  const Vector apart = {subtract(b.velocity[0], a.velocity[0]),
+                        subtract(b.velocity[1], a.velocity[1]),
+                        subtract(b.velocity[2], a.velocity[2])};
+  return motion_of_center(block, lane, apart, axes.by.round(of_a.times(spin_a)),
+                          axes.by.round(of_b.times(spin_b)));
+}
+
+/// Six changes of impulse, operands in Q20: along n, t, b, and ℓ⁻¹ times the torques about them.
+struct Impulse {
+  Lanes n, t, b;
+  Lanes about_n, about_t, about_b;
+};
+
+HWY_INLINE HWY_ATTR void change(Lanes& x, Lanes y) {
+  x = add(x, y);
+}
+
+/// vB += αB·J, vA += αB·J − J, LB += (αB r̄B) × J + αB(ℓ/sB)·T, LA −= the same of A.
+HWY_INLINE HWY_ATTR void apply(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                               const Impulse& p, BodyPair& bodies) {
+  constexpr int k_below_grid = k_velocity_bits - k_grid_bits;
+  const Vector push = round_shift_low<30>(
+      add(add(multiply(axes.n, p.n), multiply(axes.t, p.t)), multiply(axes.b, p.b)));
+  const Vector torque = round_shift_low<30>(add(
+      add(multiply(axes.n, p.about_n), multiply(axes.t, p.about_t)), multiply(axes.b, p.about_b)));
+  const Vector gain = load_vector(block.gain_arm, lane);
+  const Lanes turn = load(&block.gain_turn[lane]);
+  const Vector to_b = round_to_multiple<k_below_grid>(multiply(push, load(&block.share[lane])));
+  const Vector to_a = subtract(multiply(push, broadcast(std::int64_t{1} << 30)), to_b);
+  const Vector spin_b =
+      round_to_multiple<k_below_grid>(add(cross(upper(gain), push), multiply(torque, upper(turn))));
+  const Vector spin_a =
+      round_to_multiple<k_below_grid>(add(cross(gain, push), multiply(torque, turn)));
+  change(bodies.b.velocity[0], to_b.x);
+  change(bodies.b.velocity[1], to_b.y);
+  change(bodies.b.velocity[2], to_b.z);
+  change(bodies.b.spin[0], spin_b.x);
+  change(bodies.b.spin[1], spin_b.y);
+  change(bodies.b.spin[2], spin_b.z);
+  bodies.a.velocity[0] = subtract(bodies.a.velocity[0], to_a.x);
+  bodies.a.velocity[1] = subtract(bodies.a.velocity[1], to_a.y);
+  bodies.a.velocity[2] = subtract(bodies.a.velocity[2], to_a.z);
+  bodies.a.spin[0] = subtract(bodies.a.spin[0], spin_a.x);
+  bodies.a.spin[1] = subtract(bodies.a.spin[1], spin_a.y);
+  bodies.a.spin[2] = subtract(bodies.a.spin[2], spin_a.z);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lockstone::lanes
+HWY_AFTER_NAMESPACE();
+
+#endif  // the guard

@@ -1,0 +1,35 @@
+// Divisions and roots that preparation does lane by lane.
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/roots.h"
+
+namespace lockstone::lanes {
+
+/// ⌊2^exponent / divisor⌋, at most `most`, and `most` for a divisor ≤ 0. 0 ≤ exponent ≤ 62.
+[[nodiscard]] inline std::int64_t bounded_quotient(int exponent, std::int64_t divisor,
+                                                   std::int64_t most) {
+  if (divisor <= 0) return most;
+  const auto quotient = static_cast<std::int64_t>((std::uint64_t{1} << exponent) /
+                                                  static_cast<std::uint64_t>(divisor));
+  return quotient < most ? quotient : most;
+}
+
+/// 1/(ρ²·K) in Q24, at most 2^31 − 1, for K in Q(shift) and ρ in Q30.
+[[nodiscard]] inline std::int64_t twist_mass(int shift, std::int64_t response,
+                                             std::int64_t radius) {
+  const auto times = [&](std::uint64_t x) {
+    return (x * static_cast<std::uint64_t>(radius)) >> 30;
+  };
+  const std::uint64_t twice = times(times(static_cast<std::uint64_t>(response)));
+  return bounded_quotient(shift + 24, static_cast<std::int64_t>(twice), 0x7fffffff);
+}
+
+/// √(square), from Q28 to Q30. Of the word only the lower half counts, without its sign.
+[[nodiscard]] inline std::int64_t radius_of(std::int64_t square_word) {
+  const std::uint64_t square = static_cast<std::uint64_t>(square_word) & 0xffffffffU;
+  return static_cast<std::int64_t>(isqrt(square << 32));
+}
+
+}  // namespace lockstone::lanes

@@ -1,0 +1,12 @@
+// The kernels of manifold_block.h on lanes of one word: the scalar twin.
+#define LKS_SCALAR_TWIN
+#include "core/math/wide/manifold_prepare_inl.h"
+#include "core/math/wide/manifold_sweep_inl.h"
+
+namespace lockstone::lanes {
+
+constexpr ManifoldKernels k_scalar_manifolds{
+    N_SCALAR_TWIN::prepare_manifolds, N_SCALAR_TWIN::solve_manifolds,
+    N_SCALAR_TWIN::relax_manifolds, N_SCALAR_TWIN::bounce_manifolds};
+
+}  // namespace lockstone::lanes

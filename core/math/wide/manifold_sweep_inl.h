@@ -1,0 +1,391 @@
+// The sweeps of manifold_block.h for the target at hand.
+#if defined(LKS_WIDE_MANIFOLD_SWEEP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#undef LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#else
+#define LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#endif
+
+#include "core/math/wide/friction_limit.h"
+#include "core/math/wide/manifold_block.h"
+#include "core/math/wide/manifold_motion_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lockstone::lanes {
+namespace HWY_NAMESPACE {
+
+/// The points of a manifold while they are being solved.
+struct PointLanes {
+  Lanes mass[4];     // Q30, clean; 0: no point
+  Lanes x[4], y[4];  // Q30
+  Lanes speed[4];    // v of each, operand, Q20
+  Lanes bias[4];     // the speed to be added to it, operand, Q20
+  Lanes gap[4];      // the word of separations: above that of `skin` when apart
+  Lanes rest[4];     // (1 − κ)·load, Q50; 0: no point
+  Lanes start[4];    // P at the beginning, clean
+  Lanes impulse[4];  // P
+};
+
+/// The greatest word of a separation that counts as touching; its upper half decides.
+HWY_INLINE HWY_ATTR Lanes touching_word(const SweepRules& rules) {
+  return broadcast((std::int64_t{rules.skin} << 32) | 0xffffffff);
+}
+
+HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                     const CenterMotion& motion, PointLanes& points) {
+  const Lanes mass_01 = load(&block.mass_01[lane]), mass_23 = load(&block.mass_23[lane]);
+  points.mass[0] = lower_part(mass_01);
+  points.mass[1] = upper_part(mass_01);
+  points.mass[2] = lower_part(mass_23);
+  points.mass[3] = upper_part(mass_23);
+  const Vector u = round_shift_low<30>(motion.velocity);
+  const Lanes along = dot(axes.n, u);
+  const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
+  const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
+  for (std::size_t i = 0; i < 4; ++i) {
+    points.x[i] = load(&block.points[i].offset[lane]);
+    points.y[i] = upper(points.x[i]);
+    points.start[i] = lower_part(load(&block.points[i].impulse[lane]));
+    points.impulse[i] = points.start[i];
+    points.speed[i] = round_shift_low<30>(
+        multiply_subtract(multiply_add(along, points.y[i], about_t), points.x[i], about_b));
+  }
+}
+
+/// What separations ask for: apart, no more than closes the gap in a substep; else, when `soft`,
+/// what the spring gives towards its rest, at most the speed of pushing out.
+template <bool soft>
+HWY_INLINE HWY_ATTR void load_biases(const ManifoldBlock& block, std::size_t lane,
+                                     const SweepRules& rules, PointLanes& points) {
+  constexpr std::int64_t k_fastest = std::int64_t{1} << 34;  // 1024 m/s, Q24
+  const Lanes rate = load(&block.soft[lane]), rest = load(&block.rest[lane]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    points.gap[i] = load(&block.points[i].separation[lane]);
+    const Lanes now = upper(points.gap[i]);
+    const Lanes closing =
+        round_shift_low<4>(min(multiply(now, broadcast(rules.substep_rate)), broadcast(k_fastest)));
+    Lanes resting = broadcast(0);
+    if constexpr (soft) {
+      const std::int64_t most = -(std::int64_t{rules.push_out} << 24);
+      resting = round_shift_low<24>(
+          max(multiply(add(now, broadcast(rules.overlap)), rate), broadcast(most)));
+      points.rest[i] = select_equal(points.mass[i], broadcast(0), broadcast(0), rest);
+    }
+    points.bias[i] = select_less(touching_word(rules), points.gap[i], closing, resting);
+  }
+}
+
+/// max(0, P − m·error)
+HWY_INLINE HWY_ATTR Lanes hard_impulse(Lanes impulse, Lanes mass_error) {
+  const Lanes exact = subtract(shift_left<30>(impulse), mass_error);
+  return at_most(round_shift_positive<30>(exact), k_most_impulse);
+}
+
+/// What a soft row makes of it: κ·P + (1 − κ)·load, unless the points are apart.
+struct SoftRow {
+  Lanes keep, touching;
+
+  HWY_INLINE HWY_ATTR Lanes soften(Lanes impulse, Lanes rest, Lanes gap) const {
+    const Lanes softened = round_shift_low<30>(multiply_add(rest, keep, impulse));
+    return select_less(touching, gap, impulse, softened);
+  }
+};
+
+/// All points as one row, each by the same share: what is symmetric stays symmetric.
+template <bool soft>
+HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t lane,
+                                      const SoftRow& row, PointLanes& points) {
+  const Lanes common = load(&block.common[lane]);
+  Lanes mean = broadcast(0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Lanes error = add(points.speed[i], points.bias[i]);
+    const Lanes counted = select_equal(points.mass[i], broadcast(0), broadcast(0), error);
+    mean = multiply_add(mean, upper(common), counted);
+  }
+  const Lanes mass_error = multiply(common, round_shift_low<30>(mean));
+  const Lanes gap = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Lanes own = select_equal(points.mass[i], broadcast(0), broadcast(0), mass_error);
+    points.impulse[i] = hard_impulse(points.impulse[i], own);
+    if constexpr (soft) points.impulse[i] = row.soften(points.impulse[i], points.rest[i], gap);
+  }
+}
+
+/// Responses of the points to each other, in Q(shift).
+struct Responses {
+  Lanes of[4][4];
+};
+
+HWY_INLINE HWY_ATTR void load_responses(const ManifoldBlock& block, std::size_t lane,
+                                        Responses& r) {
+  r.of[0][0] = load(&block.response_00_11[lane]);
+  r.of[1][1] = upper(r.of[0][0]);
+  r.of[2][2] = load(&block.response_22_33[lane]);
+  r.of[3][3] = upper(r.of[2][2]);
+  r.of[0][1] = r.of[1][0] = load(&block.response_01_23[lane]);
+  r.of[2][3] = r.of[3][2] = upper(r.of[0][1]);
+  r.of[0][2] = r.of[2][0] = load(&block.response_02_13[lane]);
+  r.of[1][3] = r.of[3][1] = upper(r.of[0][2]);
+  r.of[0][3] = r.of[3][0] = load(&block.response_03_12[lane]);
+  r.of[1][2] = r.of[2][1] = upper(r.of[0][3]);
+}
+
+/// vⱼ += Σ responseⱼᵢ·ΔPᵢ
+HWY_INLINE HWY_ATTR void follow_common(const Responses& r, const EachShift& by,
+                                       PointLanes& points) {
+  Lanes moved[4];
+  for (std::size_t i = 0; i < 4; ++i)
+    moved[i] = subtract(points.impulse[i], points.start[i]);
+  for (std::size_t j = 0; j < 4; ++j) {
+    Lanes sum = multiply(r.of[j][0], moved[0]);
+    for (std::size_t i = 1; i < 4; ++i)
+      sum = multiply_add(sum, r.of[j][i], moved[i]);
+    points.speed[j] = add(points.speed[j], by.round(sum));
+  }
+}
+
+/// The points in turn; each tells those after it.
+template <bool soft>
+HWY_INLINE HWY_ATTR void solve_points(const Responses& r, const EachShift& by, const SoftRow& row,
+                                      PointLanes& points) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Lanes error = add(points.speed[i], points.bias[i]);
+    Lanes next = hard_impulse(points.impulse[i], multiply(points.mass[i], error));
+    if constexpr (soft) next = row.soften(next, points.rest[i], points.gap[i]);
+    const Lanes moved = subtract(next, points.impulse[i]);
+    points.impulse[i] = next;
+    for (std::size_t j = i + 1; j < 4; ++j)
+      points.speed[j] = add(points.speed[j], by.round(multiply(r.of[j][i], moved)));
+  }
+}
+
+/// Changes of the normal impulses as one at the centre: (1, x, y)·ΔP.
+HWY_INLINE HWY_ATTR Impulse sum_of(const PointLanes& points) {
+  Lanes push = broadcast(0), x = broadcast(0), y = broadcast(0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Lanes moved = subtract(points.impulse[i], points.start[i]);
+    push = add(push, moved);
+    x = multiply_add(x, points.x[i], moved);
+    y = multiply_add(y, points.y[i], moved);
+  }
+  const Lanes none = broadcast(0);
+  const Lanes about_b = subtract(none, x);
+  return {saturate(push), none, none, none, round_shift_low<30>(y), round_shift_low<30>(about_b)};
+}
+
+HWY_INLINE HWY_ATTR void store_points(const PointLanes& points, std::size_t lane,
+                                      ManifoldBlock& block) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::int64_t* word = &block.points[i].impulse[lane];
+    const Lanes greatest = max(upper_part(load(word)), points.impulse[i]);
+    store(add(points.impulse[i], shift_left<32>(greatest)), word);
+  }
+}
+
+template <bool soft>
+HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                          const CenterMotion& motion, const SweepRules& rules,
+                                          PointLanes& points) {
+  load_points(block, lane, axes, motion, points);
+  load_biases<soft>(block, lane, rules, points);
+  const SoftRow row = {upper(load(&block.soft[lane])), touching_word(rules)};
+  Responses responses{};
+  load_responses(block, lane, responses);
+  solve_common<soft>(block, lane, row, points);
+  follow_common(responses, axes.by, points);
+  solve_points<soft>(responses, axes.by, row, points);
+  store_points(points, lane, block);
+  return sum_of(points);
+}
+
+HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
+                                     const SweepRules& rules) {
+  BodyPair bodies{};
+  bodies.load_from(words, block, lane);
+  const Axes axes = load_axes(block, lane);
+  const CenterMotion motion = read_motion(block, lane, axes, bodies);
+  PointLanes points{};
+  const Impulse p = solve_normals<true>(block, lane, axes, motion, rules, points);
+  apply(block, lane, axes, p, bodies);
+  bodies.store_to(words, block, lane);
+}
+
+HWY_ATTR inline void solve_manifolds(RowBody* bodies, ManifoldBlock* blocks, std::size_t count,
+                                     const SweepRules& rules) {
+  std::int64_t* words = bodies->velocity.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes)
+      solve_lanes(blocks[i], lane, words, rules);
+  }
+}
+
+/// In Q17, within ±16384 m/s.
+HWY_INLINE HWY_ATTR Vector surface_travel(const BodyLanes& went) {
+  return round_shift_low<15>(Vector{went.spin[0], went.spin[1], went.spin[2]});
+}
+
+/// s = s₀ + h·(what the points went apart): the Jacobian of velocities, applied to travel.
+HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                          const std::int64_t* travel, const SweepRules& rules) {
+  BodyPair went{};
+  went.load_from(travel, block, lane);
+  const Vector apart = {subtract(went.b.velocity[0], went.a.velocity[0]),
+                        subtract(went.b.velocity[1], went.a.velocity[1]),
+                        subtract(went.b.velocity[2], went.a.velocity[2])};
+  const CenterMotion motion = motion_of_center(block, lane, shift_left<15>(apart),
+                                               surface_travel(went.a), surface_travel(went.b));
+  const Lanes along = dot(axes.n, round_shift_low<30>(motion.velocity));
+  const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
+  const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
+  const EachShift by = each_shift(broadcast(rules.step_shift));
+  const Lanes step = broadcast(rules.step_mantissa);
+  for (auto& point : block.points) {
+    const Lanes x = load(&point.offset[lane]);
+    const Lanes went_apart =
+        round_shift_low<30>(multiply_subtract(multiply_add(along, upper(x), about_t), x, about_b));
+    const Lanes start = load(&point.separation[lane]);
+    const Lanes now = add(start, by.round(multiply(went_apart, step)));
+    store(pack(start, now), &point.separation[lane]);
+  }
+}
+
+/// Friction impulses along t and b and, at the radius ρ, about n: as a whole at most μ·ΣP.
+struct FrictionLanes {
+  Lanes t, b, twist;
+};
+
+/// Brings back onto the sphere what left it. Few do, so that one at a time is fast enough.
+HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, FrictionLanes& f) {
+  const Lanes size = multiply_add(multiply_add(multiply(f.t, f.t), f.b, f.b), f.twist, f.twist);
+  if (!any_less(multiply(limit, limit), size)) return;
+  std::int64_t limits[k_lanes], along_t[k_lanes], along_b[k_lanes], about_n[k_lanes];
+  store(limit, limits);
+  store(f.t, along_t);
+  store(f.b, along_b);
+  store(f.twist, about_n);
+  for (std::size_t lane = 0; lane < k_lanes; ++lane)
+    shorten_friction(limits[lane], along_t[lane], along_b[lane], about_n[lane]);
+  f = {load(along_t), load(along_b), load(about_n)};
+}
+
+/// x − y in Q(20 + bits), within ±1024 m/s, in Q20.
+template <int bits>
+HWY_INLINE HWY_ATTR Lanes limited_difference(Lanes x, Lanes y) {
+  constexpr std::int64_t k_most = std::int64_t{1} << (30 + bits);
+  const Lanes wide = subtract(multiply(x, broadcast(std::int64_t{1} << bits)), y);
+  return round_shift_low<bits>(clamp(wide, broadcast(-k_most), broadcast(k_most)));
+}
+
+/// The tangents as one row of two, after the twist.
+HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                        const CenterMotion& motion, const PointLanes& points,
+                                        Impulse& p) {
+  const Lanes x = subtract(broadcast(0), p.about_b);
+  const Vector given = {p.n, x, p.about_t};
+  const Vector coupling = load_vector(block.coupling, lane);
+  const Lanes row_0 = load(&block.twist_row[0][lane]), row_1 = load(&block.twist_row[1][lane]);
+  const Lanes twist_word = load(&block.twist[lane]), friction = load(&block.friction[lane]);
+  const Lanes radius = upper(twist_word);
+  const Vector u = round_shift_low<30>(motion.velocity);
+
+  const Lanes spin = round_shift_low<30>(dot(axes.n, motion.turning));
+  const Lanes twist_speed = add(round_shift_low<30>(multiply(radius, spin)),
+                                axes.by.round(dot({row_0, upper(row_0), row_1}, given)));
+  FrictionLanes f{};
+  f.twist = limited_difference<24>(twist_word, multiply(upper(row_1), twist_speed));
+  const Lanes twist_change = subtract(f.twist, twist_word);
+
+  const Lanes response = load(&block.twist_response[lane]);
+  const Lanes along_t =
+      add(round_shift_low<30>(dot(axes.t, u)),
+          axes.by.round(multiply_add(dot(coupling, given), response, twist_change)));
+  const Lanes along_b =
+      add(round_shift_low<30>(dot(axes.b, u)),
+          axes.by.round(multiply_add(dot(upper(coupling), given), upper(response), twist_change)));
+  const Lanes mass = load(&block.tangent_mass[0][lane]);
+  const Lanes mixed = load(&block.tangent_mass[1][lane]);
+  f.t = limited_difference<30>(friction, multiply_add(multiply(mass, along_t), mixed, along_b));
+  f.b = limited_difference<30>(upper(friction),
+                               multiply_add(multiply(upper(mass), along_b), mixed, along_t));
+
+  const Lanes pushed = saturate(
+      add(add(points.impulse[0], points.impulse[1]), add(points.impulse[2], points.impulse[3])));
+  const Lanes coefficient = upper(load(&block.share[lane]));
+  limit_friction(
+      round_shift_low<30>(min(multiply(coefficient, pushed), broadcast(std::int64_t{1} << 60))), f);
+  p.t = subtract(f.t, friction);
+  p.b = subtract(f.b, upper(friction));
+  p.about_n = round_shift_low<30>(multiply(radius, subtract(f.twist, twist_word)));
+  store(pack(f.t, f.b), &block.friction[lane]);
+  store(with_upper_of(f.twist, twist_word), &block.twist[lane]);
+}
+
+HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
+                                     const std::int64_t* travel, const SweepRules& rules) {
+  BodyPair bodies{};
+  bodies.load_from(words, block, lane);
+  const Axes axes = load_axes(block, lane);
+  move_separations(block, lane, axes, travel, rules);
+  const CenterMotion motion = read_motion(block, lane, axes, bodies);
+  PointLanes points{};
+  Impulse p = solve_normals<false>(block, lane, axes, motion, rules, points);
+  solve_friction(block, lane, axes, motion, points, p);
+  apply(block, lane, axes, p, bodies);
+  bodies.store_to(words, block, lane);
+}
+
+HWY_ATTR inline void relax_manifolds(RowBody* bodies, const RowTravel* travel,
+                                     ManifoldBlock* blocks, std::size_t count,
+                                     const SweepRules& rules) {
+  std::int64_t* words = bodies->velocity.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes)
+      relax_lanes(blocks[i], lane, words, travel->velocity.data(), rules);
+  }
+}
+
+/// P ← max(0, P − m·(v + e·approach)) for the points that came in fast and were pushed.
+HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
+                                      const ManifoldApproach& approach,
+                                      const BlockWord& restitution, std::int32_t threshold) {
+  BodyPair bodies{};
+  bodies.load_from(words, block, lane);
+  const Axes axes = load_axes(block, lane);
+  const CenterMotion motion = read_motion(block, lane, axes, bodies);
+  PointLanes points{};
+  load_points(block, lane, axes, motion, points);
+  Responses responses{};
+  load_responses(block, lane, responses);
+  const Lanes none = broadcast(0), elasticity = load(&restitution[lane]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Lanes came = load(&approach.speed[i][lane]);
+    const Lanes wanted = round_shift_low<30>(multiply(elasticity, came));
+    const Lanes error = add(points.speed[i], wanted);
+    const Lanes next = hard_impulse(points.impulse[i], multiply(points.mass[i], error));
+    Lanes bounced = select_less(came, broadcast(-std::int64_t{threshold}), next, points.impulse[i]);
+    bounced = select_equal(elasticity, none, points.impulse[i], bounced);
+    bounced = select_equal(upper_part(load(&block.points[i].impulse[lane])), none,
+                           points.impulse[i], bounced);
+    const Lanes moved = subtract(bounced, points.impulse[i]);
+    points.impulse[i] = bounced;
+    for (std::size_t j = i + 1; j < 4; ++j)
+      points.speed[j] = add(points.speed[j], axes.by.round(multiply(responses.of[j][i], moved)));
+  }
+  store_points(points, lane, block);
+  apply(block, lane, axes, sum_of(points), bodies);
+  bodies.store_to(words, block, lane);
+}
+
+HWY_ATTR inline void bounce_manifolds(RowBody* bodies, ManifoldBlock& block,
+                                      const ManifoldApproach& approach,
+                                      const BlockWord& restitution, std::int32_t threshold) {
+  for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+    bounce_lanes(block, lane, bodies->velocity.data(), approach, restitution, threshold);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lockstone::lanes
+HWY_AFTER_NAMESPACE();
+
+#endif  // the guard

@@ -1,0 +1,185 @@
+// Manifold sweeps: every target against the scalar twin.
+#include <cstddef>
+#include <vector>
+
+#include "core/math/wide/manifold_block.h"
+#include "core/math/wide/scalar_lanes.h"
+#include "tests/math/wide/check.h"
+#include "tests/math/wide/values.h"
+
+namespace lockstone::lanes::test {
+namespace {
+
+using lockstone::test::Random;
+
+constexpr std::int32_t k_one = 1 << 30;
+
+// What a tick works on and leaves.
+struct Scene {
+  std::vector<ManifoldSources> sources;
+  std::vector<SourceBody> inertias;
+  std::vector<BlockWord> restitution;
+  std::vector<RowBody> bodies, warm;
+  std::vector<RowTravel> travel;
+  std::vector<ManifoldBlock> blocks;
+  std::vector<ManifoldApproach> approaches;
+
+  friend bool operator==(const Scene& a, const Scene& b) {
+    return a.bodies == b.bodies && a.warm == b.warm && a.blocks == b.blocks &&
+           a.approaches == b.approaches;
+  }
+};
+
+// Wild: any bits, where no format forbids them. Else such as a solver would make.
+struct SceneMaker {
+  Random& random;
+  bool wild;
+
+  std::int64_t pick(std::int64_t low, std::int64_t high) {
+    return wild ? operand(random) : random.between(low, high);
+  }
+  std::int64_t velocity() { return wild ? word(random) : random.between(-(1LL << 52), 1LL << 52); }
+  std::int64_t travel() { return wild ? word(random) : random.between(-(1LL << 38), 1LL << 38); }
+
+  void fill(RowBody& body) {
+    for (std::int64_t& x : body.velocity)
+      x = velocity();
+    for (std::int64_t& x : body.spin)
+      x = velocity();
+  }
+  void fill(RowTravel& body) {
+    for (std::int64_t& x : body.velocity)
+      x = travel();
+    for (std::int64_t& x : body.surface)
+      x = travel();
+  }
+
+  std::int32_t small(std::int64_t low, std::int64_t high) {
+    return static_cast<std::int32_t>(pick(low, high));
+  }
+  std::int32_t fixed(std::int64_t low, std::int64_t high) {
+    return static_cast<std::int32_t>(random.between(low, high));
+  }
+
+  void fill(SourceBody& body) {
+    for (std::size_t i = 0; i < 6; ++i)
+      body.inertia[i] = small(i < 3 ? 1 : -k_one / 4, k_one);
+  }
+
+  void fill_normal(ManifoldSource& in) {
+    constexpr std::int32_t k_units[][3] = {{k_one, 0, 0},
+                                           {0, -k_one, 0},
+                                           {0, 0, k_one},
+                                           {k_one / 5 * 3, 0, -(k_one / 5 * 4)},
+                                           {-(k_one / 3), k_one / 3 * 2, k_one / 3 * 2}};
+    const std::int32_t* unit = k_units[random.next() % 5];
+    for (std::size_t i = 0; i < 3; ++i)
+      in.normal[i] = wild ? operand(random) : unit[i];
+  }
+
+  void fill_points(ManifoldSource& in) {
+    in.count = fixed(0, 4);
+    in.one_over_count = in.count == 0 ? 0 : k_one / in.count;
+    for (std::int32_t i = 0; i < in.count; ++i) {
+      ManifoldSource::Point& point = in.points[static_cast<std::size_t>(i)];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point.anchor_a[axis] = small(-(1 << 20), 1 << 20);
+        point.anchor_b[axis] = small(-(1 << 20), 1 << 20);
+      }
+      point.separation = small(-(1 << 18), 1 << 18);
+      point.impulse = fixed(0, wild ? k_most_impulse : 1 << 18);
+    }
+  }
+
+  void fill(ManifoldSource& in) {
+    fill_normal(in);
+    fill_points(in);
+    const bool fixed_a = random.next() % 4 == 0;
+    in.share_b = fixed_a ? k_one : fixed(0, k_one);
+    in.coefficient = small(0, k_one);
+    in.scale_a = fixed_a ? 0 : k_one >> random.between(0, 5);
+    in.scale_b = k_one >> random.between(0, 5);
+    in.bias_rate = fixed(0, 1 << 25);
+    in.keep = fixed(k_one / 2, k_one);
+    in.load = fixed(0, 1 << 18);
+    in.inertia_a = 1 << random.between(0, 12);
+    in.inertia_b = 1 << random.between(0, 12);
+    in.inverse_scale_a = fixed_a ? 0 : 1 << random.between(0, 18);
+    in.inverse_scale_b = 1 << random.between(0, 18);
+    in.offset_shift = fixed(13, 31);
+    in.shift = fixed(16, 28);
+    for (std::int32_t& x : in.friction)
+      x = small(-(1 << 18), 1 << 18);
+    in.twist = small(-(1 << 18), 1 << 18);
+  }
+};
+
+// Bodies are named once but for body 0.
+Scene make_scene(std::size_t blocks, bool wild, Random& random) {
+  SceneMaker maker{random, wild};
+  Scene scene;
+  scene.sources.resize(blocks);
+  scene.restitution.resize(blocks);
+  scene.blocks.resize(blocks);
+  scene.approaches.resize(blocks);
+  scene.bodies.resize(1 + 2 * k_block_lanes * blocks);
+  scene.warm.resize(scene.bodies.size());
+  scene.inertias.resize(scene.bodies.size());
+  scene.travel.resize(scene.bodies.size());
+  for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+    maker.fill(scene.bodies[i]);
+    maker.fill(scene.inertias[i]);
+    maker.fill(scene.travel[i]);
+  }
+  std::uint32_t next = 1;
+  for (std::size_t i = 0; i < blocks * k_block_lanes; ++i, next += 2) {
+    ManifoldSources& sources = scene.sources[i / k_block_lanes];
+    const std::size_t lane = i % k_block_lanes;
+    maker.fill(sources.lanes[lane]);
+    sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : row_body_offset(next);
+    sources.body_b[lane] = row_body_offset(next + 1);
+    scene.restitution[i / k_block_lanes][lane] = random.next() % 2 == 0 ? 0 : k_one / 2;
+  }
+  return scene;
+}
+
+void run(const ManifoldKernels& kernels, const SweepRules& rules, Scene& scene) {
+  for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+    kernels.prepare(scene.sources[i], scene.inertias.data(), scene.bodies.data(), scene.warm.data(),
+                    scene.blocks[i], scene.approaches[i]);
+  }
+  const std::size_t count = scene.blocks.size();
+  kernels.solve(scene.bodies.data(), scene.blocks.data(), count, rules);
+  kernels.relax(scene.bodies.data(), scene.travel.data(), scene.blocks.data(), count, rules);
+  kernels.solve(scene.bodies.data(), scene.blocks.data(), count, rules);
+  for (std::size_t i = 0; i < count; ++i) {
+    kernels.bounce(scene.bodies.data(), scene.blocks[i], scene.approaches[i], scene.restitution[i],
+                   1 << 20);
+  }
+}
+
+std::string compare(const Scene& start, const SweepRules& rules) {
+  Scene expected = start;
+  run(k_scalar_manifolds, rules, expected);
+  return on_each_target([&] {
+    Scene scene = start;
+    run(manifold_kernels(), rules, scene);
+    if (scene == expected) return std::string();
+    return "manifolds in " + std::to_string(start.blocks.size()) + " blocks\n";
+  });
+}
+
+}  // namespace
+
+std::string check_manifolds(std::uint64_t seed) {
+  Random random(seed);
+  std::string report;
+  for (int round = 0; round < 1500 && report.empty(); ++round) {
+    const auto blocks = static_cast<std::size_t>(random.between(1, 4));
+    const SweepRules rules{240, 3 << 20, 4194, 336, 1145324612, 31};
+    report += compare(make_scene(blocks, round % 2 == 0, random), rules);
+  }
+  return report;
+}
+
+}  // namespace lockstone::lanes::test
