@@ -1,15 +1,22 @@
-// From manifolds to constraints, once a tick.
+// From manifolds to what the lanes prepare constraints from, once a tick.
 #pragma once
 
-#include <lockstone/asset.h>
+#include <cstddef>
 
-#include "core/dynamics/body_record.h"
-#include "core/dynamics/contact_constraint.h"
 #include "core/dynamics/contact_record.h"
+#include "core/dynamics/solver_body.h"
 #include "core/dynamics/surface.h"
 #include "core/dynamics/time_step.h"
+#include "core/geometry/manifold.h"
+#include "core/math/wide/manifold_block.h"
 
 namespace lockstone {
+
+/// Stiffness of a soft constraint: E. Catto, "Solver2D", 2024, and "Soft Constraints", GDC 2011.
+struct Softness {
+  std::int32_t bias_rate = 0;   // 1/s, Q20
+  std::int32_t mass_scale = 0;  // Q30; what an impulse keeps as well: 1 − impulse scale
+};
 
 /// Softness of contacts, fixed for a world: against an immovable body twice as stiff.
 struct ContactSoftness {
@@ -21,17 +28,15 @@ struct ContactSoftness {
 
 /// Everything that one constraint is made of. The record gives the impulses to start from.
 struct ContactInput {
-  const BodyRecord& body_a;
-  const BodyRecord& body_b;
-  const SolverBody& solver_a;
-  const SolverBody& solver_b;
+  const SolverBody& body_a;
+  const SolverBody& body_b;
   const Manifold& manifold;
   const ContactRecord& record;
   const SurfacePair& surfaces;
 };
 
-/// Fills `constraint` but its body and record indices. Answers how many values were clamped.
-int prepare_contact(const ContactInput& input, const ContactSoftness& softness,
-                    ContactConstraint& constraint);
+/// What the lanes prepare a constraint from.
+void fill_source(const ContactInput& input, const ContactSoftness& softness,
+                 lanes::ManifoldSource& out);
 
 }  // namespace lockstone

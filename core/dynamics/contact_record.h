@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <lockstone/units.h>
+#include <lockstone/vec3.h>
 
 #include "core/dynamics/fields.h"
 
@@ -22,8 +23,6 @@ enum ContactFlag : std::uint8_t {
 struct ContactPointRecord {
   std::uint32_t feature = 0;
   SolverVelocity normal_impulse{};
-  SolverVelocity tangent_impulse_1{};
-  SolverVelocity tangent_impulse_2{};
 
   friend bool operator==(const ContactPointRecord&, const ContactPointRecord&) = default;
 };
@@ -45,9 +44,12 @@ struct ContactRecord {
   std::uint32_t part_a = 0;
   std::uint32_t part_b = 0;
   std::array<ContactPointRecord, 4> points{};
-  std::uint16_t count = 0;        // 0 … 4
-  std::uint8_t flags = 0;         // ContactFlag
-  std::uint8_t tangent_axis = 0;  // 0 … 2: the first tangent lies across this axis
+  Vec3<SolverVelocity> friction_impulse{};  // of all points, in world axes
+  SolverVelocity twist_impulse{};           // about the normal, at the points' mean radius
+  SolverVelocity load{};                    // normal impulse of a point, mean over the last seconds
+  std::uint16_t count = 0;                  // 0 … 4
+  std::uint8_t flags = 0;                   // ContactFlag
+  std::uint8_t reserved = 0;                // keeps the record free of padding; always 0
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
@@ -67,12 +69,13 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
     ContactPointRecord& point = record.points[i];
     visit_value(k_point_names[i], ".feature", point.feature, f);
     visit_value(k_point_names[i], ".normal_impulse", point.normal_impulse, f);
-    visit_value(k_point_names[i], ".tangent_impulse_1", point.tangent_impulse_1, f);
-    visit_value(k_point_names[i], ".tangent_impulse_2", point.tangent_impulse_2, f);
   }
+  visit_value("friction_impulse", "", record.friction_impulse, f);
+  visit_value("twist_impulse", "", record.twist_impulse, f);
+  visit_value("load", "", record.load, f);
   visit_value("count", "", record.count, f);
   visit_value("flags", "", record.flags, f);
-  visit_value("tangent_axis", "", record.tangent_axis, f);
+  visit_value("reserved", "", record.reserved, f);
 }
 
 static_assert(visited_bytes<ContactRecord>() == sizeof(ContactRecord), "a field is missing");

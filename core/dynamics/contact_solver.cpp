@@ -1,193 +1,378 @@
 #include "core/dynamics/contact_solver.h"
 
 #include <algorithm>
+#include <bit>
 
-#include "core/math/roots.h"
+#include "core/dynamics/motion.h"
 
 namespace lockstone {
 namespace {
 
+using lanes::k_block_lanes;
+using lanes::ManifoldBlock;
+using lanes::ManifoldKernels;
+using lanes::RowBody;
+using lanes::RowTravel;
+
 // Overlap is pushed out at most this fast, m/s, Q20.
-constexpr std::int64_t k_push_out_speed = std::int64_t{3} << 20;
+constexpr std::int32_t k_push_out_speed = 3 << 20;
 
 // Approaches slower than this do not bounce, m/s, Q20.
 constexpr std::int32_t k_restitution_threshold = 1 << 20;
 
-// gain (Q30) · impulse (Q20) = Q50, brought to the Q32 of velocities.
-void accumulate(Lanes64& velocity, const Lanes32& gain, std::int64_t impulse) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    velocity[i] += raw::round_shift(gain[i] * impulse, 18);
+// Points nearer than this count as touching, and come to rest overlapping by so much: in between a
+// spring both pushes and lets go smoothly, so that what rocks by a hair does not rattle.
+constexpr Displacement k_skin = Displacement::from_ratio(1, 4000);
+constexpr Displacement k_resting_overlap = Displacement::from_ratio(1, 50000);
+
+// 1/count, Q28.
+constexpr std::int64_t k_one_over_q28[] = {0, 1 << 28, 1 << 27, ((1 << 28) + 1) / 3, 1 << 26};
+
+// From the Q32 of velocities to the Q50 of rows.
+constexpr int k_row_shift = lanes::k_velocity_bits - lanes::k_grid_bits;
+
+// What a body may do in a substep, an axis: 1000 m/s, Q50. Sums of sixteen substeps can be read.
+constexpr std::int64_t k_row_limit = std::int64_t{1000} << lanes::k_velocity_bits;
+
+constexpr std::size_t blocks_for(std::size_t contacts) {
+  return (contacts + k_block_lanes - 1) / k_block_lanes;
+}
+
+// step = 1/rate = mantissa · 2^-(7 + shift)
+lanes::SweepRules rules_of(const TimeStep& step) {
+  const std::int64_t rate = step.substep_rate();
+  int shift = 32;
+  while (raw::round_divide(std::int64_t{1} << (7 + shift), rate) > INT32_MAX)
+    --shift;
+  const std::int64_t mantissa = raw::round_divide(std::int64_t{1} << (7 + shift), rate);
+  return {static_cast<std::int32_t>(rate),
+          k_push_out_speed,
+          k_skin.raw,
+          k_resting_overlap.raw,
+          static_cast<std::int32_t>(mantissa),
+          shift};
+}
+
+std::int64_t to_row(Velocity v) {
+  return v.raw << k_row_shift;
+}
+
+Velocity from_row(std::int64_t row) {
+  return Velocity::from_raw(row >> k_row_shift);
+}
+
+RowBody limited(const RowBody& row) {
+  const auto within = [](std::int64_t x) { return std::clamp(x, -k_row_limit, k_row_limit); };
+  RowBody result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.velocity[axis] = within(row.velocity[axis]);
+    result.spin[axis] = within(row.spin[axis]);
   }
+  return result;
+}
+
+// A hint, without meaning.
+template <class T>
+void prefetch(const T& object) {
+#if defined(__GNUC__)
+  const char* bytes = reinterpret_cast<const char*>(&object);
+  for (std::size_t i = 0; i < sizeof(T); i += 64)
+    __builtin_prefetch(bytes + i);
+#else
+  (void)object;
+#endif
+}
+
+// How many lanes ahead of the one being filled memory is asked for.
+constexpr std::size_t k_lanes_ahead = 8;
+
+std::int32_t low(std::int64_t word) {
+  return static_cast<std::int32_t>(word);
+}
+std::int32_t high(std::int64_t word) {
+  return static_cast<std::int32_t>(word >> 32);
 }
 
 }  // namespace
 
-std::int32_t relative_velocity(const ContactAxis& axis, const ContactRow& row, int exponent,
-                               const SolverBody& a, const SolverBody& b) {
-  const Lanes32 va = read_velocities(a.velocity);
-  const Lanes32 vb = read_velocities(b.velocity);
-  const Lanes32 along = {vb[0] - va[0], vb[1] - va[1], vb[2] - va[2]};
-  const std::int64_t sum = raw::round_shift(dot(axis.unit, along), exponent) +
-                           dot(row.read_b, read_velocities(b.spin)) -
-                           dot(row.read_a, read_velocities(a.spin));
-  return raw::saturate<std::int32_t>(raw::round_shift(sum, 30 - exponent));
+ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
+                             std::size_t contact_capacity)
+    : step_(step),
+      softness_(ContactSoftness::of(step)),
+      rules_(rules_of(step)),
+      load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
+      graph_(body_capacity, contact_capacity),
+      solver_index_(body_capacity) {
+  bodies_.reserve(body_capacity + 1);
+  rows_.reserve(body_capacity + 1);
+  inertias_.reserve(body_capacity + 1);
+  before_.reserve(body_capacity + 1);
+  travel_.reserve(body_capacity + 1);
+  entries_.reserve(contact_capacity);
+  // Each colour may leave one block half empty, but none without a contact.
+  const std::size_t most =
+      std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
+  blocks_.reserve(most);
+  approaches_.reserve(most);
+  restitution_.reserve(most);
+  slots_.reserve(most * k_block_lanes);
 }
 
-void ContactSolver::apply(const ContactConstraint& contact, const ContactAxis& axis,
-                          const ContactRow& row, std::int64_t impulse) {
-  if (impulse == 0) return;
-  if (contact.body_a != 0) {
-    SolverBody& a = bodies_[contact.body_a];
-    accumulate(a.velocity, axis.gain_a, -impulse);
-    accumulate(a.spin, row.gain_a, -impulse);
-  }
-  if (contact.body_b != 0) {
-    SolverBody& b = bodies_[contact.body_b];
-    accumulate(b.velocity, axis.gain_b, impulse);
-    accumulate(b.spin, row.gain_b, impulse);
-  }
+std::uint32_t ContactSolver::contacts() const {
+  return static_cast<std::uint32_t>(entries_.size());
 }
 
-void ContactSolver::warm_start() {
-  for (ContactConstraint& contact : contacts_) {
-    for (int i = 0; i < contact.count; ++i) {
-      const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-      apply(contact, contact.normal, point.normal, point.normal.impulse);
-      apply(contact, contact.tangent[0], point.tangent[0], point.tangent[0].impulse);
-      apply(contact, contact.tangent[1], point.tangent[1], point.tangent[1].impulse);
+// Bodies enter the solver when a constraint first names them.
+std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t body) {
+  const BodyRecord& record = scene.bodies[body];
+  if (!record.moves()) {
+    // What does not move is one body to the solver but for its surface.
+    return 0;
+  }
+  if (solver_index_[body] != 0) return solver_index_[body];
+  solver_index_[body] = static_cast<std::uint32_t>(bodies_.size());
+  graph_.add_body();
+  bodies_.push_back(solver_body(record, scene.rotations[body], scene.gravity, step_));
+  const InverseInertia& m = bodies_.back().inverse_inertia;
+  inertias_.push_back({{m.xx, m.yy, m.zz, m.xy, m.xz, m.yz}, {}});
+  RowBody& row = rows_.emplace_back();
+  for (int i = 0; i < 3; ++i) {
+    row.velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
+    row.spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
+  }
+  return solver_index_[body];
+}
+
+void ContactSolver::prepare(const ContactScene& scene) {
+  graph_.clear();
+  entries_.clear();
+  bodies_.clear();
+  rows_.clear();
+  inertias_.clear();
+  points_ = saturations_ = 0;
+  std::fill_n(solver_index_.begin(), scene.bodies.size(), 0U);
+  bodies_.emplace_back();
+  rows_.emplace_back();
+  inertias_.emplace_back();
+  for (std::size_t i = 0; i < scene.records.size(); ++i) {
+    const ContactRecord& record = scene.records[i];
+    if (record.is_trigger()) continue;
+    const std::uint32_t a = take_up(scene, record.body_a);
+    const std::uint32_t b = take_up(scene, record.body_b);
+    graph_.add(a, bodies_[a].is_pushed(), b, bodies_[b].is_pushed());
+    entries_.push_back({static_cast<std::uint32_t>(i), a, b});
+    points_ += static_cast<std::uint32_t>(scene.manifolds[i].count);
+  }
+  before_.assign(rows_.size(), RowBody{});
+  travel_.assign(rows_.size(), RowTravel{});
+  lay_out();
+  const ManifoldKernels& wide = lanes::manifold_kernels();
+  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
+    const bool serial = color == k_overflow_color;
+    for (std::size_t i = 0; i < ranges_[color].count; ++i) {
+      const std::size_t block = ranges_[color].first + i;
+      fill_block(scene, block);
+      const ManifoldKernels& kernels = serial ? lanes::k_scalar_manifolds : wide;
+      kernels.prepare(sources_, inertias_.data(), rows_.data(), before_.data(), blocks_[block],
+                      approaches_[block]);
     }
   }
 }
 
-void ContactSolver::solve(bool use_bias) {
-  for (ContactConstraint& contact : contacts_) {
-    for (int i = 0; i < contact.count; ++i) {
-      solve_point_friction(contact, contact.points[static_cast<std::size_t>(i)]);
+// Gives each colour its blocks and each contact its lane.
+void ContactSolver::lay_out() {
+  block_count_ = 0;
+  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
+    ranges_[color] = {block_count_, blocks_for(graph_.count(color))};
+    block_count_ += ranges_[color].count;
+  }
+  slots_.assign(block_count_ * k_block_lanes, k_no_contact);
+  if (blocks_.size() < block_count_) {  // they only grow, within what is reserved
+    blocks_.resize(block_count_);
+    approaches_.resize(block_count_);
+    restitution_.resize(block_count_);
+  }
+  const std::span<const ConstraintGraph::Place> places = graph_.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank] =
+        static_cast<std::uint32_t>(i);
+  }
+}
+
+// Contacts of a colour lie far apart in memory.
+void ContactSolver::look_ahead(const ContactScene& scene, std::size_t slot) const {
+  if (slot >= block_count_ * k_block_lanes || slots_[slot] == k_no_contact) return;
+  const Entry& entry = entries_[slots_[slot]];
+  prefetch(scene.manifolds[entry.record]);
+  prefetch(scene.records[entry.record]);
+}
+
+void ContactSolver::fill_block(const ContactScene& scene, std::size_t block) {
+  for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
+    const std::uint32_t slot = slots_[block * k_block_lanes + lane];
+    restitution_[block][lane] = 0;
+    if (slot == k_no_contact) {
+      sources_.lanes[lane] = {};
+      sources_.body_a[lane] = sources_.body_b[lane] = 0;
+      continue;
     }
-    solve_common_normal(contact, use_bias);
-    for (int i = 0; i < contact.count; ++i) {  // last, since it matters most
-      solve_point_normal(contact, contact.points[static_cast<std::size_t>(i)], use_bias);
+    look_ahead(scene, block * k_block_lanes + lane + k_lanes_ahead);
+    const Entry& entry = entries_[slot];
+    const ContactRecord& record = scene.records[entry.record];
+    SolverBody fixed_a, fixed_b;
+    const auto side = [&](std::uint32_t index, std::uint32_t body,
+                          SolverBody& fixed) -> const SolverBody& {
+      if (index != 0) return bodies_[index];
+      fixed.scale_exponent = scene.bodies[body].scale_exponent;
+      return fixed;
+    };
+    const SolverBody& a = side(entry.body_a, record.body_a, fixed_a);
+    const SolverBody& b = side(entry.body_b, record.body_b, fixed_b);
+    sources_.body_a[lane] = lanes::row_body_offset(entry.body_a);
+    sources_.body_b[lane] = lanes::row_body_offset(entry.body_b);
+    const SurfacePair& surfaces = scene.surfaces[entry.record];
+    fill_source({a, b, scene.manifolds[entry.record], record, surfaces}, softness_,
+                sources_.lanes[lane]);
+    restitution_[block][lane] = mixed_restitution(surfaces).raw;
+  }
+}
+
+// In the first substep: gravity and the impulses of the tick before. Later ones start with the
+// impulses that the substep before ended with. Since all responses are fixed for a tick, what these
+// did to a body is all that it gained in that substep, gravity included; so it gains that again.
+void ContactSolver::integrate_velocities(int substep) {
+  for (std::size_t i = 1; i < rows_.size(); ++i) {
+    const RowBody start = limited(rows_[i]);
+    RowBody& row = rows_[i];
+    if (substep == 0) {
+      const RowBody warm = limited(before_[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t gravity = bodies_[i].gravity_step[axis] << k_row_shift;
+        row.velocity[axis] = start.velocity[axis] + gravity + warm.velocity[axis];
+        row.spin[axis] = start.spin[axis] + warm.spin[axis];
+      }
+    } else {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        row.velocity[axis] = 2 * start.velocity[axis] - before_[i].velocity[axis];
+        row.spin[axis] = 2 * start.spin[axis] - before_[i].spin[axis];
+      }
     }
+    before_[i] = start;
   }
 }
 
-// The separation now: the Jacobian of velocities also maps displacements, to first order. m, Q24.
-std::int64_t ContactSolver::separation(const ContactConstraint& contact,
-                                       const ContactPoint& point) const {
-  const SolverBody& a = bodies_[contact.body_a];
-  const SolverBody& b = bodies_[contact.body_b];
-  const Lanes32 da = read_displacements(a.displacement);
-  const Lanes32 db = read_displacements(b.displacement);
-  const Lanes32 apart = {db[0] - da[0], db[1] - da[1], db[2] - da[2]};
-  const std::int64_t change = dot(contact.normal.unit, apart) +
-                              dot(point.lever_b, read_displacements(b.turn)) -
-                              dot(point.lever_a, read_displacements(a.turn));
-  return point.separation + raw::round_shift(change, 30);
-}
-
-ContactSolver::NormalTarget ContactSolver::target(const ContactConstraint& contact,
-                                                  const ContactPoint& point, bool use_bias) const {
-  const std::int64_t s = separation(contact, point);
-  if (s > 0) return {raw::round_shift(s * substep_rate_, 4), false};  // may close the gap, no more
-  if (!use_bias) return {0, false};
-  const std::int64_t rate = contact.softness.bias_rate;
-  return {std::max(raw::round_shift(s * rate, 24), -k_push_out_speed), true};
-}
-
-// P ← max(0, P − m̄·(v + bias)·mass scale − P·impulse scale)
-void ContactSolver::solve_point_normal(ContactConstraint& contact, ContactPoint& point,
-                                       bool use_bias) {
-  const NormalTarget goal = target(contact, point, use_bias);
-  const std::int64_t mass = goal.soft ? point.soft_mass : point.normal.mass;
-  const std::int64_t impulse_scale = goal.soft ? contact.softness.impulse_scale : 0;
-  const std::int64_t v = relative_velocity(contact.normal, point.normal, contact.exponent,
-                                           bodies_[contact.body_a], bodies_[contact.body_b]);
-  const std::int64_t error = std::clamp<std::int64_t>(v + goal.bias, -(1LL << 31), 1LL << 31);
-  const std::int64_t old = point.normal.impulse;
-  const std::int64_t total = old - raw::round_shift(mass * error + impulse_scale * old, 30);
-  apply_normal(contact, point, total);
-}
-
-// All points at once, each by the same share: what is symmetric stays symmetric, which points in
-// turn cannot promise.
-void ContactSolver::solve_common_normal(ContactConstraint& contact, bool use_bias) {
-  if (contact.count < 2) return;
-  std::int64_t bias = 0, impulse = 0;
-  bool soft = true;
-  for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-    const NormalTarget goal = target(contact, point, use_bias);
-    bias += goal.bias;
-    impulse += point.normal.impulse;
-    soft = soft && goal.soft;
-  }
-  const std::int64_t v = relative_velocity(contact.normal, contact.common, contact.exponent,
-                                           bodies_[contact.body_a], bodies_[contact.body_b]);
-  const std::int64_t error =
-      std::clamp<std::int64_t>(v + raw::round_divide(bias, contact.count), -(1LL << 31), 1LL << 31);
-  const std::int64_t mass = soft ? contact.common_soft_mass : contact.common.mass;
-  std::int64_t change = raw::round_shift(mass * error, 30);
-  if (soft) change += raw::round_shift(contact.softness.impulse_scale * impulse, 30);
-  const std::int64_t share = raw::round_divide(change, contact.count);
-  for (int i = 0; i < contact.count; ++i) {
-    ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-    apply_normal(contact, point, point.normal.impulse - share);
-  }
-}
-
-void ContactSolver::apply_normal(ContactConstraint& contact, ContactPoint& point,
-                                 std::int64_t total) {
-  const std::int64_t old = point.normal.impulse;
-  const std::int32_t clamped = raw::saturate<std::int32_t>(std::max<std::int64_t>(total, 0));
-  saturations_ += total > clamped ? 1 : 0;
-  point.normal.impulse = clamped;
-  point.largest_impulse = std::max(point.largest_impulse, clamped);
-  apply(contact, contact.normal, point.normal, clamped - old);
-}
-
-// Coulomb's cone as a circle: both tangents are solved together, then brought back onto the circle.
-void ContactSolver::solve_point_friction(ContactConstraint& contact, ContactPoint& point) {
-  const SolverBody& a = bodies_[contact.body_a];
-  const SolverBody& b = bodies_[contact.body_b];
-  std::int64_t total[2];
-  for (int t = 0; t < 2; ++t) {
-    const ContactRow& row = point.tangent[t];
-    const std::int64_t v = relative_velocity(contact.tangent[t], row, contact.exponent, a, b);
-    total[t] = row.impulse - raw::round_shift(row.mass * v, 30);
-    total[t] = raw::saturate<std::int32_t>(total[t]);
-  }
-  const std::int64_t limit = raw::saturate<std::int32_t>(
-      raw::round_shift(std::int64_t{contact.friction} * point.normal.impulse, 30));
-  const auto squared = static_cast<std::uint64_t>(total[0] * total[0]) +
-                       static_cast<std::uint64_t>(total[1] * total[1]);
-  if (squared > static_cast<std::uint64_t>(limit * limit)) {
-    const std::int64_t length = isqrt(squared);  // ≥ 1, and ≥ limit − 1
-    for (std::int64_t& p : total)
-      p = raw::round_divide(p * limit, length);
-  }
-  for (int t = 0; t < 2; ++t) {
-    ContactRow& row = point.tangent[t];
-    const std::int64_t change = total[t] - row.impulse;
-    row.impulse = raw::saturate<std::int32_t>(total[t]);
-    apply(contact, contact.tangent[t], row, change);
-  }
-}
-
-void ContactSolver::apply_restitution() {
-  for (ContactConstraint& contact : contacts_) {
-    if (contact.restitution == 0) continue;
-    for (int i = 0; i < contact.count; ++i) {
-      ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-      if (point.approach > -k_restitution_threshold || point.largest_impulse == 0) continue;
-      const std::int64_t v = relative_velocity(contact.normal, point.normal, contact.exponent,
-                                               bodies_[contact.body_a], bodies_[contact.body_b]);
-      const std::int64_t wanted =
-          raw::round_shift(std::int64_t{contact.restitution} * point.approach, 30);
-      const std::int64_t change =
-          raw::round_shift(std::int64_t{point.normal.mass} * (v + wanted), 30);
-      apply_normal(contact, point, point.normal.impulse - change);
+void ContactSolver::integrate_positions() {
+  for (std::size_t i = 1; i < rows_.size(); ++i) {
+    const RowBody row = limited(rows_[i]);
+    RowTravel& travel = travel_[i];
+    const std::array<std::int64_t, 3> surface =
+        surface_velocity(bodies_[i].inverse_inertia, row.spin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      travel.velocity[axis] += row.velocity[axis] >> k_row_shift;
+      travel.surface[axis] += surface[axis];
     }
   }
+}
+
+void ContactSolver::run() {
+  if (entries_.empty()) return;
+  const ManifoldKernels& wide = lanes::manifold_kernels();
+  const auto for_each_color = [&](const auto& sweep) {
+    for (std::size_t color = 0; color <= k_graph_colors; ++color) {
+      const Range range = ranges_[color];
+      if (range.count == 0) continue;
+      sweep(color == k_overflow_color ? lanes::k_scalar_manifolds : wide,
+            blocks_.data() + range.first, range.count);
+    }
+  };
+  for (int substep = 0; substep < step_.substeps; ++substep) {
+    integrate_velocities(substep);
+    for_each_color([&](const ManifoldKernels& kernels, ManifoldBlock* blocks, std::size_t count) {
+      kernels.solve(rows_.data(), blocks, count, rules_);
+    });
+    integrate_positions();
+    for_each_color([&](const ManifoldKernels& kernels, ManifoldBlock* blocks, std::size_t count) {
+      kernels.relax(rows_.data(), travel_.data(), blocks, count, rules_);
+    });
+  }
+  bounce();
+}
+
+void ContactSolver::bounce() {
+  for (std::size_t block = 0; block < block_count_; ++block) {
+    const lanes::BlockWord& restitution = restitution_[block];
+    if (std::all_of(restitution.begin(), restitution.end(), [](auto e) { return e == 0; })) {
+      continue;
+    }
+    const bool serial = block >= ranges_[k_overflow_color].first;
+    const ManifoldKernels& kernels = serial ? lanes::k_scalar_manifolds : lanes::manifold_kernels();
+    kernels.bounce(rows_.data(), blocks_[block], approaches_[block], restitution,
+                   k_restitution_threshold);
+  }
+}
+
+void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
+                          std::span<SolverVelocity> approaches) {
+  for (std::size_t slot = 0; slot < block_count_ * k_block_lanes; ++slot) {
+    if (slots_[slot] == k_no_contact) continue;
+    const std::uint32_t record = entries_[slots_[slot]].record;
+    store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[record], records[record],
+                  approaches[record]);
+  }
+}
+
+void ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
+                                  const Manifold& manifold, ContactRecord& record,
+                                  SolverVelocity& approach) {
+  const ManifoldBlock& block = blocks_[block_index];
+  record.points = {};
+  record.count = static_cast<std::uint16_t>(manifold.count);
+  saturations_ += static_cast<std::uint32_t>(approaches_[block_index].clamped[lane]);
+  bool touching = false;
+  std::int64_t fastest = 0, pushed = 0;
+  for (std::size_t i = 0; i < record.count; ++i) {
+    const ManifoldBlock::Point& point = block.points[i];
+    const std::int32_t impulse = low(point.impulse[lane]), greatest = high(point.impulse[lane]);
+    record.points[i] = {manifold.points[i].feature, SolverVelocity::from_raw(impulse)};
+    touching = touching || low(point.separation[lane]) <= 0 || greatest > 0;
+    saturations_ += greatest == lanes::k_most_impulse ? 1 : 0;
+    pushed += impulse;
+    fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
+  }
+  // t·F_t + b·F_b
+  const std::int64_t along_t = low(block.friction[lane]), along_b = high(block.friction[lane]);
+  const std::int64_t axes[3][2] = {{high(block.axes[1][lane]), low(block.axes[3][lane])},
+                                   {low(block.axes[2][lane]), high(block.axes[3][lane])},
+                                   {high(block.axes[2][lane]), low(block.axes[4][lane])}};
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t sum = along_t * axes[i][0] + along_b * axes[i][1];
+    record.friction_impulse[i].raw = raw::saturate<std::int32_t>(raw::round_shift(sum, 30));
+  }
+  record.twist_impulse.raw = low(block.twist[lane]);
+  const std::int64_t gained =
+      raw::round_shift(pushed * k_one_over_q28[record.count], 28) - record.load.raw;
+  record.load.raw =
+      static_cast<std::int32_t>(record.load.raw + raw::round_shift(gained, load_shift_));
+  record.flags = touching ? k_contact_touching : 0;
+  approach = SolverVelocity::from_raw(raw::saturate<std::int32_t>(-fastest));
+}
+
+const SolverBody* ContactSolver::find(std::uint32_t body) const {
+  const std::uint32_t index = solver_index_[body];
+  return index == 0 ? nullptr : &bodies_[index];
+}
+
+void ContactSolver::move(const SolverBody& solved, BodyRecord& body) const {
+  const auto index = static_cast<std::size_t>(&solved - bodies_.data());
+  const RowBody& row = rows_[index];
+  const RowTravel& travel = travel_[index];
+  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
+  end_substeps(body,
+               {moved(travel.velocity[0]), moved(travel.velocity[1]), moved(travel.velocity[2])},
+               {moved(travel.surface[0]), moved(travel.surface[1]), moved(travel.surface[2])});
+  if (!body.is_dynamic()) return;
+  body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]), from_row(row.velocity[2])};
+  body.spin = {from_row(row.spin[0]), from_row(row.spin[1]), from_row(row.spin[2])};
 }
 
 }  // namespace lockstone

@@ -121,51 +121,42 @@ Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gr
   return {gain(g.x), gain(g.y), gain(g.z)};
 }
 
-SolverBody begin_substeps(const BodyRecord& body, const Mat3& rotation,
-                          const Vec3<Acceleration>& gravity, const TimeStep& step) {
+SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
+                       const Vec3<Acceleration>& gravity, const TimeStep& step) {
   SolverBody solver;
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   for (int i = 0; i < 3; ++i) {
-    const auto lane = static_cast<std::size_t>(i);
-    solver.velocity[lane] = body.velocity[i].raw;
-    solver.spin[lane] = body.spin[i].raw;
-    solver.gravity_step[lane] = raw::round_divide(g[i].raw, step.substep_rate());
+    solver.gravity_step[static_cast<std::size_t>(i)] =
+        raw::round_divide(g[i].raw, step.substep_rate());
   }
   solver.inverse_inertia = inverse_inertia(body, rotation);
+  solver.inverse_mass = body.inverse_mass_value();
+  solver.scale_exponent = body.scale_exponent;
   return solver;
 }
 
-void integrate_velocity(SolverBody& body) {
-  for (std::size_t i = 0; i < 3; ++i)
-    body.velocity[i] += body.gravity_step[i];
-}
-
-void integrate_position(SolverBody& body, const TimeStep& step) {
-  const Vec3<Velocity> w = surface_velocity(
-      body.inverse_inertia, {Velocity::from_raw(body.spin[0]), Velocity::from_raw(body.spin[1]),
-                             Velocity::from_raw(body.spin[2])});
-  for (int i = 0; i < 3; ++i) {
-    const auto lane = static_cast<std::size_t>(i);
-    body.displacement[lane] += step.substep.times(body.velocity[lane]);
-    body.turn[lane] += step.substep.times(w[i].raw);
-  }
-}
-
-void end_substeps(BodyRecord& body, const SolverBody& solved) {
-  const auto lanes = [](const Lanes64& v) {
-    return Vec3<Velocity>{Velocity::from_raw(v[0]), Velocity::from_raw(v[1]),
-                          Velocity::from_raw(v[2])};
+std::array<std::int64_t, 3> surface_velocity(const InverseInertia& m,
+                                             const std::array<std::int64_t, 3>& spin_q50) {
+  // |spin| ≤ 2^31 in Q22, so that three products stay below 2^63.
+  const auto read = [](std::int64_t x) {
+    const std::int64_t bound = std::int64_t{1} << 31;
+    return std::clamp(raw::round_shift(x, 28), -bound, bound);
   };
-  for (int i = 0; i < 3; ++i) {
-    body.position[i].raw += solved.displacement[static_cast<std::size_t>(i)];
-  }
-  if (body.is_dynamic()) {
-    body.velocity = lanes(solved.velocity);
-    body.spin = lanes(solved.spin);
-  }
-  if (solved.turn == Lanes64{}) return;
-  body.orientation =
-      integrate(body.orientation, to_rotation(lanes(solved.turn), body.scale_exponent));
+  const std::int64_t x = read(spin_q50[0]), y = read(spin_q50[1]), z = read(spin_q50[2]);
+  // Q22 · Q(30 − exponent), to Q32.
+  const int shift = 20 - m.exponent;
+  const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    return raw::round_shift(a * x + b * y + c * z, shift);
+  };
+  return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
+}
+
+void end_substeps(BodyRecord& body, const Vec3<Velocity>& displacement,
+                  const Vec3<Velocity>& turn) {
+  for (int i = 0; i < 3; ++i)
+    body.position[i].raw += displacement[i].raw;
+  if (turn == Vec3<Velocity>{}) return;
+  body.orientation = integrate(body.orientation, to_rotation(turn, body.scale_exponent));
 }
 
 }  // namespace lockstone

@@ -1,6 +1,9 @@
 // How bodies move within a tick.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/inertia.h"
 #include "core/dynamics/solver_body.h"
@@ -30,14 +33,16 @@ void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravi
 [[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                                           const TimeStep& step, Unit fraction);
 
-/// Starts a body's substeps.
-[[nodiscard]] SolverBody begin_substeps(const BodyRecord& body, const Mat3& rotation,
-                                        const Vec3<Acceleration>& gravity, const TimeStep& step);
+/// A body as the solver takes it up.
+[[nodiscard]] SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
+                                     const Vec3<Acceleration>& gravity, const TimeStep& step);
 
-void integrate_velocity(SolverBody& body);
-void integrate_position(SolverBody& body, const TimeStep& step);
+/// Surface velocity (m/s, Q32) from spin in Q50, rounded to 2^-22 m/s before it is multiplied.
+[[nodiscard]] std::array<std::int64_t, 3> surface_velocity(
+    const InverseInertia& inertia, const std::array<std::int64_t, 3>& spin_q50);
 
-/// Writes a body's substeps back.
-void end_substeps(BodyRecord& body, const SolverBody& solved);
+/// Moves a body by what it went in a tick: its centre, and its surface (rotation vector ·
+/// 2^scale_exponent), m.
+void end_substeps(BodyRecord& body, const Vec3<Velocity>& displacement, const Vec3<Velocity>& turn);
 
 }  // namespace lockstone

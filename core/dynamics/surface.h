@@ -14,6 +14,7 @@ struct SurfacePair {
 
 /// √(a·b)
 [[nodiscard]] inline Coefficient mixed_friction(const SurfacePair& pair) {
+  if (pair.a.friction == pair.b.friction) return pair.a.friction;
   const auto product = static_cast<std::uint64_t>((pair.a.friction * pair.b.friction).raw);
   return {static_cast<std::int32_t>(isqrt(product))};
 }

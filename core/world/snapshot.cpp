@@ -109,7 +109,7 @@ Status SnapshotView::check_contacts() const {
     }
     const BodyRecord a = body(record.body_a), b = body(record.body_b);
     const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
-    const bool known = (record.flags & ~k_all_contact_flags) == 0 && record.tangent_axis <= 2;
+    const bool known = (record.flags & ~k_all_contact_flags) == 0 && record.reserved == 0;
     const bool trigger = a.is_trigger() || b.is_trigger();
     if (!ordered || !known || trigger != record.is_trigger() || !has_valid_points(record) ||
         (trigger && record.count != 0)) {

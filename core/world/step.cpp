@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/dynamics/contact_solver.h"
 #include "core/dynamics/motion.h"
 #include "core/geometry/shape_properties.h"
 #include "core/math/wide/rotations.h"
@@ -62,9 +61,7 @@ StepReport World::Impl::step() {
   StepReport report;
   find_pairs(report);
   collide_pairs(report);
-  prepare_contacts(report);
-  run_substeps(report);
-  store_impulses();
+  solve_contacts(report);
   move_bodies(report);
   stop_at_impacts(report);
   refresh_moved();
@@ -164,83 +161,33 @@ bool World::Impl::add_record(const ContactRecord& record, StepReport& report) {
   return true;
 }
 
-// Bodies enter the solver when a constraint first names them.
-std::uint32_t World::Impl::solver_body_of(std::uint32_t body) {
-  if (!bodies[body].moves()) return 0;
-  if (solver_index[body] == 0) {
-    solver_index[body] = static_cast<std::uint32_t>(solver_bodies.size());
-    solver_bodies.push_back(
-        begin_substeps(bodies[body], rotations[body], header.gravity, time_step));
-    solver_bodies.back().body = body;
-  }
-  return solver_index[body];
-}
-
-void World::Impl::prepare_contacts(StepReport& report) {
-  const StageTimer timer(profiler, StepStage::prepare);
-  constraints.clear();
-  solver_bodies.clear();
-  solver_bodies.emplace_back();
-  std::fill_n(solver_index.begin(), header.body_limit, 0U);
+void World::Impl::solve_contacts(StepReport& report) {
   approach_speeds.assign(new_contacts.size(), SolverVelocity{});
-  for (std::size_t i = 0; i < new_contacts.size(); ++i) {
-    const ContactRecord& record = new_contacts[i];
-    if (record.is_trigger()) continue;
-    const std::uint32_t a = solver_body_of(record.body_a);
-    const std::uint32_t b = solver_body_of(record.body_b);
-    ContactConstraint& contact = constraints.emplace_back();
-    contact.body_a = a;
-    contact.body_b = b;
-    contact.record = static_cast<std::uint32_t>(i);
-    report.saturations += static_cast<std::uint32_t>(
-        prepare_contact({bodies[record.body_a], bodies[record.body_b], solver_bodies[a],
-                         solver_bodies[b], manifolds[i], record, surfaces[i]},
-                        softness, contact));
-    report.contact_points += static_cast<std::uint32_t>(contact.count);
-  }
-  report.contacts = static_cast<std::uint32_t>(constraints.size());
-}
-
-void World::Impl::run_substeps(StepReport& report) {
-  const StageTimer timer(profiler, StepStage::solve);
-  if (constraints.empty()) return;
-  ContactSolver solver(solver_bodies, constraints, time_step);
-  const std::span<SolverBody> moving = std::span(solver_bodies).subspan(1);
-  for (int substep = 0; substep < time_step.substeps; ++substep) {
-    for (SolverBody& body : moving)
-      integrate_velocity(body);
-    solver.warm_start();
-    solver.solve(true);
-    for (SolverBody& body : moving)
-      integrate_position(body, time_step);
-    solver.solve(false);
-  }
-  solver.apply_restitution();
+  prepare_contacts();
+  run_substeps();
+  store_impulses();
+  report.contacts = solver.contacts();
+  report.contact_points = solver.points();
+  report.colors = solver.colors();
+  report.overflow_contacts = solver.overflow();
   report.saturations += solver.saturations();
 }
 
-// The new records: what each point ended with, and whether the surfaces met.
+void World::Impl::prepare_contacts() {
+  const StageTimer timer(profiler, StepStage::prepare);
+  solver.prepare({std::span(bodies).first(header.body_limit), rotations, manifolds, surfaces,
+                  new_contacts, header.gravity});
+}
+
+void World::Impl::run_substeps() {
+  const StageTimer timer(profiler, StepStage::solve);
+  solver.run();
+}
+
+// The new records: what each contact ended with, and whether the surfaces met.
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
-  for (const ContactConstraint& contact : constraints) {
-    ContactRecord& record = new_contacts[contact.record];
-    record.points = {};
-    record.count = static_cast<std::uint16_t>(contact.count);
-    bool touching = false;
-    std::int32_t approach = 0;
-    for (std::size_t i = 0; i < record.count; ++i) {
-      const ContactPoint& point = contact.points[i];
-      record.points[i] = {manifolds[contact.record].points[i].feature,
-                          SolverVelocity::from_raw(point.normal.impulse),
-                          SolverVelocity::from_raw(point.tangent[0].impulse),
-                          SolverVelocity::from_raw(point.tangent[1].impulse)};
-      touching = touching || point.separation <= 0 || point.largest_impulse > 0;
-      approach = std::min(approach, point.approach);
-    }
-    approach_speeds[contact.record] = SolverVelocity::from_raw(-approach);
-    record.flags = touching ? k_contact_touching : 0;
-    record.tangent_axis = contact.tangent_axis;
-  }
+  solver.store(manifolds, new_contacts, approach_speeds);
 }
 
 void World::Impl::move_bodies(StepReport& report) {
@@ -267,11 +214,11 @@ void World::Impl::refresh_moved() {
 
 void World::Impl::move_body(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
-  const std::uint32_t solver = solver_index[body];
-  const InverseInertia inertia = solver != 0 ? solver_bodies[solver].inverse_inertia
-                                             : inverse_inertia(record, rotations[body]);
-  if (solver != 0) {
-    end_substeps(record, solver_bodies[solver]);
+  const SolverBody* solved = solver.find(body);
+  const InverseInertia inertia =
+      solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
+  if (solved != nullptr) {
+    solver.move(*solved, record);
   } else {
     fly(record, rotations[body], header.gravity, time_step, header.tick);
     ++report.free_bodies;

@@ -46,14 +46,13 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
     : def(definition),
       assets(std::move(known_assets)),
       time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
-      softness(ContactSoftness::of(time_step)),
       bodies(definition.body_capacity),
       contact_store(definition.contact_capacity),
       rotations(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
-      solver_index(definition.body_capacity) {
+      solver(time_step, definition.body_capacity, definition.contact_capacity) {
   header.gravity = definition.gravity;
   const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
   if (std::ranges::any_of(assets->all(), has_triangles)) {
@@ -65,9 +64,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   new_contacts.reserve(definition.contact_capacity);
   manifolds.reserve(definition.contact_capacity);
   surfaces.reserve(definition.contact_capacity);
-  constraints.reserve(definition.contact_capacity);
   approach_speeds.reserve(definition.contact_capacity);
-  solver_bodies.reserve(std::size_t{definition.body_capacity} + 1);
   moved.reserve(definition.body_capacity);
 }
 

@@ -12,10 +12,8 @@
 #include "core/collision/first_impact.h"
 #include "core/collision/placed_shape.h"
 #include "core/dynamics/body_record.h"
-#include "core/dynamics/contact_constraint.h"
-#include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
-#include "core/dynamics/solver_body.h"
+#include "core/dynamics/contact_solver.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
 #include "core/world/profiler.h"
@@ -67,7 +65,6 @@ struct World::Impl {
   const WorldDef def;
   const std::shared_ptr<const AssetSet> assets;
   const TimeStep time_step;
-  const ContactSoftness softness;
 
   // Canonical state.
   WorldHeader header;
@@ -95,9 +92,9 @@ struct World::Impl {
   void add_trigger(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
   bool add_record(const ContactRecord& record, StepReport& report);
   [[nodiscard]] SurfacePair surfaces_of(const Pair& pair, const PartContact& contact) const;
-  void prepare_contacts(StepReport& report);
-  std::uint32_t solver_body_of(std::uint32_t body);
-  void run_substeps(StepReport& report);
+  void solve_contacts(StepReport& report);
+  void prepare_contacts();
+  void run_substeps();
   void store_impulses();
   void move_bodies(StepReport& report);
   void move_body(std::uint32_t body, StepReport& report);
@@ -142,9 +139,7 @@ struct World::Impl {
   std::vector<Manifold> manifolds;    // by new contact
   std::vector<SurfacePair> surfaces;  // by new contact
   PartContacts part_contacts;         // of the pair at hand
-  std::vector<ContactConstraint> constraints;
-  std::vector<SolverBody> solver_bodies;        // entry 0 is the immovable body
-  std::vector<std::uint32_t> solver_index;      // by body; 0: not in the solver
+  ContactSolver solver;
   std::vector<SolverVelocity> approach_speeds;  // by new contact
 };
 

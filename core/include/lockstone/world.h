@@ -52,6 +52,8 @@ struct StepReport {
   std::uint32_t pairs = 0;        ///< pairs with overlapping bounds
   std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
   std::uint32_t contact_points = 0;
+  std::uint32_t colors = 0;             ///< of the constraint graph
+  std::uint32_t overflow_contacts = 0;  ///< found no colour, were solved one by one
   std::uint32_t continuous_bodies = 0;  ///< moved far enough to be followed along their way
   std::uint32_t impacts = 0;            ///< stops on the way
   std::uint32_t saturations = 0;        ///< values clamped to their range
