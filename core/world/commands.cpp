@@ -327,7 +327,9 @@ void World::Impl::drop_contacts_of(std::uint32_t body) {
   const auto end = std::remove_if(all.begin(), all.end(), [&](const ContactRecord& contact) {
     return contact.body_a == body || contact.body_b == body;
   });
-  header.contact_count = static_cast<std::uint32_t>(end - all.begin());
+  const auto count = static_cast<std::uint32_t>(end - all.begin());
+  remembers_manifolds = remembers_manifolds && count == header.contact_count;
+  header.contact_count = count;
 }
 
 Result<BodyHandle> World::create_body(const BodyDef& def) {

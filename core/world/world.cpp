@@ -63,6 +63,9 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   starts.resize(definition.body_capacity);
   new_contacts.reserve(definition.contact_capacity);
   manifolds.reserve(definition.contact_capacity);
+  old_manifolds.reserve(definition.contact_capacity);
+  inputs.reserve(definition.contact_capacity);
+  old_inputs.reserve(definition.contact_capacity);
   surfaces.reserve(definition.contact_capacity);
   approach_speeds.reserve(definition.contact_capacity);
   moved.reserve(definition.body_capacity);
@@ -86,6 +89,7 @@ std::uint32_t World::Impl::body_count() const {
 
 void World::Impl::rebuild_derived() {
   broad_phase.clear();
+  remembers_manifolds = false;
   free_hint = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (!bodies[i].exists()) continue;

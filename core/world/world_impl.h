@@ -87,7 +87,20 @@ struct World::Impl {
   void find_pairs(StepReport& report);
   void collide_pairs(StepReport& report);
   void collide_pair(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
-  void add_contact(const Pair& pair, const PartContact& contact,
+  // What the manifold of two convex shapes follows from, besides the shapes.
+  struct ManifoldInput {
+    Vec3<Position> offset{};
+    Quat orientation_a{{}, {}, {}, {}};
+    Quat orientation_b{};
+    Length margin{};
+
+    friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
+  };
+  [[nodiscard]] ManifoldInput manifold_input(const Pair& pair, Length margin) const;
+  [[nodiscard]] const Manifold* known_manifold(std::span<const ContactRecord> before,
+                                               const ManifoldInput& input) const;
+  [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
+  void add_contact(const Pair& pair, const PartContact& contact, const ManifoldInput& input,
                    std::span<const ContactRecord> before, StepReport& report);
   void add_trigger(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
   bool add_record(const ContactRecord& record, StepReport& report);
@@ -137,8 +150,14 @@ struct World::Impl {
   std::unique_ptr<TriangleScratch> triangle_scratch;  // null when no asset has triangles
   std::vector<ContactRecord> new_contacts;
   std::vector<Manifold> manifolds;    // by new contact
+  std::vector<ManifoldInput> inputs;  // by new contact
   std::vector<SurfacePair> surfaces;  // by new contact
-  PartContacts part_contacts;         // of the pair at hand
+
+  // The manifolds of the tick before, by stored contact, as long as `remembers_manifolds`.
+  std::vector<Manifold> old_manifolds;
+  std::vector<ManifoldInput> old_inputs;
+  bool remembers_manifolds = false;
+  PartContacts part_contacts;  // of the pair at hand
   ContactSolver solver;
   std::vector<SolverVelocity> approach_speeds;  // by new contact
 };
