@@ -54,7 +54,7 @@ for argument in "$@"; do
   esac
 done
 
-require_packages build
+require_packages build assets
 if "$sanitize"; then
   build_preset asan-ubsan
   run_tests asan-ubsan

@@ -24,5 +24,6 @@ void add_serve_command(CLI::App& app, int& exit_code);
 void add_join_command(CLI::App& app, int& exit_code);
 void add_demo_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
+void add_asset_command(CLI::App& app, int& exit_code);
 
 }  // namespace lockstone::tool

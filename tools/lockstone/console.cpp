@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,6 +17,13 @@ std::string hash_text(std::uint64_t hash) {
 
 void complain(const std::string& line) {
   fmt::print(stderr, "lockstone: {}\n", line);
+}
+
+std::optional<std::string> read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file) return std::nullopt;
+  return text;
 }
 
 bool write_text_file(const std::string& path, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace lockstone::tool {
@@ -12,6 +13,9 @@ namespace lockstone::tool {
 
 /// A line on the standard error stream.
 void complain(const std::string& line);
+
+/// What the file holds, or nothing when it cannot be read.
+[[nodiscard]] std::optional<std::string> read_file(const std::string& path);
 
 /// False, with a complaint, when the system refuses.
 [[nodiscard]] bool write_text_file(const std::string& path, const std::string& text);

@@ -1,6 +1,4 @@
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,12 +18,6 @@ struct NumericsOptions {
   std::string check_file;
   bool json = false;
 };
-
-std::optional<std::string> read_text_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 void print_json(const numerics::CheckResult& result) {
   nlohmann::ordered_json json{{"vectors", result.lines},
@@ -49,7 +41,7 @@ void print_text(const numerics::CheckResult& result) {
 /// Without a file, what this build writes is read back by it: every domain holds its own inputs.
 int check(const NumericsOptions& options) {
   const std::optional<std::string> text =
-      options.check_file.empty() ? numerics::golden_text() : read_text_file(options.check_file);
+      options.check_file.empty() ? numerics::golden_text() : read_file(options.check_file);
   if (!text) {
     complain(fmt::format("{}: cannot be read", options.check_file));
     return k_corrupt;

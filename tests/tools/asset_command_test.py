@@ -1,0 +1,254 @@
+"""lockstone asset: building from OBJ and PNG files, and saying what assets hold.
+
+usage: asset_command_test.py LOCKSTONE import|none
+"""
+
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+LOCKSTONE = ""
+MODELS = pathlib.Path(__file__).with_name("models")
+OK, CORRUPT, INCOMPATIBLE, USAGE, UNAVAILABLE = 0, 2, 3, 64, 69
+
+# What of an OBJ file is refused: text, line, a part of the reason.
+VERTICES = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+BAD_LINES = [
+    ("v 0 0 0\nv 1 2 x\n", 2, "'x' is no number"),
+    ("v 0 0 0\r\n\r\n# a comment\r\nv 1 2\r\n", 4, "three coordinates"),
+    ("v 0 0 600\n", 1, "beyond 512 m"),
+    ("v nan 0 0\n", 1, "'nan' is no number"),
+    (VERTICES + "f 1 2 9\n", 5, "vertex 9 of 4 so far"),
+    (VERTICES + "\nf 1 2 -5\n", 6, "vertex -5 of 4 so far"),
+    (VERTICES + "f 0 1 2\n", 5, "'0' is no vertex number"),
+    (VERTICES + "f 1 2 three\n", 5, "'three' is no vertex number"),
+    (VERTICES + "f 1 2 3x\n", 5, "'3x' is no vertex number"),
+    (VERTICES + "f 1 2\n", 5, "three corners"),
+    (VERTICES + "f 1 2 3 \\\n4\n", 5, "no vertex number"),
+    (VERTICES + "f 1 4 2 3\n", 5, "crosses itself"),
+    (VERTICES + "f 1 2 4 3\ncurv 0 1 1 2\n", 6, "'curv' is no statement"),
+    ("<html>\n", 1, "no statement"),
+    ("v 0 0 0\n\0\n", 2, "zero byte"),
+    ("", 0, "no vertices"),
+    ("v 0 0 0\n", 0, "no faces"),
+]
+
+
+def run(*arguments):
+    return subprocess.run([LOCKSTONE, "asset", *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120)
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(columns, rows, sample, depth=16, colour=0):
+    """A picture whose sample (x, y) is sample(x, y)."""
+    form = ">H" if depth == 16 else ">B"
+    channels = {0: 1, 2: 3, 4: 2}[colour]
+    data = b"".join(b"\0" + b"".join(struct.pack(form, sample(x, y)) * channels for x in range(columns))
+                    for y in range(rows))
+    head = struct.pack(">IIBBBBB", columns, rows, depth, colour, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(data))
+            + chunk(b"IEND", b""))
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def expect(self, code, *arguments):
+        done = run(*arguments)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done
+
+    def build(self, source, *options, name="out.lka"):
+        """What the command says of the one file that it made."""
+        path = self.folder / name
+        done = self.expect(OK, "build", source, "-o", path, "--json", *options)
+        made = json.loads(done.stdout)
+        self.assertEqual(path.stat().st_size, made[0]["bytes"])
+        self.assertEqual(json.loads(self.expect(OK, "info", "--json", path).stdout), made)
+        return made[0]
+
+    def write(self, name, data):
+        path = self.folder / name
+        path.write_bytes(data if isinstance(data, bytes) else data.encode())
+        return path
+
+    def refuse(self, source, *options):
+        done = self.expect(CORRUPT, "build", source, "-o", self.folder / "none.lka", *options)
+        self.assertFalse((self.folder / "none.lka").exists())
+        return done.stderr
+
+
+@unittest.skipUnless("import" in sys.argv, "this build has no import libraries")
+class Models(Case):
+    def test_a_cube_is_a_hull_or_a_mesh(self):
+        hull = self.build(MODELS / "cube.obj", "--as", "hull")
+        self.assertEqual((hull["kind"], hull["vertices"], hull["faces"]), ("hull", 8, 6))
+        self.assertEqual((hull["lower"], hull["upper"]), ([-1, -1, -1], [1, 1, 1]))
+        self.assertAlmostEqual(hull["mass"], 8000, places=4)
+        for moment in hull["principal_moments"]:  # m·(2² + 2²)/12
+            self.assertAlmostEqual(moment, 16000 / 3, places=3)
+        mesh = self.build(MODELS / "cube.obj")
+        self.assertEqual((mesh["kind"], mesh["vertices"], mesh["triangles"]), ("mesh", 8, 12))
+
+    def test_the_same_file_gives_the_same_bytes(self):
+        for kind in ("hull", "mesh"):
+            names = ("one.lka", "two.lka")
+            ids = {self.build(MODELS / "cube.obj", "--as", kind, name=name)["id"] for name in names}
+            self.assertEqual(len(ids), 1)
+            self.assertEqual(*[(self.folder / name).read_bytes() for name in names])
+
+    def test_order_and_way_of_writing_do_not_matter(self):
+        cube = self.build(MODELS / "cube.obj", "--as", "hull")["id"]
+        corners = [f"v {x} {y} {z}" for x in (".01e2", -1) for z in (-1, "+1.") for y in (1, "-100e-2")]
+        other = self.build(self.write("other.obj", "\n".join(corners)), "--as", "hull")["id"]
+        self.assertEqual(cube, other)
+
+    def test_a_tetrahedron_has_its_volume(self):
+        made = self.build(MODELS / "tetrahedron.obj", "--as", "hull", "--scale", "3e0")
+        self.assertAlmostEqual(made["volume"], 27 / 6, places=6)
+        self.assertEqual(made["centre_of_mass"], [0.75, 0.75, 0.75])
+
+    def test_scale_and_z_up_turn_to_the_worlds_frame(self):
+        made = self.build(MODELS / "table.obj", "--scale", "0.01", "--z-up")
+        for found, expected in zip(made["lower"] + made["upper"], [-0.6, 0, -0.4, 0.6, 0.75, 0.4]):
+            self.assertAlmostEqual(found, expected, delta=2**-21)
+
+    def test_materials_become_surfaces(self):
+        plain = self.build(MODELS / "cube.obj")
+        icy = self.build(MODELS / "cube.obj", "--surface", "ice=0.02,0.1", "--surface", "stone=0.8")
+        self.assertNotEqual(plain["id"], icy["id"])
+        self.assertEqual(icy["bytes"], plain["bytes"] + 12 + 2 * 8)
+        self.assertIn("no material 'mud'", self.refuse(MODELS / "cube.obj", "--surface", "mud=1"))
+        self.assertIn("surface", self.refuse(MODELS / "cube.obj", "--surface", "ice=1.995").lower())
+
+    def test_objects_become_a_compound_with_its_hulls_beside(self):
+        table = ["build", MODELS / "table.obj", "--as", "compound", "--scale", "0.01", "--z-up"]
+        made = json.loads(self.expect(OK, *table, "-o", self.folder / "t.lka", "--json",
+                                      "--surface", "steel=0.3").stdout)
+        self.assertEqual([m["kind"] for m in made], ["compound"] + 3 * ["hull"])
+        self.assertEqual(made[0]["children"], 3)
+        self.assertEqual(set(made[0]["hulls"]), {m["id"] for m in made[1:]})
+        self.assertAlmostEqual(made[0]["volume"], 1.2 * 0.8 * 0.03 + 2 * 0.05 * 0.6 * 0.72, places=5)
+        files = [m["file"] for m in made]
+        self.assertEqual(json.loads(self.expect(OK, "info", "--json", *files).stdout), made)
+        alone = self.expect(CORRUPT, "info", files[0])
+        self.assertIn("hull of this compound", alone.stderr)
+
+    def test_dropped_triangles_are_told(self):
+        text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 3 1\nf 1 1 2\n"
+        done = self.expect(OK, "build", self.write("a.obj", text))
+        self.assertIn("dropped 1 triangles without area", done.stderr)
+        self.assertIn("dropped 1 repeated triangles", done.stderr)
+        self.assertTrue((self.folder / "a.lka").exists())
+
+    def test_bad_lines_are_named_with_the_reason(self):
+        for text, line, reason in BAD_LINES:
+            path = self.write("bad.obj", text)
+            found = self.refuse(path)
+            place = f"{path}:{line}: " if line else f"{path}: "
+            self.assertTrue(found.startswith(place), f"{text!r}: {found}")
+            self.assertIn(reason, found)
+
+    def test_geometry_that_is_refused_is_named(self):
+        flat = self.write("flat.obj", VERTICES + "o plate\nf 1 2 4 3\n")
+        self.assertIn("flat", self.refuse(flat, "--as", "hull"))
+        found = self.refuse(flat, "--as", "compound")
+        self.assertTrue(found.startswith(f"{flat}:6: 'plate': "), found)
+
+
+@unittest.skipUnless("import" in sys.argv, "this build has no import libraries")
+class Terrains(Case):
+    def terrain(self, *options, **changes):
+        picture = {"columns": 5, "rows": 3, "sample": lambda x, y: 65535 if x == 4 else 0} | changes
+        return self.build(self.write("a.png", png(**picture)), *options)
+
+    def test_the_middle_is_the_origin_and_white_is_high(self):
+        made = self.terrain("--cell", "2", "--height", "10.5", "--base", "-3")
+        self.assertEqual((made["kind"], made["columns"], made["rows"]), ("height-field", 5, 3))
+        self.assertEqual((made["lower"], made["upper"]), ([-4, -3, -2], [4, 7.5, 2]))
+
+    def test_the_same_picture_gives_the_same_id(self):
+        slope = {"columns": 70, "rows": 60, "sample": lambda x, y: 900 * x + 13 * y}
+        ids = {self.terrain("--height", "30", **slope)["id"] for _ in range(2)}
+        self.assertEqual(len(ids), 1)
+        self.assertNotEqual(ids, {self.terrain("--height", "30.1", **slope)["id"]})
+
+    def test_other_pictures_are_refused(self):
+        flat = lambda x, y: 7
+        for data, reason in [(png(4, 4, flat, depth=8), "8 bits a sample"),
+                             (png(4, 4, flat, colour=2), "not greyscale"),
+                             (png(4, 4, flat, colour=4), "not greyscale"),
+                             (png(1, 4, flat), "1 by 4 samples"),
+                             (png(4097, 2, flat), "4097 by 2 samples"),
+                             (png(4, 4, flat)[:-20], "damaged PNG"),
+                             (png(4, 4, flat).replace(b"IDAT", b"iDAT"), "damaged PNG"),
+                             (b"GIF89a", "damaged PNG"), (b"", "damaged PNG")]:
+            self.assertIn(reason, self.refuse(self.write("bad.png", data), "--height", "1"))
+
+    def test_a_field_too_wide_is_refused(self):
+        wide = self.write("wide.png", png(1026, 2, lambda x, y: 0))
+        self.assertIn("out of range", self.refuse(wide, "--height", "1"))
+        self.assertIn("out of range", self.refuse(wide, "--height", "1", "--cell", "2000"))
+
+
+@unittest.skipUnless("import" in sys.argv, "this build has no import libraries")
+class Usage(Case):
+    def test_errors_have_their_own_code(self):
+        cube, picture = MODELS / "cube.obj", self.write("a.png", png(2, 2, lambda x, y: 0))
+        for arguments in ([], ["build"], ["info"], ["build", "a.fbx"], ["build", picture],
+                          ["build", cube, "--as", "height-field"], ["build", cube, "--as", "cloud"],
+                          ["build", picture, "--height", "1", "--as", "hull"],
+                          ["build", picture, "--height", "tall"],
+                          ["build", cube, "--scale", "0"], ["build", cube, "--scale", "1.0000000001"],
+                          ["build", cube, "--surface", "ice"], ["build", cube, "--max-vertices", "3"]):
+            self.expect(USAGE, *arguments)
+
+    def test_files_that_cannot_be_read_or_written(self):
+        self.refuse(self.folder / "missing.obj")
+        self.expect(UNAVAILABLE, "build", MODELS / "cube.obj", "-o", self.folder / "no" / "where.lka")
+
+
+class Info(Case):
+    # A hull by hand: head, tolerance, the corners of a tetrahedron in ascending order.
+    CORNERS = [(0, 0, 0), (0, 0, 1), (0, 1, 0), (1, 0, 0)]
+    HULL = (b"LKSA" + struct.pack("<HBB", 1, 3, 0) + struct.pack("<iH", 0, 4)
+            + b"".join(struct.pack("<3i", *(c << 20 for c in corner)) for corner in CORNERS))
+
+    def test_reads_the_documented_bytes(self):
+        (made,) = json.loads(self.expect(OK, "info", "--json", self.write("a.lka", self.HULL)).stdout)
+        self.assertEqual((made["kind"], made["vertices"], made["bytes"]), ("hull", 4, 62))
+        self.assertAlmostEqual(made["mass"], 1000 / 6, places=5)
+        text = self.expect(OK, "info", self.folder / "a.lka").stdout
+        self.assertIn(made["id"], text)
+
+    def test_the_worst_file_decides(self):
+        good = self.write("good.lka", self.HULL)
+        for data, code in [(self.HULL[:-1], CORRUPT), (self.HULL + b"\0", CORRUPT), (b"", CORRUPT),
+                           (b"LKSA\2" + self.HULL[5:], INCOMPATIBLE)]:
+            done = self.expect(code, "info", "--json", good, self.write("bad.lka", data))
+            first, second = json.loads(done.stdout)
+            self.assertEqual(first["vertices"], 4)
+            self.assertIn("error", second)
+            self.assertTrue(done.stderr.startswith(f"{self.folder / 'bad.lka'}: "))
+        self.expect(CORRUPT, "info", self.folder / "missing.lka")
+
+    @unittest.skipIf("import" in sys.argv, "this build has the import libraries")
+    def test_a_build_without_libraries_says_so(self):
+        self.assertIn("libpng-dev", self.expect(UNAVAILABLE, "build", "a.obj").stderr)
+
+
+if __name__ == "__main__":
+    LOCKSTONE = sys.argv[1]
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,48 @@
+// Files of modelling programs to assets.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <lockstone/asset.h>
+#include <lockstone/bytes.h>
+
+#include "tools/assets/import_fault.h"
+#include "tools/assets/obj_reader.h"
+
+namespace lockstone::assets {
+
+struct ObjImport {
+  ShapeKind kind = ShapeKind::mesh;  ///< hull, mesh or compound
+  ObjOptions reading;
+  int max_vertices = 64;    ///< of a hull, 4 … 128
+  Length weld_tolerance{};  ///< of a mesh
+  /// What a mesh's faces of a material, or a compound's hull of that material alone, are made of.
+  /// Other materials are the body's own.
+  std::vector<std::pair<std::string, Surface>> surfaces;
+};
+
+struct PngImport {
+  Length cell = Length::from_integer(1);     ///< between samples, both ways
+  Length height = Length::from_integer(64);  ///< of the sample 65535 above the sample 0
+  Length base{};                             ///< of the sample 0
+};
+
+struct Imported {
+  AssetPtr asset;
+  std::vector<AssetPtr> hulls;     ///< that the asset, a compound, needs
+  std::vector<std::string> notes;  ///< what was dropped
+};
+
+/// A hull of all vertices; a mesh of all faces; or a compound with one hull an object (a group
+/// where the file names no objects), of the vertices of its faces.
+[[nodiscard]] ImportOutcome import_obj(std::string_view text, const ObjImport& options,
+                                       Imported& out);
+
+/// A height field whose middle is at x = z = 0; columns along x, rows along z from the top.
+[[nodiscard]] ImportOutcome import_png(ByteView file, const PngImport& options, Imported& out);
+
+}  // namespace lockstone::assets

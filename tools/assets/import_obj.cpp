@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <lockstone/compound.h>
+#include <lockstone/hull.h>
+
+#include "tools/assets/import.h"
+
+namespace lockstone::assets {
+namespace {
+
+using Points = std::vector<Vec3<Length>>;
+
+ImportFault fault_at(std::uint32_t line, std::string_view reason) {
+  return {line, std::string(reason)};
+}
+
+/// By material of the model: an index into the surfaces of the options, or k_own_surface.
+ImportOutcome surfaces_of_materials(const ObjModel& model, const ObjImport& options,
+                                    std::vector<std::uint8_t>& indices) {
+  indices.assign(model.materials.size(), k_own_surface);
+  for (std::size_t i = 0; i < options.surfaces.size(); ++i) {
+    const std::string& name = options.surfaces[i].first;
+    const auto found = std::ranges::find(model.materials, name);
+    if (found == model.materials.end()) return fault_at(0, "no material '" + name + "'");
+    indices[static_cast<std::size_t>(found - model.materials.begin())] =
+        static_cast<std::uint8_t>(i);
+  }
+  return std::nullopt;
+}
+
+std::uint32_t line_of(const MeshResult& built, const ObjModel& model) {
+  const bool vertex = built.fault == MeshFault::coordinate_out_of_range;
+  if (vertex && built.index < model.vertex_lines.size()) return model.vertex_lines[built.index];
+  const bool triangle = built.fault == MeshFault::index_out_of_range;
+  return triangle && built.index < model.triangles.size() ? model.triangles[built.index].line : 0;
+}
+
+void note_dropped(std::uint32_t count, std::string_view what, Imported& out) {
+  if (count != 0) out.notes.push_back(fmt::format("dropped {} {}", count, what));
+}
+
+ImportOutcome build_mesh(const ObjModel& model, const ObjImport& options,
+                         const std::vector<std::uint8_t>& surface_of, Imported& out) {
+  if (model.triangles.empty()) return fault_at(0, "no faces");
+  std::vector<TriangleIndices> triangles;
+  std::vector<std::uint8_t> triangle_surfaces;
+  for (const ObjTriangle& t : model.triangles) {
+    triangles.push_back(t.corners);
+    if (!options.surfaces.empty()) triangle_surfaces.push_back(surface_of[t.material]);
+  }
+  std::vector<Surface> surfaces;
+  for (const auto& [name, surface] : options.surfaces)
+    surfaces.push_back(surface);
+  MeshDef def;
+  def.vertices = model.vertices;
+  def.triangles = triangles;
+  def.triangle_surfaces = triangle_surfaces;
+  def.surfaces = surfaces;
+  def.weld_tolerance = options.weld_tolerance;
+  const MeshResult built = Mesh::build(def);
+  if (!built.ok()) return fault_at(line_of(built, model), to_string(built.fault));
+  out.asset = built.mesh;
+  note_dropped(built.welded_vertices, "vertices equal to others", out);
+  note_dropped(built.degenerate_triangles, "triangles without area", out);
+  note_dropped(built.duplicate_triangles, "repeated triangles", out);
+  return std::nullopt;
+}
+
+HullResult hull_of(const Points& points, const ObjImport& options) {
+  HullOptions hull_options;
+  hull_options.max_vertices = options.max_vertices;
+  return Hull::build(points, hull_options);
+}
+
+ImportOutcome build_hull(const ObjModel& model, const ObjImport& options, Imported& out) {
+  const HullResult built = hull_of(model.vertices, options);
+  if (!built.ok()) return fault_at(0, to_string(built.fault));
+  out.asset = built.hull;
+  return std::nullopt;
+}
+
+/// The faces of one object.
+struct ObjectFaces {
+  std::vector<std::uint32_t> vertices;  ///< of the model
+  std::uint32_t line = 0;               ///< of the first
+  std::uint8_t surface = k_own_surface;
+};
+
+/// By index of the object's name, so in the order in which the file names them.
+using Objects = std::map<std::uint32_t, ObjectFaces>;
+
+Objects objects_of(const ObjModel& model, const std::vector<std::uint8_t>& surface_of) {
+  const bool by_object = model.objects.size() > 1;
+  Objects objects;
+  for (const ObjTriangle& t : model.triangles) {
+    const std::uint8_t surface = surface_of[t.material];
+    const auto [at, is_new] =
+        objects.try_emplace(by_object ? t.object : t.group, ObjectFaces{{}, t.line, surface});
+    ObjectFaces& faces = at->second;
+    for (const std::uint32_t corner : {t.corners.a, t.corners.b, t.corners.c})
+      faces.vertices.push_back(corner);
+    if (faces.surface != surface) faces.surface = k_own_surface;
+  }
+  return objects;
+}
+
+Points points_of(const ObjModel& model, std::vector<std::uint32_t> vertices) {
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Points points;
+  for (const std::uint32_t vertex : vertices)
+    points.push_back(model.vertices[vertex]);
+  return points;
+}
+
+ImportOutcome build_compound(const ObjModel& model, const ObjImport& options,
+                             const std::vector<std::uint8_t>& surface_of, Imported& out) {
+  const auto& names = model.objects.size() > 1 ? model.objects : model.groups;
+  std::vector<CompoundChild> children;
+  for (const auto& [index, faces] : objects_of(model, surface_of)) {
+    const HullResult built = hull_of(points_of(model, faces.vertices), options);
+    const std::string_view reason = to_string(built.fault);
+    if (!built.ok()) return fault_at(faces.line, fmt::format("'{}': {}", names[index], reason));
+    CompoundChild child;
+    child.shape = built.hull->shape();
+    child.asset = built.hull;
+    if (faces.surface != k_own_surface) child.surface = options.surfaces[faces.surface].second;
+    children.push_back(child);
+    out.hulls.push_back(built.hull);
+  }
+  const CompoundResult built = Compound::build(children);
+  if (!built.ok()) return fault_at(0, to_string(built.fault));
+  out.asset = built.compound;
+  return std::nullopt;
+}
+
+}  // namespace
+
+ImportOutcome import_obj(std::string_view text, const ObjImport& options, Imported& out) {
+  ObjModel model;
+  if (ImportOutcome fault = read_obj(text, options.reading, model)) return fault;
+  if (options.kind == ShapeKind::hull) return build_hull(model, options, out);
+  std::vector<std::uint8_t> surface_of;
+  if (ImportOutcome fault = surfaces_of_materials(model, options, surface_of)) return fault;
+  return options.kind == ShapeKind::compound ? build_compound(model, options, surface_of, out)
+                                             : build_mesh(model, options, surface_of, out);
+}
+
+}  // namespace lockstone::assets
