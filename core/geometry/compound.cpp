@@ -21,7 +21,9 @@ constexpr Number k_max_density = Number::from_integer(1024);
 constexpr Number k_min_density = Number::from_ratio(1, 1024);
 
 bool has_direction(const Quat& q) {
-  const auto within = [](Unit x) { return abs(x) <= Unit::from_ratio(5, 4); };
+  const auto within = [](Unit x) {  // not by abs: -2 has no opposite
+    return x >= Unit::from_ratio(-5, 4) && x <= Unit::from_ratio(5, 4);
+  };
   return within(q.x) && within(q.y) && within(q.z) && within(q.w) &&
          (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw >= (std::int64_t{1} << 40);
 }
