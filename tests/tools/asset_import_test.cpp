@@ -20,8 +20,6 @@ namespace {
 
 using namespace literals;
 
-constexpr ScientificDecimal k_one{false, 1, 0};
-
 std::optional<Length> length_of(std::string_view text, std::string_view scale = "1") {
   const auto value = read_scientific(text);
   const auto factor = read_scientific(scale, k_max_scale_digits);

@@ -1,6 +1,7 @@
 #include "tools/assets/scientific_decimal.h"
 
 #include <algorithm>
+#include <string>
 
 #include <lockstone/asset.h>
 
@@ -62,7 +63,7 @@ std::int64_t divide_to_raw(UInt128 numerator, UInt128 denominator) {
   std::int64_t quotient = 0;
   for (int bit = 10; bit >= 0; --bit) {
     quotient *= 2;
-    if (numerator < denominator << bit) continue;
+    if (numerator < (denominator << bit)) continue;
     numerator = numerator - (denominator << bit);
     ++quotient;
   }
@@ -73,7 +74,7 @@ std::int64_t divide_to_raw(UInt128 numerator, UInt128 denominator) {
     numerator = numerator - denominator;
     ++quotient;
   }
-  return numerator << 1 >= denominator ? quotient + 1 : quotient;
+  return (numerator << 1) >= denominator ? quotient + 1 : quotient;
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ std::optional<Length> scaled_length(const ScientificDecimal& value,
     denominator = times_ten(denominator);  // at most 10^33 < 2^110
   for (; exponent > 0 && numerator < UInt128{0, 1 << 12}; --exponent)
     numerator = times_ten(numerator);
-  if (exponent > 0 || numerator >= denominator << 11) return std::nullopt;
+  if (exponent > 0 || numerator >= (denominator << 11)) return std::nullopt;
   const std::int64_t raw = divide_to_raw(numerator, denominator);
   if (raw > k_max_asset_coordinate.raw) return std::nullopt;
   const bool negative = value.negative != scale.negative;
