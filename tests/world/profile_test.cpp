@@ -123,5 +123,26 @@ TEST(StepStage, HasAName) {
   EXPECT_EQ(static_cast<std::size_t>(StepStage::events) + 1, k_step_stages);
 }
 
+// A ball at rest does not move by a bit for many ticks; what is forgotten is found again.
+TEST(Profile, CountsManifoldsThatWereReused) {
+  const auto reused_by = [](bool forgets) {
+    World world = test::make_world();
+    test::add_ground(world);
+    test::add(world, test::dynamic_body(Shape::sphere(Length::from_ratio(1, 2)), {},
+                                        Position::from_ratio(1, 2), {}));
+    world.set_clock(counting_clock, ProfileDetail::pairs);
+    for (int tick = 0; tick < 300; ++tick) {
+      if (forgets) world.drop_derived();
+      (void)world.step();
+    }
+    const auto& kinds = world.profile().pair_kinds;
+    return kinds[static_cast<std::size_t>(ShapeKind::sphere)]
+                [static_cast<std::size_t>(ShapeKind::box)]
+                    .reused;
+  };
+  EXPECT_GT(reused_by(false), 50U);
+  EXPECT_EQ(reused_by(true), 0U);
+}
+
 }  // namespace
 }  // namespace lockstone
