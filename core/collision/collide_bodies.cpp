@@ -96,7 +96,7 @@ void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
   const PlacedShape near_b = brought_near(b, a.centre);
   const BodyPair pair{a, near_b, margin};
   if (is_single(a) && is_single(b)) {
-    add_pieces(pair, single_piece(a), single_piece(b), out);
+    add_pieces(pair, single_piece(a), single_piece(near_b), out);
     return;
   }
   if (b.asset != nullptr && b.asset->mesh_kernels() != nullptr) {

@@ -100,6 +100,20 @@ int dominant_axis(const Vec3<Unit>& normal) {
   return dominant;
 }
 
+/// What holds the shape: of more than four the vertices on the plane or within k_low of the
+/// deepest, where they are three or more; else all. A fast shape has a wide margin, and vertices
+/// high above the plane, which may be farther apart, must not take the place of those that it lies
+/// on.
+std::span<FaceVertex> low_ones(std::span<FaceVertex> all) {
+  constexpr Fine k_low = Fine{1} << (k_fine_bits - 8);  // 3.9 mm
+  if (all.size() <= 4) return all;
+  const Fine deepest = std::ranges::min_element(all, {}, &FaceVertex::z)->z;
+  const Fine limit = std::max(deepest, Fine{0}) + k_low;
+  const auto high = std::ranges::partition(all, [&](const FaceVertex& v) { return v.z <= limit; });
+  const std::size_t low = all.size() - high.size();
+  return low < 3 ? all : all.first(low);
+}
+
 /// Points of one group with one normal, reduced to four whenever they do not fit.
 class PointPool {
  public:
@@ -130,8 +144,8 @@ class PointPool {
       polygon[i] = {fine(p.anchor_b[(axis_ + 1) % 3]), fine(p.anchor_b[(axis_ + 2) % 3]),
                     Fine{p.separation.raw} * (Fine{1} << k_fine_per_displacement), p.feature};
     }
-    const auto kept =
-        static_cast<std::size_t>(reduce_to_four(std::span(polygon).first(count_), k_area_shift));
+    const std::span all = std::span(polygon).first(count_);
+    const auto kept = static_cast<std::size_t>(reduce_to_four(low_ones(all), k_area_shift));
     std::array<ManifoldPoint, k_max_manifold_points> chosen;
     for (std::size_t i = 0; i < kept; ++i)
       chosen[i] = *std::ranges::find(points_, polygon[i].feature, &ManifoldPoint::feature);
