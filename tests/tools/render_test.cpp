@@ -36,6 +36,24 @@ TEST(Render, ChangesNothing) {
   EXPECT_EQ(play->simulation().hash(), hash);
 }
 
+TEST(Render, DrawsEveryShapeThereIs) {
+  for (const char* scene : {"hulls", "compounds", "terrain", "mesh", "bullets", "layers"}) {
+    const auto play = scenes::make_play(scene, 1).value();
+    play->step();
+    const std::string svg = draw(play->world(), {});
+    EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>")) << scene;
+    EXPECT_EQ(count(svg, "<g "), count(svg, "</g>")) << scene;
+    EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U) << scene;
+  }
+}
+
+// Of a height field every triangle without holes is one polygon; besides, there are shadows and
+// bodies.
+TEST(Render, DrawsEveryTriangleOfATerrain) {
+  const auto play = scenes::make_play("terrain", 1).value();
+  EXPECT_GE(count(draw(play->world(), {}), "<polygon"), 2U * (32 * 32 - 9 - 6));
+}
+
 Solid box_at(double x, double y, double z, double half) {
   Solid solid;
   solid.kind = ShapeKind::box;
@@ -57,6 +75,14 @@ TEST(Render, PaintsTheGroundBeforeWhatStandsOnItAndAfterWhatFellBelow) {
   EXPECT_LT(turn(1), turn(0));
   EXPECT_LT(turn(1), turn(2));
   EXPECT_LT(turn(3), turn(1));
+}
+
+TEST(Render, PaintsATriangleBeforeWhatLiesOnItAndAfterWhatIsBelow) {
+  Solid triangle;
+  triangle.kind = ShapeKind::mesh;
+  triangle.facets = {{{0, 1, 0}, {{-5, 0, -5}, {0, 0, 5}, {5, 0, -5}}}};
+  const std::vector<Solid> solids{box_at(0, 0.5, 0, 0.5), triangle, box_at(0, -2, 0, 0.5)};
+  EXPECT_EQ(paint_order(solids, Camera({}, 0.5, 0.5)), (std::vector<std::size_t>{2, 1, 0}));
 }
 
 TEST(Render, OutlinesABallAsACircle) {

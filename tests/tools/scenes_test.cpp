@@ -157,5 +157,89 @@ TEST(Scenes, ThePlatformCarriesItsBoxes) {
   }
 }
 
+TEST(Scenes, AssetsArePartOfTheConfiguration) {
+  // The hulls of another seed are other hulls: peers with them refuse each other.
+  const auto one = make_play("hulls", 1).value(), two = make_play("hulls", 2).value();
+  EXPECT_NE(one->world().assets()->hash(), two->world().assets()->hash());
+  EXPECT_NE(one->world().assets()->hash(), 0U);
+  EXPECT_NE(one->simulation().info(), two->simulation().info());
+  const auto made = make_simulation(encode_config("hulls", 2));
+  ASSERT_TRUE(made.ok());
+  EXPECT_EQ(made.value()->info(), two->simulation().info());
+}
+
+TEST(Scenes, TheFurnitureStands) {
+  const auto play = make_play("compounds", k_seed).value();
+  for (int tick = 0; tick < 300; ++tick)
+    play->step();
+  EXPECT_LT(abs(place(*play, 1).y), Position::from_ratio(5, 1000));  // a table
+  EXPECT_GT(place(*play, 2).y, Position::from_ratio(77, 100));       // on which another one
+  EXPECT_GT(place(*play, 3).y, Position::from_ratio(155, 100));      // with a chair
+}
+
+TEST(Scenes, SomeFallThroughTheHolesOfTheTerrainAndNoneElsewhere) {
+  const auto play = make_play("terrain", k_seed).value();
+  for (int tick = 0; tick < 360; ++tick)
+    play->step();
+  int fallen = 0;
+  for (std::uint32_t body = 2; body < 42; ++body)
+    fallen += place(*play, body).y < Position::from_integer(-2) ? 1 : 0;
+  EXPECT_GE(fallen, 1);
+  EXPECT_LE(fallen, 20);
+}
+
+// Twelve shots each at the wall, the mesh and the hillside: none is behind its target, where it has
+// not flown around it.
+TEST(Scenes, NoShotPassesItsTarget) {
+  const auto play = make_play("bullets", k_seed).value();
+  constexpr std::uint32_t k_first = 8;
+  ASSERT_EQ(play->world().body(play->world().body_at(k_first - 1)).motion, MotionType::static_body);
+  for (int tick = 0; tick < 60; ++tick) {
+    play->step();
+    for (std::uint32_t shot = 0; shot < 24; ++shot) {
+      const Vec3<Position> at = place(*play, k_first + shot);
+      const Position aside = abs(at.z - Position::from_ratio(45 * (shot / 12), 10));
+      const bool at_target = aside < Position::from_integer(2) && at.y < Position::from_integer(3);
+      EXPECT_TRUE(!at_target || at.x < Position::from_ratio(1, 100))
+          << "shot " << shot << " tick " << tick;
+    }
+    for (std::uint32_t shot = 0; shot < 36; ++shot)
+      EXPECT_GT(place(*play, k_first + shot).y, Position{}) << "shot " << shot << " tick " << tick;
+  }
+}
+
+// Each sieve lets two of four categories of balls pass.
+TEST(Scenes, TheSievesSort) {
+  const auto play = make_play("layers", k_seed).value();
+  for (int tick = 0; tick < 120; ++tick)
+    play->step();
+  int high = 0, middle = 0, low = 0;
+  for (std::uint32_t ball = 4; ball < 16; ++ball) {
+    const Position y = place(*play, ball).y;
+    high += y > Position::from_ratio(35, 10) ? 1 : 0;
+    middle += y > Position::from_ratio(23, 10) && y < Position::from_ratio(35, 10) ? 1 : 0;
+    low += y > Position::from_ratio(11, 10) && y < Position::from_ratio(23, 10) ? 1 : 0;
+  }
+  EXPECT_GT(high, 0);
+  EXPECT_GT(middle, 0);
+  EXPECT_GT(low, 0);
+}
+
+// Every zone that a ball falls through, the mesh among them, counts it once in and once out.
+TEST(Scenes, ZonesOfEveryShapeCountTheirBalls) {
+  const auto play = make_play("layers", k_seed).value();
+  for (int tick = 0; tick < 300; ++tick)
+    play->step();
+  const World& world = play->world();
+  int zones = 0;
+  for (std::uint32_t index = 0; index < world.body_limit(); ++index) {
+    const BodyView view = world.body(world.body_at(index));
+    if (!view.is_trigger || view.shape.kind == ShapeKind::half_space) continue;
+    ++zones;
+    EXPECT_GE(view.user_data & 0xffffffff, 1U) << "body " << index;
+  }
+  EXPECT_EQ(zones, 11);
+}
+
 }  // namespace
 }  // namespace lockstone::scenes

@@ -14,34 +14,74 @@ struct Order {
   int sign = 0;  ///< 1: b is in front of a, −1: behind
 };
 
-// The face plane of the box `a` that has the most of `b` on its outer side. If it looks towards the
-// viewer, b is in front. (Solids that overlap a little, as resting ones do, have a small negative
-// gap.)
-Order order_by_faces(const Solid& a, const Solid& b, const Vec& toward) {
-  const double half[] = {a.size.x, a.size.y, a.size.z};
-  Order best;
+/// Points of a solid have dot(normal, point) ≤ offset.
+struct Plane {
+  Vec normal;
+  double offset = 0;
+};
+
+// Both sides and the borders of a flat one.
+void add_flat_planes(std::vector<Plane>& planes, const Facet& facet) {
+  for (const double sign : {1.0, -1.0}) {
+    const Vec normal = facet.normal * sign;
+    planes.push_back({normal, dot(normal, facet.corners[0])});
+  }
+  for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+    const Vec& from = facet.corners[i];
+    const Vec along = facet.corners[(i + 1) % facet.corners.size()] - from;
+    const Vec normal = unit(cross(along, facet.normal));
+    planes.push_back({normal, dot(normal, from)});
+  }
+}
+
+// The planes that bound a solid; none for round ones.
+std::vector<Plane> planes_of(const Solid& solid) {
+  std::vector<Plane> planes;
+  if (solid.is_flat()) {
+    add_flat_planes(planes, solid.facets[0]);
+    return planes;
+  }
+  for (const Facet& facet : solid.facets)
+    planes.push_back({facet.normal, dot(facet.normal, facet.corners[0])});
+  if (solid.kind != ShapeKind::box) return planes;
+  const double half[] = {solid.size.x, solid.size.y, solid.size.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
-      const Vec normal = a.axes[axis] * sign;
-      const double gap = -b.reach(normal * -1) - (dot(normal, a.center) + half[axis]);
-      const double facing = dot(normal, toward);
-      if (gap < best.gap || std::abs(facing) < 1e-6) continue;
-      best = {gap, facing > 0 ? 1 : -1};
+      const Vec normal = solid.axes[axis] * sign;
+      planes.push_back({normal, dot(normal, solid.center) + half[axis]});
     }
+  }
+  return planes;
+}
+
+// Of the planes of one solid the one that has the most of `b` on its outer side. If it looks
+// towards the viewer, b is in front. (Solids that overlap a little, as resting ones do, have a
+// small negative gap.)
+Order order_by_planes(const std::vector<Plane>& planes, const Solid& b, const Vec& toward) {
+  Order best;
+  for (const Plane& plane : planes) {
+    const double facing = dot(plane.normal, toward);
+    if (std::abs(facing) < 1e-6) continue;
+    const double gap = -b.reach(plane.normal * -1) - plane.offset;
+    if (gap >= best.gap) best = {gap, facing > 0 ? 1 : -1};
   }
   return best;
 }
 
+/// A solid and what is asked of it again and again.
+struct Sight {
+  const Solid& solid;
+  Frame frame;
+  std::vector<Plane> planes;
+};
+
 // 1 when b must be painted after a, −1 when before, 0 when it does not matter.
-int compare(const Solid& a, const Solid& b, const Camera& camera) {
-  Order best;
-  if (a.kind == ShapeKind::box) best = order_by_faces(a, b, camera.toward());
-  if (b.kind == ShapeKind::box) {
-    const Order other = order_by_faces(b, a, camera.toward());
-    if (other.gap > best.gap) best = {other.gap, -other.sign};
-  }
+int compare(const Sight& a, const Sight& b, const Camera& camera) {
+  Order best = order_by_planes(a.planes, b.solid, camera.toward());
+  const Order other = order_by_planes(b.planes, a.solid, camera.toward());
+  if (other.gap > best.gap) best = {other.gap, -other.sign};
   if (best.sign != 0) return best.sign;
-  const double depth = dot(b.center - a.center, camera.toward());
+  const double depth = dot(b.solid.center - a.solid.center, camera.toward());
   return depth > 0 ? 1 : depth < 0 ? -1 : 0;
 }
 
@@ -52,15 +92,15 @@ struct Graph {
 };
 
 Graph build_graph(const std::vector<Solid>& solids, const Camera& camera) {
-  std::vector<Frame> frames;
+  std::vector<Sight> sights;
   for (const Solid& solid : solids)
-    frames.push_back(frame_of(solid, camera));
+    sights.push_back({solid, frame_of(solid, camera), planes_of(solid)});
   Graph graph{std::vector<std::vector<std::size_t>>(solids.size()),
               std::vector<std::size_t>(solids.size())};
   for (std::size_t a = 0; a < solids.size(); ++a) {
     for (std::size_t b = a + 1; b < solids.size(); ++b) {
-      if (!frames[a].overlaps(frames[b])) continue;
-      const int order = compare(solids[a], solids[b], camera);
+      if (!sights[a].frame.overlaps(sights[b].frame)) continue;
+      const int order = compare(sights[a], sights[b], camera);
       if (order == 0) continue;
       graph.later[order > 0 ? a : b].push_back(order > 0 ? b : a);
       ++graph.waits_for[order > 0 ? b : a];
@@ -72,6 +112,9 @@ Graph build_graph(const std::vector<Solid>& solids, const Camera& camera) {
 // Points whose hull, seen from above, is the solid's outline.
 std::vector<Vec> outline_points(const Solid& solid) {
   std::vector<Vec> points;
+  for (const Facet& facet : solid.facets)
+    points.insert(points.end(), facet.corners.begin(), facet.corners.end());
+  if (!solid.facets.empty()) return points;
   if (solid.kind == ShapeKind::box) {
     for (int corner = 0; corner < 8; ++corner) {
       const auto sign = [&](int bit) { return (corner >> bit & 1) != 0 ? 1.0 : -1.0; };
@@ -120,6 +163,14 @@ std::vector<Vec> outline_from_above(const Solid& solid) {
 }
 
 double Solid::reach(const Vec& direction) const {
+  if (!facets.empty()) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Facet& facet : facets) {
+      for (const Vec& corner : facet.corners)
+        most = std::max(most, dot(direction, corner));
+    }
+    return most;
+  }
   const double at_center = dot(direction, center);
   const double norm = length(direction);
   switch (kind) {
@@ -146,8 +197,8 @@ Frame frame_of(const Solid& solid, const Camera& camera) {
   const auto extent = [&](const Vec& direction) {
     return solid.reach(direction) - dot(direction, solid.center);
   };
-  const double width = extent(camera.right()), height = extent(camera.up());
-  return {middle.right - width, middle.right + width, middle.up - height, middle.up + height};
+  return {middle.right - extent(camera.right() * -1), middle.right + extent(camera.right()),
+          middle.up - extent(camera.up() * -1), middle.up + extent(camera.up())};
 }
 
 std::vector<std::size_t> paint_order(const std::vector<Solid>& solids, const Camera& camera) {

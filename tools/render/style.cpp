@@ -58,6 +58,9 @@ Look plain_look(BodyHandle handle, const BodyView& view) {
       {{214, 140, 80}, {96, 150, 200}, {120, 176, 110}, {200, 110, 120}, {160, 130, 190}}};
   const int variation = static_cast<int>(handle.index * 37 % 31) - 15;
   if (view.is_trigger) return {{255, 210, 60}, true, {}};
+  const bool triangles =
+      view.shape.kind == ShapeKind::mesh || view.shape.kind == ShapeKind::height_field;
+  if (triangles && view.motion == MotionType::static_body) return {{188, 164, 128}, true, {}};
   if (view.motion == MotionType::static_body) return {{158, 166, 152}, true, {}};
   if (view.motion == MotionType::kinematic) return {{150, 110, 180}, true, {}};
   return {shade(k_colors[handle.index % k_colors.size()], variation), true, {}};

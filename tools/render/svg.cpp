@@ -8,12 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <lockstone/literals.h>
+#include "tools/render/item.h"
 
 namespace lockstone::render {
 namespace {
-
-using namespace lockstone::literals;
 
 constexpr double k_pitch = 0.52;  // radians above the horizon
 constexpr double k_yaw = 0.5;
@@ -100,78 +98,74 @@ void draw_stripe(Canvas& canvas, const Solid& solid, const Vec& u, const Vec& v)
   }
 }
 
-void draw_solid(Canvas& canvas, const Solid& solid) {
-  if (solid.kind == ShapeKind::box) return draw_box(canvas, solid);
+// A flat piece is seen from behind too, as glass: what lies in a bowl should not be hidden.
+void draw_facet(Canvas& canvas, const Solid& solid, const Facet& facet) {
+  const bool front = dot(facet.normal, canvas.camera.toward()) > 0;
+  if (!front && !solid.is_flat()) return;
+  std::string points;
+  for (const Vec& corner : facet.corners)
+    points += canvas.point(corner) + ' ';
+  const double brightness = front ? brightness_of(facet.normal) : 0.6;
+  canvas.out += fmt::format("<polygon points='{}' fill='{}' stroke='{}' stroke-width='{}'{}/>\n",
+                            points, css(solid.color, brightness),
+                            css(solid.color, solid.is_flat() ? brightness * 0.86 : 0.55),
+                            solid.is_flat() ? 0.5 : 1.0,
+                            !front         ? " opacity='.2'"
+                            : !solid.solid ? " opacity='.35'"
+                                           : "");
+}
+
+// Lines of a half-space's piece, a metre or more from each other.
+void draw_grid(Canvas& canvas, const Solid& solid) {
+  constexpr double k_most_lines = 40;
+  const double half = solid.size.x, step = std::ceil(2 * half / k_most_lines);
+  const std::string color = css(solid.color, 0.8);
+  const auto line = [&](const Vec& from, const Vec& to) {
+    const Spot a = canvas.camera.project(from), b = canvas.camera.project(to);
+    canvas.out += fmt::format(
+        "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}' stroke-width='.7'/>\n",
+        canvas.x(a.right), canvas.y(a.up), canvas.x(b.right), canvas.y(b.up), color);
+  };
+  for (double at = -half; at <= half; at += step) {
+    for (const auto& [along, across] :
+         {std::pair(solid.axes[0], solid.axes[2]), std::pair(solid.axes[2], solid.axes[0])}) {
+      const Vec middle = solid.center + across * at;
+      line(middle - along * half, middle + along * half);
+    }
+  }
+}
+
+void draw_ball_or_capsule(Canvas& canvas, const Solid& solid) {
   const bool capsule = solid.kind == ShapeKind::capsule;
   const Vec half = capsule ? solid.axes[1] * solid.size.y : Vec{};
+  if (!solid.solid) canvas.out += "<g opacity='.35'>\n";
   draw_round(canvas, solid, solid.center - half, solid.center + half);
-  if (capsule) return;
-  draw_stripe(canvas, solid, solid.axes[0], solid.axes[1]);
-  draw_stripe(canvas, solid, solid.axes[1], solid.axes[2]);
+  if (!capsule) {
+    draw_stripe(canvas, solid, solid.axes[0], solid.axes[1]);
+    draw_stripe(canvas, solid, solid.axes[1], solid.axes[2]);
+  }
+  if (!solid.solid) canvas.out += "</g>\n";
 }
 
+void draw_solid(Canvas& canvas, const Solid& solid) {
+  if (solid.kind == ShapeKind::box) return draw_box(canvas, solid);
+  const bool plane = solid.kind == ShapeKind::half_space;
+  for (const Facet& facet : solid.facets) {
+    if (!plane || solid.solid) draw_facet(canvas, solid, facet);  // a trigger is a grid alone
+  }
+  if (plane) draw_grid(canvas, solid);
+  if (solid.facets.empty()) draw_ball_or_capsule(canvas, solid);
+}
 void draw_shadow(Canvas& canvas, const Solid& solid) {
+  const Vec& at = solid.shadow_at;
+  const Vec slope = solid.shadow_normal * (1 / solid.shadow_normal.y);
   std::string points;
   for (const Vec& corner : outline_from_above(solid)) {
-    points += canvas.point({corner.x, solid.shadow_height, corner.z}) + ' ';
+    const double y = at.y - (corner.x - at.x) * slope.x - (corner.z - at.z) * slope.z;
+    points += canvas.point({corner.x, y, corner.z}) + ' ';
   }
-  const double height = solid.center.y - solid.shadow_height;
   canvas.out += fmt::format("<polygon points='{}' fill='#101418' opacity='{:.2f}'/>\n", points,
-                            0.34 / (1 + 0.15 * std::max(0.0, height)));
-}
-
-/// A solid and what stands on it.
-struct Item {
-  Solid solid;
-  std::vector<std::size_t> shadows;  // solids that cast one onto this
-  std::string label;
-  BodyHandle body{};
-  bool moves = false;
-};
-
-Item make_item(const World& world, BodyHandle body, const Style& style) {
-  const BodyView view = world.body(body);
-  const Look look = style(body, view);
-  const Mat3 axes = to_matrix(view.orientation);
-  Item item;
-  item.body = body;
-  item.label = look.label;
-  item.moves = view.motion != MotionType::static_body;
-  item.solid.kind = view.shape.kind;
-  item.solid.center = to_vec(view.position);
-  item.solid.axes = {to_vec(axes.x), to_vec(axes.y), to_vec(axes.z)};
-  item.solid.size = to_vec(view.shape.size);
-  item.solid.color = look.color;
-  item.solid.solid = !view.is_trigger;
-  return item;
-}
-
-std::vector<Item> collect(const World& world, const Style& style) {
-  std::vector<Item> items;
-  for (std::uint32_t index = 0; index < world.body_limit(); ++index) {
-    const BodyHandle body = world.body_at(index);
-    if (body.is_null() || !style(body, world.body(body)).visible) continue;
-    items.push_back(make_item(world, body, style));
-  }
-  return items;
-}
-
-// Each moving body throws a shadow onto whatever a ray straight down finds first.
-void cast_shadows(const World& world, std::vector<Item>& items) {
-  std::vector<std::size_t> place(world.body_limit(), items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-    place[items[i].body.index] = i;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (!items[i].moves || !items[i].solid.solid) continue;
-    const Vec3<Length> down{{}, -40_m, {}};
-    const RayHit hit =
-        world.cast_ray(world.position(items[i].body), down, {.ignore = items[i].body});
-    if (hit.body.is_null() || place[hit.body.index] == items.size()) continue;
-    if (hit.normal.y.raw == 0) continue;  // the ray began inside something
-    items[i].solid.shadow = true;
-    items[i].solid.shadow_height = testing::to_double(hit.point.y) + 0.01;
-    items[place[hit.body.index]].shadows.push_back(i);
-  }
+                            0.34 / (1 + 0.15 * std::max(0.0, solid.center.y - at.y)));
 }
 
 Frame frame_of_those(const std::vector<Item>& items, const Camera& camera, const auto& wanted) {
@@ -202,6 +196,7 @@ Frame frame_all(const std::vector<Item>& items, const Camera& camera) {
   const double vast = k_vast * std::max(frame.right - frame.left, frame.high - frame.low);
   frame.include(frame_of_those(items, camera, [&](const Item& item) {
     const Frame own = frame_of(item.solid, camera);
+    if (item.solid.kind == ShapeKind::half_space) return false;
     return moves(item) || (!item.moves && own.right - own.left < vast);
   }));
   return frame;
@@ -222,6 +217,7 @@ void draw_items(Canvas& canvas, const std::vector<Item>& items) {
   for (const Item& item : items)
     solids.push_back(item.solid);
   for (const std::size_t i : paint_order(solids, canvas.camera)) {
+    if (items[i].over_own_shadow) draw_shadow(canvas, solids[i]);
     draw_solid(canvas, solids[i]);
     for (const std::size_t caster : items[i].shadows)
       draw_shadow(canvas, solids[caster]);
@@ -252,7 +248,7 @@ std::string open_svg(int width, int height) {
 }  // namespace
 
 std::string draw(const World& world, const Picture& picture) {
-  std::vector<Item> items = collect(world, picture.style);
+  std::vector<Item> items = collect_items(world, picture.style);
   cast_shadows(world, items);
   const Vec target = items.empty() ? Vec{} : items.front().solid.center;
   const Camera camera(target, k_yaw, k_pitch);

@@ -4,6 +4,17 @@ namespace lockstone::scenes {
 
 using namespace lockstone::literals;
 
+namespace {
+
+void count_in(World& world, BodyHandle body, EventKind kind) {
+  const BodyView view = world.body(body);
+  if (!view.is_trigger) return;
+  const std::uint64_t one = kind == EventKind::trigger_enter ? 1 : std::uint64_t{1} << 32;
+  order(world, SetUserData{body, view.user_data + one});
+}
+
+}  // namespace
+
 WorldDef small_world() {
   WorldDef def;
   def.body_capacity = 256;
@@ -23,12 +34,14 @@ void order(World& world, const Command& command) {
   LKS_CHECK(status == Status::ok);
 }
 
-BodyDef fixed_box(const Vec3<Position>& position, const Vec3<Length>& half_extents) {
-  BodyDef def;
+BodyDef fixed(const Shape& shape, const Vec3<Position>& position) {
+  BodyDef def = loose(shape, position);
   def.motion = MotionType::static_body;
-  def.shape = Shape::box(half_extents.x, half_extents.y, half_extents.z);
-  def.position = position;
   return def;
+}
+
+BodyDef fixed_box(const Vec3<Position>& position, const Vec3<Length>& half_extents) {
+  return fixed(Shape::box(half_extents.x, half_extents.y, half_extents.z), position);
 }
 
 BodyDef loose(const Shape& shape, const Vec3<Position>& position) {
@@ -36,6 +49,14 @@ BodyDef loose(const Shape& shape, const Vec3<Position>& position) {
   def.shape = shape;
   def.position = position;
   return def;
+}
+
+void count_in_triggers(World& world) {
+  for (const ContactEvent& event : world.events()) {
+    if (event.kind != EventKind::trigger_enter && event.kind != EventKind::trigger_exit) continue;
+    count_in(world, event.a, event.kind);
+    count_in(world, event.b, event.kind);
+  }
 }
 
 void add_ground(World& world, Length half_width) {

@@ -30,6 +30,13 @@ void order(World& world, const Command& command);
 [[nodiscard]] BodyDef fixed_box(const Vec3<Position>& position, const Vec3<Length>& half_extents);
 [[nodiscard]] BodyDef loose(const Shape& shape, const Vec3<Position>& position);
 
+/// A static body of any shape.
+[[nodiscard]] BodyDef fixed(const Shape& shape, const Vec3<Position>& position);
+
+/// For `Scene::observe`: a trigger counts in its user data, entries in the low half, exits in the
+/// high half.
+void count_in_triggers(World& world);
+
 /// A static box whose top is the plane y = 0, half as wide as given.
 void add_ground(World& world, Length half_width);
 
@@ -45,5 +52,9 @@ extern const Scene k_stack, k_pyramid, k_far, k_pile;                   // heaps
 extern const Scene k_rolling, k_capsule, k_bounce, k_friction, k_spin;  // motions.cpp
 extern const Scene k_kinematic, k_trigger, k_spawn;                     // driven.cpp
 extern const Scene k_commands;                                          // all_commands.cpp
+extern const Scene k_hulls, k_compounds;                                // convex.cpp
+extern const Scene k_terrain, k_mesh;                                   // surfaces.cpp
+extern const Scene k_bullets;                                           // bullets.cpp
+extern const Scene k_layers;                                            // layers.cpp
 
 }  // namespace lockstone::scenes

@@ -59,22 +59,6 @@ void build_trigger(World& world, std::uint64_t) {
   }
 }
 
-// A zone counts in its user data: entries in the low half, exits in the high half.
-void count_in_zone(World& world, BodyHandle body, EventKind kind) {
-  const BodyView view = world.body(body);
-  if (!view.is_trigger) return;
-  const std::uint64_t one = kind == EventKind::trigger_enter ? 1 : std::uint64_t{1} << 32;
-  order(world, SetUserData{body, view.user_data + one});
-}
-
-void observe_trigger(World& world) {
-  for (const ContactEvent& event : world.events()) {
-    if (event.kind != EventKind::trigger_enter && event.kind != EventKind::trigger_exit) continue;
-    count_in_zone(world, event.a, event.kind);
-    count_in_zone(world, event.b, event.kind);
-  }
-}
-
 void build_spawn(World& world, std::uint64_t) {
   add_ground(world, 8_m);
 }
@@ -128,7 +112,7 @@ constinit const Scene k_trigger{"trigger",
                                 small_world,
                                 build_trigger,
                                 nullptr,
-                                observe_trigger};
+                                count_in_triggers};
 constinit const Scene k_spawn{"spawn",     "bodies appear, vanish and jump at random",
                               300,         small_world,
                               build_spawn, drive_spawn};

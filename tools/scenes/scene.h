@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <lockstone/world.h>
 
@@ -25,6 +26,10 @@ struct Scene {
 
   /// After a step, while its events can be read; may be null.
   void (*observe)(World& world) = nullptr;
+
+  /// What bodies of the scene are made of besides plain shapes; null for nothing. Assets are named
+  /// by content, so `build` makes the same list again to learn their names.
+  std::vector<AssetPtr> (*assets)(std::uint64_t seed) = nullptr;
 };
 
 /// All scenes on a bare world, in the order in which they are listed. The arena, which has players,

@@ -10,7 +10,9 @@ constexpr std::size_t k_name_bytes = k_config_bytes - 14;
 World make_world(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase) {
   WorldDef def = scene.define();
   def.broad_phase = broad_phase;
-  Result<World> world = World::create(def);
+  auto assets = std::make_shared<const AssetSet>(scene.assets == nullptr ? std::vector<AssetPtr>{}
+                                                                         : scene.assets(seed));
+  Result<World> world = World::create(def, std::move(assets));
   LKS_CHECK(world.ok());
   scene.build(world.value(), seed);
   return std::move(world).value();
@@ -32,7 +34,8 @@ std::array<std::byte, k_config_bytes> encode_config(std::string_view name, std::
 SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase)
     : scene_(scene), seed_(seed), world_(make_world(scene, seed, broad_phase)) {
   info_.abi = k_simulation_abi;
-  info_.config_hash = hash64(encode_config(scene.name, seed), config_hash(world_.def()));
+  info_.config_hash =
+      hash64(encode_config(scene.name, seed), config_hash(world_.def(), world_.assets()->hash()));
   info_.scene_hash = hash();
   info_.canary = canary_hash();
   info_.tick_rate = world_.def().tick_rate;
