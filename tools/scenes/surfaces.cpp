@@ -164,7 +164,7 @@ void build_mesh(World& world, std::uint64_t seed) {
 
 constinit const Scene k_terrain{.name = "terrain",
                                 .description = "40 bodies down a valley of ice and rock with holes",
-                                .golden_ticks = 360,
+                                .golden_ticks = 300,
                                 .define = small_world,
                                 .build = build_terrain,
                                 .assets = terrain_assets};
