@@ -109,8 +109,9 @@ std::span<FaceVertex> low_ones(std::span<FaceVertex> all) {
   if (all.size() <= 4) return all;
   const Fine deepest = std::ranges::min_element(all, {}, &FaceVertex::z)->z;
   const Fine limit = std::max(deepest, Fine{0}) + k_low;
-  const auto high = std::ranges::partition(all, [&](const FaceVertex& v) { return v.z <= limit; });
-  const std::size_t low = all.size() - high.size();
+  const auto high =
+      std::partition(all.begin(), all.end(), [&](const FaceVertex& v) { return v.z <= limit; });
+  const auto low = static_cast<std::size_t>(high - all.begin());
   return low < 3 ? all : all.first(low);
 }
 
