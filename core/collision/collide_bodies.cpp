@@ -15,10 +15,10 @@ struct BodyPair {
 };
 
 // From the origins of pieces to the centres of mass. Touching points stay one point for both.
-void shift_anchors(const BodyPair& pair, const Piece& piece_a, const Piece& piece_b,
-                   Manifold& manifold) {
-  const Vec3<Length> shift_a = saturated<Length>(piece_a.origin - pair.a.centre);
-  const Vec3<Length> shift_b = saturated<Length>(piece_b.origin - pair.b.centre);
+void shift_anchors(const BodyPair& pair, const Vec3<Position>& origin_a,
+                   const Vec3<Position>& origin_b, Manifold& manifold) {
+  const Vec3<Length> shift_a = saturated<Length>(origin_a - pair.a.centre);
+  const Vec3<Length> shift_b = saturated<Length>(origin_b - pair.b.centre);
   if (shift_a == Vec3<Length>{} && shift_b == Vec3<Length>{}) return;
   const Vec3<Length> between = saturated<Length>(pair.b.centre - pair.a.centre);
   for (int i = 0; i < manifold.count; ++i) {
@@ -35,8 +35,23 @@ Manifold collide_pieces(const BodyPair& pair, const Piece& a, const Piece& b) {
 void add_pieces(const BodyPair& pair, const Piece& a, const Piece& b, PartContacts& out) {
   Manifold manifold = collide_pieces(pair, a, b);
   if (manifold.count == 0) return;
-  shift_anchors(pair, a, b, manifold);
+  shift_anchors(pair, a.origin, b.origin, manifold);
   out.add({a.part, b.part, a.surface, b.surface, manifold});
+}
+
+PosedShape posed(const PlacedShape& single) {
+  const Asset* asset = single.asset;
+  return {single.shape, single.rotation, asset == nullptr ? nullptr : asset->polytope()};
+}
+
+// Two shapes without parts: the common case, without copies of them. `out` is empty.
+void add_singles(const BodyPair& pair, PartContacts& out) {
+  const Vec3<Length> offset = saturated<Length>(pair.b.origin - pair.a.origin);
+  PartContact& contact = out.contacts.front();
+  contact = {0, 0, nullptr, nullptr, collide(posed(pair.a), posed(pair.b), offset, pair.margin)};
+  if (contact.manifold.count == 0) return;
+  shift_anchors(pair, pair.a.origin, pair.b.origin, contact.manifold);
+  out.count = 1;
 }
 
 // One piece of A against the triangles of B. The kernels see the mesh as A.
@@ -54,7 +69,7 @@ void add_triangles(const BodyPair& pair, const Piece& a, TriangleScratch& scratc
     const geometry::MeshManifold& group = scratch.manifolds.manifolds[i];
     PartContact contact{a.part, group.key, a.surface, group.surface,
                         geometry::flipped(group.manifold)};
-    shift_anchors(pair, a, mesh, contact.manifold);
+    shift_anchors(pair, a.origin, mesh.origin, contact.manifold);
     out.add(contact);
   }
 }
@@ -88,24 +103,26 @@ void for_each_pair_of_pieces(const BodyPair& pair, F&& f) {
   });
 }
 
-}  // namespace
-
-void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
-                    TriangleScratch* scratch, PartContacts& out) {
-  out.clear();
-  const PlacedShape near_b = brought_near(b, a.centre);
-  const BodyPair pair{a, near_b, margin};
-  if (is_single(a) && is_single(b)) {
-    add_pieces(pair, single_piece(a), single_piece(near_b), out);
-    return;
-  }
-  if (b.asset != nullptr && b.asset->mesh_kernels() != nullptr) {
+// As `collide_bodies`, with B brought near.
+void collide_near(const BodyPair& pair, TriangleScratch* scratch, PartContacts& out) {
+  if (is_single(pair.a) && is_single(pair.b)) return add_singles(pair, out);
+  if (pair.b.asset != nullptr && pair.b.asset->mesh_kernels() != nullptr) {
     LKS_CHECK(scratch != nullptr);
     for_each_piece_of_a(pair, [&](const Piece& pa) { add_triangles(pair, pa, *scratch, out); });
     return;
   }
   for_each_pair_of_pieces(pair,
                           [&](const Piece& pa, const Piece& pb) { add_pieces(pair, pa, pb, out); });
+}
+
+}  // namespace
+
+void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
+                    TriangleScratch* scratch, PartContacts& out) {
+  out.clear();
+  if (b.shape.kind != ShapeKind::half_space) return collide_near({a, b, margin}, scratch, out);
+  const PlacedShape near_b = brought_near(b, a.centre);
+  collide_near({a, near_b, margin}, scratch, out);
 }
 
 bool bodies_overlap(const PlacedShape& a, const PlacedShape& b) {

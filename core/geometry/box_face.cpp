@@ -1,5 +1,7 @@
 #include "core/geometry/box_face.h"
 
+#include <utility>
+
 #include "core/geometry/contact_point.h"
 #include "core/geometry/cut.h"
 #include "core/geometry/normals.h"
@@ -11,13 +13,14 @@ namespace {
 /// A polygon vertex with the label of the edge that leaves it: 0 … 3 of the incident face,
 /// 4 … 7 the sides +x, −x, +y, −y of the reference face.
 struct ClipVertex {
-  std::array<Fine, 3> at{};
-  std::uint32_t edge = 0;
+  // No initialisers: a polygon holds eight, and mostly uses four.
+  std::array<Fine, 3> at;
+  std::uint32_t edge;
 };
 
 struct ClipPolygon {
-  std::array<ClipVertex, 8> vertices{};
-  int count = 0;
+  std::array<ClipVertex, 8> vertices;
+  int count;
 
   void add(const ClipVertex& v) {
     LKS_ASSERT(count < 8);
@@ -83,24 +86,25 @@ IncidentFace incident_face(const FaceFrame& frame) {
   return result;
 }
 
+/// Half an edge of the incident box along one of its axes, in the frame.
 RawVec half_edge(const FaceFrame& frame, int axis) {
-  return along(frame.axes[static_cast<std::size_t>(axis)], frame.incident_half[axis]);
+  const std::array<std::int64_t, 3> edge =
+      in_frame(frame, along(frame.axes[static_cast<std::size_t>(axis)], frame.incident_half[axis]));
+  return {edge[0], edge[1], edge[2]};
 }
 
-ClipPolygon incident_polygon(const FaceFrame& frame, const IncidentFace& face) {
+void incident_polygon(const FaceFrame& frame, const IncidentFace& face, ClipPolygon& polygon) {
+  const std::array<std::int64_t, 3> centre = in_frame(frame, frame.centre);
+  const auto half = fine(frame.reference.shape.size[frame.face.axis]);
+  const RawVec above{centre[0], centre[1], raw::subtract(centre[2], half)};
   const RawVec out = half_edge(frame, face.axis);
   const RawVec u = half_edge(frame, (face.axis + 1) % 3);
   const RawVec v = half_edge(frame, (face.axis + 2) % 3);
-  const RawVec middle = face.sign < 0 ? frame.centre - out : frame.centre + out;
+  const RawVec middle = face.sign < 0 ? above - out : above + out;
   const RawVec corners[4] = {middle + u + v, middle - u + v, middle - u - v, middle + u - v};
-  ClipPolygon polygon;
-  const auto half = fine(frame.reference.shape.size[frame.face.axis]);
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    ClipVertex vertex{in_frame(frame, corners[i]), i};
-    vertex.at[2] = raw::subtract(vertex.at[2], half);
-    polygon.add(vertex);
-  }
-  return polygon;
+  polygon.count = 0;
+  for (std::uint32_t i = 0; i < 4; ++i)
+    polygon.add({{corners[i].x, corners[i].y, corners[i].z}, i});
 }
 
 /// Moves a vertex that is just outside onto the side, within the plane of the incident face. Not
@@ -128,26 +132,35 @@ ClipVertex intersection(const ClipVertex& inside, Fine inside_excess, const Clip
   return result;
 }
 
-/// Snaps the vertices of a polygon that reaches inside; one wholly outside stays outside.
-void snap_all(ClipPolygon& polygon, const Side& side, const IncidentFace& face) {
-  bool reaches_inside = false;
-  for (int i = 0; i < polygon.count; ++i) {
-    reaches_inside = reaches_inside || side.excess(polygon[i]) < 0;
-  }
-  if (!reaches_inside) return;
-  for (int i = 0; i < polygon.count; ++i) {
-    snap(polygon.vertices[static_cast<std::size_t>(i)], side, face);
-  }
-}
+/// How far the vertices of a polygon lie beyond a side.
+struct Excesses {
+  std::array<Fine, 8> of;
+  Fine least;
+  Fine most;
 
-ClipPolygon clip(ClipPolygon polygon, const Side& side, const IncidentFace& face) {
-  snap_all(polygon, side, face);
-  ClipPolygon result;
+  Excesses(const ClipPolygon& polygon, const Side& side) {
+    least = of[0] = side.excess(polygon[0]);
+    most = least;
+    for (int i = 1; i < polygon.count; ++i) {
+      const Fine excess = side.excess(polygon[i]);
+      of[static_cast<std::size_t>(i)] = excess;
+      least = std::min(least, excess);
+      most = std::max(most, excess);
+    }
+  }
+  [[nodiscard]] Fine operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
+};
+
+/// The part of the polygon within a side that some of its vertices lie beyond.
+void cut(const ClipPolygon& polygon, const Excesses& excesses, const Side& side,
+         ClipPolygon& result) {
+  result.count = 0;
   for (int i = 0; i < polygon.count; ++i) {
+    const int next = i + 1 < polygon.count ? i + 1 : 0;
     const ClipVertex& from = polygon[i];
-    const ClipVertex& to = polygon[i + 1 < polygon.count ? i + 1 : 0];
-    const Fine from_excess = side.excess(from);
-    const Fine to_excess = side.excess(to);
+    const ClipVertex& to = polygon[next];
+    const Fine from_excess = excesses[i];
+    const Fine to_excess = excesses[next];
     if (from_excess <= 0) result.add(from);
     if (from_excess <= 0 && to_excess > 0 && from_excess != 0) {
       result.add(intersection(from, from_excess, to, to_excess, side));
@@ -160,8 +173,46 @@ ClipPolygon clip(ClipPolygon polygon, const Side& side, const IncidentFace& face
       result.vertices[static_cast<std::size_t>(result.count - 1)].edge = from.edge;
     }
   }
-  return result;
 }
+
+/// A polygon being clipped, and room for its next form.
+struct Clipping {
+  const IncidentFace& face;
+  ClipPolygon buffers[2];
+  ClipPolygon* polygon = &buffers[0];
+  ClipPolygon* spare = &buffers[1];
+
+  explicit Clipping(const IncidentFace& incident) : face(incident) {}
+  Clipping(const Clipping&) = delete;
+  Clipping& operator=(const Clipping&) = delete;
+
+  /// Snaps the vertices of a polygon that reaches inside; one wholly outside stays outside. Then
+  /// cuts off what is beyond the side.
+  void clip(const Side& side) {
+    if (polygon->count == 0) return;
+    Excesses excesses(*polygon, side);
+    if (excesses.least < 0) {
+      for (int i = 0; i < polygon->count; ++i)
+        snap(polygon->vertices[static_cast<std::size_t>(i)], side, face);
+      excesses = Excesses(*polygon, side);
+    }
+    if (excesses.most <= 0) return;
+    cut(*polygon, excesses, side, *spare);
+    std::swap(polygon, spare);
+  }
+
+  /// Both sides across one axis; one that no vertex is beyond has nothing to do. The first cut
+  /// leaves the other end as it is, or nothing.
+  void clip_across(std::size_t axis, Fine half, std::uint32_t label) {
+    Fine least = 0, most = 0;
+    for (int i = 0; i < polygon->count; ++i) {
+      least = std::min(least, (*polygon)[i].at[axis]);
+      most = std::max(most, (*polygon)[i].at[axis]);
+    }
+    if (most > half) clip({axis, 1, half, label});
+    if (least < -half) clip({axis, -1, half, label + 1});
+  }
+};
 
 /// Names the vertex by the incident face and the polygon edges that meet in it.
 std::uint32_t feature_of(const FaceFrame& frame, const IncidentFace& face, std::uint32_t edge_in,
@@ -169,16 +220,6 @@ std::uint32_t feature_of(const FaceFrame& frame, const IncidentFace& face, std::
   const auto reference =
       static_cast<std::uint32_t>(frame.face.axis * 2 + (frame.face.sign < 0 ? 1 : 0));
   return frame.feature_bits | reference << 9 | face.index() << 6 | edge_in << 3 | edge_out;
-}
-
-/// Local coordinates in the reference's axes of a point at this height above its face.
-RawVec from_frame(const FaceFrame& frame, const FaceVertex& v, Fine height) {
-  RawVec result;
-  result[tangent_x(frame)] = v.x;
-  result[tangent_y(frame)] = v.y;
-  result[frame.face.axis] =
-      frame.face.sign * (fine(frame.reference.shape.size[frame.face.axis]) + height);
-  return result;
 }
 
 }  // namespace
@@ -206,13 +247,11 @@ FaceFrame frame_on_b(const BoxPair& pair, const FaceAxis& face, const Vec3<Lengt
 
 FacePolygon clip_incident_face(const FaceFrame& frame) {
   const IncidentFace face = incident_face(frame);
-  const Fine half_x = fine(frame.reference.shape.size[tangent_x(frame)]);
-  const Fine half_y = fine(frame.reference.shape.size[tangent_y(frame)]);
-  ClipPolygon polygon = incident_polygon(frame, face);
-  for (const Side& side : {Side{0, 1, half_x, 4}, Side{0, -1, half_x, 5}, Side{1, 1, half_y, 6},
-                           Side{1, -1, half_y, 7}}) {
-    polygon = clip(polygon, side, face);
-  }
+  Clipping clipping(face);
+  incident_polygon(frame, face, *clipping.polygon);
+  clipping.clip_across(0, fine(frame.reference.shape.size[tangent_x(frame)]), 4);
+  clipping.clip_across(1, fine(frame.reference.shape.size[tangent_y(frame)]), 6);
+  const ClipPolygon& polygon = *clipping.polygon;
   FacePolygon result;
   result.count = polygon.count;
   for (int i = 0; i < polygon.count; ++i) {
@@ -231,11 +270,16 @@ Manifold face_manifold(const FaceFrame& frame) {
   Manifold manifold;
   if (polygon.count == 0) return manifold;
   const Mat3& rotation = frame.reference.rotation;
-  manifold.normal = unit_axis(signed_axis(rotation.column(frame.face.axis), frame.face.sign));
+  const Vec3<Unit>& across_x = rotation.column(tangent_x(frame));
+  const Vec3<Unit>& across_y = rotation.column(tangent_y(frame));
+  const Vec3<Unit> up = signed_axis(rotation.column(frame.face.axis), frame.face.sign);
+  const Fine half = fine(frame.reference.shape.size[frame.face.axis]);
+  const RawVec to_face = along(up, half);
+  manifold.normal = unit_axis(up);
   for (int i = 0; i < polygon.count; ++i) {
     const FaceVertex& v = polygon.vertices[static_cast<std::size_t>(i)];
-    const Witnesses witnesses{rotate(rotation, from_frame(frame, v, 0)),
-                              rotate(rotation, from_frame(frame, v, v.z))};
+    const RawVec beside = along(across_x, v.x) + along(across_y, v.y);
+    const Witnesses witnesses{beside + to_face, beside + along(up, half + v.z)};
     add_point(manifold, witnesses, frame.offset, v.z, frame.margin, v.feature);
   }
   return manifold;

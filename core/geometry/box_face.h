@@ -28,8 +28,8 @@ struct FaceFrame {
                                    const Vec3<Length>& back);
 
 struct FacePolygon {
-  std::array<FaceVertex, 8> vertices{};
-  int count = 0;
+  std::array<FaceVertex, 8> vertices;  // no initialiser: little of it is used
+  int count;
 
   [[nodiscard]] std::span<FaceVertex> used() {
     return std::span(vertices).first(static_cast<std::size_t>(count));

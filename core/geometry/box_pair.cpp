@@ -16,21 +16,62 @@ Vec3<Unit> row(const BoxPair& pair, int i) {
   return {pair.b_in_a[0][i], pair.b_in_a[1][i], pair.b_in_a[2][i]};
 }
 
-/// An upper bound, up to rounding below 2^-18 m, of the separation on a_i × b_j times the length of
-/// that product. The centre enters with 20 fraction bits.
-Fine rough_edge_separation(const BoxPair& pair, const RawVec& centre, int i, int j) {
-  const int i1 = (i + 1) % 3;
-  const int i2 = (i + 2) % 3;
-  const Vec3<Unit>& b = pair.b_in_a[static_cast<std::size_t>(j)];
-  const Vec3<Unit>& b1 = pair.b_in_a[static_cast<std::size_t>((j + 1) % 3)];
-  const Vec3<Unit>& b2 = pair.b_in_a[static_cast<std::size_t>((j + 2) % 3)];
-  const Vec3<Length>& half_a = pair.a.shape.size;
-  const Vec3<Length>& half_b = pair.b.shape.size;
-  const Fine apart = magnitude_of(centre[i2] * b[i1].raw - centre[i1] * b[i2].raw);
-  const Fine reach_a = (half_a[i1] * abs(b[i2]) + half_a[i2] * abs(b[i1])).raw;
-  const Fine reach_b = (half_b[(j + 1) % 3] * abs(b2[i]) + half_b[(j + 2) % 3] * abs(b1[i])).raw;
-  return apart - reach_a - reach_b;
-}
+using Lanes = std::array<std::int64_t, 3>;
+
+/// What the bounds of the nine edge axes share.
+struct EdgeBounds {
+  Lanes centre;                  ///< of B in A's axes, with 20 fraction bits
+  Lanes half_a;                  ///< 20 fraction bits
+  Lanes half_b;                  ///< 20 fraction bits
+  std::array<Lanes, 3> b;        ///< B's axes in A's axes
+  std::array<Lanes, 3> b_sizes;  ///< their magnitudes
+  Fine slack;                    ///< see `cannot_exceed`
+
+  explicit EdgeBounds(const BoxPair& pair)
+      : centre{raw::round_shift(pair.centre_in_a.x, k_fine_per_length),
+               raw::round_shift(pair.centre_in_a.y, k_fine_per_length),
+               raw::round_shift(pair.centre_in_a.z, k_fine_per_length)},
+        half_a{pair.a.shape.size.x.raw, pair.a.shape.size.y.raw, pair.a.shape.size.z.raw},
+        half_b{pair.b.shape.size.x.raw, pair.b.shape.size.y.raw, pair.b.shape.size.z.raw} {
+    std::int64_t sizes = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3<Unit>& axis = pair.b_in_a[j];
+      b[j] = {axis.x.raw, axis.y.raw, axis.z.raw};
+      b_sizes[j] = {magnitude_of(b[j][0]), magnitude_of(b[j][1]), magnitude_of(b[j][2])};
+      sizes += magnitude_of(centre[j]) + half_a[j] + half_b[j];
+    }
+    slack = sizes * (Fine{1} << (k_fine_per_length - k_slack_bits));
+  }
+
+  static constexpr int k_slack_bits = 23;
+
+  /// The separation on a_i × b_j times the length of that product, up to rounding below 2^-18 m.
+  [[nodiscard]] Fine rough_separation(std::size_t i, std::size_t j) const {
+    const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+    const Fine apart = magnitude_of(centre[i2] * b[j][i1] - centre[i1] * b[j][i2]);
+    const Fine reach_a = half_a[i1] * b_sizes[j][i2] + half_a[i2] * b_sizes[j][i1];
+    const Fine reach_b = half_b[j1] * b_sizes[j2][i] + half_b[j2] * b_sizes[j1][i];
+    return apart - reach_a - reach_b;
+  }
+
+  /// Whether the separation on a_i × b_j is certainly not above the threshold.
+  [[nodiscard]] bool cannot_exceed(Fine threshold, std::size_t i, std::size_t j) const {
+    constexpr Fine wide_slack = Fine{1} << (k_fine_bits - 18);
+    const Fine rough = rough_separation(i, j);
+    // Dividing by a length ≤ 1 moves a negative value down: below the threshold it stays there.
+    if (rough < -wide_slack && rough + wide_slack <= threshold) return true;
+    // Of nearly parallel edges the product's length is next to nothing, and so is this value: the
+    // threshold times the length must be held against it, or times more than the length where the
+    // threshold is negative. The rotations are orthonormal within 2^-26, the entries of b and the
+    // unit normal round by 2^-30; all these count times a size or the distance of the centres,
+    // together below 2^-23 of their sum. The centre rounds by 2^-21 m, which counts times a
+    // component of b: less than 2^-20 m times the width.
+    const std::int64_t width = b_sizes[j][(i + 1) % 3] + b_sizes[j][(i + 2) % 3];
+    const Fine limit = scaled(std::min(threshold, Fine{0}), static_cast<std::int32_t>(width));
+    return rough + slack + width < limit;
+  }
+};
 
 Vec3<Unit> along_columns(const Mat3& m, const Vec3<Unit>& v) {
   return rotate_inverse(m, v);
@@ -93,16 +134,12 @@ FaceAxis best_face_of_b(const BoxPair& pair) {
 }
 
 EdgeAxis best_edge(const BoxPair& pair, Fine threshold) {
-  constexpr Fine slack = Fine{1} << (k_fine_bits - 18);
-  const RawVec centre{raw::round_shift(pair.centre_in_a.x, k_fine_per_length),
-                      raw::round_shift(pair.centre_in_a.y, k_fine_per_length),
-                      raw::round_shift(pair.centre_in_a.z, k_fine_per_length)};
+  const EdgeBounds bounds(pair);
   EdgeAxis best;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      // Dividing by a length ≤ 1 moves a negative value down: below the threshold it stays there.
-      const Fine rough = rough_edge_separation(pair, centre, i, j);
-      if (rough < -slack && rough + slack <= threshold) continue;
+      if (bounds.cannot_exceed(threshold, static_cast<std::size_t>(i), static_cast<std::size_t>(j)))
+        continue;
       const EdgeAxis candidate = edge_axis(pair, i, j);
       if (!candidate.found || candidate.separation <= threshold) continue;
       best = candidate;

@@ -130,7 +130,8 @@ Selection select_four(std::span<const FaceVertex> polygon, int shift) {
 /// The lowest of repeated features first.
 void sort_by_feature(std::span<FaceVertex> polygon) {
   std::sort(polygon.begin(), polygon.end(), [](const FaceVertex& a, const FaceVertex& b) {
-    return std::tie(a.feature, a.z, a.x, a.y) < std::tie(b.feature, b.z, b.x, b.y);
+    if (a.feature != b.feature) return a.feature < b.feature;
+    return std::tie(a.z, a.x, a.y) < std::tie(b.z, b.x, b.y);
   });
 }
 

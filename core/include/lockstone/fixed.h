@@ -107,6 +107,17 @@ template <std::signed_integral T>
 /// 1 ≤ shift ≤ 62; the result must fit in int64, and |a · b| < 2^(62 + shift).
 [[nodiscard]] constexpr std::int64_t multiply_shift(std::int64_t a, std::int32_t b, int shift) {
   LKS_ASSERT(shift >= 1 && shift <= 62);
+  if (shift <= 31) {
+    // a = high · 2^shift + low, so the product is high · b + low · b · 2^-shift: |low · b| ≤ 2^62.
+    // The first term may pass the range by as much as the second brings it back.
+    const std::int64_t low = a & ((std::int64_t{1} << shift) - 1);
+    const std::int64_t half = std::int64_t{1} << (shift - 1);
+    const std::int64_t below_zero = (a ^ std::int64_t{b}) >> 63;  // −1 where the signs differ
+    const std::int64_t part = (low * b + half + below_zero) >> shift;
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a >> shift) *
+                                         static_cast<std::uint64_t>(std::int64_t{b}) +
+                                     static_cast<std::uint64_t>(part));
+  }
   // |a| = high · 2^31 + low; both partial products fit in 64 bits.
   const bool negative = (a < 0) != (b < 0);
   const std::uint64_t ua =
@@ -114,15 +125,8 @@ template <std::signed_integral T>
   const std::uint64_t ub =
       b < 0 ? 0 - static_cast<std::uint64_t>(b) : static_cast<std::uint64_t>(b);
   const std::uint64_t low = (ua & 0x7fffffffU) * ub;
-  const std::uint64_t high = (ua >> 31) * ub + (low >> 31);  // product = high · 2^31 + rest
-  const std::uint64_t rest = low & 0x7fffffffU;
-  std::uint64_t magnitude = 0;
-  if (shift > 31) {
-    magnitude = (high + (std::uint64_t{1} << (shift - 32))) >> (shift - 31);
-  } else {
-    const std::uint64_t rounded = rest + (std::uint64_t{1} << (shift - 1));
-    magnitude = (high << (31 - shift)) + (rounded >> shift);
-  }
+  const std::uint64_t high = (ua >> 31) * ub + (low >> 31);  // ⌊product · 2^-31⌋
+  const std::uint64_t magnitude = (high + (std::uint64_t{1} << (shift - 32))) >> (shift - 31);
   const auto result = static_cast<std::int64_t>(magnitude);
   return negative ? -result : result;
 }
