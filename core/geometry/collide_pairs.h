@@ -5,7 +5,7 @@
 
 namespace lockstone::geometry {
 
-/// Concentric spheres get the normal +y.
+/// Of concentric spheres the smaller leaves upwards; of equal ones B.
 [[nodiscard]] Manifold collide_spheres(const PosedShape& a, const PosedShape& b,
                                        const Vec3<Length>& offset, Length margin);
 

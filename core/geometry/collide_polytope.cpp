@@ -134,15 +134,23 @@ Manifold collide_overlapping(const Meeting& meeting) {
   return touches(on_other) ? on_other : deepest_vertex(meeting);
 }
 
+/// Whether the manifold is where the polytopes are nearest, and pushes to the front of one-sided A:
+/// beside a rim several faces are as near, and one of them may lean back.
+bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine separation) {
+  if (!attains(manifold, separation)) return false;
+  const Vec3<Unit> n = rotate_inverse(meeting.pair.rotation_a, manifold.normal);
+  return meeting.toward_front.allows(-n);
+}
+
 /// Some axis separates: the first manifold that attains the distance is it. What is neither a face
 /// nor two crossing edges involves a vertex.
 Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
   const Fine separation = edge.found ? edge.separation : meeting.separation();
   if (!keeps(separation, meeting.pair.margin)) return {};
   const Manifold on_reference = reference_manifold(meeting);
-  if (attains(on_reference, separation)) return on_reference;
+  if (is_nearest(meeting, on_reference, separation)) return on_reference;
   const Manifold on_other = other_manifold(meeting);
-  if (attains(on_other, separation)) return on_other;
+  if (is_nearest(meeting, on_other, separation)) return on_other;
   if (edge.found) {
     const CrossedEdges crossed = edge_manifold(meeting.pair, edge);
     if (crossed.crossing) return crossed.manifold;
@@ -164,7 +172,7 @@ Manifold collide_meeting(Meeting& meeting) {
   };
   if (meeting.separation() > 0) {
     const Manifold on_reference = reference_manifold(meeting);
-    if (attains(on_reference, meeting.separation())) return on_reference;
+    if (is_nearest(meeting, on_reference, meeting.separation())) return on_reference;
     return collide_apart(meeting, edge_above(meeting.separation()));
   }
   if (pair.from_a.own.one_sided) forget_backward_faces(meeting);

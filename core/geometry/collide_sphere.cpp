@@ -65,8 +65,9 @@ Manifold sphere_inside_box(const PosedShape& box, const RawVec& centre, Length r
 Manifold collide_spheres(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                          Length margin) {
   const RawVec centre = fine(offset);
+  const int up = a.shape.size.x < b.shape.size.x ? -1 : 1;
   return round_contact({}, a.shape.size.x, centre, b.shape.size.x,
-                       gap_of(centre, k_concentric_normal), offset, margin);
+                       gap_of(centre, signed_axis(k_concentric_normal, up)), offset, margin);
 }
 
 Manifold collide_capsule_sphere(const PosedShape& capsule, const PosedShape& sphere,

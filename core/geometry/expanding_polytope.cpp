@@ -10,6 +10,9 @@ namespace {
 
 constexpr int k_distance_bits = 30;
 
+/// Distances of one plane, or of two that differ by less, are rounded apart by no more.
+constexpr std::uint64_t k_same_distance = 2;
+
 /// height / |normal| with k_distance_bits: relative error 2^-60 and half a last place. The height
 /// is normal · vertex, not negative, |vertex| ≤ 2^30.
 std::uint64_t plane_distance(const RawVec& normal, Int128 height) {
@@ -103,11 +106,7 @@ Simplex ExpandingPolytope::simplex_of_face(const ExpandingFace& face) const {
 Simplex ExpandingPolytope::foot_triangle(const ExpandingFace& face) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(face_count_); ++i) {
     const auto& [a, b, c] = faces_[i].vertices;
-    const RawVec& origin = point(face.vertices[0]);
-    const bool coplanar = is_zero(wide_dot(face.normal, point(a) - origin)) &&
-                          is_zero(wide_dot(face.normal, point(b) - origin)) &&
-                          is_zero(wide_dot(face.normal, point(c) - origin));
-    if (!coplanar) continue;
+    if (faces_[i].distance > face.distance + k_same_distance) continue;
     const TriangleWeights weights = weights_of(point(a), point(b), point(c));
     const bool outside =
         std::ranges::any_of(weights.numerators, [](Int128 w) { return w.negative(); });

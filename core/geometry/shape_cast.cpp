@@ -61,6 +61,30 @@ ShapeCastHit overlapping_hit(const CoreGap& gap, const GapQuery& query) {
   return hit;
 }
 
+/// Where B has come.
+struct Progress {
+  const RawVec& start;
+  const Vec3<Length>& way;
+  Fraction fraction;
+};
+
+/// How far apart the surfaces are, what of it is to be left, and what the whole way takes of it.
+struct Closing {
+  Fine apart;
+  Fine leave;
+  Fine nearer;
+};
+
+/// The step to take, with the query done there; 0 when there is none. Flush faces may overlap on
+/// the lattice where less is left than it rounds by: then twice as much is left, and again.
+Fraction step_to_apart(GapQuery& query, const Progress& at, const Closing& closing) {
+  for (Fine leave = closing.leave; leave < closing.apart; leave *= 2) {
+    const Fraction step = quotient(closing.apart - leave, closing.nearer);
+    if (query.find(at.start + travelled(at.way, at.fraction + step))) return step;
+  }
+  return 0;
+}
+
 ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec& start,
                           const Vec3<Length>& way) {
   GapQuery query(a, b);
@@ -77,8 +101,9 @@ ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec
     if (advance > k_whole - fraction) return {};
     if (apart <= 2 * leave) break;
     const ShapeCastHit here = hit_at(fraction, query.gap(), query);
-    fraction += advance;
-    if (!query.find(start + travelled(way, fraction))) return here;
+    const Fraction taken = step_to_apart(query, {start, way, fraction}, {apart, leave, nearer});
+    if (taken == 0) return here;
+    fraction += taken;
   }
   return hit_at(fraction, query.gap(), query);
 }
