@@ -2,6 +2,7 @@
 
 namespace lockstone::tool {
 
+void add_bench_accuracy_command(CLI::App& bench, int& exit_code);
 void add_bench_numerics_command(CLI::App& bench, int& exit_code);
 void add_bench_queries_command(CLI::App& bench, int& exit_code);
 void add_bench_rows_command(CLI::App& bench, int& exit_code);
@@ -10,6 +11,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* bench = app.add_subcommand("bench", "Measure the core and its parts");
   bench->require_subcommand(1);
+  add_bench_accuracy_command(*bench, exit_code);
   add_bench_numerics_command(*bench, exit_code);
   add_bench_queries_command(*bench, exit_code);
   add_bench_rows_command(*bench, exit_code);

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   lockstone::tool::add_serve_command(app, exit_code);
   lockstone::tool::add_join_command(app, exit_code);
   lockstone::tool::add_demo_command(app, exit_code);
+  lockstone::tool::add_fuzz_pairs_command(app, exit_code);
   lockstone::tool::add_bench_command(app, exit_code);
   lockstone::tool::add_asset_command(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))

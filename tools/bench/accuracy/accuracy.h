@@ -1,0 +1,50 @@
+// Rows of accuracy: what is measured, against what, and how far off at worst.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lockstone::bench {
+
+struct AccuracyOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t tries = 0;  ///< 0: what the row asks for
+  int threads = 1;
+};
+
+/// One line of a row.
+struct AccuracyResult {
+  std::string name;
+  std::string unit;
+  std::uint64_t tries = 0;
+  double worst = 0;  ///< error, or how many were wrong
+  double goal = 0;
+  std::string note;  ///< which tries were wrong, say
+
+  [[nodiscard]] bool met() const { return worst <= goal; }
+};
+
+/// A row of the table, by its number there.
+struct AccuracyRow {
+  int number = 0;
+  std::string_view name;
+  std::uint64_t tries = 0;  ///< as a rule
+  std::vector<AccuracyResult> (*run)(const AccuracyOptions& options) = nullptr;
+};
+
+/// Ascending by number.
+[[nodiscard]] std::span<const AccuracyRow> accuracy_rows();
+
+/// Calls `work(first, count)` for blocks that make up `tries`, on several threads.
+void for_blocks(std::uint64_t tries, std::uint64_t block, int threads,
+                const std::function<void(std::uint64_t first, std::uint64_t count)>& work);
+
+[[nodiscard]] std::vector<AccuracyResult> measure_tunnels(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_queries(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_masses(const AccuracyOptions& options);
+
+}  // namespace lockstone::bench

@@ -1,0 +1,105 @@
+#include "tools/fuzz/pair_checks.h"
+#include "tools/fuzz/surface.h"
+
+namespace lockstone::fuzz {
+namespace {
+
+// Separations saturate at ±128 m.
+constexpr double k_deepest = -127;
+
+// A face stands where another axis overlaps less by a tenth and 0.49 mm (preference.h); of two
+// shapes' faces the first by 1/32 and 0.24 mm.
+double preferred(double depth) {
+  return depth / 9 + 0.00055;
+}
+
+void check_apart(const Pair& pair, const Answers& answers, Verdict& verdict) {
+  const double truth = real(answers.closest.distance);
+  const double slack = choice_slack(pair, truth);
+  const double error = answers.least() - truth;
+  if (!leans_back(pair, real(answers.closest.normal)))
+    verdict.measure(Check::apart, error, slack);
+  else if (truth > slack)
+    verdict.measure(Check::apart, std::min(0.0, error), slack);
+}
+
+// Points may be less deep than the shapes along the normal, where those beside the face are cut
+// off.
+void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
+  if (leans_back(pair, real(answers.deep.normal))) return;
+  const double depth = real(answers.deep.depth);
+  const double excess = std::min(-answers.least(), -k_deepest) - depth;
+  verdict.measure(Check::overlap, std::max(0.0, excess), choice_slack(pair, 0) + preferred(depth));
+  if (depth > choice_slack(pair, 0)) verdict.require(Check::overlap, answers.least() <= 0);
+}
+
+// The deepest point of a capsule's core inside something with faces is not on the surfaces.
+bool has_core_inside(const Pair& pair, double separation) {
+  if (!pair.has(Kind::capsule) || pair.half_space() != nullptr) return false;
+  const bool faces = pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle);
+  return faces && separation < 2 * tolerance(pair) - pair.radii();
+}
+
+double surface_slack(const Pair& pair) {
+  const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre;
+  const double share = pair.has(Kind::capsule) ? pair.radii() / 1000 : 0;
+  return tolerance(pair) + snap + share + uneven_slack(pair);
+}
+
+void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, const Real3& out,
+                 Verdict& verdict) {
+  const double separation = real(p.separation);
+  Real3 on_a = real(p.anchor_a), on_b = real(p.anchor_b);
+  if (separation <= 0) {
+    verdict.require(Check::manifold, p.anchor_b == p.anchor_a - pair.offset);
+    on_a = on_a - real(m.normal) * (separation / 2);
+    on_b = on_b + real(m.normal) * (separation / 2);
+  }
+  if (separation < k_deepest || has_core_inside(pair, separation)) return;
+  if (separation <= 0 && leans_back(pair, out)) return;  // the front may be pushed beside itself
+  verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair));
+  verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair));
+}
+
+}  // namespace
+
+void check_collide(const Pair& pair, const Answers& answers, Verdict& verdict) {
+  const double truth = answers.signed_distance();
+  const double margin = real(pair.margin);
+  const double slack = choice_slack(pair, truth);
+  const bool any = answers.manifold.count > 0;
+  const double height = height_before_front(pair);
+  if (truth > margin + slack || height < -tolerance(pair)) verdict.require(Check::margin, !any);
+  const Vec3<Unit>& out = truth > 0 ? answers.closest.normal : answers.deep.normal;
+  const bool is_met = height > tolerance(pair) && !leans_back(pair, real(out));
+  if (truth < margin - slack && is_met) verdict.require(Check::margin, any);
+  if (!any) return;
+  if (truth > 0)
+    check_apart(pair, answers, verdict);
+  else
+    check_deep(pair, answers, verdict);
+}
+
+void check_manifold(const Pair& pair, const Answers& answers, Verdict& verdict) {
+  const Manifold& m = answers.manifold;
+  verdict.require(Check::manifold, m.count >= 0 && m.count <= k_max_manifold_points);
+  if (m.count == 0) return;
+  verdict.measure(Check::manifold, norm(real(m.normal)) - 1, std::ldexp(1.0, -29));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
+    const Displacement s = m.points[i].separation;
+    verdict.require(Check::manifold, s <= Displacement{} || real(s) < real(pair.margin));
+    if (i > 0) verdict.require(Check::manifold, m.points[i - 1].feature < m.points[i].feature);
+  }
+}
+
+void check_anchors(const Pair& pair, const Answers& answers, Verdict& verdict) {
+  const Manifold& m = answers.manifold;
+  if (m.count == 0) return;
+  const double along = separation(pair, real(pair.offset), direction_of(real(m.normal)));
+  if (along > k_deepest)
+    verdict.measure(Check::anchors, std::max(0.0, along - answers.least()), tolerance(pair));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
+    check_point(pair, m, m.points[i], real(answers.deep.normal), verdict);
+}
+
+}  // namespace lockstone::fuzz

@@ -1,0 +1,78 @@
+// Random pairs of convex shapes, many of them at the limits: each depends on seed and index alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry/manifold.h"
+#include "core/geometry/triangle_polytope.h"
+#include "tools/fuzz/dice.h"
+#include "tools/fuzz/hull_pool.h"
+
+namespace lockstone::fuzz {
+
+enum class Kind : std::uint8_t { sphere, capsule, box, hull, triangle, half_space };
+inline constexpr int k_kinds = 6;
+
+[[nodiscard]] std::string_view name_of(Kind kind);
+[[nodiscard]] std::optional<Kind> kind_named(std::string_view name);
+
+/// Whether the two ever meet: flat and unbounded ones do not meet each other.
+[[nodiscard]] bool do_meet(Kind a, Kind b);
+
+/// A shape in its place, with its core in real numbers.
+struct Body {
+  Kind kind = Kind::sphere;
+  Shape shape{};
+  Mat3 rotation{};
+  std::shared_ptr<const Hull> hull;
+  std::unique_ptr<geometry::TrianglePolytope> triangle;  ///< owns what the polytope names
+  const geometry::Polytope* polytope = nullptr;
+  std::vector<Real3> core;  ///< vertices in world axes, ordered as those of `ConvexCore`
+  double radius = 0;        ///< around the core
+  double unevenness = 0;    ///< how far vertices lie below the faces they are of, at most
+
+  [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
+  [[nodiscard]] bool is_one_sided() const { return kind == Kind::triangle; }
+  /// Sets the rotation and what depends on it.
+  void turn_to(const Mat3& rotation);
+  /// The farthest that a vertex and the radius reach along a unit direction.
+  [[nodiscard]] double reach(const Real3& direction) const;
+  /// Of the smallest ball about the centre that holds it.
+  [[nodiscard]] double size() const;
+};
+
+struct Pair {
+  Body a;
+  Body b;
+  Vec3<Length> offset{};
+  Length margin{};
+  Vec3<Length> cast_from{};  ///< the offset that B is cast from
+  Vec3<Length> way{};
+  Vec3<Length> ray_origin{};  ///< from A's centre
+  Vec3<Length> ray_way{};
+  Mat3 turn{};  ///< to turn both by
+
+  [[nodiscard]] const Body* half_space() const;
+  [[nodiscard]] bool has(Kind kind) const { return a.kind == kind || b.kind == kind; }
+  /// The length that errors scale with: of cores and offset.
+  [[nodiscard]] double size() const;
+  [[nodiscard]] double radii() const { return a.radius + b.radius; }
+};
+
+/// How far the cores, less the radii, are apart along a unit direction from A to B, with B's centre
+/// at `offset`: at most their distance for every direction; negative when they overlap along it.
+[[nodiscard]] double separation(const Pair& pair, const Real3& offset, const Real3& direction);
+
+/// Pair number `index` of the pool's seed; `kinds` has one that meets another or itself.
+[[nodiscard]] Pair make_pair(HullPool& pool, std::uint64_t seed, std::uint64_t index,
+                             const std::vector<Kind>& kinds);
+
+/// All numbers, raw.
+[[nodiscard]] std::string describe(const Pair& pair);
+
+}  // namespace lockstone::fuzz

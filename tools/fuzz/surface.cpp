@@ -1,0 +1,129 @@
+#include "tools/fuzz/surface.h"
+
+namespace lockstone::fuzz {
+namespace {
+
+struct Plane {
+  Real3 normal;  // world axes, of norm 1
+  double offset;
+};
+
+Plane plane_of(const Body& body, const geometry::PolytopeFace& face) {
+  const Real3 n = turn(body.rotation, real(face.normal));
+  const double length = norm(n);
+  return {n * (1 / length),
+          std::ldexp(static_cast<double>(face.offset), -geometry::k_fine_bits) / length};
+}
+
+std::vector<Plane> planes_of(const Body& body) {
+  std::vector<Plane> planes;
+  if (body.kind == Kind::half_space) return {{direction_of(real(body.rotation.y)), 0}};
+  if (body.polytope != nullptr) {
+    for (const geometry::PolytopeFace& face : body.polytope->faces)
+      planes.push_back(plane_of(body, face));
+    return planes;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real3 n = direction_of(real(body.rotation.column(axis)));
+    planes.push_back({n, real(body.shape.size[axis])});
+    planes.push_back({-n, real(body.shape.size[axis])});
+  }
+  return planes;
+}
+
+// Distance of a point from a face's polygon.
+double to_face(const Body& body, const geometry::PolytopeFace& face, const Real3& point) {
+  const geometry::Polytope& p = *body.polytope;
+  const auto corner = [&](int i) {
+    return body.core[p.edges[static_cast<std::size_t>(face.first_edge + i)].origin];
+  };
+  double least = 1e30;
+  for (int i = 2; i < face.edge_count; ++i)
+    least = std::min(least, point_to_triangle(point, corner(0), corner(i - 1), corner(i)));
+  return least;
+}
+
+double outside_box(const Body& box, const Real3& point) {
+  double square = 0, inside = -1e30;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real3 n = direction_of(real(box.rotation.column(axis)));
+    const double beyond = std::abs(dot(n, point)) - real(box.shape.size[axis]);
+    inside = std::max(inside, beyond);
+    square += beyond > 0 ? beyond * beyond : 0;
+  }
+  return square > 0 ? std::sqrt(square) : inside;
+}
+
+double outside_polytope(const Body& body, const Real3& point) {
+  double above = -1e30;
+  for (const Plane& plane : planes_of(body))
+    above = std::max(above, dot(plane.normal, point) - plane.offset);
+  if (above <= 0) return above;
+  double least = 1e30;
+  for (const geometry::PolytopeFace& face : body.polytope->faces)
+    least = std::min(least, to_face(body, face, point));
+  return least;
+}
+
+double segment_to_segment(const Real3& a, const Real3& u, const Real3& b, const Real3& v) {
+  const double ends = std::min({point_to_segment(a, b, b + v), point_to_segment(a + u, b, b + v),
+                                point_to_segment(b, a, a + u), point_to_segment(b + v, a, a + u)});
+  const Real3 n = cross(u, v);
+  const double square = dot(n, n);
+  if (square == 0) return ends;
+  const Real3 d = b - a;
+  const double s = dot(cross(d, v), n) / square, t = dot(cross(d, u), n) / square;
+  const bool crossing = s >= 0 && s <= 1 && t >= 0 && t <= 1;
+  return crossing ? std::min(ends, std::abs(dot(d, n)) / std::sqrt(square)) : ends;
+}
+
+// The part of a segment below a plane.
+struct Part {
+  double from = 0;
+  double to = 1;
+
+  void keep_below(double start, double rise) {
+    if (rise == 0) {
+      if (start > 0) to = -1;
+      return;
+    }
+    const double at = -start / rise;
+    rise > 0 ? to = std::min(to, at) : from = std::max(from, at);
+  }
+};
+
+bool is_flat_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
+  const Plane front = plane_of(body, body.polytope->faces[0]);
+  const double start = dot(front.normal, from) - front.offset, rise = dot(front.normal, way);
+  if (start < depth || start + rise > -depth) return false;
+  const Real3 point = from - way * (start / rise);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Real3 &a = body.core[i], &b = body.core[(i + 1) % 3];
+    const Real3 inward = direction_of(cross(front.normal, b - a));
+    if (dot(inward, point - a) < depth) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double outside(const Body& body, const Real3& point) {
+  if (body.kind == Kind::half_space) return dot(direction_of(real(body.rotation.y)), point);
+  if (body.kind == Kind::box) return outside_box(body, point);
+  if (body.polytope != nullptr) return outside_polytope(body, point);
+  return point_to_segment(point, body.core.front(), body.core.back()) - body.radius;
+}
+
+bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
+  if (body.radius > 0) {
+    const Real3 &end = body.core.front(), &axis = body.core.back() - end;
+    return segment_to_segment(from, way, end, axis) < body.radius - depth;
+  }
+  if (body.kind == Kind::triangle) return is_flat_entered(body, from, way, depth);
+  Part part;
+  for (const Plane& plane : planes_of(body))
+    part.keep_below(dot(plane.normal, from) - plane.offset + depth, dot(plane.normal, way));
+  return part.from < part.to;
+}
+
+}  // namespace lockstone::fuzz

@@ -1,0 +1,16 @@
+// Surfaces and planes of a body in real numbers.
+#pragma once
+
+#include "tools/fuzz/pair_source.h"
+
+namespace lockstone::fuzz {
+
+/// How far a point (from the body's centre, world axes) is outside the surface; inside, minus the
+/// distance to the nearest face. Polytopes are what lies below all their faces, as they stand.
+[[nodiscard]] double outside(const Body& body, const Real3& point);
+
+/// Whether a segment goes deeper than `depth` into the body; what is flat is only entered from the
+/// front, and farther than `depth` from its rim.
+[[nodiscard]] bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth);
+
+}  // namespace lockstone::fuzz

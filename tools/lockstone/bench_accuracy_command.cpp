@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/bench/accuracy/accuracy.h"
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+
+namespace lockstone::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct BenchAccuracyOptions {
+  bench::AccuracyOptions measure;
+  std::vector<int> rows;  // empty: all
+  bool json = false;
+};
+
+struct MeasuredRow {
+  const bench::AccuracyRow* row;
+  std::vector<bench::AccuracyResult> results;
+  double seconds;
+};
+
+MeasuredRow measure(const bench::AccuracyRow& row, bench::AccuracyOptions options) {
+  const Stopwatch watch;
+  if (options.tries == 0) options.tries = row.tries;
+  std::vector<bench::AccuracyResult> results = row.run(options);
+  return {&row, std::move(results), watch.seconds()};
+}
+
+void print(const MeasuredRow& measured) {
+  fmt::print("row {}: {} ({:.1f} s)\n", measured.row->number, measured.row->name, measured.seconds);
+  for (const bench::AccuracyResult& result : measured.results)
+    fmt::print("  {:<28} {:>9} tries  worst {:>10.3g} {:<8} goal {:>9.3g}  {} {}\n", result.name,
+               result.tries, result.worst, result.unit, result.goal,
+               result.met() ? "met" : "MISSED", result.note);
+}
+
+Json json_of(const MeasuredRow& measured) {
+  Json json{{"row", measured.row->number},
+            {"name", measured.row->name},
+            {"seconds", measured.seconds},
+            {"results", Json::array()}};
+  for (const bench::AccuracyResult& result : measured.results)
+    json["results"].push_back({{"name", result.name},
+                               {"tries", result.tries},
+                               {"worst", result.worst},
+                               {"unit", result.unit},
+                               {"goal", result.goal},
+                               {"met", result.met()},
+                               {"note", result.note}});
+  return json;
+}
+
+bool is_chosen(const BenchAccuracyOptions& options, int number) {
+  return options.rows.empty() || std::ranges::count(options.rows, number) > 0;
+}
+
+int run(const BenchAccuracyOptions& options) {
+  Json json = Json::array();
+  bool met = true;
+  for (const bench::AccuracyRow& row : bench::accuracy_rows()) {
+    if (!is_chosen(options, row.number)) continue;
+    const MeasuredRow measured = measure(row, options.measure);
+    met = met && std::ranges::all_of(measured.results, &bench::AccuracyResult::met);
+    if (options.json)
+      json.push_back(json_of(measured));
+    else
+      print(measured);
+  }
+  if (options.json) fmt::print("{}\n", json.dump(2));
+  return met ? k_ok : k_different;
+}
+
+}  // namespace
+
+void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
+  auto options = std::make_shared<BenchAccuracyOptions>();
+  options->measure.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<int> numbers;
+  for (const bench::AccuracyRow& row : bench::accuracy_rows())
+    numbers.push_back(row.number);
+  CLI::App* command = bench.add_subcommand("accuracy", "Errors against exact references");
+  command->add_option("--rows", options->rows, "Numbers of rows; all when left out")
+      ->delimiter(',')
+      ->check(CLI::IsMember(numbers));
+  command->add_option("--tries", options->measure.tries, "Of each row; 0: as many as it asks for");
+  command->add_option("--seed", options->measure.seed, "Of the tries")->capture_default_str();
+  command->add_option("--threads", options->measure.threads, "The result does not depend on them")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--json", options->json, "Print JSON");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lockstone::tool
