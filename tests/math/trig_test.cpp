@@ -157,7 +157,7 @@ TEST(FromAxisAngle, ErrsLessThanTwoLastPlaces) {
                                             {Real(axis.x.raw, 30) * s, Real(axis.y.raw, 30) * s,
                                              Real(axis.z.raw, 30) * s, cos(half)}));
   }
-  EXPECT_LT(worst, 1.0);
+  EXPECT_LT(worst, 1.5);  // one of the sine and half of the product's rounding
 }
 
 TEST(Integrate, ReturnsTheSameBitsForNoRotation) {
