@@ -39,10 +39,6 @@ class RayPieces final : public geometry::RayPartVisitor {
   PlacedRayHit best_;
 };
 
-Vec3<Position> widened(const Vec3<Length>& v) {
-  return {rounded<Position>(v.x), rounded<Position>(v.y), rounded<Position>(v.z)};
-}
-
 // Against a half-space the distance falls evenly.
 ShapeCastHit cast_at_half_space(const PosedShape& plane, const PosedShape& shape,
                                 const Vec3<Length>& offset, const Vec3<Length>& translation) {
@@ -72,7 +68,8 @@ class CastPieces final : public PieceVisitor {
             ? cast_at_half_space(piece.posed(), shape_.posed(), offset, translation_)
             : lockstone::cast_shape(piece.posed(), shape_.posed(), offset, translation_);
     if (!hit.hit || (best_.hit && hit.fraction >= best_.fraction)) return;
-    best_ = {true, piece.part, hit.fraction, hit.normal, piece.origin + widened(hit.point_a)};
+    best_ = {true, piece.part, hit.fraction, hit.normal,
+             piece.origin + rounded<Position>(hit.point_a)};
   }
 
   [[nodiscard]] const PlacedShapeHit& best() const { return best_; }
@@ -108,7 +105,7 @@ class NearestPiece final : public PieceVisitor {
     const Length distance = saturated<Length>(found.distance);
     if (distance > reach_ || (best_.found && distance >= best_.distance)) return;
     best_ = {true, piece.part, distance,
-             found.overlapping ? point_ : piece.origin + widened(found.point_a)};
+             found.overlapping ? point_ : piece.origin + rounded<Position>(found.point_a)};
   }
 
   [[nodiscard]] const PlacedClosest& best() const { return best_; }

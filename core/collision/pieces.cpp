@@ -5,10 +5,6 @@
 namespace lockstone {
 namespace {
 
-Vec3<Position> widened(const Vec3<Length>& v) {
-  return {rounded<Position>(v.x), rounded<Position>(v.y), rounded<Position>(v.z)};
-}
-
 OrientedBox box_of(const geometry::LocalBounds& bounds, const Vec3<Position>& origin,
                    const Mat3& rotation) {
   OrientedBox box{{}, rotation, {}};
@@ -65,7 +61,8 @@ Piece piece_of(const PlacedShape& placed, const geometry::Part& part) {
   const bool turned = part.rotation != Mat3{};
   return {part.shape,
           part.polytope,
-          moved ? placed.origin + rotate(placed.rotation, widened(part.position)) : placed.origin,
+          moved ? placed.origin + rotate(placed.rotation, rounded<Position>(part.position))
+                : placed.origin,
           turned ? multiply(placed.rotation, part.rotation) : placed.rotation,
           part.index,
           part.surface,

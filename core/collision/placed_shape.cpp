@@ -22,10 +22,6 @@ WorldBox half_space_box(const PlacedShape& placed) {
   return box;
 }
 
-Vec3<Position> widened(const Vec3<Length>& v) {
-  return {rounded<Position>(v.x), rounded<Position>(v.y), rounded<Position>(v.z)};
-}
-
 // The bounds of a turned box: the middle turned, the half extents by the magnitudes of the axes.
 WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& local) {
   const auto middle = [](Length low, Length high) {
@@ -39,7 +35,7 @@ WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& loca
                           (local.upper.z - local.lower.z + Length::from_raw(1)) / 2};
   const Vec3<Position> at = placed.origin + rotate(placed.rotation, centre);
   const Vec3<Position> reach =
-      widened(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
+      rounded<Position>(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
   return {at - reach, at + reach};
 }
 
@@ -51,7 +47,7 @@ PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& 
   if (solid == nullptr) return {shape, asset, centre, rotation, centre};
   const bool turned = solid->axes != Quat{};
   const Mat3 frame = turned ? multiply(rotation, transposed(to_matrix(solid->axes))) : rotation;
-  return {shape, asset, centre - rotate(frame, widened(solid->centre)), frame, centre};
+  return {shape, asset, centre - rotate(frame, rounded<Position>(solid->centre)), frame, centre};
 }
 
 Transform body_pose(const Asset* asset, const Transform& shape_pose) {
@@ -72,7 +68,7 @@ Transform shape_pose(const Asset* asset, const Transform& body_pose) {
 WorldBox world_box(const PlacedShape& placed) {
   if (placed.shape.kind == ShapeKind::half_space) return half_space_box(placed);
   if (placed.asset != nullptr) return turned_box(placed, placed.asset->bounds());
-  const Vec3<Position> reach = widened(world_half_extents(placed.shape, placed.rotation));
+  const Vec3<Position> reach = rounded<Position>(world_half_extents(placed.shape, placed.rotation));
   return {placed.origin - reach, placed.origin + reach};
 }
 

@@ -1,15 +1,13 @@
 #include "core/collision/segment_probe.h"
 
+#include "core/geometry/fine.h"
+
 namespace lockstone {
 namespace {
 
 // To bounds coordinates, downward.
 std::int64_t to_bounds(Position x) {
   return x.raw >> (Position::frac_bits - BoundsCoordinate::frac_bits);
-}
-
-std::int64_t magnitude(std::int64_t x) {
-  return x < 0 ? -x : x;
 }
 
 // Roundings of middle, way and half extents together stay below this, in bounds coordinates.
@@ -62,10 +60,11 @@ bool SegmentProbe::meets(const Bounds& bounds) const {
   }
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1, k = 3 - i - j;
-    const std::int64_t apart = magnitude(offset[j] * way_[k] - offset[k] * way_[j]);
-    const std::int64_t reach =
-        extent[j] * (magnitude(way_[k]) + 1) + extent[k] * (magnitude(way_[j]) + 1);
-    const std::int64_t rounding = magnitude(offset[j]) + magnitude(offset[k]);
+    const std::int64_t apart = geometry::magnitude_of(offset[j] * way_[k] - offset[k] * way_[j]);
+    const std::int64_t reach = extent[j] * (geometry::magnitude_of(way_[k]) + 1) +
+                               extent[k] * (geometry::magnitude_of(way_[j]) + 1);
+    const std::int64_t rounding =
+        geometry::magnitude_of(offset[j]) + geometry::magnitude_of(offset[k]);
     if (apart > reach + rounding) return false;
   }
   return true;

@@ -1,8 +1,11 @@
 // Ranges that commands, world definitions and snapshots are all held to.
 #pragma once
 
+#include <lockstone/asset.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
+
+#include "core/geometry/asset_frame.h"
 
 namespace lockstone {
 
@@ -18,8 +21,7 @@ inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
 }
 
 [[nodiscard]] constexpr bool is_valid_surface(Coefficient friction, Coefficient restitution) {
-  return friction >= Coefficient{} && friction <= Coefficient::from_ratio(199, 100) &&
-         restitution >= Coefficient{} && restitution <= Coefficient::from_integer(1);
+  return geometry::is_valid(Surface{friction, restitution});
 }
 
 }  // namespace lockstone

@@ -9,6 +9,7 @@
 #include "core/geometry/compound_solid.h"
 #include "core/geometry/parts.h"
 #include "core/geometry/shape_properties.h"
+#include "core/math/rotation_log.h"
 
 namespace lockstone {
 namespace {
@@ -19,14 +20,6 @@ constexpr std::uint16_t k_version = 1;
 constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + 8;
 constexpr Number k_max_density = Number::from_integer(1024);
 constexpr Number k_min_density = Number::from_ratio(1, 1024);
-
-bool has_direction(const Quat& q) {
-  const auto within = [](Unit x) {  // not by abs: -2 has no opposite
-    return x >= Unit::from_ratio(-5, 4) && x <= Unit::from_ratio(5, 4);
-  };
-  return within(q.x) && within(q.y) && within(q.z) && within(q.w) &&
-         (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw >= (std::int64_t{1} << 40);
-}
 
 // Left alone when it is as good as normalising makes it, so that doing it twice changes nothing.
 Quat normalized_once(const Quat& q) {

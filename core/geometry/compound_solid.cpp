@@ -85,8 +85,6 @@ Length distance_up(const RawVec& arm) {
   return {static_cast<std::int32_t>((distance >> k_fine_per_length) + (distance != 0 ? 2 : 0))};
 }
 
-constexpr int k_tensor_bits = 60;
-
 /// A solid's tensor about the common centre, in squares of the scale 2^k, 60 bits.
 SymMat3<std::int64_t> tensor_about(const PlacedSolid& placed, const RawVec& arm, int k) {
   const Solid& solid = placed.solid;
@@ -121,12 +119,6 @@ SymMat3<std::int64_t> mean_tensor(Solids solids, const Weights& weights, const R
   }
   const auto mean = [&](int i) { return round_divide(sums[i], weights.total()); };
   return {mean(0), mean(1), mean(2), mean(3), mean(4), mean(5)};
-}
-
-Unit to_moment(std::int64_t x) {
-  const std::int64_t rounded = raw::round_shift(x, k_tensor_bits - Unit::frac_bits);
-  return {
-      static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, 1, Unit::from_integer(1).raw))};
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Mass distribution of an asset that dynamic bodies can have.
 #pragma once
 
+#include <algorithm>
+
 #include <lockstone/quat.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
@@ -19,5 +21,16 @@ struct Solid {
   Length radius{};         ///< of the smallest sphere about the centre of mass that holds all
   Length inner_radius{};   ///< of the largest sphere about it that the solid holds; 0 when outside
 };
+
+/// Fraction bits of the tensors that moments are computed in.
+inline constexpr int k_tensor_bits = 60;
+
+/// A moment with k_tensor_bits, rounded: at least one step, lest a needle's about its own axis
+/// vanish.
+[[nodiscard]] constexpr Unit to_moment(std::int64_t x) {
+  const std::int64_t rounded = raw::round_shift(x, k_tensor_bits - Unit::frac_bits);
+  return {
+      static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, 1, Unit::from_integer(1).raw))};
+}
 
 }  // namespace lockstone::geometry

@@ -14,7 +14,6 @@ namespace {
 using Vertices = std::span<const Vec3<Length>>;
 using Triangles = std::span<const Triangle>;
 
-constexpr int k_tensor_bits = 60;
 constexpr int k_rest_bits = 31;
 
 std::array<RawVec, 3> corners_of(Vertices vertices, const Triangle& t, const Vec3<Length>& apex) {
@@ -128,13 +127,6 @@ SymMat3<std::int64_t> covariance(const SymMat3<Int192>& moments, const Divisor& 
 
 SymMat3<std::int64_t> inertia_of(const SymMat3<std::int64_t>& c) {
   return {c.yy + c.zz, c.zz + c.xx, c.xx + c.yy, -c.xy, -c.xz, -c.yz};
-}
-
-/// At least one step: a needle's moment about its own axis must not vanish.
-Unit to_moment(std::int64_t x) {
-  const std::int64_t rounded = raw::round_shift(x, k_tensor_bits - Unit::frac_bits);
-  return {
-      static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, 1, Unit::from_integer(1).raw))};
 }
 
 }  // namespace

@@ -24,6 +24,14 @@ RotationVector rotation_between(const Quat& from, const Quat& to) {
   return {component(turn.x), component(turn.y), component(turn.z)};
 }
 
+bool has_direction(const Quat& q) {
+  const auto within = [](Unit x) {  // not by abs: -2 has no opposite
+    return x >= Unit::from_ratio(-5, 4) && x <= Unit::from_ratio(5, 4);
+  };
+  return within(q.x) && within(q.y) && within(q.z) && within(q.w) &&
+         (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw >= (std::int64_t{1} << 40);
+}
+
 Quat orientation_of(const Mat3& m) {
   // Four times the squares of x, y, z and w, 30 bits; they sum to 4.
   const std::int64_t one = std::int64_t{1} << Unit::frac_bits;

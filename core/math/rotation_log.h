@@ -11,6 +11,10 @@ namespace lockstone {
 /// rad.
 [[nodiscard]] RotationVector rotation_between(const Quat& from, const Quat& to);
 
+/// Whether a quaternion of any origin can be normalised: a norm of at least 2^-10, and components
+/// within ±5/4 (beyond, the sum of squares might overflow).
+[[nodiscard]] bool has_direction(const Quat& q);
+
 /// The orientation with this rotation matrix, w ≥ 0, components within 2^-28. S. W. Shepperd,
 /// "Quaternion from rotation matrix", 1978: by the greatest component.
 [[nodiscard]] Quat orientation_of(const Mat3& rotation);

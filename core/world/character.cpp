@@ -16,8 +16,7 @@ constexpr Length k_motion_limit = Length::from_integer(8);
 constexpr Length k_negligible = Length::from_raw(16);  // 15 µm
 
 Vec3<Position> moved(const Vec3<Position>& from, const Vec3<Length>& by) {
-  return {from.x + rounded<Position>(by.x), from.y + rounded<Position>(by.y),
-          from.z + rounded<Position>(by.z)};
+  return from + rounded<Position>(by);
 }
 
 Length along(const Vec3<Length>& v, const Vec3<Unit>& n) {

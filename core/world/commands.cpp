@@ -8,6 +8,7 @@
 #include "core/geometry/shape_properties.h"
 #include "core/geometry/solid.h"
 #include "core/math/block_float.h"
+#include "core/math/rotation_log.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -17,21 +18,6 @@ template <class T>
 bool within(const Vec3<T>& v, T limit) {
   const auto inside = [&](T x) { return x <= limit && x >= -limit; };
   return inside(v.x) && inside(v.y) && inside(v.z);
-}
-
-// Long enough to have a direction: norm at least 2^-10.
-bool is_usable(const Quat& q) {
-  return (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw >= (std::int64_t{1} << 40);
-}
-
-// A component of 2 would overflow the norm's sum.
-bool has_unit_range(const Quat& q) {
-  constexpr Unit limit = Unit::from_ratio(5, 4);
-  return abs(q.x) <= limit && abs(q.y) <= limit && abs(q.z) <= limit && abs(q.w) <= limit;
-}
-
-bool is_valid(const Quat& q) {
-  return has_unit_range(q) && is_usable(q);
 }
 
 // ω·2^k in m/s, the speed of the surface.
@@ -47,7 +33,7 @@ bool is_valid(const BodyDef& def) {
   return (def.motion == MotionType::static_body || def.motion == MotionType::kinematic ||
           def.motion == MotionType::dynamic) &&
          validate(def.shape) == Status::ok && within(def.position, k_world_limit) &&
-         is_valid(def.orientation) && within(def.velocity, k_speed_limit) &&
+         has_direction(def.orientation) && within(def.velocity, k_speed_limit) &&
          is_valid_surface(def.material.friction, def.material.restitution) &&
          def.material.density > Density{} && abs(def.gravity_scale) <= k_gravity_scale_limit &&
          def.linear_damping >= Rate{} && def.angular_damping >= Rate{};
@@ -210,7 +196,7 @@ Status World::Impl::execute(const DestroyBody& command) {
 Status World::Impl::execute(const Teleport& command) {
   BodyRecord* record = find(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (!within(command.position, k_world_limit) || !is_valid(command.orientation)) {
+  if (!within(command.position, k_world_limit) || !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
   drop_contacts_of(command.body.index);

@@ -50,11 +50,6 @@ BodyMotion rest_of(const BodyMotion& motion, Unit fraction) {
   return rest;
 }
 
-// |x| + |y| + |z|
-std::int64_t sum_of_magnitudes(const Vec3<Position>& v) {
-  return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
-}
-
 // At most the way of any point of a body about its centre, 32 bits: |Δq| is half the angle or more
 // than 2/π of it.
 std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {

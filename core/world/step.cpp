@@ -19,11 +19,6 @@ constexpr Length k_max_speculation = Length::from_integer(32);
 // How far a pair can close is rounded up to 1 mm, so that what trembles keeps its margin.
 constexpr int k_reach_bits = 10;
 
-// |x| + |y| + |z|, at least the length.
-std::int64_t sum_of_magnitudes(const Vec3<Velocity>& v) {
-  return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
-}
-
 // How far a body goes in one tick, along one axis.
 Position travel(Velocity v, const TimeStep& step) {
   return Position::from_raw(step.tick.times(v.raw));
@@ -138,8 +133,7 @@ World::Impl::ManifoldInput World::Impl::manifold_input(const Pair& pair, Length 
   const BodyRecord& b = bodies[pair.b];
   Vec3<Position> offset = b.position - a.position;
   if (body_assets[pair.a] == nullptr && body_assets[pair.b] == nullptr) {
-    const Vec3<Length> read = saturated<Length>(offset);
-    offset = {rounded<Position>(read.x), rounded<Position>(read.y), rounded<Position>(read.z)};
+    offset = rounded<Position>(saturated<Length>(offset));
   }
   return {offset, a.orientation, b.orientation, margin};
 }

@@ -165,6 +165,12 @@ struct World::Impl {
 /// ok, or what makes a stored record impossible. For bytes from outside.
 [[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
 
+/// |x| + |y| + |z|, at least the length, raw.
+template <class T>
+[[nodiscard]] constexpr std::int64_t sum_of_magnitudes(const Vec3<T>& v) {
+  return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
+}
+
 /// What follows from a body's shape alone.
 struct ShapeProperties {
   Vec3<Unit> inertia{};  // principal moments / (mass · s²), at least k_min_inertia
