@@ -2,7 +2,6 @@
 
 #include "core/collision/eroded_shape.h"
 #include "core/collision/pieces.h"
-#include "core/geometry/time_of_impact.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
 
@@ -10,8 +9,8 @@ namespace lockstone {
 namespace {
 
 PlacedShape placed_at_start(const MovingShape& moving) {
-  return place(moving.shape, moving.asset, moving.motion.centre,
-               to_matrix(moving.motion.orientation));
+  return place(moving.shape, moving.asset, moving.motion.start.position,
+               to_matrix(moving.motion.start.orientation));
 }
 
 // The motion of the body as one of the piece's axes about the body's centre of mass.
@@ -19,9 +18,12 @@ struct PieceSweep {
   Sweep sweep;
   Vec3<Length> origin;
 
-  PieceSweep(const Piece& piece, const BodyMotion& motion)
-      : sweep{{motion.centre, orientation_of(piece.rotation)}, motion.translation, motion.rotation},
-        origin(rotate_inverse(piece.rotation, saturated<Length>(piece.origin - motion.centre))) {}
+  PieceSweep(const Piece& piece, const Sweep& motion)
+      : sweep{{motion.start.position, orientation_of(piece.rotation)},
+              motion.translation,
+              motion.rotation},
+        origin(rotate_inverse(piece.rotation,
+                              saturated<Length>(piece.origin - motion.start.position))) {}
 };
 
 // Thin pieces are stopped nearer to the surface.
@@ -51,7 +53,7 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   OrientedBox box;
   for (int i = 0; i < 3; ++i) {
     const Position half_way = Position::from_raw(a.motion.translation[i].raw / 2);
-    box.centre[i] = a.motion.centre[i] + half_way;
+    box.centre[i] = a.motion.start.position[i] + half_way;
     box.half_extents[i] = saturated<Length>(abs(half_way) + abs(b.motion.translation[i]) + radius +
                                             turned + Position::from_raw(1 << 12));
   }
@@ -66,7 +68,7 @@ constexpr int k_last_depth = 7;
 // Tries every piece of B near the way of one piece of A.
 class PiecesOfB final : public PieceVisitor {
  public:
-  PiecesOfB(const Piece& a, const BodyMotion& motion_a, const BodyMotion& motion_b, Impact& best)
+  PiecesOfB(const Piece& a, const Sweep& motion_a, const Sweep& motion_b, Impact& best)
       : a_(a),
         inner_radius_(inner_radius_of(a)),
         limits_(limits_for(inner_radius_)),
@@ -111,7 +113,7 @@ class PiecesOfB final : public PieceVisitor {
   const Length inner_radius_;
   const TimeOfImpactLimits limits_;
   const PieceSweep sweep_a_;
-  const BodyMotion& motion_b_;
+  const Sweep& motion_b_;
   Impact& best_;
 };
 

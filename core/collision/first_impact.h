@@ -8,23 +8,15 @@
 #include <lockstone/shape.h>
 
 #include "core/collision/placed_shape.h"
-#include "core/math/trig.h"
+#include "core/geometry/time_of_impact.h"
 
 namespace lockstone {
 
-/// A motion of a body over some interval: its centre of mass goes evenly along a line while it
-/// turns evenly about it.
-struct BodyMotion {
-  Vec3<Position> centre{};
-  Quat orientation{};  ///< of the principal axes
-  Vec3<Position> translation{};
-  RotationVector rotation{};  ///< world axes
-};
-
+/// A shape on a body whose sweep is that of its centre of mass and principal axes.
 struct MovingShape {
   const Shape& shape;
   const Asset* asset;
-  const BodyMotion& motion;
+  const Sweep& motion;
 };
 
 struct Impact {

@@ -7,7 +7,6 @@
 #include "core/collision/first_impact.h"
 #include "core/dynamics/impact_response.h"
 #include "core/dynamics/motion.h"
-#include "core/geometry/time_of_impact.h"
 #include "core/math/rotation_log.h"
 #include "core/world/world_impl.h"
 
@@ -25,24 +24,17 @@ Transform pose_of(const BodyRecord& body) {
   return {body.position, body.orientation};
 }
 
-BodyMotion motion_between(const Transform& start, const Transform& end) {
-  return {start.position, start.orientation, end.position - start.position,
+Sweep motion_between(const Transform& start, const Transform& end) {
+  return {start, end.position - start.position,
           rotation_between(start.orientation, end.orientation)};
 }
 
-Transform pose_at(const BodyMotion& motion, Unit fraction) {
-  return pose_at(Sweep{{motion.centre, motion.orientation}, motion.translation, motion.rotation},
-                 fraction);
-}
-
 // What is left of a motion after a fraction of it.
-BodyMotion rest_of(const BodyMotion& motion, Unit fraction) {
+Sweep rest_of(const Sweep& motion, Unit fraction) {
   const std::int32_t left = (k_whole - fraction).raw;
   const auto part = [&](std::int64_t x) { return raw::multiply_shift(x, left, Unit::frac_bits); };
-  BodyMotion rest = motion;
-  const Transform pose = pose_at(motion, fraction);
-  rest.centre = pose.position;
-  rest.orientation = pose.orientation;
+  Sweep rest = motion;
+  rest.start = pose_at(motion, fraction);
   for (int i = 0; i < 3; ++i) {
     rest.translation[i].raw = part(motion.translation[i].raw);
     rest.rotation[i].raw = part(motion.rotation[i].raw);
@@ -60,11 +52,11 @@ std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {
   return raw::multiply_shift(sum, radius.raw, Unit::frac_bits - 12 - k_times_four);
 }
 
-Bounds bounds_of_way(const BodyMotion& motion, Length radius) {
+Bounds bounds_of_way(const Sweep& motion, Length radius) {
   const Position reach = rounded<Position>(radius);
   Bounds bounds;
   for (int i = 0; i < 3; ++i) {
-    const Position start = motion.centre[i], end = start + motion.translation[i];
+    const Position start = motion.start.position[i], end = start + motion.translation[i];
     bounds.lower[i] = round_down(min(start, end) - reach);
     bounds.upper[i] = round_up(max(start, end) + reach);
   }
@@ -99,7 +91,7 @@ bool World::Impl::went_far(std::uint32_t body) const {
 
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
-  BodyMotion motion = motion_between(starts[body], pose_of(record));
+  Sweep motion = motion_between(starts[body], pose_of(record));
   Unit done{};  // of the tick
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
@@ -122,10 +114,10 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
 
 // The way for the rest of a tick at the velocities at hand, which already hold the whole tick's
 // gravity.
-BodyMotion World::Impl::remaining_motion(const BodyRecord& record, Unit left) const {
+Sweep World::Impl::remaining_motion(const BodyRecord& record, Unit left) const {
   const InverseInertia inertia = inverse_inertia(record, to_matrix(record.orientation));
   const Vec3<Velocity> w = surface_velocity(inertia, record.spin);
-  BodyMotion motion{record.position, record.orientation, {}, {}};
+  Sweep motion{pose_of(record), {}, {}};
   const auto way = [&](Velocity v) {
     return raw::multiply_shift(time_step.tick.times(v.raw), left.raw, Unit::frac_bits);
   };
@@ -137,13 +129,13 @@ BodyMotion World::Impl::remaining_motion(const BodyRecord& record, Unit left) co
 }
 
 // How a body moves from `done` to the end of the tick, itself followed or not.
-BodyMotion World::Impl::motion_of(std::uint32_t body, Unit done) const {
+Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
   const BodyRecord& record = bodies[body];
-  if (!record.moves()) return {record.position, record.orientation, {}, {}};
+  if (!record.moves()) return {pose_of(record), {}, {}};
   return rest_of(motion_between(starts[body], pose_of(record)), done);
 }
 
-World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const BodyMotion& motion,
+World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion,
                                                  Unit done) const {
   const BodyRecord& record = bodies[body];
   const Shape shape = record.shape();
@@ -157,7 +149,7 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const BodyM
                             should_collide(record.filter(), obstacle.filter());
     if (!considered) return;
     const Shape other_shape = obstacle.shape();
-    const BodyMotion other_motion = motion_of(other, done);
+    const Sweep other_motion = motion_of(other, done);
     const Impact impact = first_impact({shape, body_assets[body], motion},
                                        {other_shape, body_assets[other], other_motion});
     const bool sooner =
@@ -174,11 +166,11 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const BodyM
 void World::Impl::answer(std::uint32_t body, std::uint32_t other, Unit done) {
   BodyRecord& a = bodies[body];
   BodyRecord& b = bodies[other];
-  const BodyMotion other_motion = motion_of(other, done);
+  const Sweep other_motion = motion_of(other, done);
   const Mat3 rotation_a = to_matrix(a.orientation),
-             rotation_b = to_matrix(other_motion.orientation);
+             rotation_b = to_matrix(other_motion.start.orientation);
   collide_bodies(place(a.shape(), body_assets[body], a.position, rotation_a),
-                 place(b.shape(), body_assets[other], other_motion.centre, rotation_b),
+                 place(b.shape(), body_assets[other], other_motion.start.position, rotation_b),
                  k_impact_gap * 4, triangle_scratch.get(), part_contacts);
   const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
   const InverseInertia inertia_b = inverse_inertia(b, rotation_b);

@@ -121,11 +121,10 @@ struct World::Impl {
   void stop_at_impacts(StepReport& report);
   [[nodiscard]] bool went_far(std::uint32_t body) const;
   void follow(std::uint32_t body, StepReport& report);
-  [[nodiscard]] NextImpact find_impact(std::uint32_t body, const BodyMotion& motion,
-                                       Unit done) const;
+  [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
   void answer(std::uint32_t body, std::uint32_t other, Unit done);
-  [[nodiscard]] BodyMotion remaining_motion(const BodyRecord& record, Unit left) const;
-  [[nodiscard]] BodyMotion motion_of(std::uint32_t body, Unit done) const;
+  [[nodiscard]] Sweep remaining_motion(const BodyRecord& record, Unit left) const;
+  [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
 
   void refresh_bounds(std::uint32_t body);
   void find_events();
