@@ -52,6 +52,7 @@ class CandidatePairs {
   std::vector<Row> rows_, next_rows_;
   std::vector<std::uint32_t> partners_, next_partners_;
   std::vector<Note> notes_;
+  std::vector<std::uint32_t> noted_;       // bodies that have notes
   std::vector<std::uint32_t> first_note_;  // by body
   std::size_t capacity_;
 };

@@ -103,6 +103,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
       graph_(body_capacity, contact_capacity),
       solver_index_(body_capacity) {
+  taken_up_.reserve(body_capacity);
   bodies_.reserve(body_capacity + 1);
   rows_.reserve(body_capacity + 1);
   inertias_.reserve(body_capacity + 1);
@@ -131,6 +132,7 @@ std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t bo
   }
   if (solver_index_[body] != 0) return solver_index_[body];
   solver_index_[body] = static_cast<std::uint32_t>(bodies_.size());
+  taken_up_.push_back(body);
   graph_.add_body();
   bodies_.push_back(solver_body(record, scene.rotations[body], scene.gravity, step_));
   const InverseInertia& m = bodies_.back().inverse_inertia;
@@ -150,7 +152,9 @@ void ContactSolver::prepare(const ContactScene& scene) {
   rows_.clear();
   inertias_.clear();
   points_ = saturations_ = 0;
-  std::fill_n(solver_index_.begin(), scene.bodies.size(), 0U);
+  for (const std::uint32_t body : taken_up_)
+    solver_index_[body] = 0;
+  taken_up_.clear();
   bodies_.emplace_back();
   rows_.emplace_back();
   inertias_.emplace_back();

@@ -97,6 +97,7 @@ class ContactSolver {
 
   // By body; 0: not in the solver.
   std::vector<std::uint32_t> solver_index_;
+  std::vector<std::uint32_t> taken_up_;  // those that are in it
 
   // By solver body; entry 0 is the immovable one.
   std::vector<SolverBody> bodies_;

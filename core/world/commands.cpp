@@ -165,6 +165,7 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   free_hint = slot + 1;
   header.body_limit = std::max(header.body_limit, slot + 1);
 
+  body_hashes.mark(slot);
   BodyRecord& record = bodies[slot];
   record = make_record(body_def, asset, record.generation + 1);
   body_assets[slot] = asset;
@@ -181,7 +182,7 @@ Status World::Impl::execute(const CreateBody& command) {
 }
 
 Status World::Impl::execute(const DestroyBody& command) {
-  const BodyRecord* record = find(command.body);
+  const BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   const std::uint32_t index = command.body.index;
   drop_contacts_of(index);
@@ -194,7 +195,7 @@ Status World::Impl::execute(const DestroyBody& command) {
 }
 
 Status World::Impl::execute(const Teleport& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!within(command.position, k_world_limit) || !has_direction(command.orientation)) {
     return Status::invalid_argument;
@@ -209,7 +210,7 @@ Status World::Impl::execute(const Teleport& command) {
 }
 
 Status World::Impl::execute(const SetVelocity& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->moves() || !within(command.velocity, k_speed_limit)) {
     return Status::invalid_argument;
@@ -220,7 +221,7 @@ Status World::Impl::execute(const SetVelocity& command) {
 }
 
 Status World::Impl::execute(const SetAngularVelocity& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   Vec3<Velocity> surface;
   if (!record->moves() ||
@@ -237,7 +238,7 @@ Status World::Impl::execute(const ApplyImpulse& command) {
 }
 
 Status World::Impl::execute(const ApplyImpulseAt& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   const Length radius = properties_of(record->shape(), body_assets[command.body.index]).radius;
   const Length reach = Length::from_raw(raw::saturate<std::int32_t>(std::int64_t{2} * radius.raw));
@@ -250,7 +251,7 @@ Status World::Impl::execute(const ApplyImpulseAt& command) {
 }
 
 Status World::Impl::execute(const ApplyAngularImpulse& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic()) return Status::invalid_argument;
   if (!record->rotates()) return Status::ok;
@@ -277,7 +278,7 @@ Status World::Impl::execute(const ApplyForce& command) {
 }
 
 Status World::Impl::execute(const SetMaterial& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!is_valid_surface(command.friction, command.restitution)) return Status::invalid_argument;
   record->friction = command.friction;
@@ -286,7 +287,7 @@ Status World::Impl::execute(const SetMaterial& command) {
 }
 
 Status World::Impl::execute(const SetFilter& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   record->category = command.filter.category;
   record->mask = command.filter.mask;
@@ -296,7 +297,7 @@ Status World::Impl::execute(const SetFilter& command) {
 }
 
 Status World::Impl::execute(const SetUserData& command) {
-  BodyRecord* record = find(command.body);
+  BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   record->user_data = command.user_data;
   return Status::ok;

@@ -187,6 +187,7 @@ void World::Impl::answer(std::uint32_t body, std::uint32_t other, Unit done) {
   a.velocity += to_come;
   (void)limit_speed(a, inertia_a);
   if (b.is_dynamic()) (void)limit_speed(b, inertia_b);
+  body_hashes.mark(other);
   if (impacts.size() < impacts.capacity()) {
     impacts.push_back({EventKind::impact, {body, a.generation}, {other, b.generation}, approach});
   }

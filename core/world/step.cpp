@@ -238,6 +238,7 @@ void World::Impl::move_bodies(StepReport& report) {
   for (std::uint32_t body = 0; body < header.body_limit; ++body) {
     if (!bodies[body].moves()) continue;
     starts[body] = {bodies[body].position, bodies[body].orientation};
+    body_hashes.mark(body);
     move_body(body, report);
     moved.push_back(body);
   }

@@ -52,6 +52,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
+      body_hashes(definition.body_capacity),
       solver(time_step, definition.body_capacity, definition.contact_capacity) {
   header.gravity = definition.gravity;
   const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
@@ -71,14 +72,16 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   moved.reserve(definition.body_capacity);
 }
 
-BodyRecord* World::Impl::find(BodyHandle body) {
+const BodyRecord* World::Impl::find(BodyHandle body) const {
   if (body.is_null() || body.index >= header.body_limit) return nullptr;
-  BodyRecord& record = bodies[body.index];
+  const BodyRecord& record = bodies[body.index];
   return record.exists() && record.generation == body.generation ? &record : nullptr;
 }
 
-const BodyRecord* World::Impl::find(BodyHandle body) const {
-  return const_cast<Impl*>(this)->find(body);
+BodyRecord* World::Impl::edit(BodyHandle body) {
+  if (find(body) == nullptr) return nullptr;
+  body_hashes.mark(body.index);
+  return &bodies[body.index];
 }
 
 std::uint32_t World::Impl::body_count() const {
@@ -89,6 +92,7 @@ std::uint32_t World::Impl::body_count() const {
 
 void World::Impl::rebuild_derived() {
   broad_phase.clear();
+  body_hashes.clear();
   remembers_manifolds = false;
   free_hint = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {

@@ -16,6 +16,7 @@
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
+#include "core/world/body_hashes.h"
 #include "core/world/profiler.h"
 #include "core/world/world_header.h"
 
@@ -33,8 +34,11 @@ struct World::Impl {
   LKS_COMMANDS(LKS_DECLARE_EXECUTE)
 #undef LKS_DECLARE_EXECUTE
 
-  [[nodiscard]] BodyRecord* find(BodyHandle body);
   [[nodiscard]] const BodyRecord* find(BodyHandle body) const;
+
+  /// The record to be written, or null: the only way for a command to change a body that exists.
+  [[nodiscard]] BodyRecord* edit(BodyHandle body);
+
   [[nodiscard]] std::uint32_t body_count() const;
 
   /// The body's shape where it is.
@@ -76,6 +80,7 @@ struct World::Impl {
   std::vector<const Asset*> body_assets;  // null: a shape complete in itself
   std::vector<Length> inner_radii;
   BroadPhase broad_phase;
+  BodyHashes body_hashes;
   std::uint32_t free_hint = 0;  // no slot below this is empty
 
   // Of the last step only.

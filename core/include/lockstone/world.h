@@ -180,6 +180,8 @@ class World {
 
   // State -----------------------------------------------------------------------------------------
 
+  /// Hashes what changed since the last call, so that a world at rest costs nothing. Not from two
+  /// threads at once.
   [[nodiscard]] StateHash hash() const;
 
   /// Upper bound on `save`, constant over the world's life.

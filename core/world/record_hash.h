@@ -1,0 +1,34 @@
+// The hash of one record of the state.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include <lockstone/hash.h>
+
+#include "core/world/record_codec.h"
+
+namespace lockstone {
+
+/// Upper halves of seeds, so that equal records of two stores differ. The lower half is the
+/// record's place.
+inline constexpr std::uint64_t k_body_domain = 1;
+inline constexpr std::uint64_t k_contact_domain = 2;
+
+/// XXH3 of the canonical bytes: little-endian in field order, which on a little-endian machine is
+/// the memory.
+template <class Record>
+[[nodiscard]] std::uint64_t hash_record(const Record& record, std::uint64_t seed) {
+  if constexpr (std::endian::native == std::endian::little) {
+    return hash64(std::as_bytes(std::span(&record, 1)), seed);
+  } else {
+    std::array<std::byte, sizeof(Record)> bytes{};
+    ByteWriter writer(bytes);
+    encode(record, writer);
+    return hash64(bytes, seed);
+  }
+}
+
+}  // namespace lockstone
