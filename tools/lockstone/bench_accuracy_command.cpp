@@ -36,10 +36,14 @@ MeasuredRow measure(const bench::AccuracyRow& row, bench::AccuracyOptions option
 
 void print(const MeasuredRow& measured) {
   fmt::print("row {}: {} ({:.1f} s)\n", measured.row->number, measured.row->name, measured.seconds);
-  for (const bench::AccuracyResult& result : measured.results)
-    fmt::print("  {:<28} {:>9} tries  worst {:>10.3g} {:<8} goal {:>9.3g}  {} {}\n", result.name,
-               result.tries, result.worst, result.unit, result.goal,
-               result.met() ? "met" : "MISSED", result.note);
+  for (const bench::AccuracyResult& result : measured.results) {
+    const char* verdict = !result.judged ? "" : result.met() ? "met" : "MISSED";
+    fmt::print("  {:<28} {:>9} tries  worst {:>10.3g} {:<8} goal {:>9.3g}  {:<6} {}", result.name,
+               result.tries, result.worst, result.unit, result.goal, verdict, result.note);
+    if (result.tick_seconds > 0)
+      fmt::print(" {:.2f} us a tick, hash {:016x}", result.tick_seconds * 1e6, result.hash);
+    fmt::print("\n");
+  }
 }
 
 Json json_of(const MeasuredRow& measured) {
@@ -53,7 +57,10 @@ Json json_of(const MeasuredRow& measured) {
                                {"worst", result.worst},
                                {"unit", result.unit},
                                {"goal", result.goal},
+                               {"judged", result.judged},
                                {"met", result.met()},
+                               {"tick_seconds", result.tick_seconds},
+                               {"hash", fmt::format("{:016x}", result.hash)},
                                {"note", result.note}});
   return json;
 }

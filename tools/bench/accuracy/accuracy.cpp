@@ -8,11 +8,20 @@
 namespace lockstone::bench {
 namespace {
 
-constexpr std::array<AccuracyRow, 3> k_rows{{
+// One line a row.
+constexpr auto k_rows = std::to_array<AccuracyRow>({
+    {1, "free fall, 10 s", 1, measure_free_fall},
+    {2, "drift of 1 m/s for 10 s, far away", 1, measure_drift},
+    {4, "torque-free box, 60 s: energy", 1, measure_box_energy},
+    {5, "torque-free box, 60 s: angular momentum", 1, measure_box_momentum},
+    {6, "torque-free box: times of the first flips", 1, measure_box_flips},
     {23, "fast bodies against thin walls", 100'000, measure_tunnels},
     {24, "rays, shape casts, distances", 1'000'000, measure_queries},
     {25, "mass of hulls and compounds", 20'000, measure_masses},
-}};
+    {26, "cylinder at 100 rad/s, 60 s: angle", 1, measure_cylinder},
+    {27, "Dzhanibekov's body, 2 s", 1, measure_dzhanibekov},
+    {28, "rod I = (.1, 2, 2.05), 10 s", 1, measure_rod},
+});
 
 }  // namespace
 

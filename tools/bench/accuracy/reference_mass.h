@@ -7,10 +7,10 @@
 #include <lockstone/compound.h>
 #include <lockstone/hull.h>
 
+#include "tools/bench/accuracy/long_vectors.h"
+
 namespace lockstone::bench {
 
-using Long = long double;
-using Long3 = std::array<Long, 3>;
 using Long33 = std::array<Long3, 3>;
 
 /// Volume (or weight), centre, and ∫ xy / volume about the centre.
