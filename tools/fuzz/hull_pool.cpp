@@ -119,11 +119,12 @@ std::shared_ptr<const Hull> random_hull(Dice& dice) {
 HullPool::HullPool(std::uint64_t seed) : seed_(seed), hulls_(k_hull_pool) {}
 
 const std::shared_ptr<const Hull>& HullPool::at(std::uint64_t number) {
-  std::call_once(built_[number], [&] {
+  const auto index = static_cast<std::size_t>(number);
+  std::call_once(built_[index], [&] {
     Dice dice(seed_ ^ 0x68756c6c73U, number);
-    hulls_[number] = random_hull(dice);
+    hulls_[index] = random_hull(dice);
   });
-  return hulls_[number];
+  return hulls_[index];
 }
 
 }  // namespace lockstone::fuzz

@@ -45,7 +45,7 @@ void Progress::show(const std::string& label, std::uint64_t done, std::uint64_t 
   if (!enabled_ || watch_.seconds() < next_seconds_) return;
   if (total == 0) return show(fmt::format("{} {}", label, done));
   const std::uint64_t filled = done >= total ? k_width : done * k_width / total;
-  show(fmt::format("{} [{:<{}}] {}/{}", label, std::string(filled, '#'), k_width, done, total));
+  show(fmt::format("{} [{:<{}}] {}/{}", label, std::string(static_cast<std::size_t>(filled), '#'), k_width, done, total));
 }
 
 void Progress::show(const std::string& line) {

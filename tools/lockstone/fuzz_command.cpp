@@ -19,7 +19,7 @@ using fuzz::Check;
 using fuzz::Figure;
 using fuzz::Kind;
 
-constexpr std::uint64_t k_printed_failures = 20;
+constexpr std::size_t k_printed_failures = 20;
 
 struct FuzzPairsOptions {
   fuzz::FuzzOptions run;
