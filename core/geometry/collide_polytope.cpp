@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/geometry/contact_choice.h"
+#include "core/geometry/nearest_manifold.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/polytope_box.h"
 #include "core/geometry/polytope_collide.h"
@@ -16,6 +17,8 @@ namespace {
 
 /// What is known of the pair when no face separates it by more than the margin.
 struct Meeting {
+  const PosedShape& posed_a;
+  const PosedShape& posed_b;
   const PolytopePair& pair;
   const Vec3<Length>& back;  ///< the reversed offset
   Facing toward_front;       ///< limits −n of axes n in A's frame; allows all but of one-sided A
@@ -31,6 +34,11 @@ struct Meeting {
   [[nodiscard]] Fine separation() const {
     if (a.face < 0) return b.separation;
     return b.face < 0 ? a.separation : std::max(a.separation, b.separation);
+  }
+  /// Of the face that is not the reference.
+  [[nodiscard]] Fine other_separation() const {
+    if (a.face < 0 || b.face < 0) return -k_any_separation;
+    return b_is_reference() ? a.separation : b.separation;
   }
   [[nodiscard]] FaceMeeting on_a() const {
     return {pair.from_a, pair.offset, pair.margin, a, false};
@@ -97,15 +105,25 @@ void find_nearest_vertex(const PolytopeView& view, const FaceSupport& face, bool
   }
 }
 
-/// Polytopes apart whose nearest features include a vertex.
+/// Whether the plane along the manifold's normal separates by as much as its points are apart.
+bool is_proven(const PolytopePair& pair, const Manifold& manifold, Fine distance) {
+  const Vec3<Unit> n = rotate_inverse(pair.rotation_a, manifold.normal);
+  return separation_on(pair, n) >= distance - 2 * k_agreement;
+}
+
+/// Polytopes apart whose nearest features include a vertex. A gap so short that it has no direction
+/// in these lanes, and features that are not the nearest, prove nothing: then GJK decides.
 Manifold vertex_manifold(const Meeting& meeting) {
   const PolytopePair& pair = meeting.pair;
   NearestVertex best;
   best.limit = fine(pair.margin);
   find_nearest_vertex(pair.from_a, meeting.a, true, best);
   find_nearest_vertex(pair.from_b, meeting.b, false, best);
+  const auto nearest = [&] {
+    return nearest_manifold(meeting.posed_a, meeting.posed_b, pair.offset, pair.margin);
+  };
+  if (!best.at.found || best.at.gap == RawVec{}) return nearest();
   Manifold manifold;
-  if (!best.at.found || best.at.gap == RawVec{}) return manifold;
   const Mat3& rotation = best.of_b ? pair.rotation_a : pair.rotation_b;
   const RawVec gap = rotate(rotation, best.at.gap);
   const RawVec foot = rotate(rotation, best.at.point);
@@ -117,7 +135,17 @@ Manifold vertex_manifold(const Meeting& meeting) {
   add_point(
       manifold, witnesses, pair.offset, static_cast<Fine>(d.length), pair.margin,
       k_hull_vertex_bits | (best.of_b ? k_hull_of_b : 0) | static_cast<std::uint32_t>(best.vertex));
-  return manifold;
+  return is_proven(pair, manifold, static_cast<Fine>(d.length)) ? manifold : nearest();
+}
+
+/// No face and no edges are met where the polytopes overlap: the least way out, unless that leads
+/// out at the back of one-sided A.
+Manifold least_way_out(const Meeting& meeting) {
+  const PolytopePair& pair = meeting.pair;
+  const Manifold manifold =
+      nearest_manifold(meeting.posed_a, meeting.posed_b, pair.offset, pair.margin);
+  const Vec3<Unit> n = rotate_inverse(pair.rotation_a, manifold.normal);
+  return meeting.toward_front.allows(-n) ? manifold : deepest_vertex(meeting);
 }
 
 /// No axis separates. Where the polytopes overlap only beside the face, two edges meet after all.
@@ -131,7 +159,8 @@ Manifold collide_overlapping(const Meeting& meeting) {
     if (crossed.crossing) return crossed.manifold;
   }
   const Manifold on_other = other_manifold(meeting);
-  return touches(on_other) ? on_other : deepest_vertex(meeting);
+  const bool is_preferred = meeting.other_separation() >= edge_threshold(meeting.separation());
+  return is_preferred && touches(on_other) ? on_other : least_way_out(meeting);
 }
 
 /// Whether the manifold is where the polytopes are nearest, and pushes to the front of one-sided A:
@@ -179,7 +208,8 @@ Manifold collide_meeting(Meeting& meeting) {
   const EdgeSupport edge = edge_above(std::min(edge_threshold(meeting.separation()), Fine{0}));
   if (!edge.found) return collide_overlapping(meeting);
   if (edge.separation > 0) return collide_apart(meeting, edge);
-  return edge_manifold(pair, edge).manifold;
+  const CrossedEdges crossed = edge_manifold(pair, edge);
+  return crossed.crossing ? crossed.manifold : least_way_out(meeting);
 }
 
 /// A manifold without points whose normal separates.
@@ -189,9 +219,10 @@ Manifold separated_by(const Vec3<Unit>& normal) {
   return manifold;
 }
 
-Manifold collide_pair(const PolytopePair& pair, const Facing& toward_front, const Facing& of_b) {
+Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePair& pair,
+                      const Facing& toward_front, const Facing& of_b) {
   const Vec3<Length> back = -pair.offset;
-  Meeting meeting{pair, back, toward_front, of_b};
+  Meeting meeting{a, b, pair, back, toward_front, of_b};
   const Fine enough = fine(pair.margin) + k_agreement;
   constexpr Facing any{};
   const Facing own{-toward_front.direction, toward_front.limit};  // n · front ≥ −limit
@@ -208,20 +239,28 @@ Manifold collide_pair(const PolytopePair& pair, const Facing& toward_front, cons
   return collide_meeting(meeting);
 }
 
-/// Of one-sided A. What points backward through it does not push.
-Manifold collide_front(const PolytopePair& pair) {
+/// Of one-sided A. What points backward through it does not push. Shapes that touch are as near
+/// along many directions: where one that leans back was found, GJK decides.
+Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
   const PolytopeView& view = pair.from_a;
   const PolytopeFace& front = view.own.faces[0];
   const RawVec centre = view.to_own(view.other.interior);
   if (height_above(front, split(centre)) < 0) return {};
   const Vec3<Unit> n = front.normal;
-  const Manifold manifold = collide_pair(pair, {n, -k_backward}, {view.to_other(n), -k_backward});
+  const Manifold manifold =
+      collide_pair(a, b, pair, {n, -k_backward}, {view.to_other(n), -k_backward});
   const Vec3<Unit> world = lockstone::rotate(pair.rotation_a, n);
-  return lockstone::dot(manifold.normal, world).raw < k_backward ? Manifold{} : manifold;
+  const auto leans_back = [&](const Manifold& m) {
+    return lockstone::dot(m.normal, world).raw < k_backward;
+  };
+  if (!leans_back(manifold)) return manifold;
+  if (manifold.count == 0) return {};
+  const Manifold nearest = nearest_manifold(a, b, pair.offset, pair.margin);
+  return leans_back(nearest) ? Manifold{} : nearest;
 }
 
-Manifold collide_views(const PolytopePair& pair) {
-  return pair.from_a.own.one_sided ? collide_front(pair) : collide_pair(pair, {}, {});
+Manifold collide_views(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
+  return pair.from_a.own.one_sided ? collide_front(a, b, pair) : collide_pair(a, b, pair, {}, {});
 }
 
 }  // namespace
@@ -230,12 +269,12 @@ Manifold collide_polytopes(const PosedShape& a, const PosedShape& b, const Vec3<
                            Length margin) {
   if (b.polytope != nullptr) {
     return collide_views(
-        make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation, offset, margin));
+        a, b, make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation, offset, margin));
   }
   const BoxPolytope box(b.shape.size);
   const Polytope view = box.view();
   return collide_views(
-      make_polytope_pair(*a.polytope, a.rotation, view, b.rotation, offset, margin));
+      a, b, make_polytope_pair(*a.polytope, a.rotation, view, b.rotation, offset, margin));
 }
 
 }  // namespace lockstone::geometry

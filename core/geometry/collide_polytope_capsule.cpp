@@ -1,9 +1,10 @@
 // Polytope against capsule. Apart: the point of the core nearest to the polytope. A core inside:
 // the axis of least overlap. Where a face meets the side, the core is clipped against the face's
-// side planes and gives two points.
+// side planes and gives two points. What these features do not prove, GJK and EPA decide.
 #include <algorithm>
 
 #include "core/geometry/contact_point.h"
+#include "core/geometry/nearest_manifold.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/polytope_collide.h"
 #include "core/geometry/polytope_segment.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct PolytopeCapsule {
   const PosedShape& polytope;
+  const PosedShape& capsule;
   const Vec3<Length>& offset;
   Length radius;
   Length margin;
@@ -75,7 +77,7 @@ Manifold face_manifold(const PolytopeCapsule& pair, int face, const BesideFace& 
   return manifold.count > 0 ? manifold : Manifold{};
 }
 
-Manifold nearest_manifold(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
+Manifold manifold_at(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
   const RawVec gap = rotate(pair.polytope.rotation, nearest.gap);
   const Direction d = direction(gap.x, gap.y, gap.z);
   Manifold manifold;
@@ -109,13 +111,13 @@ bool attains(const PolytopeCapsule& pair, int face, const BesideFace& beside, Fi
 
 Manifold collide_apart(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
   const int face = facing_face(pair, nearest.gap);
-  if (face < 0 || is_steep(pair, face)) return nearest_manifold(pair, nearest);
+  if (face < 0 || is_steep(pair, face)) return manifold_at(pair, nearest);
   const BesideFace beside = beside_face(pair.local, face);
   if (beside.low > beside.high || beside.high - beside.low <= fine(pair.radius) / 16)
-    return nearest_manifold(pair, nearest);
-  if (!attains(pair, face, beside, nearest.distance)) return nearest_manifold(pair, nearest);
+    return manifold_at(pair, nearest);
+  if (!attains(pair, face, beside, nearest.distance)) return manifold_at(pair, nearest);
   const Manifold manifold = face_manifold(pair, face, beside);
-  return manifold.count > 0 ? manifold : nearest_manifold(pair, nearest);
+  return manifold.count > 0 ? manifold : manifold_at(pair, nearest);
 }
 
 Manifold edge_manifold(const PolytopeCapsule& pair, const SegmentEdge& best) {
@@ -135,22 +137,39 @@ Fine limit_of(const PolytopeCapsule& pair) {
   return fine(pair.radius) + fine(pair.margin);
 }
 
-/// The core meets the polytope, or only its plane when that is flat and the core lies in it.
-Manifold collide_inside(const PolytopeCapsule& pair, const SegmentFace& face,
-                        const SegmentHeights& heights) {
+Manifold nearest_or_deepest(const PolytopeCapsule& pair) {
+  return nearest_manifold(pair.polytope, pair.capsule, pair.offset, pair.margin);
+}
+
+bool pushes_forward(const PolytopeCapsule& pair, const Manifold& manifold) {
+  const Vec3<Unit> n = rotate_inverse(pair.polytope.rotation, manifold.normal);
+  return pair.local.backward.allows(-n);
+}
+
+/// The core meets the polytope, or only its plane when that is flat and the core lies in it: a face
+/// whose plane the core reaches beside it, or the least way out, unless that leads out at the back.
+Manifold collide_inside(const PolytopeCapsule& pair, const SegmentFace& face) {
   const BesideFace beside = beside_face(pair.local, face.face);
-  if (beside.low <= beside.high) return face_manifold(pair, face.face, beside);
-  const SegmentNearest nearest = nearest_to_segment(pair.local, heights, limit_of(pair));
-  if (nearest.found && !is_negligible(nearest.gap) && nearest.distance > 0)
-    return collide_apart(pair, nearest);
-  const Fine s = nearest.found ? nearest.s : 0;
-  return face_manifold(pair, face.face, {s, s});
+  const bool is_beside = beside.low <= beside.high;
+  const auto height = [&](Fine s) { return height_at(pair, face.face, s); };
+  if (is_beside && std::min(height(beside.low), height(beside.high)) <= k_agreement)
+    return face_manifold(pair, face.face, beside);
+  const Manifold out = nearest_or_deepest(pair);
+  if (pushes_forward(pair, out)) return out;
+  const Fine s = slope_over(pair, face.face) > 0 ? -pair.local.half : pair.local.half;
+  return face_manifold(pair, face.face, is_beside ? beside : BesideFace{s, s});
 }
 
 Manifold without_backward(const PolytopeCapsule& pair, const Manifold& manifold) {
-  const Facing& facing = pair.local.backward;
-  const Vec3<Unit> n = rotate_inverse(pair.polytope.rotation, manifold.normal);
-  return facing.allows(-n) ? manifold : Manifold{};
+  return pushes_forward(pair, manifold) ? manifold : Manifold{};
+}
+
+/// Whether the plane along the gap separates the core from the polytope by the gap's length.
+bool is_proven(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
+  const Vec3<Unit> n = direction_of(nearest.gap.x, nearest.gap.y, nearest.gap.z);
+  const auto height = [&](Fine s) { return dot(split(pair.local.at(s)), n); };
+  const Fine low = std::min(height(-pair.local.half), height(pair.local.half));
+  return low - support_of(pair.local.polytope, n).height >= nearest.distance - 2 * k_agreement;
 }
 
 }  // namespace
@@ -164,6 +183,7 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
   const Vec3<Unit>& axis = capsule.rotation.y;
   const PolytopeCapsule pair{
       polytope,
+      capsule,
       offset,
       capsule.shape.size.x,
       margin,
@@ -175,15 +195,16 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
   measure(pair.local, heights);
   const SegmentFace face = best_face(pair.local, heights);
   if (face.separation > limit) return {};
+  SegmentEdge edge;
   if (face.separation <= 0) {
-    const Fine threshold = std::min(edge_threshold(face.separation), Fine{0});
-    const SegmentEdge edge = best_edge(pair.local, heights, threshold);
+    edge = best_edge(pair.local, heights, std::min(edge_threshold(face.separation), Fine{0}));
     if (edge.found && edge.separation <= 0) return edge_manifold(pair, edge);
-    if (!edge.found) return collide_inside(pair, face, heights);
+    if (!edge.found) return collide_inside(pair, face);
   }
   const SegmentNearest nearest = nearest_to_segment(pair.local, heights, limit);
-  if (!nearest.found) return {};
-  if (is_negligible(nearest.gap)) return collide_inside(pair, face, heights);
+  if (nearest.found && is_negligible(nearest.gap) && !edge.found) return collide_inside(pair, face);
+  if (!nearest.found || is_negligible(nearest.gap) || !is_proven(pair, nearest))
+    return without_backward(pair, nearest_or_deepest(pair));
   return without_backward(pair, collide_apart(pair, nearest));
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 
 #include "core/geometry/contact_point.h"
 #include "core/geometry/cut.h"
 #include "core/geometry/manifold_reduction.h"
 #include "core/geometry/normals.h"
+#include "core/geometry/polytope_edges.h"
 #include "core/geometry/preference.h"
 #include "core/math/roots.h"
 
@@ -18,6 +20,10 @@ namespace {
 constexpr std::uint32_t k_reference_label = 1024;
 constexpr int k_label_bits = 11;
 static_assert(k_max_polytope_edges < static_cast<int>(k_reference_label));
+
+/// The four sides of the reference face's bounds.
+constexpr std::uint32_t k_bounds_label = (1U << k_label_bits) - 4;
+static_assert(k_reference_label + k_max_polytope_edges <= k_bounds_label);
 
 /// Each side adds at most one vertex to a convex polygon; rounding may cost a few more.
 constexpr int k_capacity = 2 * k_max_polytope_face_edges + 16;
@@ -42,7 +48,8 @@ struct ClipPolygon {
   }
 };
 
-/// The reference face's axes: u along its first edge, v = n × u. Heights are from its plane.
+/// The reference face's axes: u along its first edge as seen from above, v = n × u. Heights are
+/// from its plane.
 struct Frame {
   const FaceMeeting& meeting;
   const PolytopeFace& face;
@@ -61,11 +68,24 @@ struct Frame {
   [[nodiscard]] std::int64_t lattice(Fine x) const { return raw::round_shift(x, shift); }
 };
 
+/// Square to the face's normal and to its first edge. Edges of merged faces may lean on the normal:
+/// one that leans by more than 60° is passed over.
+Vec3<Unit> inward_axis(const Polytope& own, const PolytopeFace& face) {
+  RawVec inward;
+  for (int i = 0; i < face.edge_count; ++i) {
+    const RawVec edge = lanes_of(edge_vector(own, face.first_edge + i));
+    inward = cross_narrow(lanes_of(face.normal), edge);
+    const std::uint64_t width = norm(inward.x, inward.y, inward.z) >> Unit::frac_bits;
+    if (2 * width + 1 >= norm(edge.x, edge.y, edge.z)) break;
+  }
+  return direction_of(inward.x, inward.y, inward.z);
+}
+
 Frame make_frame(const FaceMeeting& meeting, int incident) {
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
-  const Vec3<Unit> u = direction_of(edge_vector(view.own, face.first_edge));
-  const Vec3<Unit> v = rounded<Unit>(cross(face.normal, u));
+  const Vec3<Unit> v = inward_axis(view.own, face);
+  const Vec3<Unit> u = rounded<Unit>(cross(v, face.normal));
   Frame frame{meeting,
               face,
               u,
@@ -182,19 +202,26 @@ bool snap(const Frame& frame, const Side& side, std::int64_t excess, ClipVertex&
 
 using Excesses = std::array<std::int64_t, k_capacity>;
 
-/// Signed distances to the side times its length; vertices just outside a polygon that reaches
-/// inside are snapped and count as on the side. Answers whether any is outside.
-bool measure(const Frame& frame, const Side& side, ClipPolygon& polygon, Excesses& excesses) {
+/// Signed distances to the side times its length. Answers whether any is outside.
+bool is_outside(const Frame& frame, const Side& side, const ClipPolygon& polygon,
+                Excesses& excesses) {
   bool outside = false;
-  bool inside = false;
   for (int i = 0; i < polygon.count; ++i) {
     const std::int64_t excess =
         side.excess(frame.lattice(polygon[i].x), frame.lattice(polygon[i].y));
     excesses[static_cast<std::size_t>(i)] = excess;
     outside = outside || excess > 0;
-    inside = inside || excess < 0;
   }
-  if (!outside || !inside || !may_snap(frame)) return outside;
+  return outside;
+}
+
+/// Likewise; vertices just outside a polygon that reaches inside are snapped and count as on the
+/// side.
+bool measure(const Frame& frame, const Side& side, ClipPolygon& polygon, Excesses& excesses) {
+  if (!is_outside(frame, side, polygon, excesses)) return false;
+  const auto measured = std::span(excesses).first(static_cast<std::size_t>(polygon.count));
+  const bool inside = std::ranges::any_of(measured, [](std::int64_t e) { return e < 0; });
+  if (!inside || !may_snap(frame)) return true;
   for (int i = 0; i < polygon.count; ++i) {
     std::int64_t& excess = excesses[static_cast<std::size_t>(i)];
     if (excess > 0 && snap(frame, side, excess, polygon[i])) excess = 0;
@@ -229,7 +256,29 @@ void clip(const Side& side, const ClipPolygon& polygon, const Excesses& excesses
   }
 }
 
-/// The incident face within the sides of the reference face, in one of the two polygons.
+/// The sides of the outline's bounds and a few steps around them, which vertices moved onto a side
+/// may be off by. Counter-clockwise from the lowest y.
+std::array<Side, 4> bounds_of(const Frame& frame, const Outline& outline) {
+  constexpr std::int64_t far = std::int64_t{1} << 30;
+  std::int64_t left = far, right = -far, low = far, high = -far;
+  for (int i = 0; i < frame.face.edge_count; ++i) {
+    const FlatPoint& p = outline[static_cast<std::size_t>(i)];
+    left = std::min(left, frame.lattice(p.x));
+    right = std::max(right, frame.lattice(p.x));
+    low = std::min(low, frame.lattice(p.y));
+    high = std::max(high, frame.lattice(p.y));
+  }
+  constexpr std::int64_t around = 4;
+  constexpr std::uint32_t label = k_bounds_label;
+  return {{{left, low - around, 1, 0, label},
+           {right + around, low, 0, 1, label + 1},
+           {right, high + around, -1, 0, label + 2},
+           {left - around, high, 0, -1, label + 3}}};
+}
+
+/// The incident face within the sides of the reference face, in one of the two polygons. Where two
+/// sides meet at a sharp angle, what is within a step of both may be far beyond their corner, but
+/// not beyond the bounds.
 const ClipPolygon& clip_to_sides(const Frame& frame, const Outline& outline, ClipPolygon& polygon,
                                  ClipPolygon& spare) {
   Excesses excesses;
@@ -242,6 +291,11 @@ const ClipPolygon& clip_to_sides(const Frame& frame, const Outline& outline, Cli
                      outline[static_cast<std::size_t>(next)], frame.face.first_edge + i);
     if (side.dx == 0 && side.dy == 0) continue;  // shorter than the lattice resolves
     if (!measure(frame, side, *from, excesses)) continue;
+    clip(side, *from, excesses, *to);
+    std::swap(from, to);
+  }
+  for (const Side& side : bounds_of(frame, outline)) {
+    if (!is_outside(frame, side, *from, excesses)) continue;
     clip(side, *from, excesses, *to);
     std::swap(from, to);
   }

@@ -7,10 +7,13 @@ namespace {
 // Separations saturate at ±128 m.
 constexpr double k_deepest = -127;
 
-// A face stands where another axis overlaps less by a tenth and 0.49 mm (preference.h); of two
-// shapes' faces the first by 1/32 and 0.24 mm.
+// A face stands where an edge overlaps less by a tenth and 0.49 mm, and of two shapes' faces the
+// first stands where the second overlaps less by 1/32 and 0.25 mm (preference.h). Both may apply at
+// once: an edge by itself less deep than the second face yields to the first.
 double preferred(double depth) {
-  return depth / 9 + 0.00055;
+  constexpr double k_millimetre = 1e-3;
+  const double face = (depth + 0.49 * k_millimetre) / 0.9;
+  return (face + 0.25 * k_millimetre) * 32 / 31 - depth;
 }
 
 void check_apart(const Pair& pair, const Answers& answers, Verdict& verdict) {

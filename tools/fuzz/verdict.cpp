@@ -13,7 +13,7 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"depth", "2 um + 13e-9 of the sizes"},
     {"turned", "4 um + 26e-9 of the sizes"},
     {"apart", "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance"},
-    {"overlap", "a ninth and 0.55 mm more"},
+    {"overlap", "15 % and 0.82 mm more"},
     {"margin", "as apart"},
     {"manifold", "normal 2^-29; features ascend"},
     {"anchors", "34 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius"},

@@ -1,0 +1,36 @@
+#include "core/geometry/nearest_manifold.h"
+
+#include "core/geometry/contact_point.h"
+#include "core/geometry/epa.h"
+
+namespace lockstone::geometry {
+namespace {
+
+constexpr std::uint32_t k_nearest_feature = 1U << 30;
+
+Fine fine(Position distance) {
+  return distance.raw * (Fine{1} << (k_fine_bits - Position::frac_bits));
+}
+
+}  // namespace
+
+Manifold nearest_manifold(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                          Length margin) {
+  const ClosestPoints near = distance(a, b, offset);
+  Manifold manifold;
+  if (!near.overlapping) {
+    manifold.normal = near.normal;
+    const RawVec on_b = geometry::fine(near.point_b) + geometry::fine(offset);
+    add_point(manifold, {geometry::fine(near.point_a), on_b}, offset, fine(near.distance), margin,
+              k_nearest_feature);
+  } else {
+    const Penetration deep = penetration(a, b, offset);
+    manifold.normal = deep.normal;
+    const RawVec on_b = geometry::fine(deep.point_b) + geometry::fine(offset);
+    add_point(manifold, {geometry::fine(deep.point_a), on_b}, offset, -fine(deep.depth), margin,
+              k_nearest_feature);
+  }
+  return manifold.count > 0 ? manifold : Manifold{};
+}
+
+}  // namespace lockstone::geometry
