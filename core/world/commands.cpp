@@ -185,6 +185,7 @@ Status World::Impl::execute(const DestroyBody& command) {
   const BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   const std::uint32_t index = command.body.index;
+  destroy_joints_of(index);
   drop_contacts_of(index);
   broad_phase.remove(index);
   BodyRecord empty;

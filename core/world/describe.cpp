@@ -72,6 +72,16 @@ StateDifference compare_contacts(const SnapshotView& here, const SnapshotView& t
   return {};
 }
 
+StateDifference compare_joints(const SnapshotView& here, const SnapshotView& there) {
+  const std::uint32_t limit = std::max(here.header.joint_limit, there.header.joint_limit);
+  for (std::uint32_t i = 0; i < limit; ++i) {
+    const JointRecord a = i < here.header.joint_limit ? here.joint(i) : JointRecord{};
+    const JointRecord b = i < there.header.joint_limit ? there.joint(i) : JointRecord{};
+    if (const StateDifference found = compare("joint", i, a, b); found.differs) return found;
+  }
+  return {};
+}
+
 }  // namespace
 
 StateDifference World::describe_difference(ByteView here, ByteView there) const {
@@ -82,9 +92,11 @@ StateDifference World::describe_difference(ByteView here, ByteView there) const 
   WorldHeader common = b.value().header;  // store sizes differ because records do: name those first
   common.body_limit = a.value().header.body_limit;
   common.contact_count = a.value().header.contact_count;
+  common.joint_limit = a.value().header.joint_limit;
   StateDifference found = compare("world", 0, a.value().header, common);
   if (!found.differs) found = compare_bodies(a.value(), b.value());
   if (!found.differs) found = compare_contacts(a.value(), b.value());
+  if (!found.differs) found = compare_joints(a.value(), b.value());
   return found;
 }
 

@@ -16,6 +16,7 @@ namespace lockstone {
 /// record's place.
 inline constexpr std::uint64_t k_body_domain = 1;
 inline constexpr std::uint64_t k_contact_domain = 2;
+inline constexpr std::uint64_t k_joint_domain = 3;
 
 /// XXH3 of the canonical bytes: little-endian in field order, which on a little-endian machine is
 /// the memory.

@@ -1,6 +1,6 @@
 // Snapshots. The native one is a copy of the used parts of the stores. The canonical one is:
 //   u32 magic "LKSW" · u16 version · u16 reserved · u64 config hash
-//   header record · body records · contact records · u64 XXH3 of all before
+//   header record · body records · contact records · joint records · u64 XXH3 of all before
 // all little-endian, each record its fields in the order of its list.
 
 #include <algorithm>
@@ -26,16 +26,6 @@ bool in_range(const Vec3<Position>& v, Position limit) {
 bool in_range(const Vec3<Velocity>& v) {
   constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
   return abs(v.x) <= limit && abs(v.y) <= limit && abs(v.z) <= limit;
-}
-
-bool has_unit_norm(const Quat& q) {
-  constexpr std::int32_t k_bound = 1 << 30;
-  for (const Unit c : {q.x, q.y, q.z, q.w}) {
-    if (c.raw > k_bound || c.raw < -k_bound) return false;
-  }
-  const std::int64_t norm = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw;  // Q60
-  const std::int64_t error = norm - (std::int64_t{1} << 60);
-  return error < (std::int64_t{1} << 40) && error > -(std::int64_t{1} << 40);
 }
 
 bool has_valid_inertia(const Vec3<Unit>& inertia) {
@@ -83,6 +73,16 @@ bool has_valid_points(const ContactRecord& record) {
 }
 
 }  // namespace
+
+bool has_unit_norm(const Quat& q) {
+  constexpr std::int32_t k_bound = 1 << 30;
+  for (const Unit c : {q.x, q.y, q.z, q.w}) {
+    if (c.raw > k_bound || c.raw < -k_bound) return false;
+  }
+  const std::int64_t norm = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw;  // Q60
+  const std::int64_t error = norm - (std::int64_t{1} << 60);
+  return error < (std::int64_t{1} << 40) && error > -(std::int64_t{1} << 40);
+}
 
 Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (record.generation == 0 || record.motion > 3) return Status::malformed;
@@ -137,13 +137,15 @@ Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def,
   if (version != k_snapshot_version) return Status::unsupported_version;
   if (config != config_hash(def, assets.hash())) return Status::incompatible;
   if (view.header.body_limit > def.body_capacity ||
-      view.header.contact_count > def.contact_capacity) {
+      view.header.contact_count > def.contact_capacity ||
+      view.header.joint_limit > def.joint_capacity || view.header.reserved != 0) {
     return Status::malformed;
   }
   const std::size_t body_bytes = view.header.body_limit * sizeof(BodyRecord);
   const std::size_t contact_bytes = view.header.contact_count * sizeof(ContactRecord);
   view.bodies_ = reader.get_bytes(body_bytes);
   view.contacts_ = reader.get_bytes(contact_bytes);
+  view.joints_ = reader.get_bytes(view.header.joint_limit * sizeof(JointRecord));
   const std::size_t hashed = reader.position();
   const auto hash = reader.get<std::uint64_t>();
   if (!reader.ok()) return Status::truncated;
@@ -162,18 +164,41 @@ ContactRecord SnapshotView::contact(std::uint32_t index) const {
   return decode<ContactRecord>(reader);
 }
 
+JointRecord SnapshotView::joint(std::uint32_t index) const {
+  ByteReader reader(joints_.subspan(index * sizeof(JointRecord), sizeof(JointRecord)));
+  return decode<JointRecord>(reader);
+}
+
+Status SnapshotView::check_joints() const {
+  for (std::uint32_t i = 0; i < header.joint_limit; ++i) {
+    const JointRecord record = joint(i);
+    if (validate(record) != Status::ok) return Status::malformed;
+    if (!record.exists()) continue;
+    if (record.body_a >= header.body_limit || record.body_b >= header.body_limit) {
+      return Status::malformed;
+    }
+    const BodyRecord a = body(record.body_a), b = body(record.body_b);
+    if (!can_join(a, b) || !is_anchor(a, record.anchor_a) || !is_anchor(b, record.anchor_b)) {
+      return Status::malformed;
+    }
+  }
+  return Status::ok;
+}
+
 Status SnapshotView::check() const {
   if (!is_valid_gravity(header.gravity)) return Status::malformed;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (validate(body(i), *assets_) != Status::ok) return Status::malformed;
   }
-  return check_contacts();
+  if (const Status status = check_contacts(); status != Status::ok) return status;
+  return check_joints();
 }
 
 std::size_t World::snapshot_bytes_max(SnapshotKind kind) const {
   const std::size_t frame = kind == SnapshotKind::native ? 0 : k_snapshot_frame_bytes;
   return frame + sizeof(WorldHeader) + impl_->def.body_capacity * sizeof(BodyRecord) +
-         impl_->def.contact_capacity * sizeof(ContactRecord);
+         impl_->def.contact_capacity * sizeof(ContactRecord) +
+         impl_->def.joint_capacity * sizeof(JointRecord);
 }
 
 std::size_t World::save(SnapshotKind kind, std::span<std::byte> out) const {
@@ -187,7 +212,8 @@ Status World::load(SnapshotKind kind, ByteView bytes) {
 std::size_t World::Impl::save_native(std::span<std::byte> out) const {
   const ByteView parts[] = {std::as_bytes(std::span(&header, 1)),
                             std::as_bytes(std::span(bodies.data(), header.body_limit)),
-                            std::as_bytes(std::span(contact_store.data(), header.contact_count))};
+                            std::as_bytes(std::span(contact_store.data(), header.contact_count)),
+                            std::as_bytes(std::span(joints.data(), header.joint_limit))};
   std::size_t size = 0;
   for (const ByteView part : parts) {
     if (part.size() > out.size() - size) return 0;
@@ -201,19 +227,28 @@ Status World::Impl::load_native(ByteView bytes) {
   if (bytes.size() < sizeof(WorldHeader)) return Status::truncated;
   WorldHeader loaded;
   std::memcpy(&loaded, bytes.data(), sizeof(loaded));
-  if (loaded.body_limit > def.body_capacity || loaded.contact_count > def.contact_capacity) {
+  if (loaded.body_limit > def.body_capacity || loaded.contact_count > def.contact_capacity ||
+      loaded.joint_limit > def.joint_capacity) {
     return Status::malformed;
   }
   const std::size_t body_bytes = loaded.body_limit * sizeof(BodyRecord);
   const std::size_t contact_bytes = loaded.contact_count * sizeof(ContactRecord);
-  if (bytes.size() != sizeof(loaded) + body_bytes + contact_bytes) return Status::truncated;
+  const std::size_t joint_bytes = loaded.joint_limit * sizeof(JointRecord);
+  if (bytes.size() != sizeof(loaded) + body_bytes + contact_bytes + joint_bytes) {
+    return Status::truncated;
+  }
   for (std::uint32_t i = loaded.body_limit; i < header.body_limit; ++i)
     bodies[i] = {};
+  for (std::uint32_t i = loaded.joint_limit; i < header.joint_limit; ++i)
+    joints[i] = {};
   const std::byte* from = bytes.data() + sizeof(loaded);
   if (body_bytes > 0) std::memcpy(bodies.data(), from, body_bytes);
   if (contact_bytes > 0) std::memcpy(contact_store.data(), from + body_bytes, contact_bytes);
+  from += body_bytes + contact_bytes;
+  if (joint_bytes > 0) std::memcpy(joints.data(), from, joint_bytes);
   header = loaded;
   events.clear();
+  joint_events.clear();
   rebuild_derived();
   return Status::ok;
 }
@@ -229,6 +264,8 @@ std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
     encode(bodies[i], writer);
   for (const ContactRecord& contact : contacts())
     encode(contact, writer);
+  for (std::uint32_t i = 0; i < header.joint_limit; ++i)
+    encode(joints[i], writer);
   if (!writer.ok()) return 0;
   writer.put(hash64(writer.written()));
   return writer.ok() ? writer.size() : 0;
@@ -238,7 +275,7 @@ Status World::Impl::load_canonical(ByteView bytes) {
   const Result<SnapshotView> view = SnapshotView::open(bytes, def, *assets);
   if (!view.ok()) return view.status();
   if (const Status status = view.value().check(); status != Status::ok) return status;
-  const std::uint32_t old_limit = header.body_limit;
+  const std::uint32_t old_limit = header.body_limit, old_joints = header.joint_limit;
   header = view.value().header;
   for (std::uint32_t i = 0; i < header.body_limit; ++i)
     bodies[i] = view.value().body(i);
@@ -247,7 +284,12 @@ Status World::Impl::load_canonical(ByteView bytes) {
   for (std::uint32_t i = 0; i < header.contact_count; ++i) {
     contact_store[i] = view.value().contact(i);
   }
+  for (std::uint32_t i = 0; i < header.joint_limit; ++i)
+    joints[i] = view.value().joint(i);
+  for (std::uint32_t i = header.joint_limit; i < old_joints; ++i)
+    joints[i] = {};
   events.clear();
+  joint_events.clear();
   rebuild_derived();
   return Status::ok;
 }

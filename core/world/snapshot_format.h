@@ -11,7 +11,7 @@
 namespace lockstone {
 
 inline constexpr std::uint32_t k_snapshot_magic = 0x57534b4c;  // "LKSW"
-inline constexpr std::uint16_t k_snapshot_version = 1;
+inline constexpr std::uint16_t k_snapshot_version = 2;
 inline constexpr std::size_t k_snapshot_frame_bytes = 4 + 2 + 2 + 8 + 8;
 
 class SnapshotView {
@@ -25,15 +25,18 @@ class SnapshotView {
 
   [[nodiscard]] BodyRecord body(std::uint32_t index) const;
   [[nodiscard]] ContactRecord contact(std::uint32_t index) const;
+  [[nodiscard]] JointRecord joint(std::uint32_t index) const;
 
   WorldHeader header;
 
  private:
   [[nodiscard]] Status check_contacts() const;
+  [[nodiscard]] Status check_joints() const;
 
   const AssetSet* assets_ = nullptr;
   ByteView bodies_;
   ByteView contacts_;
+  ByteView joints_;
 };
 
 }  // namespace lockstone

@@ -89,7 +89,11 @@ void World::Impl::collide_pairs(StepReport& report) {
   surfaces.clear();
   std::span<const ContactRecord> before = contacts();
   const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
+  auto joined = joined_pairs.begin();
   for (const Pair& pair : pairs) {
+    while (joined != joined_pairs.end() && *joined < pair)
+      ++joined;
+    if (joined != joined_pairs.end() && *joined == pair) continue;
     while (!before.empty() && bodies_of(before.front()) < pair)
       before = before.subspan(1);
     std::size_t known = 0;

@@ -19,20 +19,21 @@ constexpr bool within(std::uint32_t value, std::uint32_t low, std::uint32_t high
 
 bool is_valid(const WorldDef& def) {
   return within(def.body_capacity, 1, 1U << 20) && within(def.pair_capacity, 1, 1U << 24) &&
-         within(def.contact_capacity, 1, 1U << 24) && within(def.tick_rate, 10, 480) &&
-         within(def.substeps, 1, 16) && is_valid_gravity(def.gravity) &&
-         def.broad_phase <= BroadPhaseKind::sweep_and_prune;
+         within(def.contact_capacity, 1, 1U << 24) && def.joint_capacity <= 1U << 20 &&
+         within(def.tick_rate, 10, 480) && within(def.substeps, 1, 16) &&
+         is_valid_gravity(def.gravity) && def.broad_phase <= BroadPhaseKind::sweep_and_prune;
 }
 
 }  // namespace
 
 std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
-  std::array<std::byte, 56> buffer{};
+  std::array<std::byte, 60> buffer{};
   ByteWriter writer(buffer);
   writer.put(k_simulation_abi);
   writer.put(def.body_capacity);
   writer.put(def.pair_capacity);
   writer.put(def.contact_capacity);
+  writer.put(def.joint_capacity);
   writer.put(def.tick_rate);
   writer.put(def.substeps);
   for (int i = 0; i < 3; ++i)
@@ -48,6 +49,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
       bodies(definition.body_capacity),
       contact_store(definition.contact_capacity),
+      joints(definition.joint_capacity),
       rotations(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
@@ -60,6 +62,9 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
     triangle_scratch = std::make_unique<TriangleScratch>();
   }
   events.reserve(std::size_t{2} * definition.contact_capacity + definition.body_capacity);
+  joint_links.reserve(definition.joint_capacity);
+  joined_pairs.reserve(definition.joint_capacity);
+  joint_events.reserve(definition.joint_capacity);
   impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);
   new_contacts.reserve(definition.contact_capacity);
@@ -101,6 +106,7 @@ void World::Impl::rebuild_derived() {
     refresh(i);
   }
   broad_phase.settle();
+  rebuild_joint_links();
 }
 
 PlacedShape World::Impl::placed(std::uint32_t body) const {

@@ -14,6 +14,7 @@
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/contact_solver.h"
+#include "core/dynamics/joint_record.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
 #include "core/world/body_hashes.h"
@@ -33,6 +34,8 @@ struct World::Impl {
 #define LKS_DECLARE_EXECUTE(Name) Status execute(const Name& command);
   LKS_COMMANDS(LKS_DECLARE_EXECUTE)
 #undef LKS_DECLARE_EXECUTE
+
+  Result<JointHandle> create_joint(const JointDef& joint_def);
 
   [[nodiscard]] const BodyRecord* find(BodyHandle body) const;
 
@@ -60,6 +63,22 @@ struct World::Impl {
   }
   void drop_contacts_of(std::uint32_t body);
 
+  // Joints (joints.cpp).
+  [[nodiscard]] const JointRecord* find(JointHandle joint) const;
+  [[nodiscard]] JointRecord* edit(JointHandle joint);
+  [[nodiscard]] JointView view(const JointRecord& joint) const;
+  [[nodiscard]] BodyHandle handle_of(std::uint32_t body) const {
+    return {body, bodies[body].generation};
+  }
+  void destroy_joint(std::uint32_t joint);
+  void destroy_joints_of(std::uint32_t body);
+  void link_joint(std::uint32_t index);
+  void unlink_joint(std::uint32_t index);
+  void rebuild_joint_links();
+  [[nodiscard]] Pair joined_pair(const JointRecord& joint) const;
+  [[nodiscard]] bool set_total_length(JointRecord& joint) const;
+
+
   // Snapshots (snapshot.cpp).
   [[nodiscard]] std::size_t save_native(std::span<std::byte> out) const;
   [[nodiscard]] std::size_t save_canonical(std::span<std::byte> out) const;
@@ -75,6 +94,13 @@ struct World::Impl {
   std::vector<BodyRecord> bodies;            // by index; size: body capacity
   std::vector<ContactRecord> contact_store;  // the first header.contact_count; size: capacity
 
+  std::vector<JointRecord> joints;           // by index; size: joint capacity
+
+  // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
+  std::vector<JointLink> joint_links;
+  std::vector<Pair> joined_pairs;
+  std::uint32_t joint_hint = 0;  // no slot below this is empty
+
   // Derived, by body index.
   std::vector<Mat3> rotations;
   std::vector<const Asset*> body_assets;  // null: a shape complete in itself
@@ -85,6 +111,7 @@ struct World::Impl {
 
   // Of the last step only.
   std::vector<ContactEvent> events;
+  std::vector<JointEvent> joint_events;
 
   Profiler profiler;
 
@@ -168,6 +195,14 @@ struct World::Impl {
 
 /// ok, or what makes a stored record impossible. For bytes from outside.
 [[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
+[[nodiscard]] Status validate(const JointRecord& record);
+
+/// Whether a joint may hold the two, and whether a body's joints may sit there.
+[[nodiscard]] bool can_join(const BodyRecord& a, const BodyRecord& b);
+[[nodiscard]] bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor);
+
+/// |q| = 1 within 2^-20. For bytes from outside.
+[[nodiscard]] bool has_unit_norm(const Quat& q);
 
 /// |x| + |y| + |z|, at least the length, raw.
 template <class T>

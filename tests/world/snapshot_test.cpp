@@ -95,7 +95,10 @@ void flip_each_field(const std::vector<std::byte>& saved, std::size_t offset, Ch
   std::memcpy(&record, saved.data() + offset, sizeof(record));
   visit_fields(record, [&](const char* name, const char* suffix, auto& integer) {
     const std::string field = std::string(name) + suffix;
-    if (field == "shape_kind" || field == "body_limit" || field == "contact_count") return;
+    if (field == "shape_kind" || field == "body_limit" || field == "contact_count" ||
+        field == "joint_limit") {
+      return;
+    }
     const auto original = integer;
     integer = static_cast<std::remove_reference_t<decltype(integer)>>(integer ^ 1);
     std::vector<std::byte> flipped = saved;

@@ -68,6 +68,30 @@ Command sample(Tag<SetFilter>, BodyHandle body, Random& random) {
 Command sample(Tag<SetUserData>, BodyHandle body, Random& random) {
   return SetUserData{body, random.next()};
 }
+// On the ground, which is body 0.
+Command sample(Tag<CreateJoint>, BodyHandle body, Random& random) {
+  const JointKind kind = random.below(2) == 0 ? JointKind::ball : JointKind::distance;
+  JointDef def = JointDef::of(kind, {0, 1}, body);
+  def.frame_a.position = {Length::from_integer(random.between(-3, 3)), 4_m, {}};
+  def.linear[0].upper = 2_m;
+  def.linear[0].mode = kind == JointKind::ball ? AxisMode::locked : AxisMode::limited;
+  return CreateJoint{def};
+}
+Command sample(Tag<DestroyJoint>, BodyHandle, Random& random) {
+  return DestroyJoint{{random.below(4), 1}};
+}
+Command sample(Tag<SetLinearAxis>, BodyHandle, Random& random) {
+  LinearAxis axis;
+  axis.mode = AxisMode::locked;
+  axis.hertz = Number::from_integer(random.between(0, 9));
+  return SetLinearAxis{{random.below(4), 1}, 0, axis};
+}
+Command sample(Tag<SetAngularAxis>, BodyHandle, Random& random) {
+  AngularAxis axis;
+  axis.speed = Rate::from_integer(random.between(-9, 9));
+  axis.max_effort = Torque::from_integer(500);
+  return SetAngularAxis{{random.below(4), 1}, 0, axis};
+}
 Command sample(Tag<SetGravity>, BodyHandle, Random& random) {
   const Acceleration x = Acceleration::from_ratio(random.between(-200, 200), 100);
   return SetGravity{{x, -9.81_mps2, {}}};

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <lockstone/body.h>
+#include <lockstone/joint.h>
 
 namespace lockstone {
 
@@ -31,13 +32,21 @@ struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; };
 struct SetMaterial { BodyHandle body{}; Coefficient friction{}; Coefficient restitution{}; };
 struct SetFilter { BodyHandle body{}; CollisionFilter filter{}; };
 struct SetUserData { BodyHandle body{}; std::uint64_t user_data = 0; };
+struct CreateJoint { JointDef def{}; };
+struct DestroyJoint { JointHandle joint{}; };
+
+/// New settings for one axis, limits and drive alike: axis 0 … 2.
+struct SetLinearAxis { JointHandle joint{}; std::uint8_t axis = 0; LinearAxis settings{}; };
+struct SetAngularAxis { JointHandle joint{}; std::uint8_t axis = 0; AngularAxis settings{}; };
+
 struct SetGravity { Vec3<Acceleration> gravity{}; };
 
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
   X(ApplyImpulse) X(ApplyImpulseAt) X(ApplyAngularImpulse) X(ApplyForce) \
-  X(SetMaterial) X(SetFilter) X(SetUserData) X(SetGravity)
+  X(SetMaterial) X(SetFilter) X(SetUserData) X(SetGravity) \
+  X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

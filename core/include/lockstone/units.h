@@ -18,6 +18,7 @@ using SquareMetre = Dimension<2, 0, 0>;
 using NewtonSecond = Dimension<1, 1, -1>;
 using NewtonMetreSecond = Dimension<2, 1, -1>;
 using Newton = Dimension<1, 1, -2>;
+using NewtonMetre = Dimension<2, 1, -2>;
 using KilogramPerMetre3 = Dimension<-3, 1, 0>;
 
 /// World position, one axis. ±2^31 m representable, world limit ±2^20 m; resolution 0.23 nm.
@@ -59,5 +60,6 @@ using Mass = Fixed<Kilogram, std::int64_t, 32>;             ///< up to 2.1e9 kg
 using Impulse = Fixed<NewtonSecond, std::int64_t, 24>;      ///< up to 5e11 N·s
 using AngularImpulse = Fixed<NewtonMetreSecond, std::int64_t, 24>;
 using Force = Fixed<Newton, std::int64_t, 20>;  ///< up to 8e12 N
+using Torque = Fixed<NewtonMetre, std::int64_t, 20>;
 
 }  // namespace lockstone

@@ -16,6 +16,7 @@
 #include <lockstone/collision.h>
 #include <lockstone/command.h>
 #include <lockstone/event.h>
+#include <lockstone/joint.h>
 #include <lockstone/profile.h>
 #include <lockstone/query.h>
 #include <lockstone/simulation.h>
@@ -32,6 +33,7 @@ struct WorldDef {
   std::uint32_t body_capacity = 1024;     ///< 1 … 2^20
   std::uint32_t pair_capacity = 16384;    ///< pairs with overlapping bounds, 1 … 2^24
   std::uint32_t contact_capacity = 8192;  ///< touching pairs, 1 … 2^24
+  std::uint32_t joint_capacity = 1024;    ///< 0 … 2^20
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
   BroadPhaseKind broad_phase{};           ///< changes no result, so peers may differ in it
@@ -65,6 +67,7 @@ struct StateHash {
   std::uint64_t header = 0;
   std::uint64_t bodies = 0;
   std::uint64_t contacts = 0;
+  std::uint64_t joints = 0;
 };
 
 class World {
@@ -88,6 +91,10 @@ class World {
   /// cannot be. Slots are reused, lowest first.
   Result<BodyHandle> create_body(const BodyDef& def);
 
+  /// Makes a joint: capacity_exhausted, stale_handle for a body, or invalid_argument when it cannot
+  /// be. Slots are reused, lowest first. Destroying a body destroys its joints.
+  Result<JointHandle> create_joint(const JointDef& def);
+
   /// Applies one command now. On any status but ok nothing has changed.
   Status apply(const Command& command);
 
@@ -99,6 +106,9 @@ class World {
   /// Events of the last step; empty after `load`. Read them before the next step: they are not
   /// state.
   [[nodiscard]] std::span<const ContactEvent> events() const;
+
+  /// The joints that broke in the last step, by index.
+  [[nodiscard]] std::span<const JointEvent> joint_events() const;
 
   /// Clears the profile and takes times by `now` from here on; null, as at first, takes none. No
   /// result depends on it.
@@ -124,6 +134,18 @@ class World {
 
   /// Two bodies have a contact point with separation ≤ 0 or an impulse, as of the last step.
   [[nodiscard]] bool touching(BodyHandle a, BodyHandle b) const;
+
+  // Joints ----------------------------------------------------------------------------------------
+
+  [[nodiscard]] bool exists(JointHandle joint) const;
+  [[nodiscard]] std::uint32_t joint_count() const;
+
+  /// Every joint has an index below this; `joint_at` gives its handle, null for an empty slot.
+  [[nodiscard]] std::uint32_t joint_limit() const;
+  [[nodiscard]] JointHandle joint_at(std::uint32_t index) const;
+
+  /// The joint must exist.
+  [[nodiscard]] JointView joint(JointHandle joint) const;
 
   // Queries: read-only, safe from several threads, results in canonical order (query.h) ----------
 

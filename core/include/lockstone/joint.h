@@ -1,0 +1,126 @@
+// Joints: what holds two bodies together, limits how they move against each other, and drives them.
+//
+// A joint has a frame on each body. Frame B moves against frame A in six ways: along the three axes
+// of frame A, and about them. Each of the six is locked, free or limited, and may have a drive (a
+// spring or a motor). All kinds but distance, pulley, gear and rack are settings of these six.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <lockstone/body.h>
+#include <lockstone/quat.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+namespace lockstone {
+
+/// Names a joint. A handle whose joint was destroyed never names another one. Default: no joint.
+struct JointHandle {
+  std::uint32_t index = 0;
+  std::uint32_t generation = 0;  ///< 0 only in the null handle
+
+  friend constexpr auto operator<=>(const JointHandle&, const JointHandle&) = default;
+  [[nodiscard]] constexpr bool is_null() const { return generation == 0; }
+};
+
+enum class JointKind : std::uint8_t {
+  distance = 1,  ///< two points, kept at a distance: rod, rope or spring (linear[0])
+  ball = 2,      ///< a point in common; swing in a cone and twist may be limited
+  hinge = 3,     ///< turns about the x axis
+  slider = 4,    ///< moves along the x axis
+  weld = 5,      ///< nothing moves, or softly
+  wheel = 6,     ///< axle x, suspension along y, steering about y; body a is the chassis
+  motor = 7,     ///< drives one body towards a pose or a velocity against the other
+  six_axis = 8,  ///< each axis as its settings say
+  pulley = 9,  ///< length a + ratio · length b stays, each from a point to one fixed in the world
+  gear = 10,   ///< turning about x of frame a + ratio · that about x of frame b stays 0
+  rack = 11,   ///< turning about x of frame a + ratio · motion along x of frame b stays 0
+};
+
+enum class AxisMode : std::uint8_t {
+  locked = 0,   ///< stays at 0; with a spring (hertz > 0) softly
+  free = 1,     ///< moves as it likes, or as its drive does
+  limited = 2,  ///< stays within lower … upper
+};
+
+/// One way to move. `Value` is a length or an angle.
+///
+/// The drive is on when `hertz` or `max_effort` is above 0. With `hertz` = 0 it is a motor that
+/// holds `speed` with at most `max_effort`; speed 0 is friction. With `hertz` > 0 it is a spring of
+/// that frequency and damping towards `target`, damped against `speed`, and `max_effort` = 0 means
+/// as strong as need be. Frequencies above a quarter of the substep rate act as that.
+template <class Value, class Speed, class Effort>
+struct JointAxis {
+  AxisMode mode = AxisMode::free;
+  Value lower{};  ///< limits, lower ≤ upper: for angles within ±π
+  Value upper{};
+  Value target{};                                  ///< of the spring
+  Speed speed{};                                   ///< of the motor
+  Number hertz{};                                  ///< 0 … 1000
+  Number damping_ratio = Number::from_integer(1);  ///< 0 … 100
+  Effort max_effort{};                             ///< ≥ 0, N or N·m
+
+  friend bool operator==(const JointAxis&, const JointAxis&) = default;
+};
+using LinearAxis = JointAxis<Length, SolverVelocity, Force>;
+using AngularAxis = JointAxis<Angle, Rate, Torque>;
+
+/// Where a joint sits on a body: in the frame of its shape. Within k_max_anchor_ratio; the
+/// orientation is normalised.
+struct JointFrame {
+  Vec3<Length> position{};
+  Quat orientation{};
+};
+
+/// Anchors are at most this many times the body's radius (rounded up to a power of two) from its
+/// centre of mass, along each axis; of a body that does not turn at most 1024 m.
+inline constexpr int k_max_anchor_ratio = 64;
+
+/// A joint to be made. At least one body must be dynamic, and they must differ. To fasten something
+/// to the world, give a static body.
+///
+/// Angles: [0] is the twist, the turn of B about its x axis; [1] and [2] are the swing, the tilts
+/// of that axis about y and z of frame A. The swing of a ball joint is a cone about x: its half
+/// angle is angular[1].upper, when that is limited.
+struct JointDef {
+  JointKind kind = JointKind::ball;
+  BodyHandle body_a{};
+  BodyHandle body_b{};
+  JointFrame frame_a{};
+  JointFrame frame_b{};
+  std::array<LinearAxis, 3> linear{};
+  std::array<AngularAxis, 3> angular{};
+  Vec3<Position> ground_a{};  ///< pulley: the fixed points
+  Vec3<Position> ground_b{};
+  Number ratio = Number::from_integer(1);  ///< pulley, gear: ±1000; rack: rad of a for each m of b
+  Force break_force{};                     ///< the joint is destroyed beyond it; 0: never
+  Torque break_torque{};
+  bool collide = false;  ///< whether the two bodies may touch
+  std::uint64_t user_data = 0;
+
+  /// A joint of a kind with its axes locked and free as the kind says, and no drives.
+  [[nodiscard]] static JointDef of(JointKind kind, BodyHandle a, BodyHandle b);
+};
+
+/// A joint as it stands after the last step.
+struct JointView {
+  JointKind kind{};
+  BodyHandle body_a{};
+  BodyHandle body_b{};
+  std::uint64_t user_data = 0;
+  Vec3<Length> offset{};  ///< of frame B against frame A, along the axes of frame A
+  Vec3<Angle> angle{};    ///< twist and swing, in (−π, π]
+  Vec3<Force> force{};    ///< on body b in the last substep, along the joint's axes
+  Vec3<Torque> torque{};
+};
+
+/// A joint gave way: it is no more.
+struct JointEvent {
+  JointHandle joint{};
+  BodyHandle a{};
+  BodyHandle b{};
+  std::uint64_t user_data = 0;
+};
+
+}  // namespace lockstone
