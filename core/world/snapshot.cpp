@@ -138,7 +138,7 @@ Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def,
   if (config != config_hash(def, assets.hash())) return Status::incompatible;
   if (view.header.body_limit > def.body_capacity ||
       view.header.contact_count > def.contact_capacity ||
-      view.header.joint_limit > def.joint_capacity || view.header.reserved != 0) {
+      view.header.joint_limit > def.joint_capacity) {
     return Status::malformed;
   }
   const std::size_t body_bytes = view.header.body_limit * sizeof(BodyRecord);
@@ -186,7 +186,7 @@ Status SnapshotView::check_joints() const {
 }
 
 Status SnapshotView::check() const {
-  if (!is_valid_gravity(header.gravity)) return Status::malformed;
+  if (!is_valid_gravity(header.gravity) || header.reserved != 0) return Status::malformed;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (validate(body(i), *assets_) != Status::ok) return Status::malformed;
   }
