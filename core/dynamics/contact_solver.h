@@ -51,7 +51,8 @@ class ContactSolver {
   [[nodiscard]] const SolverBody* find(std::uint32_t body) const;
 
   /// Writes a touched body's substeps back: position, orientation, velocity and spin.
-  void move(const SolverBody& solved, BodyRecord& body) const;
+  /// `rotation` is the matrix of its orientation; answers as `fly`.
+  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body) const;
 
   [[nodiscard]] std::uint32_t contacts() const;
   [[nodiscard]] std::uint32_t points() const { return points_; }

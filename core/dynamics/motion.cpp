@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dynamics/free_rotation.h"
 #include "core/math/roots.h"
 #include "core/math/trig.h"
 
@@ -54,18 +55,25 @@ bool shorten(Vec3<Velocity>& v, const Vec3<Velocity>& w) {
   return true;
 }
 
-void turn_free(BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
-  if (!body.rotates() || body.spin == Vec3<Velocity>{}) return;
-  const auto angle = [&](const Mat3& r, std::int64_t divisor) {
-    const Vec3<Velocity> w = surface_velocity(inverse_inertia(body, r), body.spin);
-    return to_rotation(divided(w, divisor), body.scale_exponent);
-  };
-  if (body.has_spherical_inertia() || !body.is_dynamic()) {
-    body.orientation = integrate(body.orientation, angle(rotation, step.tick_rate));
-    return;
-  }
-  const Quat half = integrate(body.orientation, angle(rotation, std::int64_t{2} * step.tick_rate));
-  body.orientation = integrate(body.orientation, angle(to_matrix(half), step.tick_rate));
+// Whether it turns evenly about one axis as long as nothing pushes it.
+bool turns_evenly(const BodyRecord& body) {
+  return body.has_spherical_inertia() || !body.is_dynamic();
+}
+
+std::uint32_t turn(BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
+                   const TimeStep& step) {
+  const FreeTurn turned = turn_freely(body, rotation, spin, step.tick_rate);
+  body.orientation = turned.orientation;
+  return turned.axis_turns;
+}
+
+std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
+  if (!body.rotates() || body.spin == Vec3<Velocity>{}) return 0;
+  if (!turns_evenly(body)) return turn(body, rotation, body.spin, step);
+  const Vec3<Velocity> w = surface_velocity(inverse_inertia(body, rotation), body.spin);
+  body.orientation =
+      integrate(body.orientation, to_rotation(divided(w, step.tick_rate), body.scale_exponent));
+  return 0;
 }
 
 }  // namespace
@@ -93,8 +101,8 @@ bool limit_position(BodyRecord& body) {
   return limited;
 }
 
-void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
-         const TimeStep& step, std::uint64_t tick) {
+std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
+                  const TimeStep& step, std::uint64_t tick) {
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   const auto phase = static_cast<std::int64_t>(tick % static_cast<std::uint64_t>(step.tick_rate));
   const auto in_this_tick = [&](std::int64_t per_second, std::int64_t rate) {
@@ -108,7 +116,7 @@ void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravi
         in_this_tick(2 * body.velocity[i].raw + gain, std::int64_t{2} * step.tick_rate);
     body.velocity[i].raw += gain;
   }
-  turn_free(body, rotation, step);
+  return turn_in_flight(body, rotation, step);
 }
 
 Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
@@ -151,12 +159,19 @@ std::array<std::int64_t, 3> surface_velocity(const InverseInertia& m,
   return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
 }
 
-void end_substeps(BodyRecord& body, const Vec3<Velocity>& displacement,
-                  const Vec3<Velocity>& turn) {
+std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
+                           const Vec3<Velocity>& displacement, const Vec3<Velocity>& turned,
+                           const TimeStep& step) {
   for (int i = 0; i < 3; ++i)
     body.position[i].raw += displacement[i].raw;
-  if (turn == Vec3<Velocity>{}) return;
-  body.orientation = integrate(body.orientation, to_rotation(turn, body.scale_exponent));
+  if (turned == Vec3<Velocity>{}) return 0;
+  if (turns_evenly(body)) {
+    body.orientation = integrate(body.orientation, to_rotation(turned, body.scale_exponent));
+    return 0;
+  }
+  const auto speed = [&](Velocity way) { return Velocity::from_raw(way.raw * step.tick_rate); };
+  const Vec3<Velocity> surface{speed(turned.x), speed(turned.y), speed(turned.z)};
+  return turn(body, rotation, spin_of(body, rotation, surface), step);
 }
 
 }  // namespace lockstone

@@ -21,13 +21,13 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia);
 bool limit_position(BodyRecord& body);
 
 /// The exact step of a body that nothing touches, and of a kinematic one. In flight
-/// x ← x + v·dt + g·dt²/2 and spin is constant; the orientation takes a midpoint step, of second
-/// order.
+/// x ← x + v·dt + g·dt²/2 and spin is constant; the orientation takes `turn_freely`, and the answer
+/// is how many turns about an axis that took.
 ///
 /// What a value per second gives in one tick is rounded so that `tick_rate` ticks in a row, counted
 /// from `tick`, add up to exactly one second's worth: drift and free fall lose nothing.
-void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
-         const TimeStep& step, std::uint64_t tick);
+std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
+                  const TimeStep& step, std::uint64_t tick);
 
 /// What gravity adds to a body's velocity in a fraction of a tick.
 [[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
@@ -41,8 +41,11 @@ void fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravi
 [[nodiscard]] std::array<std::int64_t, 3> surface_velocity(
     const InverseInertia& inertia, const std::array<std::int64_t, 3>& spin_q50);
 
-/// Moves a body by what it went in a tick: its centre, and its surface (rotation vector ·
-/// 2^scale_exponent), m.
-void end_substeps(BodyRecord& body, const Vec3<Velocity>& displacement, const Vec3<Velocity>& turn);
+/// Moves a body by what it went in a tick, m: its centre, and its surface as of the solver
+/// (rotation vector · 2^scale_exponent), to which geometry stood still. It turns as freely as with
+/// the mean angular momentum of the tick; answers as `fly`.
+std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
+                           const Vec3<Velocity>& displacement, const Vec3<Velocity>& turned,
+                           const TimeStep& step);
 
 }  // namespace lockstone

@@ -192,17 +192,30 @@ WideQuat wide_rotation(const RotationVector& theta) {
   return rotation_about(split.unit, sin_cos_q33(split.length));  // 33 bits: half the angle
 }
 
-/// r · q · (1 + correction · 2^-51), rounded once. |r|, |q| are near 1, so that every partial sum
-/// of four products is below 2^62 · (1 + 2^-19) in size (Cauchy and Schwarz).
-Quat compose(const WideQuat& r, const Quat& q, std::int64_t correction) {
-  const auto unit = [correction](std::int64_t sum) {  // 62 fraction bits
-    const std::int64_t scaled = sum + raw::round_shift(raw::round_shift(sum, 32) * correction, 19);
+/// r · q, exact. |r|, |q| are near 1, so that every partial sum of four products is below
+/// 2^62 · (1 + 2^-19) in size when the two have 62 fraction bits together (Cauchy and Schwarz).
+WideQuat product(const WideQuat& r, const WideQuat& q) {
+  return {
+      r.w * q.x + r.x * q.w + r.y * q.z - r.z * q.y, r.w * q.y - r.x * q.z + r.y * q.w + r.z * q.x,
+      r.w * q.z + r.x * q.y - r.y * q.x + r.z * q.w, r.w * q.w - r.x * q.x - r.y * q.y - r.z * q.z};
+}
+
+/// q · (1 + correction · 2^-51) from 62 fraction bits, rounded once.
+Quat corrected(const WideQuat& q, std::int64_t correction) {
+  const auto unit = [correction](std::int64_t x) {
+    const std::int64_t scaled = x + raw::round_shift(raw::round_shift(x, 32) * correction, 19);
     return Unit::from_raw(static_cast<std::int32_t>(raw::round_shift(scaled, 32)));
   };
-  return {unit(r.w * q.x.raw + r.x * q.w.raw + r.y * q.z.raw - r.z * q.y.raw),
-          unit(r.w * q.y.raw - r.x * q.z.raw + r.y * q.w.raw + r.z * q.x.raw),
-          unit(r.w * q.z.raw + r.x * q.y.raw - r.y * q.x.raw + r.z * q.w.raw),
-          unit(r.w * q.w.raw - r.x * q.x.raw - r.y * q.y.raw - r.z * q.z.raw)};
+  return {unit(q.x), unit(q.y), unit(q.z), unit(q.w)};
+}
+
+WideQuat rounded(const WideQuat& q, int shift) {
+  return {raw::round_shift(q.x, shift), raw::round_shift(q.y, shift), raw::round_shift(q.z, shift),
+          raw::round_shift(q.w, shift)};
+}
+
+WideQuat widened(const Quat& q) {
+  return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
 }
 
 }  // namespace
@@ -211,6 +224,12 @@ SinCos sin_cos(Angle x) {
   const WideSinCos wide = sin_cos_q33(magnitude(x.raw) << 6);
   const Unit sin = to_unit(wide.sin);
   return {x.raw < 0 ? -sin : sin, to_unit(wide.cos)};
+}
+
+FineSinCos half_sin_cos(RotationComponent angle) {
+  const WideSinCos half = sin_cos_q33(magnitude(angle.raw));
+  const std::int64_t sin = raw::round_shift(half.sin, 29);
+  return {angle.raw < 0 ? -sin : sin, raw::round_shift(half.cos, 29)};
 }
 
 Angle atan2_raw(std::int64_t y, std::int64_t x) {
@@ -249,7 +268,17 @@ Quat from_axis_angle(const Vec3<Unit>& axis, Angle angle) {
 Quat integrate(const Quat& q, const RotationVector& theta) {
   if (theta == RotationVector{}) return q;
   const Quat start = is_near_unit(norm_squared(q)) ? q : normalized(q);
-  return compose(wide_rotation(theta), start, unit_correction(norm_squared(start)));
+  return corrected(product(wide_rotation(theta), widened(start)),
+                   unit_correction(norm_squared(start)));
+}
+
+Quat integrate(const Quat& q, const RotationVector& theta, const FineQuat& turn) {
+  if (turn == FineQuat{}) return integrate(q, theta);
+  const Quat start = is_near_unit(norm_squared(q)) ? q : normalized(q);
+  const WideQuat own{turn.v[0], turn.v[1], turn.v[2], turn.w};
+  const WideQuat turned = rounded(product(widened(start), own), 30);  // 31 fraction bits
+  return corrected(product(rounded(wide_rotation(theta), 1), turned),
+                   unit_correction(norm_squared(start)));
 }
 
 }  // namespace lockstone

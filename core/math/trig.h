@@ -1,6 +1,7 @@
 // Angles and rotations.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <lockstone/quat.h>
@@ -55,6 +56,15 @@ template <class D, class Rep, int F>
 [[nodiscard]] Angle asin(Unit x);
 [[nodiscard]] Angle acos(Unit x);
 
+/// The same with 31 fraction bits.
+struct FineSinCos {
+  std::int64_t sin = 0;
+  std::int64_t cos = 0;
+};
+
+/// Of half an angle, each within 2^-31. The sine is odd, exactly.
+[[nodiscard]] FineSinCos half_sin_cos(RotationComponent angle);
+
 /// exp(θ/2): the rotation by |θ| radians about θ, for every input; components within 2^-29
 /// (measured: 0.70 · 2^-30 up to |θ| = ½, 1.31 · 2^-30 beyond). θ → −θ flips the vector part
 /// exactly; mirroring and permuting axes is exact too. Up to |θ| = ½ a short polynomial, beyond it
@@ -65,5 +75,16 @@ template <class D, class Rep, int F>
 /// taken two bits finer than a Quat and one rounding per component; the norm stays within 2^-30.
 /// θ = 0 returns q itself, bit for bit, so that what rests does not creep.
 [[nodiscard]] Quat integrate(const Quat& q, const RotationVector& theta);
+
+/// A unit quaternion with 31 fraction bits: a product of rotations, to be rounded at its end.
+struct FineQuat {
+  std::array<std::int64_t, 3> v{};
+  std::int64_t w = std::int64_t{1} << 31;
+
+  friend bool operator==(const FineQuat&, const FineQuat&) = default;
+};
+
+/// The same after a turn in the body's own axes: exp(θ/2) · q · turn / |q|.
+[[nodiscard]] Quat integrate(const Quat& q, const RotationVector& theta, const FineQuat& turn);
 
 }  // namespace lockstone

@@ -265,9 +265,9 @@ void World::Impl::move_body(std::uint32_t body, StepReport& report) {
   const InverseInertia inertia =
       solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
   if (solved != nullptr) {
-    solver.move(*solved, record);
+    report.axis_turns += solver.move(*solved, rotations[body], record);
   } else {
-    fly(record, rotations[body], header.gravity, time_step, header.tick);
+    report.axis_turns += fly(record, rotations[body], header.gravity, time_step, header.tick);
     ++report.free_bodies;
   }
   apply_damping(record, time_step);

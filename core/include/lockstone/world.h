@@ -51,6 +51,7 @@ struct StepReport {
   Status status = Status::ok;  ///< capacity_exhausted: pairs were left out, alike everywhere
   std::uint32_t moving_bodies = 0;
   std::uint32_t free_bodies = 0;  ///< took the exact ballistic path, no solver
+  std::uint32_t axis_turns = 0;   ///< about a principal axis: none of spheres, one of tops
   std::uint32_t pairs = 0;        ///< pairs with overlapping bounds
   std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
   std::uint32_t contact_points = 0;

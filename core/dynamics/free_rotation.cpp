@@ -1,0 +1,209 @@
+#include "core/dynamics/free_rotation.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "core/math/int128.h"
+#include "core/math/roots.h"
+#include "core/math/trig.h"
+
+namespace lockstone {
+namespace {
+
+// Components of the momentum in body axes have this many bits, so that its norm has one more.
+constexpr int k_momentum_bits = 29;
+constexpr int k_rate_bits = 30;
+
+// Fraction bits of a difference of inverse moments, and of the same times the duration.
+constexpr int k_inverse_bits = 30;
+constexpr int k_step_bits = 50;
+
+// Angles have 32 fraction bits.
+constexpr std::uint64_t k_piece = std::uint64_t{1} << 32;
+constexpr std::uint64_t k_most_pieces = 32;
+// Below this the product of the turns about both axes is small enough for Strang's scheme: 2^-20.
+constexpr UInt128 k_small = {0, std::uint64_t{1} << (64 - 20)};
+
+// The principal axes by inverse moment.
+struct Axes {
+  int nearer = 0;
+  int third = 0;
+  std::int64_t middle_inverse = 0;  // 1/I, 30 bits
+  std::int64_t nearer_excess = 0;   // over it
+  std::int64_t third_excess = 0;
+};
+
+Axes axes_of(const Vec3<Unit>& inertia) {
+  std::array<int, 3> order = {0, 1, 2};
+  const auto sort = [&](std::size_t i, std::size_t j) {
+    if (inertia[order[i]] < inertia[order[j]]) std::swap(order[i], order[j]);
+  };
+  sort(0, 1), sort(1, 2), sort(0, 1);  // 1/I ascends
+  const auto inverse = [&](std::size_t i) {
+    return raw::round_divide(std::int64_t{1} << (2 * k_inverse_bits), inertia[order[i]].raw);
+  };
+  const std::int64_t least = inverse(0), middle = inverse(1), greatest = inverse(2);
+  if (middle - least <= greatest - middle)
+    return {order[0], order[2], middle, least - middle, greatest - middle};
+  return {order[2], order[0], middle, greatest - middle, least - middle};
+}
+
+// The turn for a momentum m is m · mantissa · 2^-shift, 32 bits.
+struct TurnRate {
+  std::int64_t mantissa = 0;
+  int shift = 0;
+
+  [[nodiscard]] std::int64_t angle(std::int64_t momentum) const {
+    if (shift > 62) return 0;
+    return raw::scale_binary(momentum * mantissa, -shift);
+  }
+  [[nodiscard]] TurnRate times(std::int64_t q30) const {
+    return {raw::round_shift(mantissa * q30, 30), shift};
+  }
+};
+
+// `exponent` is that of the momentum over the one of the body's scale.
+TurnRate turn_rate(std::int64_t excess, std::int64_t rate, int exponent) {
+  const std::int64_t step =
+      raw::round_divide(excess * (std::int64_t{1} << (k_step_bits - k_inverse_bits)), rate);
+  const int beyond = std::max(0, static_cast<int>(std::bit_width(magnitude(step))) - k_rate_bits);
+  return {raw::round_shift(step, beyond), k_step_bits - exponent - beyond};
+}
+
+// A body on its way: what it has turned in its own axes, and its momentum there.
+struct Turning {
+  std::array<std::int64_t, 3> momentum{};
+  FineQuat turned;
+  std::uint32_t turns = 0;
+
+  void turn(int axis, const TurnRate& rate) {
+    const auto i = static_cast<std::size_t>(axis), j = (i + 1) % 3, k = (i + 2) % 3;
+    const std::int64_t angle = rate.angle(momentum[i]);
+    if (angle == 0) return;
+    ++turns;
+    const FineSinCos half = half_sin_cos(RotationComponent::from_raw(angle));
+    const std::int64_t sin = raw::round_shift(half.sin * half.cos, 30);
+    const std::int64_t cos = (std::int64_t{1} << 31) - raw::round_shift(half.sin * half.sin, 30);
+    rotate(momentum[j], momentum[k], sin, cos);
+    rotate(turned.v[j], turned.v[k], half.sin, half.cos);
+    rotate(turned.v[i], turned.w, half.sin, half.cos);
+  }
+
+ private:
+  // (a, b) ← (a·cos + b·sin, b·cos − a·sin)
+  static void rotate(std::int64_t& a, std::int64_t& b, std::int64_t sin, std::int64_t cos) {
+    const std::int64_t old_a = a;
+    a = raw::round_shift(a * cos + b * sin, 31);
+    b = raw::round_shift(b * cos - old_a * sin, 31);
+  }
+};
+
+struct Split {
+  const Axes& axes;
+  TurnRate nearer;
+  TurnRate third;
+};
+
+void turn_by_halves(const Split& split, Turning& body) {
+  const TurnRate half = split.nearer.times(1 << 29);
+  body.turn(split.axes.nearer, half);
+  body.turn(split.axes.third, split.third);
+  body.turn(split.axes.nearer, half);
+}
+
+// S6: the shares of the third axis and of the nearer one, 30 bits, up to the middle.
+constexpr std::int64_t k_third_shares[4] = {85044321, 379216520, -45167036, 235554214};
+constexpr std::int64_t k_nearer_shares[3] = {224965133, -154459665, 466365444};
+static_assert(2 * (k_third_shares[0] + k_third_shares[1] + k_third_shares[2]) + k_third_shares[3] ==
+              1 << 30);
+static_assert(2 * (k_nearer_shares[0] + k_nearer_shares[1] + k_nearer_shares[2]) == 1 << 30);
+
+void turn_by_shares(const Split& split, std::int64_t pieces, Turning& body) {
+  std::array<TurnRate, 4> third;
+  std::array<TurnRate, 3> nearer;
+  std::ranges::transform(k_third_shares, third.begin(),
+                         [&](std::int64_t share) { return split.third.times(share); });
+  std::ranges::transform(k_nearer_shares, nearer.begin(),
+                         [&](std::int64_t share) { return split.nearer.times(share); });
+  constexpr std::size_t k_stages[] = {0, 1, 2, 2, 1, 0};
+  constexpr std::size_t k_between[] = {1, 2, 3, 2, 1};
+  const TurnRate twice = split.third.times(2 * k_third_shares[0]);
+  body.turn(split.axes.third, third[0]);
+  for (std::int64_t piece = 1; piece <= pieces; ++piece) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      body.turn(split.axes.nearer, nearer[k_stages[i]]);
+      body.turn(split.axes.third, third[k_between[i]]);
+    }
+    body.turn(split.axes.nearer, nearer[k_stages[5]]);
+    body.turn(split.axes.third, piece < pieces ? twice : third[0]);
+  }
+}
+
+// Norm of the momentum, at most √3 · 2^k_momentum_bits.
+std::int64_t norm_of(const std::array<std::int64_t, 3>& m) {
+  const auto square = [](std::int64_t x) { return static_cast<std::uint64_t>(x * x); };
+  return isqrt(square(m[0]) + square(m[1]) + square(m[2]));
+}
+
+// The turn in the body's own axes; `exponent` as for `turn_rate`.
+void turn_residual(const Axes& axes, std::int32_t rate, int exponent, Turning& body) {
+  Split split{axes, turn_rate(axes.nearer_excess, rate, exponent),
+              turn_rate(axes.third_excess, rate, exponent)};
+  const std::int64_t norm = norm_of(body.momentum);
+  const std::uint64_t nearer = magnitude(split.nearer.angle(norm));
+  const std::uint64_t third = magnitude(split.third.angle(norm));
+  const bool is_top = nearer == 0 || third > k_most_pieces * k_piece;
+  if (is_top) {
+    body.turn(axes.third, split.third);
+    return;
+  }
+  if (multiply_wide(nearer, third) <= k_small) {
+    turn_by_halves(split, body);
+    return;
+  }
+  const auto pieces = static_cast<std::int64_t>(third / k_piece) + 1;
+  if (pieces > 1) {
+    split.nearer = turn_rate(axes.nearer_excess, rate * pieces, exponent);
+    split.third = turn_rate(axes.third_excess, rate * pieces, exponent);
+  }
+  turn_by_shares(split, pieces, body);
+}
+
+// The turn about the angular momentum: spin / (I_a · scale · rate).
+RotationVector turn_about_momentum(const Vec3<Velocity>& spin, std::int64_t inverse,
+                                   std::int32_t rate, int scale_exponent) {
+  const std::int64_t step =
+      raw::round_divide(inverse * (std::int64_t{1} << (k_step_bits - k_inverse_bits)), rate);
+  const auto angle = [&](Velocity v) {
+    return RotationComponent::from_raw(
+        saturate_to_int64(round_shift(multiply_wide(v.raw, step), k_step_bits + scale_exponent)));
+  };
+  return {angle(spin.x), angle(spin.y), angle(spin.z)};
+}
+
+}  // namespace
+
+FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
+                     std::int32_t rate) {
+  const std::uint64_t greatest =
+      std::max({magnitude(spin.x.raw), magnitude(spin.y.raw), magnitude(spin.z.raw)});
+  if (greatest == 0) return {body.orientation, 0};
+  const Axes axes = axes_of(body.inertia);
+  const int exponent = static_cast<int>(std::bit_width(greatest)) - k_momentum_bits;
+  const std::array<std::int64_t, 3> scaled = {raw::scale_binary(spin.x.raw, -exponent),
+                                              raw::scale_binary(spin.y.raw, -exponent),
+                                              raw::scale_binary(spin.z.raw, -exponent)};
+  Turning turning;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<Unit>& axis = rotation.column(i);
+    turning.momentum[static_cast<std::size_t>(i)] = raw::round_shift(
+        axis.x.raw * scaled[0] + axis.y.raw * scaled[1] + axis.z.raw * scaled[2], 30);
+  }
+  turn_residual(axes, rate, exponent - body.scale_exponent, turning);
+  const RotationVector about =
+      turn_about_momentum(spin, axes.middle_inverse, rate, body.scale_exponent);
+  return {integrate(body.orientation, about, turning.turned), turning.turns};
+}
+
+}  // namespace lockstone
