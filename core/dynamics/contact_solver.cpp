@@ -83,6 +83,11 @@ void prefetch(const T& object) {
 #endif
 }
 
+// What a piece of a loop has at least: a microsecond or so of work.
+constexpr std::uint32_t k_body_grain = 64;
+constexpr std::uint32_t k_block_grain = 4;
+constexpr std::uint32_t k_slot_grain = 64;
+
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 8;
 
@@ -101,14 +106,15 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       softness_(ContactSoftness::of(step)),
       rules_(rules_of(step)),
       load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
-      graph_(body_capacity, contact_capacity),
+      graph_(body_capacity + contact_capacity, contact_capacity),
       solver_index_(body_capacity) {
-  taken_up_.reserve(body_capacity);
-  bodies_.reserve(body_capacity + 1);
-  rows_.reserve(body_capacity + 1);
-  inertias_.reserve(body_capacity + 1);
-  before_.reserve(body_capacity + 1);
-  travel_.reserve(body_capacity + 1);
+  const std::size_t most_rows = body_capacity + contact_capacity + 1;
+  members_.reserve(most_rows);
+  bodies_.reserve(most_rows);
+  rows_.reserve(most_rows);
+  inertias_.reserve(most_rows);
+  before_.reserve(most_rows);
+  travel_.reserve(most_rows);
   entries_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
@@ -117,69 +123,120 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   approaches_.reserve(most);
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
+  loops_.reserve((2U * static_cast<std::size_t>(step.substeps) + 1) * (k_graph_colors + 2));
 }
 
 std::uint32_t ContactSolver::contacts() const {
   return static_cast<std::uint32_t>(entries_.size());
 }
 
-// Bodies enter the solver when a constraint first names them.
+// Bodies enter the solver when a constraint first names them. What no impulse moves enters anew
+// with every constraint, since constraints that are solved side by side write to all their bodies.
 std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t body) {
   const BodyRecord& record = scene.bodies[body];
-  if (!record.moves()) {
-    // What does not move is one body to the solver but for its surface.
-    return 0;
-  }
-  if (solver_index_[body] != 0) return solver_index_[body];
-  solver_index_[body] = static_cast<std::uint32_t>(bodies_.size());
-  taken_up_.push_back(body);
+  if (!record.moves()) return k_immovable | immovables_++;
+  if (record.is_dynamic() && solver_index_[body] != 0) return solver_index_[body];
+  const auto index = static_cast<std::uint32_t>(members_.size());
+  if (solver_index_[body] == 0) solver_index_[body] = index;
+  members_.push_back(body);
   graph_.add_body();
-  bodies_.push_back(solver_body(record, scene.rotations[body], scene.gravity, step_));
-  const InverseInertia& m = bodies_.back().inverse_inertia;
-  inertias_.push_back({{m.xx, m.yy, m.zz, m.xy, m.xz, m.yz}, {}});
-  RowBody& row = rows_.emplace_back();
-  for (int i = 0; i < 3; ++i) {
-    row.velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
-    row.spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
-  }
-  return solver_index_[body];
+  return index;
 }
 
-void ContactSolver::prepare(const ContactScene& scene) {
+void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
+  take_up_contacts(scene);
+  lay_out();
+  saturations_ = 0;
+  bounces_ = false;
+  loops_.clear();
+  loops_.push_back({row_count(), k_body_grain});
+  add_loop_of_each_color();
+  parallel.run_all(loops_,
+                   [&](std::size_t loop, std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                     if (loop == 0) return fill_bodies(scene, first, end);
+                     fill_blocks(scene, loop - 1, first, end);
+                   });
+}
+
+// In the order of the records: bodies, colours and lanes follow from the state alone.
+void ContactSolver::take_up_contacts(const ContactScene& scene) {
   graph_.clear();
   entries_.clear();
-  bodies_.clear();
-  rows_.clear();
-  inertias_.clear();
-  points_ = saturations_ = 0;
-  for (const std::uint32_t body : taken_up_)
+  for (const std::uint32_t body : members_)
     solver_index_[body] = 0;
-  taken_up_.clear();
-  bodies_.emplace_back();
-  rows_.emplace_back();
-  inertias_.emplace_back();
+  members_.assign(1, 0);
+  immovables_ = points_ = 0;
   for (std::size_t i = 0; i < scene.records.size(); ++i) {
     const ContactRecord& record = scene.records[i];
     if (record.is_trigger()) continue;
     const std::uint32_t a = take_up(scene, record.body_a);
     const std::uint32_t b = take_up(scene, record.body_b);
-    graph_.add(a, bodies_[a].is_pushed(), b, bodies_[b].is_pushed());
+    graph_.add(a, scene.bodies[record.body_a].is_dynamic(), b,
+               scene.bodies[record.body_b].is_dynamic());
     entries_.push_back({static_cast<std::uint32_t>(i), a, b});
     points_ += static_cast<std::uint32_t>(scene.manifolds[i].count);
   }
-  before_.assign(rows_.size(), RowBody{});
-  travel_.assign(rows_.size(), RowTravel{});
-  lay_out();
-  const ManifoldKernels& wide = lanes::manifold_kernels();
+  if (bodies_.size() < members_.size()) bodies_.resize(members_.size());
+  if (rows_.size() >= row_count()) return;  // they only grow, within what is reserved
+  inertias_.resize(row_count());
+  rows_.resize(row_count());
+  before_.resize(row_count());
+  travel_.resize(row_count());
+}
+
+std::uint32_t ContactSolver::row_count() const {
+  return static_cast<std::uint32_t>(members_.size()) + immovables_;
+}
+
+// Immovable bodies come after the members.
+std::uint32_t ContactSolver::row_of(std::uint32_t index) const {
+  if ((index & k_immovable) == 0) return index;
+  return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
+}
+
+void ContactSolver::fill_bodies(const ContactScene& scene, std::size_t first, std::size_t end) {
+  for (std::size_t index = first; index < end; ++index) {
+    inertias_[index] = {};
+    rows_[index] = before_[index] = {};
+    travel_[index] = {};
+    if (index >= 1 && index < members_.size()) fill_member(scene, index);
+  }
+}
+
+void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
+  const std::uint32_t body = members_[index];
+  const BodyRecord& record = scene.bodies[body];
+  bodies_[index] = solver_body(record, scene.rotations[body], scene.gravity, step_);
+  const InverseInertia& m = bodies_[index].inverse_inertia;
+  inertias_[index].inertia = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+  for (int i = 0; i < 3; ++i) {
+    rows_[index].velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
+    rows_[index].spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
+  }
+}
+
+// The overflow is one piece, which is solved one by one.
+void ContactSolver::add_loop_of_each_color() {
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    const bool serial = color == k_overflow_color;
-    for (std::size_t i = 0; i < ranges_[color].count; ++i) {
-      const std::size_t block = ranges_[color].first + i;
-      fill_block(scene, block);
-      const ManifoldKernels& kernels = serial ? lanes::k_scalar_manifolds : wide;
-      kernels.prepare(sources_, inertias_.data(), rows_.data(), before_.data(), blocks_[block],
-                      approaches_[block]);
-    }
+    const auto count = static_cast<std::uint32_t>(ranges_[color].count);
+    loops_.push_back({count, color == k_overflow_color ? std::max(count, 1U) : k_block_grain});
+  }
+}
+
+const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) {
+  return color == k_overflow_color ? lanes::k_scalar_manifolds : lanes::manifold_kernels();
+}
+
+// Blocks of one colour, counted from its first.
+void ContactSolver::fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
+                                std::size_t end) {
+  lanes::ManifoldSources sources;
+  const ManifoldKernels& kernels = kernels_of(color);
+  for (std::size_t i = first; i < end; ++i) {
+    const std::size_t block = ranges_[color].first + i;
+    fill_block(scene, block, sources);
+    kernels.prepare(sources, inertias_.data(), rows_.data(), before_.data(), blocks_[block],
+                    approaches_[block]);
   }
 }
 
@@ -211,13 +268,14 @@ void ContactSolver::look_ahead(const ContactScene& scene, std::size_t slot) cons
   prefetch(scene.records[entry.record]);
 }
 
-void ContactSolver::fill_block(const ContactScene& scene, std::size_t block) {
+void ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
+                               lanes::ManifoldSources& sources) {
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const std::uint32_t slot = slots_[block * k_block_lanes + lane];
     restitution_[block][lane] = 0;
     if (slot == k_no_contact) {
-      sources_.lanes[lane] = {};
-      sources_.body_a[lane] = sources_.body_b[lane] = 0;
+      sources.lanes[lane] = {};
+      sources.body_a[lane] = sources.body_b[lane] = 0;
       continue;
     }
     look_ahead(scene, block * k_block_lanes + lane + k_lanes_ahead);
@@ -226,26 +284,27 @@ void ContactSolver::fill_block(const ContactScene& scene, std::size_t block) {
     SolverBody fixed_a, fixed_b;
     const auto side = [&](std::uint32_t index, std::uint32_t body,
                           SolverBody& fixed) -> const SolverBody& {
-      if (index != 0) return bodies_[index];
+      if ((index & k_immovable) == 0) return bodies_[index];
       fixed.scale_exponent = scene.bodies[body].scale_exponent;
       return fixed;
     };
     const SolverBody& a = side(entry.body_a, record.body_a, fixed_a);
     const SolverBody& b = side(entry.body_b, record.body_b, fixed_b);
-    sources_.body_a[lane] = lanes::row_body_offset(entry.body_a);
-    sources_.body_b[lane] = lanes::row_body_offset(entry.body_b);
+    sources.body_a[lane] = lanes::row_body_offset(row_of(entry.body_a));
+    sources.body_b[lane] = lanes::row_body_offset(row_of(entry.body_b));
     const SurfacePair& surfaces = scene.surfaces[entry.record];
     fill_source({a, b, scene.manifolds[entry.record], record, surfaces}, softness_,
-                sources_.lanes[lane]);
+                sources.lanes[lane]);
     restitution_[block][lane] = mixed_restitution(surfaces).raw;
+    if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
   }
 }
 
 // In the first substep: gravity and the impulses of the tick before. Later ones start with the
 // impulses that the substep before ended with. Since all responses are fixed for a tick, what these
 // did to a body is all that it gained in that substep, gravity included; so it gains that again.
-void ContactSolver::integrate_velocities(int substep) {
-  for (std::size_t i = 1; i < rows_.size(); ++i) {
+void ContactSolver::integrate_velocities(std::size_t substep, std::size_t first, std::size_t end) {
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     const RowBody start = limited(rows_[i]);
     RowBody& row = rows_[i];
     if (substep == 0) {
@@ -265,8 +324,8 @@ void ContactSolver::integrate_velocities(int substep) {
   }
 }
 
-void ContactSolver::integrate_positions() {
-  for (std::size_t i = 1; i < rows_.size(); ++i) {
+void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     const RowBody row = limited(rows_[i]);
     RowTravel& travel = travel_[i];
     const std::array<std::int64_t, 3> surface =
@@ -278,60 +337,79 @@ void ContactSolver::integrate_positions() {
   }
 }
 
-void ContactSolver::run() {
+// Of each substep: velocities, colours that are solved, positions, colours that are relaxed; then
+// colours that bounce.
+void ContactSolver::run(Parallel& parallel) {
   if (entries_.empty()) return;
-  const ManifoldKernels& wide = lanes::manifold_kernels();
-  const auto for_each_color = [&](const auto& sweep) {
-    for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-      const Range range = ranges_[color];
-      if (range.count == 0) continue;
-      sweep(color == k_overflow_color ? lanes::k_scalar_manifolds : wide,
-            blocks_.data() + range.first, range.count);
-    }
-  };
-  for (int substep = 0; substep < step_.substeps; ++substep) {
-    integrate_velocities(substep);
-    for_each_color([&](const ManifoldKernels& kernels, ManifoldBlock* blocks, std::size_t count) {
-      kernels.solve(rows_.data(), blocks, count, rules_);
-    });
-    integrate_positions();
-    for_each_color([&](const ManifoldKernels& kernels, ManifoldBlock* blocks, std::size_t count) {
-      kernels.relax(rows_.data(), travel_.data(), blocks, count, rules_);
-    });
+  const Loop all_bodies{static_cast<std::uint32_t>(members_.size()), k_body_grain};
+  loops_.clear();
+  for (int half_step = 0; half_step < 2 * step_.substeps; ++half_step) {
+    loops_.push_back(all_bodies);
+    add_loop_of_each_color();
   }
-  bounce();
+  if (bounces_) {
+    loops_.push_back({});
+    add_loop_of_each_color();
+  }
+  parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
+                               std::uint32_t) { run_piece(loop, first, end); });
 }
 
-void ContactSolver::bounce() {
-  for (std::size_t block = 0; block < block_count_; ++block) {
+void ContactSolver::run_piece(std::size_t loop, std::size_t first, std::size_t end) {
+  constexpr std::size_t k_loops = k_graph_colors + 2;  // of half a substep
+  const std::size_t substep = loop / k_loops / 2;
+  const bool relaxes = loop / k_loops % 2 != 0;
+  if (loop % k_loops == 0) {
+    relaxes ? integrate_positions(first, end) : integrate_velocities(substep, first, end);
+    return;
+  }
+  const std::size_t color = loop % k_loops - 1, begin = ranges_[color].first + first;
+  const ManifoldKernels& kernels = kernels_of(color);
+  if (substep == static_cast<std::size_t>(step_.substeps)) {
+    bounce(kernels, begin, begin + end - first);
+  } else if (relaxes) {
+    kernels.relax(rows_.data(), travel_.data(), &blocks_[begin], end - first, rules_);
+  } else {
+    kernels.solve(rows_.data(), &blocks_[begin], end - first, rules_);
+  }
+}
+
+void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, std::size_t end) {
+  for (std::size_t block = first; block < end; ++block) {
     const lanes::BlockWord& restitution = restitution_[block];
     if (std::all_of(restitution.begin(), restitution.end(), [](auto e) { return e == 0; })) {
       continue;
     }
-    const bool serial = block >= ranges_[k_overflow_color].first;
-    const ManifoldKernels& kernels = serial ? lanes::k_scalar_manifolds : lanes::manifold_kernels();
     kernels.bounce(rows_.data(), blocks_[block], approaches_[block], restitution,
                    k_restitution_threshold);
   }
 }
 
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
-                          std::span<SolverVelocity> approaches) {
-  for (std::size_t slot = 0; slot < block_count_ * k_block_lanes; ++slot) {
-    if (slots_[slot] == k_no_contact) continue;
-    const std::uint32_t record = entries_[slots_[slot]].record;
-    store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[record], records[record],
-                  approaches[record]);
-  }
+                          std::span<SolverVelocity> approaches, Parallel& parallel) {
+  const Loop slots{static_cast<std::uint32_t>(block_count_ * k_block_lanes), k_slot_grain};
+  std::atomic<std::uint32_t> saturations{0};
+  parallel.for_each(slots, [&](std::size_t first, std::size_t end, std::uint32_t) {
+    std::uint32_t clamped = 0;
+    for (std::size_t slot = first; slot < end; ++slot) {
+      if (slots_[slot] == k_no_contact) continue;
+      const std::uint32_t record = entries_[slots_[slot]].record;
+      clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[record],
+                               records[record], approaches[record]);
+    }
+    saturations.fetch_add(clamped, std::memory_order_relaxed);
+  });
+  saturations_ = saturations;
 }
 
-void ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
-                                  const Manifold& manifold, ContactRecord& record,
-                                  SolverVelocity& approach) {
+// Answers how many values were clamped.
+std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
+                                           const Manifold& manifold, ContactRecord& record,
+                                           SolverVelocity& approach) {
   const ManifoldBlock& block = blocks_[block_index];
   record.points = {};
   record.count = static_cast<std::uint16_t>(manifold.count);
-  saturations_ += static_cast<std::uint32_t>(approaches_[block_index].clamped[lane]);
+  auto saturations = static_cast<std::uint32_t>(approaches_[block_index].clamped[lane]);
   bool touching = false;
   std::int64_t fastest = 0, pushed = 0;
   for (std::size_t i = 0; i < record.count; ++i) {
@@ -339,7 +417,7 @@ void ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
     const std::int32_t impulse = low(point.impulse[lane]), greatest = high(point.impulse[lane]);
     record.points[i] = {manifold.points[i].feature, SolverVelocity::from_raw(impulse)};
     touching = touching || low(point.separation[lane]) <= 0 || greatest > 0;
-    saturations_ += greatest == lanes::k_most_impulse ? 1 : 0;
+    saturations += greatest == lanes::k_most_impulse ? 1 : 0;
     pushed += impulse;
     fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
   }
@@ -359,6 +437,7 @@ void ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
       static_cast<std::int32_t>(record.load.raw + raw::round_shift(gained, load_shift_));
   record.flags = touching ? k_contact_touching : 0;
   approach = SolverVelocity::from_raw(raw::saturate<std::int32_t>(-fastest));
+  return saturations;
 }
 
 const SolverBody* ContactSolver::find(std::uint32_t body) const {

@@ -5,10 +5,12 @@
 // What differs is told in docs/solver.md.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/constraint_graph.h"
 #include "core/dynamics/contact_prepare.h"
@@ -37,15 +39,15 @@ class ContactSolver {
   ContactSolver(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity);
 
   /// Takes up the touched bodies and makes the constraints, in the order of the records.
-  void prepare(const ContactScene& scene);
+  void prepare(const ContactScene& scene, Parallel& parallel);
 
   /// All substeps.
-  void run();
+  void run(Parallel& parallel);
 
   /// Writes what each point ended with, and whether the surfaces met, to the records, and the
   /// fastest approach of each to `approaches`.
   void store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
-             std::span<SolverVelocity> approaches);
+             std::span<SolverVelocity> approaches, Parallel& parallel);
 
   /// Null when no constraint touched the body.
   [[nodiscard]] const SolverBody* find(std::uint32_t body) const;
@@ -65,6 +67,9 @@ class ContactSolver {
  private:
   static constexpr std::uint32_t k_no_contact = 0xffffffff;
 
+  // Added to the number of a body that never moves.
+  static constexpr std::uint32_t k_immovable = 0x80000000;
+
   // Blocks of one colour.
   struct Range {
     std::size_t first = 0;
@@ -78,14 +83,26 @@ class ContactSolver {
   };
 
   std::uint32_t take_up(const ContactScene& scene, std::uint32_t body);
+  void take_up_contacts(const ContactScene& scene);
+  [[nodiscard]] std::uint32_t row_count() const;
+  [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const;
   void lay_out();
+  void add_loop_of_each_color();
+  [[nodiscard]] static const lanes::ManifoldKernels& kernels_of(std::size_t color);
+
+  // Pieces of loops.
+  void fill_bodies(const ContactScene& scene, std::size_t first, std::size_t end);
+  void fill_member(const ContactScene& scene, std::size_t index);
+  void fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
+                   std::size_t end);
   void look_ahead(const ContactScene& scene, std::size_t slot) const;
-  void fill_block(const ContactScene& scene, std::size_t block);
-  void integrate_velocities(int substep);
-  void integrate_positions();
-  void bounce();
-  void store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
-                     ContactRecord& record, SolverVelocity& approach);
+  void fill_block(const ContactScene& scene, std::size_t block, lanes::ManifoldSources& sources);
+  void run_piece(std::size_t loop, std::size_t first, std::size_t end);
+  void integrate_velocities(std::size_t substep, std::size_t first, std::size_t end);
+  void integrate_positions(std::size_t first, std::size_t end);
+  void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
+  std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
+                              ContactRecord& record, SolverVelocity& approach);
 
   TimeStep step_;
   ContactSoftness softness_;
@@ -93,14 +110,16 @@ class ContactSolver {
   int load_shift_;  // a contact's load follows its impulses over 2^this ticks: four to eight
                     // seconds
   ConstraintGraph graph_;
+  std::uint32_t immovables_ = 0;
   std::uint32_t points_ = 0;
   std::uint32_t saturations_ = 0;
 
-  // By body; 0: not in the solver.
+  // By body: the first of its numbers here; 0: not in the solver.
   std::vector<std::uint32_t> solver_index_;
-  std::vector<std::uint32_t> taken_up_;  // those that are in it
 
-  // By solver body; entry 0 is the immovable one.
+  // By number: bodies that move, from 1; then, in all but the first two, one for each contact of
+  // what does not.
+  std::vector<std::uint32_t> members_;  // the body
   std::vector<SolverBody> bodies_;
   std::vector<lanes::SourceBody> inertias_;
   std::vector<lanes::RowBody> rows_;
@@ -111,10 +130,11 @@ class ContactSolver {
   Range ranges_[k_graph_colors + 1];
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact
   std::size_t block_count_ = 0;
-  lanes::ManifoldSources sources_;
   std::vector<lanes::ManifoldBlock> blocks_;
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
+  std::atomic<bool> bounces_{false};  // any restitution at all
+  std::vector<Loop> loops_;           // of the sequence at hand
 };
 
 }  // namespace lockstone

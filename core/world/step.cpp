@@ -222,18 +222,19 @@ void World::Impl::solve_contacts(StepReport& report) {
 void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
   solver.prepare({std::span(bodies).first(header.body_limit), rotations, manifolds, surfaces,
-                  new_contacts, header.gravity});
+                  new_contacts, header.gravity},
+                 parallel);
 }
 
 void World::Impl::run_substeps() {
   const StageTimer timer(profiler, StepStage::solve);
-  solver.run();
+  solver.run(parallel);
 }
 
 // The new records: what each contact ended with, and whether the surfaces met.
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
-  solver.store(manifolds, new_contacts, approach_speeds);
+  solver.store(manifolds, new_contacts, approach_speeds, parallel);
 }
 
 void World::Impl::move_bodies(StepReport& report) {

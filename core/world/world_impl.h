@@ -7,6 +7,7 @@
 
 #include <lockstone/world.h>
 
+#include "core/base/parallel.h"
 #include "core/collision/broad_phase.h"
 #include "core/collision/collide_bodies.h"
 #include "core/collision/first_impact.h"
@@ -114,6 +115,7 @@ struct World::Impl {
   std::vector<JointEvent> joint_events;
 
   Profiler profiler;
+  Parallel parallel;  // changes no result
 
  private:
   void find_pairs(StepReport& report);

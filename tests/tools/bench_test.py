@@ -31,7 +31,7 @@ class Case(unittest.TestCase):
 class Speed(Case):
     @classmethod
     def setUpClass(cls):
-        run = ("speed", "--scene", "mixed-pile", "--ticks", 50)
+        run = ("speed", "--scene", "mixed-pile", "--ticks", 50, "--threads", 1)
         cls.scene, = cls().json_of(*run, "--repeats", 2)["scenes"]
         cls.again, = cls().json_of(*run, "--repeats", 1, "--detail")["scenes"]
         cls.sweep, = cls().json_of(*run, "--repeats", 1, "--cpu", "--broad-phase", "sweep")["scenes"]
@@ -69,7 +69,8 @@ class Speed(Case):
     def test_writes_a_line_a_tick(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "ticks.csv"
-            text = self.expect(OK, "speed", "--scene", "ball-rain", "--ticks", 12, "--repeats", 1, "--csv", path)
+            text = self.expect(OK, "speed", "--scene", "ball-rain", "--ticks", 12, "--repeats", 1,
+                               "--threads", 1, "--csv", path)
             self.assertIn("ball-rain", text)
             with path.open() as file:
                 rows = list(csv.DictReader(file))

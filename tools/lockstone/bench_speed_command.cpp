@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,7 +19,8 @@ namespace {
 struct BenchSpeedOptions {
   std::vector<std::string> scenes;  // none: all
   std::uint32_t ticks = 0;
-  int repeats = 0;  // 0: by `quick`
+  int repeats = 0;                     // 0: by `quick`
+  std::vector<std::uint32_t> threads;  // none: 1, and all that the machine runs at once
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
   bool cpu = false;
   bool quick = false;
@@ -43,9 +46,17 @@ std::vector<const bench::SpeedScene*> chosen_scenes(const std::vector<std::strin
   return chosen;
 }
 
+std::vector<std::uint32_t> threads_of(const BenchSpeedOptions& options) {
+  if (!options.threads.empty()) return options.threads;
+  const std::uint32_t all = std::clamp(std::thread::hardware_concurrency(), 1U, k_max_workers);
+  if (options.cpu || all == 1) return {1};
+  return {1, all};
+}
+
 bench::SpeedOptions measure_of(const BenchSpeedOptions& options, const bench::SpeedScene& scene) {
   bench::SpeedOptions measure;
   measure.detail = options.detail;
+  measure.threads = threads_of(options);
   measure.broad_phase = options.broad_phase;
   if (options.cpu) measure.clock = bench::thread_nanoseconds;
   measure.repeats = options.repeats != 0 ? options.repeats : options.quick ? 1 : 3;
@@ -76,7 +87,8 @@ SpeedReport measure(const BenchSpeedOptions& options,
       continue;
     }
     progress.show(std::string(scene->name));
-    report.results.push_back(bench::run_speed(*scene, measure_of(options, *scene)));
+    std::ranges::move(bench::run_speed(*scene, measure_of(options, *scene)),
+                      std::back_inserter(report.results));
   }
   return report;
 }
@@ -119,8 +131,13 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--repeats", options->repeats, "A tick's time is the median over these (3)")
       ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--threads", options->threads,
+                   "Numbers of threads to compare (1 and all; with --cpu 1)")
+      ->check(CLI::Range(1U, k_max_workers));
   add_broad_phase_option(*command, options->broad_phase);
-  command->add_flag("--cpu", options->cpu, "Count only the time that the thread itself ran");
+  command->add_flag("--cpu", options->cpu,
+                    "Count only the time that the stepping thread itself ran");
   command->add_flag("--quick", options->quick, "A fifth of the ticks, once");
   command->add_flag("--detail", options->detail, "Also a table of pairs by kinds of shape");
   command->add_flag("--list", *list, "Only name the scenes");

@@ -37,6 +37,7 @@ Json scene_of(const SpeedReport& report, const bench::SpeedResult& result) {
   const StepReport& last = result.reports.back();
   const double time = result.sum_of_ticks();
   Json json{{"scene", result.scene->name},
+            {"threads", result.threads},
             {"ticks", result.times.size()},
             {"status", to_string(result.status())},
             {"final_hash", hash_text(result.hash)},

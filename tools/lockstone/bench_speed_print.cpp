@@ -1,5 +1,7 @@
 #include "tools/lockstone/bench_speed_print.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/math/wide/target.h"
@@ -11,35 +13,42 @@ namespace {
 
 constexpr double k_ns_per_ms = 1e6;
 
+// Against the first number of threads of the same scene.
+double scaling_of(const SpeedReport& report, const bench::SpeedResult& result) {
+  const auto first = std::ranges::find(report.results, result.scene, &bench::SpeedResult::scene);
+  return first->sum_of_ticks() / result.sum_of_ticks();
+}
+
 void print_overview(const SpeedReport& report) {
   fmt::print("vectors: {}; clock: {}{}\n", lanes::current_target(), report.clock_name,
              k_build_remark);
-  fmt::print("{:<14} {:>6} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}  {:<16}  {}\n", "scene",
-             "bodies", "contacts", "points", "ms/tick", "p99", "ns/contact", "ns/body", "hash us",
-             "final hash", "status");
+  fmt::print("{:<14} {:>7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8}  {:<16}  {}\n",
+             "scene", "threads", "bodies", "contacts", "points", "ms/tick", "p99", "scaling",
+             "ns/contact", "ns/body", "hash us", "final hash", "status");
   for (const bench::SpeedResult& result : report.results) {
     const StepReport& last = result.reports.back();
     const double time = result.sum_of_ticks();
-    fmt::print("{:<14} {:>6} {:>8} {:>8} {:>8.3f} {:>8.3f} {:>10.0f} {:>8.0f} {:>8.0f}  {}  {}{}\n",
-               result.scene->name, result.bodies, last.contacts, last.contact_points,
-               result.quantile_of_ticks(0.5) / k_ns_per_ms,
-               result.quantile_of_ticks(0.99) / k_ns_per_ms,
-               per(time, result.sum(&StepReport::contacts)),
-               per(time, result.sum(&StepReport::moving_bodies)), result.hash_nanoseconds / 1000,
-               hash_text(result.hash), to_string(result.status()),
-               result.hashes_agree ? "" : ", HASHES DIFFER");
+    fmt::print(
+        "{:<14} {:>7} {:>6} {:>8} {:>8} {:>8.3f} {:>8.3f} {:>7.2f} {:>10.0f} {:>8.0f} {:>8.0f}"
+        "  {}  {}{}\n",
+        result.scene->name, result.threads, result.bodies, last.contacts, last.contact_points,
+        result.quantile_of_ticks(0.5) / k_ns_per_ms, result.quantile_of_ticks(0.99) / k_ns_per_ms,
+        scaling_of(report, result), per(time, result.sum(&StepReport::contacts)),
+        per(time, result.sum(&StepReport::moving_bodies)), result.hash_nanoseconds / 1000,
+        hash_text(result.hash), to_string(result.status()),
+        result.hashes_agree ? "" : ", HASHES DIFFER");
   }
   for (const bench::SpeedScene* scene : report.absent)
     fmt::print("{:<14} absent: needs {}\n", scene->name, scene->needs);
 }
 
 void print_stages(const SpeedReport& report) {
-  fmt::print("\nms a tick, mean, and share by stage\n{:<14}", "");
+  fmt::print("\nms a tick, mean, and share by stage\n{:<17}", "threads");
   for (const StepStage stage : all_stages())
     fmt::print(" {:>15}", name_of(stage));
   fmt::print("\n");
   for (const bench::SpeedResult& result : report.results) {
-    fmt::print("{:<14}", result.scene->name);
+    fmt::print("{:<14} {:>2}", result.scene->name, result.threads);
     for (const StepStage stage : all_stages()) {
       const double time = result.sum_of(stage);
       fmt::print(" {:>9.3f} {:>4.0f}%",
@@ -75,18 +84,20 @@ void print_speed_tables(const SpeedReport& report) {
   if (report.results.empty()) return;
   print_stages(report);
   if (!report.detail) return;
-  for (const bench::SpeedResult& result : report.results)
-    print_pairs(result, report.clock_nanoseconds);
+  for (const bench::SpeedResult& result : report.results) {
+    if (result.detail.steps > 0) print_pairs(result, report.clock_nanoseconds);
+  }
 }
 
 std::string speed_csv(const SpeedReport& report) {
-  std::string text = "scene,tick,ns";
+  std::string text = "scene,threads,tick,ns";
   for (const StepStage stage : all_stages())
     text += fmt::format(",{}_ns", name_of(stage));
   text += ",moving,pairs,contacts,points,saturations\n";
   for (const bench::SpeedResult& result : report.results) {
     for (std::size_t tick = 0; tick < result.times.size(); ++tick) {
-      text += fmt::format("{},{},{:.0f}", result.scene->name, tick, result.times[tick].whole);
+      text += fmt::format("{},{},{},{:.0f}", result.scene->name, result.threads, tick,
+                          result.times[tick].whole);
       for (const double stage : result.times[tick].stages)
         text += fmt::format(",{:.0f}", stage);
       const StepReport& step = result.reports[tick];

@@ -12,4 +12,10 @@ void add_broad_phase_option(CLI::App& command, BroadPhaseKind& broad_phase) {
       ->transform(CLI::CheckedTransformer(kinds));
 }
 
+void add_threads_option(CLI::App& command, std::uint32_t& threads) {
+  command.add_option("--threads", threads, "Threads to step on; changes no result")
+      ->check(CLI::Range(1U, k_max_workers))
+      ->capture_default_str();
+}
+
 }  // namespace lockstone::tool

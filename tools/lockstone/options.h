@@ -10,4 +10,7 @@ namespace lockstone::tool {
 /// --broad-phase tree|sweep
 void add_broad_phase_option(CLI::App& command, BroadPhaseKind& broad_phase);
 
+/// --threads N
+void add_threads_option(CLI::App& command, std::uint32_t& threads);
+
 }  // namespace lockstone::tool

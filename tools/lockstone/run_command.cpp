@@ -9,6 +9,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <lockstone/thread_pool.h>
+
 #include "core/math/wide/target.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
@@ -27,6 +29,7 @@ struct RunOptions {
   std::string svg;
   std::string simd;
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  std::uint32_t threads = 1;
   int frames = 1;
   bool json = false;
   bool heavy = false;
@@ -107,7 +110,8 @@ void print_text(const std::vector<ChainEntry>& chain, std::uint64_t final_hash) 
 class Run {
  public:
   Run(const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
-      : options_(options), play_(std::move(play)) {
+      : options_(options), play_(std::move(play)), pool_(options.threads) {
+    if (options.threads > 1) play_->set_task_runner(&pool_);
     if (!options.heavy) return;
     twin_.emplace(*play_,
                   scenes::make_play(options.scene, options.seed, options.broad_phase).value());
@@ -161,6 +165,7 @@ class Run {
 
   const RunOptions& options_;
   std::unique_ptr<scenes::ScenePlay> play_;
+  ThreadPool pool_;
   std::optional<Twin> twin_;
   std::vector<ChainEntry> chain_;
   std::vector<std::string> frames_;
@@ -197,6 +202,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--simd", options->simd, "Vectors to use: scalar, sse4, avx2, avx512");
   add_broad_phase_option(*command, options->broad_phase);
+  add_threads_option(*command, options->threads);
   command->add_option("--svg", options->svg, "Draw the end into this file");
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
       ->check(CLI::Range(1, 60));

@@ -34,6 +34,9 @@ class ScenePlay {
   [[nodiscard]] virtual const World& world() const = 0;
   [[nodiscard]] virtual const StepReport& last_report() const = 0;
   virtual void drop_derived() = 0;
+
+  /// As `World::set_task_runner`.
+  virtual void set_task_runner(TaskRunner* runner) = 0;
 };
 
 /// not_found for an unknown name. The broad phase changes no result.

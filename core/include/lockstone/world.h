@@ -21,6 +21,7 @@
 #include <lockstone/query.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
+#include <lockstone/tasks.h>
 
 namespace lockstone {
 
@@ -115,6 +116,11 @@ class World {
   /// result depends on it.
   void set_clock(ProfileClock now, ProfileDetail detail = ProfileDetail::stages);
   [[nodiscard]] const StepProfile& profile() const;
+
+  /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone. Not
+  /// state: no result depends on it. The runner must outlive its use. Allocates what the workers
+  /// need for themselves, so that `step` does not.
+  void set_task_runner(TaskRunner* runner);
 
   // Bodies ----------------------------------------------------------------------------------------
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <lockstone/thread_pool.h>
+
 namespace lockstone::bench {
 namespace {
 
@@ -42,9 +44,12 @@ void drive(const SpeedScene& scene, World& world) {
   if (scene.drive != nullptr) scene.drive(world);
 }
 
-Pass run_pass(const SpeedScene& scene, const SpeedOptions& options, std::uint32_t ticks) {
+Pass run_pass(const SpeedScene& scene, const SpeedOptions& options, std::uint32_t ticks,
+              std::uint32_t threads) {
   Pass pass;
+  ThreadPool pool(threads);
   World world = scene.make(options.broad_phase);
+  if (threads > 1) world.set_task_runner(&pool);
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     drive(scene, world);
     pass.times.push_back(time_step(world, options.clock, pass.reports.emplace_back()));
@@ -85,6 +90,22 @@ StepProfile run_in_detail(const SpeedScene& scene, const SpeedOptions& options, 
   return world.profile();
 }
 
+SpeedResult result_of(const SpeedScene& scene, const std::vector<Pass>& passes,
+                      std::uint32_t ticks) {
+  SpeedResult result;
+  result.scene = &scene;
+  result.bodies = passes.front().bodies;
+  result.reports = passes.front().reports;
+  result.hash = passes.front().hash;
+  result.hash_nanoseconds =
+      median_of(passes, [](const Pass& pass) { return pass.hash_nanoseconds; });
+  for (std::size_t tick = 0; tick < ticks; ++tick)
+    result.times.push_back(median_tick(passes, tick));
+  for (const Pass& pass : passes)
+    result.hashes_agree = result.hashes_agree && pass.hash == result.hash;
+  return result;
+}
+
 }  // namespace
 
 Status SpeedResult::status() const {
@@ -119,28 +140,25 @@ std::uint64_t SpeedResult::sum(std::uint32_t StepReport::*counter) const {
   return sum;
 }
 
-SpeedResult run_speed(const SpeedScene& scene, const SpeedOptions& options) {
+std::vector<SpeedResult> run_speed(const SpeedScene& scene, const SpeedOptions& options) {
   const std::uint32_t ticks = options.ticks != 0 ? options.ticks : scene.ticks;
-  std::vector<Pass> passes;
-  for (int repeat = 0; repeat < options.repeats; ++repeat)
-    passes.push_back(run_pass(scene, options, ticks));
-  SpeedResult result;
-  result.scene = &scene;
-  result.bodies = passes.front().bodies;
-  result.reports = passes.front().reports;
-  result.hash = passes.front().hash;
-  result.hash_nanoseconds =
-      median_of(passes, [](const Pass& pass) { return pass.hash_nanoseconds; });
-  for (std::size_t tick = 0; tick < ticks; ++tick)
-    result.times.push_back(median_tick(passes, tick));
-  for (const Pass& pass : passes)
-    result.hashes_agree = result.hashes_agree && pass.hash == result.hash;
-  if (options.detail) {
-    std::uint64_t hash = 0;
-    result.detail = run_in_detail(scene, options, ticks, hash);
-    result.hashes_agree = result.hashes_agree && hash == result.hash;
+  std::vector<std::vector<Pass>> passes(options.threads.size());
+  for (int repeat = 0; repeat < options.repeats; ++repeat) {
+    for (std::size_t i = 0; i < passes.size(); ++i)
+      passes[i].push_back(run_pass(scene, options, ticks, options.threads[i]));
   }
-  return result;
+  std::vector<SpeedResult> results;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    results.push_back(result_of(scene, passes[i], ticks));
+    results.back().threads = options.threads[i];
+    results.back().hashes_agree &= results.back().hash == results.front().hash;
+  }
+  if (!options.detail) return results;
+  SpeedResult& first = results.front();
+  std::uint64_t hash = 0;
+  first.detail = run_in_detail(scene, options, ticks, hash);
+  first.hashes_agree = first.hashes_agree && hash == first.hash;
+  return results;
 }
 
 }  // namespace lockstone::bench

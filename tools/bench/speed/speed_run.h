@@ -17,7 +17,8 @@ struct SpeedOptions {
   int repeats = 3;          ///< each from the beginning; a tick's time is the median over them
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
   Clock clock = now_nanoseconds;
-  bool detail = false;  ///< one more run with a clock around each pair
+  std::vector<std::uint32_t> threads = {1};  ///< each has its own result; they take turns
+  bool detail = false;                       ///< one more run with a clock around each pair
 };
 
 /// Of one tick, in nanoseconds.
@@ -28,12 +29,13 @@ struct TickTimes {
 
 struct SpeedResult {
   const SpeedScene* scene = nullptr;
+  std::uint32_t threads = 1;
   std::uint32_t bodies = 0;  ///< at the end, static ones included
   std::vector<TickTimes> times;
   std::vector<StepReport> reports;
   double hash_nanoseconds = 0;  ///< of the whole state at the end, besides the tick
   std::uint64_t hash = 0;       ///< of the final state
-  bool hashes_agree = true;     ///< over all repeats, and the run in detail
+  bool hashes_agree = true;     ///< over all repeats, numbers of threads, and the run in detail
   StepProfile detail;           ///< in nanoseconds, the clock's own time included
 
   /// capacity_exhausted when any tick said so: the times are those of less work.
@@ -47,6 +49,8 @@ struct SpeedResult {
   [[nodiscard]] std::uint64_t sum(std::uint32_t StepReport::*counter) const;
 };
 
-[[nodiscard]] SpeedResult run_speed(const SpeedScene& scene, const SpeedOptions& options);
+/// One for each number of threads.
+[[nodiscard]] std::vector<SpeedResult> run_speed(const SpeedScene& scene,
+                                                 const SpeedOptions& options);
 
 }  // namespace lockstone::bench
