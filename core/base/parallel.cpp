@@ -14,8 +14,9 @@ constexpr std::uint64_t cursor(std::size_t loop, std::uint32_t item) {
 
 }  // namespace
 
-void Parallel::set_runner(TaskRunner* runner) {
+void Parallel::set_runner(TaskRunner* runner, TaskPieces pieces) {
   runner_ = runner;
+  pieces_ = pieces;
   workers_ = runner == nullptr ? 1 : runner->worker_count();
   LKS_CHECK(workers_ >= 1 && workers_ <= k_max_workers);
 }
@@ -23,7 +24,7 @@ void Parallel::set_runner(TaskRunner* runner) {
 // Not what would be done in one piece anyway.
 bool Parallel::is_worth_sharing(std::span<const Loop> loops) const {
   return workers_ > 1 &&
-         std::ranges::any_of(loops, [](const Loop& loop) { return loop.count > loop.grain; });
+         std::ranges::any_of(loops, [&](const Loop& loop) { return loop.count > grain_of(loop); });
 }
 
 void Parallel::share(std::span<const Loop> loops) {
@@ -82,7 +83,7 @@ bool Parallel::take(std::size_t loop, std::uint32_t part, std::uint32_t& first,
   const std::uint32_t begin = begin_of(loops_[loop], part);
   const std::uint32_t stop = begin_of(loops_[loop], part + 1);
   const std::uint32_t piece =
-      std::max(loops_[loop].grain, (stop - begin + k_pieces - 1) / k_pieces);
+      std::max(grain_of(loops_[loop]), (stop - begin + k_pieces - 1) / k_pieces);
   std::uint64_t seen = value.load(std::memory_order_acquire);
   do {
     first = static_cast<std::uint32_t>(seen);
@@ -92,10 +93,15 @@ bool Parallel::take(std::size_t loop, std::uint32_t part, std::uint32_t& first,
   return true;
 }
 
+std::uint32_t Parallel::grain_of(const Loop& loop) const {
+  if (loop.is_serial) return std::max(loop.count, 1U);
+  return pieces_ == TaskPieces::smallest ? 1 : loop.grain;
+}
+
 // Parts are whole grains but for the last item.
 std::uint32_t Parallel::begin_of(const Loop& loop, std::uint32_t part) const {
-  const std::uint64_t grains = (loop.count + loop.grain - 1) / loop.grain;
-  const std::uint64_t begin = grains * part / workers_ * loop.grain;
+  const std::uint64_t grain = grain_of(loop);
+  const std::uint64_t begin = (loop.count + grain - 1) / grain * part / workers_ * grain;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(begin, loop.count));
 }
 

@@ -15,16 +15,17 @@
 
 namespace lockstone {
 
-/// One loop of a sequence: over 0 … count − 1, in pieces of `grain` items or more.
+/// One loop of a sequence: over 0 … count − 1, in pieces of `grain` items or more, or in one piece.
 struct Loop {
   std::uint32_t count = 0;
   std::uint32_t grain = 1;
+  bool is_serial = false;
 };
 
 class Parallel {
  public:
   /// Null: everything is done by the caller.
-  void set_runner(TaskRunner* runner);
+  void set_runner(TaskRunner* runner, TaskPieces pieces = TaskPieces::worthwhile);
 
   [[nodiscard]] std::uint32_t workers() const { return workers_; }
 
@@ -72,9 +73,11 @@ class Parallel {
   void work(std::uint32_t worker);
   void work_on(std::size_t loop, std::uint32_t worker);
   bool take(std::size_t loop, std::uint32_t part, std::uint32_t& first, std::uint32_t& end);
+  [[nodiscard]] std::uint32_t grain_of(const Loop& loop) const;
   [[nodiscard]] std::uint32_t begin_of(const Loop& loop, std::uint32_t part) const;
 
   TaskRunner* runner_ = nullptr;
+  TaskPieces pieces_ = TaskPieces::worthwhile;
   std::uint32_t workers_ = 1;
 
   std::span<const Loop> loops_;

@@ -219,7 +219,7 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
 void ContactSolver::add_loop_of_each_color() {
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
     const auto count = static_cast<std::uint32_t>(ranges_[color].count);
-    loops_.push_back({count, color == k_overflow_color ? std::max(count, 1U) : k_block_grain});
+    loops_.push_back({count, k_block_grain, color == k_overflow_color});
   }
 }
 

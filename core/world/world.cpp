@@ -143,8 +143,8 @@ std::span<const ContactEvent> World::events() const {
 void World::set_clock(ProfileClock now, ProfileDetail detail) {
   impl_->profiler.set_clock(now, detail);
 }
-void World::set_task_runner(TaskRunner* runner) {
-  impl_->parallel.set_runner(runner);
+void World::set_task_runner(TaskRunner* runner, TaskPieces pieces) {
+  impl_->parallel.set_runner(runner, pieces);
 }
 const StepProfile& World::profile() const {
   return impl_->profiler.profile();

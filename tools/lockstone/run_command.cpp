@@ -111,7 +111,7 @@ class Run {
  public:
   Run(const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
       : options_(options), play_(std::move(play)), pool_(options.threads) {
-    if (options.threads > 1) play_->set_task_runner(&pool_);
+    if (options.threads > 1) play_->set_task_runner(&pool_, TaskPieces::worthwhile);
     if (!options.heavy) return;
     twin_.emplace(*play_,
                   scenes::make_play(options.scene, options.seed, options.broad_phase).value());

@@ -28,8 +28,8 @@ class WorldPlay final : public ScenePlay {
   [[nodiscard]] const World& world() const override { return simulation_.world(); }
   [[nodiscard]] const StepReport& last_report() const override { return simulation_.last_report(); }
   void drop_derived() override { simulation_.world_for_tests().drop_derived(); }
-  void set_task_runner(TaskRunner* runner) override {
-    simulation_.world_for_tests().set_task_runner(runner);
+  void set_task_runner(TaskRunner* runner, TaskPieces pieces) override {
+    simulation_.world_for_tests().set_task_runner(runner, pieces);
   }
 
  private:
@@ -55,8 +55,8 @@ class ArenaPlay final : public ScenePlay {
   [[nodiscard]] const World& world() const override { return simulation_.arena().world; }
   [[nodiscard]] const StepReport& last_report() const override { return simulation_.last_report(); }
   void drop_derived() override { simulation_.arena_for_tests().world.drop_derived(); }
-  void set_task_runner(TaskRunner* runner) override {
-    simulation_.arena_for_tests().world.set_task_runner(runner);
+  void set_task_runner(TaskRunner* runner, TaskPieces pieces) override {
+    simulation_.arena_for_tests().world.set_task_runner(runner, pieces);
   }
 
  private:

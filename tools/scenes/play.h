@@ -36,7 +36,7 @@ class ScenePlay {
   virtual void drop_derived() = 0;
 
   /// As `World::set_task_runner`.
-  virtual void set_task_runner(TaskRunner* runner) = 0;
+  virtual void set_task_runner(TaskRunner* runner, TaskPieces pieces) = 0;
 };
 
 /// not_found for an unknown name. The broad phase changes no result.

@@ -15,6 +15,12 @@ using TaskFunction = void (*)(void* context, std::uint32_t chunk, std::uint32_t 
 /// Bound on TaskRunner::worker_count.
 inline constexpr std::uint32_t k_max_workers = 64;
 
+/// How small the pieces are that a world makes.
+enum class TaskPieces : std::uint8_t {
+  worthwhile,  ///< a microsecond of work or more; little work is not shared at all
+  smallest,    ///< for tests: whatever can be shared is
+};
+
 /// Calls functions side by side. One runner may serve several worlds, one after the other or, if
 /// its `run` allows that, at the same time.
 class TaskRunner {

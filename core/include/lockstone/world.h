@@ -61,6 +61,8 @@ struct StepReport {
   std::uint32_t continuous_bodies = 0;  ///< moved far enough to be followed along their way
   std::uint32_t impacts = 0;            ///< stops on the way
   std::uint32_t saturations = 0;        ///< values clamped to their range
+
+  friend bool operator==(const StepReport&, const StepReport&) = default;
 };
 
 /// Hashes of one state; `total` covers the others.
@@ -120,7 +122,7 @@ class World {
   /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone. Not
   /// state: no result depends on it. The runner must outlive its use. Allocates what the workers
   /// need for themselves, so that `step` does not.
-  void set_task_runner(TaskRunner* runner);
+  void set_task_runner(TaskRunner* runner, TaskPieces pieces = TaskPieces::worthwhile);
 
   // Bodies ----------------------------------------------------------------------------------------
 
