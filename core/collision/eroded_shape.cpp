@@ -23,14 +23,28 @@ Length inner_radius_of(const Piece& piece) {
   return piece.polytope != nullptr ? inner_radius_of(*piece.polytope) : inner_radius(piece.shape);
 }
 
-ErodedShape::ErodedShape(const Piece& piece, Length depth) : shape(piece.shape) {
+ErodedShape::ErodedShape(const Piece& piece, Length depth, Unit share) : shape(piece.shape) {
   if (piece.polytope != nullptr) {
     erode_vertices(*piece.polytope, depth);
+  } else {
+    const int axes = shape.kind == ShapeKind::box ? 3 : 1;  // the radius is in x
+    for (int i = 0; i < axes; ++i)
+      shape.size[i] -= depth;
+  }
+  if (share != Unit::from_integer(1)) shorten(share);
+}
+
+void ErodedShape::shorten(Unit share) {
+  if (!is_polytope) {
+    const int first = shape.kind == ShapeKind::box ? 0 : 1;
+    for (int i = first; i < 3; ++i)
+      shape.size[i] = rounded<Length>(shape.size[i] * share);
     return;
   }
-  const int axes = shape.kind == ShapeKind::box ? 3 : 1;  // the radius is in x
-  for (int i = 0; i < axes; ++i)
-    shape.size[i] -= depth;
+  for (std::size_t i = 0; i < polytope.vertices.size(); ++i) {
+    Vec3<Length>& vertex = vertices_[i];
+    vertex = polytope.interior + rounded<Length>((vertex - polytope.interior) * share);
+  }
 }
 
 void ErodedShape::erode_vertices(const geometry::Polytope& full, Length depth) {

@@ -10,9 +10,10 @@ namespace lockstone {
 
 /// A piece whose surface lies deeper by about `depth`, less than its inner radius. Of a polytope
 /// each vertex goes inward by that much along the mean normal of its faces; the faces are not to be
-/// used.
+/// used. Then it is shortened by the factor `share` about its middle; what is round keeps its
+/// radius.
 struct ErodedShape {
-  ErodedShape(const Piece& piece, Length depth);
+  ErodedShape(const Piece& piece, Length depth, Unit share = Unit::from_integer(1));
   ErodedShape(const ErodedShape&) = delete;
   ErodedShape& operator=(const ErodedShape&) = delete;
 
@@ -26,6 +27,7 @@ struct ErodedShape {
 
  private:
   void erode_vertices(const geometry::Polytope& full, Length depth);
+  void shorten(Unit share);
 
   std::array<Vec3<Length>, geometry::k_max_polytope_vertices> vertices_;
 };

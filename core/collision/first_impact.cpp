@@ -44,6 +44,12 @@ Piece as_box(const Piece& half_space, const Vec3<Position>& above) {
   return box;
 }
 
+// What contacts take for the middle.
+Vec3<Position> middle_of(const Piece& piece) {
+  if (piece.polytope == nullptr) return piece.origin;
+  return piece.origin + rounded<Position>(rotate(piece.rotation, piece.polytope->interior));
+}
+
 // Everything that A may reach while it moves relative to B.
 OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   const Position radius = rounded<Position>(bounding_radius(a.shape, a.asset));
@@ -79,34 +85,55 @@ class PiecesOfB final : public PieceVisitor {
   void visit(const Piece& piece) override {
     const bool unbounded = piece.shape.kind == ShapeKind::half_space;
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
-    if (is_behind(a_.origin, b)) return;
+    if (is_behind(middle_of(a_), b)) return;
     const PieceSweep sweep_b(b, motion_b_);
-    const Unit time = impact_time({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
-    if (time == k_never || (best_.hit && time >= best_.fraction)) return;
-    best_ = {true, time, a_.part, b.part};
+    const Meeting meeting = meet({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
+    if (meeting.time == k_never || (best_.hit && meeting.time >= best_.fraction)) return;
+    best_ = {true, meeting.time, a_.part, b.part, meeting.crossing};
   }
 
  private:
   static constexpr Unit k_never = Unit::max();
 
-  [[nodiscard]] Unit impact_time(const SweptShape& b) const {
+  struct Meeting {
+    Unit time = k_never;
+    Vec3<Unit> crossing{};
+  };
+
+  [[nodiscard]] Meeting meet(const SweptShape& b) const {
     const Unit half = time_at(k_half_depth, b);
-    if (half == k_never) return k_never;
+    if (half == k_never) return {};
     const Unit deep = half > Unit{} ? half : time_at(k_last_depth, b);
-    if (deep == k_never || deep == Unit{}) return k_never;
+    if (deep == k_never) return {};
+    if (deep == Unit{}) return cross(b);
     for (const int depth : {0, 1, 2}) {
       const Unit time = time_at(depth, b);
-      if (time != k_never && time > Unit{}) return time;
+      if (time != k_never && time > Unit{}) return {time, {}};
     }
-    return deep;
+    return {deep, {}};
+  }
+
+  // When the middle of what is deep in B already comes there too: a rod may pass through a wall
+  // that its tip was in.
+  [[nodiscard]] Meeting cross(const SweptShape& b) const {
+    for (const int share : {4, 2, 1}) {
+      const TimeOfImpact found = find(k_last_depth, b, Unit::from_ratio(share, 8));
+      if (found.state == TimeOfImpactState::separated) return {};
+      if (found.fraction > Unit{}) return {found.fraction, found.normal};
+    }
+    return {};
   }
 
   // When A, eroded to a depth, comes to B; 0 when it is there from the beginning.
   [[nodiscard]] Unit time_at(int depth, const SweptShape& b) const {
-    const ErodedShape core(a_, inner_radius_ / 8 * depth);
-    const SweptShape a{core.shape, sweep_a_.sweep, core.polytope_or_null(), sweep_a_.origin};
-    const TimeOfImpact found = time_of_impact(a, b, limits_);
+    const TimeOfImpact found = find(depth, b, Unit::from_integer(1));
     return found.state == TimeOfImpactState::separated ? k_never : found.fraction;
+  }
+
+  [[nodiscard]] TimeOfImpact find(int depth, const SweptShape& b, Unit share) const {
+    const ErodedShape core(a_, inner_radius_ / 8 * depth, share);
+    const SweptShape a{core.shape, sweep_a_.sweep, core.polytope_or_null(), sweep_a_.origin};
+    return time_of_impact(a, b, limits_);
   }
 
   const Piece& a_;

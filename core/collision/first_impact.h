@@ -24,6 +24,9 @@ struct Impact {
   Unit fraction{};  ///< of the interval; the shapes are then about k_impact_gap apart
   std::uint32_t part_a = 0;
   std::uint32_t part_b = 0;
+  /// From A to B, where A would pass through B with its middle, deep in B as it was already; else
+  /// zero.
+  Vec3<Unit> crossing{};
 };
 
 /// The gap that is left at an impact, or a part of the thickness of what is thinner.

@@ -451,14 +451,15 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
   const RowBody& row = rows_[index];
   const RowTravel& travel = travel_[index];
   const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
-  const std::uint32_t turns = end_substeps(
+  if (body.is_dynamic()) {
+    body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]),
+                     from_row(row.velocity[2])};
+    body.spin = {from_row(row.spin[0]), from_row(row.spin[1]), from_row(row.spin[2])};
+  }
+  return end_substeps(
       body, rotation,
       {moved(travel.velocity[0]), moved(travel.velocity[1]), moved(travel.velocity[2])},
       {moved(travel.surface[0]), moved(travel.surface[1]), moved(travel.surface[2])}, step_);
-  if (!body.is_dynamic()) return turns;
-  body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]), from_row(row.velocity[2])};
-  body.spin = {from_row(row.spin[0]), from_row(row.spin[1]), from_row(row.spin[2])};
-  return turns;
 }
 
 }  // namespace lockstone

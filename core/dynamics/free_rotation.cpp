@@ -6,7 +6,6 @@
 
 #include "core/math/int128.h"
 #include "core/math/roots.h"
-#include "core/math/trig.h"
 
 namespace lockstone {
 namespace {
@@ -63,10 +62,16 @@ struct TurnRate {
   }
 };
 
+// x · time, from 30 fraction bits to 50.
+std::int64_t times(std::int64_t x, const TurnTime& time, std::int64_t pieces = 1) {
+  const std::int64_t wide = x * (std::int64_t{1} << (k_step_bits - k_inverse_bits));
+  const std::int64_t step = raw::round_divide(wide, time.rate * pieces);
+  if (time.fraction == Unit::from_integer(1)) return step;
+  return raw::multiply_shift(step, time.fraction.raw, Unit::frac_bits);
+}
+
 // `exponent` is that of the momentum over the one of the body's scale.
-TurnRate turn_rate(std::int64_t excess, std::int64_t rate, int exponent) {
-  const std::int64_t step =
-      raw::round_divide(excess * (std::int64_t{1} << (k_step_bits - k_inverse_bits)), rate);
+TurnRate turn_rate(std::int64_t step, int exponent) {
   const int beyond = std::max(0, static_cast<int>(std::bit_width(magnitude(step))) - k_rate_bits);
   return {raw::round_shift(step, beyond), k_step_bits - exponent - beyond};
 }
@@ -147,9 +152,9 @@ std::int64_t norm_of(const std::array<std::int64_t, 3>& m) {
 }
 
 // The turn in the body's own axes; `exponent` as for `turn_rate`.
-void turn_residual(const Axes& axes, std::int32_t rate, int exponent, Turning& body) {
-  Split split{axes, turn_rate(axes.nearer_excess, rate, exponent),
-              turn_rate(axes.third_excess, rate, exponent)};
+void turn_residual(const Axes& axes, const TurnTime& time, int exponent, Turning& body) {
+  Split split{axes, turn_rate(times(axes.nearer_excess, time), exponent),
+              turn_rate(times(axes.third_excess, time), exponent)};
   const std::int64_t norm = norm_of(body.momentum);
   const std::uint64_t nearer = magnitude(split.nearer.angle(norm));
   const std::uint64_t third = magnitude(split.third.angle(norm));
@@ -164,17 +169,16 @@ void turn_residual(const Axes& axes, std::int32_t rate, int exponent, Turning& b
   }
   const auto pieces = static_cast<std::int64_t>(third / k_piece) + 1;
   if (pieces > 1) {
-    split.nearer = turn_rate(axes.nearer_excess, rate * pieces, exponent);
-    split.third = turn_rate(axes.third_excess, rate * pieces, exponent);
+    split.nearer = turn_rate(times(axes.nearer_excess, time, pieces), exponent);
+    split.third = turn_rate(times(axes.third_excess, time, pieces), exponent);
   }
   turn_by_shares(split, pieces, body);
 }
 
-// The turn about the angular momentum: spin / (I_a · scale · rate).
-RotationVector turn_about_momentum(const Vec3<Velocity>& spin, std::int64_t inverse,
-                                   std::int32_t rate, int scale_exponent) {
-  const std::int64_t step =
-      raw::round_divide(inverse * (std::int64_t{1} << (k_step_bits - k_inverse_bits)), rate);
+// spin / (I_a · scale) · time
+RotationVector about_momentum(const Vec3<Velocity>& spin, std::int64_t inverse,
+                              const TurnTime& time, int scale_exponent) {
+  const std::int64_t step = times(inverse, time);
   const auto angle = [&](Velocity v) {
     return RotationComponent::from_raw(
         saturate_to_int64(round_shift(multiply_wide(v.raw, step), k_step_bits + scale_exponent)));
@@ -185,7 +189,7 @@ RotationVector turn_about_momentum(const Vec3<Velocity>& spin, std::int64_t inve
 }  // namespace
 
 FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
-                     std::int32_t rate) {
+                     const TurnTime& time) {
   const std::uint64_t greatest =
       std::max({magnitude(spin.x.raw), magnitude(spin.y.raw), magnitude(spin.z.raw)});
   if (greatest == 0) return {body.orientation, 0};
@@ -200,10 +204,13 @@ FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation, const Vec3<Ve
     turning.momentum[static_cast<std::size_t>(i)] = raw::round_shift(
         axis.x.raw * scaled[0] + axis.y.raw * scaled[1] + axis.z.raw * scaled[2], 30);
   }
-  turn_residual(axes, rate, exponent - body.scale_exponent, turning);
-  const RotationVector about =
-      turn_about_momentum(spin, axes.middle_inverse, rate, body.scale_exponent);
+  turn_residual(axes, time, exponent - body.scale_exponent, turning);
+  const RotationVector about = about_momentum(spin, axes.middle_inverse, time, body.scale_exponent);
   return {integrate(body.orientation, about, turning.turned), turning.turns};
+}
+
+RotationVector turn_about_momentum(const BodyRecord& body, const TurnTime& time) {
+  return about_momentum(body.spin, axes_of(body.inertia).middle_inverse, time, body.scale_exponent);
 }
 
 }  // namespace lockstone

@@ -8,6 +8,7 @@
 #include <lockstone/vec3.h>
 
 #include "core/dynamics/body_record.h"
+#include "core/math/trig.h"
 
 namespace lockstone {
 
@@ -18,8 +19,14 @@ struct FreeTurn {
   std::uint32_t axis_turns = 0;
 };
 
-/// The orientation of a dynamic body after 1 / `rate` seconds with the angular momentum `spin` (as
-/// in BodyRecord). `rotation` is the matrix of its orientation, 1 ≤ rate < 2^20.
+/// A duration: `fraction` / `rate` seconds, 1 ≤ rate < 2^20.
+struct TurnTime {
+  std::int32_t rate = 1;
+  Unit fraction = Unit::from_integer(1);
+};
+
+/// The orientation of a dynamic body after a time with the angular momentum `spin` (as in
+/// BodyRecord). `rotation` is the matrix of its orientation.
 ///
 /// By the middle moment I_a the body turns about its angular momentum, exactly; what the others
 /// differ from it are rotations about their own axes, j the nearer in 1/I and k the third, by
@@ -33,6 +40,9 @@ struct FreeTurn {
 /// A body that turns about k by more than 1 rad goes in several pieces, at most 32; beyond, I_j
 /// counts as I_a.
 [[nodiscard]] FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation,
-                                   const Vec3<Velocity>& spin, std::int32_t rate);
+                                   const Vec3<Velocity>& spin, const TurnTime& time);
+
+/// The turn about the angular momentum alone.
+[[nodiscard]] RotationVector turn_about_momentum(const BodyRecord& body, const TurnTime& time);
 
 }  // namespace lockstone

@@ -4,7 +4,7 @@
 
 #include "core/dynamics/free_rotation.h"
 #include "core/math/roots.h"
-#include "core/math/trig.h"
+#include "core/math/rotation_log.h"
 
 namespace lockstone {
 namespace {
@@ -15,6 +15,12 @@ Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& 
   if (body.gravity_scale == Number::from_integer(1)) return gravity;
   const auto scale = [&](Acceleration g) { return multiply<Acceleration>(g, body.gravity_scale); };
   return {scale(gravity.x), scale(gravity.y), scale(gravity.z)};
+}
+
+constexpr Unit k_whole_tick = Unit::from_integer(1);
+
+Velocity times(Velocity v, Unit factor) {
+  return Velocity::from_raw(raw::multiply_shift(v.raw, factor.raw, Unit::frac_bits));
 }
 
 // A surface displacement (m, Q32) as a rotation vector (rad, Q32): divided by 2^scale_exponent.
@@ -61,19 +67,61 @@ bool turns_evenly(const BodyRecord& body) {
 }
 
 std::uint32_t turn(BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
-                   const TimeStep& step) {
-  const FreeTurn turned = turn_freely(body, rotation, spin, step.tick_rate);
+                   const TurnTime& time) {
+  const FreeTurn turned = turn_freely(body, rotation, spin, time);
   body.orientation = turned.orientation;
   return turned.axis_turns;
 }
 
-std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
-  if (!body.rotates() || body.spin == Vec3<Velocity>{}) return 0;
-  if (!turns_evenly(body)) return turn(body, rotation, body.spin, step);
+// ω times a part of a tick.
+RotationVector even_turn(const BodyRecord& body, const Mat3& rotation, const TimeStep& step,
+                         Unit part) {
   const Vec3<Velocity> w = surface_velocity(inverse_inertia(body, rotation), body.spin);
-  body.orientation =
-      integrate(body.orientation, to_rotation(divided(w, step.tick_rate), body.scale_exponent));
-  return 0;
+  Vec3<Velocity> way = divided(w, step.tick_rate);
+  if (part != k_whole_tick) {
+    for (int i = 0; i < 3; ++i)
+      way[i] = times(way[i], part);
+  }
+  return to_rotation(way, body.scale_exponent);
+}
+
+// The axis of a body with one moment below 1/ratio of both others; -1 when there is none.
+int thin_axis(const BodyRecord& body, int ratio) {
+  if (!body.is_dynamic()) return -1;
+  const auto& [x, y, z] = body.inertia;
+  const Unit least = min(x, min(y, z));
+  const int axis = least == x ? 0 : least == y ? 1 : 2;
+  const Unit other = min(body.inertia[(axis + 1) % 3], body.inertia[(axis + 2) % 3]);
+  return std::int64_t{least.raw} * ratio < other.raw ? axis : -1;
+}
+
+// Torque about the axis is as that of the impulses at the tick's beginning.
+void keep_axial_spin(BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& mean) {
+  constexpr int k_ratio = 8;
+  const int axis = thin_axis(body, k_ratio);
+  if (axis < 0 || body.spin == mean) return;
+  const Vec3<Unit>& before = rotation.column(axis);
+  const Vec3<Unit> now = to_matrix(body.orientation).column(axis);
+  const Vec3<Velocity> gained = body.spin - mean;
+  Velocity lost{};
+  for (int i = 0; i < 3; ++i)
+    lost += times(gained[i], before[i]) - times(gained[i], now[i]);
+  for (int i = 0; i < 3; ++i)
+    body.spin[i] += times(lost, now[i]);
+}
+
+// θ with as many whole turns more about its axis as bring it nearest to `expected`.
+RotationVector with_whole_turns(const RotationVector& theta, const RotationVector& expected) {
+  constexpr std::int64_t k_turn = 0x6487ed511;  // 2π, 32 bits
+  const Vec3<Unit> axis = direction_of(theta == RotationVector{} ? expected : theta);
+  std::int64_t missing = 0;
+  for (int i = 0; i < 3; ++i)
+    missing += raw::multiply_shift((expected[i] - theta[i]).raw, axis[i].raw, Unit::frac_bits);
+  const std::int64_t turns = raw::round_divide(missing, k_turn) * k_turn;
+  RotationVector result = theta;
+  for (int i = 0; i < 3; ++i)
+    result[i].raw += raw::multiply_shift(turns, axis[i].raw, Unit::frac_bits);
+  return result;
 }
 
 }  // namespace
@@ -116,7 +164,28 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
         in_this_tick(2 * body.velocity[i].raw + gain, std::int64_t{2} * step.tick_rate);
     body.velocity[i].raw += gain;
   }
-  return turn_in_flight(body, rotation, step);
+  return turn_in_flight(body, rotation, step, k_whole_tick);
+}
+
+std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeStep& step,
+                             Unit part) {
+  if (!body.rotates() || body.spin == Vec3<Velocity>{}) return 0;
+  if (!turns_evenly(body)) return turn(body, rotation, body.spin, {step.tick_rate, part});
+  body.orientation = integrate(body.orientation, even_turn(body, rotation, step, part));
+  return 0;
+}
+
+RotationVector turn_since(const Quat& start, const Mat3& rotation, const BodyRecord& body,
+                          const TimeStep& step, Unit part) {
+  constexpr int k_thin = 64;
+  constexpr auto k_surely_nearest = RotationComponent::from_ratio(5, 2);  // less than π
+  const RotationVector nearest = rotation_between(start, body.orientation);
+  if (!body.rotates() || body.spin == Vec3<Velocity>{}) return nearest;
+  const bool thin = thin_axis(body, k_thin) >= 0;
+  const RotationVector expected = thin ? turn_about_momentum(body, {step.tick_rate, part})
+                                       : even_turn(body, rotation, step, part);
+  if (abs(expected.x) + abs(expected.y) + abs(expected.z) <= k_surely_nearest) return nearest;
+  return thin ? expected : with_whole_turns(nearest, expected);
 }
 
 Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
@@ -171,7 +240,10 @@ std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
   }
   const auto speed = [&](Velocity way) { return Velocity::from_raw(way.raw * step.tick_rate); };
   const Vec3<Velocity> surface{speed(turned.x), speed(turned.y), speed(turned.z)};
-  return turn(body, rotation, spin_of(body, rotation, surface), step);
+  const Vec3<Velocity> mean = spin_of(body, rotation, surface);
+  const std::uint32_t turns = turn(body, rotation, mean, {step.tick_rate});
+  keep_axial_spin(body, rotation, mean);
+  return turns;
 }
 
 }  // namespace lockstone

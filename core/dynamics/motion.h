@@ -8,6 +8,7 @@
 #include "core/dynamics/inertia.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
+#include "core/math/trig.h"
 
 namespace lockstone {
 
@@ -29,6 +30,16 @@ bool limit_position(BodyRecord& body);
 std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
                   const TimeStep& step, std::uint64_t tick);
 
+/// Turns a body for a part of a tick as in flight; `rotation` is the matrix of its orientation.
+std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeStep& step,
+                             Unit part);
+
+/// How a body came from an orientation, with the matrix `rotation`, to the one that it has in a
+/// part of a tick: the rotation between them, with the whole turns that its spin tells of. What is
+/// thin and fast is taken to go about its angular momentum alone, without the spin about its axis.
+[[nodiscard]] RotationVector turn_since(const Quat& start, const Mat3& rotation,
+                                        const BodyRecord& body, const TimeStep& step, Unit part);
+
 /// What gravity adds to a body's velocity in a fraction of a tick.
 [[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                                           const TimeStep& step, Unit fraction);
@@ -43,7 +54,8 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
 
 /// Moves a body by what it went in a tick, m: its centre, and its surface as of the solver
 /// (rotation vector · 2^scale_exponent), to which geometry stood still. It turns as freely as with
-/// the mean angular momentum of the tick; answers as `fly`.
+/// the mean angular momentum of the tick; answers as `fly`. `body` has its new spin already.
+/// Impulses that had no torque about the axis of something thin have none about its new one.
 std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
                            const Vec3<Velocity>& displacement, const Vec3<Velocity>& turned,
                            const TimeStep& step);

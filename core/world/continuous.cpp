@@ -7,7 +7,6 @@
 #include "core/collision/first_impact.h"
 #include "core/dynamics/impact_response.h"
 #include "core/dynamics/motion.h"
-#include "core/math/rotation_log.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -24,9 +23,14 @@ Transform pose_of(const BodyRecord& body) {
   return {body.position, body.orientation};
 }
 
-Sweep motion_between(const Transform& start, const Transform& end) {
-  return {start, end.position - start.position,
-          rotation_between(start.orientation, end.orientation)};
+// To a pose on a way that began with the matrix `rotation`. The angular momentum goes along with
+// the body: at rest in the world it would not fit a pose that the free turn does not pass, and what
+// is thin would gain any energy from that.
+void stop_at(BodyRecord& body, const Transform& pose, const Mat3& rotation) {
+  body.position = pose.position;
+  body.orientation = pose.orientation;
+  if (!body.rotates() || body.has_spherical_inertia()) return;
+  body.spin = rotate_wide(to_matrix(pose.orientation), rotate_inverse_wide(rotation, body.spin));
 }
 
 // What is left of a motion after a fraction of it.
@@ -50,6 +54,25 @@ std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {
       change(from.x, to.x) + change(from.y, to.y) + change(from.z, to.z) + change(from.w, to.w);
   constexpr int k_times_four = 2;
   return raw::multiply_shift(sum, radius.raw, Unit::frac_bits - 12 - k_times_four);
+}
+
+// One point, at the centre of A.
+Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
+  Manifold manifold;
+  manifold.normal = normal;
+  manifold.count = 1;
+  manifold.points[0].anchor_b = from_b;
+  return manifold;
+}
+
+// Whether |Δq| may hide most of a turn: w·dt > 3 s for the surface speed w.
+bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
+  const std::int64_t limit =
+      raw::scale_binary(std::int64_t{3 * step.tick_rate} << 32, body.scale_exponent);
+  const std::int64_t spin = sum_of_magnitudes(body.spin);
+  const Unit least = min(body.inertia.x, min(body.inertia.y, body.inertia.z));
+  if (spin <= raw::multiply_shift(limit, least.raw, Unit::frac_bits)) return false;
+  return sum_of_magnitudes(surface_velocity(inverse_inertia(body, rotation), body.spin)) > limit;
 }
 
 Bounds bounds_of_way(const Sweep& motion, Length radius) {
@@ -85,46 +108,50 @@ bool World::Impl::went_far(std::uint32_t body) const {
   if (way > limit) return true;
   if (start.orientation == record.orientation) return false;
   const Length radius = bounding_radius(record.shape(), body_assets[body]);
-  return radius > inner_radii[body] &&
-         way + turned_way(start.orientation, record.orientation, radius) > limit;
+  if (radius <= inner_radii[body]) return false;
+  return way + turned_way(start.orientation, record.orientation, radius) > limit ||
+         may_turn_by_half(record, rotations[body], time_step);
 }
 
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
-  Sweep motion = motion_between(starts[body], pose_of(record));
+  Sweep motion = motion_in_tick(body);
+  Mat3 rotation = rotations[body];
   Unit done{};  // of the tick
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
     if (!next.impact.hit) return;
     ++report.impacts;
-    const Transform pose = pose_at(motion, next.impact.fraction);
-    record.position = pose.position;
-    record.orientation = pose.orientation;
+    stop_at(record, pose_at(motion, next.impact.fraction), rotation);
     const Unit left = k_whole - done;
     done = k_whole - rounded<Unit>(left * (k_whole - next.impact.fraction));
-    answer(body, next.body, done);
-    motion = remaining_motion(record, k_whole - done);
+    answer(body, next, done);
     const bool last = i + 1 == k_max_impacts;
     if (last) return;
-    const Transform end = pose_at(motion, k_whole);
-    record.position = end.position;
-    record.orientation = end.orientation;
+    rotation = to_matrix(record.orientation);
+    motion = go_on(record, k_whole - done);
   }
 }
 
-// The way for the rest of a tick at the velocities at hand, which already hold the whole tick's
-// gravity.
-Sweep World::Impl::remaining_motion(const BodyRecord& record, Unit left) const {
-  const InverseInertia inertia = inverse_inertia(record, to_matrix(record.orientation));
-  const Vec3<Velocity> w = surface_velocity(inertia, record.spin);
+Sweep World::Impl::motion_in_tick(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
+  const Transform& start = starts[body];
+  return {start, record.position - start.position,
+          turn_since(start.orientation, rotations[body], record, time_step, k_whole)};
+}
+
+// Moves a body for the rest of a tick at the velocities at hand, which already hold the whole
+// tick's gravity; answers the way.
+Sweep World::Impl::go_on(BodyRecord& record, Unit left) const {
+  const Mat3 rotation = to_matrix(record.orientation);
   Sweep motion{pose_of(record), {}, {}};
-  const auto way = [&](Velocity v) {
-    return raw::multiply_shift(time_step.tick.times(v.raw), left.raw, Unit::frac_bits);
-  };
   for (int i = 0; i < 3; ++i) {
-    motion.translation[i].raw = way(record.velocity[i]);
-    motion.rotation[i].raw = raw::scale_binary(way(w[i]), -record.scale_exponent);
+    motion.translation[i].raw = raw::multiply_shift(time_step.tick.times(record.velocity[i].raw),
+                                                    left.raw, Unit::frac_bits);
   }
+  record.position += motion.translation;
+  (void)turn_in_flight(record, rotation, time_step, left);
+  motion.rotation = turn_since(motion.start.orientation, rotation, record, time_step, left);
   return motion;
 }
 
@@ -132,7 +159,7 @@ Sweep World::Impl::remaining_motion(const BodyRecord& record, Unit left) const {
 Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
   const BodyRecord& record = bodies[body];
   if (!record.moves()) return {pose_of(record), {}, {}};
-  return rest_of(motion_between(starts[body], pose_of(record)), done);
+  return rest_of(motion_in_tick(body), done);
 }
 
 World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion,
@@ -163,7 +190,8 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
 
 // Impulses between the two where they are at `done`. Velocities hold the whole tick's gravity; what
 // has not yet worked is taken off for the time of the impact.
-void World::Impl::answer(std::uint32_t body, std::uint32_t other, Unit done) {
+void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) {
+  const std::uint32_t other = next.body;
   BodyRecord& a = bodies[body];
   BodyRecord& b = bodies[other];
   const Sweep other_motion = motion_of(other, done);
@@ -183,6 +211,11 @@ void World::Impl::answer(std::uint32_t body, std::uint32_t other, Unit done) {
         max(approach,
             answer_impact({a, inertia_a}, {b, inertia_b},
                           {contact.manifold, mixed_friction(surface), mixed_restitution(surface)}));
+  }
+  if (next.impact.crossing != Vec3<Unit>{}) {
+    const Vec3<Position> arm = a.position - other_motion.start.position;
+    (void)answer_impact({a, inertia_a}, {b, inertia_b},
+                        {through_centre(next.impact.crossing, saturated<Length>(arm)), {}, {}});
   }
   a.velocity += to_come;
   (void)limit_speed(a, inertia_a);

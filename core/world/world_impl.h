@@ -156,8 +156,9 @@ struct World::Impl {
   [[nodiscard]] bool went_far(std::uint32_t body) const;
   void follow(std::uint32_t body, StepReport& report);
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
-  void answer(std::uint32_t body, std::uint32_t other, Unit done);
-  [[nodiscard]] Sweep remaining_motion(const BodyRecord& record, Unit left) const;
+  void answer(std::uint32_t body, const NextImpact& next, Unit done);
+  [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
+  [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
 
   void refresh_bounds(std::uint32_t body);

@@ -37,7 +37,7 @@ double energy(const BodyRecord& body) {
 }
 
 std::uint32_t step(BodyRecord& body, std::int32_t rate) {
-  const FreeTurn turn = turn_freely(body, to_matrix(body.orientation), body.spin, rate);
+  const FreeTurn turn = turn_freely(body, to_matrix(body.orientation), body.spin, {rate});
   body.orientation = turn.orientation;
   return turn.axis_turns;
 }
