@@ -125,22 +125,4 @@ Manifold vertex_manifold(const BoxPair& pair) {
   return manifold;
 }
 
-Manifold support_manifold(const BoxPair& pair, const FaceAxis& face_of_a) {
-  const Vec3<Unit> normal = signed_axis(pair.a.rotation.column(face_of_a.axis), face_of_a.sign);
-  RawVec tip = fine(pair.offset);
-  std::uint32_t index = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3<Unit>& direction = pair.b.rotation.column(k);
-    const bool towards = lockstone::dot(direction, normal).raw > 0;
-    const RawVec step = along(direction, pair.b.shape.size[k]);
-    tip = towards ? tip - step : tip + step;
-    if (towards) index |= 1U << k;
-  }
-  Manifold manifold;
-  manifold.normal = unit_axis(normal);
-  add_point(manifold, {tip - along(normal, face_of_a.separation), tip}, pair.offset,
-            face_of_a.separation, pair.margin, k_vertex_bits | index);
-  return manifold;
-}
-
 }  // namespace lockstone::geometry

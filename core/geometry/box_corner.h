@@ -18,7 +18,4 @@ struct EdgeContact {
 /// other box. Precondition: they do not overlap.
 [[nodiscard]] Manifold vertex_manifold(const BoxPair& pair);
 
-/// The vertex of B deepest below A's face, for boxes that overlap outside the face's sides.
-[[nodiscard]] Manifold support_manifold(const BoxPair& pair, const FaceAxis& face_of_a);
-
 }  // namespace lockstone::geometry

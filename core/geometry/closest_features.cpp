@@ -1,65 +1,11 @@
 #include "core/geometry/closest_features.h"
 
+#include "core/geometry/fine_features.h"
 #include "core/geometry/normals.h"
 #include "core/math/roots.h"
 
 namespace lockstone::geometry {
 namespace {
-
-/// A weight in [0, 1], 60 fraction bits.
-using Weight = std::int64_t;
-constexpr int k_weight_bits = 60;
-constexpr Weight k_whole = Weight{1} << k_weight_bits;
-
-/// The features' vertices in fine lanes and what they weigh at the closest point. The first one
-/// takes what the others leave.
-struct FineFeatures {
-  int count = 0;
-  std::array<RawVec, 3> a{};
-  std::array<RawVec, 3> b{};
-  std::array<RawVec, 3> difference{};
-  std::array<Weight, 3> weight{};
-};
-
-FineFeatures features_of(const FinePair& pair, const Simplex& simplex) {
-  FineFeatures features;
-  features.count = simplex.count;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i) {
-    features.a[i] = vertex_of(pair.a, simplex.vertices[i].a);
-    features.b[i] = vertex_of(pair.b, simplex.vertices[i].b) + pair.offset;
-    features.difference[i] = features.b[i] - features.a[i];
-  }
-  return features;
-}
-
-/// numerator / denominator to nearest, clamped to [0, 1]; denominator > 0.
-Weight weight_of(Int128 numerator, Int128 denominator) {
-  if (!is_positive(numerator)) return 0;
-  if (numerator >= denominator) return k_whole;
-  // The quotient of the leading 63 bits of the denominator and as many of the numerator.
-  const int excess = std::max(0, 65 - countl_zero(denominator.bits()));
-  const std::uint64_t divisor = (denominator.bits() >> excess).low;
-  const UInt128 size = numerator.bits();
-  const int shift = k_weight_bits - excess;
-  const UInt128 dividend = shift >= 0 ? size << shift : size >> -shift;
-  if (dividend.high >= divisor) return k_whole;
-  return std::min(k_whole, static_cast<Weight>(round_divide(dividend, divisor)));
-}
-
-Fine part(Fine x, Weight weight) {
-  return static_cast<Fine>(round_shift(multiply_wide(x, weight), k_weight_bits).low);
-}
-
-RawVec part(const RawVec& v, Weight weight) {
-  return {part(v.x, weight), part(v.y, weight), part(v.z, weight)};
-}
-
-RawVec blend(const FineFeatures& features, const std::array<RawVec, 3>& points) {
-  RawVec sum = points[0];
-  for (std::size_t i = 1; i < static_cast<std::size_t>(features.count); ++i)
-    sum = sum + part(points[i] - points[0], features.weight[i]);
-  return sum;
-}
 
 /// Whether no vertex of the lattice's difference lies more than a step beyond the features along
 /// `normal`.
@@ -91,11 +37,7 @@ CoreGap gap_between(const FineFeatures& features, const LatticePair& lattice,
 
 CoreGap refine_edge(FineFeatures& features, const LatticePair& lattice, const Simplex& simplex,
                     Side rest) {
-  const RawVec edge = features.difference[1] - features.difference[0];
-  const Int128 square = wide_dot(edge, edge);
-  if (!is_zero(square)) {
-    features.weight[1] = weight_of(-wide_dot(features.difference[0], edge), square);
-  }
+  weigh_edge(features);
   return gap_between(features, lattice, simplex, rest);
 }
 
@@ -111,45 +53,6 @@ CoreGap keep_lattice_triangle(FineFeatures& features, const Simplex& simplex) {
   const Fine distance = dot(blend(features, features.difference), normal);
   return {normal, std::max(Fine{0}, distance), blend(features, features.a),
           blend(features, features.b)};
-}
-
-int greatest_axis(const RawVec& v) {
-  int greatest = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (magnitude_of(v[k]) > magnitude_of(v[greatest])) greatest = k;
-  }
-  return greatest;
-}
-
-/// The component of a × b along one axis.
-Int128 cross_along(const RawVec& a, const RawVec& b, int axis) {
-  const int i = (axis + 1) % 3;
-  const int j = (axis + 2) % 3;
-  return multiply_wide(a[i], b[j]) - multiply_wide(a[j], b[i]);
-}
-
-Fine scaled_by_ratio(Fine x, std::int64_t numerator, std::int64_t denominator) {
-  return round_divide(multiply_wide(x, numerator), denominator);
-}
-
-/// Weights of the foot of the origin, by areas in the plane of the two axes that the normal is
-/// least along. False when the foot is outside the triangle; then they are those of a point of it.
-bool weigh_foot(FineFeatures& features, const RawVec& foot, const RawVec& normal) {
-  const RawVec p = features.difference[1] - features.difference[0];
-  const RawVec q = features.difference[2] - features.difference[0];
-  const RawVec f = foot - features.difference[0];
-  const int axis = greatest_axis(normal);
-  Int128 whole = cross_along(p, q, axis);
-  Int128 at_p = cross_along(f, q, axis);
-  Int128 at_q = cross_along(p, f, axis);
-  if (whole.negative()) {
-    whole = -whole;
-    at_p = -at_p;
-    at_q = -at_q;
-  }
-  features.weight[1] = weight_of(at_p, whole);
-  features.weight[2] = std::min(weight_of(at_q, whole), k_whole - features.weight[1]);
-  return !at_p.negative() && !at_q.negative() && at_p + at_q <= whole;
 }
 
 /// Whether the weighed point is as near as the foot, within 8 steps.
@@ -171,9 +74,7 @@ CoreGap refine_triangle(FineFeatures& features, const LatticePair& lattice, cons
   }
   const Fine distance =
       std::max(Fine{0}, round_divide(wide_dot(normal, features.difference[0]), norm_of_normal));
-  const RawVec foot{scaled_by_ratio(normal.x, distance, norm_of_normal),
-                    scaled_by_ratio(normal.y, distance, norm_of_normal),
-                    scaled_by_ratio(normal.z, distance, norm_of_normal)};
+  const RawVec foot = scaled_by_ratio(normal, distance, norm_of_normal);
   if (!weigh_foot(features, foot, normal) && !is_near(features, distance, lattice.shift)) {
     return keep_lattice_triangle(features, simplex);
   }

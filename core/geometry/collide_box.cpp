@@ -1,9 +1,12 @@
 // Box against box: the choice among face, edge and vertex contacts.
+#include <algorithm>
+
 #include "core/geometry/box_corner.h"
 #include "core/geometry/box_face.h"
 #include "core/geometry/box_pair.h"
 #include "core/geometry/collide_pairs.h"
 #include "core/geometry/contact_choice.h"
+#include "core/geometry/nearest_manifold.h"
 #include "core/geometry/preference.h"
 
 namespace lockstone::geometry {
@@ -35,14 +38,6 @@ Manifold other_manifold(const BoxPair& pair, const FaceChoice& faces) {
   return faces.b_is_reference ? manifold_on_a(pair, faces) : manifold_on_b(pair, faces);
 }
 
-/// The deepest vertex below the reference face: the last resort.
-Manifold deepest_vertex(const BoxPair& pair, const FaceChoice& faces) {
-  if (!faces.b_is_reference) return support_manifold(pair, faces.a);
-  const Vec3<Length> back = -pair.offset;
-  const BoxPair reversed = make_box_pair(pair.b, pair.a, back, pair.margin);
-  return flipped(support_manifold(reversed, {faces.b.axis, -faces.b.sign, faces.b.separation}));
-}
-
 /// No axis separates the boxes, and a face is preferred. Where they overlap only beside the face,
 /// two edges meet after all.
 Manifold collide_overlapping(const BoxPair& pair, const FaceChoice& faces) {
@@ -53,8 +48,12 @@ Manifold collide_overlapping(const BoxPair& pair, const FaceChoice& faces) {
     const EdgeContact contact = edge_contact(pair, edge);
     if (contact.crossing) return contact.manifold;
   }
-  const Manifold on_other = other_manifold(pair, faces);
-  return touches(on_other) ? on_other : deepest_vertex(pair, faces);
+  const Fine other = std::min(faces.a.separation, faces.b.separation);
+  if (other >= edge_threshold(faces.separation())) {
+    const Manifold on_other = other_manifold(pair, faces);
+    if (touches(on_other)) return on_other;
+  }
+  return nearest_manifold(pair.a, pair.b, pair.offset, pair.margin);
 }
 
 /// The boxes are apart: the separation of the first manifold that attains the distance is it.
@@ -95,7 +94,8 @@ Manifold collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Leng
   const EdgeAxis edge = best_edge(pair, std::min(edge_threshold(separation), Fine{0}));
   if (!edge.found) return collide_overlapping(pair, faces);
   if (edge.separation > 0) return collide_apart(pair, faces, edge);
-  return edge_contact(pair, edge).manifold;
+  const EdgeContact contact = edge_contact(pair, edge);
+  return contact.crossing ? contact.manifold : nearest_manifold(a, b, offset, margin);
 }
 
 }  // namespace lockstone::geometry

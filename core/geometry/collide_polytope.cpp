@@ -35,6 +35,9 @@ struct Meeting {
     if (a.face < 0) return b.separation;
     return b.face < 0 ? a.separation : std::max(a.separation, b.separation);
   }
+  [[nodiscard]] Fine reference_separation() const {
+    return b_is_reference() ? b.separation : a.separation;
+  }
   /// Of the face that is not the reference.
   [[nodiscard]] Fine other_separation() const {
     if (a.face < 0 || b.face < 0) return -k_any_separation;
@@ -82,6 +85,11 @@ CrossedEdges edge_manifold(const PolytopePair& pair, const EdgeSupport& edge) {
   add_point(result.manifold, {point_at(a, at.on_a), point_at(b, at.on_b)}, pair.offset,
             edge.separation, pair.margin, feature);
   return result;
+}
+
+/// Whether the edges are where the polytopes overlap least: uneven ones hide axes.
+bool is_sure(const PolytopePair& pair, const CrossedEdges& crossed) {
+  return crossed.crossing && !is_uneven(pair.from_a.own) && !is_uneven(pair.from_b.own);
 }
 
 /// The vertex of either polytope that is nearest to the other.
@@ -156,17 +164,18 @@ Manifold collide_overlapping(const Meeting& meeting) {
                                      meeting.of_a, meeting.of_b_points);
   if (edge.found) {
     const CrossedEdges crossed = edge_manifold(meeting.pair, edge);
-    if (crossed.crossing) return crossed.manifold;
+    if (is_sure(meeting.pair, crossed)) return crossed.manifold;
   }
   const Manifold on_other = other_manifold(meeting);
   const bool is_preferred = meeting.other_separation() >= edge_threshold(meeting.separation());
   return is_preferred && touches(on_other) ? on_other : least_way_out(meeting);
 }
 
-/// Whether the manifold is where the polytopes are nearest, and pushes to the front of one-sided A:
-/// beside a rim several faces are as near, and one of them may lean back.
-bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine separation) {
-  if (!attains(manifold, separation)) return false;
+/// Whether the manifold of a face, whose plane separates by `plane`, is where the polytopes are
+/// nearest, and pushes to the front of one-sided A: beside a rim several faces are as near, and one
+/// of them may lean back; what is left of a face that the other polytope cuts may be as near too.
+bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine plane, Fine separation) {
+  if (plane < separation - k_face_slack || !attains(manifold, separation)) return false;
   const Vec3<Unit> n = rotate_inverse(meeting.pair.rotation_a, manifold.normal);
   return meeting.toward_front.allows(-n);
 }
@@ -177,9 +186,10 @@ Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
   const Fine separation = edge.found ? edge.separation : meeting.separation();
   if (!keeps(separation, meeting.pair.margin)) return {};
   const Manifold on_reference = reference_manifold(meeting);
-  if (is_nearest(meeting, on_reference, separation)) return on_reference;
+  if (is_nearest(meeting, on_reference, meeting.reference_separation(), separation))
+    return on_reference;
   const Manifold on_other = other_manifold(meeting);
-  if (is_nearest(meeting, on_other, separation)) return on_other;
+  if (is_nearest(meeting, on_other, meeting.other_separation(), separation)) return on_other;
   if (edge.found) {
     const CrossedEdges crossed = edge_manifold(meeting.pair, edge);
     if (crossed.crossing) return crossed.manifold;
@@ -201,7 +211,9 @@ Manifold collide_meeting(Meeting& meeting) {
   };
   if (meeting.separation() > 0) {
     const Manifold on_reference = reference_manifold(meeting);
-    if (is_nearest(meeting, on_reference, meeting.separation())) return on_reference;
+    const Fine separation = meeting.separation();
+    if (is_nearest(meeting, on_reference, meeting.reference_separation(), separation))
+      return on_reference;
     return collide_apart(meeting, edge_above(meeting.separation()));
   }
   if (pair.from_a.own.one_sided) forget_backward_faces(meeting);
@@ -209,7 +221,7 @@ Manifold collide_meeting(Meeting& meeting) {
   if (!edge.found) return collide_overlapping(meeting);
   if (edge.separation > 0) return collide_apart(meeting, edge);
   const CrossedEdges crossed = edge_manifold(pair, edge);
-  return crossed.crossing ? crossed.manifold : least_way_out(meeting);
+  return is_sure(pair, crossed) ? crossed.manifold : least_way_out(meeting);
 }
 
 /// A manifold without points whose normal separates.

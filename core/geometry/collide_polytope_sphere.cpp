@@ -1,5 +1,7 @@
-// Polytope against sphere: the nearest point of the polytope, or the face of least depth.
+// Polytope against sphere: the nearest point of the polytope, or the face of least depth. Beside
+// the faces of an uneven polytope GJK finds it.
 #include "core/geometry/contact_point.h"
+#include "core/geometry/nearest_manifold.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/polytope_collide.h"
 #include "core/geometry/polytope_point.h"
@@ -32,6 +34,7 @@ Manifold collide_polytope_sphere(const PosedShape& polytope, const PosedShape& s
   const SplitVec position = split(centre);
   if (p.one_sided && height_above(p.faces[0], position) < 0) return {};
   const NearestPoint at = nearest_point(p, centre, fine(radius) + fine(margin));
+  if (at.face < 0 && is_uneven(p)) return nearest_manifold(polytope, sphere, offset, margin);
   Manifold manifold;
   if (!at.found) return manifold;
   const RawVec on_polytope = rotate(polytope.rotation, at.point);

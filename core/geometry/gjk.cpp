@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/geometry/contact_point.h"
+#include "core/geometry/fine_closest.h"
 #include "core/geometry/half_space_gap.h"
 
 namespace lockstone {
@@ -76,9 +77,21 @@ bool GapQuery::find(const RawVec& offset) {
   if (guess_ == RawVec{}) guess_.y = 1;
   const GjkResult result = gjk(lattice_, guess_);
   simplex_ = result.simplex;
+  features_ = simplex_;
+  if (!result.overlapping) guess_ = direction_to(simplex_);
+  if (is_coarse() && find_fine()) return true;
   if (result.overlapping) return false;
-  guess_ = direction_to(simplex_);
   gap_ = refine(fine_pair(), lattice_, simplex_, Side::beyond);
+  if (is_coarse()) gap_.distance = 0;  // no plane separates the exact vertices: they touch
+  return true;
+}
+
+/// What is apart by the exact vertices is apart, whatever the lattice says.
+bool GapQuery::find_fine() {
+  const FineClosest closest = fine_closest(fine_pair(), simplex_);
+  if (!closest.apart) return false;
+  gap_ = closest.gap;
+  features_ = closest.features;
   return true;
 }
 
@@ -116,7 +129,7 @@ ClosestPoints ordered_distance(const PosedShape& a, const PosedShape& b, const R
     return inside;
   }
   ClosestPoints result = with_surfaces(query.gap(), query.a().radius, query.b().radius, offset);
-  result.feature = feature_of(query.simplex());
+  result.feature = feature_of(query.features());
   return result;
 }
 

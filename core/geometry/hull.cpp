@@ -152,6 +152,16 @@ std::vector<PolytopeFace> planes_of(const std::vector<Loop>& faces, const Points
   return planes;
 }
 
+/// How far a vertex lies below a face that it is around, at most.
+Fine unevenness_of(const std::vector<Loop>& loops, const std::vector<PolytopeFace>& faces,
+                   const Points& vertices) {
+  Fine most = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (const std::uint16_t v : loops[i])
+      most = std::max(most, faces[i].offset - dot(vertices[v], faces[i].normal).raw);
+  return most;
+}
+
 LocalBounds bounds_of(std::span<const Vec3<Length>> points) {
   LocalBounds bounds{points.front(), points.front()};
   for (const Vec3<Length>& point : points) {
@@ -240,6 +250,7 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   data->tolerance = options.tolerance;
   data->polytope = {data->vertices, data->faces, data->edges, solid->centre,
                     &geometry::polytope_kernels()};
+  data->polytope.unevenness = unevenness_of(surface.faces, data->faces, data->vertices);
   const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance));
   const Length deviation = deviation_of(data->faces, points);
   return {std::shared_ptr<const Hull>(new Hull(id, std::move(data))), HullFault::none, deviation};

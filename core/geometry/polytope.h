@@ -41,7 +41,14 @@ struct Polytope {
   /// Of a flat one that is the skin of a solid: only face 0 pushes, and what has its centre behind
   /// that face is not met at all.
   bool one_sided = false;
+  Fine unevenness = 0;  ///< how far a vertex may lie below a face that it is around
 };
+
+/// Whether faces were merged so roughly that their planes, and the arcs between them, do not tell
+/// what the vertices do: by more than 15 µm.
+[[nodiscard]] constexpr bool is_uneven(const Polytope& p) {
+  return p.unevenness > Fine{1} << (k_fine_bits - 16);
+}
 
 /// Two faces, back to back, that have all vertices in common: a triangle, say.
 [[nodiscard]] constexpr bool is_flat(const Polytope& p) {

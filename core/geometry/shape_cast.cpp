@@ -38,9 +38,11 @@ Fraction quotient(Fine distance, Fine approach) {
   return static_cast<Fraction>(divide(numerator, static_cast<std::uint64_t>(approach)).quotient);
 }
 
-/// The distance that each step leaves: half the resolution of a length and two lattice steps.
+/// The distance that each step leaves: half the resolution of a length and, where the lattice
+/// decides, two of its steps.
 Fine clearance(const GapQuery& query) {
-  return (Fine{1} << (k_fine_per_length - 1)) + (Fine{2} << query.lattice().shift);
+  constexpr Fine half = Fine{1} << (k_fine_per_length - 1);
+  return query.is_coarse() ? half : half + (Fine{2} << query.lattice().shift);
 }
 
 ShapeCastHit hit_at(Fraction fraction, const CoreGap& gap, const GapQuery& query) {

@@ -18,11 +18,10 @@ struct ShapeCastHit {
 /// Moves B from `offset` (centre of B − centre of A, world axes) by `translation`. The shapes are
 /// those of `distance`, half-spaces left out, and its bound on the offset holds along the way.
 ///
-/// No contact before `fraction`, up to 2 µm and 4e-9 of the sizes; there the distance is at most
-/// 2 µm and 8e-9 of the sizes and of the way left to the next step of the fraction (2^-30 of the
-/// translation). What starts
-/// within that distance hits at 0 if it approaches, and not if it leaves or slides along. A miss
-/// means that a plane separates the shapes for the rest of the way.
+/// No contact before `fraction`, up to 2 µm; there the distance is at most 1 µm and what a step of
+/// the fraction (2^-30 of the translation) is long. What starts within that distance hits at 0 if
+/// it approaches, and not if it leaves or slides along. A miss means that a plane separates the
+/// shapes for the rest of the way.
 ///
 /// Conservative advancement (Mirtich, Impulse-based dynamic simulation of rigid body
 /// systems, 2.3.2; Van den Bergen, Ray casting against general convex objects with application to

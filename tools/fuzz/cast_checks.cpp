@@ -15,10 +15,12 @@ struct Cast {
   [[nodiscard]] Real3 at(double fraction) const {
     return real(pair.cast_from) + real(pair.way) * fraction;
   }
-  /// 2 µm and 13e-9 of the sizes and the way.
-  [[nodiscard]] double slack() const {
+  /// Of the plane and the fraction, whose step is 2^-30 of the way.
+  [[nodiscard]] double slack() const { return 2 * k_micrometre; }
+  /// Of depths: 13e-9 of the sizes and the way more.
+  [[nodiscard]] double depth_slack() const {
     const double far = norm(real(pair.cast_from)) + norm(real(pair.way));
-    return 2 * k_micrometre + 13e-9 * (pair.a.size() + pair.b.size() + far);
+    return slack() + 13e-9 * (pair.a.size() + pair.b.size() + far);
   }
   [[nodiscard]] double signed_distance(double fraction) const {
     const Vec3<Length> offset = to_length(at(fraction));
@@ -79,7 +81,7 @@ void check_ray_at(const Body& body, const Vec3<Length>& origin, const Vec3<Lengt
   const Real3 n = direction_of(real(hit.normal));
   const Real3 point = o + t * real(hit.fraction);
   verdict.measure(Check::ray, norm(real(hit.normal)) - 1, std::ldexp(1.0, -29));
-  verdict.measure(Check::ray, outside(body, point), allowed + 16 * body.unevenness);
+  verdict.measure(Check::ray, above_planes(body, point), allowed);
   verdict.require(Check::ray, !is_entered(body, o, t * real(hit.fraction), allowed));
   verdict.measure(Check::ray, std::max(0.0, dot(n, direction_of(t))), 1e-8);
 }
@@ -102,7 +104,7 @@ void check_cast(const Pair& pair, Verdict& verdict) {
   const ClosestPoints start = distance(cast.a, cast.b, pair.cast_from);
   const ClosestPoints end = distance(cast.a, cast.b, pair.cast_from + pair.way);
   const bool proven = cast.separates(start.normal) || cast.separates(end.normal);
-  verdict.measure(Check::cast_miss, proven ? 0 : std::min(0.0, cast.least()), cast.slack());
+  verdict.measure(Check::cast_miss, proven ? 0 : std::min(0.0, cast.least()), cast.depth_slack());
 }
 
 void check_ray(const Pair& pair, Verdict& verdict) {

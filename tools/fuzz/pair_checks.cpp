@@ -124,7 +124,7 @@ void check_flip(const Pair& pair, const Answers& answers, Verdict& verdict) {
 
 void check_distance(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const ClosestPoints& found = answers.closest;
-  const double allowed = tolerance(pair);
+  constexpr double allowed = 2 * k_micrometre;
   const double said = real(found.distance);
   verdict.require(Check::distance, found.overlapping == answers.deep.overlapping);
   if (pair.half_space() != nullptr) {

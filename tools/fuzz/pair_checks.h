@@ -24,8 +24,8 @@ struct Answers {
   [[nodiscard]] double least() const;
 };
 
-/// 2 µm and 13e-9 of the sizes, which are seven steps of GJK's lattice: what distance and depth may
-/// err by.
+/// 2 µm and 13e-9 of the sizes, which are seven steps of the lattice: what depths may err by.
+/// Distances err by at most 2 µm.
 [[nodiscard]] double tolerance(const Pair& pair);
 
 /// 16 times how far vertices lie below their merged faces: what solids by faces and by vertices

@@ -54,10 +54,15 @@ double outside_box(const Body& box, const Real3& point) {
   return square > 0 ? std::sqrt(square) : inside;
 }
 
-double outside_polytope(const Body& body, const Real3& point) {
+double highest_plane(const Body& body, const Real3& point) {
   double above = -1e30;
   for (const Plane& plane : planes_of(body))
     above = std::max(above, dot(plane.normal, point) - plane.offset);
+  return above;
+}
+
+double outside_polytope(const Body& body, const Real3& point) {
+  const double above = highest_plane(body, point);
   if (above <= 0) return above;
   double least = 1e30;
   for (const geometry::PolytopeFace& face : body.polytope->faces)
@@ -112,6 +117,10 @@ double outside(const Body& body, const Real3& point) {
   if (body.kind == Kind::box) return outside_box(body, point);
   if (body.polytope != nullptr) return outside_polytope(body, point);
   return point_to_segment(point, body.core.front(), body.core.back()) - body.radius;
+}
+
+double above_planes(const Body& body, const Real3& point) {
+  return body.kind == Kind::hull ? highest_plane(body, point) : outside(body, point);
 }
 
 bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth) {

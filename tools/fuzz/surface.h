@@ -9,6 +9,11 @@ namespace lockstone::fuzz {
 /// distance to the nearest face. Polytopes are what lies below all their faces, as they stand.
 [[nodiscard]] double outside(const Body& body, const Real3& point);
 
+/// How far a point is above the highest plane of what has faces on both sides; else as `outside`.
+/// Rays meet a hull as the part of space below all its planes, which reaches beyond the vertices of
+/// merged faces: at sharp edges by any multiple of their unevenness.
+[[nodiscard]] double above_planes(const Body& body, const Real3& point);
+
 /// Whether a segment goes deeper than `depth` into the body; what is flat is only entered from the
 /// front, and farther than `depth` from its rim.
 [[nodiscard]] bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth);

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::array<CheckText, k_checks> k_texts{{
     {"flip", "bit for bit; spheres' anchors 1 step"},
-    {"distance", "2 um + 13e-9 of the sizes"},
-    {"witness", "4 um + 26e-9 of the sizes, aside 1e-6"},
+    {"distance", "2 um"},
+    {"witness", "4 um; of depths + 26e-9 of the sizes, aside 1e-6"},
     {"depth", "2 um + 13e-9 of the sizes"},
     {"turned", "4 um + 26e-9 of the sizes"},
     {"apart", "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance"},
@@ -19,7 +19,7 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"anchors", "34 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
-    {"cast", "2 um + 13e-9 of sizes and way"},
+    {"cast", "2 um"},
     {"cast-miss", "2 um + 13e-9 of sizes and way"},
     {"ray", "2 um + 2^-30 of the ray"},
     {"ray-miss", "agrees outside 2 um"},
