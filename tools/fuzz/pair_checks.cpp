@@ -183,14 +183,13 @@ void check_turned(const Pair& pair, const Answers& answers, Verdict& verdict) {
 void check_separated(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const PosedShape a = pair.a.posed(), b = pair.b.posed();
   const Real3 offset = real(pair.offset);
-  const Length margin = pair.margin + to_length(uneven_slack(pair));
   for (const Vec3<Unit>& axis :
        {answers.manifold.normal, answers.closest.normal, answers.deep.normal,
         to_unit(direction_of(offset)), pair.a.rotation.y, pair.turn.x}) {
     if (axis == Vec3<Unit>{}) continue;
-    const bool separated = separated_along(a, b, pair.offset, margin, axis);
+    const bool separated = separated_along(a, b, pair.offset, pair.margin, axis);
     verdict.require(Check::separated,
-                    separated == separated_along(b, a, -pair.offset, margin, -axis));
+                    separated == separated_along(b, a, -pair.offset, pair.margin, -axis));
     verdict.require(Check::separated, !separated || answers.manifold.count == 0);
   }
 }
