@@ -47,6 +47,12 @@ bool is_too_fat(const Bounds& fat, const Bounds& before, const Bounds& now) {
   return too_fat;
 }
 
+// Then the body stays where it is in the search.
+bool same_but_sleep(ProxyTraits a, const ProxyTraits& b) {
+  a.is_asleep = b.is_asleep;
+  return a == b;
+}
+
 std::variant<TreeSearch, SweepAndPrune> make_search(BroadPhaseKind kind, std::uint32_t capacity) {
   if (kind == BroadPhaseKind::sweep_and_prune) return SweepAndPrune(capacity);
   return TreeSearch(capacity);
@@ -84,6 +90,11 @@ void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits
     changed_ = true;
     if (contains(proxy.fat, bounds) && !is_too_fat(proxy.fat, before, bounds)) return;
     proxy.fat = traits.moves ? fattened(before, bounds) : bounds;
+  } else if (proxy.present && same_but_sleep(proxy.traits, traits) && contains(proxy.fat, bounds)) {
+    bounds_[body] = bounds;
+    proxy.traits = traits;
+    touch(body);
+    return;
   } else {
     bounds_[body] = bounds;
     proxy = {inflated(bounds, traits.moves ? k_fat_margin : BoundsCoordinate{}), traits, true};

@@ -14,15 +14,18 @@ struct ProxyTraits {
   bool moves = false;       ///< kinematic or dynamic
   bool is_dynamic = false;  ///< can be pushed
   bool is_trigger = false;
+  bool is_asleep = false;  ///< counts as standing, but stays among what moves
 
   friend constexpr bool operator==(const ProxyTraits&, const ProxyTraits&) = default;
 };
 
-/// Whether two bodies make a pair once their bounds overlap: one can be pushed or senses the other.
+/// Whether two bodies make a pair once their bounds overlap: one is awake, and one can be pushed or
+/// senses the other.
 [[nodiscard]] constexpr bool can_meet(const ProxyTraits& a, const ProxyTraits& b) {
   const bool can_push = a.is_dynamic || b.is_dynamic;
   const bool senses = a.is_trigger != b.is_trigger;
-  return (a.moves || b.moves) && (can_push || senses) && !(a.is_trigger && b.is_trigger) &&
+  const bool awake = (a.moves && !a.is_asleep) || (b.moves && !b.is_asleep);
+  return awake && (can_push || senses) && !(a.is_trigger && b.is_trigger) &&
          should_collide(a.filter, b.filter);
 }
 

@@ -15,7 +15,10 @@ enum BodyFlag : std::uint8_t {
   k_body_trigger = 1,
   k_body_fixed_rotation = 2,
   k_body_bullet = 4,
-  k_all_body_flags = k_body_trigger | k_body_fixed_rotation | k_body_bullet,
+  k_body_asleep = 8,     // neither moves nor is looked at; its velocities are zero
+  k_body_no_sleep = 16,  // never falls asleep
+  k_all_body_flags =
+      k_body_trigger | k_body_fixed_rotation | k_body_bullet | k_body_asleep | k_body_no_sleep,
 };
 
 /// Canonical state of one body slot; all zero but `generation` when the slot is empty. Position and
@@ -33,8 +36,11 @@ struct BodyRecord {
   std::uint64_t user_data = 0;
   AssetId asset{};  // Shape::asset
   Quat orientation{{}, {}, {}, {}};
-  Vec3<Length> size{};            // Shape::size
-  Vec3<Unit> inertia{};           // principal moments / (mass · s²), each in (0, 1]
+  Vec3<Length> size{};   // Shape::size
+  Vec3<Unit> inertia{};  // principal moments / (mass · s²), each in (0, 1]
+  // Where it began to rest (rest.h), of a body that may fall asleep by resting; else zero.
+  Vec3<Length> rest_position{};  // low 32 bits
+  Quat rest_orientation{{}, {}, {}, {}};
   std::int32_t inverse_mass = 0;  // mantissa; the exponent is below
   Number gravity_scale{};
   Rate linear_damping{};
@@ -51,8 +57,8 @@ struct BodyRecord {
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
   std::uint8_t reserved0 = 0;  // keep the record free of padding; always 0
-  std::uint8_t reserved1 = 0;
-  std::uint8_t reserved2 = 0;
+  std::uint16_t reserved1 = 0;
+  std::uint32_t rest_ticks = 0;  // since it rests
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 
@@ -62,6 +68,9 @@ struct BodyRecord {
   [[nodiscard]] bool is_dynamic() const { return is(MotionType::dynamic); }
   [[nodiscard]] bool is_trigger() const { return (flags & k_body_trigger) != 0; }
   [[nodiscard]] bool is_bullet() const { return (flags & k_body_bullet) != 0; }
+  [[nodiscard]] bool is_asleep() const { return (flags & k_body_asleep) != 0; }
+  [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
+  [[nodiscard]] bool may_sleep() const { return (flags & k_body_no_sleep) == 0; }
   [[nodiscard]] bool rotates() const { return (flags & k_body_fixed_rotation) == 0; }
   [[nodiscard]] Shape shape() const { return {static_cast<ShapeKind>(shape_kind), size, asset}; }
   [[nodiscard]] CollisionFilter filter() const { return {category, mask, group}; }
@@ -80,10 +89,11 @@ struct BodyRecord {
 
 // clang-format off
 #define LKS_BODY_FIELDS(X) \
-  X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) X(inverse_mass) \
+  X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) \
+  X(rest_position) X(rest_orientation) X(inverse_mass) \
   X(gravity_scale) X(linear_damping) X(angular_damping) X(friction) X(restitution) X(category) \
   X(mask) X(group) X(generation) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
-  X(inverse_mass_exponent) X(reserved0) X(reserved1) X(reserved2)
+  X(inverse_mass_exponent) X(reserved0) X(reserved1) X(rest_ticks)
 // clang-format on
 
 template <class F>

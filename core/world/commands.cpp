@@ -85,9 +85,9 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
   record.generation = generation;
   record.motion = static_cast<std::uint8_t>(def.motion);
   record.shape_kind = static_cast<std::uint8_t>(def.shape.kind);
-  record.flags = static_cast<std::uint8_t>((def.is_trigger ? k_body_trigger : 0) |
-                                           (def.fixed_rotation ? k_body_fixed_rotation : 0) |
-                                           (def.is_bullet ? k_body_bullet : 0));
+  record.flags = static_cast<std::uint8_t>(
+      (def.is_trigger ? k_body_trigger : 0) | (def.fixed_rotation ? k_body_fixed_rotation : 0) |
+      (def.is_bullet ? k_body_bullet : 0) | (def.allow_sleep ? 0 : k_body_no_sleep));
   set_mass(record, def, asset);
   return record;
 }
@@ -172,8 +172,11 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
+    awake.insert(slot);
   }
+  begin_rest(record, rest_rules);
   refresh(slot);
+  disturb_around(slot);
   return BodyHandle{slot, record.generation};
 }
 
@@ -185,7 +188,10 @@ Status World::Impl::execute(const DestroyBody& command) {
   const BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   const std::uint32_t index = command.body.index;
+  disturb(index);
   destroy_joints_of(index);
+  awake.erase(index);
+  changed_sleep.erase(index);
   drop_contacts_of(index);
   broad_phase.remove(index);
   BodyRecord empty;
@@ -201,12 +207,15 @@ Status World::Impl::execute(const Teleport& command) {
   if (!within(command.position, k_world_limit) || !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
+  disturb(command.body.index);
   drop_contacts_of(command.body.index);
   const Transform pose =
       body_pose(body_assets[command.body.index], {command.position, command.orientation});
   record->position = pose.position;
   record->orientation = pose.orientation;
+  begin_rest(*record, rest_rules);
   refresh(command.body.index);
+  disturb_around(command.body.index);
   return Status::ok;
 }
 
@@ -216,6 +225,7 @@ Status World::Impl::execute(const SetVelocity& command) {
   if (!record->moves() || !within(command.velocity, k_speed_limit)) {
     return Status::invalid_argument;
   }
+  wake(command.body.index);
   record->velocity = command.velocity;
   refresh(command.body.index);
   return Status::ok;
@@ -229,6 +239,7 @@ Status World::Impl::execute(const SetAngularVelocity& command) {
       !to_surface_velocity(command.angular_velocity, record->scale_exponent, surface)) {
     return Status::invalid_argument;
   }
+  wake(command.body.index);
   record->spin = spin_of(*record, rotations[command.body.index], surface);
   refresh(command.body.index);
   return Status::ok;
@@ -244,6 +255,8 @@ Status World::Impl::execute(const ApplyImpulseAt& command) {
   const Length radius = properties_of(record->shape(), body_assets[command.body.index]).radius;
   const Length reach = Length::from_raw(raw::saturate<std::int32_t>(std::int64_t{2} * radius.raw));
   if (!record->is_dynamic() || !within(command.point, reach)) return Status::invalid_argument;
+  if (command.impulse == Vec3<Impulse>{}) return Status::ok;
+  wake(command.body.index);
   const Vec3<Velocity> gain = velocity_gain(*record, command.impulse);
   add_velocity(record->velocity, gain);
   if (record->rotates()) add_velocity(record->spin, turning_gain(*record, command.point, gain));
@@ -255,7 +268,8 @@ Status World::Impl::execute(const ApplyAngularImpulse& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic()) return Status::invalid_argument;
-  if (!record->rotates()) return Status::ok;
+  if (!record->rotates() || command.impulse == Vec3<AngularImpulse>{}) return Status::ok;
+  wake(command.body.index);
   // L / (m·2^k)
   const auto gain = [&](AngularImpulse l) {
     const int shift = Velocity::frac_bits - AngularImpulse::frac_bits - record->scale_exponent;
@@ -282,6 +296,7 @@ Status World::Impl::execute(const SetMaterial& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!is_valid_surface(command.friction, command.restitution)) return Status::invalid_argument;
+  disturb(command.body.index);
   record->friction = command.friction;
   record->restitution = command.restitution;
   return Status::ok;
@@ -290,10 +305,12 @@ Status World::Impl::execute(const SetMaterial& command) {
 Status World::Impl::execute(const SetFilter& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
+  disturb(command.body.index);
   record->category = command.filter.category;
   record->mask = command.filter.mask;
   record->group = command.filter.group;
   refresh(command.body.index);
+  disturb_around(command.body.index);
   return Status::ok;
 }
 
@@ -306,18 +323,21 @@ Status World::Impl::execute(const SetUserData& command) {
 
 Status World::Impl::execute(const SetGravity& command) {
   if (!is_valid_gravity(command.gravity)) return Status::invalid_argument;
+  if (header.gravity != command.gravity) wake_all();
   header.gravity = command.gravity;
   return Status::ok;
 }
 
+// After `disturb`: none of them is frozen.
 void World::Impl::drop_contacts_of(std::uint32_t body) {
-  const std::span<ContactRecord> all = contacts();
+  const std::span<ContactRecord> all(contact_store.data(), active_contacts);
   const auto end = std::remove_if(all.begin(), all.end(), [&](const ContactRecord& contact) {
     return contact.body_a == body || contact.body_b == body;
   });
   const auto count = static_cast<std::uint32_t>(end - all.begin());
-  remembers_manifolds = remembers_manifolds && count == header.contact_count;
-  header.contact_count = count;
+  remembers_manifolds = remembers_manifolds && count == active_contacts;
+  header.contact_count -= active_contacts - count;
+  active_contacts = count;
 }
 
 Result<BodyHandle> World::create_body(const BodyDef& def) {

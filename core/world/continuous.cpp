@@ -12,9 +12,6 @@
 namespace lockstone {
 namespace {
 
-// A ball in a corner meets three walls; what has had so many impacts in a tick stays where it is.
-constexpr int k_max_impacts = 4;
-
 constexpr std::uint32_t k_every_category = 0xffffffff;  // groups override categories
 
 constexpr Unit k_whole = Unit::from_integer(1);
@@ -158,7 +155,7 @@ Sweep World::Impl::go_on(BodyRecord& record, Unit left) const {
 // How a body moves from `done` to the end of the tick, itself followed or not.
 Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
   const BodyRecord& record = bodies[body];
-  if (!record.moves()) return {pose_of(record), {}, {}};
+  if (!record.is_awake()) return {pose_of(record), {}, {}};
   return rest_of(motion_in_tick(body), done);
 }
 
@@ -221,6 +218,7 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   (void)limit_speed(a, inertia_a);
   if (b.is_dynamic()) (void)limit_speed(b, inertia_b);
   body_hashes.mark(other);
+  if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
   if (impacts.size() < impacts.capacity()) {
     impacts.push_back({EventKind::impact, {body, a.generation}, {other, b.generation}, approach});
   }

@@ -194,7 +194,9 @@ Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
   header.joint_limit = std::max(header.joint_limit, slot + 1);
   joint.generation = joints[slot].generation + 1;
   joints[slot] = joint;
+  joint_hashes.mark(slot);
   link_joint(slot);
+  wake_ends(joint);
   return JointHandle{slot, joint.generation};
 }
 
@@ -221,11 +223,15 @@ const JointRecord* World::Impl::find(JointHandle joint) const {
 }
 
 JointRecord* World::Impl::edit(JointHandle joint) {
-  return const_cast<JointRecord*>(find(joint));
+  if (find(joint) == nullptr) return nullptr;
+  joint_hashes.mark(joint.index);
+  return &joints[joint.index];
 }
 
 void World::Impl::destroy_joint(std::uint32_t joint) {
+  wake_ends(joints[joint]);
   unlink_joint(joint);
+  joint_hashes.mark(joint);
   JointRecord empty;
   empty.generation = joints[joint].generation;
   joints[joint] = empty;
@@ -241,6 +247,8 @@ void World::Impl::destroy_joints_of(std::uint32_t body) {
 
 void World::Impl::link_joint(std::uint32_t index) {
   const JointRecord& joint = joints[index];
+  joint_edges.clear();
+  are_active_joints_current = false;
   const auto place = std::ranges::lower_bound(joint_links, index, {}, &JointLink::joint);
   joint_links.insert(place, {index, joint.body_a, joint.body_b});
   if (joint.collides()) return;
@@ -249,6 +257,8 @@ void World::Impl::link_joint(std::uint32_t index) {
 }
 
 void World::Impl::unlink_joint(std::uint32_t index) {
+  joint_edges.clear();
+  are_active_joints_current = false;
   joint_links.erase(std::ranges::lower_bound(joint_links, index, {}, &JointLink::joint));
   if (joints[index].collides()) return;
   joined_pairs.erase(std::ranges::lower_bound(joined_pairs, joined_pair(joints[index])));
@@ -262,6 +272,8 @@ Pair World::Impl::joined_pair(const JointRecord& joint) const {
 }
 
 void World::Impl::rebuild_joint_links() {
+  joint_edges.clear();
+  are_active_joints_current = false;
   joint_links.clear();
   joined_pairs.clear();
   joint_hint = 0;
@@ -290,6 +302,8 @@ Status World::Impl::execute(const SetLinearAxis& command) {
   JointRecord changed = *joint;
   set_axis(changed, command.axis, command.settings);
   if (validate(changed) != Status::ok) return Status::invalid_argument;
+  if (*joint == changed) return Status::ok;
+  wake_ends(changed);
   *joint = changed;
   return Status::ok;
 }
@@ -301,6 +315,8 @@ Status World::Impl::execute(const SetAngularAxis& command) {
   JointRecord changed = *joint;
   set_axis(changed, command.axis + std::size_t{3}, command.settings);
   if (validate(changed) != Status::ok) return Status::invalid_argument;
+  if (*joint == changed) return Status::ok;
+  wake_ends(changed);
   *joint = changed;
   return Status::ok;
 }

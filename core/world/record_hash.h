@@ -8,12 +8,13 @@
 
 #include <lockstone/hash.h>
 
+#include "core/dynamics/contact_record.h"
 #include "core/world/record_codec.h"
 
 namespace lockstone {
 
-/// Upper halves of seeds, so that equal records of two stores differ. The lower half is the
-/// record's place.
+/// Upper halves of seeds, so that equal records of two stores differ. The lower half is 0, or the
+/// record's place where the record does not hold it.
 inline constexpr std::uint64_t k_body_domain = 1;
 inline constexpr std::uint64_t k_contact_domain = 2;
 inline constexpr std::uint64_t k_joint_domain = 3;
@@ -30,6 +31,11 @@ template <class Record>
     encode(record, writer);
     return hash64(bytes, seed);
   }
+}
+
+/// Of a contact: its key is in the record, and no two have the same.
+[[nodiscard]] inline std::uint64_t hash_contact(const ContactRecord& record) {
+  return hash_record(record, k_contact_domain << 32);
 }
 
 }  // namespace lockstone

@@ -56,6 +56,20 @@ bool has_known_shape(const BodyRecord& record, const Asset* asset) {
   return has_solid || record.is_static();
 }
 
+bool has_zero_rest(const BodyRecord& record) {
+  return record.rest_position == Vec3<Length>{} &&
+         record.rest_orientation == Quat{{}, {}, {}, {}} && record.rest_ticks == 0;
+}
+
+// What sleeps stands still, and only what may fall asleep by resting has notes of it.
+bool has_valid_sleep(const BodyRecord& record) {
+  const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
+  if (!watched && !has_zero_rest(record)) return false;
+  if (!record.moves()) return !record.is_asleep();
+  const bool still = record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{};
+  return !record.is_asleep() || (still && record.may_sleep());
+}
+
 bool is_empty_slot(const BodyRecord& record) {
   BodyRecord empty;
   empty.generation = record.generation;
@@ -89,13 +103,14 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
   const bool known = record.shape_kind <= k_last_shape_kind &&
                      (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0 &&
-                     record.reserved1 == 0 && record.reserved2 == 0;
+                     record.reserved1 == 0;
   if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
   const Asset* asset = assets.find(record.asset);
   if (!has_known_shape(record, asset)) return Status::malformed;
   const int scale = properties_of(record.shape(), asset).scale_exponent;
   const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
-                          has_valid_mass(record) && has_valid_surface(record);
+                          has_valid_mass(record) && has_valid_surface(record) &&
+                          has_valid_sleep(record);
   const bool in_world = in_range(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation);
   return consistent && in_world ? Status::ok : Status::malformed;
@@ -210,16 +225,24 @@ Status World::load(SnapshotKind kind, ByteView bytes) {
 }
 
 std::size_t World::Impl::save_native(std::span<std::byte> out) const {
-  const ByteView parts[] = {std::as_bytes(std::span(&header, 1)),
-                            std::as_bytes(std::span(bodies.data(), header.body_limit)),
-                            std::as_bytes(std::span(contact_store.data(), header.contact_count)),
-                            std::as_bytes(std::span(joints.data(), header.joint_limit))};
-  std::size_t size = 0;
-  for (const ByteView part : parts) {
-    if (part.size() > out.size() - size) return 0;
-    if (!part.empty()) std::memcpy(out.data() + size, part.data(), part.size());
-    size += part.size();
+  const std::size_t body_bytes = header.body_limit * sizeof(BodyRecord);
+  const std::size_t joint_bytes = header.joint_limit * sizeof(JointRecord);
+  const std::size_t size =
+      sizeof(header) + body_bytes + header.contact_count * sizeof(ContactRecord) + joint_bytes;
+  if (size > out.size()) return 0;
+  std::byte* to = out.data();
+  const auto put = [&](const void* from, std::size_t bytes) {
+    if (bytes > 0) std::memcpy(to, from, bytes);
+    to += bytes;
+  };
+  put(&header, sizeof(header));
+  put(bodies.data(), body_bytes);
+  if (frozen.count() == 0) {
+    put(contact_store.data(), active_contacts * sizeof(ContactRecord));
+  } else {
+    for_each_contact([&](const ContactRecord& contact) { put(&contact, sizeof(contact)); });
   }
+  put(joints.data(), joint_bytes);
   return size;
 }
 
@@ -243,12 +266,12 @@ Status World::Impl::load_native(ByteView bytes) {
     joints[i] = {};
   const std::byte* from = bytes.data() + sizeof(loaded);
   if (body_bytes > 0) std::memcpy(bodies.data(), from, body_bytes);
-  if (contact_bytes > 0) std::memcpy(contact_store.data(), from + body_bytes, contact_bytes);
+  new_contacts.resize(loaded.contact_count);
+  if (contact_bytes > 0) std::memcpy(new_contacts.data(), from + body_bytes, contact_bytes);
   from += body_bytes + contact_bytes;
   if (joint_bytes > 0) std::memcpy(joints.data(), from, joint_bytes);
   header = loaded;
-  events.clear();
-  joint_events.clear();
+  forget_events();
   rebuild_derived();
   return Status::ok;
 }
@@ -262,8 +285,7 @@ std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
   encode(header, writer);
   for (std::uint32_t i = 0; i < header.body_limit; ++i)
     encode(bodies[i], writer);
-  for (const ContactRecord& contact : contacts())
-    encode(contact, writer);
+  for_each_contact([&](const ContactRecord& contact) { encode(contact, writer); });
   for (std::uint32_t i = 0; i < header.joint_limit; ++i)
     encode(joints[i], writer);
   if (!writer.ok()) return 0;
@@ -281,15 +303,14 @@ Status World::Impl::load_canonical(ByteView bytes) {
     bodies[i] = view.value().body(i);
   for (std::uint32_t i = header.body_limit; i < old_limit; ++i)
     bodies[i] = {};
-  for (std::uint32_t i = 0; i < header.contact_count; ++i) {
-    contact_store[i] = view.value().contact(i);
-  }
+  new_contacts.clear();
+  for (std::uint32_t i = 0; i < header.contact_count; ++i)
+    new_contacts.push_back(view.value().contact(i));
   for (std::uint32_t i = 0; i < header.joint_limit; ++i)
     joints[i] = view.value().joint(i);
   for (std::uint32_t i = header.joint_limit; i < old_joints; ++i)
     joints[i] = {};
-  events.clear();
-  joint_events.clear();
+  forget_events();
   rebuild_derived();
   return Status::ok;
 }

@@ -54,7 +54,8 @@ void World::Impl::refresh_bounds(std::uint32_t body) {
     bounds.upper[i] = round_up(box.upper[i] + margin + max(swept, Position{}));
   }
   broad_phase.set(body, bounds,
-                  {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger()});
+                  {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
+                   record.is_asleep()});
 }
 
 StepReport World::Impl::step() {
@@ -66,6 +67,9 @@ StepReport World::Impl::step() {
   stop_at_impacts(report);
   refresh_moved();
   find_events();
+  mark_joints();
+  rest_bodies(report);
+  add_sleep_events();
   profiler.count_step();
   ++header.tick;
   return report;
@@ -73,7 +77,10 @@ StepReport World::Impl::step() {
 
 void World::Impl::find_pairs(StepReport& report) {
   const StageTimer timer(profiler, StepStage::find_pairs);
-  pairs = broad_phase.find_pairs();
+  find_active_joints();
+  do {
+    pairs = broad_phase.find_pairs();
+  } while (wake_met());
   report.pairs = static_cast<std::uint32_t>(pairs.size());
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
 }
@@ -105,6 +112,19 @@ void World::Impl::collide_pairs(StepReport& report) {
   remembers_manifolds = true;
 }
 
+Length World::Impl::margin_of(const Pair& pair) const {
+  const Length thickness = max(inner_radii[pair.a], inner_radii[pair.b]);
+  return speculative_distance(bodies[pair.a], bodies[pair.b], thickness, time_step);
+}
+
+// Whether the two would get a contact now.
+bool World::Impl::meet(const Pair& pair) {
+  if (bodies[pair.a].is_trigger() || bodies[pair.b].is_trigger()) return false;
+  collide_bodies(placed(pair.a), placed(pair.b), margin_of(pair), triangle_scratch.get(),
+                 part_contacts);
+  return part_contacts.count > 0;
+}
+
 // `before`: the records of this pair a tick ago.
 void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> before,
                                StepReport& report) {
@@ -115,8 +135,7 @@ void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> 
     if (bodies_overlap(placed(pair.a), placed(pair.b))) add_trigger(pair, before, report);
     return;
   }
-  const Length thickness = max(inner_radii[pair.a], inner_radii[pair.b]);
-  const Length margin = speculative_distance(a, b, thickness, time_step);
+  const Length margin = margin_of(pair);
   const ManifoldInput input = manifold_input(pair, margin);
   if (const Manifold* known = known_manifold(before, input); known != nullptr) {
     timer.found(1, 1);
@@ -199,7 +218,7 @@ SurfacePair World::Impl::surfaces_of(const Pair& pair, const PartContact& contac
 }
 
 bool World::Impl::add_record(const ContactRecord& record, StepReport& report) {
-  if (new_contacts.size() == def.contact_capacity) {
+  if (new_contacts.size() + frozen.count() == def.contact_capacity) {
     report.status = Status::capacity_exhausted;
     return false;
   }
@@ -237,11 +256,16 @@ void World::Impl::store_impulses() {
   solver.store(manifolds, new_contacts, approach_speeds, parallel);
 }
 
+// Joints of awake bodies may have changed.
+void World::Impl::mark_joints() {
+  for (const JointLink& joint : active_joints)
+    joint_hashes.mark(joint.joint);
+}
+
 void World::Impl::move_bodies(StepReport& report) {
   const StageTimer timer(profiler, StepStage::move);
   moved.clear();
-  for (std::uint32_t body = 0; body < header.body_limit; ++body) {
-    if (!bodies[body].moves()) continue;
+  for (const std::uint32_t body : awake.list()) {
     starts[body] = {bodies[body].position, bodies[body].orientation};
     body_hashes.mark(body);
     move_body(body, report);
@@ -330,7 +354,8 @@ void World::Impl::find_events() {
   }
   events.insert(events.end(), impacts.begin(), impacts.end());
   std::copy(new_contacts.begin(), new_contacts.end(), contact_store.begin());
-  header.contact_count = static_cast<std::uint32_t>(new_contacts.size());
+  active_contacts = static_cast<std::uint32_t>(new_contacts.size());
+  header.contact_count = active_contacts + frozen.count();
 }
 
 }  // namespace lockstone

@@ -20,14 +20,16 @@ constexpr bool within(std::uint32_t value, std::uint32_t low, std::uint32_t high
 bool is_valid(const WorldDef& def) {
   return within(def.body_capacity, 1, 1U << 20) && within(def.pair_capacity, 1, 1U << 24) &&
          within(def.contact_capacity, 1, 1U << 24) && def.joint_capacity <= 1U << 20 &&
-         within(def.tick_rate, 10, 480) && within(def.substeps, 1, 16) &&
-         is_valid_gravity(def.gravity) && def.broad_phase <= BroadPhaseKind::sweep_and_prune;
+         within(def.tick_rate, 10, 480) && within(def.substeps, 1, 16) && def.sleep_ms <= 60'000 &&
+         def.sleep_distance >= Length::from_ratio(1, 1000) &&
+         def.sleep_distance <= Length::from_integer(1) && is_valid_gravity(def.gravity) &&
+         def.broad_phase <= BroadPhaseKind::sweep_and_prune;
 }
 
 }  // namespace
 
 std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
-  std::array<std::byte, 60> buffer{};
+  std::array<std::byte, 72> buffer{};
   ByteWriter writer(buffer);
   writer.put(k_simulation_abi);
   writer.put(def.body_capacity);
@@ -36,6 +38,8 @@ std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
   writer.put(def.joint_capacity);
   writer.put(def.tick_rate);
   writer.put(def.substeps);
+  writer.put(def.sleep_ms);
+  writer.put(def.sleep_distance.raw);
   for (int i = 0; i < 3; ++i)
     writer.put(def.gravity[i].raw);
   writer.put(assets);
@@ -47,22 +51,33 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
     : def(definition),
       assets(std::move(known_assets)),
       time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
+      rest_rules(
+          RestRules::of(definition.tick_rate, definition.sleep_ms, definition.sleep_distance)),
       bodies(definition.body_capacity),
       contact_store(definition.contact_capacity),
+      frozen(definition.body_capacity, definition.contact_capacity),
       joints(definition.joint_capacity),
+      awake(definition.body_capacity),
+      joint_edges(definition.body_capacity, definition.joint_capacity),
       rotations(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
       body_hashes(definition.body_capacity),
+      joint_hashes(definition.joint_capacity),
+      changed_sleep(definition.body_capacity),
+      islands(definition.body_capacity),
       solver(time_step, definition.body_capacity, definition.contact_capacity) {
   header.gravity = definition.gravity;
   const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
   if (std::ranges::any_of(assets->all(), has_triangles)) {
     triangle_scratch = std::make_unique<TriangleScratch>();
   }
-  events.reserve(std::size_t{2} * definition.contact_capacity + definition.body_capacity);
+  events.reserve(std::size_t{2} * (definition.contact_capacity + definition.body_capacity));
+  to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);
+  to_sleep.reserve(definition.body_capacity);
   joint_links.reserve(definition.joint_capacity);
+  active_joints.reserve(definition.joint_capacity);
   joined_pairs.reserve(definition.joint_capacity);
   joint_events.reserve(definition.joint_capacity);
   impacts.reserve(definition.body_capacity);
@@ -95,16 +110,29 @@ std::uint32_t World::Impl::body_count() const {
       std::count_if(bodies.begin(), end, [](const BodyRecord& body) { return body.exists(); }));
 }
 
+void World::Impl::drop_derived() {
+  new_contacts.clear();
+  for_each_contact([&](const ContactRecord& contact) { new_contacts.push_back(contact); });
+  rebuild_derived();
+}
+
+// From bodies, and all contacts in new_contacts.
 void World::Impl::rebuild_derived() {
   broad_phase.clear();
   body_hashes.clear();
+  joint_hashes.clear();
   remembers_manifolds = false;
   free_hint = 0;
+  awake.clear();
+  asleep_count = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (!bodies[i].exists()) continue;
     body_assets[i] = assets->find(bodies[i].asset);
+    if (bodies[i].is_asleep()) ++asleep_count;
+    if (bodies[i].is_awake()) awake.insert(i);
     refresh(i);
   }
+  adopt_contacts(new_contacts);
   broad_phase.settle();
   rebuild_joint_links();
 }
@@ -159,7 +187,7 @@ std::uint32_t World::body_limit() const {
   return impl_->header.body_limit;
 }
 void World::drop_derived() {
-  impl_->rebuild_derived();
+  impl_->drop_derived();
 }
 
 BodyHandle World::body_at(std::uint32_t index) const {
@@ -187,6 +215,8 @@ BodyView World::body(BodyHandle body) const {
           .filter = record->filter(),
           .is_trigger = record->is_trigger(),
           .is_bullet = record->is_bullet(),
+          .is_asleep = record->is_asleep(),
+          .allow_sleep = record->may_sleep(),
           .user_data = record->user_data};
 }
 
@@ -214,11 +244,15 @@ Mass World::mass(BodyHandle body) const {
 
 bool World::touching(BodyHandle a, BodyHandle b) const {
   if (!exists(a) || !exists(b)) return false;
-  return std::ranges::any_of(impl_->contacts(), [&](const ContactRecord& contact) {
+  const auto is_theirs = [&](const ContactRecord& contact) {
     const bool same = (contact.body_a == a.index && contact.body_b == b.index) ||
                       (contact.body_a == b.index && contact.body_b == a.index);
     return same && contact.is_touching();
-  });
+  };
+  bool found = std::ranges::any_of(impl_->contacts(), is_theirs);
+  impl_->frozen.for_each_of(
+      a.index, [&](const ContactRecord& contact) { found = found || is_theirs(contact); });
+  return found;
 }
 
 }  // namespace lockstone

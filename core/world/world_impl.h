@@ -15,14 +15,22 @@
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/contact_solver.h"
+#include "core/dynamics/islands.h"
 #include "core/dynamics/joint_record.h"
+#include "core/dynamics/rest.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
-#include "core/world/body_hashes.h"
+#include "core/world/frozen_contacts.h"
+#include "core/world/index_set.h"
+#include "core/world/joint_edges.h"
 #include "core/world/profiler.h"
+#include "core/world/record_hashes.h"
 #include "core/world/world_header.h"
 
 namespace lockstone {
+
+// A ball in a corner meets three walls; what has had so many impacts in a tick stays where it is.
+inline constexpr int k_max_impacts = 4;
 
 struct World::Impl {
   Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
@@ -55,12 +63,24 @@ struct World::Impl {
   /// Brings what is derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
   void rebuild_derived();
+  void drop_derived();
 
-  [[nodiscard]] std::span<ContactRecord> contacts() {
-    return {contact_store.data(), header.contact_count};
-  }
+  /// Of pairs with an awake body, by key.
   [[nodiscard]] std::span<const ContactRecord> contacts() const {
-    return {contact_store.data(), header.contact_count};
+    return {contact_store.data(), active_contacts};
+  }
+
+  /// Calls `visit(record)` for every contact there is, by key.
+  template <class Visit>
+  void for_each_contact(Visit&& visit) const {
+    std::span<const ContactRecord> active = contacts();
+    frozen.for_each(header.body_limit, [&](const ContactRecord& record) {
+      for (; !active.empty() && active.front().key() < record.key(); active = active.subspan(1))
+        visit(active.front());
+      visit(record);
+    });
+    for (const ContactRecord& record : active)
+      visit(record);
   }
   void drop_contacts_of(std::uint32_t body);
 
@@ -79,40 +99,67 @@ struct World::Impl {
   [[nodiscard]] Pair joined_pair(const JointRecord& joint) const;
   [[nodiscard]] bool set_total_length(JointRecord& joint) const;
 
+  // Sleep (sleep.cpp).
+  void wake(std::uint32_t body);
+  void wake_ends(const JointRecord& joint);
+  void find_active_joints();
+  void mark_joints();
+  void wake_all();
+  void disturb(std::uint32_t body);
+  void disturb_around(std::uint32_t body);
+  void adopt_contacts(std::span<const ContactRecord> all);
 
   // Snapshots (snapshot.cpp).
   [[nodiscard]] std::size_t save_native(std::span<std::byte> out) const;
   [[nodiscard]] std::size_t save_canonical(std::span<std::byte> out) const;
   Status load_native(ByteView bytes);
   Status load_canonical(ByteView bytes);
+  void forget_events() {
+    events.clear();
+    joint_events.clear();
+    changed_sleep.clear();
+  }
 
   const WorldDef def;
   const std::shared_ptr<const AssetSet> assets;
   const TimeStep time_step;
+  const RestRules rest_rules;
 
-  // Canonical state.
+  // Canonical state: and all contacts, of which header.contact_count says how many.
   WorldHeader header;
   std::vector<BodyRecord> bodies;            // by index; size: body capacity
-  std::vector<ContactRecord> contact_store;  // the first header.contact_count; size: capacity
-
+  std::vector<ContactRecord> contact_store;  // of awake pairs, the first active_contacts
+  FrozenContacts frozen;                     // the others
   std::vector<JointRecord> joints;           // by index; size: joint capacity
+
+  // Derived from flags of bodies.
+  std::uint32_t active_contacts = 0;
+  std::uint32_t asleep_count = 0;
+  IndexSet awake;  // bodies that move
 
   // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
   std::vector<JointLink> joint_links;
   std::vector<Pair> joined_pairs;
   std::uint32_t joint_hint = 0;  // no slot below this is empty
+  JointEdges joint_edges;
+
+  // Joints with an awake body, by index.
+  std::vector<JointLink> active_joints;
+  bool are_active_joints_current = false;
 
   // Derived, by body index.
   std::vector<Mat3> rotations;
   std::vector<const Asset*> body_assets;  // null: a shape complete in itself
   std::vector<Length> inner_radii;
   BroadPhase broad_phase;
-  BodyHashes body_hashes;
+  RecordHashes<BodyRecord, k_body_domain> body_hashes;
+  RecordHashes<JointRecord, k_joint_domain> joint_hashes;
   std::uint32_t free_hint = 0;  // no slot below this is empty
 
   // Of the last step only.
   std::vector<ContactEvent> events;
   std::vector<JointEvent> joint_events;
+  IndexSet changed_sleep;  // dynamic bodies that sleep and did not, or the reverse, since events
 
   Profiler profiler;
   Parallel parallel;  // changes no result
@@ -164,6 +211,21 @@ struct World::Impl {
   void refresh_bounds(std::uint32_t body);
   void find_events();
 
+  // Sleep (sleep.cpp).
+  void set_awake(std::uint32_t body);
+  void set_asleep(std::uint32_t body);
+  void list_to_wake(std::uint32_t body);
+  void wake_listed();
+  void take_back(std::span<const ContactRecord> thawed);
+  [[nodiscard]] bool wake_met();
+  [[nodiscard]] Length margin_of(const Pair& pair) const;
+  [[nodiscard]] bool meet(const Pair& pair);
+  void rest_bodies(StepReport& report);
+  [[nodiscard]] bool watch_bodies();
+  [[nodiscard]] std::uint32_t find_islands();
+  void freeze_contacts();
+  void add_sleep_events();
+
   // The contacts of a pair of bodies taken together.
   struct PairState {
     Pair bodies;
@@ -175,6 +237,11 @@ struct World::Impl {
   static PairState take_pair(std::span<const ContactRecord>& records,
                              std::span<const SolverVelocity> approaches);
   void add_event(const PairState& before, const PairState& now);
+
+  // Scratch of sleep.
+  Islands islands;
+  std::vector<std::uint32_t> to_wake;  // empty between the stages, but for what was hit on its way
+  std::vector<std::uint32_t> to_sleep;
 
   // Scratch of one step.
   std::span<const Pair> pairs;

@@ -98,6 +98,10 @@ void change(Model& model, BroadPhase& broad_phase, std::uint32_t body, std::int6
     model.present[body] = true;
     broad_phase.set(body, model.bounds[body], model.traits[body]);
   }
+  if (die >= 995 && model.present[body] && model.traits[body].moves) {  // sleeps, or wakes
+    model.traits[body].is_asleep = !model.traits[body].is_asleep;
+    broad_phase.set(body, model.bounds[body], model.traits[body]);
+  }
 }
 
 std::vector<Pair> pairs_of(BroadPhase& broad_phase) {

@@ -49,7 +49,7 @@ TEST(FreeRotation, KeepsSpeedAndAxisOfASphere) {
 }
 
 void expect_stack_stands_for_a_minute(int count, double sunk) {
-  World world = test::make_world();
+  World world = test::make_world({.body_capacity = 64, .sleep_ms = 0});
   test::add_ground(world);
   BodyHandle top;
   for (int i = 0; i < count; ++i) {
@@ -73,7 +73,7 @@ TEST(Stack, OfFortyBoxesLosesNoMillimetreInAMinute) {
 }
 
 TEST(Stack, CarriesAHundredfoldWeight) {
-  World world = test::make_world();
+  World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
   test::add_ground(world);
   BodyDef light = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
   light.material.density = Density::from_integer(10);

@@ -92,6 +92,15 @@ Command sample(Tag<SetAngularAxis>, BodyHandle, Random& random) {
   axis.max_effort = Torque::from_integer(500);
   return SetAngularAxis{{random.below(4), 1}, 0, axis};
 }
+Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
+  return WakeBody{body};
+}
+Command sample(Tag<SleepBody>, BodyHandle body, Random&) {
+  return SleepBody{body};
+}
+Command sample(Tag<SetAllowSleep>, BodyHandle body, Random& random) {
+  return SetAllowSleep{body, random.below(4) != 0};
+}
 Command sample(Tag<SetGravity>, BodyHandle, Random& random) {
   const Acceleration x = Acceleration::from_ratio(random.between(-200, 200), 100);
   return SetGravity{{x, -9.81_mps2, {}}};

@@ -56,5 +56,6 @@ extern const Scene k_hulls, k_compounds;                                // conve
 extern const Scene k_terrain, k_mesh;                                   // surfaces.cpp
 extern const Scene k_bullets;                                           // bullets.cpp
 extern const Scene k_layers;                                            // layers.cpp
+extern const Scene k_sleep;                                             // sleep.cpp
 
 }  // namespace lockstone::scenes

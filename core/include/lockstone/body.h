@@ -57,6 +57,7 @@ struct BodyDef {
   bool is_trigger = false;      ///< reports overlaps, pushes nothing
   bool fixed_rotation = false;  ///< never rotates: a character, say
   bool is_bullet = false;       ///< never passes through dynamic bodies either, at a price
+  bool allow_sleep = true;      ///< may fall asleep; says nothing of a static body
   std::uint64_t user_data = 0;  ///< the game's own; part of the state
 };
 
@@ -72,6 +73,8 @@ struct BodyView {
   CollisionFilter filter{};
   bool is_trigger = false;
   bool is_bullet = false;
+  bool is_asleep = false;
+  bool allow_sleep = true;
   std::uint64_t user_data = 0;
 };
 

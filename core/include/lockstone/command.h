@@ -32,6 +32,18 @@ struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; };
 struct SetMaterial { BodyHandle body{}; Coefficient friction{}; Coefficient restitution{}; };
 struct SetFilter { BodyHandle body{}; CollisionFilter filter{}; };
 struct SetUserData { BodyHandle body{}; std::uint64_t user_data = 0; };
+/// Wakes a dynamic or kinematic body, and the island that it sleeps in. Commands that push, move or
+/// change a body do so by themselves.
+struct WakeBody { BodyHandle body{}; };
+
+/// Puts the island of a dynamic body to sleep as it stands; velocities are lost. invalid_argument
+/// when the world or a body of the island never sleeps. What is in contact with an awake body of
+/// another kind wakes again in the next step.
+struct SleepBody { BodyHandle body{}; };
+
+/// A body that is not allowed to sleep wakes, and keeps its island awake.
+struct SetAllowSleep { BodyHandle body{}; bool allow = true; };
+
 struct CreateJoint { JointDef def{}; };
 struct DestroyJoint { JointHandle joint{}; };
 
@@ -45,7 +57,8 @@ struct SetGravity { Vec3<Acceleration> gravity{}; };
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
   X(ApplyImpulse) X(ApplyImpulseAt) X(ApplyAngularImpulse) X(ApplyForce) \
-  X(SetMaterial) X(SetFilter) X(SetUserData) X(SetGravity) \
+  X(SetMaterial) X(SetFilter) X(SetUserData) \
+  X(WakeBody) X(SleepBody) X(SetAllowSleep) X(SetGravity) \
   X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis)
 // clang-format on
 

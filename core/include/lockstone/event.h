@@ -14,9 +14,13 @@ enum class EventKind : std::uint8_t {
   trigger_stay = 3,
   trigger_exit = 4,
   impact = 5,  ///< `a` was stopped on its way by `b` within the tick and may have left it again
+  sleep = 6,   ///< dynamic body `a` fell asleep; `b` is null
+  wake = 7,    ///< dynamic body `a` woke in this step or by a command before it; `b` is null
 };
 
-/// Destroying or teleporting a body drops its contacts without an event.
+/// Contacts and triggers come first, by pair; then impacts; then sleep and wake, by body.
+/// Destroying or teleporting a body drops its contacts without an event. While neither body of a
+/// pair is awake it has no events: trigger_stay goes on once one of them wakes.
 struct ContactEvent {
   EventKind kind{};
   BodyHandle a{};

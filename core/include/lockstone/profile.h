@@ -25,7 +25,8 @@ using ProfileClock = std::uint64_t (*)();
   X(move)                  \
   X(continuous)            \
   X(refresh)               \
-  X(events)
+  X(events)                \
+  X(sleep)
 
 enum class StepStage : std::uint8_t {
 #define LKS_NAME_STAGE(name) name,

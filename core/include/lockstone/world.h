@@ -27,7 +27,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 9;
+inline constexpr std::uint32_t k_simulation_abi = 10;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
@@ -37,7 +37,9 @@ struct WorldDef {
   std::uint32_t joint_capacity = 1024;    ///< 0 … 2^20
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
-  BroadPhaseKind broad_phase{};           ///< changes no result, so peers may differ in it
+  std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does
+  Length sleep_distance = Length::from_ratio(1, 200);  ///< what moves less rests, 1 mm … 1 m
+  BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
@@ -51,9 +53,11 @@ struct WorldDef {
 struct StepReport {
   Status status = Status::ok;  ///< capacity_exhausted: pairs were left out, alike everywhere
   std::uint32_t moving_bodies = 0;
+  std::uint32_t asleep_bodies = 0;  ///< at the end of the step; kinematic ones that stand included
+  std::uint32_t islands = 0;      ///< that were looked at, because a body of one was ready to sleep
   std::uint32_t free_bodies = 0;  ///< took the exact ballistic path, no solver
   std::uint32_t axis_turns = 0;   ///< about a principal axis: none of spheres, one of tops
-  std::uint32_t pairs = 0;        ///< pairs with overlapping bounds
+  std::uint32_t pairs = 0;        ///< pairs with overlapping bounds, of which one is awake
   std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
   std::uint32_t contact_points = 0;
   std::uint32_t colors = 0;             ///< of the constraint graph
@@ -72,6 +76,8 @@ struct StateHash {
   std::uint64_t bodies = 0;
   std::uint64_t contacts = 0;
   std::uint64_t joints = 0;
+  std::uint32_t hashed =
+      0;  ///< records that were hashed for this answer: says nothing of the state
 };
 
 class World {
@@ -119,9 +125,9 @@ class World {
   void set_clock(ProfileClock now, ProfileDetail detail = ProfileDetail::stages);
   [[nodiscard]] const StepProfile& profile() const;
 
-  /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone. Not
-  /// state: no result depends on it. The runner must outlive its use. Allocates what the workers
-  /// need for themselves, so that `step` does not.
+  /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone.
+  /// Not state: no result depends on it. The runner must outlive its use. Allocates what the
+  /// workers need for themselves, so that `step` does not.
   void set_task_runner(TaskRunner* runner, TaskPieces pieces = TaskPieces::worthwhile);
 
   // Bodies ----------------------------------------------------------------------------------------

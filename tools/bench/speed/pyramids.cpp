@@ -1,5 +1,5 @@
 // Boxes in pyramids that stand. Sizes and places are those of Box3D's benchmarks of the same names
-// (Erin Catto, shared/benchmarks.c), so that both can be put beside each other.
+// (Erin Catto, shared/benchmarks.c), so that both can be put beside each other. They do not sleep.
 #include "tools/bench/speed/speed_scene.h"
 #include "tools/scenes/build.h"
 
@@ -26,7 +26,9 @@ void add_pyramid(World& world, int rows, int left_mm, int z_mm) {
 
 World make_large_pyramid(BroadPhaseKind broad_phase) {
   constexpr int k_rows = 100;
-  World world = make_speed_world(speed_def(broad_phase, 8192, 65536, 32768));
+  WorldDef def = speed_def(broad_phase, 8192, 65536, 32768);
+  def.sleep_ms = 0;
+  World world = make_speed_world(def);
   scenes::add_ground(world, 400_m);
   add_pyramid(world, k_rows, -k_rows * k_half_mm, 0);
   return world;
@@ -36,7 +38,9 @@ World make_many_pyramids(BroadPhaseKind broad_phase) {
   constexpr int k_rows = 10, k_side = 14;
   constexpr int k_ground_mm = k_half_mm * k_side * (k_rows + 1);
   constexpr int k_reach_mm = k_ground_mm - 2 * k_half_mm;
-  World world = make_speed_world(speed_def(broad_phase, 16384, 131072, 65536));
+  WorldDef def = speed_def(broad_phase, 16384, 131072, 65536);
+  def.sleep_ms = 0;
+  World world = make_speed_world(def);
   scenes::add_ground(world, arena::millimetres_long(k_ground_mm));
   for (int i = 0; i < k_side; ++i) {
     for (int j = 0; j < k_side; ++j) {

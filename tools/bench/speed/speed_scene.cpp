@@ -17,7 +17,6 @@ constexpr SpeedScene k_ragdoll_rain =
     absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints");
 constexpr SpeedScene k_terrain =
     absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "a file of its own");
-constexpr SpeedScene k_city = absent("city", "10,000 bodies asleep", "sleeping");
 
 constexpr const SpeedScene* k_scenes[] = {
     &k_large_pyramid, &k_many_pyramids, &k_ball_rain,  &k_capsule_pile, &k_box_rain,

@@ -40,5 +40,6 @@ extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // py
 extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp
 extern const SpeedScene k_convex_pile;                                     // convex_pile.cpp
 extern const SpeedScene k_washer;                                          // washer.cpp
+extern const SpeedScene k_city;                                            // city.cpp
 
 }  // namespace lockstone::bench

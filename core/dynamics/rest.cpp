@@ -1,0 +1,73 @@
+#include "core/dynamics/rest.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace lockstone {
+namespace {
+
+// Positions are noted to 2^-20 m and modulo 4096 m, more than any body goes in two ticks.
+std::int32_t noted(Position x) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(x.raw >> 12));
+}
+
+std::int64_t difference(std::int32_t now, std::int32_t then) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(now) -
+                                   static_cast<std::uint32_t>(then));
+}
+
+bool is_near(const BodyRecord& body, std::int64_t distance) {
+  std::int64_t sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t way = difference(noted(body.position[i]), body.rest_position[i].raw);
+    if (std::abs(way) > distance) return false;
+    sum += way * way;
+  }
+  return sum <= distance * distance;
+}
+
+// Turning by a small angle θ changes a quaternion by θ/2, and takes a point of the surface
+// θ · 2^scale_exponent or less.
+bool is_turned_little(const BodyRecord& body, std::int64_t distance) {
+  constexpr std::int64_t k_whole = 1 << 30;
+  const Quat& now = body.orientation;
+  const Quat& then = body.rest_orientation;
+  const int to_half_angle = 9 - body.scale_exponent;  // Q20 to Q30, halved
+  const std::int64_t limit = std::min(raw::scale_binary(distance, to_half_angle), k_whole);
+  std::int64_t sum = 0;
+  const auto add = [&](Unit a, Unit b) {
+    const std::int64_t change = std::min(std::abs(std::int64_t{a.raw} - b.raw), k_whole);
+    sum += change * change;
+  };
+  add(now.x, then.x);
+  add(now.y, then.y);
+  add(now.z, then.z);
+  add(now.w, then.w);
+  return sum <= limit * limit;
+}
+
+}  // namespace
+
+RestRules RestRules::of(std::uint32_t tick_rate, std::uint32_t milliseconds, Length distance) {
+  const std::uint32_t ticks = (tick_rate * milliseconds + 999) / 1000;
+  return {ticks, distance};
+}
+
+void begin_rest(BodyRecord& body, const RestRules& rules) {
+  const bool watched = is_watched(body, rules);
+  for (int i = 0; i < 3; ++i)
+    body.rest_position[i].raw = watched ? noted(body.position[i]) : 0;
+  body.rest_orientation = watched ? body.orientation : Quat{{}, {}, {}, {}};
+  body.rest_ticks = 0;
+}
+
+bool count_rest(BodyRecord& body, const RestRules& rules) {
+  if (!is_near(body, rules.distance.raw) || !is_turned_little(body, rules.distance.raw)) {
+    begin_rest(body, rules);
+  } else if (body.rest_ticks < rules.ticks) {
+    ++body.rest_ticks;
+  }
+  return body.rest_ticks >= rules.ticks;
+}
+
+}  // namespace lockstone

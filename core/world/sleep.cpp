@@ -1,0 +1,299 @@
+// Sleep: islands at rest leave the tick, and come back when something disturbs them.
+//
+// A body is awake or asleep by a flag of its record. A pair of bodies is looked at while one of the
+// two is awake; contacts between bodies of which none is awake are frozen, as they are, until one
+// wakes. All but the flags and the notes of rest is derived.
+
+#include <algorithm>
+
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+
+void World::Impl::set_awake(std::uint32_t body) {
+  BodyRecord& record = bodies[body];
+  record.flags = static_cast<std::uint8_t>(record.flags & ~k_body_asleep);
+  begin_rest(record, rest_rules);
+  awake.insert(body);
+  are_active_joints_current = false;
+  --asleep_count;
+  if (record.is_dynamic()) changed_sleep.flip(body);
+  body_hashes.mark(body);
+  refresh_bounds(body);
+}
+
+void World::Impl::set_asleep(std::uint32_t body) {
+  BodyRecord& record = bodies[body];
+  record.flags = static_cast<std::uint8_t>(record.flags | k_body_asleep);
+  record.velocity = record.spin = {};
+  begin_rest(record, rest_rules);
+  awake.erase(body);
+  are_active_joints_current = false;
+  ++asleep_count;
+  if (record.is_dynamic()) changed_sleep.flip(body);
+  body_hashes.mark(body);
+  refresh_bounds(body);
+}
+
+void World::Impl::list_to_wake(std::uint32_t body) {
+  if (!bodies[body].is_asleep()) return;
+  set_awake(body);
+  to_wake.push_back(body);
+}
+
+// Wakes what is listed, and all that hangs on it by contacts and joints.
+void World::Impl::wake_listed() {
+  if (to_wake.empty()) return;
+  std::vector<ContactRecord>& thawed = new_contacts;  // not in use between the stages
+  thawed.clear();
+  for (const std::uint32_t body : to_wake)
+    if (bodies[body].is_asleep()) set_awake(body);
+  while (!to_wake.empty()) {
+    const std::uint32_t body = to_wake.back();
+    to_wake.pop_back();
+    for (const std::uint32_t other : joint_edges.of(body, joint_links))
+      if (bodies[other].is_dynamic()) list_to_wake(other);
+    frozen.remove_all_of(body, [&](const ContactRecord& record) {
+      thawed.push_back(record);
+      const std::uint32_t other = record.body_a == body ? record.body_b : record.body_a;
+      if (!record.is_trigger() && bodies[other].is_dynamic()) list_to_wake(other);
+    });
+  }
+  std::ranges::sort(thawed, {}, &ContactRecord::key);
+  take_back(thawed);
+}
+
+// Merges contacts into those of awake bodies, both by key, from the last on. Their manifolds are
+// not remembered: no pair has the pose of an empty input.
+void World::Impl::take_back(std::span<const ContactRecord> thawed) {
+  std::size_t from = active_contacts;
+  std::size_t to = from + thawed.size();
+  active_contacts = static_cast<std::uint32_t>(to);
+  if (remembers_manifolds) {
+    manifolds.resize(to);
+    inputs.resize(to);
+  }
+  while (!thawed.empty()) {
+    --to;
+    const bool take_old = from > 0 && thawed.back().key() < contact_store[from - 1].key();
+    contact_store[to] = take_old ? contact_store[from - 1] : thawed.back();
+    if (remembers_manifolds) {
+      manifolds[to] = take_old ? manifolds[from - 1] : Manifold{};
+      inputs[to] = take_old ? inputs[from - 1] : ManifoldInput{};
+    }
+    if (take_old)
+      --from;
+    else
+      thawed = thawed.first(thawed.size() - 1);
+  }
+}
+
+void World::Impl::wake(std::uint32_t body) {
+  list_to_wake(body);
+  wake_listed();
+}
+
+void World::Impl::wake_ends(const JointRecord& joint) {
+  list_to_wake(joint.body_a);
+  list_to_wake(joint.body_b);
+  wake_listed();
+}
+
+// Those with an awake body: found anew when one slept, woke, came or went. What a joint ties to an
+// awake body is awake: of a state from outside that is made so here.
+void World::Impl::find_active_joints() {
+  if (are_active_joints_current) return;
+  for (const JointLink& link : joint_links) {
+    const bool a_awake = awake.has(link.body_a), b_awake = awake.has(link.body_b);
+    const std::uint32_t other = a_awake ? link.body_b : link.body_a;
+    if (a_awake != b_awake && bodies[other].is_dynamic()) list_to_wake(other);
+  }
+  wake_listed();
+  active_joints.clear();
+  for (const JointLink& link : joint_links)
+    if (awake.has(link.body_a) || awake.has(link.body_b)) active_joints.push_back(link);
+  are_active_joints_current = true;
+}
+
+// The body changes: it wakes, and what sleeps against it.
+void World::Impl::disturb(std::uint32_t body) {
+  if (asleep_count == 0) return;
+  if (bodies[body].moves()) {
+    wake(body);
+    return;
+  }
+  frozen.for_each_of(body, [&](const ContactRecord& record) {
+    list_to_wake(record.body_a == body ? record.body_b : record.body_a);
+  });
+  wake_listed();
+}
+
+// The body has come where it is: what sleeps there wakes. A body that moves is awake by now and
+// finds the others by itself.
+void World::Impl::disturb_around(std::uint32_t body) {
+  if (asleep_count == 0 || bodies[body].moves()) return;
+  constexpr std::uint32_t k_every_category = 0xffffffff;
+  const Bounds here = broad_phase.bounds(body);
+  broad_phase.traverse(
+      k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },
+      [&](std::uint32_t other) {
+        if (should_collide(bodies[body].filter(), bodies[other].filter())) list_to_wake(other);
+      });
+  wake_listed();
+}
+
+void World::Impl::wake_all() {
+  if (asleep_count == 0) return;
+  for (std::uint32_t body = 0; body < header.body_limit; ++body)
+    list_to_wake(body);
+  wake_listed();
+}
+
+// Wakes what the pairs of awake bodies are about to touch. Answers whether there was any: then
+// there are more pairs.
+bool World::Impl::wake_met() {
+  if (asleep_count == 0) return false;
+  for (const Pair& pair : pairs) {
+    const bool a_awake = awake.has(pair.a), b_awake = awake.has(pair.b);
+    if (a_awake && b_awake) continue;
+    const std::uint32_t sleeper = a_awake ? pair.b : pair.a;
+    if (bodies[sleeper].is_dynamic() && meet(pair)) list_to_wake(sleeper);
+  }
+  const bool any = !to_wake.empty();
+  wake_listed();
+  return any;
+}
+
+// Dynamic bodies of one island fall asleep together, once all of them rest. What a kinematic body
+// moves or is about to move stays awake; a kinematic body that stands sleeps by itself.
+void World::Impl::rest_bodies(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::sleep);
+  wake_listed();  // what was hit on the way
+  to_sleep.clear();
+  if (rest_rules.ticks != 0 && watch_bodies()) {
+    report.islands = find_islands();
+    for (const std::uint32_t body : awake.list())
+      if (bodies[body].is_dynamic() && !islands.is_held(body)) to_sleep.push_back(body);
+  }
+  for (const std::uint32_t body : to_sleep)
+    set_asleep(body);
+  if (!to_sleep.empty()) freeze_contacts();
+  report.asleep_bodies = asleep_count;
+}
+
+// Counts the ticks of rest. Answers whether some dynamic body is ready to sleep.
+bool World::Impl::watch_bodies() {
+  bool ready = false;
+  for (const std::uint32_t body : awake.list()) {
+    BodyRecord& record = bodies[body];
+    if (is_watched(record, rest_rules)) {
+      ready |= count_rest(record, rest_rules);
+    } else if (!record.is_dynamic() && record.may_sleep()) {
+      if (record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{})
+        to_sleep.push_back(body);
+    }
+  }
+  return ready;
+}
+
+std::uint32_t World::Impl::find_islands() {
+  const std::span<const std::uint32_t> all = awake.list();
+  islands.begin(all);
+  for (const std::uint32_t body : all)
+    if (bodies[body].rest_ticks < rest_rules.ticks) islands.hold(body);
+  const auto tie = [&](std::uint32_t a, std::uint32_t b) {
+    if (!awake.has(a) || !awake.has(b)) return;
+    const bool a_dynamic = bodies[a].is_dynamic();
+    if (a_dynamic && bodies[b].is_dynamic())
+      islands.join(a, b);
+    else
+      islands.hold(a_dynamic ? a : b);
+  };
+  for (const ContactRecord& contact : contacts())
+    if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
+  find_active_joints();
+  for (const JointLink& joint : active_joints)
+    tie(joint.body_a, joint.body_b);
+  return islands.settle(all);
+}
+
+// Moves contacts of which neither body is awake any more out of the way.
+void World::Impl::freeze_contacts() {
+  const auto stays = [&](const ContactRecord& contact) {
+    return awake.has(contact.body_a) || awake.has(contact.body_b);
+  };
+  const std::span<const ContactRecord> all = contacts();
+  for (std::size_t i = all.size(); i-- > 0;)
+    if (!stays(all[i])) frozen.add(all[i]);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!stays(all[i])) continue;
+    contact_store[kept] = all[i];
+    if (remembers_manifolds) {
+      manifolds[kept] = manifolds[i];
+      inputs[kept] = inputs[i];
+    }
+    ++kept;
+  }
+  active_contacts = static_cast<std::uint32_t>(kept);
+  if (remembers_manifolds) {
+    manifolds.resize(kept);
+    inputs.resize(kept);
+  }
+}
+
+// Sorts contacts into active and frozen ones by what the flags of the bodies say.
+void World::Impl::adopt_contacts(std::span<const ContactRecord> all) {
+  frozen.clear();
+  std::copy(all.begin(), all.end(), contact_store.begin());
+  active_contacts = static_cast<std::uint32_t>(all.size());
+  freeze_contacts();
+}
+
+void World::Impl::add_sleep_events() {
+  for (const std::uint32_t body : changed_sleep.list()) {
+    const EventKind kind = bodies[body].is_asleep() ? EventKind::sleep : EventKind::wake;
+    events.push_back({kind, {body, bodies[body].generation}, {}, {}});
+  }
+  changed_sleep.clear();
+}
+
+Status World::Impl::execute(const WakeBody& command) {
+  const BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->moves()) return Status::invalid_argument;
+  wake(command.body.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SleepBody& command) {
+  const BodyRecord* record = find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->is_dynamic() || rest_rules.ticks == 0) return Status::invalid_argument;
+  if (record->is_asleep()) return Status::ok;
+  (void)find_islands();
+  const std::uint32_t island = islands.root(command.body.index);
+  to_sleep.clear();
+  for (const std::uint32_t body : awake.list()) {
+    if (!bodies[body].is_dynamic() || islands.root(body) != island) continue;
+    if (!bodies[body].may_sleep()) return Status::invalid_argument;
+    to_sleep.push_back(body);
+  }
+  for (const std::uint32_t body : to_sleep)
+    set_asleep(body);
+  freeze_contacts();
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetAllowSleep& command) {
+  BodyRecord* record = edit(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->moves()) return Status::invalid_argument;
+  if (!command.allow) wake(command.body.index);
+  record->flags = static_cast<std::uint8_t>(command.allow ? record->flags & ~k_body_no_sleep
+                                                          : record->flags | k_body_no_sleep);
+  begin_rest(*record, rest_rules);
+  return Status::ok;
+}
+
+}  // namespace lockstone

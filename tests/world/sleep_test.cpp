@@ -1,0 +1,419 @@
+// Islands fall asleep, cost nothing, and wake as they were.
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/world/world_fixture.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+
+constexpr Shape unit_box() {
+  return Shape::box(0.5_m, 0.5_m, 0.5_m);
+}
+
+std::vector<BodyHandle> add_stack(World& world, Position x, int count) {
+  std::vector<BodyHandle> stack;
+  for (int i = 0; i < count; ++i) {
+    const Position y = Position::from_ratio(2 * i + 1, 2);
+    stack.push_back(test::add(world, test::dynamic_body(unit_box(), x, y, {})));
+  }
+  return stack;
+}
+
+bool asleep(const World& world, BodyHandle body) {
+  return world.body(body).is_asleep;
+}
+
+bool all_asleep(const World& world, const std::vector<BodyHandle>& bodies) {
+  return std::ranges::all_of(bodies, [&](BodyHandle body) { return asleep(world, body); });
+}
+
+// A stack of three that sleeps on the ground.
+struct Sleepers {
+  World world = test::make_world();
+  BodyHandle ground = test::add_ground(world);
+  std::vector<BodyHandle> stack = add_stack(world, {}, 3);
+
+  Sleepers() {
+    test::step(world, 90);
+    EXPECT_TRUE(all_asleep(world, stack));
+  }
+};
+
+TEST(Sleep, ComesAfterTheTimeOfRestAndNotBefore) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle box = add_stack(world, {}, 1).front();
+  int ticks = 0;
+  for (; ticks < 120 && !asleep(world, box); ++ticks)
+    (void)world.step();
+  EXPECT_GE(ticks, 30);  // half a second
+  EXPECT_LE(ticks, 35);
+}
+
+TEST(Sleep, TakesAWholeIslandInOneTickAndTellsByEvents) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const std::vector<BodyHandle> stack = add_stack(world, {}, 5);
+  std::vector<BodyHandle> told;
+  for (int tick = 0; tick < 120 && told.empty(); ++tick) {
+    (void)world.step();
+    for (const ContactEvent& event : world.events())
+      if (event.kind == EventKind::sleep) told.push_back(event.a);
+  }
+  EXPECT_EQ(told, stack);
+  EXPECT_TRUE(all_asleep(world, stack));
+}
+
+TEST(Sleep, LeavesNothingToDo) {
+  Sleepers scene;
+  const StepReport report = scene.world.step();
+  EXPECT_EQ(report.moving_bodies, 0U);
+  EXPECT_EQ(report.pairs, 0U);
+  EXPECT_EQ(report.contacts, 0U);
+  EXPECT_EQ(report.islands, 0U);
+  EXPECT_EQ(report.asleep_bodies, 3U);
+  (void)scene.world.hash();
+  (void)scene.world.step();
+  EXPECT_EQ(scene.world.hash().hashed, 1U);  // the header, which holds the tick
+  EXPECT_TRUE(scene.world.touching(scene.ground, scene.stack[0]));
+  EXPECT_TRUE(scene.world.touching(scene.stack[1], scene.stack[0]));
+}
+
+TEST(Sleep, KeepsEveryBitOfItsState) {
+  Sleepers scene;
+  const StateHash before = scene.world.hash();
+  test::step(scene.world, 500);
+  const StateHash after = scene.world.hash();
+  EXPECT_EQ(after.bodies, before.bodies);
+  EXPECT_EQ(after.contacts, before.contacts);
+}
+
+// With the impulses that it slept with, gravity finds it as balanced as before. It is awake until
+// its contacts know their load.
+TEST(Sleep, WakesWithoutAJolt) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const std::vector<BodyHandle> stack = add_stack(world, {}, 3);
+  ASSERT_EQ(world.apply(SetAllowSleep{stack[0], false}), Status::ok);
+  test::step(world, 3000);
+  ASSERT_EQ(world.apply(SetAllowSleep{stack[0], true}), Status::ok);
+  ASSERT_EQ(world.apply(SleepBody{stack[0]}), Status::ok);
+  std::vector<Position> heights;
+  for (const BodyHandle body : stack)
+    heights.push_back(world.position(body).y);
+  test::step(world, 100);
+  ASSERT_EQ(world.apply(WakeBody{stack[0]}), Status::ok);
+  for (int tick = 0; tick < 20; ++tick) {
+    (void)world.step();
+    for (std::size_t i = 0; i < stack.size(); ++i) {
+      EXPECT_FALSE(asleep(world, stack[i]));
+      EXPECT_LT(abs(world.position(stack[i]).y - heights[i]), Position::from_ratio(1, 1'000'000));
+      EXPECT_LT(abs(world.velocity(stack[i]).y), Velocity::from_ratio(1, 20'000));
+    }
+  }
+}
+
+TEST(Sleep, WhatTremblesRestsAndWhatCreepsDoesNot) {
+  WorldDef def{.body_capacity = 8};
+  def.gravity = {};
+  World world = test::make_world(def);
+  const BodyHandle trembler = test::add(world, test::dynamic_body(unit_box(), {}, {}, {}));
+  const BodyHandle creeper = test::add(world, test::dynamic_body(unit_box(), 5_m, {}, {}));
+  const BodyHandle spinner = test::add(world, test::dynamic_body(unit_box(), 10_m, {}, {}));
+  // Fast to and fro within 3.3 mm; slower, but farther than 5 mm in half a second.
+  ASSERT_EQ(world.apply(SetVelocity{creeper, {0.012_mps, {}, {}}}), Status::ok);
+  ASSERT_EQ(world.apply(SetAngularVelocity{spinner, {{}, 0.02_rps, {}}}), Status::ok);
+  for (int tick = 0; tick < 30; ++tick) {
+    EXPECT_FALSE(asleep(world, trembler));
+    const Velocity speed = tick % 2 == 0 ? Velocity(0.2_mps) : Velocity(-0.2_mps);
+    ASSERT_EQ(world.apply(SetVelocity{trembler, {speed, {}, {}}}), Status::ok);
+    (void)world.step();
+  }
+  EXPECT_TRUE(asleep(world, trembler));
+  test::step(world, 200);
+  EXPECT_FALSE(asleep(world, creeper));
+  EXPECT_FALSE(asleep(world, spinner));
+  EXPECT_EQ(world.velocity(trembler), Vec3<Velocity>{});
+}
+
+TEST(Sleep, IsHeldOffByOneBodyOfTheIslandThatMayNot) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const std::vector<BodyHandle> stack = add_stack(world, {}, 3);
+  const std::vector<BodyHandle> other = add_stack(world, 5_m, 2);
+  ASSERT_EQ(world.apply(SetAllowSleep{stack[2], false}), Status::ok);
+  test::step(world, 120);
+  EXPECT_FALSE(asleep(world, stack[0]));
+  EXPECT_TRUE(all_asleep(world, other));
+  EXPECT_EQ(world.apply(SleepBody{stack[0]}), Status::invalid_argument);
+  ASSERT_EQ(world.apply(SetAllowSleep{stack[2], true}), Status::ok);
+  test::step(world, 40);
+  EXPECT_TRUE(all_asleep(world, stack));
+}
+
+TEST(Sleep, CanBeSwitchedOff) {
+  World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
+  test::add_ground(world);
+  const std::vector<BodyHandle> stack = add_stack(world, {}, 2);
+  test::step(world, 300);
+  EXPECT_FALSE(asleep(world, stack[0]));
+  EXPECT_EQ(world.apply(SleepBody{stack[0]}), Status::invalid_argument);
+}
+
+TEST(Sleep, ByCommandTakesTheIslandAtOnce) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const std::vector<BodyHandle> stack = add_stack(world, {}, 4);
+  test::step(world, 5);
+  ASSERT_EQ(world.apply(SleepBody{stack[3]}), Status::ok);
+  EXPECT_TRUE(all_asleep(world, stack));
+  (void)world.step();
+  EXPECT_TRUE(all_asleep(world, stack));
+  EXPECT_EQ(world.events().size(), 4U);
+}
+
+// What wakes a stack that sleeps on the ground, each with a word.
+struct Cause {
+  const char* word;
+  std::function<void(Sleepers&)> work;
+  int ticks = 1;  // later it is awake
+};
+
+void apply(Sleepers& scene, const Command& command) {
+  ASSERT_EQ(scene.world.apply(command), Status::ok);
+}
+
+std::vector<Cause> causes() {
+  return {
+      {"wake", [](Sleepers& s) { apply(s, WakeBody{s.stack[2]}); }},
+      {"velocity",
+       [](Sleepers& s) {
+         apply(s, SetVelocity{s.stack[2], {}});
+       }},
+      {"angular velocity",
+       [](Sleepers& s) {
+         apply(s, SetAngularVelocity{s.stack[1], {}});
+       }},
+      {"impulse",
+       [](Sleepers& s) {
+         apply(s, ApplyImpulse{s.stack[2], {{}, Impulse::from_integer(1), {}}});
+       }},
+      {"angular impulse",
+       [](Sleepers& s) {
+         apply(s, ApplyAngularImpulse{s.stack[2], {{}, AngularImpulse::from_integer(1), {}}});
+       }},
+      {"force",
+       [](Sleepers& s) {
+         apply(s, ApplyForce{s.stack[2], {Force::from_integer(9), {}, {}}});
+       }},
+      {"teleport of a member",
+       [](Sleepers& s) {
+         apply(s, Teleport{s.stack[2], {9_m, 9_m, {}}, {}});
+       }},
+      {"end of a member", [](Sleepers& s) { apply(s, DestroyBody{s.stack[2]}); }},
+      {"material of a member",
+       [](Sleepers& s) {
+         apply(s, SetMaterial{s.stack[0], {}, {}});
+       }},
+      {"filter of a member",
+       [](Sleepers& s) {
+         apply(s, SetFilter{s.stack[1], {2, 2, 0}});
+       }},
+      {"teleport of the ground",
+       [](Sleepers& s) {
+         apply(s, Teleport{s.ground, {{}, -20_m, {}}, {}});
+       }},
+      {"end of the ground", [](Sleepers& s) { apply(s, DestroyBody{s.ground}); }},
+      {"material of the ground",
+       [](Sleepers& s) {
+         apply(s, SetMaterial{s.ground, {}, {}});
+       }},
+      {"filter of the ground",
+       [](Sleepers& s) {
+         apply(s, SetFilter{s.ground, {2, 2, 0}});
+       }},
+      {"gravity",
+       [](Sleepers& s) {
+         apply(s, SetGravity{{{}, 1_mps2, {}}});
+       }},
+      {"a static body in its place",
+       [](Sleepers& s) {
+         BodyDef wall;
+         wall.motion = MotionType::static_body;
+         wall.position = {0.7_m, 2_m, {}};
+         test::add(s.world, wall);
+       }},
+      {"a ball that falls on it",
+       [](Sleepers& s) {
+         test::add(s.world, test::dynamic_body(Shape::sphere(0.3_m), {}, 4_m, {}));
+       },
+       40},
+      {"a kinematic body that comes",
+       [](Sleepers& s) {
+         BodyDef bar;
+         bar.motion = MotionType::kinematic;
+         bar.position = {2_m, 2_m, {}};
+         bar.velocity = {-2_mps, {}, {}};
+         test::add(s.world, bar);
+       },
+       40},
+  };
+}
+
+TEST(Wake, HasManyCauses) {
+  for (const Cause& cause : causes()) {
+    SCOPED_TRACE(cause.word);
+    Sleepers scene;
+    cause.work(scene);
+    test::step(scene.world, cause.ticks);
+    EXPECT_FALSE(asleep(scene.world, scene.stack[0]));
+    EXPECT_FALSE(asleep(scene.world, scene.stack[1]));
+  }
+}
+
+TEST(Wake, IsNotCausedByWhatChangesNothing) {
+  Sleepers scene;
+  const std::vector<BodyHandle> far = add_stack(scene.world, 20_m, 1);
+  apply(scene, SetUserData{scene.stack[0], 7});
+  apply(scene, ApplyForce{scene.stack[0], {}});
+  apply(scene, SetGravity{scene.world.def().gravity});
+  apply(scene, DestroyBody{far[0]});
+  test::step(scene.world, 2);
+  EXPECT_TRUE(all_asleep(scene.world, scene.stack));
+  EXPECT_TRUE(scene.world.events().empty());
+}
+
+TEST(Wake, IsToldByEventsInOrderOfBodies) {
+  Sleepers scene;
+  apply(scene, WakeBody{scene.stack[1]});
+  (void)scene.world.step();
+  ASSERT_EQ(scene.world.events().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(scene.world.events()[i].kind, EventKind::wake);
+    EXPECT_EQ(scene.world.events()[i].a, scene.stack[i]);
+    EXPECT_TRUE(scene.world.events()[i].b.is_null());
+  }
+}
+
+TEST(Wake, ABulletThatHitsASleeperWakesItsIsland) {
+  Sleepers scene;
+  BodyDef bullet = test::dynamic_body(Shape::sphere(0.05_m), -30_m, 1.5_m, {});
+  bullet.is_bullet = true;
+  bullet.velocity = {400_mps, {}, {}};
+  bullet.material.density = Density::from_integer(20000);
+  test::add(scene.world, bullet);
+  test::step(scene.world, 8);
+  EXPECT_FALSE(asleep(scene.world, scene.stack[0]));
+  EXPECT_GT(scene.world.velocity(scene.stack[1]).x, Velocity(0.1_mps));
+}
+
+TEST(Sleep, OfAKinematicBodyThatStandsEndsWhenItMoves) {
+  World world = test::make_world();
+  BodyDef def;
+  def.motion = MotionType::kinematic;
+  def.shape = Shape::box(3_m, 0.5_m, 3_m);
+  const BodyHandle lift = test::add(world, def);
+  const BodyHandle box = test::add(world, test::dynamic_body(unit_box(), {}, 1_m, {}));
+  test::step(world, 60);
+  EXPECT_TRUE(asleep(world, lift));
+  EXPECT_TRUE(asleep(world, box));
+  ASSERT_EQ(world.apply(SetVelocity{lift, {{}, 0.01_mps, {}}}), Status::ok);
+  test::step(world, 300);
+  EXPECT_FALSE(asleep(world, box));
+  EXPECT_NEAR(test::metres(world.position(box).y), 1.05, 0.002);
+}
+
+TEST(Sleep, EndsTheStayOfATriggerUntilItEnds) {
+  World world = test::make_world();
+  test::add_ground(world);
+  BodyDef zone;
+  zone.motion = MotionType::static_body;
+  zone.is_trigger = true;
+  test::add(world, zone);
+  const BodyHandle box = add_stack(world, {}, 1).front();
+  test::step(world, 60);
+  ASSERT_TRUE(asleep(world, box));
+  (void)world.step();
+  EXPECT_TRUE(world.events().empty());
+  ASSERT_EQ(world.apply(WakeBody{box}), Status::ok);
+  (void)world.step();
+  ASSERT_EQ(world.events().size(), 2U);
+  EXPECT_EQ(world.events()[0].kind, EventKind::trigger_stay);
+}
+
+// Pushes, ends and adds bodies of a world in which most sleep most of the time.
+void disturb(World& world, test::Random& random) {
+  const std::int64_t what = random.between(0, 59);
+  const auto index = static_cast<std::uint32_t>(random.between(1, world.body_limit() - 1));
+  const BodyHandle body = world.body_at(index);
+  if (body.is_null()) return;
+  const auto speed = Velocity::from_integer(random.between(1, 6));
+  if (what == 0) (void)world.apply(SetVelocity{body, {speed, speed, {}}});
+  if (what == 1) (void)world.apply(Teleport{body, {{}, 4_m, {}}, {}});
+  if (what == 2) (void)world.apply(SleepBody{body});
+  if (what == 3) (void)world.apply(SetAllowSleep{body, random.between(0, 1) == 0});
+  if (what == 4) (void)world.apply(DestroyBody{body});
+  if (what == 5) (void)world.create_body(test::dynamic_body(unit_box(), {}, 5_m, {}));
+}
+
+World drowsy_world(BroadPhaseKind broad_phase) {
+  World world = test::make_world({.body_capacity = 512,
+                                  .pair_capacity = 8192,
+                                  .contact_capacity = 4096,
+                                  .sleep_ms = 100,
+                                  .broad_phase = broad_phase});
+  test::add_ground(world);
+  for (int i = 0; i < 12; ++i)
+    (void)add_stack(world, Position::from_integer(2 * i - 12), 1 + i % 4);
+  BodyDef zone;
+  zone.motion = MotionType::static_body;
+  zone.is_trigger = true;
+  zone.shape = Shape::box(20_m, 0.2_m, 2_m);
+  test::add(world, zone);
+  BodyDef sweeper;
+  sweeper.motion = MotionType::kinematic;
+  sweeper.position = {-14_m, 1_m, {}};
+  sweeper.velocity = {0.5_mps, {}, {}};
+  test::add(world, sweeper);
+  return world;
+}
+
+TEST(Sleep, FollowsFromTheStateAlone) {
+  const std::uint64_t seed = test::run_seed();
+  World plain = drowsy_world(BroadPhaseKind::tree);
+  World dropped = drowsy_world(BroadPhaseKind::tree);
+  World swept = drowsy_world(BroadPhaseKind::sweep_and_prune);
+  World loaded = drowsy_world(BroadPhaseKind::tree);
+  std::uint32_t most = 0;
+  const auto turn = [&](World& world, int tick) {
+    test::Random random(seed + static_cast<std::uint64_t>(tick));
+    for (int i = 0; i < 4; ++i)
+      disturb(world, random);
+    most = std::max(most, world.step().asleep_bodies);
+  };
+  for (int tick = 0; tick < 400; ++tick) {
+    dropped.drop_derived();
+    const SnapshotKind kind = tick % 2 == 0 ? SnapshotKind::native : SnapshotKind::canonical;
+    World fresh = test::make_world(loaded.def());
+    ASSERT_EQ(fresh.load(kind, test::save(loaded, kind)), Status::ok) << "tick " << tick;
+    loaded = std::move(fresh);
+    for (World* world : {&plain, &dropped, &swept, &loaded})
+      turn(*world, tick);
+    const std::uint64_t expected = plain.hash().total;
+    ASSERT_EQ(dropped.hash().total, expected) << "tick " << tick;
+    ASSERT_EQ(swept.hash().total, expected) << "tick " << tick;
+    ASSERT_EQ(loaded.hash().total, expected) << "tick " << tick;
+  }
+  EXPECT_GT(most, 15U);
+}
+
+}  // namespace
+}  // namespace lockstone

@@ -1,0 +1,29 @@
+// Claims that a scene pays only for what it uses, each with a figure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lockstone::bench {
+
+/// One line. Times hang on the machine; counters and sizes do not.
+struct SkipFigure {
+  std::string claim;
+  std::string figure;  ///< what was measured
+  std::string unit;
+  double value = 0;
+  double goal = 0;
+  bool at_least = false;  ///< the goal is a lower bound
+  bool is_time = false;
+
+  [[nodiscard]] bool met() const { return at_least ? value >= goal : value <= goal; }
+};
+
+struct SkipOptions {
+  bool times = true;  ///< false: counters and sizes alone
+};
+
+/// All lines, in the order of the table.
+[[nodiscard]] std::vector<SkipFigure> measure_skips(const SkipOptions& options);
+
+}  // namespace lockstone::bench
