@@ -64,7 +64,7 @@ void begin_rest(BodyRecord& body, const RestRules& rules) {
 bool count_rest(BodyRecord& body, const RestRules& rules) {
   if (!is_near(body, rules.distance.raw) || !is_turned_little(body, rules.distance.raw)) {
     begin_rest(body, rules);
-  } else if (body.rest_ticks < rules.ticks) {
+  } else if (body.rest_ticks < rules.long_ticks()) {
     ++body.rest_ticks;
   }
   return body.rest_ticks >= rules.ticks;

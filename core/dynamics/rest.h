@@ -17,6 +17,9 @@ struct RestRules {
   std::uint32_t ticks = 0;  ///< so long, then a body is ready to sleep; 0: never
   Length distance{};        ///< (0, 1 m]
 
+  /// So long a body must rest that is still pushed out of another.
+  [[nodiscard]] std::uint32_t long_ticks() const { return 8 * ticks; }
+
   [[nodiscard]] static RestRules of(std::uint32_t tick_rate, std::uint32_t milliseconds,
                                     Length distance);
 };

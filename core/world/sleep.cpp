@@ -9,6 +9,11 @@
 #include "core/world/world_impl.h"
 
 namespace lockstone {
+namespace {
+
+constexpr Displacement k_deep = Displacement::from_ratio(1, 1000);
+
+}  // namespace
 
 void World::Impl::set_awake(std::uint32_t body) {
   BodyRecord& record = bodies[body];
@@ -171,7 +176,9 @@ void World::Impl::rest_bodies(StepReport& report) {
   wake_listed();  // what was hit on the way
   to_sleep.clear();
   if (rest_rules.ticks != 0 && watch_bodies()) {
-    report.islands = find_islands();
+    join_islands();
+    hold_overlapping();
+    report.islands = islands.settle(awake.list());
     for (const std::uint32_t body : awake.list())
       if (bodies[body].is_dynamic() && !islands.is_held(body)) to_sleep.push_back(body);
   }
@@ -196,7 +203,25 @@ bool World::Impl::watch_bodies() {
   return ready;
 }
 
-std::uint32_t World::Impl::find_islands() {
+// What overlaps deeply is still pushed out, slower than what counts as moving: it rests longer. At
+// the end of a tick, when each contact has its manifold.
+void World::Impl::hold_overlapping() {
+  const auto hold = [&](std::uint32_t body) {
+    const bool counts = awake.has(body) && bodies[body].is_dynamic();
+    if (counts && bodies[body].rest_ticks < rest_rules.long_ticks()) islands.hold(body);
+  };
+  for (std::size_t i = 0; i < active_contacts; ++i) {
+    const std::span points(manifolds[i].points);
+    const auto is_deep = [](const ManifoldPoint& point) { return point.separation < -k_deep; };
+    if (std::ranges::none_of(points.first(static_cast<std::size_t>(manifolds[i].count)), is_deep))
+      continue;
+    hold(contact_store[i].body_a);
+    hold(contact_store[i].body_b);
+  }
+}
+
+void World::Impl::join_islands() {
+  find_active_joints();
   const std::span<const std::uint32_t> all = awake.list();
   islands.begin(all);
   for (const std::uint32_t body : all)
@@ -211,10 +236,8 @@ std::uint32_t World::Impl::find_islands() {
   };
   for (const ContactRecord& contact : contacts())
     if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
-  find_active_joints();
   for (const JointLink& joint : active_joints)
     tie(joint.body_a, joint.body_b);
-  return islands.settle(all);
 }
 
 // Moves contacts of which neither body is awake any more out of the way.
@@ -271,7 +294,7 @@ Status World::Impl::execute(const SleepBody& command) {
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic() || rest_rules.ticks == 0) return Status::invalid_argument;
   if (record->is_asleep()) return Status::ok;
-  (void)find_islands();
+  join_islands();
   const std::uint32_t island = islands.root(command.body.index);
   to_sleep.clear();
   for (const std::uint32_t body : awake.list()) {

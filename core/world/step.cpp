@@ -77,8 +77,8 @@ StepReport World::Impl::step() {
 
 void World::Impl::find_pairs(StepReport& report) {
   const StageTimer timer(profiler, StepStage::find_pairs);
-  find_active_joints();
   do {
+    find_active_joints();
     pairs = broad_phase.find_pairs();
   } while (wake_met());
   report.pairs = static_cast<std::uint32_t>(pairs.size());

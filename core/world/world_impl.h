@@ -222,7 +222,8 @@ struct World::Impl {
   [[nodiscard]] bool meet(const Pair& pair);
   void rest_bodies(StepReport& report);
   [[nodiscard]] bool watch_bodies();
-  [[nodiscard]] std::uint32_t find_islands();
+  void join_islands();
+  void hold_overlapping();
   void freeze_contacts();
   void add_sleep_events();
 

@@ -72,6 +72,18 @@ TEST(Sleep, TakesAWholeIslandInOneTickAndTellsByEvents) {
   EXPECT_TRUE(all_asleep(world, stack));
 }
 
+// The lower boxes sink under the load before their contacts know it, and come up again.
+TEST(Sleep, WaitsForWhatIsPushedOut) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const std::vector<BodyHandle> stack = add_stack(world, {}, 10);
+  test::step(world, 120);
+  EXPECT_FALSE(asleep(world, stack[0]));
+  test::step(world, 480);
+  EXPECT_TRUE(all_asleep(world, stack));
+  EXPECT_NEAR(test::metres(world.position(stack[9]).y), 9.5, 0.005);
+}
+
 TEST(Sleep, LeavesNothingToDo) {
   Sleepers scene;
   const StepReport report = scene.world.step();
