@@ -81,14 +81,22 @@ void BroadPhase::clear() {
   changed_ = true;
 }
 
+bool BroadPhase::follow(std::uint32_t body, const Bounds& bounds) {
+  const Bounds& fat = proxies_[body].fat;
+  if (bounds_[body] == bounds) return true;
+  if (!contains(fat, bounds) || is_too_fat(fat, bounds_[body], bounds)) return false;
+  bounds_[body] = bounds;
+  return true;
+}
+
 void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits& traits) {
   Proxy& proxy = proxies_[body];
   if (proxy.present && proxy.traits == traits) {
     if (bounds_[body] == bounds) return;
+    changed_ = true;
+    if (follow(body, bounds)) return;
     const Bounds before = bounds_[body];
     bounds_[body] = bounds;
-    changed_ = true;
-    if (contains(proxy.fat, bounds) && !is_too_fat(proxy.fat, before, bounds)) return;
     proxy.fat = traits.moves ? fattened(before, bounds) : bounds;
   } else if (proxy.present && same_but_sleep(proxy.traits, traits) && contains(proxy.fat, bounds)) {
     bounds_[body] = bounds;

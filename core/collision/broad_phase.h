@@ -34,6 +34,12 @@ class BroadPhase {
   void set(std::uint32_t body, const Bounds& bounds, const ProxyTraits& traits);
   void remove(std::uint32_t body);
 
+  /// Sets the bounds of a body that is present, as `set` with the same traits does, if nothing else
+  /// has to change for that; otherwise does nothing and answers false. Calls for different bodies
+  /// may go on at the same time; `note_change` must follow if any of the bounds were new.
+  [[nodiscard]] bool follow(std::uint32_t body, const Bounds& bounds);
+  void note_change() { changed_ = true; }
+
   [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].present; }
   [[nodiscard]] const Bounds& bounds(std::uint32_t body) const { return bounds_[body]; }
 

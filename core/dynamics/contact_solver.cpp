@@ -146,7 +146,7 @@ std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t bo
 void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   take_up_contacts(scene);
   lay_out();
-  saturations_ = 0;
+  points_ = saturations_ = 0;
   bounces_ = false;
   loops_.clear();
   loops_.push_back({row_count(), k_body_grain});
@@ -165,7 +165,7 @@ void ContactSolver::take_up_contacts(const ContactScene& scene) {
   for (const std::uint32_t body : members_)
     solver_index_[body] = 0;
   members_.assign(1, 0);
-  immovables_ = points_ = 0;
+  immovables_ = 0;
   for (std::size_t i = 0; i < scene.records.size(); ++i) {
     const ContactRecord& record = scene.records[i];
     if (record.is_trigger()) continue;
@@ -173,8 +173,7 @@ void ContactSolver::take_up_contacts(const ContactScene& scene) {
     const std::uint32_t b = take_up(scene, record.body_b);
     graph_.add(a, scene.bodies[record.body_a].is_dynamic(), b,
                scene.bodies[record.body_b].is_dynamic());
-    entries_.push_back({static_cast<std::uint32_t>(i), a, b});
-    points_ += static_cast<std::uint32_t>(scene.manifolds[i].count);
+    entries_.push_back({static_cast<std::uint32_t>(i), scene.slots[i], a, b});
   }
   if (bodies_.size() < members_.size()) bodies_.resize(members_.size());
   if (rows_.size() >= row_count()) return;  // they only grow, within what is reserved
@@ -232,12 +231,14 @@ void ContactSolver::fill_blocks(const ContactScene& scene, std::size_t color, st
                                 std::size_t end) {
   lanes::ManifoldSources sources;
   const ManifoldKernels& kernels = kernels_of(color);
+  std::uint32_t points = 0;
   for (std::size_t i = first; i < end; ++i) {
     const std::size_t block = ranges_[color].first + i;
-    fill_block(scene, block, sources);
+    points += fill_block(scene, block, sources);
     kernels.prepare(sources, inertias_.data(), rows_.data(), before_.data(), blocks_[block],
                     approaches_[block]);
   }
+  points_.fetch_add(points, std::memory_order_relaxed);
 }
 
 // Gives each colour its blocks and each contact its lane.
@@ -264,12 +265,14 @@ void ContactSolver::lay_out() {
 void ContactSolver::look_ahead(const ContactScene& scene, std::size_t slot) const {
   if (slot >= block_count_ * k_block_lanes || slots_[slot] == k_no_contact) return;
   const Entry& entry = entries_[slots_[slot]];
-  prefetch(scene.manifolds[entry.record]);
+  prefetch(scene.manifolds[entry.slot]);
   prefetch(scene.records[entry.record]);
 }
 
-void ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
-                               lanes::ManifoldSources& sources) {
+// Answers how many points the block has.
+std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
+                                        lanes::ManifoldSources& sources) {
+  std::uint32_t points = 0;
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const std::uint32_t slot = slots_[block * k_block_lanes + lane];
     restitution_[block][lane] = 0;
@@ -292,12 +295,14 @@ void ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
     const SolverBody& b = side(entry.body_b, record.body_b, fixed_b);
     sources.body_a[lane] = lanes::row_body_offset(row_of(entry.body_a));
     sources.body_b[lane] = lanes::row_body_offset(row_of(entry.body_b));
-    const SurfacePair& surfaces = scene.surfaces[entry.record];
-    fill_source({a, b, scene.manifolds[entry.record], record, surfaces}, softness_,
+    const SurfacePair& surfaces = scene.surfaces[entry.slot];
+    fill_source({a, b, scene.manifolds[entry.slot], record, surfaces}, softness_,
                 sources.lanes[lane]);
     restitution_[block][lane] = mixed_restitution(surfaces).raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
+    points += static_cast<std::uint32_t>(sources.lanes[lane].count);
   }
+  return points;
 }
 
 // In the first substep: gravity and the impulses of the tick before. Later ones start with the
@@ -393,9 +398,9 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
     std::uint32_t clamped = 0;
     for (std::size_t slot = first; slot < end; ++slot) {
       if (slots_[slot] == k_no_contact) continue;
-      const std::uint32_t record = entries_[slots_[slot]].record;
-      clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[record],
-                               records[record], approaches[record]);
+      const Entry& entry = entries_[slots_[slot]];
+      clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[entry.slot],
+                               records[entry.record], approaches[entry.record]);
     }
     saturations.fetch_add(clamped, std::memory_order_relaxed);
   });

@@ -22,11 +22,12 @@
 
 namespace lockstone {
 
-/// What the solver reads of a world. Manifolds, surfaces and records go together; those of triggers
-/// are left out.
+/// What the solver reads of a world. The manifold and the surfaces of record i are in slot
+/// slots[i]; those of triggers are left out.
 struct ContactScene {
   std::span<const BodyRecord> bodies;
   std::span<const Mat3> rotations;
+  std::span<const std::uint32_t> slots;
   std::span<const Manifold> manifolds;
   std::span<const SurfacePair> surfaces;
   std::span<const ContactRecord> records;
@@ -57,7 +58,7 @@ class ContactSolver {
   std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body) const;
 
   [[nodiscard]] std::uint32_t contacts() const;
-  [[nodiscard]] std::uint32_t points() const { return points_; }
+  [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
 
@@ -78,6 +79,7 @@ class ContactSolver {
   // One contact in the solver.
   struct Entry {
     std::uint32_t record;
+    std::uint32_t slot;
     std::uint32_t body_a;
     std::uint32_t body_b;
   };
@@ -96,7 +98,8 @@ class ContactSolver {
   void fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
                    std::size_t end);
   void look_ahead(const ContactScene& scene, std::size_t slot) const;
-  void fill_block(const ContactScene& scene, std::size_t block, lanes::ManifoldSources& sources);
+  std::uint32_t fill_block(const ContactScene& scene, std::size_t block,
+                           lanes::ManifoldSources& sources);
   void run_piece(std::size_t loop, std::size_t first, std::size_t end);
   void integrate_velocities(std::size_t substep, std::size_t first, std::size_t end);
   void integrate_positions(std::size_t first, std::size_t end);
@@ -111,7 +114,7 @@ class ContactSolver {
                     // seconds
   ConstraintGraph graph_;
   std::uint32_t immovables_ = 0;
-  std::uint32_t points_ = 0;
+  std::atomic<std::uint32_t> points_{0};
   std::uint32_t saturations_ = 0;
 
   // By body: the first of its numbers here; 0: not in the solver.

@@ -191,18 +191,19 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   const std::uint32_t other = next.body;
   BodyRecord& a = bodies[body];
   BodyRecord& b = bodies[other];
+  PairScratch& scratch = narrow.scratch(0);
   const Sweep other_motion = motion_of(other, done);
   const Mat3 rotation_a = to_matrix(a.orientation),
              rotation_b = to_matrix(other_motion.start.orientation);
   collide_bodies(place(a.shape(), body_assets[body], a.position, rotation_a),
                  place(b.shape(), body_assets[other], other_motion.start.position, rotation_b),
-                 k_impact_gap * 4, triangle_scratch.get(), part_contacts);
+                 k_impact_gap * 4, scratch.triangles.get(), scratch.part_contacts);
   const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
   const InverseInertia inertia_b = inverse_inertia(b, rotation_b);
   const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole - done);
   a.velocity -= to_come;
   Velocity approach{};
-  for (const PartContact& contact : part_contacts) {
+  for (const PartContact& contact : scratch.part_contacts) {
     const SurfacePair surface = surfaces_of({body, other}, contact);
     approach =
         max(approach,

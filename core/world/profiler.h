@@ -15,6 +15,9 @@ class Profiler {
 
   [[nodiscard]] const StepProfile& profile() const { return profile_; }
 
+  /// Then pairs are collided on one thread alone.
+  [[nodiscard]] bool times_pairs() const { return pair_clock_ != nullptr; }
+
   void count_step() { profile_.steps += now_ != nullptr ? 1U : 0U; }
 
  private:

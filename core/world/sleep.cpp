@@ -69,23 +69,17 @@ void World::Impl::wake_listed() {
 }
 
 // Merges contacts into those of awake bodies, both by key, from the last on. Their manifolds are
-// not remembered: no pair has the pose of an empty input.
+// not remembered: they have no slot.
 void World::Impl::take_back(std::span<const ContactRecord> thawed) {
   std::size_t from = active_contacts;
   std::size_t to = from + thawed.size();
   active_contacts = static_cast<std::uint32_t>(to);
-  if (remembers_manifolds) {
-    manifolds.resize(to);
-    inputs.resize(to);
-  }
+  if (remembers_manifolds) slots.resize(to);
   while (!thawed.empty()) {
     --to;
     const bool take_old = from > 0 && thawed.back().key() < contact_store[from - 1].key();
     contact_store[to] = take_old ? contact_store[from - 1] : thawed.back();
-    if (remembers_manifolds) {
-      manifolds[to] = take_old ? manifolds[from - 1] : Manifold{};
-      inputs[to] = take_old ? inputs[from - 1] : ManifoldInput{};
-    }
+    if (remembers_manifolds) slots[to] = take_old ? slots[from - 1] : NarrowSlots::k_none;
     if (take_old)
       --from;
     else
@@ -211,9 +205,11 @@ void World::Impl::hold_overlapping() {
     if (counts && bodies[body].rest_ticks < rest_rules.long_ticks()) islands.hold(body);
   };
   for (std::size_t i = 0; i < active_contacts; ++i) {
-    const std::span points(manifolds[i].points);
+    if (slots[i] == NarrowSlots::k_none) continue;
+    const Manifold& manifold = manifolds[slots[i]];
+    const std::span points(manifold.points);
     const auto is_deep = [](const ManifoldPoint& point) { return point.separation < -k_deep; };
-    if (std::ranges::none_of(points.first(static_cast<std::size_t>(manifolds[i].count)), is_deep))
+    if (std::ranges::none_of(points.first(static_cast<std::size_t>(manifold.count)), is_deep))
       continue;
     hold(contact_store[i].body_a);
     hold(contact_store[i].body_b);
@@ -252,17 +248,11 @@ void World::Impl::freeze_contacts() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!stays(all[i])) continue;
     contact_store[kept] = all[i];
-    if (remembers_manifolds) {
-      manifolds[kept] = manifolds[i];
-      inputs[kept] = inputs[i];
-    }
+    if (remembers_manifolds) slots[kept] = slots[i];
     ++kept;
   }
   active_contacts = static_cast<std::uint32_t>(kept);
-  if (remembers_manifolds) {
-    manifolds.resize(kept);
-    inputs.resize(kept);
-  }
+  if (remembers_manifolds) slots.resize(kept);
 }
 
 // Sorts contacts into active and frozen ones by what the flags of the bodies say.

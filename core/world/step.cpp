@@ -1,6 +1,7 @@
 // The tick.
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/dynamics/motion.h"
 #include "core/geometry/shape_properties.h"
@@ -18,6 +19,11 @@ constexpr Length k_max_speculation = Length::from_integer(32);
 
 // How far a pair can close is rounded up to 1 mm, so that what trembles keeps its margin.
 constexpr int k_reach_bits = 10;
+
+// Pairs that are worth a worker.
+constexpr std::uint32_t k_pair_grain = 8;
+constexpr std::uint32_t k_number_grain = 256;
+constexpr std::uint32_t k_body_grain = 32;
 
 // How far a body goes in one tick, along one axis.
 Position travel(Velocity v, const TimeStep& step) {
@@ -45,6 +51,14 @@ void World::Impl::refresh(std::uint32_t body) {
 void World::Impl::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
   inner_radii[body] = inner_radius(record.shape(), body_assets[body]);
+  broad_phase.set(body, bounds_of(body),
+                  {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
+                   record.is_asleep()});
+}
+
+// Where the body is, and where it goes in a tick, with a margin.
+Bounds World::Impl::bounds_of(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
   const WorldBox box = world_box(placed(body));
   Bounds bounds;
   for (int i = 0; i < 3; ++i) {
@@ -53,9 +67,7 @@ void World::Impl::refresh_bounds(std::uint32_t body) {
     bounds.lower[i] = round_down(box.lower[i] - margin + min(swept, Position{}));
     bounds.upper[i] = round_up(box.upper[i] + margin + max(swept, Position{}));
   }
-  broad_phase.set(body, bounds,
-                  {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
-                   record.is_asleep()});
+  return bounds;
 }
 
 StepReport World::Impl::step() {
@@ -85,30 +97,17 @@ void World::Impl::find_pairs(StepReport& report) {
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
 }
 
-// Both contact lists are sorted by key, so that one pass carries records over.
+// Each pair leaves what it found in slots of its own; then the contacts are numbered in the order
+// of the pairs.
 void World::Impl::collide_pairs(StepReport& report) {
   const StageTimer timer(profiler, StepStage::collide);
+  std::swap(slots, old_slots);
   std::swap(manifolds, old_manifolds);
   std::swap(inputs, old_inputs);
-  new_contacts.clear();
-  manifolds.clear();
-  inputs.clear();
-  surfaces.clear();
-  std::span<const ContactRecord> before = contacts();
-  const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
-  auto joined = joined_pairs.begin();
-  for (const Pair& pair : pairs) {
-    while (joined != joined_pairs.end() && *joined < pair)
-      ++joined;
-    if (joined != joined_pairs.end() && *joined == pair) continue;
-    while (!before.empty() && bodies_of(before.front()) < pair)
-      before = before.subspan(1);
-    std::size_t known = 0;
-    while (known < before.size() && bodies_of(before[known]) == pair)
-      ++known;
-    collide_pair(pair, before.first(known), report);
-    before = before.subspan(known);
-  }
+  found_contacts.resize(pairs.size());
+  if (!collide_side_by_side()) collide_one_by_one();
+  if (narrow.has_overflowed()) report.status = Status::capacity_exhausted;
+  number_contacts(report);
   remembers_manifolds = true;
 }
 
@@ -120,33 +119,74 @@ Length World::Impl::margin_of(const Pair& pair) const {
 // Whether the two would get a contact now.
 bool World::Impl::meet(const Pair& pair) {
   if (bodies[pair.a].is_trigger() || bodies[pair.b].is_trigger()) return false;
-  collide_bodies(placed(pair.a), placed(pair.b), margin_of(pair), triangle_scratch.get(),
-                 part_contacts);
-  return part_contacts.count > 0;
+  PairScratch& scratch = narrow.scratch(0);
+  collide_bodies(placed(pair.a), placed(pair.b), margin_of(pair), scratch.triangles.get(),
+                 scratch.part_contacts);
+  return scratch.part_contacts.count > 0;
+}
+
+// Answers whether all found room.
+bool World::Impl::collide_side_by_side() {
+  narrow.begin(parallel.workers());
+  parallel.for_each(
+      {static_cast<std::uint32_t>(pairs.size()), k_pair_grain, profiler.times_pairs()},
+      [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
+        collide_piece(first, end, narrow.scratch(worker));
+      });
+  return parallel.workers() == 1 || !narrow.is_out_of_slots();
+}
+
+// Slots are given out in the order of the pairs, so that the last pairs are those that find none.
+void World::Impl::collide_one_by_one() {
+  narrow.begin(1);
+  collide_piece(0, static_cast<std::uint32_t>(pairs.size()), narrow.scratch(0));
+}
+
+// Old contacts are sorted by key and pairs are too, so that one pass carries records over.
+void World::Impl::collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch) {
+  const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
+  const std::span<const ContactRecord> all = contacts();
+  const auto begin = std::ranges::lower_bound(all, pairs[first], {}, bodies_of);
+  std::span<const ContactRecord> before(begin, all.end());
+  auto joined = std::ranges::lower_bound(joined_pairs, pairs[first]);
+  for (std::uint32_t i = first; i < end; ++i) {
+    found_contacts[i] = {};
+    while (joined != joined_pairs.end() && *joined < pairs[i])
+      ++joined;
+    if (joined != joined_pairs.end() && *joined == pairs[i]) continue;
+    while (!before.empty() && bodies_of(before.front()) < pairs[i])
+      before = before.subspan(1);
+    std::size_t known = 0;
+    while (known < before.size() && bodies_of(before[known]) == pairs[i])
+      ++known;
+    collide_pair(i, before.first(known), scratch);
+    before = before.subspan(known);
+  }
 }
 
 // `before`: the records of this pair a tick ago.
-void World::Impl::collide_pair(const Pair& pair, std::span<const ContactRecord> before,
-                               StepReport& report) {
+void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
+                               PairScratch& scratch) {
+  const Pair pair = pairs[index];
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
   PairTimer timer(profiler, a.shape().kind, b.shape().kind);
   if (a.is_trigger() || b.is_trigger()) {
-    if (bodies_overlap(placed(pair.a), placed(pair.b))) add_trigger(pair, before, report);
+    if (bodies_overlap(placed(pair.a), placed(pair.b))) add_trigger(index, before, scratch);
     return;
   }
   const Length margin = margin_of(pair);
   const ManifoldInput input = manifold_input(pair, margin);
   if (const Manifold* known = known_manifold(before, input); known != nullptr) {
     timer.found(1, 1);
-    add_contact(pair, {0, 0, nullptr, nullptr, *known}, input, before, report);
-    return;
+    const PartContact contact{0, 0, nullptr, nullptr, *known};
+    return add_contacts(index, {&contact, 1}, input, before, scratch);
   }
-  collide_bodies(placed(pair.a), placed(pair.b), margin, triangle_scratch.get(), part_contacts);
-  timer.found(part_contacts.count);
-  if (part_contacts.overflowed) report.status = Status::capacity_exhausted;
-  for (const PartContact& contact : part_contacts)
-    add_contact(pair, contact, input, before, report);
+  PartContacts& parts = scratch.part_contacts;
+  collide_bodies(placed(pair.a), placed(pair.b), margin, scratch.triangles.get(), parts);
+  timer.found(parts.count);
+  if (parts.overflowed) narrow.note_overflow();
+  add_contacts(index, {parts.begin(), parts.end()}, input, before, scratch);
 }
 
 // Centres are read to the lengths that primitives are collided with; frames of assets follow from
@@ -168,9 +208,11 @@ const Manifold* World::Impl::known_manifold(std::span<const ContactRecord> befor
   if (!remembers_manifolds || before.size() != 1) return nullptr;
   const ContactRecord& record = before.front();
   const auto index = static_cast<std::size_t>(&record - contact_store.data());
-  const bool same = record.part_a == 0 && record.part_b == 0 && old_inputs[index] == input &&
+  const std::uint32_t slot = old_slots[index];
+  if (slot == NarrowSlots::k_none) return nullptr;
+  const bool same = record.part_a == 0 && record.part_b == 0 && old_inputs[slot] == input &&
                     has_one_piece(record.body_a) && has_one_piece(record.body_b);
-  return same ? &old_manifolds[index] : nullptr;
+  return same ? &old_manifolds[slot] : nullptr;
 }
 
 bool World::Impl::has_one_piece(std::uint32_t body) const {
@@ -178,35 +220,40 @@ bool World::Impl::has_one_piece(std::uint32_t body) const {
   return asset == nullptr || asset->polytope() != nullptr;
 }
 
-void World::Impl::add_trigger(const Pair& pair, std::span<const ContactRecord> before,
-                              StepReport& report) {
-  ContactRecord record;
-  if (!before.empty()) record = before.front();
-  record.body_a = pair.a;
-  record.body_b = pair.b;
-  record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
-  if (!add_record(record, report)) return;
-  manifolds.emplace_back();
-  inputs.emplace_back();
-  surfaces.emplace_back();
+void World::Impl::add_trigger(std::uint32_t index, std::span<const ContactRecord> before,
+                              PairScratch& scratch) {
+  const std::uint32_t slot = narrow.take(scratch, 1);
+  if (slot == NarrowSlots::k_none) return;
+  found_contacts[index] = {slot, 1};
+  origins[slot] = {0, 0, before.empty() ? k_new : index_of(before.front())};
+  manifolds[slot] = {};
+  inputs[slot] = {};
+  surfaces[slot] = {};
 }
 
-// The record keeps the impulses and the touching flag of the tick before.
-void World::Impl::add_contact(const Pair& pair, const PartContact& contact,
-                              const ManifoldInput& input, std::span<const ContactRecord> before,
-                              StepReport& report) {
-  const ContactKey key{pair.a, pair.b, contact.part_a, contact.part_b};
-  const auto old = std::ranges::find(before, key, &ContactRecord::key);
-  ContactRecord record;
-  if (old != before.end()) record = *old;
-  record.body_a = key.body_a;
-  record.body_b = key.body_b;
-  record.part_a = key.part_a;
-  record.part_b = key.part_b;
-  if (!add_record(record, report)) return;
-  manifolds.push_back(contact.manifold);
-  inputs.push_back(input);
-  surfaces.push_back(surfaces_of(pair, contact));
+void World::Impl::add_contacts(std::uint32_t index, std::span<const PartContact> parts,
+                               const ManifoldInput& input, std::span<const ContactRecord> before,
+                               PairScratch& scratch) {
+  if (parts.empty()) return;
+  const auto count = static_cast<std::uint32_t>(parts.size());
+  const std::uint32_t first = narrow.take(scratch, count);
+  if (first == NarrowSlots::k_none) return;
+  const Pair pair = pairs[index];
+  found_contacts[index] = {first, count};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const PartContact& contact = parts[i];
+    const ContactKey key{pair.a, pair.b, contact.part_a, contact.part_b};
+    const auto old = std::ranges::find(before, key, &ContactRecord::key);
+    origins[first + i] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old)};
+    manifolds[first + i] = contact.manifold;
+    inputs[first + i] = input;
+    surfaces[first + i] = surfaces_of(pair, contact);
+  }
+}
+
+// Within contact_store.
+std::uint32_t World::Impl::index_of(const ContactRecord& record) const {
+  return static_cast<std::uint32_t>(&record - contact_store.data());
 }
 
 // A part's own surface, or the body's.
@@ -217,17 +264,47 @@ SurfacePair World::Impl::surfaces_of(const Pair& pair, const PartContact& contac
   return {surface(bodies[pair.a], contact.surface_a), surface(bodies[pair.b], contact.surface_b)};
 }
 
-bool World::Impl::add_record(const ContactRecord& record, StepReport& report) {
-  if (new_contacts.size() + frozen.count() == def.contact_capacity) {
-    report.status = Status::capacity_exhausted;
-    return false;
+void World::Impl::number_contacts(StepReport& report) {
+  const std::uint32_t room = def.contact_capacity - frozen.count();
+  std::uint32_t count = 0;
+  for (FoundContacts& of_pair : found_contacts) {
+    of_pair.count = std::min(of_pair.count, room - count);
+    of_pair.index = count;
+    count += of_pair.count;
   }
-  new_contacts.push_back(record);
-  return true;
+  if (narrow.taken() > count) report.status = Status::capacity_exhausted;
+  slots.resize(count);
+  new_contacts.resize(count);
+  approach_speeds.resize(count);
+  parallel.for_each({static_cast<std::uint32_t>(pairs.size()), k_number_grain},
+                    [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                      for (std::uint32_t i = first; i < end; ++i)
+                        number_contacts_of(i);
+                    });
+}
+
+// A record keeps the impulses and the touching flag of the tick before.
+void World::Impl::number_contacts_of(std::uint32_t pair) {
+  const FoundContacts& of_pair = found_contacts[pair];
+  for (std::uint32_t i = 0; i < of_pair.count; ++i) {
+    const std::uint32_t slot = of_pair.slot + i;
+    const ContactOrigin& origin = origins[slot];
+    const Pair& both = pairs[pair];
+    ContactRecord record = origin.before == k_new ? ContactRecord{} : contact_store[origin.before];
+    record.body_a = both.a;
+    record.body_b = both.b;
+    record.part_a = origin.part_a;
+    record.part_b = origin.part_b;
+    if (bodies[both.a].is_trigger() || bodies[both.b].is_trigger()) {
+      record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
+    }
+    slots[of_pair.index + i] = slot;
+    new_contacts[of_pair.index + i] = record;
+    approach_speeds[of_pair.index + i] = {};
+  }
 }
 
 void World::Impl::solve_contacts(StepReport& report) {
-  approach_speeds.assign(new_contacts.size(), SolverVelocity{});
   prepare_contacts();
   run_substeps();
   store_impulses();
@@ -240,7 +317,7 @@ void World::Impl::solve_contacts(StepReport& report) {
 
 void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
-  solver.prepare({std::span(bodies).first(header.body_limit), rotations, manifolds, surfaces,
+  solver.prepare({std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
                   new_contacts, header.gravity},
                  parallel);
 }
@@ -266,39 +343,67 @@ void World::Impl::move_bodies(StepReport& report) {
   const StageTimer timer(profiler, StepStage::move);
   moved.clear();
   for (const std::uint32_t body : awake.list()) {
-    starts[body] = {bodies[body].position, bodies[body].orientation};
     body_hashes.mark(body);
-    move_body(body, report);
     moved.push_back(body);
   }
+  report.moving_bodies = static_cast<std::uint32_t>(moved.size());
+  std::atomic<std::uint32_t> free_bodies{0}, axis_turns{0}, saturations{0};
+  parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+    MoveCounts counts;
+    for (std::uint32_t i = first; i < end; ++i)
+      move_body(moved[i], counts);
+    free_bodies.fetch_add(counts.free_bodies, std::memory_order_relaxed);
+    axis_turns.fetch_add(counts.axis_turns, std::memory_order_relaxed);
+    saturations.fetch_add(counts.saturations, std::memory_order_relaxed);
+  });
+  report.free_bodies = free_bodies;
+  report.axis_turns += axis_turns;
+  report.saturations += saturations;
 }
 
-// As `refresh` does for each, with the rotations all at once.
+Loop World::Impl::each_moved() const {
+  return {static_cast<std::uint32_t>(moved.size()), k_body_grain};
+}
+
+// As `refresh` does for each, with the rotations all at once. Only what leaves its fat box changes
+// more of the broad phase than its own bounds.
 void World::Impl::refresh_moved() {
   const StageTimer timer(profiler, StepStage::refresh);
-  if (moved.empty()) return;
-  const lanes::QuatField orientations{&bodies.front().orientation, sizeof(BodyRecord)};
-  lanes::compute_rotations(orientations, moved, rotations.data());
-  for (const std::uint32_t body : moved)
-    refresh_bounds(body);
-  broad_phase.settle();
+  std::atomic<bool> changed{false};
+  parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+    const lanes::QuatField orientations{&bodies.front().orientation, sizeof(BodyRecord)};
+    lanes::compute_rotations(orientations, std::span(moved).subspan(first, end - first),
+                             rotations.data());
+    bool any = false;
+    for (std::uint32_t i = first; i < end; ++i) {
+      const Bounds bounds = bounds_of(moved[i]);
+      any = any || bounds != broad_phase.bounds(moved[i]);
+      leaves_fat_box[i] = broad_phase.follow(moved[i], bounds) ? 0 : 1;
+    }
+    if (any) changed.store(true, std::memory_order_relaxed);
+  });
+  if (changed) broad_phase.note_change();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (leaves_fat_box[i] != 0) refresh_bounds(moved[i]);
+  }
+  if (!moved.empty()) broad_phase.settle();
 }
 
-void World::Impl::move_body(std::uint32_t body, StepReport& report) {
+void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   BodyRecord& record = bodies[body];
+  starts[body] = {record.position, record.orientation};
   const SolverBody* solved = solver.find(body);
   const InverseInertia inertia =
       solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
   if (solved != nullptr) {
-    report.axis_turns += solver.move(*solved, rotations[body], record);
+    counts.axis_turns += solver.move(*solved, rotations[body], record);
   } else {
-    report.axis_turns += fly(record, rotations[body], header.gravity, time_step, header.tick);
-    ++report.free_bodies;
+    counts.axis_turns += fly(record, rotations[body], header.gravity, time_step, header.tick);
+    ++counts.free_bodies;
   }
   apply_damping(record, time_step);
-  report.saturations += limit_speed(record, inertia) ? 1U : 0U;
-  report.saturations += limit_position(record) ? 1U : 0U;
-  ++report.moving_bodies;
+  counts.saturations += limit_speed(record, inertia) ? 1U : 0U;
+  counts.saturations += limit_position(record) ? 1U : 0U;
 }
 
 // Begin, stay or end of what a pair of bodies did before and does now.

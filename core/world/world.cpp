@@ -69,10 +69,6 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       islands(definition.body_capacity),
       solver(time_step, definition.body_capacity, definition.contact_capacity) {
   header.gravity = definition.gravity;
-  const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
-  if (std::ranges::any_of(assets->all(), has_triangles)) {
-    triangle_scratch = std::make_unique<TriangleScratch>();
-  }
   events.reserve(std::size_t{2} * (definition.contact_capacity + definition.body_capacity));
   to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);
   to_sleep.reserve(definition.body_capacity);
@@ -82,14 +78,28 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   joint_events.reserve(definition.joint_capacity);
   impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);
+  leaves_fat_box.resize(definition.body_capacity);
+  found_contacts.reserve(definition.pair_capacity);
   new_contacts.reserve(definition.contact_capacity);
-  manifolds.reserve(definition.contact_capacity);
-  old_manifolds.reserve(definition.contact_capacity);
-  inputs.reserve(definition.contact_capacity);
-  old_inputs.reserve(definition.contact_capacity);
-  surfaces.reserve(definition.contact_capacity);
+  slots.reserve(definition.contact_capacity);
+  old_slots.reserve(definition.contact_capacity);
+  make_scratch();
   approach_speeds.reserve(definition.contact_capacity);
   moved.reserve(definition.body_capacity);
+}
+
+void World::Impl::make_scratch() {
+  const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
+  narrow.prepare(def.contact_capacity, parallel.workers(),
+                 std::ranges::any_of(assets->all(), has_triangles));
+  const std::size_t most = narrow.capacity();
+  if (manifolds.size() >= most) return;
+  origins.resize(most);
+  manifolds.resize(most);
+  old_manifolds.resize(most);
+  inputs.resize(most);
+  old_inputs.resize(most);
+  surfaces.resize(most);
 }
 
 const BodyRecord* World::Impl::find(BodyHandle body) const {
@@ -173,6 +183,7 @@ void World::set_clock(ProfileClock now, ProfileDetail detail) {
 }
 void World::set_task_runner(TaskRunner* runner, TaskPieces pieces) {
   impl_->parallel.set_runner(runner, pieces);
+  impl_->make_scratch();
 }
 const StepProfile& World::profile() const {
   return impl_->profiler.profile();

@@ -23,6 +23,7 @@
 #include "core/world/frozen_contacts.h"
 #include "core/world/index_set.h"
 #include "core/world/joint_edges.h"
+#include "core/world/narrow_slots.h"
 #include "core/world/profiler.h"
 #include "core/world/record_hashes.h"
 #include "core/world/world_header.h"
@@ -64,6 +65,9 @@ struct World::Impl {
   void refresh(std::uint32_t body);
   void rebuild_derived();
   void drop_derived();
+
+  /// Makes room for as many workers as `parallel` has.
+  void make_scratch();
 
   /// Of pairs with an awake body, by key.
   [[nodiscard]] std::span<const ContactRecord> contacts() const {
@@ -167,7 +171,11 @@ struct World::Impl {
  private:
   void find_pairs(StepReport& report);
   void collide_pairs(StepReport& report);
-  void collide_pair(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
+  bool collide_side_by_side();
+  void collide_one_by_one();
+  void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
+  void collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
+                    PairScratch& scratch);
   // What the manifold of two convex shapes follows from, besides the shapes.
   struct ManifoldInput {
     Vec3<Position> offset{};
@@ -181,17 +189,27 @@ struct World::Impl {
   [[nodiscard]] const Manifold* known_manifold(std::span<const ContactRecord> before,
                                                const ManifoldInput& input) const;
   [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
-  void add_contact(const Pair& pair, const PartContact& contact, const ManifoldInput& input,
-                   std::span<const ContactRecord> before, StepReport& report);
-  void add_trigger(const Pair& pair, std::span<const ContactRecord> before, StepReport& report);
-  bool add_record(const ContactRecord& record, StepReport& report);
+  void add_contacts(std::uint32_t index, std::span<const PartContact> parts,
+                    const ManifoldInput& input, std::span<const ContactRecord> before,
+                    PairScratch& scratch);
+  void add_trigger(std::uint32_t index, std::span<const ContactRecord> before,
+                   PairScratch& scratch);
+  [[nodiscard]] std::uint32_t index_of(const ContactRecord& record) const;
+  void number_contacts(StepReport& report);
+  void number_contacts_of(std::uint32_t pair);
   [[nodiscard]] SurfacePair surfaces_of(const Pair& pair, const PartContact& contact) const;
   void solve_contacts(StepReport& report);
   void prepare_contacts();
   void run_substeps();
   void store_impulses();
   void move_bodies(StepReport& report);
-  void move_body(std::uint32_t body, StepReport& report);
+  struct MoveCounts {
+    std::uint32_t free_bodies = 0;
+    std::uint32_t axis_turns = 0;
+    std::uint32_t saturations = 0;
+  };
+  void move_body(std::uint32_t body, MoveCounts& counts);
+  [[nodiscard]] Loop each_moved() const;
   void refresh_moved();
 
   // Continuous collision (continuous.cpp).
@@ -209,6 +227,7 @@ struct World::Impl {
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
 
   void refresh_bounds(std::uint32_t body);
+  [[nodiscard]] Bounds bounds_of(std::uint32_t body) const;
   void find_events();
 
   // Sleep (sleep.cpp).
@@ -246,20 +265,40 @@ struct World::Impl {
 
   // Scratch of one step.
   std::span<const Pair> pairs;
-  std::vector<std::uint32_t> moved;  // bodies, ascending
-  std::vector<Transform> starts;     // by body: where it was before it moved
+  std::vector<std::uint32_t> moved;          // bodies, ascending
+  std::vector<std::uint8_t> leaves_fat_box;  // by place in `moved`
+  std::vector<Transform> starts;             // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
-  std::unique_ptr<TriangleScratch> triangle_scratch;  // null when no asset has triangles
-  std::vector<ContactRecord> new_contacts;
-  std::vector<Manifold> manifolds;    // by new contact
-  std::vector<ManifoldInput> inputs;  // by new contact
-  std::vector<SurfacePair> surfaces;  // by new contact
+  NarrowSlots narrow;
 
-  // The manifolds of the tick before, by stored contact, as long as `remembers_manifolds`.
+  // By pair: the contacts that were found, in slots and in the list of contacts.
+  struct FoundContacts {
+    std::uint32_t slot = 0;
+    std::uint32_t count = 0;
+    std::uint32_t index = 0;
+  };
+  std::vector<FoundContacts> found_contacts;
+
+  // What a new contact comes from: parts, and its record of the tick before.
+  static constexpr std::uint32_t k_new = 0xffffffff;
+  struct ContactOrigin {
+    std::uint32_t part_a = 0;
+    std::uint32_t part_b = 0;
+    std::uint32_t before = k_new;  // in contact_store
+  };
+  std::vector<ContactOrigin> origins;  // by slot
+  std::vector<Manifold> manifolds;     // by slot
+  std::vector<ManifoldInput> inputs;   // by slot
+  std::vector<SurfacePair> surfaces;   // by slot
+  std::vector<std::uint32_t> slots;    // by new contact
+  std::vector<ContactRecord> new_contacts;
+
+  // The manifolds of the tick before, and their slots by stored contact, as long as
+  // `remembers_manifolds`.
+  std::vector<std::uint32_t> old_slots;
   std::vector<Manifold> old_manifolds;
   std::vector<ManifoldInput> old_inputs;
   bool remembers_manifolds = false;
-  PartContacts part_contacts;  // of the pair at hand
   ContactSolver solver;
   std::vector<SolverVelocity> approach_speeds;  // by new contact
 };

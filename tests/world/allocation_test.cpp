@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <lockstone/thread_pool.h>
+
 #include "tests/world/world_fixture.h"
 
 namespace {
@@ -32,12 +34,13 @@ namespace {
 
 using namespace literals;
 
-void expect_no_allocation(BroadPhaseKind broad_phase) {
+void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullptr) {
   World world = test::make_world({.body_capacity = 512,
                                   .pair_capacity = 8192,
                                   .contact_capacity = 4096,
                                   .broad_phase = broad_phase});
   test::fill_with_random_bodies(world, 1, 150);
+  world.set_task_runner(runner, TaskPieces::smallest);
   std::vector<std::byte> native(world.snapshot_bytes_max(SnapshotKind::native));
   std::vector<std::byte> canonical(world.snapshot_bytes_max(SnapshotKind::canonical));
   std::array<BodyHandle, 8> found{};
@@ -61,6 +64,11 @@ void expect_no_allocation(BroadPhaseKind broad_phase) {
 TEST(World, AllocatesNothingAfterCreation) {
   expect_no_allocation(BroadPhaseKind::tree);
   expect_no_allocation(BroadPhaseKind::sweep_and_prune);
+}
+
+TEST(World, AllocatesNothingOnThreads) {
+  ThreadPool pool(4);
+  expect_no_allocation(BroadPhaseKind::tree, &pool);
 }
 
 TEST(AllocationCounter, CountsAnAllocation) {

@@ -51,7 +51,7 @@ inline constexpr std::size_t k_step_stages = 0 LKS_STEP_STAGES(LKS_COUNT_STAGE);
 /// stage `collide` slower than it is without.
 enum class ProfileDetail : std::uint8_t {
   stages,  ///< two calls of the clock a stage
-  pairs,   ///< and two a pair of bodies
+  pairs,   ///< and two a pair of bodies, which are then collided on the calling thread alone
 };
 
 /// What the narrow phase did for pairs of two kinds of shape.

@@ -1,0 +1,97 @@
+// Where the narrow phase leaves contacts: slots that workers take side by side.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/collision/collide_bodies.h"
+
+namespace lockstone {
+
+/// What a worker has for itself.
+struct alignas(64) PairScratch {
+  PartContacts part_contacts;                  // of the pair at hand
+  std::unique_ptr<TriangleScratch> triangles;  // null when no asset has triangles
+  std::uint32_t next = 0, end = 0;             // slots at hand
+  std::uint32_t taken = 0;                     // slots that hold a contact
+};
+
+/// One worker gets slots one after the other, until all contacts that a world has room for are
+/// there. Several get them by blocks, of which the last is left half empty, so that they may run
+/// out of slots before; the caller then begins again with one.
+class NarrowSlots {
+ public:
+  static constexpr std::uint32_t k_none = 0xffffffff;
+
+  /// Makes room; the only function that allocates.
+  void prepare(std::uint32_t contact_capacity, std::uint32_t workers, bool with_triangles) {
+    const std::uint32_t spare = workers > 1 ? contact_capacity / 8 + 2 * k_block * workers : k_block;
+    capacity_ = std::max(capacity_, contact_capacity + spare);
+    while (scratch_.size() < workers) {
+      scratch_.push_back(std::make_unique<PairScratch>());
+      if (with_triangles) scratch_.back()->triangles = std::make_unique<TriangleScratch>();
+    }
+  }
+
+  [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
+  [[nodiscard]] PairScratch& scratch(std::uint32_t worker) { return *scratch_[worker]; }
+
+  void begin(std::uint32_t workers) {
+    block_ = workers > 1 ? k_block : 1;
+    used_ = 0;
+    out_of_slots_ = overflowed_ = false;
+    for (const std::unique_ptr<PairScratch>& scratch : scratch_)
+      scratch->next = scratch->end = scratch->taken = 0;
+  }
+
+  /// The first of `count` slots in a row, or k_none.
+  std::uint32_t take(PairScratch& scratch, std::uint32_t count) {
+    scratch.taken += count;
+    if (scratch.end - scratch.next < count) {
+      const std::uint32_t size = std::max(block_, count);
+      // Nobody asks on once it is known that there is no more, lest the number wrap.
+      if (out_of_slots_.load(std::memory_order_relaxed)) return k_none;
+      scratch.next = used_.fetch_add(size, std::memory_order_relaxed);
+      scratch.end = scratch.next + size;
+      if (scratch.end > capacity_) {
+        scratch.next = scratch.end = 0;
+        out_of_slots_.store(true, std::memory_order_relaxed);
+        return k_none;
+      }
+    }
+    const std::uint32_t first = scratch.next;
+    scratch.next += count;
+    return first;
+  }
+
+  [[nodiscard]] bool is_out_of_slots() const { return out_of_slots_; }
+
+  /// Contacts since `begin`, those without a slot included.
+  [[nodiscard]] std::uint32_t taken() const {
+    std::uint32_t sum = 0;
+    for (const std::unique_ptr<PairScratch>& scratch : scratch_)
+      sum += scratch->taken;
+    return sum;
+  }
+
+  /// For pairs of which parts were left out.
+  void note_overflow() { overflowed_.store(true, std::memory_order_relaxed); }
+  [[nodiscard]] bool has_overflowed() const { return overflowed_; }
+
+ private:
+  static constexpr std::uint32_t k_block = 64;
+  static_assert(k_block >= PartContacts::k_capacity);
+
+  std::vector<std::unique_ptr<PairScratch>> scratch_;  // by worker
+  std::uint32_t capacity_ = 0;
+  std::uint32_t block_ = 1;
+  std::atomic<std::uint32_t> used_{0};
+  std::atomic<bool> out_of_slots_{false};
+  std::atomic<bool> overflowed_{false};
+};
+
+}  // namespace lockstone

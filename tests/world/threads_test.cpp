@@ -1,0 +1,76 @@
+// What a world leaves out when it is full does not depend on threads.
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/compound.h>
+#include <lockstone/thread_pool.h>
+
+#include "tests/support/shuffled_runner.h"
+#include "tests/world/world_fixture.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+
+// Two boxes side by side, so that a body has up to two contacts with each other.
+AssetPtr make_pair_of_boxes() {
+  CompoundChild children[2];
+  children[0].shape = children[1].shape = Shape::box(0.4_m, 0.4_m, 0.4_m);
+  children[0].position = {-0.4_m, {}, {}};
+  children[1].position = {0.4_m, {}, {}};
+  return Compound::build(children).compound;
+}
+
+// A heap of plain and compound bodies, far more than there is room for contacts.
+World make_crowd(std::uint32_t pair_capacity, std::uint32_t contact_capacity) {
+  const AssetPtr compound = make_pair_of_boxes();
+  auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{compound});
+  const WorldDef def{
+      .body_capacity = 256, .pair_capacity = pair_capacity, .contact_capacity = contact_capacity};
+  World world = std::move(World::create(def, std::move(assets))).value();
+  test::add_ground(world);
+  for (int i = 0; i < 120; ++i) {
+    const Shape shape = i % 2 == 0 ? Shape::box(0.5_m, 0.5_m, 0.5_m) : compound->shape();
+    const auto place = [](int steps) { return Position::from_ratio(7 * steps, 10); };
+    test::add(world, test::dynamic_body(shape, place(i % 5), place(1 + i / 25), place(i / 5 % 5)));
+  }
+  return world;
+}
+
+void expect_same(std::uint32_t pair_capacity, std::uint32_t contact_capacity, TaskRunner& runner) {
+  World alone = make_crowd(pair_capacity, contact_capacity);
+  World shared = make_crowd(pair_capacity, contact_capacity);
+  shared.set_task_runner(&runner, TaskPieces::smallest);
+  bool exhausted = false;
+  for (int tick = 0; tick < 20; ++tick) {
+    const StepReport report = alone.step();
+    exhausted = exhausted || report.status == Status::capacity_exhausted;
+    ASSERT_EQ(shared.step(), report) << "at tick " << tick;
+    ASSERT_EQ(shared.hash().total, alone.hash().total) << "after tick " << tick;
+  }
+  EXPECT_TRUE(exhausted);
+}
+
+TEST(WorldOnThreads, LeavesOutTheSameContacts) {
+  for (const std::uint32_t capacity : {1U, 150U, 333U}) {
+    ThreadPool pool(4);
+    expect_same(4096, capacity, pool);
+    test::ShuffledRunner shuffled(7);
+    expect_same(4096, capacity, shuffled);
+  }
+}
+
+TEST(WorldOnThreads, LeavesOutTheSamePairs) {
+  for (const std::uint32_t capacity : {1U, 400U}) {
+    ThreadPool pool(3);
+    expect_same(capacity, 4096, pool);
+    test::ShuffledRunner shuffled(64);
+    expect_same(capacity, 4096, shuffled);
+  }
+}
+
+}  // namespace
+}  // namespace lockstone
