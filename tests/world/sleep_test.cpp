@@ -171,6 +171,38 @@ TEST(Sleep, IsHeldOffByOneBodyOfTheIslandThatMayNot) {
   EXPECT_TRUE(all_asleep(world, stack));
 }
 
+// Two bodies that a joint ties sleep and wake as one.
+TEST(Sleep, IsSharedByWhatAJointTies) {
+  WorldDef def{.body_capacity = 8};
+  def.gravity = {};
+  World world = test::make_world(def);
+  const BodyHandle a = test::add(world, test::dynamic_body(unit_box(), {}, {}, {}));
+  const BodyHandle b = test::add(world, test::dynamic_body(unit_box(), 5_m, {}, {}));
+  const BodyHandle alone = test::add(world, test::dynamic_body(unit_box(), 9_m, {}, {}));
+  JointDef joint_def = JointDef::of(JointKind::distance, a, b);
+  joint_def.linear[0].upper = 50_m;
+  joint_def.linear[0].mode = AxisMode::limited;
+  const JointHandle joint = world.create_joint(joint_def).value();
+  ASSERT_EQ(world.apply(SetAllowSleep{a, false}), Status::ok);
+  test::step(world, 60);
+  EXPECT_FALSE(asleep(world, b));
+  EXPECT_TRUE(asleep(world, alone));
+  ASSERT_EQ(world.apply(SetAllowSleep{a, true}), Status::ok);
+  test::step(world, 60);
+  EXPECT_TRUE(all_asleep(world, {a, b}));
+  (void)world.hash();
+  (void)world.step();
+  EXPECT_EQ(world.hash().hashed, 1U);  // the header: the joint sleeps too
+  ASSERT_EQ(world.apply(WakeBody{a}), Status::ok);
+  EXPECT_FALSE(asleep(world, b));
+  EXPECT_TRUE(asleep(world, alone));
+  ASSERT_EQ(world.apply(SleepBody{b}), Status::ok);
+  EXPECT_TRUE(asleep(world, a));
+  ASSERT_EQ(world.apply(DestroyJoint{joint}), Status::ok);
+  EXPECT_FALSE(asleep(world, a));
+  EXPECT_FALSE(asleep(world, b));
+}
+
 TEST(Sleep, CanBeSwitchedOff) {
   World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
   test::add_ground(world);
