@@ -17,7 +17,9 @@ TEST(Skips, MeetTheirGoalsInCountersAndSizes) {
 }
 
 TEST(SkipFigure, IsMetOnTheRightSideOfItsGoal) {
-  SkipFigure figure{.value = 2, .goal = 1};
+  SkipFigure figure{};
+  figure.value = 2;
+  figure.goal = 1;
   EXPECT_FALSE(figure.met());
   figure.at_least = true;
   EXPECT_TRUE(figure.met());
