@@ -1,6 +1,7 @@
 #include "core/collision/broad_phase.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lockstone {
 namespace {
@@ -12,6 +13,9 @@ constexpr std::int64_t k_ticks_ahead = 8;
 
 // Candidates for each pair that the world has room for.
 constexpr std::size_t k_candidates_per_pair = 2;
+
+// Rows of candidates that are worth a worker.
+constexpr std::uint32_t k_row_grain = 64;
 
 // How long nothing but full searches are made once the candidates did not fit.
 constexpr std::uint32_t k_pause_ticks = 64;
@@ -69,6 +73,7 @@ BroadPhase::BroadPhase(BroadPhaseKind kind, std::uint32_t body_capacity,
       candidates_(body_capacity, k_candidates_per_pair * pair_capacity),
       pairs_(pair_capacity) {
   touched_.reserve(body_capacity);
+  refined_.reserve(body_capacity);
 }
 
 void BroadPhase::clear() {
@@ -138,6 +143,11 @@ void BroadPhase::release_touched() {
 }
 
 std::span<const Pair> BroadPhase::find_pairs() {
+  Parallel alone;
+  return find_pairs(alone);
+}
+
+std::span<const Pair> BroadPhase::find_pairs(Parallel& parallel) {
   effort_ = {};
   if (!changed_) return pairs_.pairs();
   settle();
@@ -146,7 +156,7 @@ std::span<const Pair> BroadPhase::find_pairs() {
   }
   pairs_.clear();
   if (update_candidates()) {
-    refine_candidates();
+    parallel.workers() > 1 ? refine_candidates(parallel) : refine_candidates();
   } else {
     search_all();
   }
@@ -199,6 +209,38 @@ void BroadPhase::refine_candidates() {
     const Bounds bounds = bounds_[body];
     for (const std::uint32_t partner : partners) {
       if (overlap(bounds, bounds_[partner]) && !pairs_.append({body, partner})) return;
+    }
+  });
+}
+
+// The same: pairs are counted by row, and then written to where those of the rows before end.
+void BroadPhase::refine_candidates(Parallel& parallel) {
+  const Loop rows{candidates_.row_count(), k_row_grain};
+  refined_.resize(rows.count);
+  const auto for_each_pair = [&](std::uint32_t row, auto&& visit) {
+    const std::uint32_t body = candidates_.body(row);
+    const Bounds bounds = bounds_[body];
+    for (const std::uint32_t partner : candidates_.partners(row)) {
+      if (overlap(bounds, bounds_[partner])) visit(Pair{body, partner});
+    }
+  };
+  parallel.for_each(rows, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+    for (std::uint32_t row = first; row < end; ++row) {
+      refined_[row] = 0;
+      for_each_pair(row, [&](const Pair&) { ++refined_[row]; });
+    }
+  });
+  std::size_t count = 0;
+  for (std::uint32_t& of_row : refined_)
+    count += std::exchange(of_row, static_cast<std::uint32_t>(count));
+  const std::span<Pair> all = pairs_.make_room(count);
+  parallel.for_each(rows, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+    for (std::uint32_t row = first; row < end; ++row) {
+      std::size_t place = refined_[row];
+      for_each_pair(row, [&](const Pair& pair) {
+        if (place < all.size()) all[place] = pair;
+        ++place;
+      });
     }
   });
 }

@@ -14,6 +14,7 @@
 
 #include <lockstone/collision.h>
 
+#include "core/base/parallel.h"
 #include "core/collision/bounds.h"
 #include "core/collision/candidate_pairs.h"
 #include "core/collision/pair_list.h"
@@ -49,6 +50,7 @@ class BroadPhase {
 
   /// All pairs whose bounds overlap and for which `can_meet` holds, sorted. When they exceed the
   /// capacity, the first ones in that order, and `overflowed` is true. Valid until the next call.
+  std::span<const Pair> find_pairs(Parallel& parallel);
   std::span<const Pair> find_pairs();
 
   [[nodiscard]] bool overflowed() const { return pairs_.overflowed(); }
@@ -89,6 +91,7 @@ class BroadPhase {
   void release_touched();
   bool update_candidates();
   void refine_candidates();
+  void refine_candidates(Parallel& parallel);
   void search_all();
   template <class Emit>
   bool search(Emit&& emit);
@@ -105,6 +108,7 @@ class BroadPhase {
   CandidatePairs candidates_;
   std::uint32_t ticks_without_candidates_ = 0;  // to come
   bool has_candidates_ = false;
+  std::vector<std::uint32_t> refined_;  // by row of candidates: pairs; then where they begin
   PairList pairs_;
   Effort effort_;
 };

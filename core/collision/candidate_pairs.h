@@ -24,6 +24,14 @@ class CandidatePairs {
   /// then nothing is kept.
   bool merge(std::span<const std::uint8_t> is_touched);
 
+  /// Bodies that have partners, ascending, and these, ascending too.
+  [[nodiscard]] std::uint32_t row_count() const { return static_cast<std::uint32_t>(rows_.size()); }
+  [[nodiscard]] std::uint32_t body(std::uint32_t row) const { return rows_[row].body; }
+  [[nodiscard]] std::span<const std::uint32_t> partners(std::uint32_t row) const {
+    const std::uint32_t begin = row == 0 ? 0 : rows_[row - 1].end;
+    return std::span(partners_).subspan(begin, rows_[row].end - begin);
+  }
+
   /// Calls `visit(a, partners)` for every body that has partners, bodies and partners ascending.
   template <class Visit>
   void for_each(Visit&& visit) const {

@@ -29,6 +29,13 @@ class PairList {
     return true;
   }
 
+  /// For as many pairs in order, to be written by the caller: of a cleared list, as far as it goes.
+  [[nodiscard]] std::span<Pair> make_room(std::size_t count) {
+    overflowed_ = count > capacity_;
+    pairs_.resize(std::min(count, capacity_));
+    return pairs_;
+  }
+
   /// For pairs in any order, with `sort` after the last. Once full, the list is a heap whose front
   /// is the last pair in order, the first to go.
   void offer(const Pair& pair) {

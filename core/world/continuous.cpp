@@ -89,10 +89,15 @@ void World::Impl::stop_at_impacts(StepReport& report) {
   const StageTimer timer(profiler, StepStage::continuous);
   impacts.clear();
   for (const std::uint32_t body : moved) {
-    if (!went_far(body)) continue;
+    if (far_movers[body] == 0) continue;
     ++report.continuous_bodies;
     follow(body, report);
   }
+}
+
+// Anew when an impact changes how a body turns before its own way is looked at.
+void World::Impl::note_far_mover(std::uint32_t body) {
+  far_movers[body] = went_far(body) ? 1 : 0;
 }
 
 // Farther than half of what it is thick: less cannot take it through anything.
@@ -219,6 +224,7 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   (void)limit_speed(a, inertia_a);
   if (b.is_dynamic()) (void)limit_speed(b, inertia_b);
   body_hashes.mark(other);
+  if (b.moves()) note_far_mover(other);
   if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
   if (impacts.size() < impacts.capacity()) {
     impacts.push_back({EventKind::impact, {body, a.generation}, {other, b.generation}, approach});

@@ -24,6 +24,7 @@ constexpr int k_reach_bits = 10;
 constexpr std::uint32_t k_pair_grain = 8;
 constexpr std::uint32_t k_number_grain = 256;
 constexpr std::uint32_t k_body_grain = 32;
+constexpr std::uint32_t k_copy_grain = 512;
 
 // How far a body goes in one tick, along one axis.
 Position travel(Velocity v, const TimeStep& step) {
@@ -91,7 +92,7 @@ void World::Impl::find_pairs(StepReport& report) {
   const StageTimer timer(profiler, StepStage::find_pairs);
   do {
     find_active_joints();
-    pairs = broad_phase.find_pairs();
+    pairs = broad_phase.find_pairs(parallel);
   } while (wake_met());
   report.pairs = static_cast<std::uint32_t>(pairs.size());
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
@@ -350,8 +351,10 @@ void World::Impl::move_bodies(StepReport& report) {
   std::atomic<std::uint32_t> free_bodies{0}, axis_turns{0}, saturations{0};
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     MoveCounts counts;
-    for (std::uint32_t i = first; i < end; ++i)
+    for (std::uint32_t i = first; i < end; ++i) {
       move_body(moved[i], counts);
+      note_far_mover(moved[i]);
+    }
     free_bodies.fetch_add(counts.free_bodies, std::memory_order_relaxed);
     axis_turns.fetch_add(counts.axis_turns, std::memory_order_relaxed);
     saturations.fetch_add(counts.saturations, std::memory_order_relaxed);
@@ -458,8 +461,12 @@ void World::Impl::find_events() {
     add_event(was, is);
   }
   events.insert(events.end(), impacts.begin(), impacts.end());
-  std::copy(new_contacts.begin(), new_contacts.end(), contact_store.begin());
   active_contacts = static_cast<std::uint32_t>(new_contacts.size());
+  parallel.for_each({active_contacts, k_copy_grain},
+                    [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                      std::copy(new_contacts.begin() + first, new_contacts.begin() + end,
+                                contact_store.begin() + first);
+                    });
   header.contact_count = active_contacts + frozen.count();
 }
 

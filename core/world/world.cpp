@@ -79,6 +79,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);
   leaves_fat_box.resize(definition.body_capacity);
+  far_movers.resize(definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
   new_contacts.reserve(definition.contact_capacity);
   slots.reserve(definition.contact_capacity);

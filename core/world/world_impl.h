@@ -218,6 +218,7 @@ struct World::Impl {
     Impact impact{};
   };
   void stop_at_impacts(StepReport& report);
+  void note_far_mover(std::uint32_t body);
   [[nodiscard]] bool went_far(std::uint32_t body) const;
   void follow(std::uint32_t body, StepReport& report);
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
@@ -267,6 +268,7 @@ struct World::Impl {
   std::span<const Pair> pairs;
   std::vector<std::uint32_t> moved;          // bodies, ascending
   std::vector<std::uint8_t> leaves_fat_box;  // by place in `moved`
+  std::vector<std::uint8_t> far_movers;      // by body that moved
   std::vector<Transform> starts;             // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
   NarrowSlots narrow;
