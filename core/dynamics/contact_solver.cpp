@@ -98,16 +98,20 @@ std::int32_t high(std::int64_t word) {
   return static_cast<std::int32_t>(word >> 32);
 }
 
+// Loops of half a substep: joints, bodies, joints, and the colours with the overflow.
+constexpr std::size_t k_half_step_loops = k_graph_colors + 4;
+
 }  // namespace
 
 ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
-                             std::size_t contact_capacity)
+                             std::size_t contact_capacity, std::size_t joint_capacity)
     : step_(step),
       softness_(ContactSoftness::of(step)),
       rules_(rules_of(step)),
       load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
       graph_(body_capacity + contact_capacity, contact_capacity),
-      solver_index_(body_capacity) {
+      solver_index_(body_capacity),
+      joints_(step, body_capacity, joint_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + 1;
   members_.reserve(most_rows);
   bodies_.reserve(most_rows);
@@ -123,7 +127,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   approaches_.reserve(most);
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
-  loops_.reserve((2U * static_cast<std::size_t>(step.substeps) + 1) * (k_graph_colors + 2));
+  loops_.reserve((2U * static_cast<std::size_t>(step.substeps) + 1) * k_half_step_loops);
 }
 
 std::uint32_t ContactSolver::contacts() const {
@@ -150,12 +154,15 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   bounces_ = false;
   loops_.clear();
   loops_.push_back({row_count(), k_body_grain});
+  loops_.push_back({joints_.empty() ? 0U : 1U, 1, true});
   add_loop_of_each_color();
   parallel.run_all(loops_,
                    [&](std::size_t loop, std::uint32_t first, std::uint32_t end, std::uint32_t) {
                      if (loop == 0) return fill_bodies(scene, first, end);
-                     fill_blocks(scene, loop - 1, first, end);
+                     if (loop == 1) return begin_joints();
+                     fill_blocks(scene, loop - 2, first, end);
                    });
+  if (!joints_.empty()) joints_.prepare();
 }
 
 // In the order of the records: bodies, colours and lanes follow from the state alone.
@@ -175,6 +182,8 @@ void ContactSolver::take_up_contacts(const ContactScene& scene) {
                scene.bodies[record.body_b].is_dynamic());
     entries_.push_back({static_cast<std::uint32_t>(i), scene.slots[i], a, b});
   }
+  first_without_contacts_ = static_cast<std::uint32_t>(members_.size());
+  take_up_joints(scene);
   if (bodies_.size() < members_.size()) bodies_.resize(members_.size());
   if (rows_.size() >= row_count()) return;  // they only grow, within what is reserved
   inertias_.resize(row_count());
@@ -342,33 +351,41 @@ void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
   }
 }
 
+// Joints before, bodies, joints after, and each colour.
+void ContactSolver::add_loops_of_half_step() {
+  const Loop joints{joints_.empty() ? 0U : 1U, 1, true};
+  loops_.push_back(joints);
+  loops_.push_back({static_cast<std::uint32_t>(members_.size()), k_body_grain});
+  loops_.push_back(joints);
+  add_loop_of_each_color();
+}
+
 // Of each substep: velocities, colours that are solved, positions, colours that are relaxed; then
 // colours that bounce.
 void ContactSolver::run(Parallel& parallel) {
-  if (entries_.empty()) return;
-  const Loop all_bodies{static_cast<std::uint32_t>(members_.size()), k_body_grain};
+  if (entries_.empty() && joints_.empty()) return;
   loops_.clear();
-  for (int half_step = 0; half_step < 2 * step_.substeps; ++half_step) {
-    loops_.push_back(all_bodies);
-    add_loop_of_each_color();
-  }
+  for (int half_step = 0; half_step < 2 * step_.substeps; ++half_step)
+    add_loops_of_half_step();
   if (bounces_) {
-    loops_.push_back({});
+    loops_.resize(loops_.size() + k_half_step_loops - k_graph_colors - 1);
     add_loop_of_each_color();
   }
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { run_piece(loop, first, end); });
+  joints_.end(joint_run());
 }
 
 void ContactSolver::run_piece(std::size_t loop, std::size_t first, std::size_t end) {
-  constexpr std::size_t k_loops = k_graph_colors + 2;  // of half a substep
-  const std::size_t substep = loop / k_loops / 2;
+  constexpr std::size_t k_loops = k_half_step_loops;
+  const std::size_t substep = loop / k_loops / 2, stage = loop % k_loops;
   const bool relaxes = loop / k_loops % 2 != 0;
-  if (loop % k_loops == 0) {
+  if (stage == 0 || stage == 2) return run_joints(relaxes, stage == 2);
+  if (stage == 1) {
     relaxes ? integrate_positions(first, end) : integrate_velocities(substep, first, end);
     return;
   }
-  const std::size_t color = loop % k_loops - 1, begin = ranges_[color].first + first;
+  const std::size_t color = stage - 3, begin = ranges_[color].first + first;
   const ManifoldKernels& kernels = kernels_of(color);
   if (substep == static_cast<std::size_t>(step_.substeps)) {
     bounce(kernels, begin, begin + end - first);
@@ -455,12 +472,17 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
   const auto index = static_cast<std::size_t>(&solved - bodies_.data());
   const RowBody& row = rows_[index];
   const RowTravel& travel = travel_[index];
-  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
   if (body.is_dynamic()) {
     body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]),
                      from_row(row.velocity[2])};
     body.spin = {from_row(row.spin[0]), from_row(row.spin[1]), from_row(row.spin[2])};
   }
+  if (const JointPose* pose = joints_.find(members_[index]); pose != nullptr) {
+    body.position = pose->position;
+    body.orientation = pose->orientation;
+    return 0;
+  }
+  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
   return end_substeps(
       body, rotation,
       {moved(travel.velocity[0]), moved(travel.velocity[1]), moved(travel.velocity[2])},

@@ -15,6 +15,7 @@
 #include "core/dynamics/constraint_graph.h"
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
+#include "core/dynamics/joint_solver.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
@@ -31,13 +32,16 @@ struct ContactScene {
   std::span<const Manifold> manifolds;
   std::span<const SurfacePair> surfaces;
   std::span<const ContactRecord> records;
+  std::span<const JointRecord> joints;
+  std::span<const JointLink> joint_links;
   Vec3<Acceleration> gravity;
 };
 
 class ContactSolver {
  public:
   /// No function but this allocates.
-  ContactSolver(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity);
+  ContactSolver(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity,
+                std::size_t joint_capacity);
 
   /// Takes up the touched bodies and makes the constraints, in the order of the records.
   void prepare(const ContactScene& scene, Parallel& parallel);
@@ -49,6 +53,9 @@ class ContactSolver {
   /// fastest approach of each to `approaches`.
   void store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
              std::span<SolverVelocity> approaches, Parallel& parallel);
+
+  /// Writes what each joint ended with to the records.
+  void store_joints(std::span<const JointLink> links, std::span<JointRecord> joints) const;
 
   /// Null when no constraint touched the body.
   [[nodiscard]] const SolverBody* find(std::uint32_t body) const;
@@ -86,10 +93,15 @@ class ContactSolver {
 
   std::uint32_t take_up(const ContactScene& scene, std::uint32_t body);
   void take_up_contacts(const ContactScene& scene);
+  void take_up_joints(const ContactScene& scene);
+  void begin_joints();
+  [[nodiscard]] JointRun joint_run() { return {bodies_, rows_, before_, travel_}; }
   [[nodiscard]] std::uint32_t row_count() const;
   [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const;
   void lay_out();
   void add_loop_of_each_color();
+  void add_loops_of_half_step();
+  void run_joints(bool relaxes, bool after);
   [[nodiscard]] static const lanes::ManifoldKernels& kernels_of(std::size_t color);
 
   // Pieces of loops.
@@ -128,6 +140,9 @@ class ContactSolver {
   std::vector<lanes::RowBody> rows_;
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
+
+  JointSolver joints_;
+  std::uint32_t first_without_contacts_ = 1;  // by number
 
   std::vector<Entry> entries_;
   Range ranges_[k_graph_colors + 1];

@@ -21,8 +21,9 @@ enum JointFlag : std::uint8_t {
 inline constexpr std::size_t k_joint_axes = 6;
 
 /// Settings and impulses of one axis; lengths and angles, speeds and efforts are raws of the public
-/// types. Impulses are per substep and the pair's velocity jump, λ·(1/mA + 1/mB); an angular axis
-/// has the length unit 2^k m, k the greater scale exponent of the bodies that move.
+/// types. Impulses are per substep and the pair's velocity jump, λ·(1/mA + 1/mB); those of a joint
+/// whose first three axes are rigid are along the axes of the world. An angular axis has the length
+/// unit 2^k m, k the greater scale exponent of the bodies that move.
 struct JointAxisRecord {
   std::int64_t max_effort = 0;
   std::int32_t lower = 0;

@@ -4,6 +4,7 @@
 
 #include "core/collision/placed_shape.h"
 #include "core/dynamics/joint_geometry.h"
+#include "core/dynamics/joint_rows.h"
 #include "core/dynamics/limits.h"
 #include "core/math/divide.h"
 #include "core/math/roots.h"
@@ -245,6 +246,26 @@ void World::Impl::destroy_joints_of(std::uint32_t body) {
   }
 }
 
+// Joints that had to bear more than they do are destroyed, by index.
+void World::Impl::break_joints() {
+  joint_events.clear();
+  const auto exceeds = [](const auto& v, auto limit) {
+    return limit.raw > 0 && norm(v.x.raw, v.y.raw, v.z.raw) > static_cast<std::uint64_t>(limit.raw);
+  };
+  for (const JointLink& link : active_joints) {
+    const std::uint32_t index = link.joint;
+    const JointRecord& joint = joints[index];
+    if (joint.break_force.raw == 0 && joint.break_torque.raw == 0) continue;
+    const JointView now = view(joint);
+    if (!exceeds(now.force, joint.break_force) && !exceeds(now.torque, joint.break_torque)) {
+      continue;
+    }
+    joint_events.push_back({{index, joint.generation}, now.body_a, now.body_b, joint.user_data});
+  }
+  for (const JointEvent& event : joint_events)
+    destroy_joint(event.joint.index);
+}
+
 void World::Impl::link_joint(std::uint32_t index) {
   const JointRecord& joint = joints[index];
   joint_edges.clear();
@@ -346,6 +367,13 @@ JointView World::Impl::view(const JointRecord& joint) const {
     const std::int32_t rate = time_step.substep_rate();
     view.force[i].raw = effort_of(impulse(i), rate, inverse_mass, 0);
     view.torque[i].raw = effort_of(impulse(i + 3), rate, inverse_mass, exponent);
+  }
+  if (has_world_axes(joint)) {
+    const auto raws = [](const Vec3<Force>& f) {
+      return Vec3<Position>{{f.x.raw}, {f.y.raw}, {f.z.raw}};
+    };
+    const Vec3<Position> along = rotate_inverse(frame_a, raws(view.force));
+    view.force = {{along.x.raw}, {along.y.raw}, {along.z.raw}};
   }
   return view;
 }

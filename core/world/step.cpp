@@ -81,6 +81,7 @@ StepReport World::Impl::step() {
   refresh_moved();
   find_events();
   mark_joints();
+  break_joints();
   rest_bodies(report);
   add_sleep_events();
   profiler.count_step();
@@ -318,9 +319,10 @@ void World::Impl::solve_contacts(StepReport& report) {
 
 void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
-  solver.prepare({std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
-                  new_contacts, header.gravity},
-                 parallel);
+  solver.prepare(
+      {std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
+       new_contacts, std::span(joints).first(header.joint_limit), active_joints, header.gravity},
+      parallel);
 }
 
 void World::Impl::run_substeps() {
@@ -332,6 +334,7 @@ void World::Impl::run_substeps() {
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
   solver.store(manifolds, new_contacts, approach_speeds, parallel);
+  solver.store_joints(active_joints, joints);
 }
 
 // Joints of awake bodies may have changed.

@@ -67,7 +67,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       joint_hashes(definition.joint_capacity),
       changed_sleep(definition.body_capacity),
       islands(definition.body_capacity),
-      solver(time_step, definition.body_capacity, definition.contact_capacity) {
+      solver(time_step, definition.body_capacity, definition.contact_capacity,
+             definition.joint_capacity) {
   header.gravity = definition.gravity;
   events.reserve(std::size_t{2} * (definition.contact_capacity + definition.body_capacity));
   to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);

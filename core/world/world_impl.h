@@ -96,6 +96,7 @@ struct World::Impl {
     return {body, bodies[body].generation};
   }
   void destroy_joint(std::uint32_t joint);
+  void break_joints();
   void destroy_joints_of(std::uint32_t body);
   void link_joint(std::uint32_t index);
   void unlink_joint(std::uint32_t index);

@@ -48,8 +48,9 @@ enum class AxisMode : std::uint8_t {
 ///
 /// The drive is on when `hertz` or `max_effort` is above 0. With `hertz` = 0 it is a motor that
 /// holds `speed` with at most `max_effort`; speed 0 is friction. With `hertz` > 0 it is a spring of
-/// that frequency and damping towards `target`, damped against `speed`, and `max_effort` = 0 means
-/// as strong as need be. Frequencies above a quarter of the substep rate act as that.
+/// the frequency and damping that the two bodies alone would have, towards `target`, damped against
+/// `speed`, and `max_effort` = 0 means as strong as need be. Frequencies above a quarter of the
+/// substep rate act as that.
 template <class Value, class Speed, class Effort>
 struct JointAxis {
   AxisMode mode = AxisMode::free;

@@ -1,0 +1,161 @@
+// The bodies of joints: how heavy they are to turn, and where they go.
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+
+#include "core/dynamics/joint_numbers.h"
+#include "core/dynamics/joint_solver.h"
+#include "core/dynamics/motion.h"
+#include "core/math/product_sum.h"
+#include "core/math/roots.h"
+#include "core/math/trig.h"
+
+namespace lockstone {
+namespace {
+
+// Links are taken to be at most so heavy to turn, m·s².
+constexpr std::int64_t k_most_inertia = k_one << 8;
+
+// The moments of a body, none of them below `least`.
+BodyRecord with_inertia(const BodyRecord& record, std::int64_t least) {
+  BodyRecord heavier = record;
+  const Unit bound = Unit::from_raw(static_cast<std::int32_t>(std::min(least, k_one)));
+  for (int i = 0; i < 3; ++i)
+    heavier.inertia[i] = max(record.inertia[i], bound);
+  return heavier;
+}
+
+// |x| + |y| + |z|, Q20
+std::int64_t sum_of(const Vec3<Length>& v) {
+  const auto size = [](Length x) { return std::abs(std::int64_t{x.raw}); };
+  return size(v.x) + size(v.y) + size(v.z);
+}
+
+}  // namespace
+
+// A link that is pulled at both ends by T swings at ω² = ΣT·r / I, which the step does not resolve
+// where h·ω is large: there links are taken to be heavier to turn. A diagonal form of the geometric
+// stiffness: S. Andrews, M. Teichmann, J. Kövecses, "Geometric Stiffness for Real-time Constrained
+// Multibody Dynamics", 2017.
+void JointSolver::set_inertias(const JointRun& run, bool all) {
+  pulls_.assign(bodies_.size(), 0);
+  for (const Joint& joint : joints_) {
+    const auto total = [&](std::size_t i) { return joint.locks[i] + joint.relaxed[i]; };
+    const auto pull =
+        static_cast<std::int64_t>(norm(total(0) >> 20, total(1) >> 20, total(2) >> 20));  // Q30
+    const auto add_pull = [&](std::uint32_t index, const Share& share, const Vec3<Length>& anchor) {
+      if (share.mantissa == 0) return;
+      const int scale = bodies_[index].record->scale_exponent;
+      const std::int64_t jump = product_rounded(pull, share.mantissa, share.shift);
+      const std::int64_t lever = sum_of(anchor);  // Q20
+      std::int64_t& sum = pulls_[index];
+      sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * scale), k_row_bound);
+    };
+    add_pull(joint.a, joint.share_a, joint.record->anchor_a);
+    add_pull(joint.b, joint.share_b, joint.record->anchor_b);
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    if (!body.pushed || !body.record->rotates() || (!all && !body.centred)) continue;
+    // Some of it grows with the number of links that swing against each other.
+    const std::int64_t least = 2 * raw::round_divide(pulls_[i], step_.substep_rate());
+    const auto& own = body.record->inertia;
+    const std::int64_t smallest = min(own.x, min(own.y, own.z)).raw;
+    const std::uint64_t rounded = std::bit_ceil(static_cast<std::uint64_t>(least));
+    set_inertia(run, body,
+                least <= smallest
+                    ? 0
+                    : std::min<std::int64_t>(static_cast<std::int64_t>(rounded), k_most_inertia));
+  }
+}
+
+InverseInertia JointSolver::inverse_inertia_of(const Body& body, const Mat3& rotation) {
+  const std::int64_t least = body.least_inertia;
+  if (least == 0) return inverse_inertia(*body.record, rotation);
+  if (least <= k_one) return inverse_inertia(with_inertia(*body.record, least), rotation);
+  InverseInertia m;
+  m.xx = m.yy = m.zz = static_cast<std::int32_t>((k_one << 30) / least);
+  return m;
+}
+
+// Keeps the angular velocity.
+void JointSolver::set_inertia(const JointRun& run, Body& body, std::int64_t least) {
+  if (least == body.least_inertia) return;
+  lanes::RowBody& row = run.rows[body.solver];
+  const lanes::RowBody old = row;
+  const auto velocity = [](std::int64_t x) { return Velocity::from_raw(raw::round_shift(x, 18)); };
+  const Vec3<Velocity> w = surface_velocity(
+      body.inverse_inertia, {velocity(row.spin[0]), velocity(row.spin[1]), velocity(row.spin[2])});
+  body.least_inertia = least;
+  Vec3<Velocity> spin = spin_of(with_inertia(*body.record, least), body.pose.rotation, w);
+  if (least > k_one) {
+    for (int i = 0; i < 3; ++i)
+      spin[i].raw = product_rounded(w[i].raw, least, 30);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    row.spin[axis] = bounded(spin[i].raw, k_row_bound >> 18) * (1 << 18);
+    if (run.before.empty()) continue;
+    std::int64_t& before = run.before[body.solver].spin[axis];
+    before = bounded(before + row.spin[axis] - old.spin[axis], k_row_bound);
+  }
+  body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
+  run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
+}
+
+void JointSolver::end(const JointRun& run) {
+  for (Body& body : bodies_) {
+    if (body.pushed) set_inertia(run, body, 0);
+  }
+}
+
+// Where the body will be after the substep, with the velocity that it has now. Without contacts
+// gravity acts half before and half after.
+JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
+  body.inertia_ahead = body.inverse_inertia;
+  JointPose after = body.pose;
+  if (body.solver == 0) return after;
+  const lanes::RowBody& row = run.rows[body.solver];
+  const SolverBody& solver = run.bodies[body.solver];
+  const std::int64_t rate = step_.substep_rate();
+  const auto read = [](std::int64_t x) { return bounded(x, std::int64_t{1000} << 50); };
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    std::int64_t velocity = read(row.velocity[axis]);
+    if (body.centred) velocity -= solver.gravity_step[axis] * (1 << 17);
+    after.position[i].raw += raw::round_shift(raw::round_divide(velocity, rate), 18);
+  }
+  if (row.spin == std::array<std::int64_t, 3>{} || !body.record->rotates()) return after;
+  const std::array<std::int64_t, 3> spin = {read(row.spin[0]), read(row.spin[1]),
+                                            read(row.spin[2])};
+  const int scale = body.record->scale_exponent;
+  const auto turned = [&](const InverseInertia& inertia, std::int64_t divisor) {
+    const std::array<std::int64_t, 3> w = surface_velocity(inertia, spin);
+    const auto angle = [&](std::int64_t x) {
+      return RotationComponent::from_raw(raw::scale_binary(raw::round_divide(x, divisor), -scale));
+    };
+    return integrate(body.pose.orientation, {angle(w[0]), angle(w[1]), angle(w[2])});
+  };
+  if (body.pushed && !body.record->has_spherical_inertia()) {
+    const Quat half = turned(body.inverse_inertia, 2 * rate);
+    body.inertia_ahead = inverse_inertia_of(body, to_matrix(half));
+    after.orientation = turned(body.inertia_ahead, rate);
+  } else {
+    after.orientation = turned(body.inverse_inertia, rate);
+  }
+  after.rotation = to_matrix(after.orientation);
+  return after;
+}
+
+void JointSolver::move(const JointRun& run) {
+  for (Body& body : bodies_) {
+    if (body.solver == 0) continue;
+    body.pose = pose_after(run, body);
+    if (!body.record->is_dynamic() || body.record->has_spherical_inertia()) continue;
+    body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
+    run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
+  }
+}
+
+}  // namespace lockstone

@@ -1,0 +1,244 @@
+#include "core/dynamics/joint_factor.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "core/math/product_sum.h"
+
+namespace lockstone {
+namespace {
+
+// Room for joints of six rows with four neighbours each, or of three with sixteen.
+constexpr std::size_t k_values_per_joint = 160;
+constexpr std::size_t k_blocks_per_joint = 8;
+
+// A group may have this many blocks a joint: trees and small loops do.
+constexpr std::size_t k_most_blocks_per_joint = 6;
+
+constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_matrix_bits - 24);
+
+struct Product {
+  std::uint32_t rows;
+  std::uint32_t columns;
+  std::uint32_t terms;
+  bool is_lower;  // only what is not above the diagonal
+};
+
+// to ← to − entries·factorsᵀ
+void subtract_product(std::int64_t* to, const Product& size, const JointFactor::Entries& entries,
+                      const std::int64_t* factors) {
+  for (std::uint32_t r = 0; r < size.rows; ++r) {
+    const std::uint32_t end = size.is_lower ? r + 1 : size.columns;
+    for (std::uint32_t s = 0; s < end; ++s) {
+      ProductSum sum;
+      for (std::uint32_t c = 0; c < size.terms; ++c)
+        sum.add(entries[r * size.terms + c], factors[s * size.terms + c]);
+      to[r * size.columns + s] -= sum.rounded(k_factor_bits);
+    }
+  }
+}
+
+}  // namespace
+
+JointFactor::JointFactor(std::size_t joint_capacity)
+    : value_capacity_(joint_capacity * k_values_per_joint),
+      block_capacity_(joint_capacity * k_blocks_per_joint) {
+  columns_.reserve(joint_capacity);
+  blocks_.reserve(block_capacity_);
+  values_.reserve(value_capacity_);
+  rhs_.reserve(joint_capacity * k_joint_axes);
+  reciprocals_.reserve(joint_capacity * k_joint_axes);
+  marks_.reserve(joint_capacity);
+  found_.reserve(joint_capacity);
+  head_.reserve(joint_capacity);
+  next_.reserve(joint_capacity);
+}
+
+void JointFactor::clear() {
+  columns_.clear();
+  blocks_.clear();
+  values_.clear();
+  rhs_.clear();
+  reciprocals_.clear();
+}
+
+// The column of joint k from `found_`.
+bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows) {
+  std::sort(found_.begin(), found_.end());
+  Column column;
+  column.rows = rows;
+  column.first_block = static_cast<std::uint32_t>(blocks_.size());
+  column.block_count = static_cast<std::uint32_t>(found_.size());
+  column.diagonal = static_cast<std::uint32_t>(values_.size());
+  column.first_row = static_cast<std::uint32_t>(rhs_.size());
+  std::size_t values = values_.size() + std::size_t{rows} * rows;
+  const std::size_t group_blocks = blocks_.size() - first_block_;
+  if (group_blocks + found_.size() > k_most_blocks_per_joint * count + 64 ||
+      blocks_.size() + found_.size() > block_capacity_) {
+    return false;
+  }
+  for (const std::uint32_t row : found_) {
+    blocks_.push_back({row, static_cast<std::uint32_t>(values)});
+    values += std::size_t{k_joint_axes} * rows;
+  }
+  if (values > value_capacity_) return false;
+  values_.resize(values);
+  rhs_.resize(rhs_.size() + rows);
+  reciprocals_.resize(rhs_.size());
+  if (!found_.empty()) {
+    next_[k] = head_[found_.front()];
+    head_[found_.front()] = k + 1;
+  }
+  columns_.push_back(column);
+  return true;
+}
+
+std::int64_t* JointFactor::find_block(const Column& column, std::uint32_t row) {
+  const auto all = blocks(column);
+  const auto found = std::ranges::lower_bound(all, row, {}, &Block::row);
+  return values_.data() + found->values;
+}
+
+// A pivot d in Q56 has the reciprocal m·2^-shift with m of 62 bits.
+std::uint32_t JointFactor::factor_diagonal(Column& column) {
+  std::int64_t* d = values_.data() + column.diagonal;
+  const std::uint32_t n = column.count;
+  std::uint32_t left_out = 0;
+  for (std::uint32_t c = 0; c < n; ++c) {
+    const std::int64_t pivot = d[c * n + c];
+    Reciprocal& inverse = reciprocals_[column.first_row + c];
+    if (pivot < k_least_pivot) {
+      inverse = {};
+      ++left_out;
+    } else {
+      const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(pivot)));
+      const int power = 60 + width;
+      const UInt128 one = UInt128{0, 1} << power;
+      inverse = {static_cast<std::int64_t>(round_divide(one, static_cast<std::uint64_t>(pivot))),
+                 power - k_matrix_bits};
+    }
+    std::array<std::int64_t, k_joint_axes> above{};
+    for (std::uint32_t r = c + 1; r < n; ++r) {
+      above[r] = d[r * n + c];
+      d[r * n + c] = inverse.mantissa == 0
+                         ? 0
+                         : product_rounded(above[r], inverse.mantissa,
+                                           inverse.shift + k_matrix_bits - k_factor_bits);
+    }
+    for (std::uint32_t r = c + 1; r < n; ++r) {
+      for (std::uint32_t s = c + 1; s <= r; ++s)
+        d[r * n + s] -= product_rounded(d[r * n + c], above[s], k_factor_bits);
+    }
+  }
+  return left_out;
+}
+
+// The blocks below: B ← B·L⁻ᵀ·D⁻¹.
+void JointFactor::eliminate(std::uint32_t first, const Column& column) {
+  const std::int64_t* d = values_.data() + column.diagonal;
+  const std::uint32_t n = column.count;
+  for (const Block& block : blocks(column)) {
+    std::int64_t* b = values_.data() + block.values;
+    const std::uint32_t rows = columns_[first + block.row].count;
+    for (std::uint32_t r = 0; r < rows; ++r) {
+      std::int64_t* line = b + r * n;
+      for (std::uint32_t c = 0; c < n; ++c) {
+        ProductSum sum;
+        for (std::uint32_t s = 0; s < c; ++s)
+          sum.add(line[s], d[c * n + s]);
+        if (c > 0) line[c] -= sum.rounded(k_factor_bits);
+      }
+    }
+  }
+}
+
+// In place: from entries to factors, b ← b·D⁻¹. Keeps the entries.
+void JointFactor::divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows,
+                              Entries& entries) const {
+  const std::uint32_t n = column.count;
+  for (std::uint32_t at = 0; at < rows * n; ++at) {
+    const Reciprocal& inverse = reciprocals_[column.first_row + at % n];
+    entries[at] = b[at];
+    b[at] = inverse.mantissa == 0 ? 0
+                                  : product_rounded(b[at], inverse.mantissa,
+                                                    inverse.shift + k_matrix_bits - k_factor_bits);
+  }
+}
+
+// A_ij ← A_ij − B_i·D⁻¹·B_jᵀ for all pairs of blocks below, then B ← B·D⁻¹.
+void JointFactor::update(std::uint32_t first, const Column& column) {
+  const std::uint32_t n = column.count;
+  const std::span<const Block> below = blocks(column);
+  Entries entries{};
+  for (std::size_t j = 0; j < below.size(); ++j) {
+    const Column& target = columns_[first + below[j].row];
+    divide_rows(column, values_.data() + below[j].values, target.count, entries);
+    for (std::size_t i = 0; i <= j; ++i) {
+      // Block (j, i) stands in the column of i; the blocks up to j hold factors already.
+      const Column& column_i = columns_[first + below[i].row];
+      std::int64_t* to =
+          i == j ? values_.data() + target.diagonal : find_block(column_i, below[j].row);
+      subtract_product(to, {target.count, column_i.count, n, i == j}, entries,
+                       values_.data() + below[i].values);
+    }
+  }
+}
+
+std::uint32_t JointFactor::factor(std::uint32_t first, std::uint32_t count) {
+  std::uint32_t left_out = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    Column& column = columns_[first + k];
+    left_out += factor_diagonal(column);
+    eliminate(first, column);
+    update(first, column);
+  }
+  return left_out;
+}
+
+void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Column& column = columns_[first + k];
+    const std::uint32_t n = column.count;
+    std::int64_t* y = rhs_.data() + column.first_row;
+    const std::int64_t* d = values_.data() + column.diagonal;
+    const auto reduce = [&](std::int64_t& x, const std::int64_t* line, std::uint32_t terms) {
+      ProductSum sum;
+      for (std::uint32_t c = 0; c < terms; ++c)
+        sum.add(line[c], y[c]);
+      x = std::clamp(x - sum.rounded(k_factor_bits), -k_product_bound, k_product_bound);
+    };
+    for (std::uint32_t r = 1; r < n; ++r)
+      reduce(y[r], d + r * n, r);
+    for (const Block& block : blocks(column)) {
+      const Column& target = columns_[first + block.row];
+      for (std::uint32_t r = 0; r < target.count; ++r)
+        reduce(rhs_[target.first_row + r], values_.data() + block.values + r * n, n);
+    }
+  }
+  for (std::uint32_t k = count; k-- > 0;) {
+    const Column& column = columns_[first + k];
+    const std::uint32_t n = column.count;
+    std::int64_t* y = rhs_.data() + column.first_row;
+    const std::int64_t* d = values_.data() + column.diagonal;
+    for (std::uint32_t c = n; c-- > 0;) {
+      const Reciprocal& inverse = reciprocals_[column.first_row + c];
+      if (inverse.mantissa == 0) {
+        y[c] = 0;
+        continue;
+      }
+      ProductSum sum;
+      for (std::uint32_t r = c + 1; r < n; ++r)
+        sum.add(d[r * n + c], y[r]);
+      for (const Block& block : blocks(column)) {
+        const Column& target = columns_[first + block.row];
+        for (std::uint32_t r = 0; r < target.count; ++r)
+          sum.add(values_[block.values + r * n + c], rhs_[target.first_row + r]);
+      }
+      const std::int64_t scaled = product_rounded(y[c], inverse.mantissa, inverse.shift);
+      y[c] = std::clamp(scaled - sum.rounded(k_factor_bits), -k_product_bound, k_product_bound);
+    }
+  }
+}
+
+}  // namespace lockstone

@@ -1,0 +1,29 @@
+// Ranges and units that the parts of the joint solver share.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/math/product_sum.h"
+
+namespace lockstone {
+
+inline constexpr std::int64_t k_one = std::int64_t{1} << 30;
+
+/// Velocities of a substep stay within 2048 m/s, Q50.
+inline constexpr std::int64_t k_row_bound = std::int64_t{1} << 61;
+
+/// Openings are closed no faster than this, m/s, Q50; limits are pushed back at half of it.
+inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
+
+[[nodiscard]] constexpr std::int64_t bounded(std::int64_t x, std::int64_t bound) {
+  return std::clamp(x, -bound, bound);
+}
+
+/// What closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50.
+[[nodiscard]] constexpr std::int64_t closing_speed(std::int64_t error, std::int64_t rate,
+                                                   int shift = 0) {
+  return product_rounded(error, rate << 19, 1 + shift);
+}
+
+}  // namespace lockstone

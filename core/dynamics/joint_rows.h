@@ -1,0 +1,70 @@
+// The rows of a joint: what it reads of two bodies, and how impulses along it push them.
+//
+// Units: velocities are m/s, Q50, as in `lanes::RowBody`; Jacobians have 30 fraction bits. A row of
+// an angle is an angle times 2^k m, k = `angular_exponent`. An impulse is the pair's velocity jump
+// λ·(1/mA + 1/mB).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/dynamics/inertia.h"
+#include "core/dynamics/joint_record.h"
+#include "core/dynamics/time_step.h"
+
+namespace lockstone {
+
+using RawVec3 = std::array<std::int64_t, 3>;
+
+/// Where a body is within a tick.
+struct JointPose {
+  Vec3<Position> position{};
+  Quat orientation{};
+  Mat3 rotation{};
+};
+
+enum class RowKind : std::uint8_t { lock, limit, drive };
+
+struct JointRow {
+  RawVec3 linear_a{}, linear_b{};      // Q30, signs included
+  RawVec3 angular_a{}, angular_b{};    // of surface velocity
+  RawVec3 response_a{}, response_b{};  // M·angular: of spin
+  std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit what is left
+  RowKind kind = RowKind::lock;
+  std::uint8_t axis = 0;
+  bool flipped = false;  // the upper limit: impulses count against the axis
+
+  // A drive's.
+  std::int64_t speed = 0;  // Q50
+};
+
+/// Each axis has at most a lock or limit, and a drive.
+inline constexpr std::size_t k_max_joint_rows = 2 * k_joint_axes;
+
+struct JointRows {
+  std::array<JointRow, k_max_joint_rows> rows{};
+  std::size_t locks = 0;  // these come first
+  std::size_t count = 0;
+};
+
+/// What places a joint's rows.
+struct JointPlace {
+  const JointRecord& joint;
+  const JointPose& a;
+  const JointPose& b;
+  int scale_a;  // exponents of the bodies
+  int scale_b;
+  int exponent;  // of angular rows
+};
+
+/// Jacobians and errors; responses are left alone.
+void fill_rows(const JointPlace& place, JointRows& out);
+
+/// Whether the locks of the first three axes are along the axes of the world, not of frame a.
+[[nodiscard]] bool has_world_axes(const JointRecord& joint);
+
+/// M·j for a Jacobian.
+[[nodiscard]] RawVec3 response_of(const InverseInertia& inertia, const RawVec3& angular);
+
+}  // namespace lockstone

@@ -1,0 +1,196 @@
+// The joints of one tick, inside the substeps of the contact solver.
+//
+// Joints that hang together by pushed bodies form a group. In a group that is a tree, or nearly
+// one, all locks are solved at once (`JointFactor`); joints of other groups are solved one after
+// another, by index. The scheme is RATTLE: impulses at the beginning of the substep such that locks
+// hold at its end, and at the end such that they do not open (H. C. Andersen, "Rattle: a velocity
+// version of the Shake algorithm", 1983). What this does for accuracy is told in docs/solver.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/body_record.h"
+#include "core/dynamics/joint_factor.h"
+#include "core/dynamics/joint_record.h"
+#include "core/dynamics/joint_rows.h"
+#include "core/dynamics/solver_body.h"
+#include "core/dynamics/time_step.h"
+#include "core/math/wide/contact_rows.h"
+#include "core/math/wide/manifold_block.h"
+
+namespace lockstone {
+
+/// What a substep works on, by solver body; 0 is immovable.
+struct JointRun {
+  std::span<SolverBody> bodies;
+  std::span<lanes::RowBody> rows;
+  std::span<lanes::RowBody> before;  // receives joint impulses too: they are not replayed
+  std::span<lanes::RowTravel> travel;
+};
+
+class JointSolver {
+ public:
+  /// No function but this allocates.
+  JointSolver(const TimeStep& step, std::size_t body_capacity, std::size_t joint_capacity);
+
+  void clear();
+
+  /// A joint, in the order of their indices. What it refers to must outlive the tick.
+  struct Side {
+    std::uint32_t body = 0;    // index in the world
+    std::uint32_t solver = 0;  // in the solver, 0 for what does not move
+    const BodyRecord& record;
+    const Mat3& rotation;
+  };
+  void add(const JointRecord& joint, const Side& a, const Side& b);
+
+  [[nodiscard]] bool empty() const { return joints_.empty(); }
+
+  /// Once all are added, before contacts are prepared: bodies as heavy to turn as the step needs.
+  void begin(const JointRun& run, std::uint32_t first_without_contacts);
+
+  /// After the last substep: spins as they are kept.
+  void end(const JointRun& run);
+
+  /// Then: groups, rows, factors.
+  void prepare();
+
+  /// At the beginning of a substep, after forces: the impulses of the last one again.
+  void warm_start(const JointRun& run);
+
+  /// Before positions move: drives, limits, and locks such that they hold afterwards.
+  void solve(const JointRun& run);
+
+  /// Moves the jointed bodies, as the contact solver moved them in `travel`.
+  void move(const JointRun& run);
+
+  /// After positions moved: locks and limits such that they do not open.
+  void relax(const JointRun& run);
+
+  /// Impulses back to a record, in the order of adding.
+  void store(std::size_t added, JointRecord& joint) const;
+
+  /// Where a body of the world is now; null when no joint holds it.
+  [[nodiscard]] const JointPose* find(std::uint32_t body) const;
+
+  /// Pivots left out and values clamped.
+  [[nodiscard]] std::uint32_t clamps() const { return clamps_; }
+
+ private:
+  struct Body {
+    JointPose pose;
+    const BodyRecord* record = nullptr;
+    std::int64_t least_inertia = 0;  // Q30: moments are taken to be at least this
+    InverseInertia inverse_inertia{};
+    InverseInertia inertia_ahead{};  // half a substep on, as far as is known
+    std::uint32_t solver = 0;
+    lanes::RowBody saved_row{}, saved_before{};
+    bool pushed = false;
+    bool centred = false;           // half kick, drift, half kick
+    std::uint32_t first_joint = 0;  // in by_body_
+    std::uint32_t joint_count = 0;
+  };
+  // A part of an inverse mass as mantissa · 2^-shift.
+  struct Share {
+    std::int64_t mantissa = 0;
+    int shift = 1;
+  };
+  // What a row needs beyond Jacobians.
+  struct Solved {
+    std::int64_t inverse = 0;  // of its response to itself: mantissa · 2^-shift
+    int shift = 1;
+    int exponent = 0;  // power of two that scales it in a factor
+  };
+  struct Drive {
+    std::int32_t bias_rate = 0;  // 1/s, Q20
+    std::int32_t keep = 0;       // Q30: 1 − impulse scale
+    bool is_spring = false;
+    std::int64_t bound = 0;  // Q50; 0: none
+  };
+  struct Joint {
+    const JointRecord* record = nullptr;
+    JointRows rows;
+    std::array<Solved, k_max_joint_rows> solved{};
+    std::array<Drive, k_joint_axes> drives{};
+    std::array<std::int64_t, k_joint_axes> locks{};    // impulses by axis, Q50; limits too
+    std::array<std::int64_t, k_joint_axes> relaxed{};  // of locks, after positions moved
+    std::array<std::int64_t, k_joint_axes> saved{};    // locks
+    std::array<std::int64_t, k_joint_axes> driven{};
+    std::uint32_t a = 0, b = 0;  // bodies of this solver
+    Share share_a, share_b;
+    BlockFloat inverse_mass{};  // of the pair
+    int exponent = 0;
+    std::uint32_t order = 0;  // within its group
+  };
+  struct Group {
+    std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
+    std::uint32_t count = 0;
+    std::uint32_t first_body = 0;
+    std::uint32_t body_count = 0;
+    std::uint32_t column = 0;
+    bool exact = false;
+    bool is_plain = false;  // neither limits nor drives
+    int exponent = 0;       // least of its rows
+  };
+
+  std::uint32_t take_up(const Side& side);
+  void link_bodies();
+  void find_group(std::uint32_t root);
+  void plan_group(Group group);
+  [[nodiscard]] static std::uint32_t most_locks(const JointRecord& joint);
+  void set_drives(Joint& joint) const;
+  void load_impulses(Joint& joint) const;
+  [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
+                                    const JointPose& b) const;
+  void set_inertias(const JointRun& run, bool all);
+  void set_inertia(const JointRun& run, Body& body, std::int64_t least);
+  [[nodiscard]] static InverseInertia inverse_inertia_of(const Body& body, const Mat3& rotation);
+  void linearize();
+  void respond(Joint& joint, std::size_t rows, bool ahead) const;
+  void factor_group(Group& group);
+  [[nodiscard]] std::int64_t entry(const Joint& p, std::size_t r, const Joint& q,
+                                   std::size_t s) const;
+  [[nodiscard]] std::int64_t speed(const JointRun& run, const Joint& joint,
+                                   const JointRow& row) const;
+  void push(const JointRun& run, const Joint& joint, const JointRow& row, std::int64_t impulse);
+  [[nodiscard]] JointPose pose_after(const JointRun& run, Body& body) const;
+  void solve_drives(const JointRun& run, Joint& joint);
+  void solve_limits(const JointRun& run, Joint& joint, bool positions);
+  void solve_locks(const JointRun& run, Group& group, bool positions);
+  void solve_positions(const JointRun& run, Group& group);
+  [[nodiscard]] bool is_closed(const Group& group) const;
+  [[nodiscard]] bool is_stiff(const Group& group) const;
+  void save(const JointRun& run, const Group& group);
+  void restore(const JointRun& run, const Group& group);
+  void look_ahead(const JointRun& run, Group& group, bool turn);
+  void set_position_errors(const Group& group);
+  void set_speed_errors(const JointRun& run, const Group& group, bool positions);
+  [[nodiscard]] std::span<const std::uint32_t> joints_of(const Group& group) const {
+    return std::span(order_).subspan(group.first, group.count);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> joints_at(const Body& body) const {
+    return std::span(by_body_).subspan(body.first_joint, body.joint_count);
+  }
+
+  TimeStep step_;
+  std::vector<Body> bodies_;
+  std::vector<std::uint32_t> place_;   // by body of the world: in bodies_, + 1
+  std::vector<std::uint32_t> placed_;  // bodies of the world that have a place
+  std::vector<Joint> joints_;
+  std::vector<std::uint32_t> by_body_;       // joints of each pushed body
+  std::vector<std::uint32_t> order_;         // joints, group by group, as they are eliminated
+  std::vector<std::uint32_t> group_bodies_;  // bodies, group by group
+  std::vector<std::uint8_t> seen_;           // by joint
+  std::vector<std::uint8_t> visited_;        // by body
+  std::vector<Group> groups_;
+  std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale
+  std::vector<JointPose> after_;     // by body: where it will be after the substep
+  JointFactor factor_;
+  JointRows scratch_;
+  std::uint32_t clamps_ = 0;
+};
+
+}  // namespace lockstone

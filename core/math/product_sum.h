@@ -1,0 +1,62 @@
+// Sums of 64-bit products, exact until they are rounded once.
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/int128.h"
+
+namespace lockstone {
+
+/// What a sum is clamped to when it is rounded.
+inline constexpr std::int64_t k_product_bound = std::int64_t{1} << 62;
+
+/// The caller guarantees that every partial sum is below 2^126.
+class ProductSum {
+ public:
+  constexpr void add(std::int64_t a, std::int64_t b) { sum_ = sum_ + product(a, b); }
+  constexpr void subtract(std::int64_t a, std::int64_t b) { sum_ = sum_ - product(a, b); }
+
+  /// sum · 2^-shift to nearest, ties away from zero, within ±k_product_bound. 1 ≤ shift ≤ 125.
+  [[nodiscard]] constexpr std::int64_t rounded(int shift) const;
+
+ private:
+#if defined(__SIZEOF_INT128__)
+  __extension__ typedef __int128 Word;
+  [[nodiscard]] static constexpr Word product(std::int64_t a, std::int64_t b) {
+    return Word{a} * b;
+  }
+#else
+  using Word = Int128;
+  [[nodiscard]] static constexpr Word product(std::int64_t a, std::int64_t b) {
+    return multiply_wide(a, b);
+  }
+#endif
+  Word sum_{};
+};
+
+#if defined(__SIZEOF_INT128__)
+constexpr std::int64_t ProductSum::rounded(int shift) const {
+  LKS_ASSERT(shift >= 1 && shift <= 125);
+  const Word half = Word{1} << (shift - 1);
+  const Word result = (sum_ + half + (sum_ >> 127)) >> shift;
+  if (result > k_product_bound) return k_product_bound;
+  if (result < -k_product_bound) return -k_product_bound;
+  return static_cast<std::int64_t>(result);
+}
+#else
+constexpr std::int64_t ProductSum::rounded(int shift) const {
+  LKS_ASSERT(shift >= 1 && shift <= 125);
+  const std::int64_t result = saturate_to_int64(round_shift(sum_, shift));
+  if (result > k_product_bound) return k_product_bound;
+  return result < -k_product_bound ? -k_product_bound : result;
+}
+#endif
+
+/// a · b · 2^-shift, as above.
+[[nodiscard]] constexpr std::int64_t product_rounded(std::int64_t a, std::int64_t b, int shift) {
+  ProductSum sum;
+  sum.add(a, b);
+  return sum.rounded(shift);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,285 @@
+// What joints do: hold, limit, drive, break; and that nothing but the state decides it.
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/world/world_fixture.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+
+double number(std::int64_t raw, int bits) {
+  return std::ldexp(static_cast<double>(raw), -bits);
+}
+
+BodyHandle add_fixed(World& world) {
+  BodyDef def;
+  def.motion = MotionType::static_body;
+  def.shape = Shape::sphere(0.05_m);
+  return test::add(world, def);
+}
+
+JointHandle join(World& world, const JointDef& def) {
+  return world.create_joint(def).value();
+}
+
+double gap(const JointView& joint) {
+  return std::hypot(number(joint.offset.x.raw, 20), number(joint.offset.y.raw, 20),
+                    number(joint.offset.z.raw, 20));
+}
+
+// A row of links that begins at the origin and points along x.
+std::vector<BodyHandle> add_chain(World& world, int links, std::int64_t end_mass) {
+  std::vector<BodyHandle> bodies{add_fixed(world)};
+  for (int i = 0; i < links; ++i) {
+    BodyDef def = test::dynamic_body(Shape::sphere(0.25_m), Position::from_ratio(2 * i + 1, 2),
+                                     Position{}, Position{});
+    // 1 kg: ρ = 1 / (4/3 π r³)
+    def.material.density = Density::from_ratio(15279 * (i + 1 < links ? 1 : end_mass), 1000);
+    JointDef joint = JointDef::of(JointKind::ball, bodies.back(), test::add(world, def));
+    if (i > 0) joint.frame_a.position.x = 0.5_m;
+    joint.frame_b.position.x = -0.5_m;
+    bodies.push_back(joint.body_b);
+    join(world, joint);
+  }
+  return bodies;
+}
+
+double worst_gap(const World& world) {
+  double worst = 0;
+  for (std::uint32_t i = 0; i < world.joint_limit(); ++i)
+    worst = std::max(worst, gap(world.joint(world.joint_at(i))));
+  return worst;
+}
+
+TEST(Joints, PendulumKeepsItsEnergy) {
+  World world = test::make_world();
+  JointDef joint = JointDef::of(JointKind::ball, add_fixed(world), {});
+  joint.body_b = test::add(world, test::dynamic_body(Shape::sphere(0.1_m), 1_m, {}, {}));
+  joint.frame_b.position.x = -1_m;
+  join(world, joint);
+  for (int tick = 0; tick < 600; ++tick) {
+    (void)world.step();
+    const BodyView bob = world.body(joint.body_b);
+    const double v = std::hypot(number(bob.velocity.x.raw, 32), number(bob.velocity.y.raw, 32));
+    const double w = number(bob.angular_velocity.z.raw, 32);
+    const double energy =
+        0.5 * (v * v + 0.004 * w * w) + 9.81 * number(bob.centre_of_mass.y.raw, 32);
+    ASSERT_NEAR(energy, 0, 1e-4 * 9.81) << "tick " << tick;
+  }
+}
+
+TEST(Joints, ChainWithAHeavyEndStaysTogether) {
+  for (const std::int64_t mass : {1, 100}) {
+    World world = test::make_world();
+    add_chain(world, 10, mass);
+    for (int tick = 0; tick < 300; ++tick) {
+      (void)world.step();
+      ASSERT_LT(worst_gap(world), 5e-5) << mass << " kg, tick " << tick;
+    }
+  }
+}
+
+TEST(Joints, NetStaysTogetherWell) {
+  World world = test::make_world();
+  std::vector<BodyHandle> bodies;
+  constexpr int k_side = 8;
+  for (int i = 0; i < k_side * k_side; ++i) {
+    BodyDef def = test::dynamic_body(Shape::sphere(0.4_m), Position::from_integer(i % k_side),
+                                     Position::from_integer(-i / k_side), Position{});
+    if (i == 0 || i == k_side - 1) def.motion = MotionType::static_body;
+    bodies.push_back(test::add(world, def));
+    const auto hold = [&](int other, Length x, Length y) {
+      JointDef joint =
+          JointDef::of(JointKind::ball, bodies[static_cast<std::size_t>(other)], bodies.back());
+      joint.frame_a.position = {x, y, {}};
+      joint.frame_b.position = {-x, -y, {}};
+      join(world, joint);
+    };
+    if (i % k_side > 0) hold(i - 1, 0.5_m, {});
+    if (i >= k_side) hold(i - k_side, {}, -0.5_m);
+  }
+  test::step(world, 300);
+  EXPECT_LT(worst_gap(world), 0.1);
+}
+
+// A bar of 40 kg that turns about z at its end.
+struct Lever {
+  World world = test::make_world();
+  JointDef def = hinge();
+  JointHandle joint = join(world, def);
+
+  JointDef hinge() {
+    JointDef hinge = JointDef::of(JointKind::hinge, add_fixed(world), {});
+    hinge.body_b =
+        test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.1_m, 0.1_m), 0.5_m, {}, {}));
+    hinge.frame_a.orientation = from_axis_angle({{}, 1_r, {}}, -1.570796327_rad);
+    hinge.frame_b.orientation = hinge.frame_a.orientation;
+    hinge.frame_b.position.x = -0.5_m;
+    return hinge;
+  }
+  double angle() { return number(world.joint(joint).angle.x.raw, 27); }
+  void set(const AngularAxis& axis) {
+    ASSERT_EQ(world.apply(SetAngularAxis{joint, 0, axis}), Status::ok);
+  }
+};
+
+TEST(Joints, HingeStopsAtItsLimits) {
+  Lever lever;
+  lever.set({.mode = AxisMode::limited, .lower = -0.5_rad, .upper = 0.5_rad});
+  test::step(lever.world, 240);
+  EXPECT_NEAR(lever.angle(), -0.5, 1e-3);
+  const JointView view = lever.world.joint(lever.joint);
+  EXPECT_NEAR(number(view.torque.x.raw, 20), 40 * 9.81 * 0.5 * std::cos(0.5), 20);
+  EXPECT_LT(gap(view), 1e-5);
+}
+
+TEST(Joints, MotorTurnsAtItsSpeedAndNoStrongerThanItMay) {
+  Lever lever;
+  lever.set({.speed = 2_rps, .max_effort = Torque::from_integer(1000)});
+  test::step(lever.world, 120);
+  EXPECT_NEAR(number(lever.world.body(lever.def.body_b).angular_velocity.z.raw, 32), 2, 0.1);
+  Lever weak;
+  weak.set({.speed = 2_rps, .max_effort = Torque::from_integer(50)});
+  for (int tick = 0; tick < 60; ++tick) {
+    (void)weak.world.step();
+    ASSERT_LE(std::abs(number(weak.world.joint(weak.joint).torque.x.raw, 20)), 50.001);
+  }
+}
+
+TEST(Joints, SpringSagsAsHookeSays) {
+  Lever lever;
+  lever.set({.target = 0.25_rad, .hertz = 2_r, .damping_ratio = 1_r});
+  test::step(lever.world, 300);
+  // k = I·(2πf)² with I of the bar alone, and at rest k·(target − angle) = m·g·l/2·cos(angle)
+  const double inertia = 40 * (1 + 0.04) / 12;
+  const double torque = inertia * std::pow(2 * M_PI * 2, 2) * (0.25 - lever.angle());
+  EXPECT_NEAR(torque / (40 * 9.81 * 0.5 * std::cos(lever.angle())), 1, 0.15);
+}
+
+TEST(Joints, WeldHoldsAsOne) {
+  World world = test::make_world();
+  const BodyHandle a =
+      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 3_m, {}));
+  const BodyHandle b = test::add(world, test::dynamic_body(Shape::sphere(0.5_m), 1_m, 3_m, {}));
+  JointDef weld = JointDef::of(JointKind::weld, a, b);
+  weld.frame_a.position.x = 0.5_m;
+  weld.frame_b.position.x = -0.5_m;
+  const JointHandle joint = join(world, weld);
+  test::add_ground(world);
+  for (int tick = 0; tick < 200; ++tick) {
+    (void)world.step();
+    const JointView view = world.joint(joint);
+    ASSERT_LT(gap(view), 2e-3);
+    for (int i = 0; i < 3; ++i)
+      ASSERT_NEAR(number(view.angle[i].raw, 27), 0, 2e-3);
+  }
+}
+
+TEST(Joints, RopeIsNeverLongerThanItsLimit) {
+  World world = test::make_world();
+  JointDef rope = JointDef::of(JointKind::distance, add_fixed(world), {});
+  rope.body_b = test::add(world, test::dynamic_body(Shape::sphere(0.2_m), 0.5_m, {}, {}));
+  rope.linear[0].mode = AxisMode::limited;
+  rope.linear[0].upper = 2_m;
+  const JointHandle joint = join(world, rope);
+  double longest = 0;
+  for (int tick = 0; tick < 300; ++tick) {
+    (void)world.step();
+    longest = std::max(longest, number(world.joint(joint).offset.x.raw, 20));
+  }
+  EXPECT_GT(longest, 1.99);
+  EXPECT_LT(longest, 2.01);
+}
+
+TEST(Joints, PulleyKeepsItsLength) {
+  World world = test::make_world();
+  const auto bob = [&](Position x, int density) {
+    BodyDef def = test::dynamic_body(Shape::sphere(0.25_m), x, {}, {});
+    def.material.density = Density::from_integer(density);
+    return test::add(world, def);
+  };
+  JointDef pulley = JointDef::of(JointKind::pulley, bob(-1_m, 1000), bob(1_m, 2000));
+  pulley.ground_a = {-1_m, 5_m, {}};
+  pulley.ground_b = {1_m, 5_m, {}};
+  join(world, pulley);
+  test::step(world, 60);
+  const Vec3<Position> a = world.position(pulley.body_a), b = world.position(pulley.body_b);
+  EXPECT_NEAR(test::metres(a.y) + test::metres(b.y), 0, 1e-5);
+  EXPECT_NEAR(test::metres(a.y), 9.81 / 3 / 2, 1e-2);  // a = g·(m₂ − m₁)/(m₁ + m₂)
+}
+
+TEST(Joints, GearTurnsTheOtherWay) {
+  World world = test::make_world(
+      {.body_capacity = 8, .pair_capacity = 8, .contact_capacity = 8, .gravity = {}});
+  const BodyHandle base = add_fixed(world);
+  const auto wheel = [&](Position x) {
+    const BodyHandle body = test::add(world, test::dynamic_body(Shape::sphere(0.5_m), x, {}, {}));
+    JointDef hinge = JointDef::of(JointKind::hinge, base, body);
+    hinge.frame_a.position.x = saturated<Length>(x);
+    join(world, hinge);
+    return body;
+  };
+  const BodyHandle a = wheel(-2_m), b = wheel(2_m);
+  JointDef gear = JointDef::of(JointKind::gear, a, b);
+  gear.ratio = 2_r;
+  join(world, gear);
+  ASSERT_EQ(world.apply(SetAngularVelocity{a, {6_rps, {}, {}}}), Status::ok);
+  test::step(world, 60);
+  const double of_a = number(world.body(a).angular_velocity.x.raw, 32);
+  const double of_b = number(world.body(b).angular_velocity.x.raw, 32);
+  EXPECT_GT(std::abs(of_a), 1);
+  EXPECT_NEAR(of_a + 2 * of_b, 0, 1e-5);
+}
+
+TEST(Joints, BreakBeyondTheirForceWithAnEvent) {
+  World world = test::make_world();
+  const BodyHandle base = add_fixed(world);
+  JointDef def = JointDef::of(JointKind::ball, base, {});
+  def.body_b = test::add(world, test::dynamic_body(Shape::sphere(0.5_m), {}, -1_m, {}));
+  def.frame_b.position.y = 1_m;  // 524 kg hang from it
+  def.user_data = 7;
+  for (const std::int64_t newtons : {10000, 4000}) {
+    def.break_force = Force::from_integer(newtons);
+    const JointHandle joint = join(world, def);
+    int events = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      (void)world.step();
+      for (const JointEvent& event : world.joint_events()) {
+        EXPECT_EQ(event.joint, joint);
+        EXPECT_EQ(event.user_data, 7U);
+        ++events;
+      }
+    }
+    EXPECT_EQ(world.exists(joint), newtons > 5200);
+    EXPECT_EQ(events, newtons > 5200 ? 0 : 1);
+    if (newtons > 5200) {
+      EXPECT_NEAR(number(world.joint(joint).force.y.raw, 20), 523.6 * 9.81, 30);
+      ASSERT_EQ(world.apply(DestroyJoint{joint}), Status::ok);
+    }
+  }
+}
+
+TEST(Joints, DroppingDerivedDataAndSavingChangesNothing) {
+  World plain = test::make_world();
+  test::add_ground(plain);
+  add_chain(plain, 6, 5);
+  World heavy = test::make_world();
+  ASSERT_EQ(heavy.load(SnapshotKind::canonical, test::save(plain, SnapshotKind::canonical)),
+            Status::ok);
+  for (int tick = 0; tick < 120; ++tick) {
+    (void)plain.step();
+    heavy.drop_derived();
+    (void)heavy.step();
+    const std::vector<std::byte> saved = test::save(heavy, SnapshotKind::canonical);
+    ASSERT_EQ(heavy.load(SnapshotKind::canonical, saved), Status::ok);
+    ASSERT_EQ(heavy.hash().total, plain.hash().total) << "tick " << tick;
+  }
+}
+
+}  // namespace
+}  // namespace lockstone
