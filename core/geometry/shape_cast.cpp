@@ -38,11 +38,12 @@ Fraction quotient(Fine distance, Fine approach) {
   return static_cast<Fraction>(divide(numerator, static_cast<std::uint64_t>(approach)).quotient);
 }
 
-/// The distance that each step leaves: half the resolution of a length and, where the lattice
-/// decides, two of its steps.
+/// The distance that each step leaves: where the lattice decides, half the resolution of a length
+/// and two of its steps; else twice what a distance may be off by, because of the way's resolution
+/// less is left of 2 µm.
 Fine clearance(const GapQuery& query) {
   constexpr Fine half = Fine{1} << (k_fine_per_length - 1);
-  return query.is_coarse() ? half : half + (Fine{2} << query.lattice().shift);
+  return query.is_coarse() ? half / 2 : half + (Fine{2} << query.lattice().shift);
 }
 
 ShapeCastHit hit_at(Fraction fraction, const CoreGap& gap, const GapQuery& query) {
