@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "replay/compression.h"
+
 namespace lockstone::replay {
 
 Walk ChunkReader::open() {
@@ -46,7 +48,19 @@ Walk ChunkReader::next_frame() {
   return check_place();
 }
 
+Status ChunkReader::jump(std::uint64_t offset) {
+  if (offset > source_.size()) return Status::malformed;
+  cursor_ = offset;
+  jumped_ = true;
+  return Status::ok;
+}
+
 Walk ChunkReader::check_place() {
+  if (jumped_) {
+    sequence_ = frame_.header.sequence;
+    previous_ = frame_.previous;
+    jumped_ = false;
+  }
   if (frame_.header.sequence != sequence_) {
     return reject(Status::malformed, "chunk " + std::to_string(frame_.header.sequence) +
                                          " stands where chunk " + std::to_string(sequence_) +
@@ -71,6 +85,17 @@ Walk ChunkReader::read_payload() {
   if (source_.read_at(offset, payload_) != Status::ok) return read_error();
   if (payload_checksum(payload_) == frame_.payload_checksum) return Walk::good;
   return reject(Status::checksum_mismatch, "payload of " + name_chunk() + ": wrong checksum");
+}
+
+Walk ChunkReader::unpack() {
+  if (frame_.header.codec == Codec::raw) return Walk::good;
+  const DecodeFault fault = decompress(payload_, frame_.header.raw_bytes, unpacked_);
+  if (!fault.ok()) {
+    reject_payload(fault);
+    return Walk::damaged;
+  }
+  std::swap(payload_, unpacked_);
+  return Walk::good;
 }
 
 std::string ChunkReader::name_chunk() const {

@@ -33,8 +33,15 @@ class ChunkReader {
   /// Reads the next chunk's frame; the payload of the one before may be left unread.
   [[nodiscard]] Walk next_frame();
 
-  /// Reads the payload of the chunk whose frame was read: good or damaged.
+  /// Goes on with the chunk at `offset`, whose sequence number and chain are then taken as they
+  /// are. malformed for an offset beyond the log.
+  Status jump(std::uint64_t offset);
+
+  /// Reads the stored payload of the chunk whose frame was read: good or damaged.
   [[nodiscard]] Walk read_payload();
+
+  /// Decompresses the payload that was read, if its codec says so: good or damaged.
+  [[nodiscard]] Walk unpack();
 
   /// Reports damage found in the current chunk's payload, at the fault's place in it.
   void reject_payload(const DecodeFault& fault);
@@ -45,6 +52,9 @@ class ChunkReader {
   [[nodiscard]] const LogHeader& log() const { return log_; }
   [[nodiscard]] const ChunkHeader& chunk() const { return frame_.header; }
   [[nodiscard]] std::uint64_t chunk_offset() const { return chunk_offset_; }
+  /// Where the next chunk begins, and what it must name as its predecessor's checksum.
+  [[nodiscard]] std::uint64_t next_offset() const { return cursor_; }
+  [[nodiscard]] std::uint64_t last_checksum() const { return previous_; }
   [[nodiscard]] ByteView payload() const { return payload_; }
 
   /// What was complained about last; Status::ok before that.
@@ -64,10 +74,12 @@ class ChunkReader {
   LogHeader log_;
   ChunkFrame frame_;
   std::vector<std::byte> payload_;
+  std::vector<std::byte> unpacked_;
   std::uint64_t cursor_ = 0;        ///< where the next chunk begins
   std::uint64_t chunk_offset_ = 0;  ///< of the current chunk
   std::uint64_t previous_ = 0;      ///< checksum that the next chunk must name
   std::uint32_t sequence_ = 0;      ///< of the next chunk
+  bool jumped_ = false;             ///< the next chunk is the first after a jump
   Damage damage_;
 };
 

@@ -25,6 +25,8 @@ struct LogReader::Parts {
   bool has_scene = false;
   bool awaits_hashes = false;  // the last chunk was INPUT
   bool complete = false;
+  bool arrives = false;  // the next chunk is the keyframe that was jumped to
+  bool jumped = false;   // `seen` does not count what stands before
 
   LogItem reject(Status status, const char* what) {
     chunks.reject_chunk(status, what);
@@ -91,6 +93,17 @@ Status LogReader::open() {
   return Status::ok;
 }
 
+Status LogReader::jump(const KeyframePlace& place) {
+  LKS_ASSERT(parts_->has_scene && !is_last(parts_->item));
+  const Status status = parts_->chunks.jump(place.offset);
+  if (status != Status::ok) return status;
+  parts_->seen = {};
+  parts_->next_tick = place.tick;
+  parts_->awaits_hashes = false;
+  parts_->arrives = parts_->jumped = true;
+  return Status::ok;
+}
+
 LogItem LogReader::next() {
   LKS_ASSERT(parts_->opened || parts_->item == LogItem::damaged);
   if (!is_last(parts_->item)) parts_->item = read_next();
@@ -108,11 +121,11 @@ LogItem LogReader::read_next() {
     return parts_->reject(Status::unsupported_version, "of a type that this build must not skip");
   }
   if (!check_frame() || !check_order()) return LogItem::damaged;
-  return read_known();
+  return chunks.unpack() == Walk::good ? read_known() : LogItem::damaged;
 }
 
 bool LogReader::check_frame() {
-  if (chunk().version != k_chunk_version || chunk().codec != Codec::raw) {
+  if (chunk().version != k_chunk_version || chunk().codec > Codec::zstd) {
     (void)parts_->reject(Status::unsupported_version, "unknown chunk version or codec");
     return false;
   }
@@ -134,6 +147,7 @@ bool LogReader::check_order() {
   if (parts_->has_scene == (type == ChunkType::scene))
     return fail("the scene comes first, and once");
   if (parts_->complete) return fail("after the end");
+  if (parts_->arrives && type != ChunkType::keyframe) return fail("not the keyframe looked for");
   if (parts_->awaits_hashes != (type == ChunkType::hash)) {
     return fail("each INPUT chunk is followed by its HASH chunk");
   }
@@ -202,6 +216,9 @@ LogItem LogReader::read_keyframe() {
   if (parts_->seen.ticks > 0 && parts_->keyframe_hash != parts_->seen.final_hash) {
     return parts_->reject(Status::malformed, "its hash is not that of the tick before");
   }
+  const bool has_tick_before = chunk().first_tick > header().match.start_tick;
+  if (parts_->arrives && has_tick_before) parts_->seen.final_hash = parts_->keyframe_hash;
+  parts_->arrives = false;
   ++parts_->seen.keyframes;
   return LogItem::keyframe;
 }
@@ -217,24 +234,19 @@ LogItem LogReader::read_events() {
 LogItem LogReader::read_end() {
   const DecodeFault fault = decode_end(parts_->chunks.payload(), parts_->end);
   if (!fault.ok()) return parts_->reject(fault);
-  const LogEnd& end = parts_->end;
-  const LogEnd& seen = parts_->seen;
-  if (end.final_tick != parts_->next_tick || end.final_hash != seen.final_hash ||
-      end.ticks != seen.ticks || end.events != seen.events || end.keyframes != seen.keyframes) {
+  if (!check_end(parts_->end)) {
     return parts_->reject(Status::malformed, "its totals are not those of the log");
   }
   parts_->complete = true;
   return LogItem::end;
 }
 
-std::uint64_t count_ticks(Source& source) {
-  ChunkReader chunks(source);
-  std::uint64_t ticks = 0;
-  if (chunks.open() != Walk::good) return 0;
-  while (chunks.next_frame() == Walk::good) {
-    if (chunks.chunk().type == ChunkType::hash) ticks += chunks.chunk().count;
-  }
-  return ticks;
+bool LogReader::check_end(const LogEnd& end) const {
+  const LogEnd& seen = parts_->seen;
+  const bool ends_here = end.final_tick == parts_->next_tick && end.final_hash == seen.final_hash;
+  if (parts_->jumped) return ends_here;
+  return ends_here && end.ticks == seen.ticks && end.events == seen.events &&
+         end.keyframes == seen.keyframes;
 }
 
 }  // namespace lockstone::replay

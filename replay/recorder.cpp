@@ -5,7 +5,10 @@
 #include <lockstone/assert.h>
 #include <lockstone/replay/recorder.h>
 
+#include "replay/chunk_writer.h"
+#include "replay/compression.h"
 #include "replay/header_codec.h"
+#include "replay/index_codec.h"
 #include "replay/input_codec.h"
 #include "replay/record_codec.h"
 
@@ -42,6 +45,11 @@ std::string printable(std::string_view text) {
 // Everything that is written is composed here. `group` holds INPUT, HASH and EVENT chunks one after
 // the other, so that one append carries them; the inputs are coded straight into their place.
 struct Recorder::Buffers {
+  explicit Buffers(Sink& sink) : writer(sink) {}
+
+  ChunkWriter writer;
+  std::optional<Compressor> compressor;
+  std::optional<IndexBuilder> index;
   std::vector<std::byte> group;
   std::vector<std::uint64_t> hashes;  // reserved for a chunk's ticks
   std::vector<std::byte> events;
@@ -62,6 +70,7 @@ Status Recorder::begin(const SimulationInfo& info, ByteView config, const MatchM
       config.size() > k_max_scene_bytes || options_.keyframe_bytes_max > k_max_keyframe_bytes) {
     return Status::invalid_argument;
   }
+  if (options_.signing_key && !signing_available()) return Status::invalid_argument;
   info_ = info;
   options_.chunk_ticks = chunk_ticks(options_, info);
   start_tick_ = next_tick_ = last_keyframe_tick_ = match.start_tick;
@@ -75,7 +84,13 @@ Status Recorder::begin(const SimulationInfo& info, ByteView config, const MatchM
 }
 
 void Recorder::allocate(ByteView config) {
-  buffers_ = std::make_unique<Buffers>();
+  buffers_ = std::make_unique<Buffers>(sink_);
+  if (options_.signing_key) buffers_->writer.set_key(*options_.signing_key);
+  if (options_.compress) {
+    buffers_->compressor.emplace(
+        std::max(config.size(), sizeof(std::uint64_t) + options_.keyframe_bytes_max));
+  }
+  if (options_.index) buffers_->index.emplace();
   const std::size_t ticks = options_.chunk_ticks;
   const std::size_t group_bytes =
       3 * k_chunk_header_bytes +
@@ -83,7 +98,9 @@ void Recorder::allocate(ByteView config) {
       ticks * sizeof(std::uint64_t) + k_event_buffer_bytes;
   const std::size_t beginning_bytes =
       k_min_file_header_bytes + k_max_build_bytes + k_chunk_header_bytes + config.size();
-  buffers_->group.resize(std::max(group_bytes, beginning_bytes));
+  const std::size_t index_bytes =
+      options_.index ? k_chunk_header_bytes + k_max_index_bytes : std::size_t{0};
+  buffers_->group.resize(std::max({group_bytes, beginning_bytes, index_bytes}));
   buffers_->hashes.reserve(ticks);
   buffers_->events.resize(k_event_buffer_bytes);
   if (options_.keyframe_bytes_max > 0) {
@@ -94,12 +111,12 @@ void Recorder::allocate(ByteView config) {
 Status Recorder::write_beginning(const LogHeader& header, ByteView config) {
   const std::span<std::byte> group(buffers_->group);
   const std::size_t header_bytes = file_header_bytes(header);
-  previous_checksum_ = encode_file_header(header, group);
-  const std::span<std::byte> scene =
-      group.subspan(header_bytes, k_chunk_header_bytes + config.size());
+  buffers_->writer.begin(header, group);
+  const Status status = append(group.first(header_bytes));
+  if (status != Status::ok) return status;
+  const std::span<std::byte> scene = group.first(k_chunk_header_bytes + config.size());
   std::copy(config.begin(), config.end(), scene.begin() + k_chunk_header_bytes);
-  seal({.type = ChunkType::scene, .first_tick = start_tick_}, scene);
-  return append(group.first(header_bytes + scene.size()));
+  return append_packed({.type = ChunkType::scene, .first_tick = start_tick_}, scene);
 }
 
 void Recorder::start_chunk() {
@@ -177,10 +194,12 @@ Status Recorder::write_keyframe(std::uint64_t hash, std::size_t snapshot_bytes) 
   const std::span<std::byte> chunk =
       std::span(buffers_->keyframe).first(k_keyframe_prefix_bytes + snapshot_bytes);
   ByteWriter(chunk.subspan(k_chunk_header_bytes)).put(hash);
-  seal({.type = ChunkType::keyframe, .first_tick = next_tick_}, chunk);
+  if (buffers_->index) buffers_->index->add({next_tick_, buffers_->writer.offset()});
   ++totals_.keyframes;
   last_keyframe_tick_ = next_tick_;
-  return append(chunk);
+  const Status appended =
+      append_packed({.type = ChunkType::keyframe, .first_tick = next_tick_}, chunk);
+  return appended == Status::ok ? sign() : appended;
 }
 
 Status Recorder::event(std::uint64_t tick, EventKind kind, std::uint8_t slot,
@@ -216,14 +235,14 @@ std::size_t Recorder::seal_ticks() {
   const auto count = static_cast<std::uint32_t>(buffers_->hashes.size());
   const std::uint64_t first_tick = next_tick_ - count;
   const std::size_t input_bytes = k_chunk_header_bytes + buffers_->inputs.finish();
-  seal({.type = ChunkType::input, .count = count, .first_tick = first_tick},
-       group.first(input_bytes));
+  buffers_->writer.seal({.type = ChunkType::input, .count = count, .first_tick = first_tick},
+                        group.first(input_bytes));
   ByteWriter writer(group.subspan(input_bytes + k_chunk_header_bytes));
   for (std::uint64_t hash : buffers_->hashes)
     writer.put(hash);
   const std::size_t hash_bytes = k_chunk_header_bytes + writer.size();
-  seal({.type = ChunkType::hash, .count = count, .first_tick = first_tick},
-       group.subspan(input_bytes, hash_bytes));
+  buffers_->writer.seal({.type = ChunkType::hash, .count = count, .first_tick = first_tick},
+                        group.subspan(input_bytes, hash_bytes));
   return input_bytes + hash_bytes;
 }
 
@@ -233,11 +252,11 @@ std::size_t Recorder::seal_events(std::size_t used_bytes) {
                                          .first(k_chunk_header_bytes + buffers_->event_bytes);
   std::copy_n(buffers_->events.begin(), buffers_->event_bytes,
               chunk.begin() + k_chunk_header_bytes);
-  seal({.type = ChunkType::event,
-        .flags = k_flag_may_skip,
-        .count = buffers_->event_count,
-        .first_tick = next_tick_},
-       chunk);
+  buffers_->writer.seal({.type = ChunkType::event,
+                         .flags = k_flag_may_skip,
+                         .count = buffers_->event_count,
+                         .first_tick = next_tick_},
+                        chunk);
   buffers_->event_bytes = 0;
   buffers_->event_count = 0;
   return used_bytes + chunk.size();
@@ -247,27 +266,42 @@ Status Recorder::finish(std::string_view reason) {
   const Status status = flush();
   if (status != Status::ok) return status;
   totals_.final_tick = next_tick_;
+  ChunkWriter& writer = buffers_->writer;
   const std::span<std::byte> group(buffers_->group);
-  ByteWriter writer(group.subspan(k_chunk_header_bytes));
-  encode_end(writer, totals_, reason);
-  const std::span<std::byte> chunk = group.first(k_chunk_header_bytes + writer.size());
-  seal({.type = ChunkType::end, .first_tick = next_tick_}, chunk);
-  const Status appended = append(chunk);
+  Status appended = Status::ok;
+  if (buffers_->index) {
+    appended = append(seal_index(writer, *buffers_->index, next_tick_, group));
+  }
+  if (appended == Status::ok) appended = append(seal_end(writer, totals_, reason, group));
+  if (appended == Status::ok) appended = sign();
   if (appended == Status::ok) state_ = State::finished;
   return appended;
 }
 
-// Fills in the frame in front of a payload that already stands in its place.
-void Recorder::seal(ChunkHeader header, std::span<std::byte> chunk) {
-  const ByteView payload = chunk.subspan(k_chunk_header_bytes);
-  header.sequence = sequence_++;
-  header.raw_bytes = header.stored_bytes = static_cast<std::uint32_t>(payload.size());
-  const ChunkFrame frame{header, previous_checksum_, payload_checksum(payload), 0};
-  previous_checksum_ = encode_chunk_frame(frame, chunk.first<k_chunk_header_bytes>());
+Status Recorder::append(ByteView bytes) {
+  return note(buffers_->writer.append(bytes));
 }
 
-Status Recorder::append(ByteView bytes) {
-  const Status status = sink_.append(bytes);
+// Seals and appends a chunk, compressed where that makes it shorter.
+Status Recorder::append_packed(ChunkHeader header, std::span<std::byte> chunk) {
+  const ByteView raw = chunk.subspan(k_chunk_header_bytes);
+  std::span<std::byte> packed;
+  if (buffers_->compressor) packed = buffers_->compressor->compress(raw);
+  if (!packed.empty()) {
+    header.codec = Codec::zstd;
+    header.raw_bytes = static_cast<std::uint32_t>(raw.size());
+    chunk = packed;
+  }
+  buffers_->writer.seal(header, chunk);
+  return append(chunk);
+}
+
+Status Recorder::sign() {
+  if (!buffers_->writer.signs()) return Status::ok;
+  return note(buffers_->writer.append_signature(next_tick_));
+}
+
+Status Recorder::note(Status status) {
   if (status != Status::ok) state_ = State::failed;
   return status;
 }

@@ -26,7 +26,7 @@ Bytes tiny_log() {
   info.input_bytes = 3;
   const std::array<std::byte, 2> config{std::byte{0xc0}, std::byte{0xc1}};
   MemorySink sink;
-  Recorder recorder(sink, {.keyframe_bytes_max = 16});
+  Recorder recorder(sink, {.keyframe_bytes_max = 16, .compress = false, .index = false});
   LKS_CHECK(
       recorder.begin(info, config,
                      {.match_id = 0x4142434445464748, .seed = 0x5152535455565758, .build = "b1"}) ==

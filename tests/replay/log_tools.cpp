@@ -33,7 +33,10 @@ Status record(const ToyMatch& match, Sink& sink) {
     game.step(inputs.at(game.tick()));
   Recorder recorder(sink, {.keyframe_interval_ticks = match.keyframe_interval,
                            .chunk_ticks = match.chunk_ticks,
-                           .keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical)});
+                           .keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical),
+                           .compress = match.compress,
+                           .index = match.index,
+                           .signing_key = match.signing_key});
   Status status = recorder.begin(
       game.info(), match.config.encode(),
       {.match_id = 7, .seed = match.config.seed, .start_tick = match.start_tick, .build = "toy 1"});
@@ -172,7 +175,7 @@ Bytes rewrite(const Bytes& log, const AlterInput& alter) {
   LKS_CHECK(reader.open() == Status::ok);
   Alteration alteration(alter, reader.header().info);
   MemorySink sink;
-  Recorder recorder(sink, {.keyframe_bytes_max = 1U << 20});
+  Recorder recorder(sink, {.keyframe_bytes_max = 1U << 20, .compress = false, .index = false});
   for (LogItem item = reader.next(); !is_last(item); item = reader.next()) {
     LKS_CHECK(write_item(recorder, reader, item, alteration) == Status::ok);
   }

@@ -26,6 +26,9 @@ struct ToyMatch {
   std::uint32_t chunk_ticks = 5;
   bool finishes = true;  ///< false: the recorder stops at the last flush
   bool has_events = true;
+  bool compress = false;
+  bool index = false;
+  std::optional<replay::SigningKey> signing_key = std::nullopt;
   std::optional<std::uint64_t> flip_at = std::nullopt;  ///< flip a state bit after this tick's step
 };
 

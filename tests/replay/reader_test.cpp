@@ -145,7 +145,11 @@ TEST(LogReader, BoundsTheStoredAndTheRawLengthEachByItself) {
   };
   EXPECT_EQ(compressed(20, k_max_scene_bytes + 1), Status::malformed);
   EXPECT_EQ(compressed(k_max_scene_bytes + 1, 20), Status::malformed);
-  EXPECT_EQ(compressed(k_max_scene_bytes, 20), Status::unsupported_version);
+  // The payload is no Zstandard frame, which is found before room is made for its content.
+  take_heap_use();
+  EXPECT_EQ(compressed(k_max_scene_bytes, 20),
+            compression_available() ? Status::malformed : Status::unsupported_version);
+  EXPECT_LT(take_heap_use().largest_bytes, 100'000U);
 }
 
 TEST(LogReader, TakesALengthBeyondTheFileForATornTailWithoutAllocating) {
@@ -179,8 +183,7 @@ TEST(LogReader, RefusesCountsVersionsAndPlacesOutOfRange) {
   EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.count = 1; }), Status::malformed);
   EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.raw_bytes += 1; }), Status::malformed);
   EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.version = 2; }), Status::unsupported_version);
-  EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.codec = Codec::zstd; }),
-            Status::unsupported_version);
+  EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.codec = Codec{2}; }), Status::unsupported_version);
   EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.flags = 0x80; }), Status::unsupported_version);
   EXPECT_EQ(with(ChunkType::scene, [](H& h) { h.sequence = 1; }), Status::malformed);
 }
@@ -223,10 +226,10 @@ TEST(LogReader, RefusesChunksAfterTheEnd) {
 TEST(LogReader, CountsTicksFromTheFramesAlone) {
   const Bytes log = record({.ticks = 123});
   MemorySource source(log);
-  EXPECT_EQ(count_ticks(source), 123U);
+  EXPECT_EQ(map_log(source).ticks, 123U);
   const Bytes nonsense(200);
   MemorySource other(nonsense);
-  EXPECT_EQ(count_ticks(other), 0U);
+  EXPECT_EQ(map_log(other).ticks, 0U);
 }
 
 }  // namespace

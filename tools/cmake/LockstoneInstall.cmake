@@ -28,4 +28,6 @@ install(FILES
   ${PROJECT_BINARY_DIR}/lockstoneConfig.cmake
   ${PROJECT_BINARY_DIR}/lockstoneConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindENet.cmake
+  ${PROJECT_SOURCE_DIR}/tools/cmake/FindSodium.cmake
+  ${PROJECT_SOURCE_DIR}/tools/cmake/FindZstd.cmake
   DESTINATION ${package_dir})

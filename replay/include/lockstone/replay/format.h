@@ -38,9 +38,9 @@ enum class ChunkType : std::uint8_t {
   keyframe = 4,   ///< a canonical snapshot
   event = 5,      ///< joins, leaves, substitutions, notes
   diag = 6,       ///< reserved: diagnostics
-  index = 7,      ///< reserved: offsets of chunks
+  index = 7,      ///< where the keyframes are; can be found again without it
   end = 8,        ///< the recorder finished in order
-  signature = 9,  ///< reserved: a signature over the chain of checksums
+  signature = 9,  ///< an Ed25519 signature over all that stands before it
 };
 
 /// "INPUT", "HASH", …; "chunk" for a type that this build does not know.
@@ -48,8 +48,12 @@ enum class ChunkType : std::uint8_t {
 
 enum class Codec : std::uint8_t {
   raw = 0,   ///< the stored bytes are the payload
-  zstd = 1,  ///< reserved
+  zstd = 1,  ///< one Zstandard frame (RFC 8878)
 };
+
+/// Whether this build reads and writes compressed chunks. One that does not refuses logs that hold
+/// them, with unsupported_version.
+[[nodiscard]] bool compression_available();
 
 /// Flag bit: a reader that does not know this chunk's type may skip the chunk.
 inline constexpr std::uint8_t k_flag_may_skip = 1;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lockstone/replay/format.h>
+#include <lockstone/replay/log_map.h>
 #include <lockstone/replay/source.h>
 #include <lockstone/simulation.h>
 
@@ -49,6 +50,11 @@ class LogReader {
   /// unsupported_version or io_error, with damage() saying more.
   Status open();
 
+  /// Goes on at a keyframe, once the scene was read: the next item is that `keyframe`, or `damaged`
+  /// when none is there. The totals of the END are then not checked. malformed for a place beyond
+  /// the log.
+  Status jump(const KeyframePlace& place);
+
   /// Reads the next chunk. What the accessors below gave before is no longer valid, except that
   /// tick_inputs() lasts until the next `inputs`.
   [[nodiscard]] LogItem next();
@@ -88,6 +94,7 @@ class LogReader {
   [[nodiscard]] LogItem read_next();
   [[nodiscard]] LogItem read_known();
   [[nodiscard]] bool check_frame();
+  [[nodiscard]] bool check_end(const LogEnd& end) const;
   [[nodiscard]] bool check_order();
   [[nodiscard]] LogItem read_scene();
   [[nodiscard]] LogItem read_inputs();
@@ -98,9 +105,5 @@ class LogReader {
 
   std::unique_ptr<Parts> parts_;
 };
-
-/// Counts the ticks that a log holds from its frames alone, without reading the payloads. For
-/// progress: 0 for what is not a log; counting stops at the first damage in a frame.
-[[nodiscard]] std::uint64_t count_ticks(Source& source);
 
 }  // namespace lockstone::replay

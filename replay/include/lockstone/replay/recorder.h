@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include <lockstone/replay/format.h>
+#include <lockstone/replay/signature.h>
 #include <lockstone/replay/sink.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
@@ -22,9 +24,16 @@ struct RecorderOptions {
   std::uint32_t chunk_ticks = 0;
   /// Room for one canonical snapshot, from Simulation::snapshot_bytes_max; 0: no keyframes.
   std::size_t keyframe_bytes_max = 0;
+  /// Store SCENE and KEYFRAME compressed where compression_available() and it saves bytes.
+  bool compress = true;
+  /// Write an INDEX of the keyframes at the end.
+  bool index = true;
+  /// Sign after each keyframe and after the END; needs signing_available().
+  std::optional<SigningKey> signing_key = std::nullopt;
 };
 
-/// Appends a match to a sink, tick by tick. begin() allocates; nothing after it does.
+/// Appends a match to a sink, tick by tick. begin() allocates; nothing after it does. A
+/// BackgroundSink in between keeps the disk from stalling the tick.
 ///
 ///     Recorder recorder(sink, {.keyframe_bytes_max = game.snapshot_bytes_max(canonical)});
 ///     recorder.begin(game.info(), config, {.match_id = 7, .build = "mygame 1.2"});
@@ -50,8 +59,8 @@ class Recorder {
   ~Recorder();
 
   /// Writes the file header and the configuration bytes that SimulationFactory takes. Once.
-  /// invalid_argument for a field of `info` or `match` out of range, too long a configuration, or a
-  /// keyframe_bytes_max above k_max_keyframe_bytes.
+  /// invalid_argument for a field of `info` or `match` out of range, too long a configuration, a
+  /// keyframe_bytes_max above k_max_keyframe_bytes, or a signing key in a build that cannot sign.
   Status begin(const SimulationInfo& info, ByteView config, const MatchMetadata& match);
 
   /// Records that `inputs` took the match from `tick` to `tick + 1`, whose state hashes to `hash`.
@@ -96,10 +105,12 @@ class Recorder {
   void start_chunk();
   Status write_beginning(const LogHeader& header, ByteView config);
   Status write_keyframe(std::uint64_t hash, std::size_t snapshot_bytes);
-  void seal(ChunkHeader header, std::span<std::byte> chunk);
   std::size_t seal_ticks();
   std::size_t seal_events(std::size_t used_bytes);
   Status append(ByteView bytes);
+  Status append_packed(ChunkHeader header, std::span<std::byte> chunk);
+  Status sign();
+  Status note(Status status);
 
   Sink& sink_;
   RecorderOptions options_;
@@ -109,8 +120,6 @@ class Recorder {
   std::uint64_t start_tick_ = 0;
   std::uint64_t next_tick_ = 0;
   std::uint64_t last_keyframe_tick_ = 0;
-  std::uint64_t previous_checksum_ = 0;
-  std::uint32_t sequence_ = 0;
   LogEnd totals_;
 };
 

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,7 +74,7 @@ struct VerifyReport {
   [[nodiscard]] std::string to_line() const;
 };
 
-/// Called after each chunk of ticks with the ticks done and the ticks there are.
+/// Called after each chunk of ticks with the ticks done and the ticks there are, by the frames.
 using VerifyProgress = std::function<void(std::uint64_t ticks, std::uint64_t total)>;
 
 /// Verifies a log. The first finding in the order of the file decides the outcome; after a
@@ -84,5 +86,18 @@ using VerifyProgress = std::function<void(std::uint64_t ticks, std::uint64_t tot
 [[nodiscard]] VerifyReport verify(Source& source, const SimulationFactory& factory,
                                   const VerifyOptions& options = {},
                                   const VerifyProgress& progress = {});
+
+/// Opens one log. Called on several threads, each of which reads for itself.
+using SourceOpener = std::function<Result<std::unique_ptr<Source>>()>;
+
+/// Verifies several logs on several threads, at most `threads` (0 counts as 1): keyframes make the
+/// parts between them independent. A report for each log, in their order, which says what verify()
+/// says; one that cannot be opened is corrupt. `factory` is called on several threads. `progress`
+/// counts over all logs, and is called by one thread at a time.
+[[nodiscard]] std::vector<VerifyReport> verify_all(std::span<const SourceOpener> logs,
+                                                   const SimulationFactory& factory,
+                                                   const VerifyOptions& options = {},
+                                                   unsigned threads = 1,
+                                                   const VerifyProgress& progress = {});
 
 }  // namespace lockstone::replay
