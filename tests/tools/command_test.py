@@ -88,6 +88,40 @@ class Run(Case):
         self.expect(USAGE, "run", "--scene", "stack", "--ticks", 0)
 
 
+class State(Case):
+    def test_a_forgotten_field_is_caught(self):
+        for field in ("body.velocity.y", "body.orientation.w", "contact.point[0].normal_impulse"):
+            done = self.expect(DIFFERENT, "run", "--scene", "stack", "--ticks", 40, "--forget", field)
+            self.assertIn("went another way", done.stderr)
+
+    def test_flipped_bits_are_found_and_named(self):
+        for scene in ("arena", "stack"):
+            tally = json.loads(self.expect(OK, "flips", "--scene", scene, "--ticks", 60, "--count", 60,
+                                           "--json").stdout)
+            self.assertEqual(tally["named"], 60)
+            self.assertEqual(tally["hashed"] + tally["refused"], 60)
+
+    def test_hashes_of_two_machines_are_compared(self):
+        hashes = json.loads(self.expect(OK, "hash", "--suite", "golden", "--name", "one").stdout)
+        with tempfile.TemporaryDirectory() as folder:
+            one, two = pathlib.Path(folder) / "one.json", pathlib.Path(folder) / "two.json"
+            one.write_text(json.dumps(hashes))
+            two.write_text(json.dumps(hashes))
+            self.assertIn("all equal", self.expect(OK, "compare-hashes", one, two).stdout)
+            hashes["scenes"]["stack"][3] = "0" * 16
+            two.write_text(json.dumps(hashes))
+            self.assertIn("stack: differs by tick 40",
+                          self.expect(DIFFERENT, "compare-hashes", one, two).stdout)
+            two.write_text("{}")
+            self.expect(CORRUPT, "compare-hashes", one, two)
+
+    def test_rollback_is_measured(self):
+        figures = json.loads(self.expect(OK, "bench", "rollback", "--bodies", 60, "--settle", 30,
+                                         "--repeats", 3, "--json").stdout)
+        self.assertLessEqual(figures["bytes_per_body"], 256)
+        self.assertLessEqual(figures["bytes_per_contact"], 96)
+
+
 class Usage(Case):
     def test_is_explained(self):
         self.assertIn("Exit codes", self.expect(OK, "--help").stdout)
@@ -115,6 +149,60 @@ class Logs(Case):
     @classmethod
     def tearDownClass(cls):
         cls.temporary.cleanup()
+
+    def record(self, name, *options):
+        path = self.folder / name
+        self.expect(OK, "record", path, "--ticks", 90, "--keyframes", 40, *options)
+        return path
+
+    def test_are_recorded_and_read_from_the_middle(self):
+        path = self.record("recorded.lks")
+        self.expect(OK, "verify", "--strict", path, "--jobs", 3)
+        info = json.loads(self.expect(OK, "info", "--json", path).stdout)
+        self.assertTrue(info["index"])
+        seek = json.loads(self.expect(OK, "seek", path, 85, "--json").stdout)
+        trace = json.loads(self.expect(OK, "trace", path).stdout)
+        self.assertEqual(seek["loaded_tick"], 80)
+        self.assertEqual(seek["hash"], trace["hashes"][84])
+        self.assertEqual(info["last_hash"], trace["hashes"][89])
+        self.expect(CORRUPT, "seek", path, 91)
+
+    def test_are_cut_and_repaired(self):
+        path = self.record("whole.lks")
+        part, torn, saved = (self.folder / name for name in ("part.lks", "torn.lks", "saved.lks"))
+        self.expect(OK, "cut", path, part, "--from", 50, "--to", 70)
+        self.assertEqual(json.loads(self.expect(OK, "verify", "--strict", "--json", part).stdout)[0]
+                         ["ticks_verified"], 20)
+        torn.write_bytes(path.read_bytes()[:-300])
+        self.expect(CORRUPT, "verify", "--strict", torn)
+        self.expect(OK, "repair", torn, saved)
+        self.expect(OK, "verify", "--strict", saved)
+
+    def test_that_differ_are_bisected_to_the_field(self):
+        good, plain = self.record("good_one.lks"), self.record("plain.lks", "--plain")
+        wrong = self.record("wrong.lks", "--flip-bit-at", 57)
+        self.expect(OK, "diff", good, plain)
+        diff = json.loads(self.expect(DIFFERENT, "diff", "--json", good, wrong).stdout)
+        self.assertTrue(diff["hash"].startswith("tick 57:"))
+        found = json.loads(self.expect(DIFFERENT, "bisect", "--json", good, wrong).stdout)
+        self.assertEqual((found["tick"], found["state_at"]), (57, 80))
+        self.assertIn(found["store"], ("body", "contact", "player", "game"))
+        self.assertIn("no difference", self.expect(OK, "bisect", good, plain).stdout)
+        self.assertIn("no difference", self.expect(OK, "bisect", good, "--with", LOCKSTONE).stdout)
+        self.expect(USAGE, "bisect", good)
+
+    def test_are_signed(self):
+        key = self.folder / "key"
+        made = run("keygen", key)
+        if made.returncode != OK:
+            self.skipTest("built without libsodium")
+        self.expect(USAGE, "keygen", key)
+        signed, plain = self.record("signed.lks", "--sign", key), self.record("unsigned.lks")
+        self.expect(OK, "verify", signed, "--key", f"{key}.pub")
+        self.expect(CORRUPT, "verify", plain, "--key", f"{key}.pub")
+        info = json.loads(self.expect(OK, "info", "--json", signed).stdout)
+        self.assertEqual(info["signature"]["state"], "good")
+        self.assertTrue(info["signature"]["covers_end"])
 
     def verify(self, code, name, *options):
         done = self.expect(code, "verify", "--json", *options, self.folder / name)

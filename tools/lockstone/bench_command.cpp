@@ -5,6 +5,7 @@ namespace lockstone::tool {
 void add_bench_accuracy_command(CLI::App& bench, int& exit_code);
 void add_bench_numerics_command(CLI::App& bench, int& exit_code);
 void add_bench_queries_command(CLI::App& bench, int& exit_code);
+void add_bench_rollback_command(CLI::App& bench, int& exit_code);
 void add_bench_rows_command(CLI::App& bench, int& exit_code);
 void add_bench_skip_command(CLI::App& bench, int& exit_code);
 void add_bench_speed_command(CLI::App& bench, int& exit_code);
@@ -15,6 +16,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   add_bench_accuracy_command(*bench, exit_code);
   add_bench_numerics_command(*bench, exit_code);
   add_bench_queries_command(*bench, exit_code);
+  add_bench_rollback_command(*bench, exit_code);
   add_bench_rows_command(*bench, exit_code);
   add_bench_skip_command(*bench, exit_code);
   add_bench_speed_command(*bench, exit_code);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <lockstone/replay/log_info.h>
+#include <lockstone/replay/log_map.h>
+#include <lockstone/replay/signature.h>
 #include <lockstone/replay/source.h>
 
 #include "tools/lockstone/commands.h"
@@ -58,7 +60,13 @@ ordered_json events_json(const LogInfo& info) {
   return events;
 }
 
-void print_json(const LogInfo& info) {
+/// What a reader of chunks passes over.
+struct Extras {
+  bool index = false;
+  replay::SignatureReport signature;
+};
+
+void print_json(const LogInfo& info, const Extras& extras) {
   ordered_json json{{"header", header_json(info.header)},
                     {"file_bytes", info.file_bytes},
                     {"ticks", info.ticks},
@@ -76,6 +84,11 @@ void print_json(const LogInfo& info) {
                               {"stored_bytes", totals.stored_bytes}});
   }
   json["events"] = events_json(info);
+  json["index"] = extras.index;
+  json["signature"] = {{"state", to_string(extras.signature.state)},
+                       {"covered_ticks", extras.signature.covered_ticks},
+                       {"covers_end", extras.signature.covers_end},
+                       {"key", extras.signature.key.to_text()}};
   if (info.damage) json["damage"] = damage_json(*info.damage);
   fmt::print("{}\n", json.dump(2));
 }
@@ -90,14 +103,23 @@ void print_header(const replay::LogHeader& header) {
              info.input_bytes, info.tick_rate);
 }
 
-void print_text(const InfoOptions& options, const LogInfo& info) {
+std::string signature_text(const replay::SignatureReport& report) {
+  if (report.state != replay::SignatureState::good) return std::string(to_string(report.state));
+  return fmt::format("good up to {}, by {}",
+                     report.covers_end ? "the end" : fmt::format("tick {}", report.covered_ticks),
+                     report.key.to_text());
+}
+
+void print_text(const InfoOptions& options, const LogInfo& info, const Extras& extras) {
   print_header(info.header);
   fmt::print("ticks         {} ({:.1f} s), last hash {}\n", info.ticks,
              static_cast<double>(info.duration_milliseconds) / 1000, hash_text(info.last_hash));
   const auto& origins = info.inputs_by_origin;
   fmt::print("inputs        {} received, {} repeated, {} neutral, {} absent\n", origins[0],
              origins[1], origins[2], origins[3]);
-  fmt::print("keyframes     {}\n", info.keyframe_ticks.size());
+  fmt::print("keyframes     {}{}\n", info.keyframe_ticks.size(),
+             extras.index ? ", with an index" : "");
+  fmt::print("signature     {}\n", signature_text(extras.signature));
   fmt::print("file          {} bytes\n", info.file_bytes);
   for (const replay::ChunkTypeTotals& totals : info.chunk_types) {
     fmt::print("  {:<11} {:>6} chunks {:>10} bytes\n", to_string(totals.type), totals.chunks,
@@ -128,7 +150,9 @@ int info(const InfoOptions& options) {
                          damage.offset, damage.what));
     return exit_code_of(info.status());
   }
-  options.json ? print_json(info.value()) : print_text(options, info.value());
+  const Extras extras{replay::read_index(*source.value()).ok(),
+                      replay::check_signatures(*source.value())};
+  options.json ? print_json(info.value(), extras) : print_text(options, info.value(), extras);
   return info.value().damage && !info.value().torn_tail ? k_corrupt : k_ok;
 }
 

@@ -1,6 +1,13 @@
-// What the subcommands that read logs share.
+// What the subcommands that read and write logs share.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <lockstone/replay/signature.h>
+#include <lockstone/replay/sink.h>
+#include <lockstone/replay/source.h>
 #include <lockstone/status.h>
 
 #include "tools/lockstone/commands.h"
@@ -12,5 +19,13 @@ namespace lockstone::tool {
   const bool foreign = status == Status::unsupported_version || status == Status::incompatible;
   return foreign ? k_incompatible : k_corrupt;
 }
+
+/// Null, with a complaint, when it cannot be opened or made.
+[[nodiscard]] std::unique_ptr<replay::FileSource> open_log(const std::string& path);
+[[nodiscard]] std::unique_ptr<replay::FileSink> create_log(const std::string& path);
+
+/// What a key file holds, or nothing with a complaint. Made by `lockstone keygen`.
+[[nodiscard]] std::optional<replay::SigningKey> read_signing_key(const std::string& path);
+[[nodiscard]] std::optional<replay::PublicKey> read_public_key(const std::string& path);
 
 }  // namespace lockstone::tool

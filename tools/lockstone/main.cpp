@@ -3,6 +3,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/log_commands.h"
 
 namespace {
 
@@ -22,6 +23,17 @@ int main(int argc, char** argv) {
   lockstone::tool::add_run_command(app, exit_code);
   lockstone::tool::add_info_command(app, exit_code);
   lockstone::tool::add_verify_command(app, exit_code);
+  lockstone::tool::add_record_command(app, exit_code);
+  lockstone::tool::add_seek_command(app, exit_code);
+  lockstone::tool::add_trace_command(app, exit_code);
+  lockstone::tool::add_diff_command(app, exit_code);
+  lockstone::tool::add_bisect_command(app, exit_code);
+  lockstone::tool::add_repair_command(app, exit_code);
+  lockstone::tool::add_cut_command(app, exit_code);
+  lockstone::tool::add_flips_command(app, exit_code);
+  lockstone::tool::add_hash_command(app, exit_code);
+  lockstone::tool::add_compare_hashes_command(app, exit_code);
+  lockstone::tool::add_keygen_command(app, exit_code);
   lockstone::tool::add_numerics_command(app, exit_code);
   lockstone::tool::add_serve_command(app, exit_code);
   lockstone::tool::add_join_command(app, exit_code);

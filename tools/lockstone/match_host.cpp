@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <lockstone/hash.h>
+#include <lockstone/replay/background_sink.h>
 #include <lockstone/replay/sink.h>
 
 #include "tools/arena/config.h"
@@ -58,7 +59,8 @@ class MatchLog {
     sink_ = std::move(sink).value();
     replay::RecorderOptions recorder_options;
     recorder_options.keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical);
-    recorder_.emplace(*sink_, recorder_options);
+    background_.emplace(*sink_);
+    recorder_.emplace(*background_, recorder_options);
     const replay::MatchMetadata match{.match_id = hash64(config, options.seed),
                                       .seed = options.seed,
                                       .start_tick = 0,
@@ -80,6 +82,7 @@ class MatchLog {
 
   [[nodiscard]] Status finish(std::string_view reason) {
     if (active()) static_cast<void>(note(recorder_->finish(reason)));
+    if (background_) static_cast<void>(note(background_->close()));
     return status_;
   }
 
@@ -95,6 +98,7 @@ class MatchLog {
   }
 
   std::unique_ptr<replay::FileSink> sink_;
+  std::optional<replay::BackgroundSink> background_;
   std::optional<replay::Recorder> recorder_;
   Status status_ = Status::ok;
 };

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include <lockstone/thread_pool.h>
 
 #include "core/math/wide/target.h"
+#include "tools/lockstone/canonical_fields.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/options.h"
@@ -33,6 +36,7 @@ struct RunOptions {
   int frames = 1;
   bool json = false;
   bool heavy = false;
+  std::string forget;
 };
 
 struct ChainEntry {
@@ -41,37 +45,65 @@ struct ChainEntry {
 };
 
 // A second copy of the scene that each tick starts from nothing but the canonical bytes of the
-// first: what it does with them shows whether the bytes are the whole state.
+// first: what it does with them shows whether the bytes are the whole state. The first one goes
+// through its own native snapshot, and drops what is derived.
 class Twin {
  public:
-  Twin(scenes::ScenePlay& first, std::unique_ptr<scenes::ScenePlay> second)
+  Twin(scenes::ScenePlay& first, std::unique_ptr<scenes::ScenePlay> second, std::string forget)
       : first_(first),
         second_(std::move(second)),
+        forget_(std::move(forget)),
         bytes_(first.simulation().snapshot_bytes_max(SnapshotKind::canonical)),
-        other_bytes_(bytes_.size()) {}
+        other_bytes_(bytes_.size()),
+        native_(first.simulation().snapshot_bytes_max(SnapshotKind::native)) {}
 
   /// Steps both; empty, or a line that says how they differ.
   [[nodiscard]] std::string step() {
-    const Status status = second_->simulation().load(SnapshotKind::canonical, save(first_, bytes_));
+    Simulation& first = first_.simulation();
+    const std::span<std::byte> saved = save(first_, bytes_);
+    if (!forget_.empty()) forget(saved);
+    Status status = second_->simulation().load(SnapshotKind::canonical, saved);
     if (status != Status::ok) return fmt::format("load: {}", to_string(status));
     second_->step();
+    const std::size_t native = first.save(SnapshotKind::native, native_);
+    status = first.load(SnapshotKind::native, std::span(native_).first(native));
+    if (status != Status::ok) return fmt::format("load of a native copy: {}", to_string(status));
     first_.drop_derived();
     first_.step();
-    if (first_.simulation().hash() == second_->simulation().hash()) return {};
-    const StateDifference difference =
-        first_.simulation().describe(save(first_, bytes_), save(*second_, other_bytes_));
-    return difference.to_line();
+    const ByteView here = save(first_, bytes_), there = save(*second_, other_bytes_);
+    const bool same = std::equal(here.begin(), here.end(), there.begin(), there.end());
+    if (same && first.hash() == second_->simulation().hash()) return {};
+    return first.describe(here, there).to_line();
   }
 
+  /// How often the field that is to be forgotten was there and not zero.
+  [[nodiscard]] std::uint64_t forgotten() const { return forgotten_; }
+
  private:
-  [[nodiscard]] static ByteView save(scenes::ScenePlay& play, std::span<std::byte> bytes) {
+  // As a `save` would that leaves the field out: the negative control.
+  void forget(std::span<std::byte> saved) {
+    const std::span<std::byte> world = world_part(first_.simulation(), saved);
+    for (const FieldPlace& place : fields_of_world(world)) {
+      if (place.store + ('.' + place.field) != forget_) continue;
+      const std::span<std::byte> field = world.subspan(place.offset, place.bytes);
+      for (std::byte& byte : field)
+        forgotten_ += std::exchange(byte, std::byte{0}) != std::byte{0} ? 1U : 0U;
+    }
+    reseal(world);
+  }
+
+  [[nodiscard]] static std::span<std::byte> save(scenes::ScenePlay& play,
+                                                 std::span<std::byte> bytes) {
     return bytes.first(play.simulation().save(SnapshotKind::canonical, bytes));
   }
 
   scenes::ScenePlay& first_;
   std::unique_ptr<scenes::ScenePlay> second_;
+  std::string forget_;
   std::vector<std::byte> bytes_;
   std::vector<std::byte> other_bytes_;
+  std::vector<std::byte> native_;
+  std::uint64_t forgotten_ = 0;
 };
 
 render::Picture picture_of(const RunOptions& options, scenes::ScenePlay& play) {
@@ -112,9 +144,10 @@ class Run {
   Run(const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
       : options_(options), play_(std::move(play)), pool_(options.threads) {
     if (options.threads > 1) play_->set_task_runner(&pool_, TaskPieces::worthwhile);
-    if (!options.heavy) return;
+    if (!options.heavy && options.forget.empty()) return;
     twin_.emplace(*play_,
-                  scenes::make_play(options.scene, options.seed, options.broad_phase).value());
+                  scenes::make_play(options.scene, options.seed, options.broad_phase).value(),
+                  options.forget);
   }
 
   int operator()() {
@@ -122,6 +155,10 @@ class Run {
       if (!step(tick)) return k_different;
     }
     progress_.clear();
+    if (!options_.forget.empty() && twin_->forgotten() == 0) {
+      complain(fmt::format("no field {} that is not zero", options_.forget));
+      return k_usage;
+    }
     const std::uint64_t final_hash = play_->simulation().hash();
     options_.json ? print_json(options_, chain_, final_hash) : print_text(chain_, final_hash);
     return write_picture() ? k_ok : k_unavailable;
@@ -209,6 +246,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--heavy", options->heavy,
                     "Each tick, also step a copy loaded from the saved state, and compare");
+  command->add_option(
+      "--forget", options->forget,
+      "With --heavy, as if `save` left out this field (body.spin.x): it must differ");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

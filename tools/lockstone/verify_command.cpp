@@ -1,17 +1,21 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <lockstone/replay/signature.h>
 #include <lockstone/replay/source.h>
 #include <lockstone/replay/verifier.h>
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/log_file.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -24,6 +28,8 @@ struct VerifyOptions {
   std::vector<std::string> files;
   bool json = false;
   bool strict = false;
+  unsigned jobs = 0;
+  std::string key;
 };
 
 ordered_json divergence_json(const replay::Divergence& divergence) {
@@ -56,32 +62,56 @@ ordered_json report_json(const std::string& file, const VerifyReport& report) {
   return json;
 }
 
-VerifyReport verify_file(const std::string& file, const VerifyOptions& options) {
-  auto source = replay::FileSource::open(file);
-  if (!source) {
-    VerifyReport report;
-    report.outcome = replay::VerifyOutcome::corrupt;
-    report.damage = replay::Damage{source.status(), 0, replay::ChunkType::none,
-                                   "cannot be opened: " + std::string(to_string(source.status()))};
-    return report;
+std::vector<VerifyReport> verify_files(const VerifyOptions& options) {
+  std::vector<replay::SourceOpener> logs;
+  for (const std::string& file : options.files) {
+    logs.push_back([&file]() -> Result<std::unique_ptr<replay::Source>> {
+      auto source = replay::FileSource::open(file);
+      if (!source) return source.status();
+      return std::unique_ptr<replay::Source>(std::move(source).value());
+    });
   }
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
   Progress progress;
-  return replay::verify(
-      *source.value(), scenes::make_simulation, {.strict = options.strict},
-      [&](std::uint64_t ticks, std::uint64_t total) { progress.show(file, ticks, total); });
+  return replay::verify_all(
+      logs, scenes::make_simulation, {.strict = options.strict},
+      options.jobs == 0 ? cores : options.jobs,
+      [&](std::uint64_t ticks, std::uint64_t total) { progress.show("verify", ticks, total); });
+}
+
+// What is wrong with the log's signature, or nothing. A log that must be signed must be so to its
+// end.
+std::string signature_fault(const std::string& file, const replay::PublicKey& key) {
+  const auto source = replay::FileSource::open(file);
+  if (!source) return {};
+  const replay::SignatureReport report = replay::check_signatures(*source.value(), key);
+  if (report.state != replay::SignatureState::good) {
+    return fmt::format("signature: {}", to_string(report.state));
+  }
+  if (report.covers_end) return {};
+  return fmt::format("signature: covers {} ticks and no end", report.covered_ticks);
 }
 
 // The worst file decides: a diverged one is news, but one that cannot be judged is no pass either.
 int verify(const VerifyOptions& options) {
+  std::optional<replay::PublicKey> key;
+  if (!options.key.empty()) {
+    key = read_public_key(options.key);
+    if (!key) return k_usage;
+  }
+  const std::vector<VerifyReport> reports = verify_files(options);
   int worst = k_ok;
   ordered_json json = ordered_json::array();
-  for (const std::string& file : options.files) {
-    const VerifyReport report = verify_file(file, options);
-    worst = std::max(worst, exit_code(report.outcome));
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const std::string& file = options.files[i];
+    const std::string fault = key ? signature_fault(file, *key) : std::string();
+    worst = std::max({worst, exit_code(reports[i].outcome),
+                      fault.empty() ? static_cast<int>(k_ok) : static_cast<int>(k_corrupt)});
     if (options.json) {
-      json.push_back(report_json(file, report));
+      json.push_back(report_json(file, reports[i]));
+      if (key) json.back()["signature"] = fault.empty() ? "good" : fault;
     } else {
-      fmt::print("{}: {}\n", file, report.to_line());
+      fmt::print("{}: {}{}{}\n", file, reports[i].to_line(), fault.empty() ? "" : "; ", fault);
     }
   }
   if (options.json) fmt::print("{}\n", json.dump(2));
@@ -97,6 +127,10 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   command->add_option("files", options->files, "Logs (.lks)")->required();
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--strict", options->strict, "A log without an end counts as damaged");
+  command->add_option("--jobs", options->jobs, "Threads; 0: one for each core")
+      ->capture_default_str();
+  command->add_option("--key", options->key,
+                      "A public key: the log must be signed with it, up to its end");
   command->callback([options, &exit_code] { exit_code = verify(*options); });
 }
 

@@ -1,0 +1,33 @@
+// The fields of a world's canonical snapshot, where they stand, for experiments on its bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lockstone/simulation.h>
+
+namespace lockstone::tool {
+
+struct FieldPlace {
+  const char* store = "";  ///< "world", "body", "contact", "joint"
+  std::uint64_t object = 0;
+  std::string field;
+  std::size_t offset = 0;  ///< within the world's snapshot
+  std::size_t bytes = 0;
+};
+
+/// The world's part of a simulation's canonical snapshot: the whole of a scene's, the tail of the
+/// arena's.
+[[nodiscard]] std::span<std::byte> world_part(const Simulation& simulation,
+                                              std::span<std::byte> canonical);
+
+/// All fields of the header, the bodies, contacts and joints, in their order. `world` is well formed.
+[[nodiscard]] std::vector<FieldPlace> fields_of_world(ByteView world);
+
+/// Makes the checksum at the end right again.
+void reseal(std::span<std::byte> world);
+
+}  // namespace lockstone::tool

@@ -1,0 +1,21 @@
+// What this build computes for a log, tick by tick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <lockstone/replay/source.h>
+#include <lockstone/status.h>
+
+namespace lockstone::tool {
+
+struct Trace {
+  std::uint64_t first_tick = 0;
+  std::vector<std::uint64_t> hashes;  ///< after each tick
+  std::uint64_t agreed = 0;           ///< ticks from the first on whose hash is the recorded one
+};
+
+/// Simulates from the log's beginning. On an error it complains.
+[[nodiscard]] Result<Trace> trace_log(replay::Source& source);
+
+}  // namespace lockstone::tool

@@ -1,0 +1,71 @@
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <lockstone/replay/seek.h>
+
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+#include "tools/lockstone/log_commands.h"
+#include "tools/lockstone/log_file.h"
+#include "tools/lockstone/trace.h"
+#include "tools/scenes/play.h"
+
+namespace lockstone::tool {
+namespace {
+
+void print_hashes(const Trace& trace) {
+  nlohmann::ordered_json json{{"first_tick", trace.first_tick}};
+  nlohmann::ordered_json hashes = nlohmann::ordered_json::array();
+  for (const std::uint64_t hash : trace.hashes)
+    hashes.push_back(hash_text(hash));
+  json["hashes"] = std::move(hashes);
+  fmt::print("{}\n", json.dump(1));
+}
+
+int trace(const std::string& file) {
+  const auto source = open_log(file);
+  if (source == nullptr) return k_corrupt;
+  const Result<Trace> trace = trace_log(*source);
+  if (!trace) return exit_code_of(trace.status());
+  print_hashes(trace.value());
+  return k_ok;
+}
+
+}  // namespace
+
+Result<Trace> trace_log(replay::Source& source) {
+  replay::LogReader header(source);
+  if (const Status status = header.open(); status != Status::ok) return status;
+  const std::uint64_t first = header.header().match.start_tick;
+  replay::SeekResult found =
+      replay::seek(source, scenes::make_simulation, first, replay::SeekFrom::beginning);
+  if (found.status != Status::ok) {
+    complain(found.what);
+    return found.status;
+  }
+  Trace trace{.first_tick = first, .hashes = {}, .agreed = 0};
+  Progress progress;
+  bool agrees = true;
+  while (found.ticks->next()) {
+    progress.show("trace", trace.hashes.size(), 0);
+    found.simulation->step(found.ticks->inputs());
+    trace.hashes.push_back(found.simulation->hash());
+    agrees = agrees && trace.hashes.back() == found.ticks->hash();
+    trace.agreed += agrees ? 1U : 0U;
+  }
+  return trace;
+}
+
+void add_trace_command(CLI::App& app, int& exit_code) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "trace", "Print, as JSON, the hash that this build computes for each tick of a log");
+  command->add_option("file", *file, "A .lks log")->required();
+  command->callback([file, &exit_code] { exit_code = trace(*file); });
+}
+
+}  // namespace lockstone::tool
