@@ -6,7 +6,15 @@
 # usage: tools/cross.sh [TARGET…]     default: all of them
 #
 #   gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
+#   sanitized                                this machine, AddressSanitizer and UBSan
+#   simd-scalar simd-sse4 simd-avx2 simd-avx512   gcc-O3 with one kind of vectors
 #   aarch64 riscv64 armhf s390x              cross compilers and qemu-user
+#   i386                                     32-bit x86
+#   windows                                  MinGW, under Wine
+#   wasm                                     WebAssembly, under Node
+#
+# A match of bots in the arena is recorded on the first target and verified on every one. The table
+# also goes to build/cross/table.txt and, as JUnit XML, to build/cross/junit.xml.
 #
 # Exits 1 when a hash differs, a run fails, or a target named on the command line cannot be built or
 # run here. Without named targets such a target is reported and left out. Missing Debian packages are
@@ -15,13 +23,18 @@
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-all=(gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3 aarch64 riscv64 armhf s390x)
+all=(gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3 sanitized simd-scalar simd-sse4 simd-avx2 simd-avx512
+  aarch64 riscv64 armhf s390x i386 windows wasm)
 
 # compiler_of TARGET
 compiler_of() {
   case $1 in
     gcc-*) echo g++ ;;
+    sanitized | simd-*) echo g++ ;;
     clang-*) echo clang++ ;;
+    i386) echo i686-linux-gnu-g++ ;;
+    windows) echo x86_64-w64-mingw32-g++-posix ;;
+    wasm) echo em++ ;;
     armhf) echo arm-linux-gnueabihf-g++ ;;
     *) echo "$1-linux-gnu-g++" ;;
   esac
@@ -30,7 +43,9 @@ compiler_of() {
 # emulator_of TARGET: the qemu binary, or nothing for this machine.
 emulator_of() {
   case $1 in
-    gcc-* | clang-*) ;;
+    gcc-* | clang-* | sanitized | simd-* | i386) ;;
+    windows) echo wine ;;
+    wasm) echo node ;;
     armhf) echo qemu-arm ;;
     *) echo "qemu-$1" ;;
   esac
@@ -44,11 +59,44 @@ lacking() {
   done
 }
 
+# preset_of TARGET: what it is built as.
+preset_of() {
+  case $1 in
+    simd-*) echo gcc-O3 ;;
+    *) echo "$1" ;;
+  esac
+}
+
+# program_of TARGET
+program_of() {
+  local program=$root/build/cross/$(preset_of "$1")/tools/lockstone
+  case $1 in
+    windows) echo "$program.exe" ;;
+    wasm) echo "$program.js" ;;
+    *) echo "$program" ;;
+  esac
+}
+
+# runs_here TARGET: whether this processor has the vectors.
+runs_here() {
+  [[ $1 != simd-* ]] || "$(program_of "$1")" run --scene spin --ticks 1 --simd "${1#simd-}" >/dev/null 2>&1
+}
+
+# runner_of TARGET: the command line, for cross_table.py.
+runner_of() {
+  local runner
+  runner="$1=$(emulator_of "$1") $(program_of "$1")"
+  if [[ $1 == simd-* ]]; then runner+=" :: --simd ${1#simd-}"; fi
+  echo "$runner"
+}
+
 # build TARGET: quiet; its output is kept in a log, which is named when it fails.
 build() {
-  local log=build/cross/$1.log
+  local preset log=build/cross/$1.log
+  preset=$(preset_of "$1")
   mkdir -p build/cross
-  cmake --preset "$1" >"$log" 2>&1 && cmake --build --preset "$1" --parallel "$jobs" >>"$log" 2>&1
+  cmake --preset "$preset" >"$log" 2>&1 &&
+    cmake --build --preset "$preset" --parallel "$jobs" >>"$log" 2>&1
 }
 
 left_out=0
@@ -69,13 +117,19 @@ wanted=("$@")
 
 # A package that cannot be installed costs its target, not the others.
 (require_packages build cross) || true
+if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm)\  ]]; then (require_packages cross-more) || true; fi
+export WINEDEBUG=${WINEDEBUG:--all}
 runners=()
 for target in "${wanted[@]}"; do
   mapfile -t programs < <(lacking "$target")
   if ((${#programs[@]})); then
     leave_out "$target" "no ${programs[*]}"
   elif say "build $target" && build "$target"; then
-    runners+=("$target=$(emulator_of "$target") $root/build/cross/$target/tools/lockstone")
+    if runs_here "$target"; then
+      runners+=("$(runner_of "$target")")
+    else
+      leave_out "$target" "this processor cannot run it"
+    fi
   else
     grep -m 5 -iE 'error|not found' "build/cross/$target.log" || tail -n 5 "build/cross/$target.log"
     leave_out "$target" "does not build, see build/cross/$target.log"
@@ -84,6 +138,7 @@ done
 
 ((${#runners[@]})) || die "no target left"
 status=0
-python3 -B tools/cross_table.py --jobs "$jobs" "${runners[@]}" || status=1
+python3 -B tools/cross_table.py --jobs "$jobs" --junit build/cross/junit.xml "${runners[@]}" |
+  tee build/cross/table.txt || status=1
 if (($# && left_out)); then status=1; fi
 exit "$status"

@@ -1,7 +1,14 @@
-# What the cross toolchains share; each sets `triple` and `processor` and includes this file.
-set(CMAKE_SYSTEM_NAME Linux)
+# What the cross toolchains share; each sets `triple` and `processor`, where they are not the usual
+# ones `system` and `compiler`, and includes this file.
+if(NOT DEFINED system)
+  set(system Linux)
+endif()
+if(NOT DEFINED compiler)
+  set(compiler ${triple}-g++)
+endif()
+set(CMAKE_SYSTEM_NAME ${system})
 set(CMAKE_SYSTEM_PROCESSOR ${processor})
-set(CMAKE_CXX_COMPILER ${triple}-g++)
+set(CMAKE_CXX_COMPILER ${compiler})
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 
 # The command uses some libraries by their headers alone, which are the same for every processor.

@@ -1,0 +1,13 @@
+# WebAssembly by Emscripten, to be run by Node.
+set(triple wasm32-unknown-emscripten)
+set(processor wasm32)
+set(system Emscripten)
+set(compiler em++)
+include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
+set(CMAKE_C_COMPILER emcc)
+set(CMAKE_AR emar)
+set(CMAKE_RANLIB emranlib)
+set(CMAKE_EXECUTABLE_SUFFIX .js)
+set(CMAKE_CXX_FLAGS_INIT -fexceptions)
+set(CMAKE_EXE_LINKER_FLAGS_INIT
+  "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sTOTAL_STACK=4MB")
