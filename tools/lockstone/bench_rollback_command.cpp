@@ -58,7 +58,7 @@ std::size_t saved_bytes(const World& world) {
 
 // Boxes dropped into a square pit of four walls, in layers.
 World make_pit(std::uint32_t boxes) {
-  WorldDef def = bench::speed_def(BroadPhaseKind::tree, boxes + 8, 16 * boxes, 8 * boxes);
+  WorldDef def = bench::speed_def(BroadPhaseKind::tree, boxes + 8, 16 * (boxes + 8), 8 * (boxes + 8));
   World world = bench::make_speed_world(def);
   const auto fixed = [&](int x, int y, int z, int sx, int sy, int sz) {
     BodyDef body;
