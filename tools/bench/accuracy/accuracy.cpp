@@ -15,12 +15,19 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {4, "torque-free box, 60 s: energy", 1, measure_box_energy},
     {5, "torque-free box, 60 s: angular momentum", 1, measure_box_momentum},
     {6, "torque-free box: times of the first flips", 1, measure_box_flips},
+    {7, "heavy top on a ball joint, 10 s: precession", 1, measure_top},
+    {15, "pendulum from 90 degrees, 60 s", 1, measure_pendulum},
+    {16, "double pendulum, 5 s", 1, measure_double_pendulum},
+    {17, "four-bar linkage with a motor, 20 s", 1, measure_linkage},
+    {18, "chain of 10 with 100 : 1 at its end, 20 s", 1, measure_chain},
     {23, "fast bodies against thin walls", 100'000, measure_tunnels},
     {24, "rays, shape casts, distances", 1'000'000, measure_queries},
     {25, "mass of hulls and compounds", 20'000, measure_masses},
     {26, "cylinder at 100 rad/s, 60 s: angle", 1, measure_cylinder},
     {27, "Dzhanibekov's body, 2 s", 1, measure_dzhanibekov},
     {28, "rod I = (.1, 2, 2.05), 10 s", 1, measure_rod},
+    {35, "rod pendulum from 90 degrees, 60 s", 1, measure_rod_pendulum},
+    {36, "chain of 20 with a heavy end, 10 s", 1, measure_heavy_chain},
 });
 
 }  // namespace

@@ -51,6 +51,13 @@ void for_blocks(std::uint64_t tries, std::uint64_t block, int threads,
 [[nodiscard]] std::vector<AccuracyResult> measure_box_energy(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_box_momentum(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_box_flips(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_top(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_pendulum(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_double_pendulum(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_linkage(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_chain(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_rod_pendulum(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_heavy_chain(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_tunnels(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_queries(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_masses(const AccuracyOptions& options);

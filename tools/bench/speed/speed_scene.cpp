@@ -10,11 +10,10 @@ constexpr SpeedScene absent(std::string_view name, std::string_view description,
   return {name, description, 0, nullptr, nullptr, needs};
 }
 
-constexpr SpeedScene k_joint_grid = absent("joint-grid", "100 x 100 balls in a net", "joints");
 constexpr SpeedScene k_junkyard =
     absent("junkyard", "10,584 rocks swept by a pusher", "a file of its own");
 constexpr SpeedScene k_ragdoll_rain =
-    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "joints");
+    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "a file of its own");
 constexpr SpeedScene k_terrain =
     absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "a file of its own");
 

@@ -39,6 +39,7 @@ struct SpeedScene {
 extern const SpeedScene k_large_pyramid, k_many_pyramids;                  // pyramids.cpp
 extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pits.cpp
 extern const SpeedScene k_convex_pile;                                     // convex_pile.cpp
+extern const SpeedScene k_joint_grid;                                      // joint_grid.cpp
 extern const SpeedScene k_washer;                                          // washer.cpp
 extern const SpeedScene k_city;                                            // city.cpp
 
