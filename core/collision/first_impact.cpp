@@ -50,12 +50,26 @@ Vec3<Position> middle_of(const Piece& piece) {
   return piece.origin + rounded<Position>(rotate(piece.rotation, piece.polytope->interior));
 }
 
+// At least how far the turning of B takes any of its points that A may come to: the angle times
+// their distance from its centre, or across it.
+Position turned_way(const MovingShape& a, const MovingShape& b, Position radius_a) {
+  Position angle{}, reach = radius_a;  // in rad
+  for (int i = 0; i < 3; ++i) {
+    angle += Position::from_raw(abs(b.motion.rotation[i]).raw);
+    reach += abs(a.motion.start.position[i] - b.motion.start.position[i]);
+    reach += abs(a.motion.translation[i]) + abs(b.motion.translation[i]);
+  }
+  const Position across = rounded<Position>(bounding_radius(b.shape, b.asset)) * 2;
+  if (angle >= Position::from_integer(1)) return across;
+  const auto angle_q30 = static_cast<std::int32_t>((angle.raw >> 2) + 1);
+  return min(across, Position::from_raw(raw::multiply_shift(reach.raw, angle_q30, 30) + 1));
+}
+
 // Everything that A may reach while it moves relative to B.
 OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   const Position radius = rounded<Position>(bounding_radius(a.shape, a.asset));
   const bool b_turns = b.motion.rotation != RotationVector{};
-  const Position turned =
-      b_turns ? rounded<Position>(bounding_radius(b.shape, b.asset)) * 2 : Position{};
+  const Position turned = b_turns ? turned_way(a, b, radius) : Position{};
   OrientedBox box;
   for (int i = 0; i < 3; ++i) {
     const Position half_way = Position::from_raw(a.motion.translation[i].raw / 2);
