@@ -173,9 +173,9 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
     const BodyRecord& obstacle = bodies[other];
-    const bool considered = other != body && !obstacle.is_trigger() &&
-                            (record.is_bullet() || !obstacle.is_dynamic()) &&
-                            should_collide(record.filter(), obstacle.filter());
+    const bool considered =
+        other != body && !obstacle.is_trigger() && (record.is_bullet() || !obstacle.is_dynamic()) &&
+        should_collide(record.filter(), obstacle.filter()) && !are_joined(body, other);
     if (!considered) return;
     const Shape other_shape = obstacle.shape();
     const Sweep other_motion = motion_of(other, done);

@@ -286,10 +286,18 @@ void World::Impl::unlink_joint(std::uint32_t index) {
 }
 
 // The moving body first, or the lower index, as the broad phase gives them.
+Pair World::Impl::pair_of(std::uint32_t a, std::uint32_t b) const {
+  const bool a_moves = bodies[a].moves(), b_moves = bodies[b].moves();
+  const bool swap = a_moves == b_moves ? a > b : b_moves;
+  return swap ? Pair{b, a} : Pair{a, b};
+}
+
 Pair World::Impl::joined_pair(const JointRecord& joint) const {
-  const bool a_moves = bodies[joint.body_a].moves(), b_moves = bodies[joint.body_b].moves();
-  const bool swap = a_moves == b_moves ? joint.body_a > joint.body_b : b_moves;
-  return swap ? Pair{joint.body_b, joint.body_a} : Pair{joint.body_a, joint.body_b};
+  return pair_of(joint.body_a, joint.body_b);
+}
+
+bool World::Impl::are_joined(std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::binary_search(joined_pairs, pair_of(a, b));
 }
 
 void World::Impl::rebuild_joint_links() {

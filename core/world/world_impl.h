@@ -101,7 +101,10 @@ struct World::Impl {
   void link_joint(std::uint32_t index);
   void unlink_joint(std::uint32_t index);
   void rebuild_joint_links();
+  [[nodiscard]] Pair pair_of(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] Pair joined_pair(const JointRecord& joint) const;
+  /// By a joint whose bodies do not collide.
+  [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool set_total_length(JointRecord& joint) const;
 
   // Sleep (sleep.cpp).

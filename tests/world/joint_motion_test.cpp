@@ -180,6 +180,26 @@ TEST(Joints, WeldHoldsAsOne) {
   }
 }
 
+TEST(Joints, FastBodiesPassWhatTheyAreJoinedTo) {
+  World world = test::make_world();
+  BodyDef base;
+  base.motion = MotionType::static_body;
+  base.shape = Shape::box(0.5_m, 0.1_m, 1_m);
+  const BodyHandle fixed = test::add(world, base);
+  const BodyHandle plank =
+      test::add(world, test::dynamic_body(Shape::box(0.48_m, 0.06_m, 1_m), 1_m, {}, {}));
+  for (const Length side : {Length::from_ratio(-9, 10), Length::from_ratio(9, 10)}) {
+    JointDef joint = JointDef::of(JointKind::ball, fixed, plank);
+    joint.frame_a.position = {0.5_m, {}, side};
+    joint.frame_b.position = {-0.5_m, {}, side};
+    join(world, joint);
+  }
+  for (int tick = 0; tick < 240; ++tick) {
+    ASSERT_EQ(world.step().impacts, 0U);
+    ASSERT_LT(worst_gap(world), 1e-5);
+  }
+}
+
 TEST(Joints, RopeIsNeverLongerThanItsLimit) {
   World world = test::make_world();
   JointDef rope = JointDef::of(JointKind::distance, add_fixed(world), {});
