@@ -65,7 +65,8 @@ class Weights {
 RawVec centre_of(const PlacedSolid& placed) {
   const Mat3 axes = to_matrix(placed.orientation);
   const Vec3<Length>& c = placed.solid.centre;
-  return fine(placed.position) + along(axes.x, c.x) + along(axes.y, c.y) + along(axes.z, c.z);
+  return fine(placed.position) + along(axes.x, c.x) + along(axes.y, c.y) + along(axes.z, c.z) +
+         rotate(axes, placed.solid.rest);
 }
 
 RawVec mean_centre(Solids solids, const Weights& weights) {
@@ -89,8 +90,12 @@ Length distance_up(const RawVec& arm) {
 SymMat3<std::int64_t> tensor_about(const PlacedSolid& placed, const RawVec& arm, int k) {
   const Solid& solid = placed.solid;
   const Mat3 frame = multiply(to_matrix(placed.orientation), to_matrix(solid.axes));
-  const SymMat3<Unit> own = lockstone::rotate(
-      frame, SymMat3<Unit>{solid.inertia.x, solid.inertia.y, solid.inertia.z, {}, {}, {}});
+  const SymMat3<Unit> own = lockstone::rotate(frame, SymMat3<Unit>{to_unit(solid.inertia.x),
+                                                                   to_unit(solid.inertia.y),
+                                                                   to_unit(solid.inertia.z),
+                                                                   {},
+                                                                   {},
+                                                                   {}});
   const int smaller = 2 * (k - solid.scale_exponent);
   const auto own_entry = [&](Unit x) {
     const std::int64_t wide = std::int64_t{x.raw} << (k_tensor_bits - Unit::frac_bits);
@@ -126,7 +131,8 @@ SymMat3<std::int64_t> mean_tensor(Solids solids, const Weights& weights, const R
 Solid solid_of(const Shape& primitive) {
   Solid solid;
   solid.volume = volume_of(primitive);
-  solid.inertia = normalized_inertia(primitive);
+  const Vec3<Unit> inertia = normalized_inertia(primitive);
+  solid.inertia = {to_moment(inertia.x), to_moment(inertia.y), to_moment(inertia.z)};
   solid.scale_exponent = scale_exponent(primitive);
   solid.radius = bounding_radius(primitive);
   solid.inner_radius = inner_radius(primitive);
@@ -142,6 +148,7 @@ Solid combined(Solids solids) {
     result.centre[axis] = {
         static_cast<std::int32_t>(raw::round_shift(centre[axis], k_fine_per_length))};
   }
+  result.rest = centre - fine(result.centre);
   for (const PlacedSolid& solid : solids) {
     const Length distance = distance_up(centre_of(solid) - fine(result.centre));
     result.radius = max(result.radius, distance + solid.solid.radius);

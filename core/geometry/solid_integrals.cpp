@@ -154,6 +154,7 @@ std::optional<Solid> solid_of(Vertices vertices, Triangles triangles) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto& moment = about_centre.moment_24[static_cast<std::size_t>(axis)];
     rest[axis] = divisor.quotient(moment, k_rest_bits, 4);
+    solid.rest[axis] = raw::round_shift(rest[axis], k_rest_bits - k_fine_per_length);
   }
   const SymMat3<Int192> moments = second_moments(vertices, triangles, solid.centre);
   const PrincipalAxes principal =

@@ -142,7 +142,9 @@ ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
   }
   if (asset != nullptr && asset->solid() != nullptr) {
     const geometry::Solid& solid = *asset->solid();
-    return {bounded(solid.inertia), solid.scale_exponent, solid.radius};
+    const Vec3<Unit> inertia{geometry::to_unit(solid.inertia.x), geometry::to_unit(solid.inertia.y),
+                             geometry::to_unit(solid.inertia.z)};
+    return {bounded(inertia), solid.scale_exponent, solid.radius};
   }
   return {bounded({}), k_largest_scale_exponent, {}};
 }
