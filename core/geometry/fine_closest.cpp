@@ -87,9 +87,28 @@ Fine least_height(const FinePair& pair, const Simplex& all, const RawVec& normal
   return least;
 }
 
+/// The nearest points and the highest plane met so far: bounds of the distance from both sides.
+struct Bounds {
+  Candidate nearest{};
+  RawVec normal{};  ///< of the highest plane
+  Fine height = std::numeric_limits<Fine>::min();
+
+  void take_points(const Candidate& candidate) {
+    if (!nearest.is_within || candidate.distance < nearest.distance) nearest = candidate;
+  }
+  void take_plane(const RawVec& direction, Fine least_height) {
+    if (least_height <= height) return;
+    height = least_height;
+    normal = direction;
+  }
+  [[nodiscard]] bool meet() const {
+    return nearest.is_within && height >= nearest.distance - k_proof;
+  }
+};
+
 /// Of all vertices, edges and triangles the one whose plane separates most, the first of equals:
 /// distances would tell less, because beside a giant they hardly change where normals do.
-Candidate nearest_of(const FinePair& pair, const Simplex& all) {
+Candidate nearest_of(const FinePair& pair, const Simplex& all, Bounds& bounds) {
   Candidate best;
   Fine highest = std::numeric_limits<Fine>::min();
   const unsigned masks = std::min(1U << all.count, 15U);
@@ -98,6 +117,7 @@ Candidate nearest_of(const FinePair& pair, const Simplex& all) {
     const Candidate candidate =
         part.count == 3 ? of_triangle(pair, part) : of_vertex_or_edge(pair, part);
     if (!candidate.is_within || candidate.normal == RawVec{}) continue;
+    bounds.take_points(candidate);
     const Fine height = least_height(pair, all, candidate.normal);
     if (height <= highest) continue;
     best = candidate;
@@ -134,23 +154,6 @@ LeastVertex least_vertex(const FinePair& pair, const RawVec& direction) {
   return {{{}, a.vertex, b.vertex}, height_along(direction, product)};
 }
 
-/// The nearest points and the highest plane met so far: bounds of the distance from both sides.
-struct Bounds {
-  Candidate nearest{};
-  RawVec normal{};  ///< of the highest plane
-  Fine height = std::numeric_limits<Fine>::min();
-
-  void take(const Candidate& candidate, Fine least_height) {
-    if (!nearest.is_within || candidate.distance < nearest.distance) nearest = candidate;
-    if (least_height <= height) return;
-    height = least_height;
-    normal = candidate.normal;
-  }
-  [[nodiscard]] bool meet() const {
-    return nearest.is_within && height >= nearest.distance - k_proof;
-  }
-};
-
 bool has(const Simplex& simplex, const DifferenceVertex& vertex) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i)
     if (simplex.vertices[i].a == vertex.a && simplex.vertices[i].b == vertex.b) return true;
@@ -163,10 +166,10 @@ FineClosest fine_closest(const FinePair& pair, const Simplex& start) {
   Bounds bounds;
   Simplex simplex = start;
   for (int step = 0; step < k_max_steps && !bounds.meet(); ++step) {
-    const Candidate candidate = nearest_of(pair, simplex);
+    const Candidate candidate = nearest_of(pair, simplex, bounds);
     if (!candidate.is_within) break;
     const LeastVertex least = least_vertex(pair, truncated(candidate.normal, 61));
-    bounds.take(candidate, least.height);
+    bounds.take_plane(candidate.normal, least.height);
     if (has(candidate.simplex, least.vertex)) break;
     simplex = candidate.simplex;
     simplex.vertices[static_cast<std::size_t>(simplex.count++)] = least.vertex;

@@ -53,7 +53,7 @@ struct PosedShape {
 /// Overlapping, the normal is an axis of least overlap; a face is preferred to an edge whose
 /// overlap is smaller by less than a tenth and 0.5 mm, and the first of two boxes by 1/32 and 0.25
 /// mm. The normal errs by at most 2^-29 in length. Separations saturate at ±128 m. Points lie on
-/// both surfaces within 2 µm, for two boxes 32 µm where a flush edge was snapped, and for two
+/// both surfaces within 2 µm, for two boxes 32 µm for each flush edge that was snapped, and for two
 /// points along a capsule within 1/1000 of its radius; where a capsule's core is inside a box, the
 /// point is the deepest of the core.
 ///

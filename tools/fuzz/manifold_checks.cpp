@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "tools/fuzz/pair_checks.h"
 #include "tools/fuzz/surface.h"
 
@@ -43,8 +45,9 @@ bool has_core_inside(const Pair& pair, double separation) {
   return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
+// A vertex may be moved onto a side by 31 µm, and at a corner onto two.
 double surface_slack(const Pair& pair) {
-  const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre;
+  const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
   const double share = pair.has(Kind::capsule) ? pair.radii() / 1000 : 0;
   return tolerance(pair) + snap + share + uneven_slack(pair);
 }

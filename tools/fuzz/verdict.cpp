@@ -16,7 +16,7 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"overlap", "15 % and 0.82 mm more"},
     {"margin", "as apart"},
     {"manifold", "normal 2^-29; features ascend"},
-    {"anchors", "34 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius"},
+    {"anchors", "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
     {"cast", "2 um"},
