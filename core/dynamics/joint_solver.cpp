@@ -13,6 +13,10 @@ constexpr int k_velocity_solves = 2;
 // Of sweeps over drives and limits before positions move.
 constexpr int k_sweeps = 2;
 
+// Locks of more loops say too much more than once to be solved for exactly: a bridge of planks on
+// two ropes flew apart.
+constexpr std::uint32_t k_most_loops = 2;
+
 }  // namespace
 
 JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
@@ -164,7 +168,9 @@ void JointSolver::plan_group(Group group) {
     }
   };
   const auto rows = [&](std::uint32_t k) { return most_locks(*joint_at(k).record); };
-  if (factor_.plan(group.count, neighbours, rows)) {
+  // The pushed bodies of a tree on the ground are as many as its joints.
+  const bool has_few_loops = group.count <= group.body_count + k_most_loops;
+  if (has_few_loops && factor_.plan(group.count, neighbours, rows)) {
     group.exact = true;
     group.column = factor_.first();
     groups_.push_back(group);

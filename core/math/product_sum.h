@@ -7,8 +7,8 @@
 
 namespace lockstone {
 
-/// What a sum is clamped to when it is rounded.
-inline constexpr std::int64_t k_product_bound = std::int64_t{1} << 62;
+/// What a sum is clamped to when it is rounded: two of them have a difference.
+inline constexpr std::int64_t k_product_bound = std::int64_t{1} << 61;
 
 /// The caller guarantees that every partial sum is below 2^126.
 class ProductSum {

@@ -23,7 +23,8 @@ constexpr std::int64_t k_effort_limit = std::int64_t{1} << 56;
 constexpr std::uint8_t k_last_kind = static_cast<std::uint8_t>(JointKind::rack);
 
 bool in_world(const Vec3<Position>& p) {
-  return abs(p.x) <= k_world_limit && abs(p.y) <= k_world_limit && abs(p.z) <= k_world_limit;
+  const auto is_within = [](Position x) { return x <= k_world_limit && x >= -k_world_limit; };
+  return is_within(p.x) && is_within(p.y) && is_within(p.z);
 }
 
 bool is_valid(const JointAxisRecord& axis, std::uint8_t mode, bool is_angle) {

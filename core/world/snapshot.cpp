@@ -18,14 +18,20 @@
 namespace lockstone {
 namespace {
 
+// Of any bits: the least number has no magnitude.
+template <class T>
+bool is_within(T x, T limit) {
+  return x <= limit && x >= -limit;
+}
+
 bool in_range(const Vec3<Position>& v, Position limit) {
-  return abs(v.x) <= limit && abs(v.y) <= limit && abs(v.z) <= limit;
+  return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
 }
 
 // The limit plus what its own rounding may leave.
 bool in_range(const Vec3<Velocity>& v) {
   constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
-  return abs(v.x) <= limit && abs(v.y) <= limit && abs(v.z) <= limit;
+  return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
 }
 
 bool has_valid_inertia(const Vec3<Unit>& inertia) {
@@ -43,7 +49,7 @@ bool has_valid_mass(const BodyRecord& record) {
 
 bool has_valid_surface(const BodyRecord& record) {
   return is_valid_surface(record.friction, record.restitution) && record.linear_damping >= Rate{} &&
-         record.angular_damping >= Rate{} && abs(record.gravity_scale) <= k_gravity_scale_limit;
+         record.angular_damping >= Rate{} && is_within(record.gravity_scale, k_gravity_scale_limit);
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
