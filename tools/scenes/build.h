@@ -48,15 +48,15 @@ void add_stack(World& world, const Vec3<Position>& base, int count);
 [[nodiscard]] Quat random_orientation(Random& random);
 
 // The scenes, by what they show.
-extern const Scene k_stack, k_pyramid, k_far, k_pile;                   // heaps.cpp
-extern const Scene k_rolling, k_capsule, k_bounce, k_friction, k_spin;  // motions.cpp
-extern const Scene k_kinematic, k_trigger, k_spawn;                     // driven.cpp
-extern const Scene k_commands;                                          // all_commands.cpp
-extern const Scene k_hulls, k_compounds;                                // convex.cpp
-extern const Scene k_terrain, k_mesh;                                   // surfaces.cpp
-extern const Scene k_bullets;                                           // bullets.cpp
-extern const Scene k_layers;                                            // layers.cpp
-extern const Scene k_sleep;                                             // sleep.cpp
-extern const Scene k_chain, k_pendulum, k_ragdoll, k_vehicle;           // joints.cpp
+extern const Scene k_stack, k_pyramid, k_far, k_pile;                    // heaps.cpp
+extern const Scene k_rolling, k_capsule, k_bounce, k_friction, k_spin;   // motions.cpp
+extern const Scene k_kinematic, k_trigger, k_spawn;                      // driven.cpp
+extern const Scene k_commands;                                           // all_commands.cpp
+extern const Scene k_hulls, k_compounds;                                 // convex.cpp
+extern const Scene k_terrain, k_mesh;                                    // surfaces.cpp
+extern const Scene k_bullets;                                            // bullets.cpp
+extern const Scene k_layers;                                             // layers.cpp
+extern const Scene k_sleep;                                              // sleep.cpp
+extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
 
 }  // namespace lockstone::scenes

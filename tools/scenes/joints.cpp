@@ -53,6 +53,30 @@ void build_pendulums(World& world, std::uint64_t) {
   join(world, hinge);
 }
 
+// Planks on two ropes of ball joints; boxes fall on it.
+void build_bridge(World& world, std::uint64_t) {
+  constexpr int k_planks = 12;
+  BodyHandle last = add(world, fixed_box({-6.5_m, 3_m, {}}, {0.5_m, 0.1_m, 1_m}));
+  const auto tie = [&](BodyHandle to) {
+    for (const int side : {-1, 1}) {
+      JointDef joint = JointDef::of(JointKind::ball, last, to);
+      joint.frame_a.position = {0.5_m, {}, millimetres_long(side * 900)};
+      joint.frame_b.position = {-0.5_m, {}, millimetres_long(side * 900)};
+      join(world, joint);
+    }
+    last = to;
+  };
+  for (int i = 0; i < k_planks; ++i) {
+    BodyDef plank =
+        loose(Shape::box(0.48_m, 0.06_m, 1_m), {millimetres(-5500 + i * 1000), 3_m, {}});
+    plank.material.density = Density::from_integer(600);
+    tie(add(world, plank));
+  }
+  tie(add(world, fixed_box({6.5_m, 3_m, {}}, {0.5_m, 0.1_m, 1_m})));
+  for (int i = 0; i < 4; ++i)
+    add(world, loose(Shape::box(0.3_m, 0.3_m, 0.3_m), {millimetres(i * 1500 - 2200), 4.5_m, {}}));
+}
+
 // Torso and head, two arms and two legs of two parts each.
 void add_ragdoll(World& world, const Vec3<Position>& at) {
   const auto part = [&](const Shape& shape, std::int32_t x_mm, std::int32_t y_mm) {
@@ -133,6 +157,8 @@ constinit const Scene k_chain{"chain", "ten links with 100 : 1 at the end swing"
                               build_chain};
 constinit const Scene k_pendulum{"pendulum", "a pendulum, a double one, a rod on a spring", 240,
                                  small_world, build_pendulums};
+constinit const Scene k_bridge{"bridge", "boxes fall on a hanging bridge", 240, small_world,
+                               build_bridge};
 constinit const Scene k_ragdoll{"ragdoll", "two ragdolls fall on a block", 200, small_world,
                                 build_ragdoll};
 constinit const Scene k_vehicle{"vehicle", "a car with suspension drives over a ramp", 240,
