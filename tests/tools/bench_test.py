@@ -57,9 +57,9 @@ class Speed(Case):
             self.assertLessEqual(row["reused"], row["manifolds"])
 
     def test_what_cannot_run_is_absent_with_a_reason(self):
-        report = self.json_of("speed", "--scene", "joint-grid")
+        report = self.json_of("speed", "--scene", "ragdoll-rain")
         self.assertEqual(report["scenes"], [])
-        self.assertEqual(report["absent"], [{"scene": "joint-grid", "needs": "joints"}])
+        self.assertEqual(report["absent"], [{"scene": "ragdoll-rain", "needs": "a file of its own"}])
 
     def test_lists_its_scenes(self):
         names = [line.split()[0] for line in self.expect(OK, "speed", "--list").splitlines()]
