@@ -16,7 +16,6 @@ constexpr std::uint64_t k_file_seed = 1;
 constexpr std::uint64_t k_frame_seed = 2;
 constexpr std::uint64_t k_payload_seed = 3;
 
-constexpr std::uint32_t k_sync = 0x434b4ca7;  // bytes a7 'L' 'K' 'C'
 constexpr std::size_t k_frame_checksum_offset = k_chunk_header_bytes - k_checksum_bytes;
 
 // The longest INPUT payload; tests relate it to InputEncoder::bytes_max.
@@ -56,7 +55,23 @@ DecodeFault check_lengths(const ChunkHeader& header) {
   return {};
 }
 
+// The last eight bytes become the checksum of the others.
+std::uint64_t seal(std::span<std::byte> bytes, std::uint64_t seed) {
+  const auto covered = bytes.first(bytes.size() - k_checksum_bytes);
+  const std::uint64_t checksum = hash64(covered, seed);
+  ByteWriter(bytes.last(k_checksum_bytes)).put(checksum);
+  return checksum;
+}
+
 }  // namespace
+
+std::uint64_t seal_file_header(std::span<std::byte> header) {
+  return seal(header, k_file_seed);
+}
+
+std::uint64_t seal_chunk_frame(std::span<std::byte, k_chunk_header_bytes> frame) {
+  return seal(frame, k_frame_seed);
+}
 
 std::size_t file_header_bytes(const LogHeader& header) {
   return k_min_file_header_bytes + build_bytes(header);
@@ -82,10 +97,8 @@ std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> o
   writer.put(header.match.start_tick);
   writer.put(static_cast<std::uint16_t>(build_bytes(header)));
   writer.put_bytes(std::as_bytes(std::span(header.match.build)).first(build_bytes(header)));
-  const std::uint64_t checksum = hash64(writer.written(), k_file_seed);
-  writer.put(checksum);
-  LKS_CHECK(writer.ok() && writer.size() == total_bytes);
-  return checksum;
+  LKS_CHECK(writer.ok() && writer.size() == total_bytes - k_checksum_bytes);
+  return seal_file_header(out.first(total_bytes));
 }
 
 DecodeFault decode_file_prefix(ByteView prefix, std::size_t& header_bytes) {
@@ -143,7 +156,7 @@ std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
                                  std::span<std::byte, k_chunk_header_bytes> out) {
   const ChunkHeader& header = frame.header;
   ByteWriter writer(out);
-  writer.put(k_sync);
+  writer.put(k_chunk_sync);
   writer.put(header.type);
   writer.put(header.version);
   writer.put(header.codec);
@@ -155,16 +168,14 @@ std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
   writer.put(header.stored_bytes);
   writer.put(frame.previous);
   writer.put(frame.payload_checksum);
-  const std::uint64_t checksum = hash64(writer.written(), k_frame_seed);
-  writer.put(checksum);
-  LKS_CHECK(writer.ok() && writer.size() == k_chunk_header_bytes);
-  return checksum;
+  LKS_CHECK(writer.ok() && writer.size() == k_frame_checksum_offset);
+  return seal_chunk_frame(out);
 }
 
 DecodeFault decode_chunk_frame(std::span<const std::byte, k_chunk_header_bytes> bytes,
                                ChunkFrame& frame) {
   ByteReader reader(bytes);
-  if (reader.get<std::uint32_t>() != k_sync) {
+  if (reader.get<std::uint32_t>() != k_chunk_sync) {
     return {Status::checksum_mismatch, 0, "no chunk begins here"};
   }
   ChunkHeader& header = frame.header;

@@ -18,6 +18,7 @@ namespace {
 
 // What the good beginning of a log holds, up to where a tick is complete.
 struct GoodPart {
+  bool has_scene = false;
   std::uint64_t bytes = 0;
   LogEnd totals;
   IndexBuilder index;
@@ -25,11 +26,14 @@ struct GoodPart {
 };
 
 // Reads as far as the log is good. `part` follows each item but INPUT, which is nothing without its
-// hashes.
+// hashes, and what stands between the two.
 LogItem measure(LogReader& reader, GoodPart& part) {
+  bool awaits_hashes = false;
   LogItem item = reader.next();
   for (; !is_last(item) && item != LogItem::end; item = reader.next()) {
-    if (item == LogItem::inputs) continue;
+    awaits_hashes = item == LogItem::inputs || (awaits_hashes && item == LogItem::skipped);
+    if (awaits_hashes) continue;
+    if (item == LogItem::scene) part.has_scene = true;
     const ChunkHeader& chunk = reader.chunk();
     if (item == LogItem::hashes) {
       part.totals.ticks += chunk.count;
@@ -100,9 +104,10 @@ RepairReport repair(Source& damaged, Sink& sink) {
   GoodPart part;
   part.totals.final_tick = reader.header().match.start_tick;
   const LogItem last = measure(reader, part);
-  if (part.bytes == 0) {
+  if (!part.has_scene) {
     report.status = Status::malformed;
-    report.what = "nothing of it is good: " + reader.damage().what;
+    const std::string& cause = reader.damage().what;
+    report.what = "nothing of it is good: " + (cause.empty() ? "it has no scene" : cause);
     return report;
   }
   report.was_whole = last == LogItem::end && ends_well(reader);

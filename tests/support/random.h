@@ -16,6 +16,7 @@ inline std::uint64_t run_seed() {
     const std::uint64_t value =
         text != nullptr ? std::strtoull(text, nullptr, 0) : static_cast<std::uint64_t>(now);
     std::printf("[ seed     ] LOCKSTONE_TEST_SEED=%llu\n", static_cast<unsigned long long>(value));
+    std::fflush(stdout);  // before anything stops the program
     return value;
   }();
   return seed;
