@@ -19,8 +19,9 @@ static_assert(k_max_input_delay_ticks + k_max_lead_ticks + 1 < k_input_window_ti
 Client::Created Client::create(const ClientConfig& config, ClientParts parts) {
   LKS_CHECK(parts.transport != nullptr && parts.inputs != nullptr && parts.factory != nullptr);
   LKS_CHECK(config.max_steps_per_update > 0);
-  if (!config.insecure) return {nullptr, SetupError::insecure_not_requested};
-  SetupError error = check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);
+  SetupError error = check_security(config.insecure, *parts.transport);
+  if (error != SetupError::none) return {nullptr, error};
+  error = check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);
   if (config.max_lead_ticks > k_max_lead_ticks) error = SetupError::input_delay_out_of_range;
   if (error != SetupError::none) return {nullptr, error};
   return {std::unique_ptr<Client>(new Client(std::make_unique<Impl>(config, std::move(parts)))),
@@ -102,7 +103,7 @@ void Client::Impl::receive() {
         say_hello();
         break;
       case TransportEventKind::disconnected:
-        fail(ClientFailure::connection_lost);
+        connection_ended(event.reason);
         break;
       case TransportEventKind::received:
         receive_packet(event.bytes);
@@ -172,7 +173,10 @@ void Client::Impl::say_hello() {
 bool Client::Impl::on_offer(ByteView packet) {
   Offer offer;
   if (decode(packet, offer) != Status::ok) return false;
-  if (state != ClientState::handshaking || simulation != nullptr || !offer.insecure) return false;
+  if (state != ClientState::handshaking || simulation != nullptr ||
+      offer.insecure != config.insecure) {
+    return false;
+  }
   Result<std::unique_ptr<Simulation>> made = parts.factory(offer.config);
   if (!made || check_info(made.value()->info()) != SetupError::none) {
     fail(ClientFailure::config_not_understood);
@@ -217,6 +221,13 @@ bool Client::Impl::on_refuse(ByteView packet) {
   refusal = {refuse.reason, refuse.field, refuse.here, refuse.there};
   hang_up(ClientState::refused, LeaveReason::left);
   return true;
+}
+
+void Client::Impl::connection_ended(RefuseReason reason) {
+  const bool refused = reason != RefuseReason::none && !seated;
+  if (!refused) return fail(ClientFailure::connection_lost);
+  refusal = {reason, RefuseField::none, 0, 0};
+  hang_up(ClientState::refused, LeaveReason::left);
 }
 
 bool Client::Impl::on_start(ByteView packet) {

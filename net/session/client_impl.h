@@ -31,6 +31,7 @@ struct Client::Impl {
   [[nodiscard]] bool on_desync(ByteView packet);
   [[nodiscard]] bool on_finish(ByteView packet);
   [[nodiscard]] bool on_bye(ByteView packet);
+  void connection_ended(RefuseReason reason);
   void reserve_memory();
   void fail(ClientFailure why);
   void hang_up(ClientState final_state, LeaveReason reason);

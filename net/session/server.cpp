@@ -14,7 +14,6 @@ constexpr std::size_t k_spare_links = 4;  // for those who are refused
 constexpr std::size_t k_input_ring_ticks = 4 * k_input_window_ticks;
 
 SetupError check(const ServerConfig& config, const SimulationInfo& info) {
-  if (!config.insecure) return SetupError::insecure_not_requested;
   if (config.match_config.size() > k_max_config_bytes) return SetupError::match_config_too_long;
   if (config.input_delay_ticks > k_max_input_delay_ticks) {
     return SetupError::input_delay_out_of_range;
@@ -34,7 +33,9 @@ std::size_t snapshot_bytes(const Simulation* simulation) {
 Server::Created Server::create(const ServerConfig& config, const ServerParts& parts) {
   LKS_CHECK(parts.transport != nullptr);
   const bool simulates = parts.simulation != nullptr;
-  const SetupError error = check(config, simulates ? parts.simulation->info() : config.info);
+  SetupError error = check_security(config.insecure, *parts.transport);
+  if (error != SetupError::none) return {nullptr, error};
+  error = check(config, simulates ? parts.simulation->info() : config.info);
   if (error != SetupError::none) return {nullptr, error};
   if (simulates && parts.simulation->tick() != 0) {
     return {nullptr, SetupError::simulation_already_stepped};
@@ -122,8 +123,11 @@ void Server::Impl::receive() {
       receive_packet(*link, event);
     } else {
       const std::uint8_t slot = link->slot;
+      const bool flooding = event.reason == RefuseReason::flooding;
       release(*link);
-      if (slot != k_no_slot) seat_lost(slot, LeaveReason::disconnected);
+      if (slot != k_no_slot) {
+        seat_lost(slot, flooding ? LeaveReason::flooding : LeaveReason::disconnected);
+      }
     }
   }
 }
@@ -139,7 +143,7 @@ void Server::Impl::receive_packet(Link& link, const TransportEvent& event) {
 // False for a packet that breaks the format or comes out of turn; then it had no effect at all.
 bool Server::Impl::dispatch(Link& link, ByteView packet) {
   const Result<MessageType> type = message_type(packet);
-  if (!type) return false;
+  if (!type) return refuse_secure_hello(link, packet);
   Bye bye;
   switch (type.value()) {
     case MessageType::hello:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "net/security/packet_seal.h"
 #include "net/session/server_impl.h"
 
 namespace lockstone::net {
@@ -18,32 +19,47 @@ void Server::Impl::accept(ConnectionId connection) {
   place->stage = Stage::connected;
   place->since_us = now_us;
   place->watch.heard(now_us);
+  place->identity = parts.transport->identity(connection);
 }
 
 bool Server::Impl::on_hello(Link& link, ByteView packet) {
   Hello hello;
   if (decode(packet, hello) != Status::ok) return false;
-  const Refusal refusal = judge_hello(hello);
+  const Refusal refusal = judge_hello(link, hello);
   if (refusal.reason != RefuseReason::none) {
     refuse(link, refusal);
     return true;
   }
   link.name = hello.name;
-  link.wanted_slot = hello.wanted_slot;
+  link.wanted_slot = link.identity.authenticated ? link.identity.slot : hello.wanted_slot;
   link.stage = Stage::offered;
   send(link, Offer{config.insecure, config.match_config});
   return true;
 }
 
-Refusal Server::Impl::judge_hello(const Hello& hello) const {
+// A client with a token speaks before the session does.
+bool Server::Impl::refuse_secure_hello(Link& link, ByteView packet) {
+  const bool secure = !packet.empty() && packet[0] == static_cast<std::byte>(SecureKind::hello);
+  if (!secure || link.stage != Stage::connected) return false;
+  refuse(link, {RefuseReason::insecure_not_allowed, RefuseField::insecure, 1, 0});
+  return true;
+}
+
+Refusal Server::Impl::judge_hello(const Link& link, const Hello& hello) const {
   if (hello.protocol != k_protocol_version) {
     return {RefuseReason::protocol_mismatch, RefuseField::protocol, k_protocol_version,
             hello.protocol};
   }
-  if (!hello.insecure) {
-    return {RefuseReason::insecure_not_allowed, RefuseField::insecure, 1, 0};
+  if (hello.insecure != config.insecure) {
+    return {RefuseReason::insecure_not_allowed, RefuseField::insecure, config.insecure ? 1U : 0U,
+            hello.insecure ? 1U : 0U};
   }
-  return judge_seats(hello.wanted_slot);
+  if (!link.identity.authenticated) return judge_seats(hello.wanted_slot);
+  const std::uint8_t slot = link.identity.slot;
+  if (slot >= seats.size() || (hello.wanted_slot != k_any_slot && hello.wanted_slot != slot)) {
+    return {RefuseReason::wrong_slot, RefuseField::slot, slot, hello.wanted_slot};
+  }
+  return judge_seats(slot);
 }
 
 Refusal Server::Impl::judge_seats(std::uint8_t wanted_slot) const {
@@ -122,6 +138,7 @@ void Server::Impl::seat(Link& link) {
   place.inputs_next = config.input_delay_ticks;
   place.last_sent_us = now_us;
   judge.set_present(slot, true);
+  parts.transport->trust(link.connection);
   send(link, Welcome{slot, info.player_count, config.input_delay_ticks, config.late_policy,
                      config.pacing, config.tick_count});
   observer->player_joined(slot, link.name.view());

@@ -39,6 +39,7 @@ struct Server::Impl {
     Stage stage = Stage::unused;
     std::uint8_t slot = k_no_slot;  ///< of a seated one
     std::uint8_t wanted_slot = k_any_slot;
+    PeerIdentity identity;
     std::int64_t since_us = 0;
     PeerWatch watch;
     NameText name;
@@ -81,7 +82,8 @@ struct Server::Impl {
   void accept(ConnectionId connection);
   [[nodiscard]] bool on_hello(Link& link, ByteView packet);
   [[nodiscard]] bool on_answer(Link& link, ByteView packet);
-  [[nodiscard]] Refusal judge_hello(const Hello& hello) const;
+  [[nodiscard]] bool refuse_secure_hello(Link& link, ByteView packet);
+  [[nodiscard]] Refusal judge_hello(const Link& link, const Hello& hello) const;
   [[nodiscard]] Refusal judge_seats(std::uint8_t wanted_slot) const;
   [[nodiscard]] Refusal judge_info(const SimulationInfo& theirs) const;
   void refuse(Link& link, const Refusal& refusal);

@@ -21,6 +21,8 @@ std::string_view to_string(SetupError error) {
       return "none";
     case SetupError::insecure_not_requested:
       return "insecure not requested";
+    case SetupError::insecure_on_secure_transport:
+      return "insecure on a secure transport";
     case SetupError::match_config_too_long:
       return "match config too long";
     case SetupError::player_count_out_of_range:

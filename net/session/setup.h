@@ -2,8 +2,17 @@
 #pragma once
 
 #include <lockstone/net/session.h>
+#include <lockstone/net/transport.h>
 
 namespace lockstone::net {
+
+/// A session without encryption is asked for by name, and only then.
+[[nodiscard]] inline SetupError check_security(bool insecure, const Transport& transport) {
+  if (insecure == transport.secure()) {
+    return insecure ? SetupError::insecure_on_secure_transport : SetupError::insecure_not_requested;
+  }
+  return SetupError::none;
+}
 
 [[nodiscard]] inline SetupError check_info(const SimulationInfo& info) {
   if (info.player_count < 1 || info.player_count > k_max_players) {

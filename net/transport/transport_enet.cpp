@@ -115,7 +115,7 @@ struct EnetTransport::State {
     if (!state->initialized) return Status::io_error;
     state->host = enet_host_create(address, options.max_connections, k_channels, 0, 0);
     if (state->host == nullptr) return Status::io_error;
-    state->host->maximumPacketSize = k_max_reliable_bytes;
+    state->host->maximumPacketSize = k_max_reliable_bytes + k_carrier_reserve_bytes;
     state->host->maximumWaitingData = options.max_waiting_bytes;
     state->timeout_ms = options.timeout_ms;
     state->entries.resize(options.max_connections);
@@ -173,7 +173,8 @@ Status EnetTransport::send(ConnectionId connection, Channel channel, ByteView by
   if (entry == nullptr) return Status::stale_handle;
   const bool reliable = channel == Channel::reliable;
   const std::size_t limit = reliable ? k_max_reliable_bytes : k_max_datagram_bytes;
-  if (bytes.empty() || bytes.size() > limit) return Status::invalid_argument;
+  if (bytes.empty() || bytes.size() > limit + k_carrier_reserve_bytes)
+    return Status::invalid_argument;
   const auto flag = reliable ? ENET_PACKET_FLAG_RELIABLE : ENET_PACKET_FLAG_UNSEQUENCED;
   ENetPacket* packet =
       enet_packet_create(bytes.data(), bytes.size(), static_cast<enet_uint32>(flag));

@@ -153,7 +153,8 @@ Status SimTransport::send(ConnectionId connection, Channel channel, ByteView byt
   if (link == nullptr || !link->open) return Status::stale_handle;
   const bool reliable = channel == Channel::reliable;
   const std::size_t limit = reliable ? k_max_reliable_bytes : k_max_datagram_bytes;
-  if (bytes.empty() || bytes.size() > limit) return Status::invalid_argument;
+  if (bytes.empty() || bytes.size() > limit + k_carrier_reserve_bytes)
+    return Status::invalid_argument;
   if (link->peer->arriving_.size() >= k_max_arriving) return Status::capacity_exhausted;
   ++link->stats.packets_sent;
   link->stats.bytes_sent += bytes.size();

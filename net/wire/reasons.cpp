@@ -7,17 +7,31 @@
 namespace lockstone::net {
 namespace {
 
-constexpr std::array<std::string_view, 8> k_refuse_reasons{
-    "none",       "protocol mismatch", "insecure not allowed", "simulation mismatch",
-    "match full", "slot taken",        "match running",        "handshake timeout"};
+constexpr std::array<std::string_view, 16> k_refuse_reasons{"none",
+                                                            "protocol mismatch",
+                                                            "insecure not allowed",
+                                                            "simulation mismatch",
+                                                            "match full",
+                                                            "slot taken",
+                                                            "match running",
+                                                            "handshake timeout",
+                                                            "token refused",
+                                                            "token expired",
+                                                            "token of another match",
+                                                            "token of other servers",
+                                                            "token of another slot",
+                                                            "replaced by a newer connection",
+                                                            "flooding",
+                                                            "damaged stream"};
 constexpr std::array<std::string_view, 11> k_refuse_fields{
     "none",   "protocol",  "insecure",     "abi",         "config_hash", "scene_hash",
     "canary", "tick_rate", "player_count", "input_bytes", "slot"};
 constexpr std::array<std::string_view, 3> k_verdicts{"client diverged", "minority", "undecided"};
 constexpr std::array<std::string_view, 4> k_finish_reasons{"completed", "stopped", "desync",
                                                            "no players"};
-constexpr std::array<std::string_view, 7> k_leave_reasons{
-    "left", "disconnected", "timed out", "malformed", "desync", "too far behind", "match over"};
+constexpr std::array<std::string_view, 8> k_leave_reasons{
+    "left",   "disconnected",   "timed out",  "malformed",
+    "desync", "too far behind", "match over", "flooding"};
 
 template <class E>
 std::string_view name_of(std::span<const std::string_view> names, E value) {

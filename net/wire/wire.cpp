@@ -115,7 +115,7 @@ std::size_t encode(const Refuse& message, std::span<std::byte> out) {
 
 Status decode(ByteView packet, Refuse& message) {
   WireReader reader(MessageType::refuse, packet);
-  message.reason = reader.get_enum(RefuseReason::handshake_timeout);
+  message.reason = reader.get_enum(k_last_refuse_reason);
   reader.require(message.reason != RefuseReason::none);
   message.field = reader.get_enum(RefuseField::slot);
   message.here = reader.get<std::uint64_t>();
@@ -232,7 +232,7 @@ std::size_t encode(const Bye& message, std::span<std::byte> out) {
 
 Status decode(ByteView packet, Bye& message) {
   WireReader reader(MessageType::bye, packet);
-  message.reason = reader.get_enum(LeaveReason::match_over);
+  message.reason = reader.get_enum(LeaveReason::flooding);
   return reader.finish();
 }
 

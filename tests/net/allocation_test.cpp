@@ -9,6 +9,7 @@
 #include <lockstone/net/client.h>
 #include <lockstone/net/server.h>
 
+#include "tests/net/secure_fixture.h"
 #include "tests/support/toy_simulation.h"
 
 namespace {
@@ -34,7 +35,7 @@ namespace {
 class Pipe {
  public:
   bool push(Channel channel, ByteView bytes) {
-    if (end_ - begin_ == slots_.size() || bytes.size() > k_max_datagram_bytes) return false;
+    if (end_ - begin_ == slots_.size() || bytes.size() > k_slot_bytes) return false;
     Slot& slot = slots_[end_++ % slots_.size()];
     std::copy(bytes.begin(), bytes.end(), slot.bytes.begin());
     slot.size = bytes.size();
@@ -52,8 +53,9 @@ class Pipe {
   }
 
  private:
+  static constexpr std::size_t k_slot_bytes = k_max_datagram_bytes + k_carrier_reserve_bytes;
   struct Slot {
-    std::array<std::byte, k_max_datagram_bytes> bytes;
+    std::array<std::byte, k_slot_bytes> bytes;
     std::size_t size;
     Channel channel;
   };
@@ -92,7 +94,7 @@ class Presses final : public InputSource {
   }
 };
 
-TEST(Allocation, NothingIsAllocatedWhileAMatchRuns) {
+void expect_no_allocation(bool secure) {
   lockstone::test::ToyConfig toy;
   toy.player_count = 1;
   lockstone::test::ToySimulation simulation(toy);
@@ -100,18 +102,26 @@ TEST(Allocation, NothingIsAllocatedWhileAMatchRuns) {
   const auto down = std::make_unique<Pipe>();
   PipeTransport server_end(*up, *down);
   PipeTransport client_end(*down, *up);
+  test::TestRandom random(1);
+  std::unique_ptr<SecureTransport> server_secure, client_secure;
+  if (secure) {
+    server_secure = test::serve_securely(server_end, random);
+    client_secure = test::join_securely(client_end, 0, random);
+  }
   Presses presses;
   ServerConfig server_config;
-  server_config.insecure = true;
+  server_config.insecure = !secure;
   server_config.match_config = toy.encode();
   ServerParts server_parts;
   server_parts.transport = &server_end;
+  if (secure) server_parts.transport = server_secure.get();
   server_parts.simulation = &simulation;
   const auto server = Server::create(server_config, server_parts).server;
   ClientConfig client_config;
-  client_config.insecure = true;
+  client_config.insecure = !secure;
   ClientParts client_parts;
   client_parts.transport = &client_end;
+  if (secure) client_parts.transport = client_secure.get();
   client_parts.connection = 1;
   client_parts.factory = lockstone::test::toy_factory();
   client_parts.inputs = &presses;
@@ -131,6 +141,15 @@ TEST(Allocation, NothingIsAllocatedWhileAMatchRuns) {
   run_until(60'000'000);
   EXPECT_EQ(g_allocations, before);
   EXPECT_GT(client->ticks_stepped(), 3500U);
+}
+
+TEST(Allocation, NothingIsAllocatedWhileAMatchRuns) {
+  expect_no_allocation(false);
+}
+
+TEST(Allocation, NothingIsAllocatedWhileAnEncryptedMatchRuns) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  expect_no_allocation(true);
 }
 
 }  // namespace

@@ -63,11 +63,15 @@ Match::Match(MatchOptions match_options)
       network(options.seed),
       server_transport(network.add_endpoint()),
       server_simulation(options.toy) {
-  options.server.insecure = true;
+  options.server.insecure = !options.secure;
   options.server.match_config = options.toy.encode();
   options.server.info = server_simulation.info();
   ServerParts parts;
   parts.transport = &server_transport;
+  if (options.secure) {
+    server_secure = serve_securely(server_transport, random);
+    parts.transport = server_secure.get();
+  }
   parts.simulation = options.authoritative ? &server_simulation : nullptr;
   parts.describer = &server_simulation;
   parts.observer = &server_log;
@@ -79,10 +83,14 @@ Match::Match(MatchOptions match_options)
     player.inputs = std::make_unique<ScriptedInputs>(options.seed, slot);
     player.log = std::make_unique<ClientLog>();
     ClientConfig config = options.client;
-    config.insecure = true;
+    config.insecure = !options.secure;
     config.wanted_slot = static_cast<std::uint8_t>(slot);
     ClientParts client_parts;
     client_parts.transport = player.transport;
+    if (options.secure) {
+      player.secure = join_securely(*player.transport, slot, random);
+      client_parts.transport = player.secure.get();
+    }
     client_parts.connection = network.connect(*player.transport, server_transport, options.faults);
     std::vector<Flip> flips;
     if (slot < options.flips.size()) flips = options.flips[slot];

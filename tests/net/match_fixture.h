@@ -8,8 +8,10 @@
 
 #include <lockstone/net/client.h>
 #include <lockstone/net/server.h>
+#include <lockstone/net/transport_secure.h>
 #include <lockstone/net/transport_sim.h>
 
+#include "tests/net/secure_fixture.h"
 #include "tests/support/toy_simulation.h"
 
 namespace lockstone::net::test {
@@ -116,6 +118,7 @@ struct MatchOptions {
   LinkFaults faults;
   std::uint64_t seed = 1;
   bool authoritative = true;
+  bool secure = false;
   std::int64_t step_us = 4'000;
   std::vector<std::vector<Flip>> flips;  ///< by client; may be shorter
 };
@@ -124,6 +127,7 @@ class Match {
  public:
   struct Player {
     SimTransport* transport = nullptr;
+    std::unique_ptr<SecureTransport> secure;  ///< around it, if the match is
     std::unique_ptr<ScriptedInputs> inputs;
     std::unique_ptr<ClientLog> log;
     std::unique_ptr<Client> client;
@@ -146,6 +150,8 @@ class Match {
   MatchOptions options;
   SimNetwork network;
   SimTransport& server_transport;
+  TestRandom random{1};
+  std::unique_ptr<SecureTransport> server_secure;
   ToySimulation server_simulation;
   ServerLog server_log;
   std::unique_ptr<Server> server;

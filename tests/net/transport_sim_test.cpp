@@ -144,12 +144,12 @@ TEST(SimTransport, RefusesEmptyAndTooLongPackets) {
   SimNetwork network(1);
   SimTransport& a = network.add_endpoint();
   const ConnectionId connection = network.connect(a, network.add_endpoint(), {});
-  const std::vector<std::byte> bytes(k_max_reliable_bytes + 1);
+  const std::vector<std::byte> bytes(k_max_reliable_bytes + k_carrier_reserve_bytes + 1);
   EXPECT_EQ(a.send(connection, Channel::reliable, {}), Status::invalid_argument);
   EXPECT_EQ(a.send(connection, Channel::reliable, bytes), Status::invalid_argument);
-  EXPECT_EQ(
-      a.send(connection, Channel::unreliable, ByteView(bytes).first(k_max_datagram_bytes + 1)),
-      Status::invalid_argument);
+  EXPECT_EQ(a.send(connection, Channel::unreliable,
+                   ByteView(bytes).first(k_max_datagram_bytes + k_carrier_reserve_bytes + 1)),
+            Status::invalid_argument);
   EXPECT_EQ(a.send(99, Channel::reliable, ByteView(bytes).first(1)), Status::stale_handle);
 }
 

@@ -35,7 +35,7 @@ enum class ClientFailure : std::uint8_t {
 };
 
 struct ClientConfig {
-  /// There is no encryption yet; the server must ask for this too.
+  /// For a transport that does not encrypt; the server must ask for this too.
   bool insecure = false;
   std::string name;                      ///< printable ASCII, the first 32 characters
   std::uint8_t wanted_slot = k_no_slot;  ///< k_no_slot: any

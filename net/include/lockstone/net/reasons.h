@@ -22,13 +22,23 @@ enum class Pacing : std::uint8_t {
 enum class RefuseReason : std::uint8_t {
   none = 0,
   protocol_mismatch = 1,
-  insecure_not_allowed = 2,  ///< one side did not ask for a session without encryption
+  insecure_not_allowed = 2,  ///< one side asks for a session without encryption, the other not
   simulation_mismatch = 3,   ///< `field` says in what
   match_full = 4,
   slot_taken = 5,
   match_running = 6,
   handshake_timeout = 7,
+  token_refused = 8,     ///< it is altered, or sealed under another key
+  token_expired = 9,     ///< or the clocks differ
+  wrong_match = 10,      ///< the token is for another match
+  wrong_server = 11,     ///< the token is for other servers
+  wrong_slot = 12,       ///< the token is for another seat
+  replaced = 13,         ///< the same player connected again
+  flooding = 14,         ///< far more packets than a session sends
+  stream_damaged = 15,   ///< a reliable packet was not authentic
 };
+
+inline constexpr RefuseReason k_last_refuse_reason = RefuseReason::stream_damaged;
 
 /// What differed between server and client.
 enum class RefuseField : std::uint8_t {
@@ -66,6 +76,7 @@ enum class LeaveReason : std::uint8_t {
   desync = 4,          ///< kicked after a desync
   too_far_behind = 5,  ///< needs ticks that the server no longer keeps
   match_over = 6,
+  flooding = 7,  ///< far more packets than a session sends
 };
 
 /// Short lower-case English names, for logs.

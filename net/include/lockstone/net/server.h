@@ -33,7 +33,8 @@ enum class ServerState : std::uint8_t {
 };
 
 struct ServerConfig {
-  /// There is no encryption yet. Set this to say that the match runs where that does not matter.
+  /// Set this, and only this, for a transport that does not encrypt: anybody may then join, listen
+  /// and forge.
   bool insecure = false;
   std::vector<std::byte> match_config;  ///< for the clients' SimulationFactory; ≤ 32 KiB
   SimulationInfo info;                  ///< of a relay; unused where the server simulates

@@ -26,7 +26,8 @@ struct Timeouts {
 /// Why a session could not be made. A programmer's or operator's error, not a peer's.
 enum class SetupError : std::uint8_t {
   none = 0,
-  insecure_not_requested,  ///< there is no encryption yet: set `insecure` to say that you know
+  insecure_not_requested,  ///< the transport does not encrypt: set `insecure` to say that you know
+  insecure_on_secure_transport,  ///< it does encrypt, and every client of it expects that
   match_config_too_long,
   player_count_out_of_range,
   input_bytes_out_of_range,

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include <lockstone/bytes.h>
+#include <lockstone/net/reasons.h>
 #include <lockstone/status.h>
 
 namespace lockstone::net {
@@ -16,13 +17,27 @@ namespace lockstone::net {
 using ConnectionId = std::uint32_t;
 inline constexpr ConnectionId k_no_connection = 0;
 
-/// The most bytes of one unreliable and of one reliable packet that every transport carries.
+/// The most bytes of one unreliable and of one reliable packet that a session sends.
 inline constexpr std::size_t k_max_datagram_bytes = 1200;
 inline constexpr std::size_t k_max_reliable_bytes = 48 * 1024;
+
+/// A transport that others stand upon carries this much more, for what they add.
+inline constexpr std::size_t k_carrier_reserve_bytes = 32;
 
 enum class Channel : std::uint8_t {
   reliable = 0,    ///< arrives once, whole and in order, or the connection ends
   unreliable = 1,  ///< may be lost, doubled or overtaken
+};
+
+/// The slot of somebody who only watches.
+inline constexpr std::uint8_t k_spectator_slot = 254;
+
+/// Who is at the other end, as proven by a token; all else is zero if it is not `authenticated`.
+struct PeerIdentity {
+  bool authenticated = false;
+  std::uint64_t match = 0;
+  std::uint64_t player = 0;  ///< the backend's number for the account
+  std::uint8_t slot = 0;     ///< the seat it may take, or k_spectator_slot
 };
 
 enum class TransportEventKind : std::uint8_t { connected, disconnected, received };
@@ -33,6 +48,8 @@ struct TransportEvent {
   ConnectionId connection = k_no_connection;
   Channel channel = Channel::reliable;  ///< of a received packet
   ByteView bytes;                       ///< of a received packet
+  /// Of `disconnected`, where it is known why: what a peer refused, or a limit that was passed.
+  RefuseReason reason = RefuseReason::none;
 };
 
 /// Traffic of one connection. Payload bytes; what headers a transport adds is its own affair.
@@ -63,6 +80,15 @@ class Transport {
 
   /// Zeros for an unknown connection.
   [[nodiscard]] virtual TransportStats stats(ConnectionId connection) const = 0;
+
+  /// True if packets are encrypted and every peer that connects has an identity.
+  [[nodiscard]] virtual bool secure() const { return false; }
+
+  /// Who that is. Not authenticated: anybody, or no such connection.
+  [[nodiscard]] virtual PeerIdentity identity(ConnectionId /*connection*/) const { return {}; }
+
+  /// The peer plays: limits that are narrower for strangers no longer hold for it.
+  virtual void trust(ConnectionId /*connection*/) {}
 };
 
 }  // namespace lockstone::net

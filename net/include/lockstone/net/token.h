@@ -1,0 +1,90 @@
+// Connect tokens: who may take which seat of which match, sealed by the game's backend for its
+// servers. The bytes are those of docs/wire-format.md.
+//
+// The idea of a token with a private part, which only servers read, and a public one for the client
+// is that of netcode (Glenn Fiedler, "netcode.io protocol").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <lockstone/bytes.h>
+#include <lockstone/net/keys.h>
+#include <lockstone/net/transport.h>
+#include <lockstone/status.h>
+
+namespace lockstone::net {
+
+/// Where a server listens: an IPv6 address, or an IPv4 one mapped into ::ffff:0:0/96.
+struct ServerAddress {
+  std::array<std::byte, 16> address{};
+  std::uint16_t port = 0;
+  friend bool operator==(const ServerAddress&, const ServerAddress&) = default;
+
+  /// From `127.0.0.1:7777`. malformed: anything else.
+  [[nodiscard]] static Result<ServerAddress> from_text(std::string_view text);
+  /// `127.0.0.1:7777`; 32 hexadecimal digits in brackets and the port for an IPv6 address.
+  [[nodiscard]] std::string to_text() const;
+};
+
+inline constexpr std::size_t k_max_token_servers = 8;
+inline constexpr std::uint64_t k_max_expiry_unix_s = std::uint64_t{1} << 40;
+
+/// At most k_max_token_servers addresses, in the order in which the client shall try them.
+struct ServerList {
+  std::array<ServerAddress, k_max_token_servers> entries{};  ///< from `count` on: zeros
+  std::uint8_t count = 0;
+  friend bool operator==(const ServerList&, const ServerList&) = default;
+
+  /// False if the list is full.
+  bool add(const ServerAddress& address);
+  [[nodiscard]] bool contains(const ServerAddress& address) const;
+};
+
+/// What a token allows.
+struct TokenGrant {
+  std::uint64_t match = 0;
+  std::uint64_t player = 0;          ///< the backend's number for the account
+  std::uint8_t slot = 0;             ///< 0 … 15, or k_spectator_slot
+  std::uint64_t expires_unix_s = 0;  ///< until then it opens connections; at most 2^40
+  ServerList servers;                ///< none: any server that has the key
+  friend bool operator==(const TokenGrant&, const TokenGrant&) = default;
+};
+
+inline constexpr std::size_t k_token_nonce_bytes = 24;
+inline constexpr std::size_t k_token_sealed_bytes = 234;
+inline constexpr std::size_t k_token_bytes = 514;
+
+/// What the backend hands to one client, over a channel that nobody else reads.
+struct ConnectToken {
+  TokenGrant grant;
+  Key client_key;  ///< of what the client sends
+  Key server_key;  ///< of what the server sends
+  LinkKey link_key;
+  std::array<std::byte, k_token_nonce_bytes> nonce{};
+  std::array<std::byte, k_token_sealed_bytes> sealed{};  ///< the same for the server alone
+  friend bool operator==(const ConnectToken&, const ConnectToken&) = default;
+
+  /// The bytes in lower-case hexadecimal digits.
+  [[nodiscard]] std::string to_text() const;
+  [[nodiscard]] static Result<ConnectToken> from_text(std::string_view text);
+};
+
+/// A token with fresh keys, sealed under the secret that backend and servers share.
+/// invalid_argument: the grant has values out of range; incompatible: not security_available.
+[[nodiscard]] Result<ConnectToken> issue_token(const Key& backend_key, const TokenGrant& grant,
+                                               RandomSource& random);
+
+/// The key of a match's datagrams, which a server needs before it has seen a token. Only where
+/// security_available.
+[[nodiscard]] LinkKey make_link_key(const Key& backend_key, std::uint64_t match);
+
+void encode_token(const ConnectToken& token, std::span<std::byte, k_token_bytes> out);
+/// Checks all but the sealed part, which needs the backend's key. The token is unspecified unless
+/// ok.
+[[nodiscard]] Status decode_token(ByteView bytes, ConnectToken& token);
+
+}  // namespace lockstone::net
