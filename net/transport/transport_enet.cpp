@@ -1,10 +1,15 @@
 // The only file that includes ENet.
 // Behaviour relied upon: http://enet.bespin.org/ (1.3.17), "Features and Architecture".
+#include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include <enet/enet.h>
 
 #include <lockstone/net/transport_enet.h>
+
+#include "net/transport/enet_datagram.h"
+#include "net/transport/flood_watch.h"
 
 namespace lockstone::net {
 namespace {
@@ -16,6 +21,23 @@ constexpr std::uint32_t k_index_mask = (1U << k_index_bits) - 1;
 
 // A session counts its own time-outs; ENet's shall not be the first to fire by much.
 constexpr std::uint32_t k_timeout_doublings = 32;
+// But a connection that was asked for and never confirmed holds a place.
+constexpr std::uint32_t k_half_open_ms = 2000;
+
+constexpr std::size_t k_remembered_connects = 1024;
+constexpr std::uint32_t k_refusals_per_second = 20;
+
+Word raw_word(enet_uint32 value) {
+  Word word;
+  std::memcpy(word.data(), &value, word.size());
+  return word;
+}
+
+enet_uint32 raw_value(const Word& word) {
+  enet_uint32 value = 0;
+  std::memcpy(&value, word.data(), word.size());
+  return value;
+}
 
 }  // namespace
 
@@ -24,6 +46,8 @@ struct EnetTransport::State {
     ENetPeer* peer = nullptr;
     std::uint32_t generation = 1;
     bool open = false;
+    RefuseReason ending = RefuseReason::none;  ///< the session is about to hear of this
+    FloodWatch watch;
     TransportStats stats;
   };
 
@@ -35,7 +59,22 @@ struct EnetTransport::State {
   std::uint32_t timeout_ms = 0;
   std::vector<Entry> entries;  // by ENet's peer number
 
-  State() = default;
+  LinkChecksum checksum;
+  LinkChecksum open_checksum{std::nullopt};
+  DatagramLimits limits;
+  bool listens = false;
+  ConnectMemory connects{k_remembered_connects};
+  RateLimit refusals{k_refusals_per_second, k_refusals_per_second};
+  std::int64_t now_us = 0;
+  bool any_ending = false;
+  EnetCounters counters;
+  std::array<std::byte, ENET_PROTOCOL_MAXIMUM_MTU> gathered{};
+
+  explicit State(const EnetOptions& options)
+      : timeout_ms(options.timeout_ms),
+        entries(options.max_connections),
+        checksum(options.link_key),
+        limits(options.limits) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
@@ -69,7 +108,13 @@ struct EnetTransport::State {
     Entry& entry = entries[index];
     entry.peer = peer;
     entry.open = true;
+    entry.ending = RefuseReason::none;
     entry.stats = {};
+    entry.watch = {};
+    if (listens) {
+      entry.watch =
+          FloodWatch(limits.stranger_packets_per_second, limits.stranger_bytes_per_second);
+    }
     // 22 bits of generation, never zero, so that no id is k_no_connection.
     entry.generation = entry.generation + 1 >= (1U << 22) ? 1 : entry.generation + 1;
     enet_peer_timeout(peer, k_timeout_doublings, timeout_ms, timeout_ms);
@@ -80,8 +125,8 @@ struct EnetTransport::State {
   bool translate(const ENetEvent& source, TransportEvent& event) {
     const std::size_t index = index_of(source.peer);
     Entry& entry = entries[index];
+    event = {};
     if (source.type == ENET_EVENT_TYPE_CONNECT) {
-      event = {};
       event.kind = TransportEventKind::connected;
       event.connection = entry.open ? id_of(index) : adopt(source.peer);
       // Not before: ENet refuses a connection whose first datagram carries this as well.
@@ -95,7 +140,9 @@ struct EnetTransport::State {
     if (source.type == ENET_EVENT_TYPE_DISCONNECT) {
       entry.open = false;
       event.kind = TransportEventKind::disconnected;
-      event.bytes = {};
+      if (source.data <= static_cast<enet_uint32>(k_last_refuse_reason)) {
+        event.reason = static_cast<RefuseReason>(source.data);
+      }
       return true;
     }
     event.kind = TransportEventKind::received;
@@ -106,19 +153,177 @@ struct EnetTransport::State {
     return true;
   }
 
+  // Tells of one connection that a limit or a refusal ends.
+  bool end_one(TransportEvent& event) {
+    if (!any_ending) return false;
+    for (std::size_t index = 0; index < entries.size(); ++index) {
+      Entry& entry = entries[index];
+      if (!entry.open || entry.ending == RefuseReason::none) continue;
+      event = {};
+      event.kind = TransportEventKind::disconnected;
+      event.connection = id_of(index);
+      event.reason = entry.ending;
+      entry.open = false;
+      // Told to the peer as well, unless it is the peer that refuses.
+      if (entry.peer->state == ENET_PEER_STATE_CONNECTING) {
+        enet_peer_reset(entry.peer);
+      } else {
+        enet_peer_disconnect(entry.peer, static_cast<enet_uint32>(entry.ending));
+      }
+      return true;
+    }
+    any_ending = false;
+    return false;
+  }
+
+  // ENet keeps what was asked for and never confirmed for its longest time-out, 30 s.
+  void hurry_half_open() {
+    for (std::size_t i = 0; i < host->peerCount; ++i) {
+      ENetPeer& peer = host->peers[i];
+      const bool half_open = peer.state == ENET_PEER_STATE_ACKNOWLEDGING_CONNECT;
+      if (!half_open || peer.timeoutMaximum == k_half_open_ms) continue;
+      enet_peer_timeout(&peer, k_timeout_doublings, k_half_open_ms, k_half_open_ms);
+    }
+  }
+
+  // The gate: what ENet does not get to see.
+
+  [[nodiscard]] bool admit(std::span<std::byte> datagram) {
+    ++counters.datagrams;
+    if (const auto refusal = decode_link_refusal(datagram)) {
+      take_refusal(*refusal);
+      return false;
+    }
+    const std::optional<DatagramHead> head = read_head(datagram);
+    if (!head) {
+      ++counters.malformed;
+      return false;
+    }
+    return head->peer == k_no_peer ? admit_stranger(datagram, *head) : admit_peer(datagram, *head);
+  }
+
+  [[nodiscard]] bool admit_stranger(std::span<std::byte> datagram, const DatagramHead& head) {
+    const std::optional<Word> connect = read_connect(datagram, head);
+    if (!connect || !listens) {
+      ++counters.strays;
+      return false;
+    }
+    if (!checksum.verify(datagram, head, Word{})) {
+      ++counters.forged;
+      // Of the other kind? Without a key, anything that has not the open checksum may be.
+      if (!checksum.keyed() || open_checksum.verify(datagram, head, Word{})) refuse(*connect);
+      return false;
+    }
+    const DatagramSource source{host->receivedAddress.host, host->receivedAddress.port};
+    if (connects.admit(*connect, source)) return true;
+    ++counters.repeated_connects;
+    return false;
+  }
+
+  [[nodiscard]] bool admit_peer(std::span<std::byte> datagram, const DatagramHead& head) {
+    const ENetPeer* peer = head.peer < host->peerCount ? &host->peers[head.peer] : nullptr;
+    const bool known = peer != nullptr && peer->state != ENET_PEER_STATE_DISCONNECTED &&
+                       peer->state != ENET_PEER_STATE_ZOMBIE &&
+                       peer->address.host == host->receivedAddress.host &&
+                       peer->address.port == host->receivedAddress.port;
+    if (!known) {
+      ++counters.strays;
+      return false;
+    }
+    if (!checksum.verify(datagram, head, raw_word(peer->connectID))) {
+      ++counters.forged;
+      return false;
+    }
+    Entry& entry = entries[head.peer];
+    if (!entry.open || entry.watch.admit(now_us, static_cast<std::uint32_t>(datagram.size()))) {
+      return true;
+    }
+    ++counters.limited;
+    if (entry.watch.flooding() && entry.ending == RefuseReason::none) {
+      entry.ending = RefuseReason::flooding;
+      any_ending = true;
+      ++counters.floods;
+    }
+    return false;
+  }
+
+  void refuse(const Word& connect) {
+    if (!refusals.take(now_us, 1)) return;
+    ++counters.refusals;
+    auto bytes = encode(LinkRefusal{RefuseReason::insecure_not_allowed, connect});
+    ENetBuffer buffer{};
+    buffer.data = bytes.data();
+    buffer.dataLength = bytes.size();
+    enet_socket_send(host->socket, &host->receivedAddress, &buffer, 1);
+  }
+
+  void take_refusal(const LinkRefusal& refusal) {
+    for (Entry& entry : entries) {
+      const bool meant = entry.open && entry.peer->state == ENET_PEER_STATE_CONNECTING &&
+                         raw_word(entry.peer->connectID) == refusal.connection;
+      if (!meant) continue;
+      entry.ending = refusal.reason;
+      any_ending = true;
+    }
+  }
+
+  // ENet's callbacks. It has no room for a user's pointer in a host, but the compressor's context,
+  // which is not used while there are no functions beside it.
+
+  static State& of(const ENetHost* host) { return *static_cast<State*>(host->compressor.context); }
+
+  static int ENET_CALLBACK intercept(ENetHost* host, ENetEvent*) {
+    const auto datagram =
+        std::as_writable_bytes(std::span(host->receivedData, host->receivedDataLength));
+    return of(host).admit(datagram) ? 0 : 1;
+  }
+
+  // What is sent lies in the host's own buffers, of which there are at least two, the header and a
+  // command; what was received, in the host's memory for one datagram.
+  static enet_uint32 ENET_CALLBACK compute_checksum(const ENetBuffer* buffers, std::size_t count) {
+    const bool sent = count > 1;
+    const void* inside = sent ? static_cast<const void*>(buffers) : buffers->data;
+    const std::size_t offset = sent ? offsetof(ENetHost, buffers) : offsetof(ENetHost, packetData);
+    const void* begin = static_cast<const std::byte*>(inside) - offset;
+    State& state = of(static_cast<const ENetHost*>(begin));
+    std::size_t size = 0;
+    for (const ENetBuffer& buffer : std::span(buffers, count)) {
+      if (buffer.dataLength > state.gathered.size() - size) return 0;  // longer than any datagram
+      std::memcpy(state.gathered.data() + size, buffer.data, buffer.dataLength);
+      size += buffer.dataLength;
+    }
+    return raw_value(state.checksum.of(ByteView(state.gathered).first(size)));
+  }
+
+  void configure(const EnetOptions& options) {
+    host->maximumPacketSize = k_max_reliable_bytes + k_carrier_reserve_bytes;
+    host->maximumWaitingData = options.max_waiting_bytes;
+    host->duplicatePeers = options.max_connections_per_address;
+    host->compressor.context = this;
+    host->checksum = compute_checksum;
+    host->intercept = intercept;
+    // ENet's own seed is the time and an address, which others may guess.
+    SystemRandom system;
+    RandomSource* random = options.random;
+    if (random == nullptr && security_available()) random = &system;
+    if (random == nullptr) return;
+    Word seed;
+    random->fill(seed);
+    host->randomSeed = raw_value(seed);
+  }
+
   static Result<std::unique_ptr<State>> create(const EnetOptions& options,
                                                const ENetAddress* address) {
     if (options.max_connections < 1 || options.max_connections > k_max_connections) {
       return Status::invalid_argument;
     }
-    auto state = std::make_unique<State>();
+    if (options.link_key && !security_available()) return Status::incompatible;
+    auto state = std::make_unique<State>(options);
     if (!state->initialized) return Status::io_error;
+    state->listens = address != nullptr;
     state->host = enet_host_create(address, options.max_connections, k_channels, 0, 0);
     if (state->host == nullptr) return Status::io_error;
-    state->host->maximumPacketSize = k_max_reliable_bytes + k_carrier_reserve_bytes;
-    state->host->maximumWaitingData = options.max_waiting_bytes;
-    state->timeout_ms = options.timeout_ms;
-    state->entries.resize(options.max_connections);
+    state->configure(options);
     return state;
   }
 };
@@ -158,14 +363,16 @@ std::uint16_t EnetTransport::port() const {
   return address.port;
 }
 
-bool EnetTransport::poll(std::int64_t /*now_us*/, TransportEvent& event) {
+bool EnetTransport::poll(std::int64_t now_us, TransportEvent& event) {
   state_->release_current();
+  state_->now_us = now_us;
   ENetEvent source{};
   while (enet_host_service(state_->host, &source, 0) > 0) {
     if (state_->translate(source, event)) return true;
     state_->release_current();
   }
-  return false;
+  state_->hurry_half_open();
+  return state_->end_one(event);
 }
 
 Status EnetTransport::send(ConnectionId connection, Channel channel, ByteView bytes) {
@@ -205,6 +412,17 @@ TransportStats EnetTransport::stats(ConnectionId connection) const {
   TransportStats stats = entry->stats;
   stats.round_trip_us = static_cast<std::int64_t>(entry->peer->roundTripTime) * 1000;
   return stats;
+}
+
+void EnetTransport::trust(ConnectionId connection) {
+  State::Entry* entry = state_->find(connection);
+  if (entry == nullptr || !state_->listens) return;
+  const DatagramLimits& limits = state_->limits;
+  entry->watch = FloodWatch(limits.packets_per_second, limits.bytes_per_second);
+}
+
+const EnetCounters& EnetTransport::counters() const {
+  return state_->counters;
 }
 
 }  // namespace lockstone::net

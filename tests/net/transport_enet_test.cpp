@@ -10,27 +10,37 @@
 namespace lockstone::net::test {
 namespace {
 
+// Since the program's start: the tokens of these tests live for an hour.
 std::int64_t clock_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+  using Clock = std::chrono::steady_clock;
+  static const Clock::time_point start = Clock::now();
+  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
 }
 
 // A server and two clients over UDP on the loopback, polled in turn.
 struct LoopbackMatch {
   struct Player {
     std::unique_ptr<EnetTransport> transport;
+    std::unique_ptr<SecureTransport> secure;
     std::unique_ptr<ScriptedInputs> inputs;
     std::unique_ptr<ClientLog> log = std::make_unique<ClientLog>();
     std::unique_ptr<Client> client;
   };
 
-  LoopbackMatch(ServerConfig config, const std::vector<Flip>& flips) {
-    server_transport = std::move(EnetTransport::listen({}).value());
-    config.insecure = true;
+  LoopbackMatch(ServerConfig config, const std::vector<Flip>& flips, bool with_tokens = false)
+      : secure(with_tokens) {
+    EnetOptions options;
+    if (secure) options.link_key = make_link_key(backend_key(), k_match);
+    if (config.pacing == Pacing::fast) options.limits = DatagramLimits::none();
+    server_transport = std::move(EnetTransport::listen(options).value());
+    config.insecure = !secure;
     config.match_config = toy.encode();
     ServerParts parts;
     parts.transport = server_transport.get();
+    if (secure) {
+      server_secure = serve_securely(*server_transport, random);
+      parts.transport = server_secure.get();
+    }
     parts.simulation = &simulation;
     parts.observer = &log;
     server = std::move(Server::create(config, parts).server);
@@ -42,13 +52,18 @@ struct LoopbackMatch {
     Player& player = players[slot];
     EnetOptions options;
     options.max_connections = 1;
+    if (secure) options.link_key = make_link_key(backend_key(), k_match);
     player.transport = std::move(EnetTransport::open(options).value());
     player.inputs = std::make_unique<ScriptedInputs>(1, slot);
     ClientConfig config;
-    config.insecure = true;
+    config.insecure = !secure;
     config.wanted_slot = slot;
     ClientParts parts;
     parts.transport = player.transport.get();
+    if (secure) {
+      player.secure = join_securely(*player.transport, slot, random);
+      parts.transport = player.secure.get();
+    }
     parts.connection = player.transport->connect("127.0.0.1", server_transport->port()).value();
     parts.factory = [flips](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
       return std::unique_ptr<Simulation>(
@@ -74,7 +89,10 @@ struct LoopbackMatch {
   std::vector<Flip> noflips;
   ToySimulation simulation{toy};
   ServerLog log;
+  bool secure;
+  TestRandom random{3};
   std::unique_ptr<EnetTransport> server_transport;
+  std::unique_ptr<SecureTransport> server_secure;
   std::unique_ptr<Server> server;
   std::array<Player, 2> players;
 };
@@ -95,6 +113,58 @@ TEST(EnetTransport, PlaysAWholeMatchOverTheLoopback) {
     EXPECT_GT(stats.bytes_sent, 0U);
     EXPECT_GE(stats.round_trip_us, 0);
   }
+}
+
+TEST(EnetTransport, PlaysAnEncryptedMatch) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  ServerConfig config;
+  config.tick_count = 300;
+  config.pacing = Pacing::fast;
+  LoopbackMatch match(config, {}, true);
+  ASSERT_TRUE(match.run(15'000'000));
+  EXPECT_EQ(match.server->finish_reason(), FinishReason::completed);
+  for (std::uint8_t slot = 0; slot < 2; ++slot)
+    EXPECT_EQ(match.players[slot].log->seen.hashes, match.log.seen.hashes);
+  EXPECT_EQ(match.server_secure->counters().packets_forged, 0U);
+  EXPECT_EQ(match.server_transport->counters().forged, 0U);
+}
+
+// What a client without the right key hears of a server, if anything.
+TransportEvent first_word(const std::optional<LinkKey>& server_key,
+                          const std::optional<LinkKey>& client_key) {
+  EnetOptions server_options, client_options;
+  server_options.link_key = server_key;
+  client_options.link_key = client_key;
+  const auto server = std::move(EnetTransport::listen(server_options)).value();
+  const auto client = std::move(EnetTransport::open(client_options)).value();
+  EXPECT_TRUE(client->connect("127.0.0.1", server->port()).ok());
+  TransportEvent event;
+  for (const std::int64_t end_us = clock_us() + 300'000; clock_us() < end_us;) {
+    EXPECT_FALSE(server->poll(clock_us(), event));
+    if (client->poll(clock_us(), event)) return event;
+  }
+  EXPECT_EQ(server->counters().refusals, 0U);
+  EXPECT_GT(server->counters().forged, 0U);
+  return {};
+}
+
+TEST(EnetTransport, TellsAPeerOfTheOtherKind) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  const LinkKey key = make_link_key(backend_key(), k_match);
+  for (const bool server_open : {false, true}) {
+    const auto server_key = server_open ? std::nullopt : std::optional(key);
+    const auto client_key = server_open ? std::optional(key) : std::nullopt;
+    const TransportEvent event = first_word(server_key, client_key);
+    EXPECT_EQ(event.kind, TransportEventKind::disconnected);
+    EXPECT_EQ(event.reason, RefuseReason::insecure_not_allowed);
+  }
+}
+
+TEST(EnetTransport, AnswersNothingToAnotherKey) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  const TransportEvent event =
+      first_word(make_link_key(backend_key(), k_match), make_link_key(backend_key(), k_match + 1));
+  EXPECT_EQ(event.connection, k_no_connection);
 }
 
 TEST(EnetTransport, PlaysInRealTime) {

@@ -165,8 +165,9 @@ struct MatchHost::Impl final : net::ServerObserver {
     Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
     if (!made) return refuse(fmt::format("scene {}: {}", options.scene, to_string(made.status())));
     simulation = std::move(made).value();
-    auto listening =
-        net::EnetTransport::listen({.bind_address = options.bind, .port = options.port});
+    net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
+    if (options.fast) enet.limits = net::DatagramLimits::none();
+    auto listening = net::EnetTransport::listen(enet);
     if (!listening) {
       return refuse(fmt::format("cannot listen on {}:{}: {}", options.bind, options.port,
                                 to_string(listening.status())));

@@ -1,33 +1,66 @@
 // The transport over UDP, by ENet 1.3. Present only where LOCKSTONE_WITH_ENET is on.
 //
-// ENet keeps its own clock and has no encryption: sessions over it must ask for `insecure`.
+// Every datagram carries a checksum under the match's link key, and is dropped before ENet sees it
+// if that is wrong: a stranger gets no connection and no answer. Encryption is SecureTransport's.
+// Without a link key the checksum is one that anybody can compute: then the session must be
+// `insecure`.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include <lockstone/net/keys.h>
 #include <lockstone/net/transport.h>
 
 namespace lockstone::net {
 
+/// What one peer may send; 0: no limit. More is dropped; a peer that goes on for some seconds is
+/// disconnected for flooding. Ten seconds' worth may come at once.
+struct DatagramLimits {
+  std::uint32_t packets_per_second = 300;
+  std::uint32_t bytes_per_second = 400'000;
+  std::uint32_t stranger_packets_per_second = 30;  ///< until `trust`
+  std::uint32_t stranger_bytes_per_second = 20'000;
+
+  /// For a trusted network, or a match that runs as fast as it can.
+  [[nodiscard]] static DatagramLimits none() { return {0, 0, 0, 0}; }
+};
+
 struct EnetOptions {
-  std::string bind_address = "127.0.0.1";   ///< numeric IPv4
-  std::uint16_t port = 0;                   ///< 0: the system chooses, see EnetTransport::port
-  std::size_t max_connections = 32;         ///< 1 … 1024
-  std::size_t max_waiting_bytes = 1 << 20;  ///< received but not yet polled, per connection
-  std::uint32_t timeout_ms = 5000;          ///< unanswered reliable packets end a connection
+  std::string bind_address = "127.0.0.1";  ///< numeric IPv4
+  std::uint16_t port = 0;                  ///< 0: the system chooses, see EnetTransport::port
+  std::size_t max_connections = 32;        ///< 1 … 1024
+  std::size_t max_connections_per_address = 1024;
+  std::size_t max_waiting_bytes = 1 << 20;         ///< received but not yet polled, per connection
+  std::uint32_t timeout_ms = 5000;                 ///< unanswered reliable packets end a connection
+  std::optional<LinkKey> link_key = std::nullopt;  ///< none: open to everybody
+  DatagramLimits limits = {};                      ///< of those who call a listening socket
+  RandomSource* random = nullptr;  ///< for numbers of connections; null: the system's
+};
+
+/// What came to a socket and what was kept out, since its creation.
+struct EnetCounters {
+  std::uint64_t datagrams = 0;          ///< all
+  std::uint64_t malformed = 0;          ///< no datagram of ENet
+  std::uint64_t strays = 0;             ///< of no connection that exists
+  std::uint64_t forged = 0;             ///< wrong checksum
+  std::uint64_t repeated_connects = 0;  ///< a request for a connection, sent again from elsewhere
+  std::uint64_t refusals = 0;           ///< answers to peers of the other kind, at most 20 a second
+  std::uint64_t limited = 0;            ///< beyond a peer's limits
+  std::uint64_t floods = 0;             ///< peers disconnected for that
 };
 
 /// One UDP socket. Use it from one thread.
 class EnetTransport final : public Transport {
  public:
   /// Opens a socket that accepts connections. invalid_argument: address or limits; io_error: the
-  /// system refused the address or port.
+  /// system refused the address or port; incompatible: a link key without libsodium.
   [[nodiscard]] static Result<std::unique_ptr<EnetTransport>> listen(const EnetOptions& options);
 
-  /// Opens a socket that only calls others; address and port of `options` are not used.
+  /// Opens a socket that only calls others; address, port and limits of `options` are not used.
   [[nodiscard]] static Result<std::unique_ptr<EnetTransport>> open(const EnetOptions& options);
 
   ~EnetTransport() override;
@@ -40,12 +73,15 @@ class EnetTransport final : public Transport {
   /// The UDP port that this side is bound to; 0 before anything was sent by an `open` socket.
   [[nodiscard]] std::uint16_t port() const;
 
-  /// `now_us` is not used: ENet reads the system's monotonic clock itself.
+  /// `now_us` is for the limits alone: ENet reads the system's monotonic clock itself.
   bool poll(std::int64_t now_us, TransportEvent& event) override;
   Status send(ConnectionId connection, Channel channel, ByteView bytes) override;
   void flush() override;
   void disconnect(ConnectionId connection) override;
   [[nodiscard]] TransportStats stats(ConnectionId connection) const override;
+  void trust(ConnectionId connection) override;
+
+  [[nodiscard]] const EnetCounters& counters() const;
 
  private:
   struct State;

@@ -1,0 +1,87 @@
+// What stands in front of ENet's datagrams, read before ENet does; the checksum that keeps
+// strangers out; and the refusal for a peer of the other kind. Bytes: docs/wire-format.md,
+// "Datagrams". Layouts: ENet 1.3 (Lee Salzman), include/enet/protocol.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <lockstone/bytes.h>
+#include <lockstone/net/keys.h>
+#include <lockstone/net/reasons.h>
+
+namespace lockstone::net {
+
+/// Four bytes that are compared and copied, never computed with.
+using Word = std::array<std::byte, 4>;
+
+struct DatagramHead {
+  std::uint16_t peer = 0;           ///< the receiver's number for the sender, or k_no_peer
+  std::uint8_t session = 0;         ///< 0 … 3
+  std::size_t checksum_offset = 0;  ///< the commands follow the four bytes there
+};
+inline constexpr std::uint16_t k_no_peer = 0xfff;
+
+/// Nothing if it is too short to hold a command, or compressed.
+[[nodiscard]] std::optional<DatagramHead> read_head(ByteView datagram);
+
+/// The connection's id, if the datagram is one that asks for a connection and nothing else.
+[[nodiscard]] std::optional<Word> read_connect(ByteView datagram, const DatagramHead& head);
+
+/// The checksum of one match's datagrams: SipHash-2-4 under the link key, or, without one, a hash
+/// that anybody can compute and that finds damage only.
+class LinkChecksum {
+ public:
+  explicit LinkChecksum(const std::optional<LinkKey>& key) : key_(key) {}
+
+  [[nodiscard]] bool keyed() const { return key_.has_value(); }
+  [[nodiscard]] Word of(ByteView datagram) const;
+
+  /// True if the datagram has the right checksum, which is computed with `connection` in its place.
+  /// The datagram is as before afterwards.
+  [[nodiscard]] bool verify(std::span<std::byte> datagram, const DatagramHead& head,
+                            const Word& connection) const;
+
+ private:
+  std::optional<LinkKey> key_;
+};
+
+/// Where a datagram comes from.
+struct DatagramSource {
+  std::uint32_t address = 0;
+  std::uint16_t port = 0;
+  friend bool operator==(const DatagramSource&, const DatagramSource&) = default;
+};
+
+/// Who asked for which connection: a recorded request cannot be sent again from elsewhere.
+class ConnectMemory {
+ public:
+  explicit ConnectMemory(std::size_t capacity) : entries_(capacity) {}
+
+  /// False if this id came from another source before. The oldest is forgotten when all are used.
+  [[nodiscard]] bool admit(const Word& id, const DatagramSource& source);
+
+ private:
+  struct Entry {
+    Word id{};
+    DatagramSource source;
+    bool used = false;
+  };
+  std::vector<Entry> entries_;
+  std::size_t next_ = 0;
+};
+
+/// Says why there will be no connection. Shorter than any datagram that asks for one.
+inline constexpr std::size_t k_link_refusal_bytes = 12;
+struct LinkRefusal {
+  RefuseReason reason = RefuseReason::none;
+  Word connection{};  ///< as asked for
+};
+[[nodiscard]] std::array<std::byte, k_link_refusal_bytes> encode(const LinkRefusal& refusal);
+[[nodiscard]] std::optional<LinkRefusal> decode_link_refusal(ByteView datagram);
+
+}  // namespace lockstone::net
