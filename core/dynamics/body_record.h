@@ -13,12 +13,17 @@ namespace lockstone {
 /// Bits of BodyRecord::flags.
 enum BodyFlag : std::uint8_t {
   k_body_trigger = 1,
-  k_body_fixed_rotation = 2,
   k_body_bullet = 4,
   k_body_asleep = 8,     // neither moves nor is looked at; its velocities are zero
   k_body_no_sleep = 16,  // never falls asleep
-  k_all_body_flags =
-      k_body_trigger | k_body_fixed_rotation | k_body_bullet | k_body_asleep | k_body_no_sleep,
+  k_all_body_flags = k_body_trigger | k_body_bullet | k_body_asleep | k_body_no_sleep,
+};
+
+/// Bits of BodyRecord::locks: three axes of moving, three of turning.
+enum BodyLock : std::uint8_t {
+  k_lock_moving = 7,
+  k_lock_turning = 7 << 3,
+  k_all_body_locks = k_lock_moving | k_lock_turning,
 };
 
 /// Canonical state of one body slot; all zero but `generation` when the slot is empty. Position and
@@ -45,19 +50,30 @@ struct BodyRecord {
   Number gravity_scale{};
   Rate linear_damping{};
   Rate angular_damping{};
+  SolverVelocity max_speed{};
+  SolverVelocity max_surface_speed{};
+  Vec3<Unit> force{};   // mantissas of the velocity that forces give in this tick; Velocity's raw
+  Vec3<Unit> torque{};  // units, exponents below. The same for spin.
+  Vec3<SolverVelocity> surface_velocity{};  // SurfaceMotion about the centre, along the body's axes
+  Vec3<Rate> surface_turning{};
   Coefficient friction{};
   Coefficient restitution{};
+  Coefficient rolling_resistance{};
+  std::uint32_t tag = 0;
   std::uint32_t category = 0;
   std::uint32_t mask = 0;
   std::int32_t group = 0;
   std::uint32_t generation = 0;  // of the last body in this slot
+  std::uint16_t rules = 0;       // CombineRules of friction, restitution, rolling: 3 bits each
   std::uint8_t motion = 0;       // MotionType, 0 for an empty slot
   std::uint8_t shape_kind = 0;   // ShapeKind
   std::uint8_t flags = 0;        // BodyFlag
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
-  std::uint8_t reserved0 = 0;  // keep the record free of padding; always 0
-  std::uint16_t reserved1 = 0;
+  std::uint8_t locks = 0;  // BodyLock
+  std::int8_t force_exponent = 0;
+  std::int8_t torque_exponent = 0;
+  std::uint16_t reserved0 = 0;  // keep the record free of padding; always 0
   std::uint32_t rest_ticks = 0;  // since it rests
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
@@ -71,7 +87,25 @@ struct BodyRecord {
   [[nodiscard]] bool is_asleep() const { return (flags & k_body_asleep) != 0; }
   [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
   [[nodiscard]] bool may_sleep() const { return (flags & k_body_no_sleep) == 0; }
-  [[nodiscard]] bool rotates() const { return (flags & k_body_fixed_rotation) == 0; }
+  [[nodiscard]] bool rotates() const { return (locks & k_lock_turning) != k_lock_turning; }
+  [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
+  [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }
+  [[nodiscard]] bool has_surface_motion() const {
+    return surface_velocity != Vec3<SolverVelocity>{} || surface_turning != Vec3<Rate>{};
+  }
+  [[nodiscard]] Surface surface() const {
+    const auto rule = [&](int shift) { return static_cast<CombineRule>(rules >> shift & 7); };
+    return {friction, restitution, rolling_resistance, rule(0), rule(3), rule(6), tag};
+  }
+  void set_surface(const Surface& surface) {
+    friction = surface.friction;
+    restitution = surface.restitution;
+    rolling_resistance = surface.rolling_resistance;
+    tag = surface.tag;
+    rules = static_cast<std::uint16_t>(static_cast<unsigned>(surface.friction_rule) |
+                                       static_cast<unsigned>(surface.restitution_rule) << 3 |
+                                       static_cast<unsigned>(surface.rolling_rule) << 6);
+  }
   [[nodiscard]] Shape shape() const { return {static_cast<ShapeKind>(shape_kind), size, asset}; }
   [[nodiscard]] CollisionFilter filter() const { return {category, mask, group}; }
 
@@ -91,9 +125,11 @@ struct BodyRecord {
 #define LKS_BODY_FIELDS(X) \
   X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) \
   X(rest_position) X(rest_orientation) X(inverse_mass) \
-  X(gravity_scale) X(linear_damping) X(angular_damping) X(friction) X(restitution) X(category) \
-  X(mask) X(group) X(generation) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
-  X(inverse_mass_exponent) X(reserved0) X(reserved1) X(rest_ticks)
+  X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) X(force) \
+  X(torque) X(surface_velocity) X(surface_turning) X(friction) X(restitution) X(rolling_resistance) \
+  X(tag) X(category) X(mask) X(group) X(generation) X(rules) X(motion) X(shape_kind) X(flags) \
+  X(scale_exponent) X(inverse_mass_exponent) X(locks) X(force_exponent) X(torque_exponent) \
+  X(reserved0) X(rest_ticks)
 // clang-format on
 
 template <class F>

@@ -86,6 +86,23 @@ int scale_exponent_of(const SolverBody& a, const SolverBody& b) {
   return std::max(a.scale_exponent, b.scale_exponent);
 }
 
+// Rolling is resisted by arm/ℓ of the normal impulse.
+void fill_rolling(const ContactInput& in, int scale_exponent, ManifoldSource& out) {
+  out.rolling = {};
+  out.rolling_limit = raw::saturate<std::int32_t>(
+      raw::scale_binary(std::int64_t{in.surface.rolling_arm.raw}, 8 - scale_exponent));
+  if (out.rolling_limit == 0) return;
+  const Vec3<SolverVelocity>& rolling = in.record.rolling_impulse;
+  out.rolling = {rolling.x.raw, rolling.y.raw, rolling.z.raw};
+}
+
+// The share of a push along an axis that goes to bodies which are held along it.
+std::int32_t held_along(const ContactInput& in, int axis, std::int32_t share_b) {
+  const std::int64_t a = in.body_a.is_held(axis) ? k_one_q30 - share_b : 0;
+  const std::int64_t b = in.body_b.is_held(axis) ? share_b : 0;
+  return static_cast<std::int32_t>(a + b);
+}
+
 }  // namespace
 
 ContactSoftness ContactSoftness::of(const TimeStep& step) {
@@ -115,7 +132,7 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.twist = in.record.twist_impulse.raw;
   fill_points(in, out);
   out.share_b = share_of_b(a.inverse_mass, b.inverse_mass);
-  out.coefficient = mixed_friction(in.surfaces).raw;
+  out.coefficient = in.surface.friction.raw;
   out.scale_a = scale(a);
   out.scale_b = scale(b);
   out.bias_rate = soft.bias_rate;
@@ -127,6 +144,13 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.inverse_scale_b = inverse_scale(b);
   out.offset_shift = 20 + scale_exponent;
   out.shift = 28 - pair_exponent;
+  fill_rolling(in, scale_exponent, out);
+  const Vec3<SolverVelocity>& drive = in.surface.drive;
+  out.drive = {drive.x.raw, drive.y.raw, drive.z.raw};
+  out.twist_drive = raw::saturate<std::int32_t>(
+      raw::scale_binary(std::int64_t{in.surface.twist_drive.raw}, scale_exponent));
+  for (int axis = 0; axis < 3; ++axis)
+    out.held[static_cast<std::size_t>(axis)] = held_along(in, axis, out.share_b);
 }
 
 }  // namespace lockstone

@@ -32,7 +32,7 @@ struct ContactInput {
   const SolverBody& body_b;
   const Manifold& manifold;
   const ContactRecord& record;
-  const SurfacePair& surfaces;
+  const ContactSurface& surface;
 };
 
 /// What the lanes prepare a constraint from.

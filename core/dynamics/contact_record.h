@@ -45,6 +45,7 @@ struct ContactRecord {
   std::uint32_t part_b = 0;
   std::array<ContactPointRecord, 4> points{};
   Vec3<SolverVelocity> friction_impulse{};  // of all points, in world axes
+  Vec3<SolverVelocity> rolling_impulse{};   // torque / ℓ, in world axes
   SolverVelocity twist_impulse{};           // about the normal, at the points' mean radius
   SolverVelocity load{};                    // normal impulse of a point, mean over the last seconds
   std::uint16_t count = 0;                  // 0 … 4
@@ -71,6 +72,7 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
     visit_value(k_point_names[i], ".normal_impulse", point.normal_impulse, f);
   }
   visit_value("friction_impulse", "", record.friction_impulse, f);
+  visit_value("rolling_impulse", "", record.rolling_impulse, f);
   visit_value("twist_impulse", "", record.twist_impulse, f);
   visit_value("load", "", record.load, f);
   visit_value("count", "", record.count, f);

@@ -101,6 +101,20 @@ std::int32_t high(std::int64_t word) {
 // Loops of half a substep: joints, bodies, joints, and the colours with the overflow.
 constexpr std::size_t k_half_step_loops = k_graph_colors + 4;
 
+// t·low + b·high, in world axes.
+Vec3<SolverVelocity> across(const ManifoldBlock& block, std::size_t lane, std::int64_t word) {
+  const std::int64_t along_t = low(word), along_b = high(word);
+  const std::int64_t axes[3][2] = {{high(block.axes[1][lane]), low(block.axes[3][lane])},
+                                   {low(block.axes[2][lane]), high(block.axes[3][lane])},
+                                   {high(block.axes[2][lane]), low(block.axes[4][lane])}};
+  Vec3<SolverVelocity> result;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t sum = along_t * axes[i][0] + along_b * axes[i][1];
+    result[i].raw = raw::saturate<std::int32_t>(raw::round_shift(sum, 30));
+  }
+  return result;
+}
+
 }  // namespace
 
 ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
@@ -151,7 +165,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   take_up_contacts(scene);
   lay_out();
   points_ = saturations_ = 0;
-  bounces_ = false;
+  bounces_ = holds_ = false;
   loops_.clear();
   loops_.push_back({row_count(), k_body_grain});
   loops_.push_back({joints_.empty() ? 0U : 1U, 1, true});
@@ -215,6 +229,7 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
   const std::uint32_t body = members_[index];
   const BodyRecord& record = scene.bodies[body];
   bodies_[index] = solver_body(record, scene.rotations[body], scene.gravity, step_);
+  if (bodies_[index].held != 0) holds_.store(true, std::memory_order_relaxed);
   const InverseInertia& m = bodies_[index].inverse_inertia;
   inertias_[index].inertia = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
   for (int i = 0; i < 3; ++i) {
@@ -304,10 +319,10 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     const SolverBody& b = side(entry.body_b, record.body_b, fixed_b);
     sources.body_a[lane] = lanes::row_body_offset(row_of(entry.body_a));
     sources.body_b[lane] = lanes::row_body_offset(row_of(entry.body_b));
-    const SurfacePair& surfaces = scene.surfaces[entry.slot];
-    fill_source({a, b, scene.manifolds[entry.slot], record, surfaces}, softness_,
+    const ContactSurface& surface = scene.surfaces[entry.slot];
+    fill_source({a, b, scene.manifolds[entry.slot], record, surface}, softness_,
                 sources.lanes[lane]);
-    restitution_[block][lane] = mixed_restitution(surfaces).raw;
+    restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);
   }
@@ -324,9 +339,11 @@ void ContactSolver::integrate_velocities(std::size_t substep, std::size_t first,
     if (substep == 0) {
       const RowBody warm = limited(before_[i]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::int64_t gravity = bodies_[i].gravity_step[axis] << k_row_shift;
-        row.velocity[axis] = start.velocity[axis] + gravity + warm.velocity[axis];
-        row.spin[axis] = start.spin[axis] + warm.spin[axis];
+        const std::int64_t gain = bodies_[i].gain[axis] * (std::int64_t{1} << k_row_shift);
+        const std::int64_t spin_gain =
+            bodies_[i].spin_gain[axis] * (std::int64_t{1} << k_row_shift);
+        row.velocity[axis] = start.velocity[axis] + gain + warm.velocity[axis];
+        row.spin[axis] = start.spin[axis] + spin_gain + warm.spin[axis];
       }
     } else {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -335,6 +352,26 @@ void ContactSolver::integrate_velocities(std::size_t substep, std::size_t first,
       }
     }
     before_[i] = start;
+    hold(i);
+  }
+}
+
+// Preparation knows which axes do not answer; what a push leaves there is taken back.
+void ContactSolver::hold(std::size_t index) {
+  if (bodies_[index].held == 0) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (bodies_[index].is_held(axis)) rows_[index].velocity[static_cast<std::size_t>(axis)] = 0;
+  }
+}
+
+// The bodies of blocks of one colour, which no other block of it names.
+void ContactSolver::hold_blocks(std::size_t first, std::size_t end) {
+  if (!holds_) return;
+  for (std::size_t slot = first * k_block_lanes; slot < end * k_block_lanes; ++slot) {
+    if (slots_[slot] == k_no_contact) continue;
+    const Entry& entry = entries_[slots_[slot]];
+    for (const std::uint32_t index : {entry.body_a, entry.body_b})
+      if ((index & k_immovable) == 0) hold(index);
   }
 }
 
@@ -394,6 +431,7 @@ void ContactSolver::run_piece(std::size_t loop, std::size_t first, std::size_t e
   } else {
     kernels.solve(rows_.data(), &blocks_[begin], end - first, rules_);
   }
+  hold_blocks(begin, begin + end - first);
 }
 
 void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, std::size_t end) {
@@ -443,15 +481,8 @@ std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t 
     pushed += impulse;
     fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
   }
-  // t·F_t + b·F_b
-  const std::int64_t along_t = low(block.friction[lane]), along_b = high(block.friction[lane]);
-  const std::int64_t axes[3][2] = {{high(block.axes[1][lane]), low(block.axes[3][lane])},
-                                   {low(block.axes[2][lane]), high(block.axes[3][lane])},
-                                   {high(block.axes[2][lane]), low(block.axes[4][lane])}};
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t sum = along_t * axes[i][0] + along_b * axes[i][1];
-    record.friction_impulse[i].raw = raw::saturate<std::int32_t>(raw::round_shift(sum, 30));
-  }
+  record.friction_impulse = across(block, lane, block.friction[lane]);
+  record.rolling_impulse = across(block, lane, block.rolling[lane]);
   record.twist_impulse.raw = low(block.twist[lane]);
   const std::int64_t gained =
       raw::round_shift(pushed * k_one_over_q28[record.count], 28) - record.load.raw;

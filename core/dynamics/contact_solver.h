@@ -30,7 +30,7 @@ struct ContactScene {
   std::span<const Mat3> rotations;
   std::span<const std::uint32_t> slots;
   std::span<const Manifold> manifolds;
-  std::span<const SurfacePair> surfaces;
+  std::span<const ContactSurface> surfaces;
   std::span<const ContactRecord> records;
   std::span<const JointRecord> joints;
   std::span<const JointLink> joint_links;
@@ -115,6 +115,8 @@ class ContactSolver {
   void run_piece(std::size_t loop, std::size_t first, std::size_t end);
   void integrate_velocities(std::size_t substep, std::size_t first, std::size_t end);
   void integrate_positions(std::size_t first, std::size_t end);
+  void hold(std::size_t index);
+  void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
   std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
                               ContactRecord& record, SolverVelocity& approach);
@@ -152,6 +154,7 @@ class ContactSolver {
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
   std::atomic<bool> bounces_{false};  // any restitution at all
+  std::atomic<bool> holds_{false};    // any locked axis of moving
   std::vector<Loop> loops_;           // of the sequence at hand
 };
 

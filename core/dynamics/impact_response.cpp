@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/dynamics/motion.h"
 #include "core/math/block_float.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
@@ -57,18 +58,25 @@ struct Side {
     const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
     body.record.velocity += own;
     if (turns) body.record.spin += cross(arm, own);
+    hold_axes(body.record);
   }
 
-  // α (r̄ × u) · M (r̄ × u), 32 bits
+  // α (u·u + (r̄ × u) · M (r̄ × u)), 32 bits; of u what no lock holds
   [[nodiscard]] std::int64_t compliance(const Vec3<Unit>& arm, const Vec3<Unit>& u) const {
-    if (!turns || share == Unit{}) return 0;
+    std::int64_t free = std::int64_t{share.raw} * 4;
+    for (int i = 0; i < 3; ++i) {
+      if (!body.record.is_locked(i)) continue;
+      const std::int64_t square = raw::round_shift(std::int64_t{u[i].raw} * u[i].raw, 28);
+      free -= raw::multiply_shift(square, share.raw, Unit::frac_bits);
+    }
+    if (!turns || share == Unit{}) return free;
     const Vec3<Velocity> axis = cross(arm, times(u, Velocity::from_integer(1)));
     const Vec3<Velocity> w = surface_velocity(body.inertia, axis);
     const auto product = [](Velocity a, Velocity b) {
       return saturate_to_int64(round_shift(multiply_wide(a.raw, b.raw), 32));
     };
     const std::int64_t sum = product(axis.x, w.x) + product(axis.y, w.y) + product(axis.z, w.z);
-    return raw::multiply_shift(std::max<std::int64_t>(sum, 0), share.raw, Unit::frac_bits);
+    return free + raw::multiply_shift(std::max<std::int64_t>(sum, 0), share.raw, Unit::frac_bits);
   }
 };
 
@@ -108,9 +116,9 @@ class ImpactSolver {
 
   // The jump that changes the relative velocity along u by `change`.
   [[nodiscard]] Velocity jump_for(Velocity change, const Point& point, const Vec3<Unit>& u) const {
-    const std::int64_t one = std::int64_t{1} << 32;
+    constexpr std::int64_t k_least = std::int64_t{1} << 26;  // of what locks hold hardly moves
     const std::int64_t stiffness =
-        one + a_.compliance(point.arm_a, u) + b_.compliance(point.arm_b, u);
+        std::max(a_.compliance(point.arm_a, u) + b_.compliance(point.arm_b, u), k_least);
     return Velocity::from_raw(round_divide(Int128::from(change.raw) << 32, stiffness));
   }
 

@@ -27,6 +27,26 @@ InverseInertia isotropic(std::int64_t value_q30) {
   return m;
 }
 
+// Without an axis the others answer as the inverse of what is left of the inertia: of M that is
+// M − m mᵀ/m_kk, m its row k.
+InverseInertia without_axis(const InverseInertia& m, int k) {
+  const std::int64_t entry[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}};
+  const std::int64_t own = std::max<std::int64_t>(entry[k][k], 1);
+  const auto left = [&](int i, int j) {
+    if (i == k || j == k) return 0;
+    const std::int64_t taken = raw::round_divide(entry[i][k] * entry[j][k], own);
+    return static_cast<std::int32_t>(entry[i][j] - taken);
+  };
+  return {left(0, 0), left(1, 1), left(2, 2), left(0, 1), left(0, 2), left(1, 2), m.exponent};
+}
+
+InverseInertia locked(const BodyRecord& body, InverseInertia m) {
+  if ((body.locks & k_lock_turning) == 0) return m;
+  for (int axis = 0; axis < 3; ++axis)
+    if (body.is_turn_locked(axis)) m = without_axis(m, axis);
+  return m;
+}
+
 }  // namespace
 
 InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
@@ -34,7 +54,7 @@ InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
   if (!body.is_dynamic()) return isotropic(std::int64_t{1} << 30);
   const std::array<std::int64_t, 3> inverse = {
       reciprocal(body.inertia.x), reciprocal(body.inertia.y), reciprocal(body.inertia.z)};
-  if (body.has_spherical_inertia()) return isotropic(inverse[0]);
+  if (body.has_spherical_inertia()) return locked(body, isotropic(inverse[0]));
 
   InverseInertia m;
   const std::int64_t largest = std::max({inverse[0], inverse[1], inverse[2]});
@@ -62,7 +82,7 @@ InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
   };
   m.xx = entry(sum[0]), m.yy = entry(sum[1]), m.zz = entry(sum[2]);
   m.xy = entry(sum[3]), m.xz = entry(sum[4]), m.yz = entry(sum[5]);
-  return m;
+  return locked(body, m);
 }
 
 Vec3<Velocity> surface_velocity(const InverseInertia& m, const Vec3<Velocity>& spin) {
@@ -91,11 +111,16 @@ Vec3<Velocity> spin_of(const BodyRecord& body, const Mat3& rotation,
                        const Vec3<Velocity>& surface_velocity) {
   if (!body.rotates() || body.is_static()) return {};
   if (!body.is_dynamic()) return surface_velocity;
-  const Vec3<Velocity> local = rotate_inverse_wide(rotation, surface_velocity);
+  const auto unlocked = [&](Vec3<Velocity> v) {
+    for (int i = 0; i < 3; ++i)
+      if (body.is_turn_locked(i)) v[i] = {};
+    return v;
+  };
+  const Vec3<Velocity> local = rotate_inverse_wide(rotation, unlocked(surface_velocity));
   const Vec3<Velocity> spin = {times(local.x, body.inertia.x.raw, 30),
                                times(local.y, body.inertia.y.raw, 30),
                                times(local.z, body.inertia.z.raw, 30)};
-  return rotate_wide(rotation, spin);
+  return unlocked(rotate_wide(rotation, spin));
 }
 
 }  // namespace lockstone

@@ -21,8 +21,8 @@ struct InverseInertia {
   int exponent = 0;
 };
 
-/// For a body that does not rotate: zero. For a kinematic one, whose spin is its surface speed:
-/// one.
+/// About locked axes a body does not turn. For one that does not rotate: zero. For a kinematic one,
+/// whose spin is its surface speed: one.
 [[nodiscard]] InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation);
 
 /// w = M·spin, each component within one unit in the last place.

@@ -20,8 +20,13 @@ inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
   return abs(g.x) <= limit && abs(g.y) <= limit && abs(g.z) <= limit;
 }
 
-[[nodiscard]] constexpr bool is_valid_surface(Coefficient friction, Coefficient restitution) {
-  return geometry::is_valid(Surface{friction, restitution});
+/// A surface's own speed: 500 m/s and 500 rad/s an axis.
+[[nodiscard]] constexpr bool is_valid(const Vec3<SolverVelocity>& velocity,
+                                      const Vec3<Rate>& turning) {
+  constexpr std::int32_t k_limit = 500 << 20;
+  const auto within = [](std::int32_t x) { return x <= k_limit && x >= -k_limit; };
+  return within(velocity.x.raw) && within(velocity.y.raw) && within(velocity.z.raw) &&
+         within(turning.x.raw) && within(turning.y.raw) && within(turning.z.raw);
 }
 
 }  // namespace lockstone

@@ -3,18 +3,30 @@
 #include <algorithm>
 
 #include "core/dynamics/free_rotation.h"
+#include "core/dynamics/tick_gain.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
 
 namespace lockstone {
 namespace {
 
-// gravity · gravity_scale
+// gravity · gravity_scale, but along locked axes
 Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& gravity) {
   if (!body.is_dynamic()) return {};
-  if (body.gravity_scale == Number::from_integer(1)) return gravity;
-  const auto scale = [&](Acceleration g) { return multiply<Acceleration>(g, body.gravity_scale); };
-  return {scale(gravity.x), scale(gravity.y), scale(gravity.z)};
+  Vec3<Acceleration> g = gravity;
+  for (int i = 0; i < 3; ++i) {
+    if (body.gravity_scale != Number::from_integer(1))
+      g[i] = multiply<Acceleration>(g[i], body.gravity_scale);
+    if (body.is_locked(i)) g[i] = {};
+  }
+  return g;
+}
+
+Vec3<Velocity> force_gain(const BodyRecord& body) {
+  return read_gain(body.force, body.force_exponent);
+}
+Vec3<Velocity> torque_gain(const BodyRecord& body) {
+  return read_gain(body.torque, body.torque_exponent);
 }
 
 constexpr Unit k_whole_tick = Unit::from_integer(1);
@@ -47,23 +59,24 @@ void damp(Vec3<Velocity>& v, Rate damping, const TimeStep& step) {
     v[i].raw = raw::multiply_shift(v[i].raw, factor, 30);
 }
 
-// Shortens `v` by limit / |w| when |w| exceeds the speed limit.
-bool shorten(Vec3<Velocity>& v, const Vec3<Velocity>& w) {
-  constexpr std::int64_t k_limit = k_speed_limit.raw;
-  const auto within = [](Velocity x) { return x.raw <= k_limit / 2 && x.raw >= -k_limit / 2; };
+// Shortens `v` by limit / |w| when |w| exceeds it.
+bool shorten(Vec3<Velocity>& v, const Vec3<Velocity>& w, Velocity most) {
+  const std::int64_t limit = most.raw;
+  const auto within = [&](Velocity x) { return x.raw <= limit / 2 && x.raw >= -limit / 2; };
   if (within(w.x) && within(w.y) && within(w.z)) return false;
   const std::uint64_t speed = norm(w.x.raw, w.y.raw, w.z.raw);
-  if (speed <= static_cast<std::uint64_t>(k_limit)) return false;
+  if (speed <= static_cast<std::uint64_t>(limit)) return false;
   const auto ratio = static_cast<std::int32_t>(
-      raw::round_divide(k_limit << 20, static_cast<std::int64_t>(speed >> 10)));  // Q30
+      raw::round_divide(limit << 20, static_cast<std::int64_t>(speed >> 10)));  // Q30
   for (int i = 0; i < 3; ++i)
     v[i].raw = raw::multiply_shift(v[i].raw, ratio, 30);
   return true;
 }
 
-// Whether it turns evenly about one axis as long as nothing pushes it.
+// Whether it turns evenly about one axis as long as nothing pushes it. With one of two free axes
+// locked that is so to first order.
 bool turns_evenly(const BodyRecord& body) {
-  return body.has_spherical_inertia() || !body.is_dynamic();
+  return body.has_spherical_inertia() || !body.is_dynamic() || (body.locks & k_lock_turning) != 0;
 }
 
 std::uint32_t turn(BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
@@ -131,10 +144,25 @@ void apply_damping(BodyRecord& body, const TimeStep& step) {
   damp(body.spin, body.angular_damping, step);
 }
 
-bool limit_speed(BodyRecord& body, const InverseInertia& inertia) {
-  const bool too_fast = shorten(body.velocity, body.velocity);
-  const bool spins_too_fast = shorten(body.spin, surface_velocity(inertia, body.spin));
+bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit) {
+  const Velocity most = min(world_limit, rounded<Velocity>(body.max_speed));
+  const Velocity most_spin = rounded<Velocity>(body.max_surface_speed);
+  const bool too_fast = shorten(body.velocity, body.velocity, most);
+  const bool spins_too_fast = shorten(body.spin, surface_velocity(inertia, body.spin), most_spin);
   return too_fast || spins_too_fast;
+}
+
+void hold_axes(BodyRecord& body) {
+  if (body.locks == 0) return;
+  for (int i = 0; i < 3; ++i) {
+    if (body.is_locked(i)) body.velocity[i] = {};
+    if (body.is_turn_locked(i)) body.spin[i] = {};
+  }
+}
+
+void clear_forces(BodyRecord& body) {
+  body.force = body.torque = {};
+  body.force_exponent = body.torque_exponent = 0;
 }
 
 bool limit_position(BodyRecord& body) {
@@ -157,14 +185,19 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
     return raw::round_divide(per_second * (phase + 1), rate) -
            raw::round_divide(per_second * phase, rate);
   };
+  const Vec3<Velocity> force = force_gain(body), torque = torque_gain(body);
   for (int i = 0; i < 3; ++i) {
-    const std::int64_t gain = in_this_tick(g[i].raw, step.tick_rate);
+    const std::int64_t gain = in_this_tick(g[i].raw, step.tick_rate) + force[i].raw;
     // (v + gain/2)·dt
     body.position[i].raw +=
         in_this_tick(2 * body.velocity[i].raw + gain, std::int64_t{2} * step.tick_rate);
     body.velocity[i].raw += gain;
   }
-  return turn_in_flight(body, rotation, step, k_whole_tick);
+  const Vec3<Velocity> half = divided(torque, 2);
+  body.spin += half;
+  const std::uint32_t turns = turn_in_flight(body, rotation, step, k_whole_tick);
+  body.spin += torque - half;
+  return turns;
 }
 
 std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeStep& step,
@@ -201,11 +234,15 @@ Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gr
 SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
                        const Vec3<Acceleration>& gravity, const TimeStep& step) {
   SolverBody solver;
+  const Vec3<Velocity> force = force_gain(body), torque = torque_gain(body);
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   for (int i = 0; i < 3; ++i) {
-    solver.gravity_step[static_cast<std::size_t>(i)] =
-        raw::round_divide(g[i].raw, step.substep_rate());
+    const auto axis = static_cast<std::size_t>(i);
+    solver.gain[axis] = raw::round_divide(g[i].raw, step.substep_rate()) +
+                        raw::round_divide(force[i].raw, step.substeps);
+    solver.spin_gain[axis] = raw::round_divide(torque[i].raw, step.substeps);
   }
+  solver.held = body.locks & k_lock_moving;
   solver.inverse_inertia = inverse_inertia(body, rotation);
   solver.inverse_mass = body.inverse_mass_value();
   solver.scale_exponent = body.scale_exponent;

@@ -15,8 +15,15 @@ namespace lockstone {
 /// Scales velocity and spin by 1 / (1 + damping·dt).
 void apply_damping(BodyRecord& body, const TimeStep& step);
 
-/// Clamps the speed and the surface speed to the speed limit. Answers whether it had to.
-bool limit_speed(BodyRecord& body, const InverseInertia& inertia);
+/// Clamps the speed to the world's limit and the body's, the surface speed to 500 m/s and the
+/// body's. Answers whether it had to.
+bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit);
+
+/// Velocity and spin along locked axes are zero.
+void hold_axes(BodyRecord& body);
+
+/// Forgets the forces of a tick.
+void clear_forces(BodyRecord& body);
 
 /// Clamps the position to the world, stopping what would leave it. Answers whether it had to.
 bool limit_position(BodyRecord& body);

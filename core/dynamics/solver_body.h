@@ -12,14 +12,19 @@ namespace lockstone {
 /// Constants of a body in the solver.
 struct SolverBody {
   InverseInertia inverse_inertia{};
-  std::array<std::int64_t, 3> gravity_step{};  // velocity gained in a substep, m/s, Q32
+  std::array<std::int64_t, 3> gain{};       // of velocity in a substep, by gravity and forces; Q32
+  std::array<std::int64_t, 3> spin_gain{};  // of spin, by torques
   BlockFloat inverse_mass{};
   std::int32_t scale_exponent = 0;
+  std::uint8_t held = 0;  // bit i: axis i of moving is locked
 
   /// Whether impulses change it.
   [[nodiscard]] bool is_pushed() const { return inverse_mass.mantissa != 0; }
+  [[nodiscard]] bool is_held(int axis) const { return (held >> axis & 1) != 0; }
   /// Whether it can turn at all.
-  [[nodiscard]] bool turns() const { return inverse_inertia.xx != 0; }
+  [[nodiscard]] bool turns() const {
+    return inverse_inertia.xx != 0 || inverse_inertia.yy != 0 || inverse_inertia.zz != 0;
+  }
 };
 
 }  // namespace lockstone

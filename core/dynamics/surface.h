@@ -1,26 +1,27 @@
 // How the surfaces of two bodies meet.
 #pragma once
 
-#include <lockstone/asset.h>
+#include <cstdint>
 
-#include "core/math/roots.h"
+#include <lockstone/material.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
 
 namespace lockstone {
 
-struct SurfacePair {
-  Surface a;
-  Surface b;
+/// What a contact is made of, both sides taken together.
+struct ContactSurface {
+  Coefficient friction{};
+  Coefficient restitution{};
+  Length rolling_arm{};          ///< torque against rolling / normal force
+  Vec3<SolverVelocity> drive{};  ///< of B's surface against A's, at the centre of the points
+  Rate twist_drive{};            ///< the same about the normal
+  std::uint32_t tag_a = 0;
+  std::uint32_t tag_b = 0;
 };
 
-/// √(a·b)
-[[nodiscard]] inline Coefficient mixed_friction(const SurfacePair& pair) {
-  if (pair.a.friction == pair.b.friction) return pair.a.friction;
-  const auto product = static_cast<std::uint64_t>((pair.a.friction * pair.b.friction).raw);
-  return {static_cast<std::int32_t>(isqrt(product))};
-}
-
-[[nodiscard]] constexpr Coefficient mixed_restitution(const SurfacePair& pair) {
-  return max(pair.a.restitution, pair.b.restitution);
-}
+[[nodiscard]] Coefficient combined_friction(const Surface& a, const Surface& b);
+[[nodiscard]] Coefficient combined_restitution(const Surface& a, const Surface& b);
+[[nodiscard]] Coefficient combined_rolling(const Surface& a, const Surface& b);
 
 }  // namespace lockstone

@@ -35,23 +35,40 @@ void put_asset_header(ByteWriter& writer, ShapeKind kind, std::uint16_t version)
   return is_asset_coordinate(v.x) && is_asset_coordinate(v.y) && is_asset_coordinate(v.z);
 }
 
-/// Friction 0 … 1.99, restitution 0 … 1.
+/// Friction 0 … 1.99, restitution and rolling resistance 0 … 1, known rules.
 [[nodiscard]] constexpr bool is_valid(const Surface& surface) {
   constexpr Coefficient most_friction = Coefficient::from_ratio(199, 100);
   constexpr Coefficient one = Coefficient::from_integer(1);
   return surface.friction >= Coefficient{} && surface.friction <= most_friction &&
-         surface.restitution >= Coefficient{} && surface.restitution <= one;
+         surface.restitution >= Coefficient{} && surface.restitution <= one &&
+         surface.rolling_resistance >= Coefficient{} && surface.rolling_resistance <= one &&
+         surface.friction_rule <= CombineRule::maximum &&
+         surface.restitution_rule <= CombineRule::maximum &&
+         surface.rolling_rule <= CombineRule::maximum;
 }
+
+/// Of a surface: three coefficients, the tag, three rules.
+inline constexpr std::size_t k_surface_bytes = 19;
 
 inline void put_surface(ByteWriter& writer, const Surface& surface) {
   writer.put(surface.friction.raw);
   writer.put(surface.restitution.raw);
+  writer.put(surface.rolling_resistance.raw);
+  writer.put(surface.tag);
+  writer.put(surface.friction_rule);
+  writer.put(surface.restitution_rule);
+  writer.put(surface.rolling_rule);
 }
 
 [[nodiscard]] inline Surface get_surface(ByteReader& reader) {
   Surface surface;
   surface.friction.raw = reader.get<std::int32_t>();
   surface.restitution.raw = reader.get<std::int32_t>();
+  surface.rolling_resistance.raw = reader.get<std::int32_t>();
+  surface.tag = reader.get<std::uint32_t>();
+  surface.friction_rule = static_cast<CombineRule>(reader.get<std::uint8_t>());
+  surface.restitution_rule = static_cast<CombineRule>(reader.get<std::uint8_t>());
+  surface.rolling_rule = static_cast<CombineRule>(reader.get<std::uint8_t>());
   return surface;
 }
 

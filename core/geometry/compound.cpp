@@ -16,8 +16,8 @@ namespace {
 
 using geometry::LocalBounds;
 
-constexpr std::uint16_t k_version = 1;
-constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + 8;
+constexpr std::uint16_t k_version = 2;
+constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + geometry::k_surface_bytes;
 constexpr Number k_max_density = Number::from_integer(1024);
 constexpr Number k_min_density = Number::from_ratio(1, 1024);
 

@@ -4,7 +4,7 @@
 //   i32 flat angle, origin x and z, cell x and z; u16 columns, rows, surfaces; u8 bit 0: holes,
 //   bit 1: cells have surfaces
 //   i32 height of each sample; the holes, a bit a cell from the lowest up, padded with zeros;
-//   i32 friction, restitution of each surface; u8 surface of each cell
+//   surfaces; u8 surface of each cell
 #include "core/geometry/asset_frame.h"
 #include "core/geometry/height_field_data.h"
 
@@ -12,7 +12,7 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-constexpr std::uint16_t k_version = 1;
+constexpr std::uint16_t k_version = 2;
 constexpr std::size_t k_counts_bytes = 27;
 
 struct Counts {
@@ -33,8 +33,8 @@ struct Counts {
   }
   /// Of all that follows the counts.
   [[nodiscard]] std::size_t bytes() const {
-    return 4 * samples() + (has_holes() ? (cells() + 7) / 8 : 0) + 8 * std::size_t{surfaces} +
-           (has_surfaces() ? cells() : 0);
+    return 4 * samples() + (has_holes() ? (cells() + 7) / 8 : 0) +
+           k_surface_bytes * std::size_t{surfaces} + (has_surfaces() ? cells() : 0);
   }
 };
 

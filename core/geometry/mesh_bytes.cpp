@@ -11,7 +11,7 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-constexpr std::uint16_t k_version = 1;
+constexpr std::uint16_t k_version = 2;
 constexpr std::size_t k_counts_bytes = 15;
 
 struct Counts {
@@ -24,7 +24,7 @@ struct Counts {
   /// Of all that follows the counts.
   [[nodiscard]] std::uint64_t bytes() const {
     return 12 * std::uint64_t{vertices} + (has_surfaces ? 13 : 12) * std::uint64_t{triangles} +
-           8 * std::uint64_t{surfaces};
+           k_surface_bytes * std::uint64_t{surfaces};
   }
 };
 

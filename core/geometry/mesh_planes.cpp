@@ -80,8 +80,10 @@ std::uint32_t plane_of(const Vec3<Unit>& normal) {
 
 /// Surfaces by value; none first.
 auto surface_key(const Surface* surface) {
-  return surface == nullptr ? std::tuple(false, std::int32_t{0}, std::int32_t{0})
-                            : std::tuple(true, surface->friction.raw, surface->restitution.raw);
+  constexpr Surface k_none{{}, {}};
+  const Surface& s = surface == nullptr ? k_none : *surface;
+  return std::tuple(surface != nullptr, s.friction.raw, s.restitution.raw, s.rolling_resistance.raw,
+                    s.tag, s.friction_rule, s.restitution_rule, s.rolling_rule);
 }
 
 /// The same for equal surfaces; 0 for none.
@@ -89,7 +91,13 @@ std::uint32_t surface_byte(const Surface* surface) {
   if (surface == nullptr) return 0;
   const auto friction = static_cast<std::uint32_t>(surface->friction.raw);
   const auto restitution = static_cast<std::uint32_t>(surface->restitution.raw);
-  return 1 + ((friction * 0x9e3779b1U) ^ (restitution * 0x85ebca6bU)) % 255;
+  const auto rolling = static_cast<std::uint32_t>(surface->rolling_resistance.raw);
+  const auto rules = static_cast<std::uint32_t>(surface->friction_rule) |
+                     static_cast<std::uint32_t>(surface->restitution_rule) << 3 |
+                     static_cast<std::uint32_t>(surface->rolling_rule) << 6;
+  return 1 + ((friction * 0x9e3779b1U) ^ (restitution * 0x85ebca6bU) ^ (rolling * 0xc2b2ae35U) ^
+              (surface->tag * 0x27d4eb2fU) ^ (rules * 0x165667b1U)) %
+                 255;
 }
 
 /// The axis that a normal is nearest to, the first of equals.

@@ -9,34 +9,21 @@
 #include "core/geometry/solid.h"
 #include "core/math/block_float.h"
 #include "core/math/rotation_log.h"
+#include "core/world/command_checks.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 namespace {
-
-template <class T>
-bool within(const Vec3<T>& v, T limit) {
-  const auto inside = [&](T x) { return x <= limit && x >= -limit; };
-  return inside(v.x) && inside(v.y) && inside(v.z);
-}
-
-// ω·2^k in m/s, the speed of the surface.
-bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent, Vec3<Velocity>& w) {
-  constexpr AngularVelocity k_limit = AngularVelocity::from_integer(1 << 20);
-  if (!within(omega, k_limit)) return false;
-  for (int i = 0; i < 3; ++i)
-    w[i].raw = raw::scale_binary(omega[i].raw, exponent);
-  return within(w, k_speed_limit);
-}
 
 bool is_valid(const BodyDef& def) {
   return (def.motion == MotionType::static_body || def.motion == MotionType::kinematic ||
           def.motion == MotionType::dynamic) &&
          validate(def.shape) == Status::ok && within(def.position, k_world_limit) &&
          has_direction(def.orientation) && within(def.velocity, k_speed_limit) &&
-         is_valid_surface(def.material.friction, def.material.restitution) &&
-         def.material.density > Density{} && abs(def.gravity_scale) <= k_gravity_scale_limit &&
-         def.linear_damping >= Rate{} && def.angular_damping >= Rate{};
+         geometry::is_valid(def.material.surface()) && def.material.density > Density{} &&
+         is_valid(def.surface_motion.velocity, def.surface_motion.turning) &&
+         abs(def.gravity_scale) <= k_gravity_scale_limit && def.linear_damping >= Rate{} &&
+         def.angular_damping >= Rate{} && is_valid(def.speed_limit);
 }
 
 Mass mass_of(const BodyDef& def, const Asset* asset) {
@@ -77,48 +64,22 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
   record.gravity_scale = def.gravity_scale;
   record.linear_damping = def.linear_damping;
   record.angular_damping = def.angular_damping;
-  record.friction = def.material.friction;
-  record.restitution = def.material.restitution;
+  record.set_surface(def.material.surface());
   record.category = def.filter.category;
   record.mask = def.filter.mask;
   record.group = def.filter.group;
   record.generation = generation;
   record.motion = static_cast<std::uint8_t>(def.motion);
   record.shape_kind = static_cast<std::uint8_t>(def.shape.kind);
-  record.flags = static_cast<std::uint8_t>(
-      (def.is_trigger ? k_body_trigger : 0) | (def.fixed_rotation ? k_body_fixed_rotation : 0) |
-      (def.is_bullet ? k_body_bullet : 0) | (def.allow_sleep ? 0 : k_body_no_sleep));
+  record.flags = static_cast<std::uint8_t>((def.is_trigger ? k_body_trigger : 0) |
+                                           (def.is_bullet ? k_body_bullet : 0) |
+                                           (def.allow_sleep ? 0 : k_body_no_sleep));
+  record.locks =
+      static_cast<std::uint8_t>(locks_of(def.locks) | (def.fixed_rotation ? k_lock_turning : 0));
   set_mass(record, def, asset);
+  set_speed_limit(record, def.speed_limit);
+  set_surface_motion(record, asset, def.surface_motion);
   return record;
-}
-
-// J/m as a velocity.
-Vec3<Velocity> velocity_gain(const BodyRecord& body, const Vec3<Impulse>& impulse) {
-  const auto gain = [&](Impulse j) {
-    return multiply_saturating<Velocity>(j, body.inverse_mass_value());
-  };
-  return {gain(impulse.x), gain(impulse.y), gain(impulse.z)};
-}
-
-// Sums that cannot overflow before the speed limit brings them back.
-void add_velocity(Vec3<Velocity>& velocity, const Vec3<Velocity>& gain) {
-  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
-  for (int i = 0; i < 3; ++i)
-    velocity[i] += clamp(gain[i], -k_bound, k_bound);
-}
-
-// (r/s) × gain, with r/s in Q30.
-Vec3<Velocity> turning_gain(const BodyRecord& body, const Vec3<Length>& point,
-                            const Vec3<Velocity>& gain) {
-  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
-  const auto product = [&](Velocity v, Length arm) {
-    const std::int32_t arm_q30 =
-        raw::saturate<std::int32_t>(std::int64_t{arm.raw} << (10 - body.scale_exponent));
-    return Velocity::from_raw(raw::multiply_shift(clamp(v, -k_bound, k_bound).raw, arm_q30, 30));
-  };
-  return {product(gain.z, point.y) - product(gain.y, point.z),
-          product(gain.x, point.z) - product(gain.z, point.x),
-          product(gain.y, point.x) - product(gain.x, point.y)};
 }
 
 // The asset that a shape names; null without error for a shape that names none.
@@ -174,6 +135,7 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
+    hold_axes(record);
     awake.insert(slot);
   }
   begin_rest(record, rest_rules);
@@ -229,6 +191,7 @@ Status World::Impl::execute(const SetVelocity& command) {
   }
   wake(command.body.index);
   record->velocity = command.velocity;
+  hold_axes(*record);
   refresh(command.body.index);
   return Status::ok;
 }
@@ -244,63 +207,6 @@ Status World::Impl::execute(const SetAngularVelocity& command) {
   wake(command.body.index);
   record->spin = spin_of(*record, rotations[command.body.index], surface);
   refresh(command.body.index);
-  return Status::ok;
-}
-
-Status World::Impl::execute(const ApplyImpulse& command) {
-  return execute(ApplyImpulseAt{command.body, command.impulse, {}});
-}
-
-Status World::Impl::execute(const ApplyImpulseAt& command) {
-  BodyRecord* record = edit(command.body);
-  if (record == nullptr) return Status::stale_handle;
-  const Length radius = properties_of(record->shape(), body_assets[command.body.index]).radius;
-  const Length reach = Length::from_raw(raw::saturate<std::int32_t>(std::int64_t{2} * radius.raw));
-  if (!record->is_dynamic() || !within(command.point, reach)) return Status::invalid_argument;
-  if (command.impulse == Vec3<Impulse>{}) return Status::ok;
-  wake(command.body.index);
-  const Vec3<Velocity> gain = velocity_gain(*record, command.impulse);
-  add_velocity(record->velocity, gain);
-  if (record->rotates()) add_velocity(record->spin, turning_gain(*record, command.point, gain));
-  refresh(command.body.index);
-  return Status::ok;
-}
-
-Status World::Impl::execute(const ApplyAngularImpulse& command) {
-  BodyRecord* record = edit(command.body);
-  if (record == nullptr) return Status::stale_handle;
-  if (!record->is_dynamic()) return Status::invalid_argument;
-  if (!record->rotates() || command.impulse == Vec3<AngularImpulse>{}) return Status::ok;
-  wake(command.body.index);
-  // L / (m·2^k)
-  const auto gain = [&](AngularImpulse l) {
-    const int shift = Velocity::frac_bits - AngularImpulse::frac_bits - record->scale_exponent;
-    return Velocity::from_raw(scale_saturating(l.raw, record->inverse_mass_value(), shift));
-  };
-  add_velocity(record->spin,
-               {gain(command.impulse.x), gain(command.impulse.y), gain(command.impulse.z)});
-  refresh(command.body.index);
-  return Status::ok;
-}
-
-Status World::Impl::execute(const ApplyForce& command) {
-  // Over one tick a force is the impulse F·dt: Q20 to Q24, divided by the tick rate.
-  const auto impulse = [&](Force f) {
-    const std::int64_t bounded = std::clamp(f.raw, -(std::int64_t{1} << 56), std::int64_t{1} << 56);
-    return Impulse::from_raw(raw::round_divide(bounded << 4, def.tick_rate));
-  };
-  return execute(
-      ApplyImpulse{command.body,
-                   {impulse(command.force.x), impulse(command.force.y), impulse(command.force.z)}});
-}
-
-Status World::Impl::execute(const SetMaterial& command) {
-  BodyRecord* record = edit(command.body);
-  if (record == nullptr) return Status::stale_handle;
-  if (!is_valid_surface(command.friction, command.restitution)) return Status::invalid_argument;
-  disturb(command.body.index);
-  record->friction = command.friction;
-  record->restitution = command.restitution;
   return Status::ok;
 }
 

@@ -208,12 +208,14 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole - done);
   a.velocity -= to_come;
   Velocity approach{};
+  std::uint32_t tag_a = a.tag, tag_b = b.tag;
   for (const PartContact& contact : scratch.part_contacts) {
-    const SurfacePair surface = surfaces_of({body, other}, contact);
+    const ContactSurface surface = surface_of({body, other}, contact);
+    tag_a = surface.tag_a;
+    tag_b = surface.tag_b;
     approach =
-        max(approach,
-            answer_impact({a, inertia_a}, {b, inertia_b},
-                          {contact.manifold, mixed_friction(surface), mixed_restitution(surface)}));
+        max(approach, answer_impact({a, inertia_a}, {b, inertia_b},
+                                    {contact.manifold, surface.friction, surface.restitution}));
   }
   if (next.impact.crossing != Vec3<Unit>{}) {
     const Vec3<Position> arm = a.position - other_motion.start.position;
@@ -221,13 +223,14 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
                         {through_centre(next.impact.crossing, saturated<Length>(arm)), {}, {}});
   }
   a.velocity += to_come;
-  (void)limit_speed(a, inertia_a);
-  if (b.is_dynamic()) (void)limit_speed(b, inertia_b);
+  (void)limit_speed(a, inertia_a, def.speed_limit);
+  if (b.is_dynamic()) (void)limit_speed(b, inertia_b, def.speed_limit);
   body_hashes.mark(other);
   if (b.moves()) note_far_mover(other);
   if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
   if (impacts.size() < impacts.capacity()) {
-    impacts.push_back({EventKind::impact, {body, a.generation}, {other, b.generation}, approach});
+    impacts.push_back(
+        {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
   }
 }
 

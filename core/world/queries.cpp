@@ -103,7 +103,8 @@ void collide_anywhere(const PlacedShape& a, const PlacedShape& b, Length margin,
 }
 
 // The deepest point of a manifold, the first of equals, seen from the body.
-ShapeContact to_contact(const PlacedShape& probe, BodyHandle body, const PartContact& contact) {
+ShapeContact to_contact(const PlacedShape& probe, BodyHandle handle, const BodyRecord& body,
+                        const PartContact& contact) {
   const Manifold& manifold = contact.manifold;
   const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
   const ManifoldPoint& deepest = *std::ranges::min_element(points, {}, &ManifoldPoint::separation);
@@ -113,7 +114,8 @@ ShapeContact to_contact(const PlacedShape& probe, BodyHandle body, const PartCon
     point[i] += rounded<Position>(deepest.anchor_a[i]);
     if (deepest.separation.raw > 0) point[i] += Position::from_raw(raw::round_shift(apart, 22));
   }
-  return {body, -manifold.normal, deepest.separation, point, contact.part_b};
+  const Surface surface = contact.surface_b != nullptr ? *contact.surface_b : body.surface();
+  return {handle, -manifold.normal, deepest.separation, point, contact.part_b, surface};
 }
 
 constexpr Unit k_whole_way = Unit::from_integer(1);
@@ -225,7 +227,7 @@ std::size_t World::contacts_of_shape(const Shape& shape, const Transform& pose, 
     PartContacts found;
     collide_anywhere(probe, world.placed(index), margin, found);
     for (const PartContact& contact : found)
-      insert_sorted(to_contact(probe, {index, body.generation}, contact), out, count, before);
+      insert_sorted(to_contact(probe, {index, body.generation}, body, contact), out, count, before);
   };
   world.broad_phase.traverse(filter.mask, test, visit);
   return count;

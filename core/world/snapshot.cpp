@@ -10,6 +10,7 @@
 
 #include "core/dynamics/inertia.h"
 #include "core/dynamics/limits.h"
+#include "core/dynamics/tick_gain.h"
 #include "core/geometry/shape_properties.h"
 #include "core/world/record_codec.h"
 #include "core/world/snapshot_format.h"
@@ -24,14 +25,15 @@ bool is_within(T x, T limit) {
   return x <= limit && x >= -limit;
 }
 
-bool in_range(const Vec3<Position>& v, Position limit) {
+template <class T>
+bool in_range(const Vec3<T>& v, T limit) {
   return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
 }
 
 // The limit plus what its own rounding may leave.
 bool in_range(const Vec3<Velocity>& v) {
   constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
-  return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
+  return in_range(v, limit);
 }
 
 bool has_valid_inertia(const Vec3<Unit>& inertia) {
@@ -48,8 +50,27 @@ bool has_valid_mass(const BodyRecord& record) {
 }
 
 bool has_valid_surface(const BodyRecord& record) {
-  return is_valid_surface(record.friction, record.restitution) && record.linear_damping >= Rate{} &&
-         record.angular_damping >= Rate{} && is_within(record.gravity_scale, k_gravity_scale_limit);
+  // Rotated and moved to the centre of mass what commands give may be longer.
+  constexpr auto k_fast = SolverVelocity::from_integer(2000);
+  constexpr auto k_quick = Rate::from_integer(1000);
+  return geometry::is_valid(record.surface()) && (record.rules >> 9) == 0 &&
+         in_range(record.surface_velocity, k_fast) && in_range(record.surface_turning, k_quick);
+}
+
+bool has_valid_limits(const BodyRecord& record) {
+  constexpr auto k_most = SolverVelocity::from_raw(k_speed_limit.raw >> 12);
+  const auto valid = [](SolverVelocity v) { return v > SolverVelocity{} && v <= k_most; };
+  return valid(record.max_speed) && valid(record.max_surface_speed) &&
+         record.linear_damping >= Rate{} && record.angular_damping >= Rate{} &&
+         is_within(record.gravity_scale, k_gravity_scale_limit) && record.locks <= k_all_body_locks;
+}
+
+// Mantissas of at most 30 bits; forces push what is dynamic.
+bool has_valid_gain(const BodyRecord& record, const Vec3<Unit>& mantissa, int exponent) {
+  constexpr Unit k_most = Unit::from_integer(1);
+  const bool bounded =
+      exponent >= 0 && exponent <= k_most_gain_exponent && in_range(mantissa, k_most);
+  return bounded && (record.is_dynamic() || (mantissa == Vec3<Unit>{} && exponent == 0));
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
@@ -108,15 +129,16 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (record.generation == 0 || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
   const bool known = record.shape_kind <= k_last_shape_kind &&
-                     (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0 &&
-                     record.reserved1 == 0;
+                     (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0;
   if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
   const Asset* asset = assets.find(record.asset);
   if (!has_known_shape(record, asset)) return Status::malformed;
   const int scale = properties_of(record.shape(), asset).scale_exponent;
   const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
                           has_valid_mass(record) && has_valid_surface(record) &&
-                          has_valid_sleep(record);
+                          has_valid_sleep(record) && has_valid_limits(record) &&
+                          has_valid_gain(record, record.force, record.force_exponent) &&
+                          has_valid_gain(record, record.torque, record.torque_exponent);
   const bool in_world = in_range(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation);
   return consistent && in_world ? Status::ok : Status::malformed;

@@ -231,6 +231,8 @@ void World::Impl::add_trigger(std::uint32_t index, std::span<const ContactRecord
   manifolds[slot] = {};
   inputs[slot] = {};
   surfaces[slot] = {};
+  surfaces[slot].tag_a = bodies[pairs[index].a].tag;
+  surfaces[slot].tag_b = bodies[pairs[index].b].tag;
 }
 
 void World::Impl::add_contacts(std::uint32_t index, std::span<const PartContact> parts,
@@ -249,21 +251,13 @@ void World::Impl::add_contacts(std::uint32_t index, std::span<const PartContact>
     origins[first + i] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old)};
     manifolds[first + i] = contact.manifold;
     inputs[first + i] = input;
-    surfaces[first + i] = surfaces_of(pair, contact);
+    surfaces[first + i] = surface_of(pair, contact);
   }
 }
 
 // Within contact_store.
 std::uint32_t World::Impl::index_of(const ContactRecord& record) const {
   return static_cast<std::uint32_t>(&record - contact_store.data());
-}
-
-// A part's own surface, or the body's.
-SurfacePair World::Impl::surfaces_of(const Pair& pair, const PartContact& contact) const {
-  const auto surface = [](const BodyRecord& body, const Surface* part) {
-    return part != nullptr ? *part : Surface{body.friction, body.restitution};
-  };
-  return {surface(bodies[pair.a], contact.surface_a), surface(bodies[pair.b], contact.surface_b)};
 }
 
 void World::Impl::number_contacts(StepReport& report) {
@@ -408,7 +402,9 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
     ++counts.free_bodies;
   }
   apply_damping(record, time_step);
-  counts.saturations += limit_speed(record, inertia) ? 1U : 0U;
+  hold_axes(record);
+  clear_forces(record);
+  counts.saturations += limit_speed(record, inertia, def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
 }
 
@@ -424,14 +420,19 @@ void World::Impl::add_event(const PairState& before, const PairState& now) {
                                  : (is ? EventKind::contact_begin : EventKind::contact_end);
   const Velocity approach =
       kind == EventKind::contact_begin ? rounded<Velocity>(now.approach) : Velocity{};
-  events.push_back(
-      {kind, {pair.a, bodies[pair.a].generation}, {pair.b, bodies[pair.b].generation}, approach});
+  const bool ended = !now.exists;
+  events.push_back({kind,
+                    {pair.a, bodies[pair.a].generation},
+                    {pair.b, bodies[pair.b].generation},
+                    approach,
+                    ended ? bodies[pair.a].tag : now.tag_a,
+                    ended ? bodies[pair.b].tag : now.tag_b});
 }
 
 // What the records of the first pair of bodies say together; they are taken from the list. The
 // approach speed is the greatest of its contacts.
 World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& records,
-                                              std::span<const SolverVelocity> approaches) {
+                                              std::span<const SolverVelocity> approaches) const {
   PairState state;
   state.exists = true;
   state.bodies = {records.front().body_a, records.front().body_b};
@@ -441,7 +442,13 @@ World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& re
     state.touching = state.touching || record.is_touching() || record.is_trigger();
     if (!approaches.empty()) {
       const std::size_t index = approaches.size() - records.size();
-      state.approach = max(state.approach, approaches[index]);
+      const bool first = state.contacts++ == 0;
+      if (first || approaches[index] > state.approach) {
+        state.approach = approaches[index];
+        const ContactSurface& surface = surfaces[slots[index]];
+        state.tag_a = surface.tag_a;
+        state.tag_b = surface.tag_b;
+      }
     }
     records = records.subspan(1);
   }

@@ -8,6 +8,7 @@
 #include "core/dynamics/limits.h"
 #include "core/geometry/shape_properties.h"
 #include "core/math/block_float.h"
+#include "core/world/command_checks.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -23,13 +24,14 @@ bool is_valid(const WorldDef& def) {
          within(def.tick_rate, 10, 480) && within(def.substeps, 1, 16) && def.sleep_ms <= 60'000 &&
          def.sleep_distance >= Length::from_ratio(1, 1000) &&
          def.sleep_distance <= Length::from_integer(1) && is_valid_gravity(def.gravity) &&
+         def.speed_limit >= Velocity::from_integer(1) && def.speed_limit <= k_speed_limit &&
          def.broad_phase <= BroadPhaseKind::sweep_and_prune;
 }
 
 }  // namespace
 
 std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
-  std::array<std::byte, 72> buffer{};
+  std::array<std::byte, 80> buffer{};
   ByteWriter writer(buffer);
   writer.put(k_simulation_abi);
   writer.put(def.body_capacity);
@@ -42,6 +44,7 @@ std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
   writer.put(def.sleep_distance.raw);
   for (int i = 0; i < 3; ++i)
     writer.put(def.gravity[i].raw);
+  writer.put(def.speed_limit.raw);
   writer.put(assets);
   LKS_CHECK(writer.ok());
   return hash64(writer.written());
@@ -226,6 +229,8 @@ BodyView World::body(BodyHandle body) const {
           .velocity = record->velocity,
           .angular_velocity = {angular(w.x), angular(w.y), angular(w.z)},
           .filter = record->filter(),
+          .surface = record->surface(),
+          .locks = axis_locks(record->locks),
           .is_trigger = record->is_trigger(),
           .is_bullet = record->is_bullet(),
           .is_asleep = record->is_asleep(),

@@ -46,6 +46,19 @@ struct World::Impl {
 #undef LKS_DECLARE_EXECUTE
 
   Result<JointHandle> create_joint(const JointDef& joint_def);
+  // A push, and what it gives a body (force_commands.cpp).
+  struct Push {
+    Vec3<Impulse> impulse{};
+    Vec3<AngularImpulse> turn{};
+    const Vec3<Length>* point = nullptr;  // null: the centre of mass
+    Frame frame{};
+  };
+  struct Gain {
+    Vec3<Velocity> velocity{}, spin{};
+  };
+  [[nodiscard]] Status gain_of(BodyHandle body, const Push& push, Gain& gain) const;
+  Status push_now(BodyHandle body, const Push& push);
+  Status push_in_tick(BodyHandle body, const Push& push);
 
   [[nodiscard]] const BodyRecord* find(BodyHandle body) const;
 
@@ -201,7 +214,13 @@ struct World::Impl {
   [[nodiscard]] std::uint32_t index_of(const ContactRecord& record) const;
   void number_contacts(StepReport& report);
   void number_contacts_of(std::uint32_t pair);
-  [[nodiscard]] SurfacePair surfaces_of(const Pair& pair, const PartContact& contact) const;
+
+  // What contacts are made of (contact_surfaces.cpp).
+  [[nodiscard]] ContactSurface surface_of(const Pair& pair, const PartContact& contact) const;
+  [[nodiscard]] Length rolling_radius(const Pair& pair) const;
+  void add_drive(std::uint32_t body, const Vec3<Length>& arm, std::int32_t sign,
+                 const Vec3<Unit>& normal, ContactSurface& surface) const;
+
   void solve_contacts(StepReport& report);
   void prepare_contacts();
   void run_substeps();
@@ -258,9 +277,11 @@ struct World::Impl {
     bool trigger = false;
     bool touching = false;  // of a trigger: overlapping
     SolverVelocity approach{};
+    std::uint32_t contacts = 0;
+    std::uint32_t tag_a = 0, tag_b = 0;  // of the contact that came in fastest
   };
-  static PairState take_pair(std::span<const ContactRecord>& records,
-                             std::span<const SolverVelocity> approaches);
+  PairState take_pair(std::span<const ContactRecord>& records,
+                      std::span<const SolverVelocity> approaches) const;
   void add_event(const PairState& before, const PairState& now);
 
   // Scratch of sleep.
@@ -295,7 +316,7 @@ struct World::Impl {
   std::vector<ContactOrigin> origins;  // by slot
   std::vector<Manifold> manifolds;     // by slot
   std::vector<ManifoldInput> inputs;   // by slot
-  std::vector<SurfacePair> surfaces;   // by slot
+  std::vector<ContactSurface> surfaces;  // by slot
   std::vector<std::uint32_t> slots;    // by new contact
   std::vector<ContactRecord> new_contacts;
 

@@ -58,8 +58,42 @@ Command sample(Tag<ApplyAngularImpulse>, BodyHandle body, Random& random) {
 Command sample(Tag<ApplyForce>, BodyHandle body, Random& random) {
   return ApplyForce{body, {{}, Force::from_integer(random.between(0, 20000)), {}}};
 }
+Command sample(Tag<ApplyForceAt>, BodyHandle body, Random& random) {
+  const Force up = Force::from_integer(random.between(0, 20000));
+  return ApplyForceAt{body, {{}, up, {}}, {0.1_m, {}, {}}, Frame::body};
+}
+Command sample(Tag<ApplyTorque>, BodyHandle body, Random& random) {
+  return ApplyTorque{body, {{}, Torque::from_integer(random.between(-2000, 2000)), {}}};
+}
 Command sample(Tag<SetMaterial>, BodyHandle body, Random& random) {
-  return SetMaterial{body, Coefficient::from_ratio(random.between(0, 10), 10), 0.5_r};
+  const Coefficient friction = Coefficient::from_ratio(random.between(0, 10), 10);
+  Surface surface{friction, 0.5_r, 0.01_r};
+  surface.friction_rule = static_cast<CombineRule>(random.below(6));
+  return SetMaterial{body, surface};
+}
+Command sample(Tag<SetSurfaceMotion>, BodyHandle body, Random& random) {
+  return SetSurfaceMotion{
+      body, {{SolverVelocity::from_integer(random.between(-2, 2)), {}, {}}, {{}, 1_rps, {}}}};
+}
+Command sample(Tag<SetGravityScale>, BodyHandle body, Random& random) {
+  return SetGravityScale{body, Number::from_ratio(random.between(5, 15), 10)};
+}
+Command sample(Tag<SetDamping>, BodyHandle body, Random& random) {
+  const Rate rate = Rate::from_ratio(random.between(0, 10), 10);
+  return SetDamping{body, rate, rate};
+}
+Command sample(Tag<SetAxisLocks>, BodyHandle body, Random& random) {
+  const std::uint32_t bits = random.below(64);
+  return SetAxisLocks{body,
+                      {(bits & 1) != 0, false, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0,
+                       (bits & 32) != 0}};
+}
+Command sample(Tag<SetSpeedLimit>, BodyHandle body, Random& random) {
+  return SetSpeedLimit{body, {Velocity::from_integer(random.between(3, 30)), 20_rps}};
+}
+Command sample(Tag<MoveKinematic>, BodyHandle body, Random& random) {
+  const Position x = millimetres(random.between(-4000, 4000));
+  return MoveKinematic{body, {x, 1_m, {}}, {}};
 }
 Command sample(Tag<SetFilter>, BodyHandle body, Random& random) {
   const std::uint32_t category = random.below(4) == 0 ? 2 : 1;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lockstone/bytes.h>
+#include <lockstone/material.h>
 #include <lockstone/shape.h>
 #include <lockstone/status.h>
 #include <lockstone/units.h>
@@ -25,14 +26,6 @@ class RayPartVisitor;
 
 /// Coordinates of an asset in its own frame lie within ±512 m.
 inline constexpr Length k_max_asset_coordinate = Length::from_integer(512);
-
-/// What a part of an asset is made of, where that differs from the body's own material.
-struct Surface {
-  Coefficient friction = Coefficient::from_ratio(1, 2);  ///< 0 … 1.99
-  Coefficient restitution{};                             ///< 0 … 1
-
-  friend constexpr bool operator==(const Surface&, const Surface&) = default;
-};
 
 /// Surfaces an asset may have, and the index that stands for the body's own material.
 inline constexpr int k_max_surfaces = 255;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <lockstone/collision.h>
+#include <lockstone/material.h>
 #include <lockstone/quat.h>
 #include <lockstone/shape.h>
 #include <lockstone/units.h>
@@ -33,11 +34,18 @@ enum class MotionType : std::uint8_t {
   dynamic = 3,      ///< moved by forces, impulses and contacts
 };
 
-/// Surface and substance.
-struct Material {
-  Coefficient friction = Coefficient::from_ratio(1, 2);  ///< 0 … 1.99; pairs use √(a·b)
-  Coefficient restitution{};                             ///< 0 … 1; pairs use the larger
-  Density density = Density::from_integer(1000);         ///< > 0
+/// World axes that a dynamic body does not move along, or does not turn about, whatever pushes it.
+struct AxisLocks {
+  bool move_x = false, move_y = false, move_z = false;
+  bool turn_x = false, turn_y = false, turn_z = false;
+
+  friend constexpr bool operator==(const AxisLocks&, const AxisLocks&) = default;
+};
+
+/// What a body's speeds are held to at the end of each tick, besides the world's limits.
+struct SpeedLimit {
+  Velocity linear = k_speed_limit;                                     ///< > 0
+  AngularVelocity angular = AngularVelocity::from_integer(1'000'000);  ///< > 0
 };
 
 /// A body to be made. Position and orientation place the frame of its shape; velocities are those
@@ -50,12 +58,15 @@ struct BodyDef {
   Vec3<Velocity> velocity{};  ///< at most 500 m/s
   Vec3<AngularVelocity> angular_velocity{};
   Material material{};
+  SurfaceMotion surface_motion{};
   CollisionFilter filter{};
   Number gravity_scale = Number::from_integer(1);
   Rate linear_damping{};  ///< ≥ 0; velocity falls by the factor 1/(1 + c·dt) a tick
   Rate angular_damping{};
   bool is_trigger = false;      ///< reports overlaps, pushes nothing
   bool fixed_rotation = false;  ///< never rotates: a character, say
+  AxisLocks locks{};            ///< of a dynamic body
+  SpeedLimit speed_limit{};
   bool is_bullet = false;       ///< never passes through dynamic bodies either, at a price
   bool allow_sleep = true;      ///< may fall asleep; says nothing of a static body
   std::uint64_t user_data = 0;  ///< the game's own; part of the state
@@ -71,6 +82,8 @@ struct BodyView {
   Vec3<Velocity> velocity{};                 ///< of the centre of mass
   Vec3<AngularVelocity> angular_velocity{};  ///< rad/s, error ≤ 1e-8 relative
   CollisionFilter filter{};
+  Surface surface{};
+  AxisLocks locks{};
   bool is_trigger = false;
   bool is_bullet = false;
   bool is_asleep = false;

@@ -9,6 +9,12 @@
 
 namespace lockstone {
 
+/// What vectors and points of a command are written in.
+enum class Frame : std::uint8_t {
+  world = 0,  ///< world axes, points relative to the centre of mass
+  body = 1,   ///< the frame of the body's shape
+};
+
 struct CreateBody { BodyDef def{}; };
 struct DestroyBody { BodyHandle body{}; };
 
@@ -19,17 +25,35 @@ struct SetVelocity { BodyHandle body{}; Vec3<Velocity> velocity{}; };
 struct SetAngularVelocity { BodyHandle body{}; Vec3<AngularVelocity> angular_velocity{}; };
 
 /// At the centre of mass.
-struct ApplyImpulse { BodyHandle body{}; Vec3<Impulse> impulse{}; };
+struct ApplyImpulse { BodyHandle body{}; Vec3<Impulse> impulse{}; Frame frame{}; };
 
-/// At a point given relative to the centre of mass, in world axes, within twice the body's radius.
-struct ApplyImpulseAt { BodyHandle body{}; Vec3<Impulse> impulse{}; Vec3<Length> point{}; };
+/// At a point within twice the body's radius of its centre of mass.
+struct ApplyImpulseAt { BodyHandle body{}; Vec3<Impulse> impulse{}; Vec3<Length> point{}; Frame frame{}; };
 
-struct ApplyAngularImpulse { BodyHandle body{}; Vec3<AngularImpulse> impulse{}; };
+struct ApplyAngularImpulse { BodyHandle body{}; Vec3<AngularImpulse> impulse{}; Frame frame{}; };
 
-/// At the centre of mass, over the coming tick.
-struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; };
+/// At the centre of mass. A force works evenly over the coming tick and is then gone, a torque too;
+/// those of a tick add up.
+struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; Frame frame{}; };
 
-struct SetMaterial { BodyHandle body{}; Coefficient friction{}; Coefficient restitution{}; };
+/// At a point as that of an impulse. Both turn with the body in the tick no more than the world does.
+struct ApplyForceAt { BodyHandle body{}; Vec3<Force> force{}; Vec3<Length> point{}; Frame frame{}; };
+
+struct ApplyTorque { BodyHandle body{}; Vec3<Torque> torque{}; Frame frame{}; };
+
+/// Gives a kinematic body the velocities that take it to a pose in one tick. It keeps them until it
+/// is told otherwise. invalid_argument where they exceed the speed limit.
+struct MoveKinematic { BodyHandle body{}; Vec3<Position> position{}; Quat orientation{}; };
+
+/// Of the body itself; parts of assets keep theirs.
+struct SetMaterial { BodyHandle body{}; Surface surface{}; };
+struct SetSurfaceMotion { BodyHandle body{}; SurfaceMotion motion{}; };
+struct SetGravityScale { BodyHandle body{}; Number scale{}; };
+struct SetDamping { BodyHandle body{}; Rate linear{}; Rate angular{}; };
+
+/// Stops the body along and about the axes that are locked. Contacts keep what they carry.
+struct SetAxisLocks { BodyHandle body{}; AxisLocks locks{}; };
+struct SetSpeedLimit { BodyHandle body{}; SpeedLimit limit{}; };
 struct SetFilter { BodyHandle body{}; CollisionFilter filter{}; };
 struct SetUserData { BodyHandle body{}; std::uint64_t user_data = 0; };
 /// Wakes a dynamic or kinematic body, and the island that it sleeps in. Commands that push, move or
@@ -56,8 +80,9 @@ struct SetGravity { Vec3<Acceleration> gravity{}; };
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
-  X(ApplyImpulse) X(ApplyImpulseAt) X(ApplyAngularImpulse) X(ApplyForce) \
-  X(SetMaterial) X(SetFilter) X(SetUserData) \
+  X(ApplyImpulse) X(ApplyImpulseAt) X(ApplyAngularImpulse) X(ApplyForce) X(ApplyForceAt) X(ApplyTorque) \
+  X(MoveKinematic) X(SetMaterial) X(SetSurfaceMotion) X(SetGravityScale) X(SetDamping) X(SetAxisLocks) \
+  X(SetSpeedLimit) X(SetFilter) X(SetUserData) \
   X(WakeBody) X(SleepBody) X(SetAllowSleep) X(SetGravity) \
   X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis)
 // clang-format on

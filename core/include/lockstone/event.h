@@ -26,6 +26,8 @@ struct ContactEvent {
   BodyHandle a{};
   BodyHandle b{};
   Velocity approach_speed{};  ///< contact_begin, impact: speed along the normal before, ≥ 0
+  std::uint32_t tag_a = 0;    ///< Surface::tag where they meet; of an end those of the bodies
+  std::uint32_t tag_b = 0;
 };
 
 }  // namespace lockstone

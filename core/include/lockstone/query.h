@@ -64,6 +64,7 @@ struct ShapeContact {
   Displacement separation{};  ///< of the deepest point; negative when overlapping
   Vec3<Position> point{};     ///< the deepest, on the body
   std::uint32_t part = 0;     ///< of the body's asset; a group of triangles is named by its key
+  Surface surface{};          ///< of the body, where they meet
 
   friend constexpr bool operator==(const ShapeContact&, const ShapeContact&) = default;
 };

@@ -16,6 +16,7 @@ using MetrePerSecond = Dimension<1, 0, -1>;
 using MetrePerSecond2 = Dimension<1, 0, -2>;
 using SquareMetre = Dimension<2, 0, 0>;
 using NewtonSecond = Dimension<1, 1, -1>;
+using NewtonMetre = Dimension<2, 1, -2>;
 using NewtonMetreSecond = Dimension<2, 1, -1>;
 using Newton = Dimension<1, 1, -2>;
 using NewtonMetre = Dimension<2, 1, -2>;

@@ -27,7 +27,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 14;
+inline constexpr std::uint32_t k_simulation_abi = 15;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
@@ -41,6 +41,7 @@ struct WorldDef {
   Length sleep_distance = Length::from_ratio(1, 200);  ///< what moves less rests, 1 mm … 1 m
   BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
+  Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
 };

@@ -69,6 +69,12 @@ struct alignas(64) ManifoldBlock {
   BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)
   BlockWord friction{};         // low: impulse along t, high: along b; m/s, Q20
   BlockWord twist{};            // low: twist impulse, m/s, Q20; high: ρ/ℓ, Q30
+  BlockWord drive{};            // what moving surfaces add to the speed: low: along t, high: b; Q20
+  BlockWord turn{};             // low: the same about n, as ℓ·ω; high: rolling limit / ΣP, Q28
+
+  // Read where the rolling limit is not 0: torques about t and b, divided by ℓ.
+  BlockWord rolling{};          // low: impulse about t, high: about b; m/s, Q20
+  BlockWord rolling_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of their response, Q24
 
   friend bool operator==(const ManifoldBlock&, const ManifoldBlock&) = default;
 };
@@ -96,9 +102,15 @@ struct alignas(64) ManifoldSource {
   std::int32_t inverse_scale_a = 0, inverse_scale_b = 0;  // 2^11/s, 1 … 2^18; 0: cannot turn
   std::int32_t offset_shift = 20;                         // 20 + k: 13 … 31
   std::int32_t shift = 28;
-  std::array<std::int32_t, 10> unused{};
+  std::array<std::int32_t, 2> unused0{};
+  std::array<std::int32_t, 3> rolling{};  // of the tick before in world axes, m/s, Q20
+  std::int32_t rolling_limit = 0;         // as in ManifoldBlock::turn; without one `rolling` is 0
+  std::array<std::int32_t, 3> drive{};    // as in ManifoldBlock, in world axes
+  std::int32_t twist_drive = 0;
+  std::array<std::int32_t, 3> held{};  // by world axis: how much of a push axis locks take, Q30
+  std::array<std::int32_t, 13> unused1{};
 };
-static_assert(sizeof(ManifoldSource) == 256);
+static_assert(sizeof(ManifoldSource) == 320);
 
 /// What preparation reads of a body: M = entry · 2^-30 · 2^exponent, exponent told by the pair.
 struct alignas(32) SourceBody {

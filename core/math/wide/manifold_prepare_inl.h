@@ -9,6 +9,7 @@
 #include "core/math/wide/manifold_block.h"
 #include "core/math/wide/manifold_motion_inl.h"
 #include "core/math/wide/manifold_quotients.h"
+#include "core/math/wide/manifold_response_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,6 +29,8 @@ struct SourceLanes {
   Vector arm_a, arm_b;          // r̄ of the centre, Q30
   Lanes share_a, share_b, scale_a, scale_b;
   Lanes offset_shift, shift;
+  Vector rolling, drive, held;
+  Lanes rolling_limit, twist_drive;
 };
 
 /// Words 0 and 1 of each lane's record, from `word` operands on: four operands.
@@ -119,6 +122,14 @@ HWY_INLINE HWY_ATTR Lanes load_source(const ManifoldSources& in, std::size_t lan
   load_operands(at, 52, word_0, word_1);
   out.offset_shift = lower_part(word_0);
   out.shift = upper_part(word_0);
+  load_operands(at, 56, word_0, word_1);
+  out.rolling = {word_0, upper(word_0), word_1};
+  out.rolling_limit = upper_part(word_1);
+  load_operands(at, 60, word_0, word_1);
+  out.drive = {word_0, upper(word_0), word_1};
+  out.twist_drive = upper(word_1);
+  load_operands(at, 64, word_0, word_1);
+  out.held = {lower_part(word_0), upper_part(word_0), lower_part(word_1)};
   return clamped;
 }
 
@@ -162,92 +173,6 @@ HWY_INLINE HWY_ATTR void make_axes(const Vector& n, Lanes shift, Axes& axes) {
   axes.by = each_shift(shift);
 }
 
-/// The response of the six motions at the centre to the six impulses there, as far as it is used:
-/// n, t, b; x and y for the points' offsets (turning about −b and t); w for the twist about n.
-/// Sums of both bodies in Q(shift + 30), then in Q(shift).
-struct CenterResponse {
-  Lanes nn, tt, bb, tb;
-  Lanes nx, ny, nw, tn, tx, ty, tw, bn, bx, by, bw;
-  Lanes xx, yy, xy, xw, yw, ww;
-};
-
-/// One body: with r and M in the manifold's axes and H_u = M·(r × u), the entry of u and v is
-/// α·(r × u)·H_v, of u and an axis e it is αℓ/s·e·H_u, of two axes α(ℓ/s)²·e·M·f.
-struct BodyResponse {
-  Vector arm;  // r̄ along n, t, b
-  Tensor m;    // in these axes: xx is nn, xy is nt …
-  Lanes share, turn, turn_scale;
-};
-
-HWY_INLINE HWY_ATTR BodyResponse in_axes(const Axes& axes, const Tensor& m, const Vector& arm,
-                                         Lanes share, Lanes scale) {
-  const Vector n = round_shift_low<30>(m.times(axes.n));
-  const Vector t = round_shift_low<30>(m.times(axes.t));
-  const Vector b = round_shift_low<30>(m.times(axes.b));
-  const Lanes turn = round_shift_low<30>(multiply(share, scale));
-  const Vector along = {dot(axes.n, arm), dot(axes.t, arm), dot(axes.b, arm)};
-  const Vector diagonal =
-      round_shift_low<30>(Vector{dot(axes.n, n), dot(axes.t, t), dot(axes.b, b)});
-  const Vector mixed = round_shift_low<30>(Vector{dot(axes.n, t), dot(axes.n, b), dot(axes.t, b)});
-  return {round_shift_low<30>(along),
-          {diagonal.x, diagonal.y, diagonal.z, mixed.x, mixed.y, mixed.z},
-          share,
-          turn,
-          round_shift_low<30>(multiply(turn, scale))};
-}
-
-/// a·b − c·d
-HWY_INLINE HWY_ATTR Lanes difference(Lanes a, Lanes b, Lanes c, Lanes d) {
-  return multiply_subtract(multiply(a, b), c, d);
-}
-
-HWY_INLINE HWY_ATTR void add_response(const BodyResponse& body, CenterResponse& k) {
-  const Vector& r = body.arm;
-  const Tensor& m = body.m;
-  // M times r × n = (0, r.z, −r.y), r × t = (−r.z, 0, r.x) and r × b = (r.y, −r.x, 0).
-  const Vector n =
-      round_shift_low<30>(Vector{difference(m.xy, r.z, m.xz, r.y), difference(m.yy, r.z, m.yz, r.y),
-                                 difference(m.yz, r.z, m.zz, r.y)});
-  const Vector t =
-      round_shift_low<30>(Vector{difference(m.xz, r.x, m.xx, r.z), difference(m.yz, r.x, m.xy, r.z),
-                                 difference(m.zz, r.x, m.xz, r.z)});
-  const Vector b =
-      round_shift_low<30>(Vector{difference(m.xx, r.y, m.xy, r.x), difference(m.xy, r.y, m.yy, r.x),
-                                 difference(m.xz, r.y, m.yz, r.x)});
-  const Lanes share = body.share, turn = body.turn, both = body.turn_scale;
-  k.nn = multiply_add(k.nn, share, round_shift_low<30>(difference(r.z, n.y, r.y, n.z)));
-  k.tt = multiply_add(k.tt, share, round_shift_low<30>(difference(r.x, t.z, r.z, t.x)));
-  k.bb = multiply_add(k.bb, share, round_shift_low<30>(difference(r.y, b.x, r.x, b.y)));
-  k.tb = multiply_add(k.tb, share, round_shift_low<30>(difference(r.x, b.z, r.z, b.x)));
-  k.tn = multiply_add(k.tn, share, round_shift_low<30>(difference(r.z, t.y, r.y, t.z)));
-  k.bn = multiply_add(k.bn, share, round_shift_low<30>(difference(r.z, b.y, r.y, b.z)));
-  k.nx = multiply_subtract(k.nx, turn, n.z);
-  k.ny = multiply_add(k.ny, turn, n.y);
-  k.nw = multiply_add(k.nw, turn, n.x);
-  k.tx = multiply_subtract(k.tx, turn, t.z);
-  k.ty = multiply_add(k.ty, turn, t.y);
-  k.tw = multiply_add(k.tw, turn, t.x);
-  k.bx = multiply_subtract(k.bx, turn, b.z);
-  k.by = multiply_add(k.by, turn, b.y);
-  k.bw = multiply_add(k.bw, turn, b.x);
-  k.xx = multiply_add(k.xx, both, body.m.zz);
-  k.yy = multiply_add(k.yy, both, body.m.yy);
-  k.xy = multiply_subtract(k.xy, both, body.m.yz);
-  k.xw = multiply_subtract(k.xw, both, body.m.xz);
-  k.yw = multiply_add(k.yw, both, body.m.xy);
-  k.ww = multiply_add(k.ww, both, body.m.xx);
-}
-
-HWY_INLINE HWY_ATTR void finish(Lanes shift, CenterResponse& k) {
-  const Lanes one = power_of_two(shift);
-  for (Lanes* entry : {&k.nn, &k.tt, &k.bb, &k.tb, &k.nx, &k.ny, &k.nw, &k.tn, &k.tx, &k.ty, &k.tw,
-                       &k.bn, &k.bx, &k.by, &k.bw, &k.xx, &k.yy, &k.xy, &k.xw, &k.yw, &k.ww})
-    *entry = round_shift_low<30>(*entry);
-  k.nn = lower_part(add(k.nn, one));
-  k.tt = lower_part(add(k.tt, one));
-  k.bb = lower_part(add(k.bb, one));
-}
-
 HWY_INLINE HWY_ATTR CenterResponse center_response(const SourceLanes& in, const Axes& axes) {
   CenterResponse k{};
   k.nn = k.tt = k.bb = k.tb = k.nx = k.ny = k.nw = k.tn = k.tx = k.ty = k.tw = k.bn = k.bx = k.by =
@@ -255,6 +180,7 @@ HWY_INLINE HWY_ATTR CenterResponse center_response(const SourceLanes& in, const 
   add_response(in_axes(axes, in.inertia_a, in.arm_a, in.share_a, in.scale_a), k);
   add_response(in_axes(axes, in.inertia_b, in.arm_b, in.share_b, in.scale_b), k);
   finish(axes.by.shift, k);
+  hold_axes(in.held, axes, k);
   return k;
 }
 
@@ -335,7 +261,31 @@ struct Quotients {
   Lanes determinant;  // of the tangents' response, inverted
   Lanes radius;       // ρ, the root of the mean square of offsets
   Lanes twist;        // 1/(ρ²K_ww)
+  Lanes rolling[3];   // tt, bb, tb, Q24; 0 where rolling is not resisted
 };
+
+HWY_INLINE HWY_ATTR void find_rolling_mass(const ManifoldSource* in, const CenterResponse& k,
+                                           Lanes (&mass)[3]) {
+  bool any = false;
+  for (std::size_t lane = 0; lane < k_lanes; ++lane)
+    any = any || in[lane].rolling_limit > 0;
+  mass[0] = mass[1] = mass[2] = broadcast(0);
+  if (!any) return;
+  std::int64_t words[3][k_lanes];
+  store(k.xx, words[0]);
+  store(k.yy, words[1]);
+  store(k.xy, words[2]);
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    const RollingMass m = in[lane].rolling_limit > 0 ? rolling_mass(in[lane].shift, words[0][lane],
+                                                                    words[1][lane], words[2][lane])
+                                                     : RollingMass{};
+    words[0][lane] = m.tt;
+    words[1][lane] = m.bb;
+    words[2][lane] = m.tb;
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    mass[i] = load(words[i]);
+}
 
 /// All lanes of all quotients one by one: words go to memory once and come back once.
 HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, const EachShift& by,
@@ -360,11 +310,14 @@ HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, const Eac
     words[6][lane] = radius_of(words[6][lane]);
     words[7][lane] = twist_mass(shift, words[7][lane], words[6][lane]);
   }
-  return {{load(words[0]), load(words[1]), load(words[2]), load(words[3])},
-          load(words[4]),
-          load(words[5]),
-          load(words[6]),
-          load(words[7])};
+  Quotients q{{load(words[0]), load(words[1]), load(words[2]), load(words[3])},
+              load(words[4]),
+              load(words[5]),
+              load(words[6]),
+              load(words[7]),
+              {}};
+  find_rolling_mass(in, k, q.rolling);
+  return q;
 }
 
 HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, std::size_t lane, const Offsets& at,
@@ -406,6 +359,15 @@ HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t la
              round_shift_low<30>(dot(axes.b, in.friction))),
         &out.friction[lane]);
   store(pack(in.twist, q.radius), &out.twist[lane]);
+  store(
+      pack(round_shift_low<30>(dot(axes.t, in.drive)), round_shift_low<30>(dot(axes.b, in.drive))),
+      &out.drive[lane]);
+  store(pack(in.twist_drive, in.rolling_limit), &out.turn[lane]);
+  store(pack(round_shift_low<30>(dot(axes.t, in.rolling)),
+             round_shift_low<30>(dot(axes.b, in.rolling))),
+        &out.rolling[lane]);
+  store(pack(q.rolling[0], q.rolling[1]), &out.rolling_mass[0][lane]);
+  store(lower_part(q.rolling[2]), &out.rolling_mass[1][lane]);
 }
 
 /// The impulses of the tick before, added up by body; and how fast the points come in.
@@ -425,6 +387,9 @@ HWY_INLINE HWY_ATTR void start_lanes(const ManifoldBlock& block, std::size_t lan
   p.t = friction;
   p.b = upper(friction);
   p.about_n = round_shift_low<30>(multiply(twist, upper(twist)));
+  const Lanes rolling = load(&block.rolling[lane]);
+  p.about_t = add(p.about_t, rolling);
+  p.about_b = add(p.about_b, upper(rolling));
   bodies.load_from(warm, block, lane);
   apply(block, lane, axes, p, bodies);
   bodies.store_to(warm, block, lane);

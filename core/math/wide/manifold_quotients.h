@@ -1,7 +1,10 @@
 // Divisions and roots that preparation does lane by lane.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+
+#include <lockstone/fixed.h>
 
 #include "core/math/roots.h"
 
@@ -24,6 +27,26 @@ namespace lockstone::lanes {
   };
   const std::uint64_t twice = times(times(static_cast<std::uint64_t>(response)));
   return bounded_quotient(shift + 24, static_cast<std::int64_t>(twice), 0x7fffffff);
+}
+
+/// The inverse of the response to torques about t and b, Q24.
+struct RollingMass {
+  std::int64_t tt = 0, bb = 0, tb = 0;
+};
+
+/// K = (yy, −xy; −xy, xx) in Q(shift). Entries of the inverse are at most 64, of a response that
+/// hardly is one less than they ought to be.
+[[nodiscard]] inline RollingMass rolling_mass(int shift, std::int64_t xx, std::int64_t yy,
+                                              std::int64_t xy) {
+  constexpr std::int64_t k_most = std::int64_t{1} << 30;
+  const auto narrow = [](std::int64_t x) { return std::int64_t{static_cast<std::int32_t>(x)}; };
+  const std::int64_t x = std::max<std::int64_t>(narrow(xx), 1);
+  const std::int64_t y = std::max<std::int64_t>(narrow(yy), 1), mixed = narrow(xy);
+  const std::int64_t square = mixed * mixed;
+  const std::int64_t tt = bounded_quotient(shift + 24, y - square / x, k_most);
+  const std::int64_t bb = bounded_quotient(shift + 24, x - square / y, k_most);
+  const std::int64_t ratio = std::clamp(raw::round_divide(mixed << 30, x), -k_most, k_most);
+  return {tt, bb, raw::round_shift(ratio * tt, 30)};
 }
 
 /// √(square), from Q28 to Q30. Of the word only the lower half counts, without its sign.

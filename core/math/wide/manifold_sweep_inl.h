@@ -249,6 +249,12 @@ HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane
   }
 }
 
+/// ΣP as an operand.
+HWY_INLINE HWY_ATTR Lanes sum_of_pushes(const PointLanes& points) {
+  return saturate(
+      add(add(points.impulse[0], points.impulse[1]), add(points.impulse[2], points.impulse[3])));
+}
+
 /// Friction impulses along t and b and, at the radius ρ, about n: as a whole at most μ·ΣP.
 struct FrictionLanes {
   Lanes t, b, twist;
@@ -288,7 +294,8 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
   const Lanes radius = upper(twist_word);
   const Vector u = round_shift_low<30>(motion.velocity);
 
-  const Lanes spin = round_shift_low<30>(dot(axes.n, motion.turning));
+  const Lanes drive = load(&block.drive[lane]);
+  const Lanes spin = add(round_shift_low<30>(dot(axes.n, motion.turning)), load(&block.turn[lane]));
   const Lanes twist_speed = add(round_shift_low<30>(multiply(radius, spin)),
                                 axes.by.round(dot({row_0, upper(row_0), row_1}, given)));
   FrictionLanes f{};
@@ -297,10 +304,10 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
 
   const Lanes response = load(&block.twist_response[lane]);
   const Lanes along_t =
-      add(round_shift_low<30>(dot(axes.t, u)),
+      add(add(round_shift_low<30>(dot(axes.t, u)), drive),
           axes.by.round(multiply_add(dot(coupling, given), response, twist_change)));
   const Lanes along_b =
-      add(round_shift_low<30>(dot(axes.b, u)),
+      add(add(round_shift_low<30>(dot(axes.b, u)), upper(drive)),
           axes.by.round(multiply_add(dot(upper(coupling), given), upper(response), twist_change)));
   const Lanes mass = load(&block.tangent_mass[0][lane]);
   const Lanes mixed = load(&block.tangent_mass[1][lane]);
@@ -308,8 +315,7 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
   f.b = limited_difference<30>(upper(friction),
                                multiply_add(multiply(upper(mass), along_b), mixed, along_t));
 
-  const Lanes pushed = saturate(
-      add(add(points.impulse[0], points.impulse[1]), add(points.impulse[2], points.impulse[3])));
+  const Lanes pushed = sum_of_pushes(points);
   const Lanes coefficient = upper(load(&block.share[lane]));
   limit_friction(
       round_shift_low<30>(min(multiply(coefficient, pushed), broadcast(std::int64_t{1} << 60))), f);
@@ -318,6 +324,33 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
   p.about_n = round_shift_low<30>(multiply(radius, subtract(f.twist, twist_word)));
   store(pack(f.t, f.b), &block.friction[lane]);
   store(with_upper_of(f.twist, twist_word), &block.twist[lane]);
+}
+
+/// Turning about the tangents, against a torque of at most the rolling limit times ΣP. A pass of
+/// its own, for few ask for it.
+HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                        const PointLanes& points, BodyPair& bodies) {
+  const Lanes none = broadcast(0);
+  const Lanes factor = upper_part(load(&block.turn[lane]));
+  if (!any_less(none, factor)) return;
+  const Vector turning = read_motion(block, lane, axes, bodies).turning;
+  const Lanes about_t = round_shift_low<30>(dot(axes.t, turning));
+  const Lanes about_b = round_shift_low<30>(dot(axes.b, turning));
+  const Lanes mass = load(&block.rolling_mass[0][lane]);
+  const Lanes mixed = load(&block.rolling_mass[1][lane]);
+  const Lanes rolling = load(&block.rolling[lane]);
+  FrictionLanes f{};
+  f.t = limited_difference<24>(rolling, multiply_add(multiply(mass, about_t), mixed, about_b));
+  f.b = limited_difference<24>(upper(rolling),
+                               multiply_add(multiply(upper(mass), about_b), mixed, about_t));
+  f.twist = none;
+  const Lanes limit = multiply(factor, sum_of_pushes(points));
+  limit_friction(round_shift_low<28>(min(limit, broadcast(std::int64_t{1} << 58))), f);
+  Impulse p = {none, none, none, none, none, none};
+  p.about_t = subtract(f.t, rolling);
+  p.about_b = subtract(f.b, upper(rolling));
+  store(pack(f.t, f.b), &block.rolling[lane]);
+  apply(block, lane, axes, p, bodies);
 }
 
 HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
@@ -331,6 +364,7 @@ HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std
   Impulse p = solve_normals<false>(block, lane, axes, motion, rules, points);
   solve_friction(block, lane, axes, motion, points, p);
   apply(block, lane, axes, p, bodies);
+  resist_rolling(block, lane, axes, points, bodies);
   bodies.store_to(words, block, lane);
 }
 

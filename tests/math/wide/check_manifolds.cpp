@@ -91,6 +91,22 @@ struct SceneMaker {
     }
   }
 
+  // What few contacts have: rolling resistance, moving surfaces, axis locks.
+  void fill_extras(ManifoldSource& in, bool fixed_a) {
+    if (random.next() % 2 == 0) {
+      in.rolling_limit = fixed(1, k_one / 2);
+      for (std::int32_t& x : in.rolling)
+        x = small(-(1 << 18), 1 << 18);
+    }
+    if (random.next() % 2 == 0) {
+      for (std::int32_t& x : in.drive)
+        x = small(-(1 << 22), 1 << 22);
+      in.twist_drive = small(-(1 << 22), 1 << 22);
+    }
+    if (random.next() % 4 != 0) return;
+    in.held[random.next() % 3] = fixed_a ? k_one : fixed(0, k_one);
+  }
+
   void fill(ManifoldSource& in) {
     fill_normal(in);
     fill_points(in);
@@ -111,6 +127,7 @@ struct SceneMaker {
     for (std::int32_t& x : in.friction)
       x = small(-(1 << 18), 1 << 18);
     in.twist = small(-(1 << 18), 1 << 18);
+    fill_extras(in, fixed_a);
   }
 };
 

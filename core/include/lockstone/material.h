@@ -1,0 +1,66 @@
+// What bodies and parts of assets are made of, and how two surfaces meet.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+namespace lockstone {
+
+/// How a property of two surfaces becomes one of the pair. Where the two ask for different rules
+/// the later of this list decides, so that `standard` yields to every other.
+enum class CombineRule : std::uint8_t {
+  standard = 0,  ///< friction: geometric mean; restitution and rolling resistance: maximum
+  average = 1,
+  geometric_mean = 2,  ///< √(a·b)
+  minimum = 3,
+  multiply = 4,
+  maximum = 5,
+};
+
+/// The surface of a body, or of a part of an asset where that differs from the body's own.
+struct Surface {
+  Coefficient friction = Coefficient::from_ratio(1, 2);  ///< 0 … 1.99
+  Coefficient restitution{};                             ///< 0 … 1
+
+  /// 0 … 1: a torque of up to this times radius times normal force works against rolling. The
+  /// radius is that of the sphere or capsule that rolls (of the smaller of two), of other shapes
+  /// that of the largest sphere inside the body.
+  Coefficient rolling_resistance{};
+
+  CombineRule friction_rule{};
+  CombineRule restitution_rule{};
+  CombineRule rolling_rule{};
+  std::uint32_t tag = 0;  ///< the game's own: which sound, say. Found in events and queries
+
+  friend constexpr bool operator==(const Surface&, const Surface&) = default;
+};
+
+/// Surface and substance.
+struct Material {
+  Coefficient friction = Coefficient::from_ratio(1, 2);  ///< as in Surface
+  Coefficient restitution{};
+  Density density = Density::from_integer(1000);  ///< > 0
+  Coefficient rolling_resistance{};
+  CombineRule friction_rule{};
+  CombineRule restitution_rule{};
+  CombineRule rolling_rule{};
+  std::uint32_t tag = 0;
+
+  [[nodiscard]] constexpr Surface surface() const {
+    return {friction,     restitution, rolling_resistance, friction_rule, restitution_rule,
+            rolling_rule, tag};
+  }
+};
+
+/// The motion of a surface that stays in place, as of a conveyor belt or a turntable: in the axes
+/// of the body's shape, about the shape's origin. Friction drives what touches the body towards it.
+struct SurfaceMotion {
+  Vec3<SolverVelocity> velocity{};  ///< each component within ±500 m/s
+  Vec3<Rate> turning{};             ///< rad/s, each component within ±500
+
+  friend constexpr bool operator==(const SurfaceMotion&, const SurfaceMotion&) = default;
+};
+
+}  // namespace lockstone

@@ -1,0 +1,39 @@
+// What several commands check and write.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/body.h>
+#include <lockstone/command.h>
+
+#include "core/dynamics/body_record.h"
+#include "core/dynamics/limits.h"
+
+namespace lockstone {
+
+/// Each component within ±limit.
+template <class T>
+[[nodiscard]] constexpr bool within(const Vec3<T>& v, T limit) {
+  const auto inside = [&](T x) { return x <= limit && x >= -limit; };
+  return inside(v.x) && inside(v.y) && inside(v.z);
+}
+
+/// ω·2^exponent in m/s, the speed of the surface; false beyond the speed limit.
+[[nodiscard]] bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent,
+                                       Vec3<Velocity>& w);
+
+[[nodiscard]] constexpr bool is_valid(const SpeedLimit& limit) {
+  return limit.linear > Velocity{} && limit.angular > AngularVelocity{};
+}
+
+/// BodyLock bits.
+[[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);
+[[nodiscard]] AxisLocks axis_locks(std::uint8_t bits);
+
+/// What exceeds the formats' limits becomes them. The scale exponent must be known.
+void set_speed_limit(BodyRecord& record, const SpeedLimit& limit);
+
+/// Of the shape's frame, which the asset may place away from the body's.
+void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMotion& motion);
+
+}  // namespace lockstone
