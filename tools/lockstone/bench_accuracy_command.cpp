@@ -101,6 +101,8 @@ void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
   command->add_option("--seed", options->measure.seed, "Of the tries")->capture_default_str();
   command->add_option("--threads", options->measure.threads, "The result does not depend on them")
       ->check(CLI::Range(1, 1024));
+  command->add_flag("--sweep", options->measure.sweep,
+                    "Rows of contact at 1, 2, 4, 8 and 16 substeps");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -14,6 +14,7 @@ struct AccuracyOptions {
   std::uint64_t seed = 1;
   std::uint64_t tries = 0;  ///< 0: what the row asks for
   int threads = 1;
+  bool sweep = false;  ///< rows of contact: 1 to 16 substeps instead of 4
 };
 
 /// One line of a row.
@@ -64,5 +65,23 @@ void for_blocks(std::uint64_t tries, std::uint64_t block, int threads,
 [[nodiscard]] std::vector<AccuracyResult> measure_cylinder(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_dzhanibekov(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_rod(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_damping(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_stopping(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_anisotropy(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_sticking(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_rolling(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_apex(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_bounces(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_cradle(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_stacks(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_mass_ratios(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_momentum(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_thrown(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_bouncing_grid(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_heap(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_rest(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_overhang(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_elastic_cloud(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_far_away(const AccuracyOptions& options);
 
 }  // namespace lockstone::bench
