@@ -53,9 +53,8 @@ struct BodyRecord {
   SolverVelocity max_speed{};
   SolverVelocity max_surface_speed{};
   Vec3<Unit> force{};   // mantissas of the velocity that forces give in this tick; Velocity's raw
-  Vec3<Unit> torque{};  // units, exponents below. The same for spin.
-  Vec3<SolverVelocity> surface_velocity{};  // SurfaceMotion about the centre, along the body's axes
-  Vec3<Rate> surface_turning{};
+  Vec3<Unit> torque{};  // units, exponents below; the same for spin. Of what is not dynamic:
+                        // surface motion
   Coefficient friction{};
   Coefficient restitution{};
   Coefficient rolling_resistance{};
@@ -73,8 +72,9 @@ struct BodyRecord {
   std::uint8_t locks = 0;  // BodyLock
   std::int8_t force_exponent = 0;
   std::int8_t torque_exponent = 0;
-  std::uint16_t reserved0 = 0;  // keep the record free of padding; always 0
+  std::uint16_t reserved0 = 0;   // keep the record free of padding; always 0
   std::uint32_t rest_ticks = 0;  // since it rests
+  std::uint32_t reserved1 = 0;
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 
@@ -90,9 +90,23 @@ struct BodyRecord {
   [[nodiscard]] bool rotates() const { return (locks & k_lock_turning) != k_lock_turning; }
   [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
   [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }
+
+  /// SurfaceMotion about the centre of mass, along the body's axes. Only bodies that are not
+  /// dynamic have one: it stands where forces stand else.
   [[nodiscard]] bool has_surface_motion() const {
-    return surface_velocity != Vec3<SolverVelocity>{} || surface_turning != Vec3<Rate>{};
+    return !is_dynamic() && (force != Vec3<Unit>{} || torque != Vec3<Unit>{});
   }
+  [[nodiscard]] Vec3<SolverVelocity> surface_velocity() const {
+    return {{force.x.raw}, {force.y.raw}, {force.z.raw}};
+  }
+  [[nodiscard]] Vec3<Rate> surface_turning() const {
+    return {{torque.x.raw}, {torque.y.raw}, {torque.z.raw}};
+  }
+  void set_surface_motion(const Vec3<SolverVelocity>& v, const Vec3<Rate>& turning) {
+    force = {{v.x.raw}, {v.y.raw}, {v.z.raw}};
+    torque = {{turning.x.raw}, {turning.y.raw}, {turning.z.raw}};
+  }
+
   [[nodiscard]] Surface surface() const {
     const auto rule = [&](int shift) { return static_cast<CombineRule>(rules >> shift & 7); };
     return {friction, restitution, rolling_resistance, rule(0), rule(3), rule(6), tag};
@@ -126,10 +140,10 @@ struct BodyRecord {
   X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) \
   X(rest_position) X(rest_orientation) X(inverse_mass) \
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) X(force) \
-  X(torque) X(surface_velocity) X(surface_turning) X(friction) X(restitution) X(rolling_resistance) \
+  X(torque) X(friction) X(restitution) X(rolling_resistance) \
   X(tag) X(category) X(mask) X(group) X(generation) X(rules) X(motion) X(shape_kind) X(flags) \
   X(scale_exponent) X(inverse_mass_exponent) X(locks) X(force_exponent) X(torque_exponent) \
-  X(reserved0) X(rest_ticks)
+  X(reserved0) X(rest_ticks) X(reserved1)
 // clang-format on
 
 template <class F>

@@ -39,4 +39,8 @@ struct ContactInput {
 void fill_source(const ContactInput& input, const ContactSoftness& softness,
                  lanes::ManifoldSource& out);
 
+/// t·low + b·high of a lane's word, in world axes.
+[[nodiscard]] Vec3<SolverVelocity> across(const lanes::ManifoldBlock& block, std::size_t lane,
+                                          std::int64_t word);
+
 }  // namespace lockstone

@@ -91,6 +91,15 @@ class ContactSolver {
     std::uint32_t body_b;
   };
 
+  // Along which axis contacts pushed a body in this tick; `mixed` when along several.
+  struct PushAxis {
+    Vec3<Unit> normal{};
+    bool pushed = false;
+    bool mixed = false;
+
+    void add(const Vec3<Unit>& n);
+  };
+
   std::uint32_t take_up(const ContactScene& scene, std::uint32_t body);
   void take_up_contacts(const ContactScene& scene);
   void take_up_joints(const ContactScene& scene);
@@ -118,6 +127,8 @@ class ContactSolver {
   void hold(std::size_t index);
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
+  [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
+  void find_axes(std::span<const Manifold> manifolds, std::span<const ContactRecord> records);
   std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
                               ContactRecord& record, SolverVelocity& approach);
 
@@ -142,6 +153,7 @@ class ContactSolver {
   std::vector<lanes::RowBody> rows_;
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
+  std::vector<PushAxis> axes_;
 
   JointSolver joints_;
   std::uint32_t first_without_contacts_ = 1;  // by number

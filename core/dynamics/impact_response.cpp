@@ -13,9 +13,6 @@ namespace {
 
 constexpr int k_sweeps = 12;
 
-// Approach speeds below this do not bounce, as in the contact solver.
-constexpr Velocity k_restitution_threshold = Velocity::from_integer(1);
-
 // r / 2^k, 30 bits, at most 2.
 Vec3<Unit> normalized_arm(const Vec3<Length>& r, int scale_exponent) {
   const auto entry = [&](Length x) {
@@ -97,7 +94,7 @@ class ImpactSolver {
       point.arm_b = normalized_arm(from.anchor_b, b.body.record.scale_exponent);
       const Velocity approach = -dot(relative(point), normal_);
       greatest_approach_ = max(greatest_approach_, approach);
-      if (approach > k_restitution_threshold) point.wanted = times(approach, contact.restitution);
+      if (approach > contact.threshold) point.wanted = times(approach, contact.restitution);
     }
   }
 

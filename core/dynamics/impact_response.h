@@ -23,6 +23,7 @@ struct ImpactContact {
   const Manifold& manifold;
   Coefficient friction{};
   Coefficient restitution{};
+  Velocity threshold = Velocity::from_integer(1);  ///< slower approaches do not bounce
 };
 
 /// Impulses at the points of the manifold, one point after another, until they push apart: along

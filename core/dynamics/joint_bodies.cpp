@@ -123,7 +123,7 @@ JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     std::int64_t velocity = read(row.velocity[axis]);
-    if (body.centred) velocity -= solver.gravity_step[axis] * (1 << 17);
+    if (body.centred) velocity -= solver.gain[axis] * (1 << 17);
     after.position[i].raw += raw::round_shift(raw::round_divide(velocity, rate), 18);
   }
   if (row.spin == std::array<std::int64_t, 3>{} || !body.record->rotates()) return after;

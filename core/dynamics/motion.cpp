@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dynamics/damping.h"
 #include "core/dynamics/free_rotation.h"
 #include "core/dynamics/tick_gain.h"
 #include "core/math/roots.h"
@@ -23,10 +24,10 @@ Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& 
 }
 
 Vec3<Velocity> force_gain(const BodyRecord& body) {
-  return read_gain(body.force, body.force_exponent);
+  return body.is_dynamic() ? read_gain(body.force, body.force_exponent) : Vec3<Velocity>{};
 }
 Vec3<Velocity> torque_gain(const BodyRecord& body) {
-  return read_gain(body.torque, body.torque_exponent);
+  return body.is_dynamic() ? read_gain(body.torque, body.torque_exponent) : Vec3<Velocity>{};
 }
 
 constexpr Unit k_whole_tick = Unit::from_integer(1);
@@ -51,12 +52,20 @@ Vec3<Velocity> divided(const Vec3<Velocity>& v, std::int64_t divisor) {
 
 void damp(Vec3<Velocity>& v, Rate damping, const TimeStep& step) {
   if (damping.raw == 0) return;
-  // 1 / (1 + c/rate) = rate / (rate + c)
-  const std::int64_t rate_q20 = std::int64_t{step.tick_rate} << 20;
-  const auto factor =
-      static_cast<std::int32_t>(raw::round_divide(rate_q20 << 30, rate_q20 + damping.raw));
+  const std::int32_t keep = Damping::of(damping, step).keep;
   for (int i = 0; i < 3; ++i)
-    v[i].raw = raw::multiply_shift(v[i].raw, factor, 30);
+    v[i].raw = raw::multiply_shift(v[i].raw, keep, 30);
+}
+
+// The way and the velocity of one axis under damping.
+void fly_damped(Position& x, Velocity& v, std::int64_t gain, const Damping& damping,
+                const TimeStep& step) {
+  const auto times = [](std::int64_t value, std::int32_t factor) {
+    return raw::multiply_shift(value, factor, 30);
+  };
+  const std::int64_t mean = times(v.raw, damping.ease) + times(gain, damping.mean);
+  x.raw += raw::round_divide(mean, step.tick_rate);
+  v.raw = times(v.raw, damping.keep) + times(gain, damping.ease);
 }
 
 // Shortens `v` by limit / |w| when |w| exceeds it.
@@ -139,8 +148,11 @@ RotationVector with_whole_turns(const RotationVector& theta, const RotationVecto
 
 }  // namespace
 
-void apply_damping(BodyRecord& body, const TimeStep& step) {
+void damp_velocity(BodyRecord& body, const TimeStep& step) {
   damp(body.velocity, body.linear_damping, step);
+}
+
+void damp_spin(BodyRecord& body, const TimeStep& step) {
   damp(body.spin, body.angular_damping, step);
 }
 
@@ -161,6 +173,7 @@ void hold_axes(BodyRecord& body) {
 }
 
 void clear_forces(BodyRecord& body) {
+  if (!body.is_dynamic()) return;  // a surface motion stays
   body.force = body.torque = {};
   body.force_exponent = body.torque_exponent = 0;
 }
@@ -186,8 +199,14 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
            raw::round_divide(per_second * phase, rate);
   };
   const Vec3<Velocity> force = force_gain(body), torque = torque_gain(body);
+  const bool damped = body.is_dynamic() && body.linear_damping > Rate{};
+  const Damping damping = damped ? Damping::of(body.linear_damping, step) : Damping{};
   for (int i = 0; i < 3; ++i) {
     const std::int64_t gain = in_this_tick(g[i].raw, step.tick_rate) + force[i].raw;
+    if (damped) {
+      fly_damped(body.position[i], body.velocity[i], gain, damping, step);
+      continue;
+    }
     // (v + gain/2)·dt
     body.position[i].raw +=
         in_this_tick(2 * body.velocity[i].raw + gain, std::int64_t{2} * step.tick_rate);
@@ -229,6 +248,15 @@ Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gr
         raw::multiply_shift(step.tick.times(x.raw), fraction.raw, Unit::frac_bits));
   };
   return {gain(g.x), gain(g.y), gain(g.z)};
+}
+
+Vec3<Velocity> tick_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
+                         const TimeStep& step) {
+  const Vec3<Acceleration> g = gravity_on(body, gravity);
+  Vec3<Velocity> gain = force_gain(body);
+  for (int i = 0; i < 3; ++i)
+    gain[i].raw += raw::round_divide(g[i].raw, step.tick_rate);
+  return gain;
 }
 
 SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,

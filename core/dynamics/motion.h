@@ -12,8 +12,9 @@
 
 namespace lockstone {
 
-/// Scales velocity and spin by 1 / (1 + damping·dt).
-void apply_damping(BodyRecord& body, const TimeStep& step);
+/// Scales velocity, or spin, by e^(−damping·dt). Flight damps the velocity by itself.
+void damp_velocity(BodyRecord& body, const TimeStep& step);
+void damp_spin(BodyRecord& body, const TimeStep& step);
 
 /// Clamps the speed to the world's limit and the body's, the surface speed to 500 m/s and the
 /// body's. Answers whether it had to.
@@ -29,8 +30,8 @@ void clear_forces(BodyRecord& body);
 bool limit_position(BodyRecord& body);
 
 /// The exact step of a body that nothing touches, and of a kinematic one. In flight
-/// x ← x + v·dt + g·dt²/2 and spin is constant; the orientation takes `turn_freely`, and the answer
-/// is how many turns about an axis that took.
+/// x ← x + v·dt + g·dt²/2, under damping c exactly as v' = g − c·v says, and spin is constant; the
+/// orientation takes `turn_freely`, and the answer is how many turns about an axis that took.
 ///
 /// What a value per second gives in one tick is rounded so that `tick_rate` ticks in a row, counted
 /// from `tick`, add up to exactly one second's worth: drift and free fall lose nothing.
@@ -50,6 +51,10 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
 /// What gravity adds to a body's velocity in a fraction of a tick.
 [[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                                           const TimeStep& step, Unit fraction);
+
+/// What gravity and forces add to a body's velocity in a tick.
+[[nodiscard]] Vec3<Velocity> tick_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
+                                       const TimeStep& step);
 
 /// A body as the solver takes it up.
 [[nodiscard]] SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,

@@ -22,6 +22,7 @@ bool is_valid(const BodyDef& def) {
          has_direction(def.orientation) && within(def.velocity, k_speed_limit) &&
          geometry::is_valid(def.material.surface()) && def.material.density > Density{} &&
          is_valid(def.surface_motion.velocity, def.surface_motion.turning) &&
+         (def.motion != MotionType::dynamic || def.surface_motion == SurfaceMotion{}) &&
          abs(def.gravity_scale) <= k_gravity_scale_limit && def.linear_damping >= Rate{} &&
          def.angular_damping >= Rate{} && is_valid(def.speed_limit);
 }
@@ -78,7 +79,7 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
       static_cast<std::uint8_t>(locks_of(def.locks) | (def.fixed_rotation ? k_lock_turning : 0));
   set_mass(record, def, asset);
   set_speed_limit(record, def.speed_limit);
-  set_surface_motion(record, asset, def.surface_motion);
+  if (!record.is_dynamic()) set_surface_motion(record, asset, def.surface_motion);
   return record;
 }
 

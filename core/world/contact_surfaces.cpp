@@ -63,8 +63,8 @@ Length World::Impl::rolling_radius(const Pair& pair) const {
 void World::Impl::add_drive(std::uint32_t body, const Vec3<Length>& arm, std::int32_t sign,
                             const Vec3<Unit>& normal, ContactSurface& surface) const {
   const BodyRecord& record = bodies[body];
-  const Vec3<SolverVelocity> along = rotate(rotations[body], record.surface_velocity);
-  const Vec3<Rate> turning = rotate(rotations[body], record.surface_turning);
+  const Vec3<SolverVelocity> along = rotate(rotations[body], record.surface_velocity());
+  const Vec3<Rate> turning = rotate(rotations[body], record.surface_turning());
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const std::int64_t around =

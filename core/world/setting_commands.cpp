@@ -60,8 +60,7 @@ void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMot
     at_centre[i] = clamp(at_centre[i], SolverVelocity::from_integer(-1000),
                          SolverVelocity::from_integer(1000));
   }
-  record.surface_velocity = rotate_inverse(axes, at_centre);
-  record.surface_turning = rotate_inverse(axes, motion.turning);
+  record.set_surface_motion(rotate_inverse(axes, at_centre), rotate_inverse(axes, motion.turning));
 }
 
 Status World::Impl::execute(const SetMaterial& command) {
@@ -76,7 +75,8 @@ Status World::Impl::execute(const SetMaterial& command) {
 Status World::Impl::execute(const SetSurfaceMotion& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (!is_valid(command.motion.velocity, command.motion.turning)) return Status::invalid_argument;
+  if (record->is_dynamic() || !is_valid(command.motion.velocity, command.motion.turning))
+    return Status::invalid_argument;
   disturb(command.body.index);
   set_surface_motion(*record, body_assets[command.body.index], command.motion);
   return Status::ok;

@@ -50,11 +50,7 @@ bool has_valid_mass(const BodyRecord& record) {
 }
 
 bool has_valid_surface(const BodyRecord& record) {
-  // Rotated and moved to the centre of mass what commands give may be longer.
-  constexpr auto k_fast = SolverVelocity::from_integer(2000);
-  constexpr auto k_quick = Rate::from_integer(1000);
-  return geometry::is_valid(record.surface()) && (record.rules >> 9) == 0 &&
-         in_range(record.surface_velocity, k_fast) && in_range(record.surface_turning, k_quick);
+  return geometry::is_valid(record.surface()) && (record.rules >> 9) == 0;
 }
 
 bool has_valid_limits(const BodyRecord& record) {
@@ -65,12 +61,13 @@ bool has_valid_limits(const BodyRecord& record) {
          is_within(record.gravity_scale, k_gravity_scale_limit) && record.locks <= k_all_body_locks;
 }
 
-// Mantissas of at most 30 bits; forces push what is dynamic.
+// Mantissas of at most 30 bits. Of what is not dynamic a surface motion: rotated, and moved to the
+// centre of mass, it may be longer than what commands give.
 bool has_valid_gain(const BodyRecord& record, const Vec3<Unit>& mantissa, int exponent) {
-  constexpr Unit k_most = Unit::from_integer(1);
+  const Unit most = record.is_dynamic() ? Unit::from_integer(1) : Unit::max();
   const bool bounded =
-      exponent >= 0 && exponent <= k_most_gain_exponent && in_range(mantissa, k_most);
-  return bounded && (record.is_dynamic() || (mantissa == Vec3<Unit>{} && exponent == 0));
+      exponent >= 0 && exponent <= k_most_gain_exponent && in_range(mantissa, most);
+  return bounded && (record.is_dynamic() || exponent == 0);
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
@@ -129,7 +126,8 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (record.generation == 0 || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
   const bool known = record.shape_kind <= k_last_shape_kind &&
-                     (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0;
+                     (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0 &&
+                     record.reserved1 == 0;
   if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
   const Asset* asset = assets.find(record.asset);
   if (!has_known_shape(record, asset)) return Status::malformed;

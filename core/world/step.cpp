@@ -301,11 +301,17 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
 }
 
 void World::Impl::solve_contacts(StepReport& report) {
+  find_bounces();
   prepare_contacts();
   run_substeps();
   store_impulses();
   report.contacts = solver.contacts();
   report.contact_points = solver.points();
+  for (const std::uint32_t body : bouncing_bodies) {
+    const Manifold& manifold = manifolds[bounce_of[body] - 1];
+    ++report.contacts;
+    report.contact_points += static_cast<std::uint32_t>(manifold.count);
+  }
   report.colors = solver.colors();
   report.overflow_contacts = solver.overflow();
   report.saturations += solver.saturations();
@@ -397,11 +403,16 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
       solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
   if (solved != nullptr) {
     counts.axis_turns += solver.move(*solved, rotations[body], record);
+    if (record.is_dynamic()) damp_velocity(record, time_step);
+  } else if (bounce_of[body] != 0) {
+    bounce(body);
+    if (record.is_dynamic()) damp_velocity(record, time_step);
+    ++counts.free_bodies;
   } else {
     counts.axis_turns += fly(record, rotations[body], header.gravity, time_step, header.tick);
     ++counts.free_bodies;
   }
-  apply_damping(record, time_step);
+  damp_spin(record, time_step);
   hold_axes(record);
   clear_forces(record);
   counts.saturations += limit_speed(record, inertia, def.speed_limit) ? 1U : 0U;

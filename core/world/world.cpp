@@ -85,6 +85,9 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   leaves_fat_box.resize(definition.body_capacity);
   far_movers.resize(definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
+  bouncing_bodies.reserve(definition.body_capacity);
+  bounce_of.resize(definition.body_capacity);
+  neighbours.resize(definition.body_capacity);
   new_contacts.reserve(definition.contact_capacity);
   slots.reserve(definition.contact_capacity);
   old_slots.reserve(definition.contact_capacity);

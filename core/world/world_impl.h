@@ -235,6 +235,23 @@ struct World::Impl {
   [[nodiscard]] Loop each_moved() const;
   void refresh_moved();
 
+  // Bounces within the tick (bounces.cpp).
+  struct Bouncing;
+  struct Meeting {
+    bool meets = false;
+    std::int64_t fraction = 0;  // of the tick, Q30
+    std::int64_t speed = 0;     // m a tick, Q24
+  };
+  void find_bounces();
+  [[nodiscard]] bool will_bounce(std::size_t contact);
+  [[nodiscard]] bool turns_much(std::uint32_t body) const;
+  void mark_bounce(std::size_t contact);
+  [[nodiscard]] Bouncing bouncing(std::size_t contact);
+  [[nodiscard]] Meeting next_meeting(const Bouncing& b, Unit left) const;
+  void advance(Bouncing& b, Unit fraction) const;
+  void bounce(std::uint32_t body);
+  Velocity answer_bounce(const ContactRecord& record, std::size_t contact, bool rests);
+
   // Continuous collision (continuous.cpp).
   struct NextImpact {
     std::uint32_t body = 0;
@@ -296,6 +313,9 @@ struct World::Impl {
   std::vector<std::uint8_t> far_movers;      // by body that moved
   std::vector<Transform> starts;             // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
+  std::vector<std::uint32_t> bouncing_bodies;
+  std::vector<std::uint32_t> bounce_of;  // by body: 1 + the contact that it bounces off, or 0
+  std::vector<std::uint8_t> neighbours;  // by body: contacts, 0, 1 or more
   NarrowSlots narrow;
 
   // By pair: the contacts that were found, in slots and in the list of contacts.

@@ -17,10 +17,10 @@ PUBLIC_ROOMS = {
              "thread_pool.h"],
     "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h"],
-    "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h",
+    "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],
-    "dynamics": ["body.h", "joint.h", "material.h"],
+    "dynamics": ["body.h", "joint.h"],
     "world": ["character.h", "command.h", "event.h", "profile.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.

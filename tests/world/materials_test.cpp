@@ -110,6 +110,15 @@ TEST(SurfaceMotion, ABeltCarriesWhatLiesOnIt) {
   EXPECT_NEAR(to_double(world.position(box).z), -(3 * 2 - 3 * meanwhile / 2), 0.02);
 }
 
+TEST(SurfaceMotion, IsNotForDynamicBodies) {
+  World world = test::make_world();
+  BodyDef def = test::dynamic_body(Shape::sphere(0.25_m), 0_m, 1_m, 0_m);
+  const BodyHandle body = test::add(world, def);
+  EXPECT_EQ(world.apply(SetSurfaceMotion{body, {}}), Status::invalid_argument);
+  def.surface_motion.turning = {{}, 1_rps, {}};
+  EXPECT_EQ(world.create_body(def).status(), Status::invalid_argument);
+}
+
 TEST(SurfaceMotion, ATurntableTurnsWhatStandsAtItsCentre) {
   World world = test::make_world();
   BodyDef table;

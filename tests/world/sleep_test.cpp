@@ -265,7 +265,7 @@ std::vector<Cause> causes() {
       {"end of a member", [](Sleepers& s) { apply(s, DestroyBody{s.stack[2]}); }},
       {"material of a member",
        [](Sleepers& s) {
-         apply(s, SetMaterial{s.stack[0], {}, {}});
+         apply(s, SetMaterial{s.stack[0], {{}, {}}});
        }},
       {"filter of a member",
        [](Sleepers& s) {
@@ -278,7 +278,7 @@ std::vector<Cause> causes() {
       {"end of the ground", [](Sleepers& s) { apply(s, DestroyBody{s.ground}); }},
       {"material of the ground",
        [](Sleepers& s) {
-         apply(s, SetMaterial{s.ground, {}, {}});
+         apply(s, SetMaterial{s.ground, {{}, {}}});
        }},
       {"filter of the ground",
        [](Sleepers& s) {

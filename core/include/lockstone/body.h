@@ -58,10 +58,10 @@ struct BodyDef {
   Vec3<Velocity> velocity{};  ///< at most 500 m/s
   Vec3<AngularVelocity> angular_velocity{};
   Material material{};
-  SurfaceMotion surface_motion{};
+  SurfaceMotion surface_motion{};  ///< of what is not dynamic
   CollisionFilter filter{};
   Number gravity_scale = Number::from_integer(1);
-  Rate linear_damping{};  ///< ≥ 0; velocity falls by the factor 1/(1 + c·dt) a tick
+  Rate linear_damping{};  ///< ≥ 0; v' = −c·v; exact in flight
   Rate angular_damping{};
   bool is_trigger = false;      ///< reports overlaps, pushes nothing
   bool fixed_rotation = false;  ///< never rotates: a character, say

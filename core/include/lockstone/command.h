@@ -47,6 +47,8 @@ struct MoveKinematic { BodyHandle body{}; Vec3<Position> position{}; Quat orient
 
 /// Of the body itself; parts of assets keep theirs.
 struct SetMaterial { BodyHandle body{}; Surface surface{}; };
+
+/// Of a body that is not dynamic.
 struct SetSurfaceMotion { BodyHandle body{}; SurfaceMotion motion{}; };
 struct SetGravityScale { BodyHandle body{}; Number scale{}; };
 struct SetDamping { BodyHandle body{}; Rate linear{}; Rate angular{}; };

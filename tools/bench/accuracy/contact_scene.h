@@ -45,6 +45,15 @@ template <class T>
   return fixed<Acceleration>(k_gravity * std::sin(angle), -k_gravity * std::cos(angle), 0);
 }
 
+/// Turns gravity evenly over some seconds.
+inline void tilt(SceneRun& scene, double from, double to, double seconds) {
+  const int ticks = static_cast<int>(seconds * scene.setting().tick_rate);
+  for (int tick = 1; tick <= ticks; ++tick) {
+    (void)scene.world().apply(SetGravity{tilted_gravity(from + (to - from) * tick / ticks)});
+    scene.step();
+  }
+}
+
 /// A static box of 200 m with its top at y = 0.
 [[nodiscard]] inline BodyDef ground(Coefficient friction = Coefficient::from_ratio(1, 2)) {
   BodyDef def;

@@ -1,0 +1,94 @@
+// Where contacts took bodies in a tick.
+
+#include <cstdlib>
+
+#include "core/dynamics/contact_solver.h"
+#include "core/dynamics/motion.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::RowBody;
+using lanes::RowTravel;
+
+// From the Q50 of rows to the Q32 of velocities.
+Velocity from_row(std::int64_t row) {
+  return Velocity::from_raw(row >> (lanes::k_velocity_bits - lanes::k_grid_bits));
+}
+
+}  // namespace
+
+// In the order of the records.
+void ContactSolver::find_axes(std::span<const Manifold> manifolds,
+                              std::span<const ContactRecord> records) {
+  axes_.assign(members_.size(), PushAxis{});
+  for (const Entry& entry : entries_) {
+    if (!records[entry.record].is_touching()) continue;
+    for (const std::uint32_t index : {entry.body_a, entry.body_b})
+      if ((index & k_immovable) == 0) axes_[index].add(manifolds[entry.slot].normal);
+  }
+}
+
+// Normals that lean by less than 2^-10 are one.
+void ContactSolver::PushAxis::add(const Vec3<Unit>& n) {
+  constexpr std::int64_t k_parallel = (std::int64_t{1} << 60) - (std::int64_t{1} << 40);
+  if (!pushed) normal = n;
+  mixed = mixed || (pushed && std::abs(dot(normal, n).raw) < k_parallel);
+  pushed = true;
+}
+
+// Positions went with the velocities at the ends of substeps. Half a substep of what was gained
+// since the tick began makes that the mean of beginning and end: friction and gravity along a
+// surface act to second order. Across it contacts have placed the body, and it stays.
+Vec3<Velocity> ContactSolver::half_step_back(std::size_t index, const BodyRecord& body) const {
+  const PushAxis& axis = axes_[index];
+  if (axis.mixed || travel_[index] == RowTravel{}) return {};
+  const RowBody& row = rows_[index];
+  Vec3<Velocity> gain;
+  for (int i = 0; i < 3; ++i)
+    gain[i] = from_row(row.velocity[static_cast<std::size_t>(i)]) - body.velocity[i];
+  if (axis.pushed) {
+    const auto times = [](Velocity v, Unit u) {
+      return Velocity::from_raw(raw::multiply_shift(v.raw, u.raw, Unit::frac_bits));
+    };
+    const Vec3<Unit>& n = axis.normal;
+    const Velocity along = times(gain.x, n.x) + times(gain.y, n.y) + times(gain.z, n.z);
+    for (int i = 0; i < 3; ++i)
+      gain[i] -= times(along, n[i]);
+  }
+  const auto half = [&](Velocity v) {
+    return Velocity::from_raw(raw::round_divide(step_.substep.times(v.raw), 2));
+  };
+  return {half(gain.x), half(gain.y), half(gain.z)};
+}
+
+const SolverBody* ContactSolver::find(std::uint32_t body) const {
+  const std::uint32_t index = solver_index_[body];
+  return index == 0 ? nullptr : &bodies_[index];
+}
+
+std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation,
+                                  BodyRecord& body) const {
+  const auto index = static_cast<std::size_t>(&solved - bodies_.data());
+  const RowBody& row = rows_[index];
+  const RowTravel& travel = travel_[index];
+  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
+  const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(index, body) : Vec3<Velocity>{};
+  if (body.is_dynamic()) {
+    body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]),
+                     from_row(row.velocity[2])};
+    body.spin = {from_row(row.spin[0]), from_row(row.spin[1]), from_row(row.spin[2])};
+  }
+  if (const JointPose* pose = joints_.find(members_[index]); pose != nullptr) {
+    body.position = pose->position;
+    body.orientation = pose->orientation;
+    return 0;
+  }
+  return end_substeps(
+      body, rotation,
+      {moved(travel.velocity[0]) - back.x, moved(travel.velocity[1]) - back.y,
+       moved(travel.velocity[2]) - back.z},
+      {moved(travel.surface[0]), moved(travel.surface[1]), moved(travel.surface[2])}, step_);
+}
+
+}  // namespace lockstone

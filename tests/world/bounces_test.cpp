@@ -1,0 +1,97 @@
+// Bounces off what does not give way: at their moment within the tick.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/testing/floating.h>
+
+#include "tests/world/world_fixture.h"
+
+namespace lockstone {
+namespace {
+
+using namespace literals;
+using testing::to_double;
+
+BodyHandle drop(World& world, const Shape& shape, Position height, Coefficient restitution) {
+  BodyDef def = test::dynamic_body(shape, 0_m, height, 0_m);
+  def.material.restitution = restitution;
+  return test::add(world, def);
+}
+
+// What a body will rise to, or has fallen from.
+double reach(const World& world, BodyHandle body) {
+  const double v = to_double(world.velocity(body).y);
+  return to_double(world.position(body).y) + v * v / (2 * 9.81);
+}
+
+TEST(Bounce, GivesBackItsShareOfTheHeight) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle ball = drop(world, Shape::sphere(0.25_m), 1.25_m, 0.8_r);
+  test::step(world, 40);
+  EXPECT_NEAR(reach(world, ball), 0.25 + 0.64, 1e-6);
+}
+
+TEST(Bounce, WithoutLossKeepsTheHeightForAMinute) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle ball = drop(world, Shape::sphere(0.25_m), 1.25_m, 1_r);
+  test::step(world, 3600);
+  EXPECT_NEAR(reach(world, ball), 1.25, 1e-6);
+}
+
+TEST(Bounce, OfABoxThatLandsFlatIsThatOfABall) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle box = drop(world, Shape::box(0.25_m, 0.25_m, 0.25_m), 1.25_m, 0.5_r);
+  test::step(world, 35);
+  EXPECT_NEAR(reach(world, box), 0.25 + 0.25, 1e-4);
+}
+
+TEST(Bounce, ManyInATickEndInRest) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle ball = drop(world, Shape::sphere(0.25_m), 0.26_m, 0.5_r);
+  test::step(world, 30);
+  EXPECT_NEAR(to_double(world.position(ball).y), 0.25, 1e-4);
+  EXPECT_NEAR(to_double(world.velocity(ball).y), 0, 1e-4);
+}
+
+TEST(Bounce, OffARisingPlatformGainsItsSpeedTwice) {
+  WorldDef def{.body_capacity = 8, .pair_capacity = 64, .contact_capacity = 64};
+  def.gravity = {};
+  World world = test::make_world(def);
+  BodyDef platform;
+  platform.motion = MotionType::kinematic;
+  platform.shape = Shape::box(2_m, 0.5_m, 2_m);
+  platform.velocity = {{}, 1_mps, {}};
+  test::add(world, platform);
+  BodyDef ball = test::dynamic_body(Shape::sphere(0.25_m), 0_m, 2_m, 0_m);
+  ball.material.restitution = 1_r;
+  ball.velocity = {{}, -3_mps, {}};
+  const BodyHandle handle = test::add(world, ball);
+  test::step(world, 60);
+  EXPECT_NEAR(to_double(world.velocity(handle).y), 5, 1e-5);
+  // They meet after 1.25 m at 4 m/s, 0.3125 s.
+  EXPECT_NEAR(to_double(world.position(handle).y), 2 - 3 * 0.3125 + 5 * (1 - 0.3125), 1e-4);
+}
+
+TEST(Bounce, BeginsAContactWithItsApproach) {
+  World world = test::make_world();
+  test::add_ground(world);
+  drop(world, Shape::sphere(0.25_m), 1.25_m, 0.8_r);
+  int begins = 0;
+  for (int tick = 0; tick < 40; ++tick) {
+    test::step(world, 1);
+    for (const ContactEvent& event : world.events()) {
+      if (event.kind != EventKind::contact_begin) continue;
+      ++begins;
+      EXPECT_NEAR(to_double(event.approach_speed), std::sqrt(2 * 9.81), 1e-4);
+    }
+  }
+  EXPECT_EQ(begins, 1);
+}
+
+}  // namespace
+}  // namespace lockstone
