@@ -13,10 +13,12 @@ namespace lockstone {
 /// Bits of BodyRecord::flags.
 enum BodyFlag : std::uint8_t {
   k_body_trigger = 1,
+  k_body_pushed = 2,  // by forces in this tick: the notes tell how
   k_body_bullet = 4,
   k_body_asleep = 8,     // neither moves nor is looked at; its velocities are zero
   k_body_no_sleep = 16,  // never falls asleep
-  k_all_body_flags = k_body_trigger | k_body_bullet | k_body_asleep | k_body_no_sleep,
+  k_all_body_flags =
+      k_body_trigger | k_body_pushed | k_body_bullet | k_body_asleep | k_body_no_sleep,
 };
 
 /// Bits of BodyRecord::locks: three axes of moving, three of turning.
@@ -43,18 +45,18 @@ struct BodyRecord {
   Quat orientation{{}, {}, {}, {}};
   Vec3<Length> size{};   // Shape::size
   Vec3<Unit> inertia{};  // principal moments / (mass · s²), each in (0, 1]
-  // Where it began to rest (rest.h), of a body that may fall asleep by resting; else zero.
-  Vec3<Length> rest_position{};  // low 32 bits
-  Quat rest_orientation{{}, {}, {}, {}};
+  // Of one of three: of a body that forces push in this tick what they give it (tick_gain.h); of
+  // another that may fall asleep by resting where it began to rest (rest.h); of what is not
+  // dynamic the motion of its surface. Else zero.
+  Vec3<Unit> note_a{};            // force; place, low 32 bits of Length; velocity
+  Vec3<Unit> note_b{};            // torque; x, y, z of the orientation; turning
+  Unit note_c{};                  // exponents; w
   std::int32_t inverse_mass = 0;  // mantissa; the exponent is below
   Number gravity_scale{};
   Rate linear_damping{};
   Rate angular_damping{};
   SolverVelocity max_speed{};
   SolverVelocity max_surface_speed{};
-  Vec3<Unit> force{};   // mantissas of the velocity that forces give in this tick; Velocity's raw
-  Vec3<Unit> torque{};  // units, exponents below; the same for spin. Of what is not dynamic:
-                        // surface motion
   Coefficient friction{};
   Coefficient restitution{};
   Coefficient rolling_resistance{};
@@ -69,12 +71,8 @@ struct BodyRecord {
   std::uint8_t flags = 0;        // BodyFlag
   std::int8_t scale_exponent = 0;
   std::int8_t inverse_mass_exponent = 0;
-  std::uint8_t locks = 0;  // BodyLock
-  std::int8_t force_exponent = 0;
-  std::int8_t torque_exponent = 0;
-  std::uint16_t reserved0 = 0;   // keep the record free of padding; always 0
+  std::uint8_t locks = 0;        // BodyLock
   std::uint32_t rest_ticks = 0;  // since it rests
-  std::uint32_t reserved1 = 0;
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 
@@ -83,6 +81,7 @@ struct BodyRecord {
   [[nodiscard]] bool is_static() const { return is(MotionType::static_body); }
   [[nodiscard]] bool is_dynamic() const { return is(MotionType::dynamic); }
   [[nodiscard]] bool is_trigger() const { return (flags & k_body_trigger) != 0; }
+  [[nodiscard]] bool is_pushed() const { return (flags & k_body_pushed) != 0; }
   [[nodiscard]] bool is_bullet() const { return (flags & k_body_bullet) != 0; }
   [[nodiscard]] bool is_asleep() const { return (flags & k_body_asleep) != 0; }
   [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
@@ -91,20 +90,26 @@ struct BodyRecord {
   [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
   [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }
 
+  [[nodiscard]] Vec3<Length> rest_position() const { return read<Length>(note_a); }
+  [[nodiscard]] Quat rest_orientation() const { return {note_b.x, note_b.y, note_b.z, note_c}; }
+  void set_rest(const Vec3<Length>& place, const Quat& turned) {
+    note_a = read<Unit>(place);
+    note_b = {turned.x, turned.y, turned.z};
+    note_c = turned.w;
+  }
+
   /// SurfaceMotion about the centre of mass, along the body's axes. Only bodies that are not
-  /// dynamic have one: it stands where forces stand else.
+  /// dynamic have one.
   [[nodiscard]] bool has_surface_motion() const {
-    return !is_dynamic() && (force != Vec3<Unit>{} || torque != Vec3<Unit>{});
+    return !is_dynamic() && (note_a != Vec3<Unit>{} || note_b != Vec3<Unit>{});
   }
   [[nodiscard]] Vec3<SolverVelocity> surface_velocity() const {
-    return {{force.x.raw}, {force.y.raw}, {force.z.raw}};
+    return read<SolverVelocity>(note_a);
   }
-  [[nodiscard]] Vec3<Rate> surface_turning() const {
-    return {{torque.x.raw}, {torque.y.raw}, {torque.z.raw}};
-  }
+  [[nodiscard]] Vec3<Rate> surface_turning() const { return read<Rate>(note_b); }
   void set_surface_motion(const Vec3<SolverVelocity>& v, const Vec3<Rate>& turning) {
-    force = {{v.x.raw}, {v.y.raw}, {v.z.raw}};
-    torque = {{turning.x.raw}, {turning.y.raw}, {turning.z.raw}};
+    note_a = read<Unit>(v);
+    note_b = read<Unit>(turning);
   }
 
   [[nodiscard]] Surface surface() const {
@@ -132,18 +137,21 @@ struct BodyRecord {
   }
 
  private:
+  template <class To, class From>
+  [[nodiscard]] static Vec3<To> read(const Vec3<From>& v) {
+    return {To::from_raw(v.x.raw), To::from_raw(v.y.raw), To::from_raw(v.z.raw)};
+  }
   [[nodiscard]] bool is(MotionType type) const { return motion == static_cast<std::uint8_t>(type); }
 };
 
 // clang-format off
 #define LKS_BODY_FIELDS(X) \
   X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) \
-  X(rest_position) X(rest_orientation) X(inverse_mass) \
-  X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) X(force) \
-  X(torque) X(friction) X(restitution) X(rolling_resistance) \
-  X(tag) X(category) X(mask) X(group) X(generation) X(rules) X(motion) X(shape_kind) X(flags) \
-  X(scale_exponent) X(inverse_mass_exponent) X(locks) X(force_exponent) X(torque_exponent) \
-  X(reserved0) X(rest_ticks) X(reserved1)
+  X(note_a) X(note_b) X(note_c) X(inverse_mass) \
+  X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
+  X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
+  X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
+  X(inverse_mass_exponent) X(locks) X(rest_ticks)
 // clang-format on
 
 template <class F>

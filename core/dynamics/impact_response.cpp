@@ -52,6 +52,7 @@ struct Side {
 
   // The jump P, or −P, at a point.
   void push(const Vec3<Velocity>& jump, const Vec3<Unit>& arm) const {
+    if (share == Unit{}) return;  // others may be reading it
     const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
     body.record.velocity += own;
     if (turns) body.record.spin += cross(arm, own);

@@ -23,13 +23,6 @@ Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& 
   return g;
 }
 
-Vec3<Velocity> force_gain(const BodyRecord& body) {
-  return body.is_dynamic() ? read_gain(body.force, body.force_exponent) : Vec3<Velocity>{};
-}
-Vec3<Velocity> torque_gain(const BodyRecord& body) {
-  return body.is_dynamic() ? read_gain(body.torque, body.torque_exponent) : Vec3<Velocity>{};
-}
-
 constexpr Unit k_whole_tick = Unit::from_integer(1);
 
 Velocity times(Velocity v, Unit factor) {
@@ -172,12 +165,6 @@ void hold_axes(BodyRecord& body) {
   }
 }
 
-void clear_forces(BodyRecord& body) {
-  if (!body.is_dynamic()) return;  // a surface motion stays
-  body.force = body.torque = {};
-  body.force_exponent = body.torque_exponent = 0;
-}
-
 bool limit_position(BodyRecord& body) {
   bool limited = false;
   for (int i = 0; i < 3; ++i) {
@@ -198,7 +185,7 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
     return raw::round_divide(per_second * (phase + 1), rate) -
            raw::round_divide(per_second * phase, rate);
   };
-  const Vec3<Velocity> force = force_gain(body), torque = torque_gain(body);
+  const auto& [force, torque] = tick_gain_of(body);
   const bool damped = body.is_dynamic() && body.linear_damping > Rate{};
   const Damping damping = damped ? Damping::of(body.linear_damping, step) : Damping{};
   for (int i = 0; i < 3; ++i) {
@@ -253,7 +240,7 @@ Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gr
 Vec3<Velocity> tick_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                          const TimeStep& step) {
   const Vec3<Acceleration> g = gravity_on(body, gravity);
-  Vec3<Velocity> gain = force_gain(body);
+  Vec3<Velocity> gain = tick_gain_of(body).velocity;
   for (int i = 0; i < 3; ++i)
     gain[i].raw += raw::round_divide(g[i].raw, step.tick_rate);
   return gain;
@@ -262,7 +249,7 @@ Vec3<Velocity> tick_gain(const BodyRecord& body, const Vec3<Acceleration>& gravi
 SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
                        const Vec3<Acceleration>& gravity, const TimeStep& step) {
   SolverBody solver;
-  const Vec3<Velocity> force = force_gain(body), torque = torque_gain(body);
+  const auto& [force, torque] = tick_gain_of(body);
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);

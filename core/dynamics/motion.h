@@ -23,9 +23,6 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world
 /// Velocity and spin along locked axes are zero.
 void hold_axes(BodyRecord& body);
 
-/// Forgets the forces of a tick.
-void clear_forces(BodyRecord& body);
-
 /// Clamps the position to the world, stopping what would leave it. Answers whether it had to.
 bool limit_position(BodyRecord& body);
 

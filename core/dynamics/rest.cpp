@@ -17,9 +17,10 @@ std::int64_t difference(std::int32_t now, std::int32_t then) {
 }
 
 bool is_near(const BodyRecord& body, std::int64_t distance) {
+  const Vec3<Length> then = body.rest_position();
   std::int64_t sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const std::int64_t way = difference(noted(body.position[i]), body.rest_position[i].raw);
+    const std::int64_t way = difference(noted(body.position[i]), then[i].raw);
     if (std::abs(way) > distance) return false;
     sum += way * way;
   }
@@ -31,7 +32,7 @@ bool is_near(const BodyRecord& body, std::int64_t distance) {
 bool is_turned_little(const BodyRecord& body, std::int64_t distance) {
   constexpr std::int64_t k_whole = 1 << 30;
   const Quat& now = body.orientation;
-  const Quat& then = body.rest_orientation;
+  const Quat then = body.rest_orientation();
   const int to_half_angle = 9 - body.scale_exponent;  // Q20 to Q30, halved
   const std::int64_t limit = std::min(raw::scale_binary(distance, to_half_angle), k_whole);
   std::int64_t sum = 0;
@@ -54,11 +55,18 @@ RestRules RestRules::of(std::uint32_t tick_rate, std::uint32_t milliseconds, Len
 }
 
 void begin_rest(BodyRecord& body, const RestRules& rules) {
-  const bool watched = is_watched(body, rules);
-  for (int i = 0; i < 3; ++i)
-    body.rest_position[i].raw = watched ? noted(body.position[i]) : 0;
-  body.rest_orientation = watched ? body.orientation : Quat{{}, {}, {}, {}};
   body.rest_ticks = 0;
+  if (!body.is_dynamic() || body.is_pushed()) return;
+  if (!is_watched(body, rules)) return body.set_rest({}, Quat{{}, {}, {}, {}});
+  Vec3<Length> place;
+  for (int i = 0; i < 3; ++i)
+    place[i].raw = noted(body.position[i]);
+  body.set_rest(place, body.orientation);
+}
+
+void end_pushes(BodyRecord& body, const RestRules& rules) {
+  body.flags = static_cast<std::uint8_t>(body.flags & ~k_body_pushed);
+  begin_rest(body, rules);
 }
 
 bool count_rest(BodyRecord& body, const RestRules& rules) {

@@ -29,8 +29,12 @@ struct RestRules {
   return rules.ticks != 0 && body.is_dynamic() && body.may_sleep() && !body.is_asleep();
 }
 
-/// Begins anew, here; of a body that is not watched, clears what was noted.
+/// Begins anew, here; of a body that is not watched, clears what was noted. One that is pushed
+/// begins when the tick ends its pushes.
 void begin_rest(BodyRecord& body, const RestRules& rules);
+
+/// Forgets what forces gave a body, and begins its rest.
+void end_pushes(BodyRecord& body, const RestRules& rules);
 
 /// Counts a tick of a watched body. Answers whether it is ready to sleep.
 bool count_rest(BodyRecord& body, const RestRules& rules);

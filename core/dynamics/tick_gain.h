@@ -1,22 +1,23 @@
-// What forces give a body in a tick: a velocity in less room, for few bodies have any.
+// What forces give a body in a tick: two velocities in less room, for few bodies have any. They
+// stand in the body's notes: mantissas times 2^exponent in units of Velocity.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 
-#include <lockstone/units.h>
-#include <lockstone/vec3.h>
+#include "core/dynamics/body_record.h"
 
 namespace lockstone {
 
-/// Mantissas times 2^exponent in units of Velocity; the largest has up to 31 bits.
+/// Of velocity and of spin.
 struct TickGain {
-  Vec3<Unit>& mantissa;
-  std::int8_t& exponent;
+  Vec3<Velocity> velocity{};
+  Vec3<Velocity> spin{};
 };
 
 inline constexpr int k_most_gain_exponent = 15;
+inline constexpr int k_gain_exponent_bits = 4;
 
 [[nodiscard]] constexpr Vec3<Velocity> read_gain(const Vec3<Unit>& mantissa, int exponent) {
   const auto value = [&](Unit x) {
@@ -25,19 +26,39 @@ inline constexpr int k_most_gain_exponent = 15;
   return {value(mantissa.x), value(mantissa.y), value(mantissa.z)};
 }
 
-/// Adds, each component held within ±2^12 m/s, to a relative error of 2^-31.
-inline void add_gain(TickGain to, const Vec3<Velocity>& gain) {
-  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
-  Vec3<Velocity> sum = read_gain(to.mantissa, to.exponent);
+[[nodiscard]] inline TickGain tick_gain_of(const BodyRecord& body) {
+  if (!body.is_pushed()) return {};
+  const std::int32_t exponents = body.note_c.raw;
+  return {read_gain(body.note_a, exponents & k_most_gain_exponent),
+          read_gain(body.note_b, exponents >> k_gain_exponent_bits & k_most_gain_exponent)};
+}
+
+/// Answers the exponent. The largest mantissa has up to 30 bits.
+inline int write_gain(const Vec3<Velocity>& gain, Vec3<Unit>& mantissa) {
   std::uint64_t largest = 0;
-  for (int i = 0; i < 3; ++i) {
-    sum[i] = clamp(sum[i] + clamp(gain[i], -k_bound, k_bound), -k_bound, k_bound);
-    largest = std::max(largest, static_cast<std::uint64_t>(abs(sum[i]).raw));
-  }
-  const int exponent = std::max(0, static_cast<int>(std::bit_width(largest)) - 30);
-  to.exponent = static_cast<std::int8_t>(exponent);
   for (int i = 0; i < 3; ++i)
-    to.mantissa[i].raw = static_cast<std::int32_t>(raw::round_shift(sum[i].raw, exponent));
+    largest = std::max(largest, static_cast<std::uint64_t>(abs(gain[i]).raw));
+  const int exponent = std::max(0, static_cast<int>(std::bit_width(largest)) - 30);
+  for (int i = 0; i < 3; ++i)
+    mantissa[i].raw = static_cast<std::int32_t>(raw::round_shift(gain[i].raw, exponent));
+  return exponent;
+}
+
+/// Adds, each component held within ±2^12 m/s, to a relative error of 2^-30.
+inline void add_gain(BodyRecord& body, const TickGain& gain) {
+  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
+  TickGain sum = tick_gain_of(body);
+  const auto add = [&](Velocity& to, Velocity x) {
+    to = clamp(to + clamp(x, -k_bound, k_bound), -k_bound, k_bound);
+  };
+  for (int i = 0; i < 3; ++i) {
+    add(sum.velocity[i], gain.velocity[i]);
+    add(sum.spin[i], gain.spin[i]);
+  }
+  const int exponent = write_gain(sum.velocity, body.note_a);
+  body.note_c.raw = exponent | write_gain(sum.spin, body.note_b) << k_gain_exponent_bits;
+  body.flags = static_cast<std::uint8_t>(body.flags | k_body_pushed);
+  body.rest_ticks = 0;
 }
 
 }  // namespace lockstone

@@ -20,6 +20,8 @@ constexpr Velocity k_least_bounce = Velocity::from_ratio(1, 32);
 
 constexpr int k_most_bounces = 16;  // in a tick
 
+constexpr std::uint32_t k_bounce_grain = 16;
+
 constexpr Unit k_whole = Unit::from_integer(1);
 
 // The solver brakes what meets a surface in the substep after the tick: that flies on as well.
@@ -167,7 +169,8 @@ void World::Impl::find_bounces() {
   for (const JointLink& link : active_joints)
     neighbours[link.body_a] = neighbours[link.body_b] = 2;  // what a joint holds does not fly
   for (std::size_t i = 0; i < new_contacts.size(); ++i) {
-    if (elastic(surfaces[slots[i]]) && !new_contacts[i].is_trigger() && will_bounce(i)) mark_bounce(i);
+    if (elastic(surfaces[slots[i]]) && !new_contacts[i].is_trigger() && will_bounce(i))
+      mark_bounce(i);
   }
 }
 
@@ -205,6 +208,17 @@ void World::Impl::mark_bounce(std::size_t contact) {
   surfaces[slots[contact]].bounces = true;
   bounce_of[body] = static_cast<std::uint32_t>(contact) + 1;
   bouncing_bodies.push_back(body);
+}
+
+// Before all others move: what these bounce off is where the tick began.
+void World::Impl::run_bounces() {
+  const Loop each{static_cast<std::uint32_t>(bouncing_bodies.size()), k_bounce_grain};
+  parallel.for_each(each, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+    for (const std::uint32_t body : std::span(bouncing_bodies).subspan(first, end - first)) {
+      starts[body] = {bodies[body].position, bodies[body].orientation};
+      bounce(body);
+    }
+  });
 }
 
 // Through the tick from bounce to bounce; what is too slow to bounce again stays on the surface.

@@ -74,7 +74,7 @@ Vec3<T> turned(const Mat3& rotation, const Vec3<T>& v) {
 }  // namespace
 
 // The gains of an impulse, without a point at the centre of mass; what a lock holds is taken off.
-Status World::Impl::gain_of(BodyHandle body, const Push& push, Gain& gain) const {
+Status World::Impl::gain_of(BodyHandle body, const Push& push, TickGain& gain) const {
   const BodyRecord* record = find(body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic() || push.frame > Frame::body) return Status::invalid_argument;
@@ -105,7 +105,7 @@ Status World::Impl::gain_of(BodyHandle body, const Push& push, Gain& gain) const
 }
 
 Status World::Impl::push_now(BodyHandle body, const Push& push) {
-  Gain gain;
+  TickGain gain;
   if (const Status status = gain_of(body, push, gain); status != Status::ok) return status;
   if (gain.velocity == Vec3<Velocity>{} && gain.spin == Vec3<Velocity>{}) return Status::ok;
   wake(body.index);
@@ -117,13 +117,11 @@ Status World::Impl::push_now(BodyHandle body, const Push& push) {
 }
 
 Status World::Impl::push_in_tick(BodyHandle body, const Push& push) {
-  Gain gain;
+  TickGain gain;
   if (const Status status = gain_of(body, push, gain); status != Status::ok) return status;
   if (gain.velocity == Vec3<Velocity>{} && gain.spin == Vec3<Velocity>{}) return Status::ok;
   wake(body.index);
-  BodyRecord& record = *edit(body);
-  add_gain({record.force, record.force_exponent}, gain.velocity);
-  add_gain({record.torque, record.torque_exponent}, gain.spin);
+  add_gain(*edit(body), gain);
   return Status::ok;
 }
 

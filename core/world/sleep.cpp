@@ -29,7 +29,7 @@ void World::Impl::set_awake(std::uint32_t body) {
 
 void World::Impl::set_asleep(std::uint32_t body) {
   BodyRecord& record = bodies[body];
-  record.flags = static_cast<std::uint8_t>(record.flags | k_body_asleep);
+  record.flags = static_cast<std::uint8_t>((record.flags | k_body_asleep) & ~k_body_pushed);
   record.velocity = record.spin = {};
   begin_rest(record, rest_rules);
   awake.erase(body);

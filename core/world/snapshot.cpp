@@ -19,6 +19,8 @@
 namespace lockstone {
 namespace {
 
+constexpr Unit k_whole = Unit::from_integer(1);
+
 // Of any bits: the least number has no magnitude.
 template <class T>
 bool is_within(T x, T limit) {
@@ -61,13 +63,15 @@ bool has_valid_limits(const BodyRecord& record) {
          is_within(record.gravity_scale, k_gravity_scale_limit) && record.locks <= k_all_body_locks;
 }
 
-// Mantissas of at most 30 bits. Of what is not dynamic a surface motion: rotated, and moved to the
-// centre of mass, it may be longer than what commands give.
-bool has_valid_gain(const BodyRecord& record, const Vec3<Unit>& mantissa, int exponent) {
-  const Unit most = record.is_dynamic() ? Unit::from_integer(1) : Unit::max();
-  const bool bounded =
-      exponent >= 0 && exponent <= k_most_gain_exponent && in_range(mantissa, most);
-  return bounded && (record.is_dynamic() || exponent == 0);
+// Mantissas of at most 30 bits. What is not dynamic may have a surface motion: rotated, and moved
+// to the centre of mass, it may be longer than what commands give.
+bool has_valid_notes(const BodyRecord& record) {
+  constexpr int k_exponent_bits = 2 * k_gain_exponent_bits;
+  if (!record.is_dynamic()) return !record.is_pushed() && record.note_c == Unit{};
+  if (!record.is_pushed()) return true;
+  return !record.is_asleep() && record.rest_ticks == 0 &&
+         record.note_c.raw >> k_exponent_bits == 0 && in_range(record.note_a, k_whole) &&
+         in_range(record.note_b, k_whole);
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
@@ -81,8 +85,10 @@ bool has_known_shape(const BodyRecord& record, const Asset* asset) {
 }
 
 bool has_zero_rest(const BodyRecord& record) {
-  return record.rest_position == Vec3<Length>{} &&
-         record.rest_orientation == Quat{{}, {}, {}, {}} && record.rest_ticks == 0;
+  const bool notes_something_else = !record.is_dynamic() || record.is_pushed();
+  const bool none =
+      record.note_a == Vec3<Unit>{} && record.note_b == Vec3<Unit>{} && record.note_c == Unit{};
+  return (notes_something_else || none) && record.rest_ticks == 0;
 }
 
 // What sleeps stands still, and only what may fall asleep by resting has notes of it.
@@ -125,9 +131,8 @@ bool has_unit_norm(const Quat& q) {
 Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (record.generation == 0 || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
-  const bool known = record.shape_kind <= k_last_shape_kind &&
-                     (record.flags & ~k_all_body_flags) == 0 && record.reserved0 == 0 &&
-                     record.reserved1 == 0;
+  const bool known =
+      record.shape_kind <= k_last_shape_kind && (record.flags & ~k_all_body_flags) == 0;
   if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
   const Asset* asset = assets.find(record.asset);
   if (!has_known_shape(record, asset)) return Status::malformed;
@@ -135,8 +140,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   const bool consistent = record.scale_exponent == scale && has_valid_inertia(record.inertia) &&
                           has_valid_mass(record) && has_valid_surface(record) &&
                           has_valid_sleep(record) && has_valid_limits(record) &&
-                          has_valid_gain(record, record.force, record.force_exponent) &&
-                          has_valid_gain(record, record.torque, record.torque_exponent);
+                          has_valid_notes(record);
   const bool in_world = in_range(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation);
   return consistent && in_world ? Status::ok : Status::malformed;

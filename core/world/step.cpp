@@ -307,9 +307,9 @@ void World::Impl::solve_contacts(StepReport& report) {
   store_impulses();
   report.contacts = solver.contacts();
   report.contact_points = solver.points();
+  report.contacts += static_cast<std::uint32_t>(bouncing_bodies.size());
   for (const std::uint32_t body : bouncing_bodies) {
-    const Manifold& manifold = manifolds[bounce_of[body] - 1];
-    ++report.contacts;
+    const Manifold& manifold = manifolds[slots[bounce_of[body] - 1]];
     report.contact_points += static_cast<std::uint32_t>(manifold.count);
   }
   report.colors = solver.colors();
@@ -351,6 +351,7 @@ void World::Impl::move_bodies(StepReport& report) {
     moved.push_back(body);
   }
   report.moving_bodies = static_cast<std::uint32_t>(moved.size());
+  run_bounces();
   std::atomic<std::uint32_t> free_bodies{0}, axis_turns{0}, saturations{0};
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     MoveCounts counts;
@@ -397,16 +398,16 @@ void World::Impl::refresh_moved() {
 
 void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   BodyRecord& record = bodies[body];
-  starts[body] = {record.position, record.orientation};
+  const bool has_bounced = bounce_of[body] != 0;
+  if (!has_bounced) starts[body] = {record.position, record.orientation};
   const SolverBody* solved = solver.find(body);
   const InverseInertia inertia =
       solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
   if (solved != nullptr) {
     counts.axis_turns += solver.move(*solved, rotations[body], record);
     if (record.is_dynamic()) damp_velocity(record, time_step);
-  } else if (bounce_of[body] != 0) {
-    bounce(body);
-    if (record.is_dynamic()) damp_velocity(record, time_step);
+  } else if (has_bounced) {
+    damp_velocity(record, time_step);
     ++counts.free_bodies;
   } else {
     counts.axis_turns += fly(record, rotations[body], header.gravity, time_step, header.tick);
@@ -414,9 +415,9 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   }
   damp_spin(record, time_step);
   hold_axes(record);
-  clear_forces(record);
   counts.saturations += limit_speed(record, inertia, def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
+  if (record.is_pushed()) end_pushes(record, rest_rules);
 }
 
 // Begin, stay or end of what a pair of bodies did before and does now.

@@ -18,6 +18,7 @@
 #include "core/dynamics/islands.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/rest.h"
+#include "core/dynamics/tick_gain.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
 #include "core/world/frozen_contacts.h"
@@ -53,10 +54,7 @@ struct World::Impl {
     const Vec3<Length>* point = nullptr;  // null: the centre of mass
     Frame frame{};
   };
-  struct Gain {
-    Vec3<Velocity> velocity{}, spin{};
-  };
-  [[nodiscard]] Status gain_of(BodyHandle body, const Push& push, Gain& gain) const;
+  [[nodiscard]] Status gain_of(BodyHandle body, const Push& push, TickGain& gain) const;
   Status push_now(BodyHandle body, const Push& push);
   Status push_in_tick(BodyHandle body, const Push& push);
 
@@ -243,6 +241,7 @@ struct World::Impl {
     std::int64_t speed = 0;     // m a tick, Q24
   };
   void find_bounces();
+  void run_bounces();
   [[nodiscard]] bool will_bounce(std::size_t contact);
   [[nodiscard]] bool turns_much(std::uint32_t body) const;
   void mark_bounce(std::size_t contact);
@@ -333,11 +332,11 @@ struct World::Impl {
     std::uint32_t part_b = 0;
     std::uint32_t before = k_new;  // in contact_store
   };
-  std::vector<ContactOrigin> origins;  // by slot
-  std::vector<Manifold> manifolds;     // by slot
-  std::vector<ManifoldInput> inputs;   // by slot
+  std::vector<ContactOrigin> origins;    // by slot
+  std::vector<Manifold> manifolds;       // by slot
+  std::vector<ManifoldInput> inputs;     // by slot
   std::vector<ContactSurface> surfaces;  // by slot
-  std::vector<std::uint32_t> slots;    // by new contact
+  std::vector<std::uint32_t> slots;      // by new contact
   std::vector<ContactRecord> new_contacts;
 
   // The manifolds of the tick before, and their slots by stored contact, as long as
