@@ -20,6 +20,14 @@ Fine along_normal(const Vec3<Length>& v, const Vec3<Unit>& n) {
   return dot(v, n).raw;
 }
 
+// By their indices, one after the other. Not by <=> of vectors: that of g++ 12's library looks at
+// half of the bytes where the processor is big-endian.
+void sort(std::vector<Loop>& loops) {
+  std::ranges::sort(loops, [](const Loop& a, const Loop& b) {
+    return std::ranges::lexicographical_compare(a, b);
+  });
+}
+
 void sort_unique(std::vector<std::uint16_t>& indices) {
   std::ranges::sort(indices);
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
@@ -96,7 +104,7 @@ class Coplanar {
     std::vector<Loop> result;
     for (const auto& outline : outlines)
       if (!outline.empty()) result.push_back(cycle_of(outline));
-    std::ranges::sort(result);
+    sort(result);
     return result;
   }
 
@@ -204,7 +212,7 @@ class Merger {
     for (std::size_t face = 0; face < loops_.size(); ++face)
       consider_neighbours(static_cast<std::uint16_t>(face), face);
     std::erase_if(loops_, [](const Loop& loop) { return loop.empty(); });
-    std::ranges::sort(loops_);
+    sort(loops_);
     sort_unique(dented_);
     return {std::move(loops_), std::move(dented_)};
   }
