@@ -116,7 +116,7 @@ wanted=("$@")
 ((${#wanted[@]})) || wanted=("${all[@]}")
 
 # A package that cannot be installed costs its target, not the others.
-(require_packages build cross) || true
+(require_packages build clang cross) || true
 if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm)\  ]]; then (require_packages cross-more) || true; fi
 export WINEDEBUG=${WINEDEBUG:--all}
 runners=()

@@ -56,6 +56,7 @@ done
 
 require_packages build assets
 if "$sanitize"; then
+  require_packages clang
   build_preset asan-ubsan
   run_tests asan-ubsan
 fi

@@ -7,6 +7,7 @@
 
 #include "core/math/int128.h"
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -254,7 +255,7 @@ LatticePoint small_point(Raws& raws, std::int32_t scale) {
 TEST(SegmentSegment, EqualsClippingInRationals) {
   Raws raws;
   std::array<int, 4> seen{};
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < test::share_of(300000); ++i) {
     const std::int32_t scale = i % 3 == 0 ? 1 : i % 3 == 1 ? 1 << 18 : 1 << 29;
     const auto a = small_point(raws, scale), b = small_point(raws, scale),
                c = small_point(raws, scale), d = small_point(raws, scale);
@@ -270,7 +271,7 @@ TEST(SegmentSegment, EqualsClippingInRationals) {
 TEST(SegmentTriangle, EqualsClippingInRationals) {
   Raws raws;
   std::array<int, 4> seen{};
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < test::share_of(300000); ++i) {
     const std::int32_t scale = i % 3 == 0 ? 1 : i % 3 == 1 ? 1 << 18 : 1 << 29;
     std::array<LatticePoint, 3> t;
     for (LatticePoint& corner : t)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/workload.h"
 #include "tools/scenes/play.h"
 #include "tools/scenes/scene.h"
 #include "tools/scenes/scene_simulation.h"
@@ -27,17 +28,17 @@ class EveryScene : public testing::TestWithParam<std::string> {
   }
   void SetUp() override {
     for (const SceneSummary& scene : list_scenes()) {
-      if (scene.name == GetParam()) golden_ticks_ = scene.golden_ticks;
+      if (scene.name == GetParam()) ticks_ = test::share_of(scene.golden_ticks);
     }
-    ASSERT_GT(golden_ticks_, 0U);
+    ASSERT_GT(ticks_, 0U);
   }
 
-  std::uint32_t golden_ticks_ = 0;
+  std::uint32_t ticks_ = 0;
 };
 
 TEST_P(EveryScene, RepeatsItself) {
   const auto first = play(), second = play();
-  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick) {
+  for (std::uint32_t tick = 0; tick < ticks_; ++tick) {
     first->step();
     second->step();
     ASSERT_EQ(first->simulation().hash(), second->simulation().hash()) << "after tick " << tick;
@@ -49,7 +50,7 @@ TEST_P(EveryScene, RepeatsItself) {
 TEST_P(EveryScene, IsSavedWhole) {
   const auto first = play(), second = play();
   std::vector<std::byte> bytes(first->simulation().snapshot_bytes_max(SnapshotKind::canonical));
-  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick) {
+  for (std::uint32_t tick = 0; tick < ticks_; ++tick) {
     const std::size_t size = first->simulation().save(SnapshotKind::canonical, bytes);
     ASSERT_EQ(second->simulation().load(SnapshotKind::canonical, ByteView(bytes).first(size)),
               Status::ok);
@@ -65,7 +66,7 @@ TEST_P(EveryScene, ComesOutTheSameFromBothBroadPhases) {
   const auto sweep = make_play(GetParam(), k_seed, BroadPhaseKind::sweep_and_prune).value();
   ASSERT_EQ(sweep->world().def().broad_phase, BroadPhaseKind::sweep_and_prune);
   EXPECT_EQ(tree->simulation().info(), sweep->simulation().info());
-  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick) {
+  for (std::uint32_t tick = 0; tick < ticks_; ++tick) {
     if (tick % 16 == 15) sweep->drop_derived();
     tree->step();
     sweep->step();
@@ -76,7 +77,7 @@ TEST_P(EveryScene, ComesOutTheSameFromBothBroadPhases) {
 
 TEST_P(EveryScene, KeepsItsBodiesInTheWorld) {
   const auto scene = play();
-  for (std::uint32_t tick = 0; tick < golden_ticks_; ++tick)
+  for (std::uint32_t tick = 0; tick < ticks_; ++tick)
     scene->step();
   const World& world = scene->world();
   for (std::uint32_t index = 0; index < world.body_limit(); ++index) {

@@ -8,13 +8,14 @@
 #include <lockstone/thread_pool.h>
 
 #include "tests/support/shuffled_runner.h"
+#include "tests/support/workload.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::scenes {
 namespace {
 
 constexpr std::uint64_t k_seed = 1;
-constexpr std::uint32_t k_most_ticks = 60;
+constexpr std::uint32_t k_most_ticks = test::share_of(60);
 
 std::vector<std::string> names() {
   std::vector<std::string> result;

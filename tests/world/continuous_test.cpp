@@ -6,6 +6,7 @@
 #include <lockstone/testing/floating.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -45,7 +46,7 @@ World weightless() {
 TEST(Continuous, NoBulletPassesAWallOfOneCentimetre) {
   test::Random random(test::run_seed());
   int impacts = 0;
-  for (int run = 0; run < 2000; ++run) {
+  for (int run = 0; run < test::share_of(2000); ++run) {
     World world = weightless();
     test::add(world, wall(0.005_m));
     const Length size =
@@ -73,7 +74,7 @@ TEST(Continuous, NoBulletPassesAWallOfOneCentimetre) {
           << def.velocity.y.raw << " spin " << def.angular_velocity.z.raw;
     }
   }
-  EXPECT_GT(impacts, 1000);
+  EXPECT_GT(impacts, test::share_of(1000));
 }
 
 TEST(Continuous, ABouncingBallKeepsTheRestOfTheTick) {
@@ -90,7 +91,7 @@ TEST(Continuous, ABouncingBallKeepsTheRestOfTheTick) {
 
 TEST(Continuous, ASpinningRodDoesNotReachThroughAWall) {
   test::Random random(test::run_seed());
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < test::share_of(300); ++run) {
     World world = weightless();
     test::add(world, wall(0.01_m));
     BodyDef def = test::dynamic_body(Shape::capsule(1_m, 0.02_m), -1.1_m, {}, {});
@@ -111,7 +112,7 @@ TEST(Continuous, AFastThinRodDoesNotPassAWallOfOneCentimetre) {
   const auto between = [&](std::int64_t low, std::int64_t high) {
     return random.between(low << 32, high << 32);
   };
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < test::share_of(300); ++run) {
     World world = weightless();
     test::add(world, wall(0.005_m));
     const Length thin =
@@ -134,7 +135,7 @@ TEST(Continuous, AFastThinRodDoesNotPassAWallOfOneCentimetre) {
 // An impact against something at rest gives no energy, whatever the body turns by until then.
 TEST(Continuous, AnImpactGivesANeedleNoEnergy) {
   test::Random random(test::run_seed());
-  for (int run = 0; run < 100; ++run) {
+  for (int run = 0; run < test::share_of(100); ++run) {
     World world = weightless();
     test::add(world, wall(0.05_m));
     BodyDef def = test::dynamic_body(Shape::capsule(1_m, 0.01_m), -1.4_m, {}, {});

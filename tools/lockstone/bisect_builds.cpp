@@ -19,8 +19,6 @@
 namespace lockstone::tool {
 namespace {
 
-using nlohmann::json;
-
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char letter : text)
@@ -35,8 +33,8 @@ class OtherBuild {
       : program_(std::move(program)), log_(std::move(log)) {}
 
   /// The JSON that it prints; nothing, with a complaint, when it fails.
-  [[nodiscard]] std::optional<json> ask(const std::string& command,
-                                        const std::string& options) const {
+  [[nodiscard]] std::optional<nlohmann::json> ask(const std::string& command,
+                                                  const std::string& options) const {
     const std::string line = program_ + ' ' + command + ' ' + quoted(log_) + ' ' + options;
     std::FILE* pipe = popen(line.c_str(), "r");
     if (pipe == nullptr) return std::nullopt;
@@ -46,7 +44,7 @@ class OtherBuild {
       all.append(text, 0, bytes);
     }
     const int status = pclose(pipe);
-    json answer = json::parse(all, nullptr, false);
+    nlohmann::json answer = nlohmann::json::parse(all, nullptr, false);
     if (!answer.is_discarded()) return answer;
     complain(fmt::format("`{}` answered nothing that can be read (status {})", line, status));
     return std::nullopt;
@@ -57,10 +55,10 @@ class OtherBuild {
   std::string log_;
 };
 
-std::optional<std::vector<std::uint64_t>> hashes_of(const std::optional<json>& trace) {
+std::optional<std::vector<std::uint64_t>> hashes_of(const std::optional<nlohmann::json>& trace) {
   if (!trace || !trace->contains("hashes")) return std::nullopt;
   std::vector<std::uint64_t> hashes;
-  for (const json& hash : trace->at("hashes")) {
+  for (const nlohmann::json& hash : trace->at("hashes")) {
     if (!hash.is_string()) return std::nullopt;
     hashes.push_back(std::strtoull(hash.get_ref<const std::string&>().c_str(), nullptr, 16));
   }

@@ -71,7 +71,7 @@ void explain(Side& here, Side& there, BisectReport& report) {
   report.difference_tick = simulation.tick();
 }
 
-BisectReport failed(int exit_code) {
+BisectReport logs_failed(int exit_code) {
   BisectReport report;
   report.exit_code = exit_code;
   return report;
@@ -82,15 +82,15 @@ BisectReport failed(int exit_code) {
 BisectReport bisect_logs(const std::string& here_path, const std::string& there_path) {
   Side here{.path = here_path, .source = open_log(here_path), .found = {}};
   Side there{.path = there_path, .source = open_log(there_path), .found = {}};
-  if (here.source == nullptr || there.source == nullptr) return failed(k_corrupt);
+  if (here.source == nullptr || there.source == nullptr) return logs_failed(k_corrupt);
   const replay::LogComparison comparison = replay::compare_logs(*here.source, *there.source);
   if (!comparison.header.empty() || !comparison.same_config) {
     complain("the logs are of different simulations or configurations; see `lockstone diff`");
-    return failed(k_incompatible);
+    return logs_failed(k_incompatible);
   }
   if (comparison.status != Status::ok && comparison.status != Status::truncated) {
     complain(comparison.what);
-    return failed(exit_code_of(comparison.status));
+    return logs_failed(exit_code_of(comparison.status));
   }
   BisectReport report;
   const std::optional<std::uint64_t> tick = comparison.first_difference();
@@ -98,7 +98,7 @@ BisectReport bisect_logs(const std::string& here_path, const std::string& there_
   report.exit_code = k_different;
   report.found = true;
   report.tick = *tick;
-  if (!here.step_through(*tick) || !there.step_through(*tick)) return failed(k_incompatible);
+  if (!here.step_through(*tick) || !there.step_through(*tick)) return logs_failed(k_incompatible);
   explain(here, there, report);
   if (comparison.input && comparison.input->tick == *tick) {
     report.note =
