@@ -9,7 +9,10 @@
 namespace lockstone {
 namespace {
 
-class RayPieces final : public geometry::RayPartVisitor {
+// What rounding the frames of shape, way and asset may take from boxes. 8 µm
+constexpr Length k_frame_margin = Length::from_raw(8);
+
+class RayPieces final : public geometry::WayPartVisitor {
  public:
   RayPieces(const PlacedShape& placed, const Vec3<Position>& origin,
             const Vec3<Length>& translation, Unit limit)
@@ -55,80 +58,122 @@ ShapeCastHit cast_at_half_space(const PosedShape& plane, const PosedShape& shape
   return hit;
 }
 
-class CastPieces final : public PieceVisitor {
+class CastPieces final : public geometry::WayPartVisitor {
  public:
-  CastPieces(const Piece& shape, const Vec3<Length>& translation)
-      : shape_(shape), translation_(translation) {}
+  CastPieces(const PlacedShape& placed, const PlacedShape& convex, const Vec3<Length>& translation,
+             Unit limit)
+      : placed_(placed),
+        shape_(single_piece(convex)),
+        middle_(oriented_box(convex).centre),
+        translation_(translation),
+        limit_(limit) {}
 
-  void visit(const Piece& piece) override {
-    if (is_behind(shape_.origin, piece)) return;
+  Unit visit(const geometry::Part& part) override {
+    visit(piece_of(placed_, part));
+    return limit_;
+  }
+
+  void visit(const Piece& piece) {
+    if (is_behind(middle_, piece)) return;
     const Vec3<Length> offset = saturated<Length>(shape_.origin - piece.origin);
     const ShapeCastHit hit =
         piece.shape.kind == ShapeKind::half_space
             ? cast_at_half_space(piece.posed(), shape_.posed(), offset, translation_)
-            : lockstone::cast_shape(piece.posed(), shape_.posed(), offset, translation_);
-    if (!hit.hit || (best_.hit && hit.fraction >= best_.fraction)) return;
+            : lockstone::cast_shape(piece.posed(), shape_.posed(), offset, translation_, limit_);
+    if (!hit.hit || hit.fraction > limit_) return;
+    if (best_.hit && hit.fraction == best_.fraction && piece.part > best_.part) return;
     best_ = {true, piece.part, hit.fraction, hit.normal,
              piece.origin + rounded<Position>(hit.point_a)};
+    limit_ = hit.fraction;
   }
 
   [[nodiscard]] const PlacedShapeHit& best() const { return best_; }
 
  private:
-  const Piece& shape_;
+  const PlacedShape& placed_;
+  Piece shape_;
+  Vec3<Position> middle_;
   const Vec3<Length>& translation_;
+  Unit limit_;
   PlacedShapeHit best_;
 };
 
-// Everything that the shape passes, in world axes.
-OrientedBox way_of(const PlacedShape& convex, const Vec3<Length>& translation) {
-  const WorldBox box = world_box(convex);
-  OrientedBox way;
-  for (int i = 0; i < 3; ++i) {
-    const Position half_way = rounded<Position>(translation[i]) / 2;
-    way.centre[i] = Position::from_raw((box.lower[i].raw + box.upper[i].raw) / 2) + half_way;
-    const Position half = Position::from_raw((box.upper[i].raw - box.lower[i].raw) / 2);
-    way.half_extents[i] = saturated<Length>(half + abs(half_way) + Position::from_raw(1 << 13));
-  }
-  return way;
-}
-
-class NearestPiece final : public PieceVisitor {
+class NearestPiece final : public geometry::NearPartVisitor {
  public:
-  NearestPiece(const Vec3<Position>& point, Length reach) : point_(point), reach_(reach) {}
+  NearestPiece(const PlacedShape& placed, const Vec3<Position>& point, Length reach)
+      : placed_(placed), point_(point), reach_(reach) {}
 
-  void visit(const Piece& piece) override {
+  Length visit(const geometry::Part& part) override {
+    visit(piece_of(placed_, part));
+    return reach_ + k_frame_margin;
+  }
+
+  void visit(const Piece& piece) {
     const Shape dot = Shape::sphere({});
     const Mat3 identity;
     const ClosestPoints found = lockstone::distance(piece.posed(), {dot, identity},
                                                     saturated<Length>(point_ - piece.origin));
     const Length distance = saturated<Length>(found.distance);
-    if (distance > reach_ || (best_.found && distance >= best_.distance)) return;
+    if (distance > reach_) return;
+    if (best_.found && distance == best_.distance && piece.part > best_.part) return;
     best_ = {true, piece.part, distance,
              found.overlapping ? point_ : piece.origin + rounded<Position>(found.point_a)};
+    reach_ = distance;
   }
 
   [[nodiscard]] const PlacedClosest& best() const { return best_; }
 
  private:
+  const PlacedShape& placed_;
   const Vec3<Position>& point_;
   Length reach_;
   PlacedClosest best_;
 };
 
+// In the frame of a placed asset.
+Vec3<Length> local_point(const PlacedShape& placed, const Vec3<Position>& point) {
+  return saturated<Length>(rotate_inverse(placed.rotation, point - placed.origin));
+}
+
+// A box about the shape in the frame of a placed asset: its middle and its half extents.
+struct LocalBox {
+  Vec3<Length> middle{};
+  Vec3<Length> reach{};
+};
+
+LocalBox local_box(const PlacedShape& placed, const PlacedShape& shape) {
+  const geometry::LocalBounds bounds = local_region(placed, oriented_box(shape), k_frame_margin);
+  LocalBox box;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
+    box.middle[i] = {static_cast<std::int32_t>((low + high) >> 1)};
+    box.reach[i] = {raw::saturate<std::int32_t>(((high - low) >> 1) + 1)};
+  }
+  return box;
+}
+
 }  // namespace
 
 PlacedShapeHit cast_shape(const PlacedShape& placed, const PlacedShape& convex,
-                          const Vec3<Length>& translation) {
-  const Piece shape = single_piece(convex);
-  CastPieces pieces(shape, translation);
-  visit_pieces(brought_near(placed, convex.origin), way_of(convex, translation), {}, pieces);
+                          const Vec3<Length>& translation, Unit limit) {
+  CastPieces pieces(placed, convex, translation, limit);
+  if (is_single(placed)) {
+    pieces.visit(single_piece(brought_near(placed, convex.origin)));
+    return pieces.best();
+  }
+  const LocalBox box = local_box(placed, convex);
+  placed.asset->visit_parts_on_way(box.middle, rotate_inverse(placed.rotation, translation),
+                                   box.reach, pieces);
   return pieces.best();
 }
 
 PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& point, Length reach) {
-  NearestPiece nearest(point, reach);
-  visit_pieces(brought_near(placed, point), {point, Mat3{}, {}}, reach, nearest);
+  NearestPiece nearest(placed, point, reach);
+  if (is_single(placed)) {
+    nearest.visit(single_piece(brought_near(placed, point)));
+    return nearest.best();
+  }
+  placed.asset->visit_parts_near(local_point(placed, point), reach + k_frame_margin, nearest);
   return nearest.best();
 }
 
@@ -139,10 +184,8 @@ PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
     pieces.visit(single_piece(brought_near(placed, origin)));
     return pieces.best();
   }
-  const Vec3<Length> local_origin =
-      saturated<Length>(rotate_inverse(placed.rotation, origin - placed.origin));
-  placed.asset->visit_parts_on_ray(local_origin, rotate_inverse(placed.rotation, translation),
-                                   pieces);
+  placed.asset->visit_parts_on_way(local_point(placed, origin),
+                                   rotate_inverse(placed.rotation, translation), {}, pieces);
   return pieces.best();
 }
 

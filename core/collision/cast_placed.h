@@ -27,10 +27,10 @@ struct PlacedShapeHit {
   Vec3<Position> point{};
 };
 
-/// The first part of `placed` that a convex shape meets on its way by `translation`, the lowest of
-/// equals; triangles from the front only.
+/// The first part of `placed` that a convex shape meets on its way by `translation` up to `limit`,
+/// the lowest of equals; triangles from the front only.
 [[nodiscard]] PlacedShapeHit cast_shape(const PlacedShape& placed, const PlacedShape& convex,
-                                        const Vec3<Length>& translation);
+                                        const Vec3<Length>& translation, Unit limit);
 
 struct PlacedClosest {
   bool found = false;

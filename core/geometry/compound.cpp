@@ -9,6 +9,7 @@
 #include "core/geometry/compound_solid.h"
 #include "core/geometry/parts.h"
 #include "core/geometry/shape_properties.h"
+#include "core/geometry/windows.h"
 #include "core/math/rotation_log.h"
 
 namespace lockstone {
@@ -260,23 +261,36 @@ const geometry::Solid* Compound::solid() const {
   return &data_->solid;
 }
 
+namespace {
+
+// Children that the window meets within what the visitor still asks for.
+template <class Data, class Window, class Limit, class Visitor>
+void visit_met(const Data& data, const Window& window, Limit most, Visitor& visitor) {
+  std::int64_t at = 0;
+  for (std::size_t i = 0; i < data.children.size(); ++i) {
+    if (window.meets(data.placed[i].bounds, window.limit_of(most), at))
+      most = visitor.visit(data.part(i));
+  }
+}
+
+}  // namespace
+
 void Compound::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
   for (std::size_t i = 0; i < data_->children.size(); ++i) {
     if (geometry::overlap(region, data_->placed[i].bounds)) visitor.visit(data_->part(i));
   }
 }
 
-void Compound::visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                                  geometry::RayPartVisitor& visitor) const {
-  LocalBounds way{origin, origin};
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t end = std::int64_t{origin[i].raw} + translation[i].raw;
-    way.lower[i] = min(way.lower[i], Length::from_raw(raw::saturate<std::int32_t>(end)));
-    way.upper[i] = max(way.upper[i], Length::from_raw(raw::saturate<std::int32_t>(end)));
-  }
-  for (std::size_t i = 0; i < data_->children.size(); ++i) {
-    if (geometry::overlap(way, data_->placed[i].bounds)) (void)visitor.visit(data_->part(i));
-  }
+void Compound::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                  const Vec3<Length>& reach,
+                                  geometry::WayPartVisitor& visitor) const {
+  visit_met(*data_, geometry::RayWindow(origin, translation, reach), Unit::from_integer(1),
+            visitor);
+}
+
+void Compound::visit_parts_near(const Vec3<Length>& point, Length reach,
+                                geometry::NearPartVisitor& visitor) const {
+  visit_met(*data_, geometry::NearWindow(point), reach, visitor);
 }
 
 }  // namespace lockstone

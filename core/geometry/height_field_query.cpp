@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/geometry/height_field_data.h"
-#include "core/geometry/ray_window.h"
+#include "core/geometry/windows.h"
 
 namespace lockstone {
 namespace geometry {
@@ -93,11 +93,13 @@ class RegionWalk {
   TrianglePart part_;
 };
 
-/// A walk along a ray: a descent of the pyramid, nearest blocks first.
-class RayWalk {
+/// A descent of the pyramid, the blocks first that a window (RayWindow, NearWindow) meets first.
+template <class Window, class Visitor>
+class NearestWalk {
  public:
-  RayWalk(const HeightFieldData& data, const RayWindow& ray, RayPartVisitor& visitor)
-      : data_(data), ray_(ray), visitor_(visitor) {}
+  NearestWalk(const HeightFieldData& data, const Window& window, std::int64_t limit,
+              Visitor& visitor)
+      : data_(data), window_(window), visitor_(visitor), limit_(limit) {}
 
   void run() {
     Block top{data_.pyramid.top_level(), {0, 0}};
@@ -143,7 +145,7 @@ class RayWalk {
     const HeightRange heights = heights_of(block, low, high);
     const LocalBounds box{{data_.x_of(low.i), heights.lowest, data_.z_of(low.j)},
                           {data_.x_of(high.i), heights.highest, data_.z_of(high.j)}};
-    return ray_.meets(box, limit_, block.at);
+    return window_.meets(box, limit_, block.at);
   }
 
   /// The nearest on top; of equals the last.
@@ -165,20 +167,18 @@ class RayWalk {
     for (int half = 0; half < 2; ++half) {
       const TriangleVertices triangle = data_.triangle(cell, half);
       std::int64_t at = 0;
-      if (!ray_.meets(bounds_of(triangle), limit_, at)) continue;
+      if (!window_.meets(bounds_of(triangle), limit_, at)) continue;
       const std::uint32_t index = 2 * data_.cell_number(cell) + static_cast<std::uint32_t>(half);
-      limit_ = visitor_
-                   .visit(part_.set(index, triangle, data_.active_edges(cell, half),
-                                    data_.surface(cell)))
-                   .raw;
+      limit_ = window_.limit_of(visitor_.visit(
+          part_.set(index, triangle, data_.active_edges(cell, half), data_.surface(cell))));
     }
   }
 
   const HeightFieldData& data_;
-  const RayWindow& ray_;
-  RayPartVisitor& visitor_;
+  const Window& window_;
+  Visitor& visitor_;
   TrianglePart part_;
-  std::int64_t limit_ = Unit::from_integer(1).raw;
+  std::int64_t limit_;
   std::array<Block, k_stack> stack_{};
   std::size_t size_ = 0;
 };
@@ -191,9 +191,17 @@ void HeightField::visit_parts(const geometry::LocalBounds& region,
   geometry::RegionWalk(*data_, region, visitor).run();
 }
 
-void HeightField::visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                                     geometry::RayPartVisitor& visitor) const {
-  geometry::RayWalk(*data_, geometry::RayWindow(origin, translation), visitor).run();
+void HeightField::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                     const Vec3<Length>& reach,
+                                     geometry::WayPartVisitor& visitor) const {
+  const geometry::RayWindow window(origin, translation, reach);
+  geometry::NearestWalk(*data_, window, window.limit_of(Unit::from_integer(1)), visitor).run();
+}
+
+void HeightField::visit_parts_near(const Vec3<Length>& point, Length reach,
+                                   geometry::NearPartVisitor& visitor) const {
+  const geometry::NearWindow window(point);
+  geometry::NearestWalk(*data_, window, window.limit_of(reach), visitor).run();
 }
 
 }  // namespace lockstone

@@ -13,6 +13,7 @@
 #include "core/geometry/polytope_kernels.h"
 #include "core/geometry/solid.h"
 #include "core/geometry/solid_integrals.h"
+#include "core/geometry/windows.h"
 
 namespace lockstone {
 
@@ -307,27 +308,34 @@ const geometry::Polytope* Hull::polytope() const {
   return &data_->polytope;
 }
 
-void Hull::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
-  if (!overlap(region, data_->bounds)) return;
+namespace {
+
+geometry::Part part_of(const Hull& hull) {
   geometry::Part part;
-  part.shape = shape();
-  part.polytope = &data_->polytope;
-  visitor.visit(part);
+  part.shape = hull.shape();
+  part.polytope = hull.polytope();
+  return part;
 }
 
-void Hull::visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                              geometry::RayPartVisitor& visitor) const {
-  // The box around the ray; the one part decides by itself.
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t start = origin[axis].raw;
-    const std::int64_t end = start + translation[axis].raw;
-    if (std::max(start, end) < data_->bounds.lower[axis].raw) return;
-    if (std::min(start, end) > data_->bounds.upper[axis].raw) return;
-  }
-  geometry::Part part;
-  part.shape = shape();
-  part.polytope = &data_->polytope;
-  visitor.visit(part);
+}  // namespace
+
+void Hull::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
+  if (overlap(region, data_->bounds)) visitor.visit(part_of(*this));
+}
+
+void Hull::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                              const Vec3<Length>& reach, geometry::WayPartVisitor& visitor) const {
+  std::int64_t at = 0;
+  const geometry::RayWindow window(origin, translation, reach);
+  if (window.meets(data_->bounds, window.limit_of(Unit::from_integer(1)), at))
+    visitor.visit(part_of(*this));
+}
+
+void Hull::visit_parts_near(const Vec3<Length>& point, Length reach,
+                            geometry::NearPartVisitor& visitor) const {
+  std::int64_t at = 0;
+  const geometry::NearWindow window(point);
+  if (window.meets(data_->bounds, window.limit_of(reach), at)) visitor.visit(part_of(*this));
 }
 
 std::string_view to_string(HullFault fault) {

@@ -209,6 +209,28 @@ const geometry::MeshKernels* Mesh::mesh_kernels() const {
   return &geometry::mesh_kernels();
 }
 
+namespace {
+
+// Triangles that the window meets within what the visitor still asks for.
+template <class Window, class Limit, class Visitor>
+void visit_nearest_first(const geometry::MeshData& data, const Window& window, Limit most,
+                         Visitor& visitor) {
+  geometry::TrianglePart part;
+  const auto visit = [&](std::uint32_t first, std::uint32_t count, std::int64_t limit) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const geometry::TriangleVertices triangle = data.triangle(i);
+      std::int64_t at = 0;
+      if (!window.meets(geometry::bounds_of(triangle), limit, at)) continue;
+      limit = window.limit_of(
+          visitor.visit(part.set(i, triangle, data.active_edges(i), data.surface(i))));
+    }
+    return limit;
+  };
+  data.tree.nearest_first(window, window.limit_of(most), visit);
+}
+
+}  // namespace
+
 void Mesh::visit_parts(const geometry::LocalBounds& region, geometry::PartVisitor& visitor) const {
   geometry::TrianglePart part;
   data_->tree.overlapping(region, [&](std::uint32_t first, std::uint32_t count) {
@@ -220,20 +242,15 @@ void Mesh::visit_parts(const geometry::LocalBounds& region, geometry::PartVisito
   });
 }
 
-void Mesh::visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                              geometry::RayPartVisitor& visitor) const {
-  const geometry::RayWindow ray(origin, translation);
-  geometry::TrianglePart part;
-  const auto visit = [&](std::uint32_t first, std::uint32_t count, std::int64_t limit) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      const geometry::TriangleVertices triangle = data_->triangle(i);
-      std::int64_t at = 0;
-      if (!ray.meets(geometry::bounds_of(triangle), limit, at)) continue;
-      limit = visitor.visit(part.set(i, triangle, data_->active_edges(i), data_->surface(i))).raw;
-    }
-    return limit;
-  };
-  data_->tree.on_ray(ray, Unit::from_integer(1).raw, visit);
+void Mesh::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                              const Vec3<Length>& reach, geometry::WayPartVisitor& visitor) const {
+  visit_nearest_first(*data_, geometry::RayWindow(origin, translation, reach),
+                      Unit::from_integer(1), visitor);
+}
+
+void Mesh::visit_parts_near(const Vec3<Length>& point, Length reach,
+                            geometry::NearPartVisitor& visitor) const {
+  visit_nearest_first(*data_, geometry::NearWindow(point), reach, visitor);
 }
 
 }  // namespace lockstone

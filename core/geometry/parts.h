@@ -64,13 +64,22 @@ class PartVisitor {
   ~PartVisitor() = default;
 };
 
-class RayPartVisitor {
+class WayPartVisitor {
  public:
-  /// Answers the fraction of the ray beyond which nothing more is asked for: at most what it was.
+  /// Answers the fraction of the way beyond which nothing more is asked for: at most what it was.
   virtual Unit visit(const Part& part) = 0;
 
  protected:
-  ~RayPartVisitor() = default;
+  ~WayPartVisitor() = default;
+};
+
+class NearPartVisitor {
+ public:
+  /// Answers the distance beyond which nothing more is asked for: at most what it was.
+  virtual Length visit(const Part& part) = 0;
+
+ protected:
+  ~NearPartVisitor() = default;
 };
 
 }  // namespace lockstone::geometry

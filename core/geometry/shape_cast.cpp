@@ -9,10 +9,20 @@ namespace {
 
 constexpr int k_max_steps = 96;
 
+/// Of the least distance that a step leaves: so much apart, shapes are apart on the lattice too, and
+/// no step ends earlier.
+constexpr Fine k_most_left = 16;
+
 /// Fractions of the translation, 60 bits.
 using Fraction = std::int64_t;
 constexpr int k_fraction_bits = 60;
 constexpr Fraction k_whole = Fraction{1} << k_fraction_bits;
+
+/// The last that rounds down to the limit.
+Fraction last_of(Unit limit) {
+  constexpr int shift = k_fraction_bits - Unit::frac_bits;
+  return std::min(k_whole, ((Fraction{limit.raw} + 1) << shift) - 1);
+}
 
 /// The part of a translation, fine.
 Fine travelled(Length way, Fraction fraction) {
@@ -89,7 +99,7 @@ Fraction step_to_apart(GapQuery& query, const Progress& at, const Closing& closi
 }
 
 ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec& start,
-                          const Vec3<Length>& way) {
+                          const Vec3<Length>& way, Fraction limit) {
   GapQuery query(a, b);
   if (!query.find(start)) return overlapping_hit(core_overlap(query).gap, query);
   if (query.gap().distance <= query.radii()) return overlapping_hit(query.gap(), query);
@@ -103,6 +113,8 @@ ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec
     const Fraction advance = quotient(std::max(Fine{0}, apart - leave), nearer);
     if (advance > k_whole - fraction) return {};
     if (apart <= 2 * leave) break;
+    const Fraction least = quotient(std::max(Fine{0}, apart - k_most_left * leave), nearer);
+    if (least > limit - fraction) return {};
     const ShapeCastHit here = hit_at(fraction, query.gap(), query);
     const Fraction taken = step_to_apart(query, {start, way, fraction}, {apart, leave, nearer});
     if (taken == 0) return here;
@@ -115,11 +127,12 @@ ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec
 }  // namespace geometry
 
 ShapeCastHit cast_shape(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                        const Vec3<Length>& translation) {
+                        const Vec3<Length>& translation, Unit limit) {
   using namespace geometry;
+  const Fraction last = last_of(limit);
   const RawVec start = fine(offset);
-  if (!is_exchanged(a, b, start)) return ordered_cast(a, b, start, translation);
-  ShapeCastHit hit = ordered_cast(b, a, -start, -translation);
+  if (!is_exchanged(a, b, start)) return ordered_cast(a, b, start, translation, last);
+  ShapeCastHit hit = ordered_cast(b, a, -start, -translation, last);
   hit.normal = -hit.normal;
   std::swap(hit.point_a, hit.point_b);
   return hit;

@@ -21,7 +21,8 @@ struct ShapeCastHit {
 /// No contact before `fraction`, up to 2 µm; there the distance is at most 1 µm and what a step of
 /// the fraction (2^-30 of the translation) is long. What starts within that distance hits at 0 if
 /// it approaches, and not if it leaves or slides along. A miss means that a plane separates the
-/// shapes for the rest of the way.
+/// shapes for the rest of the way, or up to `limit`: what is met later is missed, or a hit beyond
+/// it.
 ///
 /// Conservative advancement (Mirtich, Impulse-based dynamic simulation of rigid body
 /// systems, 2.3.2; Van den Bergen, Ray casting against general convex objects with application to
@@ -30,6 +31,7 @@ struct ShapeCastHit {
 /// Newton's on a convex function: a graze at least halves the rest each time. After 96 steps, which
 /// no test has needed, the place reached stands as the hit.
 [[nodiscard]] ShapeCastHit cast_shape(const PosedShape& a, const PosedShape& b,
-                                      const Vec3<Length>& offset, const Vec3<Length>& translation);
+                                      const Vec3<Length>& offset, const Vec3<Length>& translation,
+                                      Unit limit = Unit::from_integer(1));
 
 }  // namespace lockstone

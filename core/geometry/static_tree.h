@@ -10,7 +10,7 @@
 #include <lockstone/assert.h>
 
 #include "core/geometry/parts.h"
-#include "core/geometry/ray_window.h"
+#include "core/geometry/windows.h"
 
 namespace lockstone::geometry {
 
@@ -53,13 +53,14 @@ class StaticTree {
     }
   }
 
-  /// Calls visit(first, count, limit) for leaves that the ray may meet within `limit` (raw `Unit`),
-  /// the nearer of two siblings first; each call answers the new limit, at most the old.
-  template <class Visit>
-  void on_ray(const RayWindow& ray, std::int64_t limit, Visit&& visit) const {
+  /// Calls visit(first, count, limit) for leaves that the window (RayWindow, NearWindow) may meet
+  /// within `limit`, the nearer of two siblings first; each call answers the new limit, at most the
+  /// old.
+  template <class Window, class Visit>
+  void nearest_first(const Window& window, std::int64_t limit, Visit&& visit) const {
     std::array<Entry, k_max_depth + 1> stack;
     std::size_t size = 0;
-    if (Entry root; !empty() && ray.meets(bounds(), limit, root.at)) stack[size++] = root;
+    if (Entry root; !empty() && window.meets(bounds(), limit, root.at)) stack[size++] = root;
     while (size > 0) {
       const Entry here = stack[--size];
       if (here.at > limit) continue;
@@ -70,8 +71,8 @@ class StaticTree {
       }
       Entry near{here.node + 1};
       Entry far{nodes_[near.node].end};
-      bool near_met = ray.meets(nodes_[near.node].bounds, limit, near.at);
-      bool far_met = ray.meets(nodes_[far.node].bounds, limit, far.at);
+      bool near_met = window.meets(nodes_[near.node].bounds, limit, near.at);
+      bool far_met = window.meets(nodes_[far.node].bounds, limit, far.at);
       if (far.at < near.at) {
         std::swap(near, far);
         std::swap(near_met, far_met);

@@ -83,8 +83,8 @@ void walk_shape(const World& world, const ShapeCast& cast, const QueryFilter& fi
   const auto visit = [&](std::uint32_t index) {
     const BodyRecord& body = world.bodies[index];
     if (!is_seen(body, index, filter)) return;
-    const PlacedShapeHit hit = cast_shape(world.placed(index), shape, cast.translation);
-    if (!hit.hit || hit.fraction > limit) return;
+    const PlacedShapeHit hit = cast_shape(world.placed(index), shape, cast.translation, limit);
+    if (!hit.hit) return;
     const Unit before = limit;
     found(ShapeHit{{index, body.generation}, hit.fraction, hit.normal, hit.point, hit.part});
     if (limit != before) probe.shorten(limit);

@@ -30,7 +30,7 @@ class CollectParts final : public geometry::PartVisitor {
 };
 
 /// Never shortens the ray.
-class CollectRayParts final : public geometry::RayPartVisitor {
+class CollectRayParts final : public geometry::WayPartVisitor {
  public:
   std::vector<std::uint32_t> parts;
   Unit visit(const geometry::Part& part) override {

@@ -158,7 +158,7 @@ TEST(HeightField, MissesNoPartThatARayMeets) {
         metres(dice.uniform(-7, 20), dice.uniform(-2, 3), dice.uniform(-3, 25)) - origin;
     if (dice.chance(5)) way = {{}, way.y, {}};
     CollectRayParts collect;
-    field->visit_parts_on_ray(origin, way, collect);
+    field->visit_parts_on_way(origin, way, {}, collect);
     std::sort(collect.parts.begin(), collect.parts.end());
     met += collect.parts.size();
     for (const SeenPart& part : all) {
@@ -170,7 +170,7 @@ TEST(HeightField, MissesNoPartThatARayMeets) {
 }
 
 TEST(HeightField, AsksForNothingFarBeyondAShortenedRay) {
-  class First final : public geometry::RayPartVisitor {
+  class First final : public geometry::WayPartVisitor {
    public:
     int visits = 0;
     Unit visit(const geometry::Part&) override {
@@ -179,7 +179,7 @@ TEST(HeightField, AsksForNothingFarBeyondAShortenedRay) {
     }
   } first;
   Terrain terrain{400, 5, std::vector<Length>(2000), {}, {}};
-  built(terrain.def())->visit_parts_on_ray(metres(-8, 1, 0), metres(400, 0, 0), first);
+  built(terrain.def())->visit_parts_on_way(metres(-8, 1, 0), metres(400, 0, 0), {}, first);
   EXPECT_GT(first.visits, 0);
   EXPECT_LE(first.visits, 4);
 }

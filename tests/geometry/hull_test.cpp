@@ -410,7 +410,7 @@ struct CountInRegion final : geometry::PartVisitor {
   }
 };
 
-struct CountOnRay final : geometry::RayPartVisitor {
+struct CountOnRay final : geometry::WayPartVisitor {
   int count = 0;
   Unit visit(const geometry::Part& part) override {
     ++count;
@@ -431,9 +431,9 @@ TEST(Hull, IsOnePartWhereItsBoundsAreMet) {
   hull.visit_parts({metres(11, 2, 3.1), metres(12, 3, 4)}, in_region);
   EXPECT_EQ(in_region.count, 1);
   CountOnRay on_ray;
-  hull.visit_parts_on_ray({}, metres(8, 0, 0), on_ray);
+  hull.visit_parts_on_way({}, metres(8, 0, 0), {}, on_ray);
   EXPECT_EQ(on_ray.count, 0);
-  hull.visit_parts_on_ray({}, metres(9, 0, 0), on_ray);
+  hull.visit_parts_on_way({}, metres(9, 0, 0), {}, on_ray);
   EXPECT_EQ(on_ray.count, 1);
 }
 

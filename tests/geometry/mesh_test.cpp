@@ -294,7 +294,7 @@ TEST(Mesh, ShowsEveryPartWhoseBoundsARayMeets) {
     const Vec3<Length> origin = random_region(dice, 40, 1).lower;
     const Vec3<Length> way = random_region(dice, 60, 1).lower;
     CollectRayParts collect;
-    mesh->visit_parts_on_ray(origin, way, collect);
+    mesh->visit_parts_on_way(origin, way, {}, collect);
     std::sort(collect.parts.begin(), collect.parts.end());
     for (const SeenPart& part : all) {
       const bool found = std::binary_search(collect.parts.begin(), collect.parts.end(), part.index);

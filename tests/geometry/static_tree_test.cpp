@@ -79,11 +79,11 @@ TEST(StaticTree, MissesNoBoxThatARayMeets) {
     if (dice.chance(4)) way.x = {};
     if (dice.chance(4)) way.z = {};
     std::vector<bool> found(boxes.size());
-    tree.on_ray(RayWindow(origin, way), Unit::from_integer(1).raw,
-                [&](std::uint32_t first, std::uint32_t count, std::int64_t limit) {
-                  std::fill_n(found.begin() + first, count, true);
-                  return limit;
-                });
+    tree.nearest_first(RayWindow(origin, way, {}), Unit::from_integer(1).raw,
+                       [&](std::uint32_t first, std::uint32_t count, std::int64_t limit) {
+                         std::fill_n(found.begin() + first, count, true);
+                         return limit;
+                       });
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       const bool meets = surely_meets(origin, way, boxes[k]);
       met += meets ? 1 : 0;
@@ -99,14 +99,14 @@ TEST(StaticTree, AsksForNothingBeyondAShortenedRay) {
     boxes.push_back({metres(10 * i, -1, -1), metres(10 * i + 1, 1, 1)});
   std::vector<std::uint32_t> order;
   const StaticTree tree = StaticTree::build(boxes, order);
-  const RayWindow ray(metres(-5, 0, 0), metres(1000, 0, 0));
+  const RayWindow ray(metres(-5, 0, 0), metres(1000, 0, 0), {});
   int leaves = 0;
   const auto nearest = [&](std::uint32_t first, std::uint32_t, std::int64_t limit) {
     ++leaves;
     std::int64_t at = 0;
     return ray.meets(boxes[order[first]], limit, at) ? at : limit;
   };
-  tree.on_ray(ray, Unit::from_integer(1).raw, nearest);
+  tree.nearest_first(ray, Unit::from_integer(1).raw, nearest);
   EXPECT_EQ(leaves, 1);
 }
 
@@ -136,7 +136,7 @@ TEST(RayWindow, AnswersTheFractionWhereTheRayEnters) {
     const Vec3<Length> origin = random_region(dice, 1400, 0.1).lower;
     const Vec3<Length> way = random_region(dice, 1400, 0.1).lower;
     std::int64_t at = 0;
-    if (!RayWindow(origin, way).meets(box, Unit::from_integer(1).raw, at)) {
+    if (!RayWindow(origin, way, {}).meets(box, Unit::from_integer(1).raw, at)) {
       ASSERT_FALSE(surely_meets(origin, way, box));
       continue;
     }

@@ -129,7 +129,7 @@ class Models(Case):
         plain = self.build(MODELS / "cube.obj")
         icy = self.build(MODELS / "cube.obj", "--surface", "ice=0.02,0.1", "--surface", "stone=0.8")
         self.assertNotEqual(plain["id"], icy["id"])
-        self.assertEqual(icy["bytes"], plain["bytes"] + 12 + 2 * 8)
+        self.assertEqual(icy["bytes"], plain["bytes"] + 12 + 2 * 19)
         self.assertIn("no material 'mud'", self.refuse(MODELS / "cube.obj", "--surface", "mud=1"))
         self.assertIn("surface", self.refuse(MODELS / "cube.obj", "--surface", "ice=1.995").lower())
 

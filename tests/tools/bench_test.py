@@ -102,14 +102,16 @@ class Queries(Case):
         for row in self.report["rows"]:
             ours = row["engines"][0]
             self.assertEqual(ours["right"], 1, row["query"])
-            self.assertLessEqual(ours["worst_metres"], 2e-6, row["query"])
+            # Where a cast grazes, the 1 µm that a hit may be apart is more along the way.
+            bound = 2e-3 if row["query"].startswith("cast") else 2e-6
+            self.assertLessEqual(ours["worst_metres"], bound, row["query"])
         judges = [row["judge"] for row in self.report["rows"]]
         self.assertGreater(judges.count("double"), judges.count("lockstone"))
 
     def test_are_of_all_kinds(self):
         names = {row["query"]: row["found"] for row in self.report["rows"]}
-        self.assertLessEqual({"ray closest 5 m", "ray any 100 m", "ray all 100 m", "overlap box 1 m", "point",
-                              "near point 10 m"},
+        self.assertLessEqual({"ray closest 5 m", "ray any 100 m", "ray all 100 m", "cast sphere 5 m", "cast box 20 m",
+                              "overlap box 1 m", "point", "near point 10 m"},
                              set(names))
         self.assertTrue(all(found > 0 for found in names.values()), names)
 

@@ -1,4 +1,6 @@
+#include <map>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +23,11 @@ struct BenchQueriesOptions {
   bool quick = false;
   bool json = false;
 };
+
+const std::map<std::string, bench::QueryWorld> k_worlds{
+    {"primitives", bench::QueryWorld::primitives},
+    {"hulls", bench::QueryWorld::hulls},
+    {"mesh", bench::QueryWorld::mesh}};
 
 double median_of(const bench::QueryTimes& engine) {
   return bench::median(engine.times);
@@ -116,7 +123,10 @@ void add_bench_queries_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<BenchQueriesOptions>();
   bench::QueryOptions& measure = options->measure;
   CLI::App* command =
-      bench.add_subcommand("queries", "Rays, overlaps and points in a large still world");
+      bench.add_subcommand("queries", "Rays, casts, overlaps and points in a large still world");
+  command->add_option("--world", measure.world, "What the bodies are")
+      ->transform(CLI::CheckedTransformer(k_worlds))
+      ->option_text("primitives, hulls, or mesh: primitives about a terrain of 100,000 triangles");
   command->add_option("--bodies", measure.bodies, "In the world")
       ->capture_default_str()
       ->check(CLI::Range(16, 100'000));

@@ -21,7 +21,8 @@ struct MeshKernels;
 struct Polytope;
 struct Solid;
 class PartVisitor;
-class RayPartVisitor;
+class NearPartVisitor;
+class WayPartVisitor;
 }  // namespace geometry
 
 /// Coordinates of an asset in its own frame lie within ±512 m.
@@ -67,10 +68,17 @@ class Asset {
   virtual void visit_parts(const geometry::LocalBounds& region,
                            geometry::PartVisitor& visitor) const = 0;
 
-  /// Calls the visitor for parts whose bounds a ray meets within the fraction that the visitor
-  /// still asks for; order not promised. The ray runs from `origin` by `translation`, asset frame.
-  virtual void visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                                  geometry::RayPartVisitor& visitor) const = 0;
+  /// Calls the visitor for parts whose bounds a box meets within the fraction of its way that the
+  /// visitor still asks for; order not promised. The box, of half extents `reach`, goes from
+  /// `origin` by `translation`, asset frame; without extents it is a ray.
+  virtual void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                  const Vec3<Length>& reach,
+                                  geometry::WayPartVisitor& visitor) const = 0;
+
+  /// Calls the visitor for parts whose bounds come as near to `point` (asset frame) as `reach`, and
+  /// then as near as the visitor still asks for; order not promised.
+  virtual void visit_parts_near(const Vec3<Length>& point, Length reach,
+                                geometry::NearPartVisitor& visitor) const = 0;
 
  protected:
   Asset(ShapeKind kind, AssetId id) : kind_(kind), id_(id) {}

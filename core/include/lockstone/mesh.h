@@ -99,8 +99,11 @@ class Mesh final : public Asset {
   [[nodiscard]] const geometry::MeshKernels* mesh_kernels() const override;
   void visit_parts(const geometry::LocalBounds& region,
                    geometry::PartVisitor& visitor) const override;
-  void visit_parts_on_ray(const Vec3<Length>& origin, const Vec3<Length>& translation,
-                          geometry::RayPartVisitor& visitor) const override;
+  void visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                          const Vec3<Length>& reach,
+                          geometry::WayPartVisitor& visitor) const override;
+  void visit_parts_near(const Vec3<Length>& point, Length reach,
+                        geometry::NearPartVisitor& visitor) const override;
 
  private:
   Mesh(AssetId id, std::unique_ptr<const geometry::MeshData> data);

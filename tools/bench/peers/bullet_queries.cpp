@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <btBulletCollisionCommon.h>
 
 #include <lockstone/testing/floating.h>
@@ -32,8 +33,21 @@ btTransform transform(const Transform& t) {
   return btTransform(turn, vector(t.position));
 }
 
-// Null for a kind that is not translated yet.
-std::unique_ptr<btConvexShape> convex_shape(const Shape& shape) {
+std::unique_ptr<btConvexShape> convex_hull(AssetId id, const QueryScene& scene) {
+  for (const auto& hull : scene.hulls) {
+    if (hull->id() != id) continue;
+    auto shape = std::make_unique<btConvexHullShape>();
+    for (const Vec3<Length>& vertex : hull->vertices())
+      shape->addPoint(vector(vertex), false);
+    shape->recalcLocalAabb();
+    shape->setMargin(0);
+    return shape;
+  }
+  return nullptr;
+}
+
+// Null for what is not convex.
+std::unique_ptr<btConvexShape> convex_shape(const Shape& shape, const QueryScene* scene) {
   const Vec3<Length>& size = shape.size;
   switch (shape.kind) {
     case ShapeKind::sphere:
@@ -42,6 +56,8 @@ std::unique_ptr<btConvexShape> convex_shape(const Shape& shape) {
       return std::make_unique<btCapsuleShape>(scalar(size.x), 2 * scalar(size.y));
     case ShapeKind::box:
       return std::make_unique<btBoxShape>(vector(size));
+    case ShapeKind::hull:
+      return scene == nullptr ? nullptr : convex_hull(shape.asset, *scene);
     default:
       return nullptr;
   }
@@ -84,8 +100,9 @@ class BulletEngine final : public QueryEngine {
   }
 
   // False for a shape that has no counterpart here.
-  bool add(const QueryBody& body) {
-    std::unique_ptr<btConvexShape> shape = convex_shape(body.shape);
+  bool add(const QueryBody& body, const QueryScene& scene) {
+    std::unique_ptr<btCollisionShape> shape = convex_shape(body.shape, &scene);
+    if (body.shape.kind == ShapeKind::mesh) shape = terrain(scene);
     if (shape == nullptr) return false;
     auto object = std::make_unique<btCollisionObject>();
     object->setCollisionShape(shape.get());
@@ -120,6 +137,8 @@ class BulletEngine final : public QueryEngine {
         return ask_rays(row, out, [this](const Ray& ray) { return all(ray); });
       case QueryKind::overlap:
         return ask_overlaps(row, out);
+      case QueryKind::closest_cast:
+        return ask_casts(row, out);
       case QueryKind::point:
       case QueryKind::near_point:
         return false;  // it has none
@@ -136,7 +155,7 @@ class BulletEngine final : public QueryEngine {
   }
 
   bool ask_overlaps(const QueryRow& row, std::span<QueryAnswer> out) {
-    const std::unique_ptr<btConvexShape> shape = convex_shape(row.shape);
+    const std::unique_ptr<btConvexShape> shape = convex_shape(row.shape, nullptr);
     if (shape == nullptr) return false;
     btCollisionObject probe;
     probe.setCollisionShape(shape.get());
@@ -149,8 +168,35 @@ class BulletEngine final : public QueryEngine {
     return true;
   }
 
+  bool ask_casts(const QueryRow& row, std::span<QueryAnswer> out) const {
+    const std::unique_ptr<btConvexShape> shape = convex_shape(row.shape, nullptr);
+    if (shape == nullptr) return false;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const btTransform from = transform(row.poses[i]);
+      btTransform to = from;
+      to.setOrigin(end_of(row.rays[i]));
+      btCollisionWorld::ClosestConvexResultCallback callback(from.getOrigin(), to.getOrigin());
+      world_.convexSweepTest(shape.get(), from, to, callback);
+      out[i] = {};
+      if (callback.hasHit())
+        out[i] = {1, index_of(*callback.m_hitCollisionObject),
+                  static_cast<double>(callback.m_closestHitFraction)};
+    }
+    return true;
+  }
+
+  std::unique_ptr<btCollisionShape> terrain(const QueryScene& scene) {
+    for (const TriangleIndices& t : scene.terrain)
+      terrain_.addTriangle(vector(scene.terrain_vertices[t.a]), vector(scene.terrain_vertices[t.b]),
+                           vector(scene.terrain_vertices[t.c]));
+    auto shape = std::make_unique<btBvhTriangleMeshShape>(&terrain_, true);
+    shape->setMargin(0);
+    return shape;
+  }
+
   template <class Callback>
   void cast(const btVector3& from, const btVector3& to, Callback& callback) const {
+    callback.m_flags |= btTriangleRaycastCallback::kF_FilterBackfaces;  // as ours
     world_.rayTest(from, to, callback);
   }
 
@@ -181,7 +227,8 @@ class BulletEngine final : public QueryEngine {
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broad_phase_;
-  std::vector<std::unique_ptr<btConvexShape>> shapes_;
+  btTriangleMesh terrain_;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
   btCollisionWorld world_;
 };
@@ -191,7 +238,7 @@ class BulletEngine final : public QueryEngine {
 std::unique_ptr<QueryEngine> make_bullet_engine(const QueryScene& scene) {
   auto engine = std::make_unique<BulletEngine>();
   for (const QueryBody& body : scene.bodies) {
-    if (!engine->add(body)) return nullptr;
+    if (!engine->add(body, scene)) return nullptr;
   }
   engine->finish();
   return engine;

@@ -49,6 +49,10 @@ class LockstoneEngine final : public QueryEngine {
       case QueryKind::near_point:
         ask_each(row.rays, out, [&](const Ray& ray) { return near(ray, row.reach); });
         return true;
+      case QueryKind::closest_cast:
+        for (std::size_t i = 0; i < row.size(); ++i)
+          out[i] = closest(row.cast(i));
+        return true;
     }
     return false;
   }
@@ -56,6 +60,12 @@ class LockstoneEngine final : public QueryEngine {
  private:
   QueryAnswer closest(const Ray& ray) const {
     const RayHit hit = world_.cast_ray(ray.origin, ray.translation);
+    if (hit.body.is_null()) return {};
+    return {1, hit.body.index, testing::to_double(hit.fraction)};
+  }
+
+  QueryAnswer closest(const ShapeCast& cast) const {
+    const ShapeHit hit = world_.cast_shape(cast);
     if (hit.body.is_null()) return {};
     return {1, hit.body.index, testing::to_double(hit.fraction)};
   }
@@ -98,7 +108,8 @@ class Digest {
     hash_ = hash64(writer.written());
   }
 
-  void add(const RayHit& hit) {
+  template <class Hit>  // RayHit, ShapeHit
+  void add_hit(const Hit& hit) {
     add(hit.body.index);
     add(hit.body.generation);
     add(hit.fraction.raw);
@@ -131,7 +142,7 @@ void add_answers_of_ray(const World& world, const QueryRow& row, const Ray& ray,
   std::vector<RayHit> hits(k_most_found);
   std::vector<BodyHandle> bodies(k_most_found);
   if (kind == QueryKind::closest_ray)
-    return digest.add(world.cast_ray(ray.origin, ray.translation));
+    return digest.add_hit(world.cast_ray(ray.origin, ray.translation));
   if (kind == QueryKind::blocked_ray)
     return digest.add(world.is_ray_blocked(ray.origin, ray.translation) ? 1 : 0);
   if (kind == QueryKind::near_point) return digest.add(world.closest_point(ray.origin, row.reach));
@@ -139,7 +150,7 @@ void add_answers_of_ray(const World& world, const QueryRow& row, const Ray& ray,
     return digest.add(std::span(bodies).first(world.bodies_at(ray.origin, bodies)));
   const std::size_t count = world.cast_ray_all(ray.origin, ray.translation, hits);
   for (const RayHit& hit : std::span(hits).first(count))
-    digest.add(hit);
+    digest.add_hit(hit);
   digest.add(static_cast<std::int64_t>(count));
 }
 
@@ -152,10 +163,14 @@ std::unique_ptr<QueryEngine> make_lockstone_engine(const World& world) {
 std::uint64_t hash_of_answers(const World& world, const QueryRow& row) {
   Digest digest;
   std::vector<BodyHandle> bodies(k_most_found);
-  for (const Ray& ray : row.rays)
-    add_answers_of_ray(world, row, ray, digest);
-  for (const Transform& pose : row.poses)
-    digest.add(std::span(bodies).first(world.overlap_shape(row.shape, pose, bodies)));
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row.kind == QueryKind::closest_cast)
+      digest.add_hit(world.cast_shape(row.cast(i)));
+    else if (row.kind == QueryKind::overlap)
+      digest.add(std::span(bodies).first(world.overlap_shape(row.shape, row.poses[i], bodies)));
+    else
+      add_answers_of_ray(world, row, row.rays[i], digest);
+  }
   return digest.value();
 }
 

@@ -12,8 +12,8 @@ namespace lockstone::bench {
 
 inline constexpr std::uint32_t k_no_body = 0xffffffff;
 
-/// All kinds fill `count`, 1 or 0 where one body is asked for. A closest ray and a near point name
-/// the `body`, and `where`: a fraction of the ray, or metres from the point.
+/// All kinds fill `count`, 1 or 0 where one body is asked for. A closest ray, a closest cast and a
+/// near point name the `body`, and `where`: a fraction of the way, or metres from the point.
 struct QueryAnswer {
   std::uint32_t count = 0;
   std::uint32_t body = k_no_body;
@@ -33,8 +33,8 @@ class QueryEngine {
 /// Refers to the world for its life.
 [[nodiscard]] std::unique_ptr<QueryEngine> make_lockstone_engine(const World& world);
 
-/// Judges the others: in double, one body after the other. Knows spheres, capsules and boxes and
-/// all questions but the overlap with a box; null for a scene with other bodies.
+/// Judges the others: in double, one body after the other. Knows of shapes that overlap or are cast
+/// the sphere alone, and where there are hulls or a mesh, rays alone.
 [[nodiscard]] std::unique_ptr<QueryEngine> make_reference_engine(const QueryScene& scene);
 
 /// Of everything that our answers to a row say, normals and points included.

@@ -28,7 +28,7 @@ Agreement compare(const QueryRow& row, const Answers& judge, const Answers& thei
     ++both;
     if (judge[i].body != theirs[i].body) continue;
     ++same_body;
-    const double unit = row.kind == QueryKind::closest_ray ? length_of(row.rays[i]) : 1;
+    const double unit = row.names_fraction() ? length_of(row.rays[i]) : 1;
     const double apart = std::abs(judge[i].where - theirs[i].where) * unit;
     agreement.worst_metres = std::max(agreement.worst_metres, apart);
   }
@@ -97,7 +97,7 @@ Engines make_engines(const QueryScene& scene, const World& world,
 }  // namespace
 
 QueryBench run_query_bench(const QueryOptions& options) {
-  const QueryScene scene = make_query_scene(options.bodies, options.seed);
+  const QueryScene scene = make_query_scene(options.world, options.bodies, options.seed);
   const World world = make_query_world(scene, options.broad_phase);
   QueryBench bench;
   bench.bodies = options.bodies;

@@ -11,6 +11,7 @@
 namespace lockstone::bench {
 
 struct QueryOptions {
+  QueryWorld world = QueryWorld::primitives;
   std::uint32_t bodies = 4000;
   std::size_t queries = 4096;  ///< a row
   int repeats = 31;

@@ -1,7 +1,7 @@
 #include "tools/bench/queries/query_scene.h"
 
 #include <array>
-#include <span>
+#include <utility>
 
 #include "tools/scenes/build.h"
 
@@ -43,12 +43,6 @@ Position random_coordinate(Random& random, Position half_width) {
   return Position::from_raw(std::int64_t{random.between(-reach, reach)} << 20);
 }
 
-Vec3<Position> random_place(Random& random, Position half_width) {
-  const Position x = random_coordinate(random, half_width);
-  const Position y = random_coordinate(random, half_width);
-  return {x, y, random_coordinate(random, half_width)};
-}
-
 // The edge of the cube with room for all bodies, halved.
 Position half_width_for(std::uint32_t bodies) {
   int half_dm = 10;  // decimetres, so that the cube of the whole edge is a small number
@@ -58,66 +52,96 @@ Position half_width_for(std::uint32_t bodies) {
   return Position::from_ratio(half_dm, 10);
 }
 
-Vec3<Length> random_translation(Random& random, int metres) {
-  const Mat3 turn = to_matrix(scenes::random_orientation(random));
-  return saturated<Length>(rotate(turn, Vec3<Position>{Position::from_integer(metres), {}, {}}));
+constexpr std::uint32_t k_rocks = 32;  // every second is large, for static bodies
+
+// A rock: the hull of random points on an ellipsoid.
+std::shared_ptr<const Hull> make_rock(Random& random, int scale) {
+  const int points = random.between(8, 32);
+  Vec3<Length> size;
+  for (int i = 0; i < 3; ++i)
+    size[i] = random_length(random, 200 * scale, 500 * scale);
+  std::vector<Vec3<Length>> cloud;
+  for (int i = 0; i < points; ++i) {
+    const Vec3<Unit> way = to_matrix(scenes::random_orientation(random)).x;
+    cloud.push_back({rounded<Length>(size.x * way.x), rounded<Length>(size.y * way.y),
+                     rounded<Length>(size.z * way.z)});
+  }
+  const HullResult rock = Hull::build(cloud);
+  LKS_CHECK(rock.ok());
+  return rock.hull;
 }
 
-// Makes rows of `count` questions.
-class RowMaker {
- public:
-  RowMaker(const QueryScene& scene, const World& world, std::size_t count, std::uint64_t seed)
-      : scene_(scene), world_(world), count_(count), random_(arena::mix(seed ^ 0x71)) {}
+void add_rocks(QueryScene& scene, Random& random) {
+  for (std::uint32_t i = 0; i < k_rocks; ++i)
+    scene.hulls.push_back(make_rock(random, i % 2 == 0 ? 1 : 2));
+}
 
-  QueryRow rays(std::string_view name, QueryKind kind, int metres) {
-    QueryRow row{name, kind, {}, {}, {}, {}};
-    while (row.rays.size() < count_) {
-      const Vec3<Position> origin = random_place(random_, scene_.half_width);
-      const Vec3<Length> translation = random_translation(random_, metres);
-      std::array<BodyHandle, 1> holds{};
-      if (world_.bodies_at(origin, holds) == 0) row.rays.push_back({origin, translation});
+QueryBody make_body(const QueryScene& scene, Random& random, bool is_static) {
+  QueryBody body;
+  body.is_static = is_static;
+  const auto rock = static_cast<std::uint32_t>(k_kinds.size());
+  const std::uint32_t kind = random.below(scene.hulls.empty() ? rock : rock + 1);
+  if (kind == rock) {
+    const std::uint32_t pick = 2 * random.below(k_rocks / 2) + (is_static ? 1 : 0);
+    body.shape = scene.hulls[pick]->shape();
+  } else {
+    body.shape = k_kinds[kind](random, is_static ? 2 : 1);
+  }
+  body.pose.position = random_place(random, scene.half_width);
+  body.pose.orientation = scenes::random_orientation(random);
+  return body;
+}
+
+// A terrain over the whole cube, about half way up: hills, and bumps of single vertices.
+void add_terrain(QueryScene& scene, Random& random) {
+  constexpr std::uint32_t k_cells = 224;                 // a side
+  const std::int64_t half = scene.half_width.raw >> 12;  // as a Length counts
+  for (std::uint32_t z = 0; z <= k_cells; ++z) {
+    for (std::uint32_t x = 0; x <= k_cells; ++x) {
+      const auto place = [&](std::uint32_t i) {
+        return Length::from_raw(static_cast<std::int32_t>(half * (2 * i) / k_cells - half));
+      };
+      const int hill = static_cast<int>((x * x / 16 + z * 5 + (x ^ z) / 8) % 64);
+      const int high_mm = 40 * (hill < 32 ? hill : 64 - hill) + random.between(0, 100);
+      scene.terrain_vertices.push_back({place(x), arena::millimetres_long(high_mm), place(z)});
     }
-    return row;
   }
-
-  QueryRow points(std::string_view name, QueryKind kind, Length reach) {
-    QueryRow row{name, kind, {}, {}, {}, reach};
-    for (std::size_t i = 0; i < count_; ++i)
-      row.rays.push_back({random_place(random_, scene_.half_width), {}});
-    return row;
+  constexpr std::uint32_t k_row = k_cells + 1;
+  for (std::uint32_t i = 0; i < k_cells * k_row; ++i) {
+    if (i % k_row == k_cells) continue;
+    scene.terrain.push_back({i, i + k_row, i + 1});
+    scene.terrain.push_back({i + 1, i + k_row, i + k_row + 1});
   }
+}
 
-  QueryRow overlaps(std::string_view name, const Shape& shape) {
-    QueryRow row{name, QueryKind::overlap, {}, shape, {}, {}};
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Vec3<Position> place = random_place(random_, scene_.half_width);
-      row.poses.push_back({place, scenes::random_orientation(random_)});
-    }
-    return row;
+void gather_assets(QueryScene& scene) {
+  std::vector<AssetPtr> assets(scene.hulls.begin(), scene.hulls.end());
+  if (!scene.terrain.empty()) {
+    const MeshResult mesh = Mesh::build({scene.terrain_vertices, scene.terrain, {}, {}, {}});
+    LKS_CHECK(mesh.ok());
+    assets.push_back(mesh.mesh);
+    scene.bodies.push_back({mesh.mesh->shape(), {}, true});
   }
-
- private:
-  const QueryScene& scene_;
-  const World& world_;
-  std::size_t count_;
-  Random random_;
-};
+  if (!assets.empty()) scene.assets = std::make_shared<const AssetSet>(std::move(assets));
+}
 
 }  // namespace
 
-QueryScene make_query_scene(std::uint32_t bodies, std::uint64_t seed) {
+Vec3<Position> random_place(Random& random, Position half_width) {
+  const Position x = random_coordinate(random, half_width);
+  const Position y = random_coordinate(random, half_width);
+  return {x, y, random_coordinate(random, half_width)};
+}
+
+QueryScene make_query_scene(QueryWorld kind, std::uint32_t bodies, std::uint64_t seed) {
   QueryScene scene;
   scene.half_width = half_width_for(bodies);
   Random random(arena::mix(seed));
-  for (std::uint32_t i = 0; i < bodies; ++i) {
-    QueryBody body;
-    body.is_static = i % 5 < 2;
-    const std::uint32_t kind = random.below(k_kinds.size());
-    body.shape = k_kinds[kind](random, body.is_static ? 2 : 1);
-    body.pose.position = random_place(random, scene.half_width);
-    body.pose.orientation = scenes::random_orientation(random);
-    scene.bodies.push_back(body);
-  }
+  if (kind == QueryWorld::hulls) add_rocks(scene, random);
+  for (std::uint32_t i = 0; i < bodies; ++i)
+    scene.bodies.push_back(make_body(scene, random, i % 5 < 2));
+  if (kind == QueryWorld::mesh) add_terrain(scene, random);
+  gather_assets(scene);
   return scene;
 }
 
@@ -136,24 +160,6 @@ World make_query_world(const QueryScene& scene, BroadPhaseKind broad_phase) {
   }
   world.drop_derived();  // as after a step or a load: the trees are built at once
   return world;
-}
-
-std::vector<QueryRow> make_query_rows(const QueryScene& scene, const World& world,
-                                      std::size_t count, std::uint64_t seed) {
-  RowMaker make(scene, world, count, seed);
-  std::vector<QueryRow> rows;
-  rows.push_back(make.rays("ray closest 5 m", QueryKind::closest_ray, 5));
-  rows.push_back(make.rays("ray closest 100 m", QueryKind::closest_ray, 100));
-  rows.push_back(make.rays("ray any 5 m", QueryKind::blocked_ray, 5));
-  rows.push_back(make.rays("ray any 100 m", QueryKind::blocked_ray, 100));
-  rows.push_back(make.rays("ray all 5 m", QueryKind::all_rays, 5));
-  rows.push_back(make.rays("ray all 100 m", QueryKind::all_rays, 100));
-  rows.push_back(make.overlaps("overlap sphere 0.5 m", Shape::sphere(0.5_m)));
-  rows.push_back(make.overlaps("overlap sphere 4 m", Shape::sphere(4_m)));
-  rows.push_back(make.overlaps("overlap box 1 m", Shape::box(0.5_m, 0.5_m, 0.5_m)));
-  rows.push_back(make.points("point", QueryKind::point, {}));
-  rows.push_back(make.points("near point 10 m", QueryKind::near_point, 10_m));
-  return rows;
 }
 
 }  // namespace lockstone::bench

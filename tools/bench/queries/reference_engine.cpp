@@ -113,50 +113,129 @@ double distance(const Body& body, const Vector& point) {
   return std::sqrt(dot(p, p));
 }
 
-bool is_known(const QueryBody& body) {
-  return is_primitive(body.shape.kind);
+// Where a ball of that radius first touches the body (1e-13 m), from outside, its centre on
+// origin + t·way: forward by the distance left, over and over, which cannot pass the body
+// (J. C. Hart, Sphere tracing, 1996).
+Entry enter_thick(const Body& body, const Vector& origin, const Vector& way, double radius) {
+  constexpr int k_steps = 100'000;  // where it grazes they are many
+  const double length = std::sqrt(dot(way, way));
+  double t = 0;
+  for (int i = 0; i < k_steps && t <= 1; ++i) {
+    Vector at = origin;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      at[axis] += t * way[axis];
+    const double left = distance(body, at) - radius;
+    if (left < 1e-13) return t;
+    t += left / length;
+  }
+  return {};
+}
+
+struct Triangle {
+  Vector corner, first, second;  // a corner and the edges from it, counter-clockwise in front
+};
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// From the front (T. Möller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997).
+Entry enter_triangle(const Triangle& triangle, const Vector& origin, const Vector& way) {
+  const Vector p = cross(way, triangle.second);
+  const double volume = dot(triangle.first, p);
+  if (volume <= 0) return {};
+  const Vector o = minus(origin, triangle.corner);
+  const double u = dot(o, p) / volume;
+  const Vector q = cross(o, triangle.first);
+  const double v = dot(way, q) / volume, t = dot(triangle.second, q) / volume;
+  return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t <= 1 ? Entry(t) : Entry();
+}
+
+std::vector<Triangle> triangles_of(const QueryScene& scene) {
+  std::vector<Triangle> triangles;
+  for (const TriangleIndices& t : scene.terrain) {
+    const Vector a = vector(scene.terrain_vertices[t.a]);
+    triangles.push_back({a, minus(vector(scene.terrain_vertices[t.b]), a),
+                         minus(vector(scene.terrain_vertices[t.c]), a)});
+  }
+  return triangles;
 }
 
 class ReferenceEngine final : public QueryEngine {
  public:
-  explicit ReferenceEngine(const QueryScene& scene) {
-    for (const QueryBody& body : scene.bodies)
-      bodies_.push_back(body_of(body));
+  explicit ReferenceEngine(const QueryScene& scene)
+      : knows_hulls_(scene.hulls.empty()), terrain_(triangles_of(scene)) {
+    for (const QueryBody& body : scene.bodies) {
+      if (is_primitive(body.shape.kind)) bodies_.push_back(body_of(body));
+    }
   }
 
   [[nodiscard]] std::string name() const override { return "double"; }
 
   bool answer(const QueryRow& row, std::span<QueryAnswer> out) override {
-    if (row.kind == QueryKind::overlap && row.shape.kind != ShapeKind::sphere) return false;
+    if (!knows(row)) return false;
     for (std::size_t i = 0; i < row.size(); ++i)
       out[i] = answer_one(row, i);
     return true;
   }
 
  private:
+  // Hulls it does not know at all; of the terrain, rays.
+  [[nodiscard]] bool knows(const QueryRow& row) const {
+    const bool of_ray = row.kind == QueryKind::closest_ray || row.kind == QueryKind::blocked_ray ||
+                        row.kind == QueryKind::all_rays;
+    if (!knows_hulls_ || (!terrain_.empty() && !of_ray)) return false;
+    return !row.shape_asked() || row.shape.kind == ShapeKind::sphere;
+  }
+
   QueryAnswer answer_one(const QueryRow& row, std::size_t i) const {
     if (row.kind == QueryKind::point) return near(vector(row.rays[i].origin), 0);
     if (row.kind == QueryKind::near_point)
       return nearest(vector(row.rays[i].origin), testing::to_double(row.reach));
     if (row.kind == QueryKind::overlap)
       return near(vector(row.poses[i].position), testing::to_double(row.shape.size.x));
-    QueryAnswer answer = along(vector(row.rays[i].origin), vector(row.rays[i].translation));
+    const Vector origin = vector(row.rays[i].origin), way = vector(row.rays[i].translation);
+    const bool is_cast = row.kind == QueryKind::closest_cast;
+    const double radius = is_cast ? testing::to_double(row.shape.size.x) : 0;
+    QueryAnswer answer = along(origin, way, radius);
     if (row.kind != QueryKind::all_rays) answer.count = std::min(answer.count, 1U);
-    if (row.kind != QueryKind::closest_ray) answer.body = k_no_body;
+    if (!row.names_fraction()) answer.body = k_no_body;
     return answer;
   }
 
-  QueryAnswer along(const Vector& origin, const Vector& way) const {
+  // Every body on the way of a point, or of a ball.
+  QueryAnswer along(const Vector& origin, const Vector& way, double radius) const {
     QueryAnswer answer;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Entry entry = enter(bodies_[i], origin, way);
-      if (!entry) continue;
-      ++answer.count;
-      if (answer.body != k_no_body && *entry >= answer.where) continue;
-      answer.body = static_cast<std::uint32_t>(i);
-      answer.where = *entry;
+      if (is_aside(bodies_[i], origin, way, radius)) continue;
+      meet(radius > 0 ? enter_thick(bodies_[i], origin, way, radius)
+                      : enter(bodies_[i], origin, way),
+           i, answer);
     }
+    Entry ground;
+    for (const Triangle& triangle : terrain_) {
+      const Entry entry = enter_triangle(triangle, origin, way);
+      if (entry && (!ground || *entry < *ground)) ground = entry;
+    }
+    meet(ground, bodies_.size(), answer);
     return answer;
+  }
+
+  // Whether the way keeps clear of a ball about the body.
+  static bool is_aside(const Body& body, const Vector& origin, const Vector& way, double radius) {
+    const Vector to_body = minus(body.place, origin);
+    const double t = std::clamp(dot(to_body, way) / dot(way, way), 0.0, 1.0);
+    const Vector off{to_body[0] - t * way[0], to_body[1] - t * way[1], to_body[2] - t * way[2]};
+    const double most = body.reach + radius + 1e-6;
+    return dot(off, off) > most * most;
+  }
+
+  static void meet(const Entry& entry, std::size_t body, QueryAnswer& answer) {
+    if (!entry) return;
+    ++answer.count;
+    if (answer.body != k_no_body && *entry >= answer.where) return;
+    answer.body = static_cast<std::uint32_t>(body);
+    answer.where = *entry;
   }
 
   QueryAnswer nearest(const Vector& point, double reach) const {
@@ -178,13 +257,14 @@ class ReferenceEngine final : public QueryEngine {
     return {static_cast<std::uint32_t>(count)};
   }
 
+  bool knows_hulls_;  // there are none
   std::vector<Body> bodies_;
+  std::vector<Triangle> terrain_;
 };
 
 }  // namespace
 
 std::unique_ptr<QueryEngine> make_reference_engine(const QueryScene& scene) {
-  if (!std::ranges::all_of(scene.bodies, is_known)) return nullptr;
   return std::make_unique<ReferenceEngine>(scene);
 }
 
