@@ -2,11 +2,13 @@
 // them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/dynamics/contact_record.h"
+#include "core/world/record_hash.h"
 
 namespace lockstone {
 
@@ -39,6 +41,16 @@ class FrozenContacts {
         take(record);
       }
     }
+  }
+
+  /// Lets `f` write a record of this set, which then stays where it is.
+  template <class F>
+  void change(const ContactRecord& record, F&& f) {
+    const auto wanted =
+        std::ranges::find_if(nodes_, [&](const Node& node) { return &node.record == &record; });
+    hash_ -= hash_contact(wanted->record);
+    f(wanted->record);
+    hash_ += hash_contact(wanted->record);
   }
 
   /// Calls `visit(record)` for all contacts of a body.

@@ -19,18 +19,30 @@ inline constexpr std::uint64_t k_body_domain = 1;
 inline constexpr std::uint64_t k_contact_domain = 2;
 inline constexpr std::uint64_t k_joint_domain = 3;
 
-/// XXH3 of the canonical bytes: little-endian in field order, which on a little-endian machine is
-/// the memory.
-template <class Record>
-[[nodiscard]] std::uint64_t hash_record(const Record& record, std::uint64_t seed) {
+/// Calls `hash(bytes)` with the canonical bytes: little-endian in field order, which on a
+/// little-endian machine is the memory.
+template <class Record, class Hash>
+[[nodiscard]] auto with_canonical_bytes(const Record& record, Hash&& hash) {
   if constexpr (std::endian::native == std::endian::little) {
-    return hash64(std::as_bytes(std::span(&record, 1)), seed);
+    return hash(std::as_bytes(std::span(&record, 1)));
   } else {
     std::array<std::byte, sizeof(Record)> bytes{};
     ByteWriter writer(bytes);
     encode(record, writer);
-    return hash64(bytes, seed);
+    return hash(std::span<const std::byte>(bytes));
   }
+}
+
+/// XXH3 of the canonical bytes.
+template <class Record>
+[[nodiscard]] std::uint64_t hash_record(const Record& record, std::uint64_t seed) {
+  return with_canonical_bytes(
+      record, [&](std::span<const std::byte> bytes) { return hash64(bytes, seed); });
+}
+template <class Record>
+[[nodiscard]] Hash128 hash_record128(const Record& record, std::uint64_t seed) {
+  return with_canonical_bytes(
+      record, [&](std::span<const std::byte> bytes) { return hash128(bytes, seed); });
 }
 
 /// Of a contact: its key is in the record, and no two have the same.

@@ -1,10 +1,4 @@
-// Snapshots. The native one is a copy of the used parts of the stores. The canonical one is:
-//   u32 magic "LKSW" · u16 version · u16 reserved · u64 config hash
-//   header record · body records · contact records · joint records · u64 XXH3 of all before
-// all little-endian, each record its fields in the order of its list.
-
-#include <algorithm>
-#include <cstring>
+// What of a stored state is possible: bytes from anywhere are checked whole before they are used.
 
 #include <lockstone/hash.h>
 
@@ -146,7 +140,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   return consistent && in_world ? Status::ok : Status::malformed;
 }
 
-Status SnapshotView::check_contacts() const {
+Status SnapshotView::check(ContactStore) const {
   for (std::uint32_t i = 0; i < header.contact_count; ++i) {
     const ContactRecord record = contact(i);
     if (record.body_a >= header.body_limit || record.body_b >= header.body_limit) {
@@ -181,40 +175,18 @@ Result<SnapshotView> SnapshotView::open(ByteView bytes, const WorldDef& def,
   if (magic != k_snapshot_magic || reserved != 0) return Status::malformed;
   if (version != k_snapshot_version) return Status::unsupported_version;
   if (config != config_hash(def, assets.hash())) return Status::incompatible;
-  if (view.header.body_limit > def.body_capacity ||
-      view.header.contact_count > def.contact_capacity ||
-      view.header.joint_limit > def.joint_capacity) {
-    return Status::malformed;
-  }
-  const std::size_t body_bytes = view.header.body_limit * sizeof(BodyRecord);
-  const std::size_t contact_bytes = view.header.contact_count * sizeof(ContactRecord);
-  view.bodies_ = reader.get_bytes(body_bytes);
-  view.contacts_ = reader.get_bytes(contact_bytes);
-  view.joints_ = reader.get_bytes(view.header.joint_limit * sizeof(JointRecord));
+  if (!WorldStores::fits(view.header, def)) return Status::malformed;
+  const ByteView records = reader.get_bytes(WorldStores::record_bytes(view.header));
   const std::size_t hashed = reader.position();
   const auto hash = reader.get<std::uint64_t>();
   if (!reader.ok()) return Status::truncated;
   if (reader.remaining() != 0) return Status::malformed;
   if (hash != hash64(bytes.first(hashed))) return Status::checksum_mismatch;
+  view.records_ = StoredRecords<WorldStores>(view.header, records);
   return view;
 }
 
-BodyRecord SnapshotView::body(std::uint32_t index) const {
-  ByteReader reader(bodies_.subspan(index * sizeof(BodyRecord), sizeof(BodyRecord)));
-  return decode<BodyRecord>(reader);
-}
-
-ContactRecord SnapshotView::contact(std::uint32_t index) const {
-  ByteReader reader(contacts_.subspan(index * sizeof(ContactRecord), sizeof(ContactRecord)));
-  return decode<ContactRecord>(reader);
-}
-
-JointRecord SnapshotView::joint(std::uint32_t index) const {
-  ByteReader reader(joints_.subspan(index * sizeof(JointRecord), sizeof(JointRecord)));
-  return decode<JointRecord>(reader);
-}
-
-Status SnapshotView::check_joints() const {
+Status SnapshotView::check(JointStore) const {
   for (std::uint32_t i = 0; i < header.joint_limit; ++i) {
     const JointRecord record = joint(i);
     if (validate(record) != Status::ok) return Status::malformed;
@@ -230,119 +202,20 @@ Status SnapshotView::check_joints() const {
   return Status::ok;
 }
 
-Status SnapshotView::check() const {
-  if (!is_valid_gravity(header.gravity) || header.reserved != 0) return Status::malformed;
+Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (validate(body(i), *assets_) != Status::ok) return Status::malformed;
   }
-  if (const Status status = check_contacts(); status != Status::ok) return status;
-  return check_joints();
-}
-
-std::size_t World::snapshot_bytes_max(SnapshotKind kind) const {
-  const std::size_t frame = kind == SnapshotKind::native ? 0 : k_snapshot_frame_bytes;
-  return frame + sizeof(WorldHeader) + impl_->def.body_capacity * sizeof(BodyRecord) +
-         impl_->def.contact_capacity * sizeof(ContactRecord) +
-         impl_->def.joint_capacity * sizeof(JointRecord);
-}
-
-std::size_t World::save(SnapshotKind kind, std::span<std::byte> out) const {
-  return kind == SnapshotKind::native ? impl_->save_native(out) : impl_->save_canonical(out);
-}
-
-Status World::load(SnapshotKind kind, ByteView bytes) {
-  return kind == SnapshotKind::native ? impl_->load_native(bytes) : impl_->load_canonical(bytes);
-}
-
-std::size_t World::Impl::save_native(std::span<std::byte> out) const {
-  const std::size_t body_bytes = header.body_limit * sizeof(BodyRecord);
-  const std::size_t joint_bytes = header.joint_limit * sizeof(JointRecord);
-  const std::size_t size =
-      sizeof(header) + body_bytes + header.contact_count * sizeof(ContactRecord) + joint_bytes;
-  if (size > out.size()) return 0;
-  std::byte* to = out.data();
-  const auto put = [&](const void* from, std::size_t bytes) {
-    if (bytes > 0) std::memcpy(to, from, bytes);
-    to += bytes;
-  };
-  put(&header, sizeof(header));
-  put(bodies.data(), body_bytes);
-  if (frozen.count() == 0) {
-    put(contact_store.data(), active_contacts * sizeof(ContactRecord));
-  } else {
-    for_each_contact([&](const ContactRecord& contact) { put(&contact, sizeof(contact)); });
-  }
-  put(joints.data(), joint_bytes);
-  return size;
-}
-
-Status World::Impl::load_native(ByteView bytes) {
-  if (bytes.size() < sizeof(WorldHeader)) return Status::truncated;
-  WorldHeader loaded;
-  std::memcpy(&loaded, bytes.data(), sizeof(loaded));
-  if (loaded.body_limit > def.body_capacity || loaded.contact_count > def.contact_capacity ||
-      loaded.joint_limit > def.joint_capacity) {
-    return Status::malformed;
-  }
-  const std::size_t body_bytes = loaded.body_limit * sizeof(BodyRecord);
-  const std::size_t contact_bytes = loaded.contact_count * sizeof(ContactRecord);
-  const std::size_t joint_bytes = loaded.joint_limit * sizeof(JointRecord);
-  if (bytes.size() != sizeof(loaded) + body_bytes + contact_bytes + joint_bytes) {
-    return Status::truncated;
-  }
-  for (std::uint32_t i = loaded.body_limit; i < header.body_limit; ++i)
-    bodies[i] = {};
-  for (std::uint32_t i = loaded.joint_limit; i < header.joint_limit; ++i)
-    joints[i] = {};
-  const std::byte* from = bytes.data() + sizeof(loaded);
-  if (body_bytes > 0) std::memcpy(bodies.data(), from, body_bytes);
-  new_contacts.resize(loaded.contact_count);
-  if (contact_bytes > 0) std::memcpy(new_contacts.data(), from + body_bytes, contact_bytes);
-  from += body_bytes + contact_bytes;
-  if (joint_bytes > 0) std::memcpy(joints.data(), from, joint_bytes);
-  header = loaded;
-  forget_events();
-  rebuild_derived();
   return Status::ok;
 }
 
-std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
-  ByteWriter writer(out);
-  writer.put(k_snapshot_magic);
-  writer.put(k_snapshot_version);
-  writer.put<std::uint16_t>(0);
-  writer.put(config_hash(def, assets->hash()));
-  encode(header, writer);
-  for (std::uint32_t i = 0; i < header.body_limit; ++i)
-    encode(bodies[i], writer);
-  for_each_contact([&](const ContactRecord& contact) { encode(contact, writer); });
-  for (std::uint32_t i = 0; i < header.joint_limit; ++i)
-    encode(joints[i], writer);
-  if (!writer.ok()) return 0;
-  writer.put(hash64(writer.written()));
-  return writer.ok() ? writer.size() : 0;
-}
-
-Status World::Impl::load_canonical(ByteView bytes) {
-  const Result<SnapshotView> view = SnapshotView::open(bytes, def, *assets);
-  if (!view.ok()) return view.status();
-  if (const Status status = view.value().check(); status != Status::ok) return status;
-  const std::uint32_t old_limit = header.body_limit, old_joints = header.joint_limit;
-  header = view.value().header;
-  for (std::uint32_t i = 0; i < header.body_limit; ++i)
-    bodies[i] = view.value().body(i);
-  for (std::uint32_t i = header.body_limit; i < old_limit; ++i)
-    bodies[i] = {};
-  new_contacts.clear();
-  for (std::uint32_t i = 0; i < header.contact_count; ++i)
-    new_contacts.push_back(view.value().contact(i));
-  for (std::uint32_t i = 0; i < header.joint_limit; ++i)
-    joints[i] = view.value().joint(i);
-  for (std::uint32_t i = header.joint_limit; i < old_joints; ++i)
-    joints[i] = {};
-  forget_events();
-  rebuild_derived();
-  return Status::ok;
+Status SnapshotView::check() const {
+  if (!is_valid_gravity(header.gravity) || header.reserved != 0) return Status::malformed;
+  Status status = Status::ok;
+  WorldStores::for_each([&](auto store) {
+    if (status == Status::ok) status = check(store);
+  });
+  return status;
 }
 
 }  // namespace lockstone

@@ -6,13 +6,15 @@
 #include <lockstone/bytes.h>
 #include <lockstone/status.h>
 
+#include "core/world/stores.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 
 inline constexpr std::uint32_t k_snapshot_magic = 0x57534b4c;  // "LKSW"
 inline constexpr std::uint16_t k_snapshot_version = 2;
-inline constexpr std::size_t k_snapshot_frame_bytes = 4 + 2 + 2 + 8 + 8;
+inline constexpr std::size_t k_snapshot_front_bytes = 4 + 2 + 2 + 8;
+inline constexpr std::size_t k_snapshot_frame_bytes = k_snapshot_front_bytes + 8;
 
 class SnapshotView {
  public:
@@ -23,20 +25,26 @@ class SnapshotView {
   /// Checks every record: what passes can be simulated.
   [[nodiscard]] Status check() const;
 
-  [[nodiscard]] BodyRecord body(std::uint32_t index) const;
-  [[nodiscard]] ContactRecord contact(std::uint32_t index) const;
-  [[nodiscard]] JointRecord joint(std::uint32_t index) const;
+  template <class Store>
+  [[nodiscard]] typename Store::Record record(std::uint32_t index) const {
+    return records_.decoded<Store>(index);
+  }
+  [[nodiscard]] BodyRecord body(std::uint32_t index) const { return record<BodyStore>(index); }
+  [[nodiscard]] ContactRecord contact(std::uint32_t index) const {
+    return record<ContactStore>(index);
+  }
+  [[nodiscard]] JointRecord joint(std::uint32_t index) const { return record<JointStore>(index); }
 
   WorldHeader header;
 
  private:
-  [[nodiscard]] Status check_contacts() const;
-  [[nodiscard]] Status check_joints() const;
+  // One for each store.
+  [[nodiscard]] Status check(BodyStore) const;
+  [[nodiscard]] Status check(ContactStore) const;
+  [[nodiscard]] Status check(JointStore) const;
 
   const AssetSet* assets_ = nullptr;
-  ByteView bodies_;
-  ByteView contacts_;
-  ByteView joints_;
+  StoredRecords<WorldStores> records_;
 };
 
 }  // namespace lockstone

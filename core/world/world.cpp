@@ -136,6 +136,7 @@ void World::Impl::drop_derived() {
 
 // From bodies, and all contacts in new_contacts.
 void World::Impl::rebuild_derived() {
+  is_derived_stale = false;
   broad_phase.clear();
   body_hashes.clear();
   joint_hashes.clear();

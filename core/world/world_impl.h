@@ -1,6 +1,7 @@
 // The inside of a world: canonical state first, then what can be derived from it, then scratch.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "core/world/narrow_slots.h"
 #include "core/world/profiler.h"
 #include "core/world/record_hashes.h"
+#include "core/world/stores.h"
 #include "core/world/world_header.h"
 
 namespace lockstone {
@@ -128,11 +130,37 @@ struct World::Impl {
   void disturb_around(std::uint32_t body);
   void adopt_contacts(std::span<const ContactRecord> all);
 
-  // Snapshots (snapshot.cpp).
-  [[nodiscard]] std::size_t save_native(std::span<std::byte> out) const;
+  /// The records of a store in the order of the state, as `f(span)`, once or more often.
+  template <class F>
+  void visit(BodyStore, F&& f) const {
+    f(std::span(bodies).first(std::min(header.body_limit, def.body_capacity)));
+  }
+  template <class F>
+  void visit(ContactStore, F&& f) const {
+    if (frozen.count() == 0) return f(contacts());
+    for_each_contact([&](const ContactRecord& contact) { f(std::span(&contact, 1)); });
+  }
+  template <class F>
+  void visit(JointStore, F&& f) const {
+    f(std::span(joints).first(std::min(header.joint_limit, def.joint_capacity)));
+  }
+
+  // Snapshots (save.cpp, load.cpp).
   [[nodiscard]] std::size_t save_canonical(std::span<std::byte> out) const;
   Status load_native(ByteView bytes);
   Status load_canonical(ByteView bytes);
+  template <class State>
+  void take(const WorldHeader& loaded, State&& state);
+  template <class State>
+  bool take_bodies(std::uint32_t limit, State& state);
+  bool take_body(std::uint32_t body, const BodyRecord& record);
+  template <class State>
+  bool take_joints(std::uint32_t limit, State& state);
+  void take_contacts();
+  [[nodiscard]] bool is_awake_pair(const ContactRecord& contact) const;
+  [[nodiscard]] bool are_frozen(std::span<const ContactRecord> all) const;
+  bool flip_in_header(std::string_view field, unsigned bit);
+  bool flip_in_contact(std::uint64_t object, std::string_view field, unsigned bit);
   void forget_events() {
     events.clear();
     joint_events.clear();
@@ -150,6 +178,8 @@ struct World::Impl {
   std::vector<ContactRecord> contact_store;  // of awake pairs, the first active_contacts
   FrozenContacts frozen;                     // the others
   std::vector<JointRecord> joints;           // by index; size: joint capacity
+
+  bool is_derived_stale = false;  // bits of the state were flipped: what is below may not fit it
 
   // Derived from flags of bodies.
   std::uint32_t active_contacts = 0;

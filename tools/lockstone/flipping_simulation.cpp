@@ -2,13 +2,10 @@
 
 #include <utility>
 
-#include <lockstone/world.h>
-
 #include "tools/arena/arena_simulation.h"
 #include "tools/scenes/scene_simulation.h"
 
 namespace lockstone::tool {
-namespace {
 
 World* world_to_disturb(Simulation& simulation) {
   if (auto* game = dynamic_cast<arena::ArenaSimulation*>(&simulation)) {
@@ -17,6 +14,8 @@ World* world_to_disturb(Simulation& simulation) {
   auto* scene = dynamic_cast<scenes::SceneSimulation*>(&simulation);
   return scene == nullptr ? nullptr : &scene->world_for_tests();
 }
+
+namespace {
 
 // The lowest bit of the last dynamic body's velocity along y: the smallest error there is.
 void disturb(Simulation& simulation) {

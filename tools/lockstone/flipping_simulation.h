@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <lockstone/simulation.h>
+#include <lockstone/world.h>
 
 namespace lockstone::tool {
 
@@ -11,6 +12,9 @@ namespace lockstone::tool {
 /// is in the step from `tick` to `tick` + 1).
 [[nodiscard]] std::unique_ptr<Simulation> make_flipping(std::unique_ptr<Simulation> inner,
                                                         std::uint64_t tick);
+
+/// The world of a scene or of the arena, to do it harm; null for another simulation.
+[[nodiscard]] World* world_to_disturb(Simulation& simulation);
 
 /// The simulation inside a flipping one, or `simulation` itself.
 [[nodiscard]] const Simulation& unwrapped(const Simulation& simulation);

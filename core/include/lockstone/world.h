@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <type_traits>
 
 #include <lockstone/asset.h>
@@ -16,6 +17,7 @@
 #include <lockstone/collision.h>
 #include <lockstone/command.h>
 #include <lockstone/event.h>
+#include <lockstone/hash.h>
 #include <lockstone/joint.h>
 #include <lockstone/profile.h>
 #include <lockstone/query.h>
@@ -80,6 +82,20 @@ struct StateHash {
   std::uint32_t hashed =
       0;  ///< records that were hashed for this answer: says nothing of the state
 };
+
+/// The same with 128 bits: of all records at once, on demand.
+struct StateHash128 {
+  Hash128 total;
+  Hash128 header;
+  Hash128 bodies;
+  Hash128 contacts;
+  Hash128 joints;
+
+  friend bool operator==(const StateHash128&, const StateHash128&) = default;
+};
+
+/// The stores of a state, in the order of snapshots.
+enum class StateStore : std::uint8_t { bodies, contacts, joints };
 
 class World {
  public:
@@ -222,6 +238,14 @@ class World {
   /// threads at once.
   [[nodiscard]] StateHash hash() const;
 
+  /// Hashes everything anew.
+  [[nodiscard]] StateHash128 hash128() const;
+
+  /// The hashes of a store's records in the order of the state, as many as `out` holds; answers how
+  /// many there are. A store's hash is their sum: with both sides' lists one knows which records
+  /// differ.
+  std::size_t record_hashes(StateStore store, std::span<std::uint64_t> out) const;
+
   /// Upper bound on `save`, constant over the world's life.
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const;
 
@@ -232,8 +256,20 @@ class World {
   /// anything changes. Native bytes must come from `save` in this process.
   Status load(SnapshotKind kind, ByteView bytes);
 
+  /// As native snapshots, but only what differs from one, `base`, which `load_delta` must be given
+  /// again: of a world at rest a few bytes for each hundred bodies. 0 when `out` is too small or
+  /// `base` is none of this world.
+  [[nodiscard]] std::size_t delta_bytes_max() const;
+  [[nodiscard]] std::size_t save_delta(ByteView base, std::span<std::byte> out) const;
+  Status load_delta(ByteView base, ByteView delta);
+
   /// The first difference between two canonical snapshots of worlds with this definition.
   [[nodiscard]] StateDifference describe_difference(ByteView here, ByteView there) const;
+
+  /// Flips a bit of a field in memory, as a fault would: a control for what is to find it. Stores,
+  /// objects and fields are those of a StateDifference; false when there is no such bit. The world
+  /// may then be hashed, saved and compared, and must be loaded before anything else.
+  bool flip_bit(std::string_view store, std::uint64_t object, std::string_view field, unsigned bit);
 
   /// Forgets everything that is not state. Tests call it every tick: the future must not change.
   void drop_derived();
