@@ -50,8 +50,8 @@ bool has_valid_surface(const BodyRecord& record) {
 }
 
 bool has_valid_limits(const BodyRecord& record) {
-  constexpr auto k_most = SolverVelocity::from_raw(k_speed_limit.raw >> 12);
-  const auto valid = [](SolverVelocity v) { return v > SolverVelocity{} && v <= k_most; };
+  const auto most = SolverVelocity::from_raw(k_speed_limit.raw >> 12);
+  const auto valid = [&](SolverVelocity v) { return v > SolverVelocity{} && v <= most; };
   return valid(record.max_speed) && valid(record.max_surface_speed) &&
          record.linear_damping >= Rate{} && record.angular_damping >= Rate{} &&
          is_within(record.gravity_scale, k_gravity_scale_limit) && record.locks <= k_all_body_locks;

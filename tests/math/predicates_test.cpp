@@ -265,7 +265,7 @@ TEST(SegmentSegment, EqualsClippingInRationals) {
     ASSERT_EQ(segment_segment(c, d, b, a), contact);
   }
   for (const int count : seen)
-    EXPECT_GT(count, 20);
+    EXPECT_GT(count, test::share_of(20));
 }
 
 TEST(SegmentTriangle, EqualsClippingInRationals) {
@@ -287,7 +287,7 @@ TEST(SegmentTriangle, EqualsClippingInRationals) {
     ASSERT_EQ(point >= 0, clipped(p, p, t) != Contact::none);
   }
   for (const int count : seen)
-    EXPECT_GT(count, 20);
+    EXPECT_GT(count, test::share_of(20));
 }
 
 TEST(SegmentTriangle, TakesFlatTrianglesForTheirEdges) {

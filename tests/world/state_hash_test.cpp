@@ -31,7 +31,7 @@ Command random_command(test::Random& random, BodyHandle body) {
     case 3:
       return ApplyAngularImpulse{body, {{}, AngularImpulse::from_integer(1), {}}};
     case 4:
-      return SetMaterial{body, 0.25_r, 0.5_r};
+      return SetMaterial{body, {0.25_r, 0.5_r}};
     case 5:
       return SetUserData{body, random.next()};
     case 6:

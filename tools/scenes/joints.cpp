@@ -43,9 +43,8 @@ void build_pendulums(World& world, std::uint64_t) {
   };
   hang(pivot(-1500), 1000, -1500);
   hang(hang(pivot(0), 1000, 0), 2000, 0);
-  JointDef hinge =
-      JointDef::of(JointKind::hinge, pivot(1500),
-                   add(world, loose(Shape::box(0.5_m, 0.1_m, 0.1_m), {0.5_m, 3_m, 1.5_m})));
+  const BodyHandle rod = add(world, loose(Shape::box(0.5_m, 0.1_m, 0.1_m), {0.5_m, 3_m, 1.5_m}));
+  JointDef hinge = JointDef::of(JointKind::hinge, pivot(1500), rod);
   hinge.frame_a.orientation = hinge.frame_b.orientation = k_x_to_z;
   hinge.frame_b.position.x = -0.5_m;
   hinge.angular[0].hertz = 2_r;

@@ -145,7 +145,8 @@ double precession_error(SceneRun& scene) {
   disc.angular_velocity = {
       60_rps, AngularVelocity::from_raw(std::llround(std::ldexp(rate, 32))), {}};
   disc.velocity.z = Velocity::from_raw(-std::llround(std::ldexp(rate * k_arm, 32)));
-  JointDef joint = JointDef::of(JointKind::ball, scene.add(fixed_point()), scene.add(disc));
+  const BodyHandle top = scene.add(disc);
+  JointDef joint = JointDef::of(JointKind::ball, scene.add(fixed_point()), top);
   joint.frame_b.position.x = -0.3_m;
   join(scene.world(), joint);
   double angle = 0, before = 0;

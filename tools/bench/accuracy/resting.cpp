@@ -163,9 +163,11 @@ std::vector<AccuracyResult> measure_mass_ratios(const AccuracyOptions& options) 
   std::vector<AccuracyResult> results;
   constexpr std::array<std::pair<int, double>, 4> k_goals{
       {{10, 1e-4}, {100, 1e-3}, {1000, 2e-3}, {10000, 5e-3}}};
-  for (const auto& [ratio, goal] : k_goals) {
-    for (AccuracyResult& result : at_settings(
-             options, [&](const Setting& setting) { return heavy_on_light(setting, ratio, goal); }))
+  for (const std::pair<int, double>& aim : k_goals) {
+    const auto run = [&](const Setting& setting) {
+      return heavy_on_light(setting, aim.first, aim.second);
+    };
+    for (AccuracyResult& result : at_settings(options, run))
       results.push_back(std::move(result));
   }
   return results;

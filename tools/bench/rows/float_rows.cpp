@@ -14,11 +14,19 @@ struct BodyLanes {
   __m128 word[8];  // velocity x, y, z, spin x, y, z, and what is unused
 };
 
+// Its eight words, through the address of the whole.
+LKS_INLINE const float* words_of(const FloatBody& body) {
+  return reinterpret_cast<const float*>(&body);
+}
+LKS_INLINE float* words_of(FloatBody& body) {
+  return reinterpret_cast<float*>(&body);
+}
+
 LKS_INLINE void load_bodies(const FloatBody* bodies, const std::uint32_t* index, BodyLanes& x) {
   for (int half = 0; half < 2; ++half) {
     __m128* word = x.word + 4 * half;
     for (int lane = 0; lane < 4; ++lane) {
-      word[lane] = _mm_load_ps(bodies[index[lane]].velocity + 4 * half);
+      word[lane] = _mm_load_ps(words_of(bodies[index[lane]]) + 4 * half);
     }
     _MM_TRANSPOSE4_PS(word[0], word[1], word[2], word[3]);
   }
@@ -29,7 +37,7 @@ LKS_INLINE void store_bodies(BodyLanes x, FloatBody* bodies, const std::uint32_t
     __m128* word = x.word + 4 * half;
     _MM_TRANSPOSE4_PS(word[0], word[1], word[2], word[3]);
     for (int lane = 0; lane < 4; ++lane) {
-      _mm_store_ps(bodies[index[lane]].velocity + 4 * half, word[lane]);
+      _mm_store_ps(words_of(bodies[index[lane]]) + 4 * half, word[lane]);
     }
   }
 }
