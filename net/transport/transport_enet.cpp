@@ -47,7 +47,8 @@ struct EnetTransport::State {
     std::uint32_t generation = 1;
     bool open = false;
     RefuseReason ending = RefuseReason::none;  ///< the session is about to hear of this
-    FloodWatch watch;
+    FloodWatch datagrams;
+    FloodWatch packets;  ///< of which one datagram may hold many
     TransportStats stats;
   };
 
@@ -110,11 +111,8 @@ struct EnetTransport::State {
     entry.open = true;
     entry.ending = RefuseReason::none;
     entry.stats = {};
-    entry.watch = {};
-    if (listens) {
-      entry.watch =
-          FloodWatch(limits.stranger_packets_per_second, limits.stranger_bytes_per_second);
-    }
+    entry.datagrams = entry.packets = {};
+    if (listens) limit(entry, limits.stranger_packets_per_second, limits.stranger_bytes_per_second);
     // 22 bits of generation, never zero, so that no id is k_no_connection.
     entry.generation = entry.generation + 1 >= (1U << 22) ? 1 : entry.generation + 1;
     enet_peer_timeout(peer, k_timeout_doublings, timeout_ms, timeout_ms);
@@ -145,6 +143,7 @@ struct EnetTransport::State {
       }
       return true;
     }
+    if (!entry.packets.admit(now_us, 0)) return beyond_limits(entry, entry.packets);
     event.kind = TransportEventKind::received;
     event.channel = source.channelID == 0 ? Channel::reliable : Channel::unreliable;
     event.bytes = std::as_bytes(std::span(current->data, current->dataLength));
@@ -235,11 +234,21 @@ struct EnetTransport::State {
       return false;
     }
     Entry& entry = entries[head.peer];
-    if (!entry.open || entry.watch.admit(now_us, static_cast<std::uint32_t>(datagram.size()))) {
-      return true;
-    }
+    const auto bytes = static_cast<std::uint32_t>(datagram.size());
+    if (!entry.open || entry.datagrams.admit(now_us, bytes)) return true;
+    return beyond_limits(entry, entry.datagrams);
+  }
+
+  static void limit(Entry& entry, std::uint32_t packets_per_second,
+                    std::uint32_t bytes_per_second) {
+    entry.datagrams = FloodWatch(packets_per_second, bytes_per_second);
+    entry.packets = FloodWatch(packets_per_second, 0);
+  }
+
+  // False, for what was one too much.
+  bool beyond_limits(Entry& entry, const FloodWatch& watch) {
     ++counters.limited;
-    if (entry.watch.flooding() && entry.ending == RefuseReason::none) {
+    if (watch.flooding() && entry.ending == RefuseReason::none) {
       entry.ending = RefuseReason::flooding;
       any_ending = true;
       ++counters.floods;
@@ -418,7 +427,7 @@ void EnetTransport::trust(ConnectionId connection) {
   State::Entry* entry = state_->find(connection);
   if (entry == nullptr || !state_->listens) return;
   const DatagramLimits& limits = state_->limits;
-  entry->watch = FloodWatch(limits.packets_per_second, limits.bytes_per_second);
+  State::limit(*entry, limits.packets_per_second, limits.bytes_per_second);
 }
 
 const EnetCounters& EnetTransport::counters() const {

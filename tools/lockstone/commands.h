@@ -22,6 +22,7 @@ void add_verify_command(CLI::App& app, int& exit_code);
 void add_numerics_command(CLI::App& app, int& exit_code);
 void add_serve_command(CLI::App& app, int& exit_code);
 void add_join_command(CLI::App& app, int& exit_code);
+void add_token_command(CLI::App& app, int& exit_code);
 void add_demo_command(CLI::App& app, int& exit_code);
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);

@@ -17,6 +17,7 @@
 #include "tools/lockstone/interrupt.h"
 #include "tools/lockstone/match_host.h"
 #include "tools/lockstone/match_options.h"
+#include "tools/lockstone/secrets.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
 
@@ -29,20 +30,37 @@ struct DemoOptions {
   std::optional<std::uint64_t> flip_bit_at;
 };
 
-std::vector<ChildProcess> start_players(const DemoOptions& options, std::uint16_t port) {
+std::string token_path(const std::string& folder, unsigned slot) {
+  return fmt::format("{}/{}", folder, slot);
+}
+
+// A token for each player, in files of the folder. False, with a complaint, when there are none.
+bool issue_tokens(const DemoOptions& options, const std::string& folder) {
+  net::SystemRandom random;
+  for (unsigned slot = 0; slot < options.match.players; ++slot) {
+    net::TokenGrant grant;
+    grant.match = options.match.match;
+    grant.player = slot;
+    grant.slot = static_cast<std::uint8_t>(slot);
+    grant.expires_unix_s = unix_seconds() + 60;
+    const auto token = net::issue_token(*options.match.key, grant, random);
+    if (!token) return false;
+    if (!write_secret_file(token_path(folder, slot), token.value().to_text())) return false;
+  }
+  return true;
+}
+
+std::vector<ChildProcess> start_players(const DemoOptions& options, const std::string& folder,
+                                        std::uint16_t port) {
   std::vector<ChildProcess> players;
   for (unsigned slot = 0; slot < options.match.players; ++slot) {
-    std::vector<std::string> arguments{"join",
-                                       "--insecure",
-                                       "--quiet",
-                                       "--port",
-                                       std::to_string(port),
-                                       "--bot-seed",
-                                       std::to_string(options.match.seed + slot),
-                                       "--slot",
-                                       std::to_string(slot),
-                                       "--name",
-                                       fmt::format("bot {}", slot)};
+    std::vector<std::string> arguments{"join",       "--quiet",
+                                       "--port",     std::to_string(port),
+                                       "--bot-seed", std::to_string(options.match.seed + slot),
+                                       "--slot",     std::to_string(slot),
+                                       "--name",     fmt::format("bot {}", slot)};
+    arguments.push_back(options.match.insecure ? "--insecure" : "--token");
+    if (!options.match.insecure) arguments.push_back(token_path(folder, slot));
     if (options.flip_bit_at && slot + 1 == options.match.players) {
       arguments.push_back("--flip-bit-at");
       arguments.push_back(std::to_string(*options.flip_bit_at));
@@ -172,11 +190,17 @@ int exit_code_for(const MatchSummary& summary, const Verification& verification,
 }
 
 int demo(DemoOptions options) {
-  options.match.insecure = true;  // it never leaves this machine
   catch_interrupts();
+  const PrivateFolder folder;
+  if (!options.match.insecure) {
+    if (!require_security()) return k_unavailable;
+    net::SystemRandom random;
+    options.match.key = net::make_key(random);
+    if (folder.path().empty() || !issue_tokens(options, folder.path())) return k_unavailable;
+  }
   const std::unique_ptr<MatchHost> host = MatchHost::create(options.match);
   if (host == nullptr) return k_unavailable;
-  std::vector<ChildProcess> players = start_players(options, host->port());
+  std::vector<ChildProcess> players = start_players(options, folder.path(), host->port());
   play(*host);
   bool players_ok = true;
   for (ChildProcess& player : players)
@@ -199,6 +223,7 @@ void add_demo_command(CLI::App& app, int& exit_code) {
   add_match_options(*command, options->match);
   command->add_option("--record", options->match.record, "The log")->capture_default_str();
   command->add_option("--svg", options->svg, "A picture of the end")->capture_default_str();
+  command->add_flag("--insecure", options->match.insecure, "Without tokens and encryption");
   command->add_option("--flip-bit-at", options->flip_bit_at,
                       "Let the last player go wrong by one bit at this tick: it must be found");
   command->callback([options, &exit_code] { exit_code = demo(*options); });

@@ -11,6 +11,7 @@
 
 #include <lockstone/net/client.h>
 #include <lockstone/net/transport_enet.h>
+#include <lockstone/net/transport_secure.h>
 
 #include "tools/arena/arena_simulation.h"
 #include "tools/arena/bots.h"
@@ -18,6 +19,7 @@
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/flipping_simulation.h"
 #include "tools/lockstone/interrupt.h"
+#include "tools/lockstone/secrets.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -26,6 +28,7 @@ namespace {
 struct JoinOptions {
   std::string host = "127.0.0.1";
   std::uint16_t port = 0;
+  std::string token;
   std::uint64_t bot_seed = 1;
   std::string name = "bot";
   int slot = net::k_no_slot;
@@ -163,20 +166,70 @@ SimulationFactory factory_for(const JoinOptions& options) {
   };
 }
 
-int join(const JoinOptions& options) {
-  catch_interrupts();
-  auto transport = net::EnetTransport::open({});
-  if (!transport) {
-    complain(fmt::format("no socket: {}", to_string(transport.status())));
-    return k_unavailable;
+// A connection on its way, encrypted if there is a token.
+struct Caller {
+  net::SystemRandom random;
+  std::unique_ptr<net::EnetTransport> enet;
+  std::unique_ptr<net::SecureTransport> secure;
+  net::ConnectionId connection = net::k_no_connection;
+
+  [[nodiscard]] net::Transport* transport() const {
+    if (secure != nullptr) return secure.get();
+    return enet.get();
   }
-  const Result<net::ConnectionId> connection =
-      transport.value()->connect(options.host, options.port);
+};
+
+// Null, with a complaint, when the system refuses.
+std::unique_ptr<Caller> call(const std::string& host, std::uint16_t port,
+                             const std::optional<net::ConnectToken>& token) {
+  auto caller = std::make_unique<Caller>();
+  net::EnetOptions enet;
+  if (token) enet.link_key = token->link_key;
+  auto opened = net::EnetTransport::open(enet);
+  if (!opened) {
+    complain(fmt::format("no socket: {}", to_string(opened.status())));
+    return nullptr;
+  }
+  caller->enet = std::move(opened).value();
+  if (token) {
+    caller->secure =
+        std::move(net::SecureTransport::join(*caller->enet, *token, caller->random)).value();
+  }
+  const Result<net::ConnectionId> connection = caller->enet->connect(host, port);
   if (!connection) {
-    complain(fmt::format("cannot call {}:{}: {}", options.host, options.port,
-                         to_string(connection.status())));
-    return k_unavailable;
+    complain(fmt::format("cannot call {}:{}: {}", host, port, to_string(connection.status())));
+    return nullptr;
   }
+  caller->connection = connection.value();
+  return caller;
+}
+
+// Reads the token and takes the server from it where none is given. False, with a complaint.
+bool set_security(JoinOptions& options, std::optional<net::ConnectToken>& token) {
+  if (options.insecure == !options.token.empty()) {
+    complain("give --token FILE, or say --insecure");
+    return false;
+  }
+  if (!options.insecure) {
+    if (!require_security()) return false;
+    token = read_token(options.token);
+    if (!token) return false;
+  }
+  if (options.port == 0 && token && token->grant.servers.count > 0) {
+    const std::string address = token->grant.servers.entries[0].to_text();
+    options.host = address.substr(0, address.rfind(':'));
+    options.port = token->grant.servers.entries[0].port;
+  }
+  if (options.port == 0) complain("--port is not given, and no token names a server");
+  return options.port != 0;
+}
+
+int join(JoinOptions options) {
+  catch_interrupts();
+  std::optional<net::ConnectToken> token;
+  if (!set_security(options, token)) return k_usage;
+  const std::unique_ptr<Caller> caller = call(options.host, options.port, token);
+  if (caller == nullptr) return k_unavailable;
   BotInputs inputs(options.bot_seed);
   JoinObserver observer(options.quiet);
   net::ClientConfig config;
@@ -184,8 +237,7 @@ int join(const JoinOptions& options) {
   config.name = options.name;
   config.wanted_slot = static_cast<std::uint8_t>(options.slot);
   const net::Client::Created created = net::Client::create(
-      config,
-      {transport.value().get(), connection.value(), factory_for(options), &inputs, &observer});
+      config, {caller->transport(), caller->connection, factory_for(options), &inputs, &observer});
   if (created.client == nullptr) {
     complain(std::string(to_string(created.error)));
     return k_usage;
@@ -201,16 +253,15 @@ void add_join_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<JoinOptions>();
   CLI::App* command = app.add_subcommand("join", "Play in a match over UDP, as a bot");
   command->add_option("--host", options->host, "Numeric IPv4 address")->capture_default_str();
-  command->add_option("--port", options->port, "UDP port")->required();
+  command->add_option("--port", options->port, "UDP port; default: the token's first server");
+  command->add_option("--token", options->token, "File with a token of `token issue`");
   command->add_option("--bot-seed", options->bot_seed, "What the bot feels like")
       ->capture_default_str();
   command->add_option("--name", options->name, "Shown to the server")->capture_default_str();
   command->add_option("--slot", options->slot, "Player slot; any when not given")
       ->check(CLI::Range(0, 15));
-  command
-      ->add_flag("--insecure", options->insecure,
-                 "There is no encryption yet: say that this network needs none")
-      ->required();
+  command->add_flag("--insecure", options->insecure,
+                    "No token and no encryption: anybody may listen and forge");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_flag("--quiet", options->quiet, "Print failures only");
   command->add_option("--flip-bit-at", options->flip_bit_at, "")->group("");  // for tests: hidden

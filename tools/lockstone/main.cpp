@@ -4,6 +4,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/log_commands.h"
+#include "tools/lockstone/net_commands.h"
 
 namespace {
 
@@ -38,6 +39,9 @@ int main(int argc, char** argv) {
   lockstone::tool::add_serve_command(app, exit_code);
   lockstone::tool::add_join_command(app, exit_code);
   lockstone::tool::add_demo_command(app, exit_code);
+  lockstone::tool::add_token_command(app, exit_code);
+  lockstone::tool::add_lossy_command(app, exit_code);
+  lockstone::tool::add_siege_command(app, exit_code);
   lockstone::tool::add_fuzz_pairs_command(app, exit_code);
   lockstone::tool::add_bench_command(app, exit_code);
   lockstone::tool::add_asset_command(app, exit_code);

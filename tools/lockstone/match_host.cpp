@@ -11,11 +11,13 @@
 #include <fmt/format.h>
 
 #include <lockstone/hash.h>
+#include <lockstone/net/transport_secure.h>
 #include <lockstone/replay/background_sink.h>
 #include <lockstone/replay/sink.h>
 
 #include "tools/arena/config.h"
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/secrets.h"
 #include "tools/scenes/play.h"
 #include "tools/scenes/scene_simulation.h"
 
@@ -109,7 +111,9 @@ struct MatchHost::Impl final : net::ServerObserver {
   MatchOptions options;
   std::vector<std::byte> config;
   std::unique_ptr<Simulation> simulation;
+  net::SystemRandom random;
   std::unique_ptr<net::EnetTransport> transport;
+  std::unique_ptr<net::SecureTransport> secure;
   std::unique_ptr<net::Server> server;
   MatchLog log;
   Progress progress;
@@ -167,21 +171,40 @@ struct MatchHost::Impl final : net::ServerObserver {
     simulation = std::move(made).value();
     net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
     if (options.fast) enet.limits = net::DatagramLimits::none();
+    if (options.key) enet.link_key = net::make_link_key(*options.key, options.match);
     auto listening = net::EnetTransport::listen(enet);
     if (!listening) {
       return refuse(fmt::format("cannot listen on {}:{}: {}", options.bind, options.port,
                                 to_string(listening.status())));
     }
     transport = std::move(listening).value();
+    if (options.key && !encrypt()) return false;
     const Status status = log.open(options, *simulation, config);
     if (status != Status::ok) {
       return refuse(fmt::format("cannot write {}: {}", options.record, to_string(status)));
     }
     net::Server::Created created = net::Server::create(
-        server_config(options, config), {transport.get(), simulation.get(), nullptr, this});
+        server_config(options, config), {session_transport(), simulation.get(), nullptr, this});
     server = std::move(created.server);
     if (server == nullptr) return refuse(std::string(to_string(created.error)));
     return true;
+  }
+
+  [[nodiscard]] bool encrypt() {
+    net::SecureServerOptions security;
+    security.backend_key = *options.key;
+    security.match = options.match;
+    security.own_addresses = options.addresses;
+    security.unix_us_at_zero = unix_microseconds() - watch.microseconds();
+    auto created = net::SecureTransport::serve(*transport, security, random);
+    if (!created) return refuse(fmt::format("no encryption: {}", to_string(created.status())));
+    secure = std::move(created).value();
+    return true;
+  }
+
+  [[nodiscard]] net::Transport* session_transport() const {
+    if (secure != nullptr) return secure.get();
+    return transport.get();
   }
 
   static bool refuse(const std::string& why) {

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <lockstone/net/server.h>
+#include <lockstone/net/token.h>
 #include <lockstone/net/transport_enet.h>
 #include <lockstone/replay/recorder.h>
 #include <lockstone/simulation.h>
@@ -27,7 +29,10 @@ struct MatchOptions {
   bool strict = false;
   bool fast = false;
   bool insecure = false;
-  std::string record;  ///< empty: no log
+  std::optional<net::Key> key;  ///< what tokens are sealed under; none: insecure
+  std::uint64_t match = 0;      ///< of the tokens
+  net::ServerList addresses;    ///< what tokens may call this server; none: no check
+  std::string record;           ///< empty: no log
 };
 
 /// What became of a match.

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "tools/lockstone/interrupt.h"
 #include "tools/lockstone/match_host.h"
 #include "tools/lockstone/match_options.h"
+#include "tools/lockstone/secrets.h"
 
 namespace lockstone::tool {
 namespace {
@@ -16,7 +18,27 @@ namespace {
 struct ServeOptions {
   MatchOptions match;
   std::string policy = "deadline";
+  std::string key;
+  std::vector<std::string> addresses;
 };
+
+// False, with a complaint, unless the match is either for tokens or insecure by name.
+bool set_security(ServeOptions& options) {
+  if (options.match.insecure == !options.key.empty()) {
+    complain("give --key FILE and --match N, or say --insecure");
+    return false;
+  }
+  if (options.match.insecure) return true;
+  if (!require_security()) return false;
+  options.match.key = read_key(options.key);
+  for (const std::string& text : options.addresses) {
+    const Result<net::ServerAddress> address = net::ServerAddress::from_text(text);
+    if (address && options.match.addresses.add(address.value())) continue;
+    complain(fmt::format("{}: not an address like 1.2.3.4:7777, or too many", text));
+    return false;
+  }
+  return options.match.key.has_value();
+}
 
 void print_players(const MatchSummary& summary) {
   for (std::size_t slot = 0; slot < summary.players.size(); ++slot) {
@@ -29,6 +51,7 @@ void print_players(const MatchSummary& summary) {
 
 int serve(ServeOptions options) {
   options.match.strict = options.policy == "strict";
+  if (!set_security(options)) return k_usage;
   catch_interrupts();
   const std::unique_ptr<MatchHost> host = MatchHost::create(options.match);
   if (host == nullptr) return k_unavailable;
@@ -63,10 +86,13 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--policy", options->policy, "On a late input: replace it, or wait for it")
       ->check(CLI::IsMember({"deadline", "strict"}))
       ->capture_default_str();
-  command
-      ->add_flag("--insecure", options->match.insecure,
-                 "There is no encryption yet: say that this network needs none")
-      ->required();
+  command->add_option("--key", options->key, "File with the key of `token key`");
+  command->add_option("--match", options->match.match, "The number that the tokens are for")
+      ->capture_default_str();
+  command->add_option("--address", options->addresses,
+                      "Take only tokens that name this server, like 1.2.3.4:7777, or any server");
+  command->add_flag("--insecure", options->match.insecure,
+                    "No tokens and no encryption: anybody may join, listen and forge");
   command->callback([options, &exit_code] { exit_code = serve(*options); });
 }
 

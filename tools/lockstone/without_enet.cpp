@@ -5,6 +5,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/net_commands.h"
 
 namespace lockstone::tool {
 namespace {
@@ -25,6 +26,15 @@ void add_serve_command(CLI::App& app, int& exit_code) {
 }
 void add_join_command(CLI::App& app, int& exit_code) {
   add_absent(app, exit_code, "join");
+}
+void add_token_command(CLI::App& app, int& exit_code) {
+  add_absent(app, exit_code, "token");
+}
+void add_lossy_command(CLI::App& app, int& exit_code) {
+  add_absent(app, exit_code, "lossy");
+}
+void add_siege_command(CLI::App& app, int& exit_code) {
+  add_absent(app, exit_code, "siege");
 }
 void add_demo_command(CLI::App& app, int& exit_code) {
   add_absent(app, exit_code, "demo");

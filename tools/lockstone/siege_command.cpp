@@ -1,0 +1,76 @@
+// siege: an attacked match on this machine.
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+#include "tools/lockstone/net_commands.h"
+#include "tools/relay/siege.h"
+
+namespace lockstone::tool {
+namespace {
+
+void print_report(const relay::SiegeReport& report) {
+  fmt::print("{:<20} {:>8} {:>9} {:>9}\n", "attack", "sent", "answered", "admitted");
+  for (const relay::AttackReport& attack : report.attacks)
+    fmt::print("{:<20} {:>8} {:>9} {:>9}\n", attack.name, attack.sent, attack.answered,
+               attack.admitted);
+  const net::EnetCounters& socket = report.socket;
+  fmt::print(
+      "\ndatagrams {}: {} malformed, {} of no connection, {} forged, {} repeated connects, "
+      "{} beyond limits\n",
+      socket.datagrams, socket.malformed, socket.strays, socket.forged, socket.repeated_connects,
+      socket.limited);
+  const net::SecurityCounters& security = report.security;
+  fmt::print("handshakes {} completed, {} refused, {} timed out; packets {} forged, {} replayed\n",
+             security.handshakes_completed, security.handshakes_refused,
+             security.handshakes_timed_out, security.packets_forged, security.packets_replayed);
+  fmt::print("server {} ticks, longest between two {:.1f} ms\n", report.ticks,
+             static_cast<double>(report.longest_server_gap_us) / 1000);
+  for (std::size_t i = 0; i < report.honest.size(); ++i) {
+    const relay::PlayerOutcome& player = report.honest[i];
+    fmt::print("player {}: {} ticks, {} inputs replaced, longest between two {:.1f} ms, {}\n", i,
+               player.ticks, player.substituted, static_cast<double>(player.longest_us) / 1000,
+               player.equal ? "all hashes equal" : "hashes DIFFER");
+  }
+  fmt::print("the flooding player {}\n",
+             report.traitor_dropped ? "was dropped" : "was NOT dropped");
+}
+
+int siege(const relay::SiegeOptions& options) {
+  const auto report = relay::run_siege(options);
+  if (!report) {
+    complain("no match: no socket, or no libsodium");
+    return k_unavailable;
+  }
+  print_report(*report);
+  fmt::print("{}\n", report->withstood() ? "withstood" : "NOT withstood");
+  return report->withstood() ? k_ok : k_different;
+}
+
+}  // namespace
+
+void add_siege_command(CLI::App& app, int& exit_code) {
+  struct Options {
+    relay::SiegeOptions siege;
+    unsigned seconds = 20;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "siege", "Attack a match on this machine: forged, replayed, damaged, too many packets");
+  command->add_option("--seconds", options->seconds, "How long")
+      ->check(CLI::Range(1U, 3600U))
+      ->capture_default_str();
+  command->add_option("--players", options->siege.honest, "Honest ones")
+      ->check(CLI::Range(1U, 15U))
+      ->capture_default_str();
+  command->add_option("--seed", options->siege.seed, "Of the attackers")->capture_default_str();
+  command->callback([options, &exit_code] {
+    options->siege.duration_us = std::int64_t{options->seconds} * 1'000'000;
+    exit_code = siege(options->siege);
+  });
+}
+
+}  // namespace lockstone::tool

@@ -1,0 +1,239 @@
+#include "tools/relay/trial_match.h"
+
+#include <algorithm>
+
+#include "tools/arena/config.h"
+#include "tools/scenes/play.h"
+
+namespace lockstone::relay {
+namespace {
+
+constexpr std::uint64_t k_match = 7;
+constexpr std::uint64_t k_unix_s = 1'800'000'000;
+
+/// Presses anything: the arena takes all bytes.
+class AnyInputs final : public net::InputSource {
+ public:
+  explicit AnyInputs(std::uint64_t seed) : random_(seed) {}
+  void sample(std::uint64_t, std::span<std::byte> out) override {
+    if (random_.below(8) == 0) bits_ = random_.next();  // held for some ticks, as by hands
+    ByteWriter(out).put(bits_);
+  }
+
+ private:
+  net::Random random_;
+  std::uint64_t bits_ = 0;
+};
+
+struct ServerTrace final : net::ServerObserver {
+  void tick_closed(std::uint64_t, std::span<const PlayerInput>,
+                   std::optional<std::uint64_t> hash) override {
+    hashes.push_back(hash.value_or(0));
+    if (hashes.size() > 1) longest_us = std::max(longest_us, now_us - last_us);
+    last_us = now_us;
+  }
+  std::vector<std::uint64_t> hashes;
+  std::int64_t now_us = 0;
+  std::int64_t last_us = 0;
+  std::int64_t longest_us = 0;
+};
+
+struct ClientTrace final : net::ClientObserver {
+  void tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t hash) override {
+    hashes.push_back(hash);
+    const std::int64_t gap_us = hashes.size() > 1 ? now_us - last_us : 0;
+    longest_us = std::max(longest_us, gap_us);
+    if (gap_us > k_stall_us) stalled_us += gap_us - 16'667;
+    last_us = now_us;
+  }
+  std::vector<std::uint64_t> hashes;
+  std::int64_t now_us = 0;
+  std::int64_t last_us = 0;
+  std::int64_t longest_us = 0;
+  std::int64_t stalled_us = 0;
+};
+
+struct Player {
+  std::unique_ptr<net::EnetTransport> enet;
+  std::unique_ptr<net::SecureTransport> secure;
+  std::unique_ptr<AnyInputs> inputs;
+  ClientTrace trace;
+  net::ConnectionId connection = net::k_no_connection;
+  std::unique_ptr<net::Client> client;
+  bool paused = false;
+
+  [[nodiscard]] bool over() const { return client->state() >= net::ClientState::finished; }
+};
+
+}  // namespace
+
+struct TrialMatch::Impl {
+  TrialOptions options;
+  net::SystemRandom random;
+  net::Key key = net::make_key(random);
+  std::vector<std::byte> config;
+  std::unique_ptr<Simulation> simulation;
+  std::unique_ptr<net::EnetTransport> enet;
+  std::unique_ptr<net::SecureTransport> secure;
+  ServerTrace trace;
+  std::unique_ptr<net::Server> server;
+  std::unique_ptr<LossyRelay> relay;
+  std::vector<Player> players;
+
+  [[nodiscard]] bool set_up() {
+    arena::ArenaConfig arena_config;
+    arena_config.seed = options.seed;
+    arena_config.players = static_cast<std::uint8_t>(options.players);
+    arena_config.loose_bodies = options.bodies;
+    const auto bytes = arena_config.encode();
+    config.assign(bytes.begin(), bytes.end());
+    simulation = std::move(scenes::make_simulation(config)).value();
+    if (!start_server()) return false;
+    if (options.faults) {
+      auto opened = LossyRelay::open(Endpoint::loopback(0), Endpoint::loopback(enet->port()),
+                                     *options.faults, options.seed);
+      if (!opened) return false;
+      relay = std::move(opened).value();
+    }
+    players.resize(options.players);
+    for (unsigned slot = 0; slot < options.players; ++slot)
+      if (!start_player(slot)) return false;
+    return true;
+  }
+
+  [[nodiscard]] bool start_server() {
+    net::EnetOptions enet_options;
+    enet_options.link_key = net::make_link_key(key, k_match);
+    enet_options.limits = options.limits;
+    auto listening = net::EnetTransport::listen(enet_options);
+    if (!listening) return false;
+    enet = std::move(listening).value();
+    net::SecureServerOptions security;
+    security.backend_key = key;
+    security.match = k_match;
+    security.unix_us_at_zero = static_cast<std::int64_t>(k_unix_s) * 1'000'000;
+    secure = std::move(net::SecureTransport::serve(*enet, security, random)).value();
+    net::ServerConfig server_config;
+    server_config.match_config = config;
+    server_config.tick_count = options.ticks;
+    server_config.input_delay_ticks = options.input_delay;
+    server = net::Server::create(server_config, {secure.get(), simulation.get(), nullptr, &trace})
+                 .server;
+    return server != nullptr;
+  }
+
+  [[nodiscard]] bool start_player(unsigned slot) {
+    Player& player = players[slot];
+    const net::ConnectToken token = token_for(slot, static_cast<std::uint8_t>(slot), k_unix_s + 60);
+    net::EnetOptions enet_options;
+    enet_options.link_key = token.link_key;
+    auto opened = net::EnetTransport::open(enet_options);
+    if (!opened) return false;
+    player.enet = std::move(opened).value();
+    player.secure = std::move(net::SecureTransport::join(*player.enet, token, random)).value();
+    const std::uint16_t port = relay == nullptr ? enet->port() : relay->port();
+    player.connection = player.enet->connect("127.0.0.1", port).value();
+    player.inputs = std::make_unique<AnyInputs>(options.seed + slot);
+    player.client =
+        net::Client::create({}, {player.secure.get(), player.connection, scenes::make_simulation,
+                                 player.inputs.get(), &player.trace})
+            .client;
+    return player.client != nullptr;
+  }
+
+  [[nodiscard]] net::ConnectToken token_for(std::uint64_t player, std::uint8_t slot,
+                                            std::uint64_t expires_unix_s) {
+    net::TokenGrant grant;
+    grant.match = k_match;
+    grant.player = player;
+    grant.slot = slot;
+    grant.expires_unix_s = expires_unix_s;
+    return net::issue_token(key, grant, random).value();
+  }
+
+  [[nodiscard]] bool update(std::int64_t now_us) {
+    trace.now_us = now_us;
+    server->update(now_us);
+    if (relay != nullptr) relay->pump(now_us);
+    bool over = server->state() == net::ServerState::over;
+    for (Player& player : players) {
+      player.trace.now_us = now_us;
+      if (!player.paused) player.client->update(now_us);
+      over = over && (player.paused || player.over());
+    }
+    return !over;
+  }
+};
+
+TrialMatch::TrialMatch(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+TrialMatch::~TrialMatch() = default;
+
+std::unique_ptr<TrialMatch> TrialMatch::create(const TrialOptions& options) {
+  if (!net::security_available()) return nullptr;
+  auto impl = std::make_unique<Impl>();
+  impl->options = options;
+  if (!impl->set_up()) return nullptr;
+  return std::unique_ptr<TrialMatch>(new TrialMatch(std::move(impl)));
+}
+
+bool TrialMatch::update(std::int64_t now_us) {
+  return impl_->update(now_us);
+}
+void TrialMatch::stop() {
+  impl_->server->stop();
+}
+void TrialMatch::pause(unsigned slot, bool paused) {
+  impl_->players[slot].paused = paused;
+}
+std::uint64_t TrialMatch::ticks_closed() const {
+  return impl_->server->ticks_closed();
+}
+std::uint16_t TrialMatch::present_mask() const {
+  return impl_->server->present_mask();
+}
+std::int64_t TrialMatch::longest_server_gap_us() const {
+  return impl_->trace.longest_us;
+}
+std::uint16_t TrialMatch::port() const {
+  return impl_->enet->port();
+}
+const net::EnetCounters& TrialMatch::socket_counters() const {
+  return impl_->enet->counters();
+}
+const net::SecurityCounters& TrialMatch::security_counters() const {
+  return impl_->secure->counters();
+}
+const LossyRelay* TrialMatch::relay() const {
+  return impl_->relay.get();
+}
+net::ConnectToken TrialMatch::token_for(std::uint64_t player, std::uint8_t slot,
+                                        std::uint64_t expires_unix_s) const {
+  return impl_->token_for(player, slot, expires_unix_s);
+}
+std::uint64_t TrialMatch::unix_s_at_zero() {
+  return k_unix_s;
+}
+net::Transport& TrialMatch::transport_of(unsigned slot) {
+  return *impl_->players[slot].secure;
+}
+net::ConnectionId TrialMatch::connection_of(unsigned slot) const {
+  return impl_->players[slot].connection;
+}
+
+PlayerOutcome TrialMatch::outcome(unsigned slot) const {
+  const Player& player = impl_->players[slot];
+  const auto& mine = player.trace.hashes;
+  const auto& truth = impl_->trace.hashes;
+  PlayerOutcome outcome;
+  outcome.ticks = mine.size();
+  outcome.substituted = impl_->server->stats(static_cast<std::uint8_t>(slot)).substituted_inputs;
+  outcome.stalled_us = player.trace.stalled_us;
+  outcome.longest_us = player.trace.longest_us;
+  outcome.equal =
+      mine.size() <= truth.size() && std::equal(mine.begin(), mine.end(), truth.begin());
+  outcome.state = player.client->state();
+  outcome.leave_reason = player.client->leave_reason();
+  return outcome;
+}
+
+}  // namespace lockstone::relay

@@ -1,0 +1,80 @@
+#include "tools/relay/udp_socket.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace lockstone::relay {
+namespace {
+
+sockaddr_in to_system(const Endpoint& endpoint) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(endpoint.address);
+  address.sin_port = htons(endpoint.port);
+  return address;
+}
+
+Endpoint from_system(const sockaddr_in& address) {
+  return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+}
+
+const sockaddr* generic(const sockaddr_in& address) {
+  return reinterpret_cast<const sockaddr*>(&address);
+}
+sockaddr* generic(sockaddr_in& address) {
+  return reinterpret_cast<sockaddr*>(&address);
+}
+
+}  // namespace
+
+Result<Endpoint> Endpoint::from_text(const std::string& address, std::uint16_t port) {
+  in_addr parsed{};
+  if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) return Status::malformed;
+  return Endpoint{ntohl(parsed.s_addr), port};
+}
+
+Result<std::unique_ptr<UdpSocket>> UdpSocket::open(const Endpoint& local) {
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  if (descriptor < 0) return Status::io_error;
+  auto result = std::unique_ptr<UdpSocket>(new UdpSocket(descriptor));
+  constexpr int k_buffer_bytes = 1 << 20;
+  setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &k_buffer_bytes, sizeof(k_buffer_bytes));
+  const sockaddr_in address = to_system(local);
+  const bool ready = fcntl(descriptor, F_SETFL, O_NONBLOCK) == 0 &&
+                     bind(descriptor, generic(address), sizeof(address)) == 0;
+  if (!ready) return Status::io_error;
+  return result;
+}
+
+UdpSocket::~UdpSocket() {
+  close(descriptor_);
+}
+
+std::uint16_t UdpSocket::port() const {
+  sockaddr_in address{};
+  socklen_t size = sizeof(address);
+  if (getsockname(descriptor_, generic(address), &size) != 0) return 0;
+  return from_system(address).port;
+}
+
+bool UdpSocket::send(const Endpoint& to, ByteView bytes) const {
+  const sockaddr_in address = to_system(to);
+  const ssize_t sent =
+      sendto(descriptor_, bytes.data(), bytes.size(), 0, generic(address), sizeof(address));
+  return sent == static_cast<ssize_t>(bytes.size());
+}
+
+std::optional<ByteView> UdpSocket::receive(Endpoint& from, std::span<std::byte> buffer) const {
+  sockaddr_in address{};
+  socklen_t size = sizeof(address);
+  const ssize_t received =
+      recvfrom(descriptor_, buffer.data(), buffer.size(), 0, generic(address), &size);
+  if (received < 0) return std::nullopt;
+  from = from_system(address);
+  return ByteView(buffer).first(static_cast<std::size_t>(received));
+}
+
+}  // namespace lockstone::relay
