@@ -92,6 +92,10 @@ Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
   return asset;
 }
 
+bool has_centre_in_world(const BodyDef& def, const Asset* asset) {
+  return within(body_pose(asset, {def.position, def.orientation}).position, k_world_limit);
+}
+
 }  // namespace
 
 ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
@@ -117,7 +121,7 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   if (!found.ok()) return found.status();
   const Asset* asset = found.value();
   Vec3<Velocity> surface;
-  if (!has_valid_mass(body_def, asset) ||
+  if (!has_valid_mass(body_def, asset) || !has_centre_in_world(body_def, asset) ||
       !to_surface_velocity(body_def.angular_velocity,
                            properties_of(body_def.shape, asset).scale_exponent, surface)) {
     return Status::invalid_argument;
@@ -172,10 +176,11 @@ Status World::Impl::execute(const Teleport& command) {
   if (!within(command.position, k_world_limit) || !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
-  disturb(command.body.index);
-  drop_contacts_of(command.body.index);
   const Transform pose =
       body_pose(body_assets[command.body.index], {command.position, command.orientation});
+  if (!within(pose.position, k_world_limit)) return Status::invalid_argument;
+  disturb(command.body.index);
+  drop_contacts_of(command.body.index);
   record->position = pose.position;
   record->orientation = pose.orientation;
   begin_rest(*record, rest_rules);

@@ -132,6 +132,9 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
     if (last) return;
     rotation = to_matrix(record.orientation);
     motion = go_on(record, k_whole - done);
+    if (!limit_position(record)) continue;
+    ++report.saturations;
+    motion.translation = record.position - motion.start.position;
   }
 }
 

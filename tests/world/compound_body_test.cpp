@@ -36,6 +36,23 @@ BodyDef body_of(const Asset& asset, Position y) {
   return def;
 }
 
+TEST(CompoundBody, KeepsItsCentreOfMassInTheWorld) {
+  const auto asset = dumbbell();
+  World world = world_with(asset);
+  BodyDef def = body_of(*asset, {});
+  def.position.x = k_world_limit;  // its centre lies farther along x
+  EXPECT_EQ(world.create_body(def).status(), Status::invalid_argument);
+  def.position.x = k_world_limit - 3_m;
+  const Result<BodyHandle> body = world.create_body(def);
+  ASSERT_TRUE(body.ok());
+  const Teleport out{body.value(), {k_world_limit - 1_m, {}, {}}, {}};
+  EXPECT_EQ(world.apply(out), Status::invalid_argument);
+  EXPECT_EQ(world.position(body.value()).x, def.position.x);
+  std::vector<std::byte> bytes(world.snapshot_bytes_max(SnapshotKind::canonical));
+  bytes.resize(world.save(SnapshotKind::canonical, bytes));
+  EXPECT_EQ(world.load(SnapshotKind::canonical, bytes), Status::ok);
+}
+
 TEST(CompoundBody, IsPlacedByTheFrameOfItsShape) {
   const auto asset = dumbbell();
   World world = world_with(asset);

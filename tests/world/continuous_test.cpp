@@ -201,5 +201,22 @@ TEST(Continuous, SlidingFastIsNoImpact) {
   EXPECT_NEAR(metres(world.position(box).x), 20, 1e-3);
 }
 
+TEST(Continuous, KeepsBodiesInTheWorldAfterAnImpact) {
+  World world = weightless();
+  BodyDef def = wall(0.5_m);
+  def.position = {k_world_limit - 4_m, {}, {}};
+  test::add(world, def);
+  BodyDef bullet = test::dynamic_body(Shape::sphere(0.05_m), {}, {}, {});
+  bullet.position = {k_world_limit - 2_m, {}, {}};
+  bullet.velocity.x = -400_mps;
+  bullet.material.restitution = 1_r;
+  const BodyHandle body = test::add(world, bullet);
+  for (int tick = 0; tick < 3; ++tick) {
+    world.step();
+    EXPECT_LE(world.position(body).x, k_world_limit);
+  }
+  EXPECT_EQ(world.position(body).x, k_world_limit);
+}
+
 }  // namespace
 }  // namespace lockstone

@@ -25,6 +25,7 @@ void add_join_command(CLI::App& app, int& exit_code);
 void add_token_command(CLI::App& app, int& exit_code);
 void add_demo_command(CLI::App& app, int& exit_code);
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code);
+void add_fuzz_scene_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
 void add_asset_command(CLI::App& app, int& exit_code);
 

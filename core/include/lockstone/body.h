@@ -53,7 +53,7 @@ struct SpeedLimit {
 struct BodyDef {
   MotionType motion = MotionType::dynamic;
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));
-  Vec3<Position> position{};  ///< within ±2^20 m
+  Vec3<Position> position{};  ///< within ±2^20 m, and the centre of mass too
   Quat orientation{};         ///< is normalised
   Vec3<Velocity> velocity{};  ///< at most 500 m/s
   Vec3<AngularVelocity> angular_velocity{};

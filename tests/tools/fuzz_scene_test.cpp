@@ -1,0 +1,37 @@
+// Random scenes: a few of them here, as many as asked for by `lockstone fuzz-scene`.
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/support/workload.h"
+#include "tools/fuzz/scene_fuzz.h"
+
+namespace lockstone::fuzz {
+namespace {
+
+TEST(FuzzScenes, OfARandomSeedDependOnTheStateAlone) {
+  SceneFuzzOptions options;
+  options.seed = test::run_seed();
+  options.count = test::share_of(std::uint64_t{16});
+  options.ticks = 30;
+  const SceneFuzzReport report = fuzz_scenes(options);
+  EXPECT_EQ(report.scenes, options.count);
+  EXPECT_GT(report.ticks, 0U);
+  for (const SceneFailure& failure : report.failures)
+    ADD_FAILURE() << "scene " << failure.index << " of seed " << options.seed << ", tick "
+                  << failure.tick << ": " << failure.what;
+}
+
+TEST(FuzzScenes, AreTheSameOnAnyNumberOfThreads) {
+  SceneFuzzOptions options;
+  options.count = 4;
+  options.ticks = 10;
+  const SceneFuzzReport one = fuzz_scenes(options);
+  options.threads = 3;
+  const SceneFuzzReport three = fuzz_scenes(options);
+  EXPECT_EQ(one.contacts, three.contacts);
+  EXPECT_EQ(one.saturations, three.saturations);
+  EXPECT_EQ(one.ticks, three.ticks);
+}
+
+}  // namespace
+}  // namespace lockstone::fuzz

@@ -1,0 +1,37 @@
+// Random worlds for the scene fuzzer: extreme sizes, masses and speeds, deep overlaps,
+// contradicting joints, exhausted stores, and random commands on top.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <lockstone/world.h>
+
+#include "tools/arena/integers.h"
+
+namespace lockstone::fuzz {
+
+/// A definition and what its world begins with: a function of seed and index alone, of integers
+/// alone, so that every machine makes the same.
+class RandomScene {
+ public:
+  RandomScene(std::uint64_t seed, std::uint64_t index);
+
+  /// A world as it begins, on the broad phase given.
+  [[nodiscard]] World make(BroadPhaseKind broad_phase) const;
+
+  /// The commands before tick `tick` of a world as it stands then. What a world refuses is part of
+  /// the game.
+  void drive(World& world) const;
+
+  /// What is special about it, for people.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  WorldDef def_;
+  std::shared_ptr<const AssetSet> assets_;
+  std::uint64_t seed_;
+};
+
+}  // namespace lockstone::fuzz
