@@ -1,0 +1,83 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/bench/stability/stability.h"
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct BenchStabilityOptions {
+  bench::StabilityOptions measure;
+  std::vector<std::string> rows;
+  bool json = false;
+};
+
+void print_text(const bench::StabilityRow& row, const bench::StabilityResult& result) {
+  fmt::print("{}: {} ({} ticks, {:.3f} ms a tick, hash {})\n", row.name, row.text, result.ticks,
+             1e3 * result.tick_seconds, hash_text(result.hash));
+  for (const bench::StabilityFigure& figure : result.figures)
+    fmt::print("  {:<34} {:>10.3g} {:<4} bound {:>8.3g}  {}\n", figure.name, figure.value,
+               figure.unit, figure.bound, figure.met() ? "met" : "MISSED");
+  std::fflush(stdout);
+}
+
+nlohmann::ordered_json json_of(const bench::StabilityRow& row,
+                               const bench::StabilityResult& result) {
+  nlohmann::ordered_json document{{"row", row.name},
+                                  {"ticks", result.ticks},
+                                  {"tick_ms", 1e3 * result.tick_seconds},
+                                  {"hash", hash_text(result.hash)},
+                                  {"figures", nlohmann::ordered_json::array()}};
+  for (const bench::StabilityFigure& figure : result.figures)
+    document["figures"].push_back({{"name", figure.name},
+                                   {"unit", figure.unit},
+                                   {"value", figure.value},
+                                   {"bound", figure.bound},
+                                   {"met", figure.met()}});
+  return document;
+}
+
+int run(const BenchStabilityOptions& options) {
+  bool met = true;
+  auto rows = nlohmann::ordered_json::array();
+  for (const bench::StabilityRow& row : bench::stability_rows()) {
+    const bool wanted = options.rows.empty() || std::find(options.rows.begin(), options.rows.end(),
+                                                          row.name) != options.rows.end();
+    if (!wanted) continue;
+    const bench::StabilityResult result = run_stability_row(row, options.measure);
+    for (const bench::StabilityFigure& figure : result.figures)
+      met = met && figure.met();
+    if (options.json)
+      rows.push_back(json_of(row, result));
+    else
+      print_text(row, result);
+  }
+  if (options.json) fmt::print("{}\n", rows.dump(2));
+  return met ? k_ok : k_different;
+}
+
+std::string check_row(const std::string& name) {
+  return bench::find_stability_row(name) != nullptr ? std::string() : "no row: " + name;
+}
+
+}  // namespace
+
+void add_bench_stability_command(CLI::App& bench, int& exit_code) {
+  auto options = std::make_shared<BenchStabilityOptions>();
+  CLI::App* command =
+      bench.add_subcommand("stability", "What breaks engines, for long, with bounds");
+  command->add_option("--rows", options->rows, "Names; all when left out")
+      ->check(CLI::Validator(check_row, "ROW"));
+  command->add_option("--seconds", options->measure.seconds,
+                      "Of the worlds' time; as long as each row asks for when left out");
+  command->add_flag("--json", options->json, "Print JSON");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lockstone::tool
