@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <lockstone/assert.h>
+#include <lockstone/hash.h>
 
 #include "net/session/client_impl.h"
 #include "net/session/setup.h"
@@ -11,7 +12,7 @@ namespace lockstone::net {
 namespace {
 
 constexpr std::uint32_t k_max_lead_ticks = 32;
-static_assert(k_max_input_delay_ticks + k_max_lead_ticks + 1 < k_input_window_ticks,
+static_assert(k_max_input_delay_ticks + 2 * k_max_lead_ticks + 1 < k_input_window_ticks,
               "a server refuses inputs beyond its window");
 
 }  // namespace
@@ -22,6 +23,10 @@ Client::Created Client::create(const ClientConfig& config, ClientParts parts) {
   SetupError error = check_security(config.insecure, *parts.transport);
   if (error != SetupError::none) return {nullptr, error};
   error = check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);
+  if (config.prediction_ticks > k_max_prediction_ticks ||
+      config.prediction_delay_ticks > k_max_input_delay_ticks) {
+    error = SetupError::prediction_out_of_range;
+  }
   if (config.max_lead_ticks > k_max_lead_ticks) error = SetupError::input_delay_out_of_range;
   if (error != SetupError::none) return {nullptr, error};
   return {std::unique_ptr<Client>(new Client(std::make_unique<Impl>(config, std::move(parts)))),
@@ -57,6 +62,27 @@ std::uint64_t Client::ticks_stepped() const {
 std::uint16_t Client::waiting_mask() const {
   return impl_->waiting;
 }
+std::uint64_t Client::ticks_predicted() const {
+  return std::max(impl_->head, impl_->stepped);
+}
+std::optional<std::uint64_t> Client::active_tick() const {
+  if (impl_->active_tick == Impl::k_never) return std::nullopt;
+  return impl_->active_tick;
+}
+std::uint64_t Client::rejoin_key() const {
+  return impl_->rejoin_key;
+}
+bool Client::reconnect(ConnectionId connection) {
+  return impl_->reconnect(connection);
+}
+bool Client::paused() const {
+  return impl_->paused;
+}
+void Client::ask(AskKind kind, std::uint8_t topic, std::uint8_t choice) {
+  const bool votes = kind == AskKind::vote;
+  if (!impl_->seated || !impl_->active() || impl_->spectates()) return;
+  impl_->send(Ask{kind, votes ? topic : std::uint8_t{0}, votes ? choice : std::uint8_t{0}});
+}
 Simulation* Client::simulation() const {
   return impl_->simulation.get();
 }
@@ -72,6 +98,7 @@ Client::Impl::Impl(const ClientConfig& client_config, ClientParts client_parts)
     : config(client_config),
       parts(std::move(client_parts)),
       observer(parts.observer == nullptr ? &silent_observer : parts.observer),
+      rejoin_key(config.rejoin_key),
       out(k_max_message_bytes) {}
 
 void Client::Impl::update(std::int64_t now) {
@@ -87,10 +114,11 @@ void Client::Impl::update(std::int64_t now) {
   if (state == ClientState::running) {
     step_ticks(unacknowledged_limit());
     sample_inputs();
+    if (predicts()) predict_ticks();
     request_missing();
     send_dump_chunks();
   }
-  if (state == ClientState::running || state == ClientState::lobby) send_due_inputs();
+  if (state >= ClientState::lobby && state <= ClientState::running) send_due_inputs();
   parts.transport->flush();
 }
 
@@ -141,6 +169,12 @@ bool Client::Impl::dispatch(ByteView packet) {
       return on_desync(packet);
     case MessageType::dump_request:
       return on_dump_request(packet);
+    case MessageType::snapshot:
+      return on_snapshot(packet);
+    case MessageType::activate:
+      return on_activate(packet);
+    case MessageType::paused:
+      return on_paused(packet);
     case MessageType::finish:
       return on_finish(packet);
     case MessageType::bye:
@@ -167,15 +201,25 @@ void Client::Impl::say_hello() {
   hello.insecure = config.insecure;
   hello.wanted_slot = config.wanted_slot;
   hello.name = NameText(config.name);
+  hello.build = BuildText(config.build);
+  hello.rejoin_key = rejoin_key;
+  hello.ticks_stepped = stepped;
   send(hello);
 }
 
 bool Client::Impl::on_offer(ByteView packet) {
   Offer offer;
   if (decode(packet, offer) != Status::ok) return false;
-  if (state != ClientState::handshaking || simulation != nullptr ||
-      offer.insecure != config.insecure) {
-    return false;
+  const bool expected = state == ClientState::handshaking && !offered;
+  if (!expected || offer.insecure != config.insecure) return false;
+  offered = true;
+  if (knows_state(offer.config)) {
+    send(Answer{info});
+    return true;
+  }
+  if (stepped > 0) {  // the state that Hello spoke of is of another match
+    fail(ClientFailure::config_not_understood);
+    return true;
   }
   Result<std::unique_ptr<Simulation>> made = parts.factory(offer.config);
   if (!made || check_info(made.value()->info()) != SetupError::none) {
@@ -186,6 +230,7 @@ bool Client::Impl::on_offer(ByteView packet) {
   info = simulation->info();
   shape = {info.player_count, info.input_bytes};
   tick_us = 1'000'000 / info.tick_rate;
+  offered_hash = hash64(offer.config);
   reserve_memory();
   send(Answer{info});
   return true;
@@ -197,8 +242,15 @@ void Client::Impl::reserve_memory() {
   records = TickRing(config.history_ticks, shape.record_bytes());
   own_inputs = TickRing(std::size_t{4} * k_input_window_ticks, info.input_bytes);
   hashes = HashRing(config.history_ticks);
-  snapshots = TickRing(keeps ? config.snapshot_ticks : 0, snapshot_bytes);
-  dump.resize(snapshots.capacity() > 0 ? snapshot_bytes : 0);
+  snapshots = TickRing(keeps && !predicts() ? config.snapshot_ticks : 0, snapshot_bytes);
+  dump.resize(keeps ? snapshot_bytes : 0);
+  entry.resize(keeps ? snapshot_bytes : 0);
+  if (!predicts()) return;
+  const std::size_t guessed = std::size_t{config.prediction_ticks} + 2;
+  states = TickRing((keeps ? config.snapshot_ticks : 0) + guessed,
+                    simulation->snapshot_bytes_max(SnapshotKind::native));
+  guesses = TickRing(guessed, shape.record_bytes());
+  guess_hashes.resize(guessed);
 }
 
 bool Client::Impl::on_welcome(ByteView packet) {
@@ -206,12 +258,16 @@ bool Client::Impl::on_welcome(ByteView packet) {
   if (decode(packet, welcome) != Status::ok) return false;
   if (state != ClientState::handshaking || simulation == nullptr) return false;
   if (welcome.player_count != info.player_count) return false;
+  if (welcome.entry == Entry::lobby && stepped > 0) return false;
   seat = welcome;
   seated = true;
-  state = ClientState::lobby;
-  sampled = seat.input_delay_ticks;
+  rejoin_key = welcome.rejoin_key;
+  lead = LeadControl(config.max_lead_ticks);
+  sampled = std::max<std::uint64_t>(sampled, seat.input_delay_ticks);
   inputs_acked = sampled;
+  state = welcome.entry == Entry::lobby ? ClientState::lobby : ClientState::joining;
   observer->joined(seat.slot);
+  if (welcome.entry == Entry::ticks) begin_running(stepped);
   return true;
 }
 
@@ -233,10 +289,9 @@ void Client::Impl::connection_ended(RefuseReason reason) {
 bool Client::Impl::on_start(ByteView packet) {
   Start start;
   if (decode(packet, start) != Status::ok || state != ClientState::lobby) return false;
-  state = ClientState::running;
-  clock_us = now_us;
-  clock_tick = 0;
-  news = true;
+  begin_running(0);
+  if (((start.present_mask >> seat.slot) & 1) != 0) active_tick = 0;
+  present_mask = start.present_mask;
   observer->match_started();
   return true;
 }
@@ -266,7 +321,8 @@ bool Client::Impl::on_finish(ByteView packet) {
   if (decode(packet, finish) != Status::ok || !seated) return false;
   const bool played =
       finish.reason == FinishReason::completed || finish.reason == FinishReason::stopped;
-  if (played && state == ClientState::running) step_ticks(config.history_ticks);
+  over = true;
+  if (played && state == ClientState::running) step_rest();
   finish_reason = finish.reason;
   hang_up(ClientState::finished, LeaveReason::match_over);
   observer->match_finished(finish.reason, finish.ticks);
@@ -302,6 +358,10 @@ ClientStats Client::Impl::current_stats() const {
   current.packets_sent = traffic.packets_sent;
   current.packets_received = traffic.packets_received;
   current.round_trip_us = traffic.round_trip_us;
+  current.margin_quarters = lead.last_margin();
+  current.lead_ticks = lead.lead_ticks();
+  current.rate_trim_ppm = lead.trim_ppm();
+  current.jitter_us = playout.depth_us();
   return current;
 }
 
@@ -311,5 +371,11 @@ void ClientObserver::tick_stepped(std::uint64_t, std::span<const PlayerInput>, s
 void ClientObserver::server_silent(std::int64_t) {}
 void ClientObserver::desync_reported(const DesyncReport&) {}
 void ClientObserver::match_finished(FinishReason, std::uint64_t) {}
+void ClientObserver::state_loaded(std::uint64_t) {}
+void ClientObserver::player_active(std::uint8_t, std::uint64_t) {}
+void ClientObserver::pause_changed(bool) {}
+void ClientObserver::input_replaced(std::uint64_t) {}
+void ClientObserver::tick_predicted(std::uint64_t, std::span<const PlayerInput>) {}
+void ClientObserver::rolled_back(std::uint64_t, std::uint64_t) {}
 
 }  // namespace lockstone::net

@@ -17,22 +17,26 @@ constexpr std::int64_t k_gap_patience_us = 30'000;
 constexpr std::uint64_t k_max_resend_ticks = 64;
 constexpr std::uint64_t k_max_hash_packets = 4;
 constexpr int k_dump_chunks_per_update = 8;
+constexpr std::uint64_t k_queue_ticks = 4;
 
 }  // namespace
 
 bool Client::Impl::on_ticks(ByteView packet) {
   // Unreliable, so it may overtake the messages that it presupposes.
   if (!seated) return state == ClientState::handshaking;
+  if (state != ClientState::running) return true;
   Ticks message;
   if (decode(packet, shape, message) != Status::ok) return false;
   const bool sane = message.hashes_received <= stepped &&
                     message.inputs_received <= message.ticks_closed + k_input_window_ticks;
   if (!sane) return false;
-  if (state != ClientState::running) return true;
   waiting = message.waiting_mask;
   inputs_acked = std::max(inputs_acked, message.inputs_received);
   sampled = std::max(sampled, inputs_acked);  // what the server replaced is not asked for any more
   hashes_acked = std::max(hashes_acked, message.hashes_received);
+  if (message.margin_quarters != k_no_margin && config.adapt_lead) {
+    lead.note(message.margin_quarters, message.inputs_received, sampled, now_us);
+  }
   take_records(message);
   return true;
 }
@@ -47,30 +51,53 @@ void Client::Impl::take_records(const Ticks& message) {
     news = true;
   }
   while (records.has(received))
-    ++received;
+    playout.arrived(received++, now_us);
 }
 
 // A client whose hashes nobody acknowledges stops before it loses the snapshots that a report of a
 // difference would need.
 std::uint64_t Client::Impl::unacknowledged_limit() const {
-  const std::size_t kept = snapshots.capacity() > 0 ? snapshots.capacity() : config.history_ticks;
+  const bool keeps = snapshots.capacity() > 0 || (predicts() && config.snapshot_ticks > 0);
+  const std::size_t kept = keeps ? config.snapshot_ticks : config.history_ticks;
   return std::min<std::uint64_t>(kept, config.history_ticks);
 }
 
 void Client::Impl::step_ticks(std::uint64_t limit) {
   for (std::uint32_t i = 0; i < config.max_steps_per_update; ++i) {
-    if (stepped == received || stepped - hashes_acked >= limit) return;
-    step_one();
+    const bool unheard = !spectates() && stepped - std::min(stepped, hashes_acked) >= limit;
+    if (stepped == received || unheard || !due(stepped)) return;
+    if (predicts()) {
+      confirm_one();
+    } else {
+      step_one();
+    }
   }
+}
+
+// The match is over: all that is here, at once.
+void Client::Impl::step_rest() {
+  for (std::uint64_t before = stepped + 1; before != stepped;) {
+    before = stepped;
+    step_ticks(config.history_ticks);
+  }
+}
+
+// Ticks that queue up are not for an even flow: they are caught up with.
+bool Client::Impl::due(std::uint64_t tick) const {
+  const bool evenly = config.play_out_evenly && seat.pacing == Pacing::real_time && !predicts();
+  const auto depth_ticks = static_cast<std::uint64_t>(playout.depth_us() / tick_us);
+  if (!evenly || over || received - stepped > depth_ticks + k_queue_ticks) return true;
+  return playout.due(tick, now_us);
 }
 
 void Client::Impl::step_one() {
   const RecordInputs inputs(records.find(stepped), shape);
-  const PlayerInput& own = inputs.view()[seat.slot];
-  const bool late = stepped >= seat.input_delay_ticks && own.origin != InputOrigin::received;
-  if (late) ++stats.substituted_inputs;
   simulation->step(inputs.view());
-  const std::uint64_t hash = simulation->hash();
+  after_step(simulation->hash());
+}
+
+// The tick `stepped` has been stepped as it was closed; `hash` is the state after it.
+void Client::Impl::after_step(std::uint64_t hash) {
   hashes.push(hash);
   if (snapshots.capacity() > 0) {
     const std::size_t size = simulation->save(SnapshotKind::canonical, snapshots.claim(stepped));
@@ -78,10 +105,17 @@ void Client::Impl::step_one() {
   }
   news = true;
   const std::uint64_t tick = stepped++;
+  const RecordInputs inputs(records.find(tick), shape);
   observer->tick_stepped(tick, inputs.view(), hash);
+  if (spectates() || tick < std::max<std::uint64_t>(seat.input_delay_ticks, active_tick)) return;
+  const InputOrigin origin = inputs.view()[seat.slot].origin;
+  if (origin == InputOrigin::received || origin == InputOrigin::absent) return;
+  ++stats.substituted_inputs;
+  observer->input_replaced(tick);
 }
 
 void Client::Impl::sample_inputs() {
+  if (active_tick == k_never) return;
   const std::uint64_t target = sample_target();
   for (; sampled < target; ++sampled) {
     const std::span<std::byte> place = own_inputs.claim(sampled);
@@ -95,19 +129,22 @@ void Client::Impl::sample_inputs() {
 // One past the last tick to have an input for. In real time the local clock drives it, so that a
 // late packet from the server does not make this player's inputs late as well.
 std::uint64_t Client::Impl::sample_target() {
-  std::uint64_t reached = stepped;
+  std::uint64_t reached = received;
   if (seat.pacing == Pacing::real_time) {
-    const auto elapsed_us = static_cast<std::uint64_t>(now_us - clock_us);
+    const std::int64_t passed_us = now_us - clock_set_us;
+    clock_set_us = now_us;
+    clock_us += passed_us + passed_us * lead.trim_ppm() / 1'000'000;
+    const auto elapsed_us = static_cast<std::uint64_t>(clock_us - clock_origin_us);
     const std::uint64_t local = clock_tick + elapsed_us * info.tick_rate / 1'000'000;
-    if (local > stepped + config.max_lead_ticks) {
+    if (local > received + config.max_lead_ticks) {
       // The match stalls: keep what is sampled, and count anew from where it is.
-      clock_us = now_us;
-      clock_tick = stepped;
+      clock_origin_us = clock_us;
+      clock_tick = received;
     } else {
       reached = std::max(reached, local);
     }
   }
-  const std::uint64_t target = reached + seat.input_delay_ticks + 1;
+  const std::uint64_t target = reached + seat.input_delay_ticks + lead.lead_ticks() + 1;
   return seat.tick_count == 0 ? target : std::min(target, seat.tick_count);
 }
 
@@ -137,10 +174,11 @@ void Client::Impl::send_due_inputs() {
   const std::int64_t since_us = now_us - last_sent_us;
   const std::int64_t soonest_us = fast ? 0 : tick_us / 2;
   const std::int64_t retry_us = fast ? k_fast_retry_us : tick_us;
-  const std::int64_t latest_us = state == ClientState::lobby ? k_keepalive_us : retry_us;
+  const std::int64_t latest_us = state == ClientState::running ? retry_us : k_keepalive_us;
   if (since_us < soonest_us || (!news && since_us < latest_us)) return;
   last_sent_us = now_us;
   news = false;
+  if (spectates() || state != ClientState::running) return send_inputs(stepped);
   std::uint64_t first_hash_tick = hashes_acked;
   for (std::uint64_t i = 0; i < k_max_hash_packets; ++i) {
     send_inputs(first_hash_tick);
@@ -161,7 +199,8 @@ void Client::Impl::send_inputs(std::uint64_t first_hash_tick) {
       coded.size() - k_inputs_header_bytes - std::size_t{message.hash_count} * 8;
   RecordWriter writer(std::span<std::byte>(coded).first(room_bytes), info.input_bytes);
   message.first_tick = inputs_acked;
-  for (std::uint64_t tick = inputs_acked; tick < sampled; ++tick) {
+  const std::uint64_t end = active_tick == k_never ? inputs_acked : sampled;
+  for (std::uint64_t tick = inputs_acked; tick < end; ++tick) {
     const bool full = message.count == k_max_ticks_per_message;
     if (full || !own_inputs.has(tick) || !writer.add(own_inputs.find(tick))) break;
     ++message.count;
@@ -174,16 +213,26 @@ bool Client::Impl::on_dump_request(ByteView packet) {
   DumpRequest request;
   if (decode(packet, request) != Status::ok || state != ClientState::running) return false;
   if (request.tick >= stepped) return false;
-  const ByteView kept = snapshots.find(request.tick);
-  if (kept.empty()) {
-    send(Dump{request.tick, 0, 0, {}});
-    return true;
-  }
-  std::copy(kept.begin(), kept.end(), dump.begin());
   dump_tick = request.tick;
-  dump_size = kept.size();
   dump_sent = 0;
+  dump_size = predicts() ? dump_kept_state(request.tick + 1) : 0;
+  const ByteView kept = snapshots.find(request.tick);
+  if (!kept.empty()) {
+    std::copy(kept.begin(), kept.end(), dump.begin());
+    dump_size = kept.size();
+  }
+  if (dump_size == 0) send(Dump{request.tick, 0, 0, {}});
   return true;
+}
+
+// The canonical form of the state that was kept after so many ticks; 0: not kept.
+std::size_t Client::Impl::dump_kept_state(std::uint64_t ticks) {
+  const ByteView kept = states.find(ticks);
+  if (kept.empty() || dump.empty()) return 0;
+  LKS_CHECK(simulation->load(SnapshotKind::native, kept) == Status::ok);
+  const std::size_t size = simulation->save(SnapshotKind::canonical, dump);
+  LKS_CHECK(simulation->load(SnapshotKind::native, states.find(head)) == Status::ok);
+  return size;
 }
 
 void Client::Impl::send_dump_chunks() {

@@ -13,16 +13,24 @@ HashJudge::HashJudge(std::size_t player_count, std::size_t history_ticks, bool h
 }
 
 bool HashJudge::can_push(std::size_t slot) const {
-  const std::uint64_t judged = has_own_ ? players_[slot].judged : shared_judged_;
-  return wanted(slot) - std::min(judged, wanted(slot)) < history_ticks_;
+  const Player& player = players_[slot];
+  return player.ignored || wanted(slot) - player.judged < history_ticks_;
+}
+
+void HashJudge::restart(std::size_t slot, std::uint64_t tick) {
+  Player& player = players_[slot];
+  player.reported.restart(tick);
+  player.first = tick;
+  player.judged = tick;
+  player.present = false;
+  player.ignored = false;
 }
 
 std::optional<Mismatch> HashJudge::advance() {
-  if (!has_own_) return compare_players();
   for (std::uint8_t slot = 0; slot < players_.size(); ++slot) {
     if (const std::optional<Mismatch> found = compare_with_own(slot)) return found;
   }
-  return std::nullopt;
+  return has_own_ ? std::nullopt : compare_players();
 }
 
 std::optional<Mismatch> HashJudge::compare_with_own(std::uint8_t slot) {
@@ -33,8 +41,9 @@ std::optional<Mismatch> HashJudge::compare_with_own(std::uint8_t slot) {
     ++player.compared;
     if (player.reported.at(tick) != own_.at(tick)) {
       player.ignored = true;
-      return Mismatch{
-          tick, slot, k_no_slot, Verdict::client_diverged, own_.at(tick), player.reported.at(tick)};
+      const Verdict verdict = has_own_ ? Verdict::client_diverged : Verdict::minority;
+      const std::uint8_t speaker = has_own_ ? k_no_slot : speaker_for(tick);
+      return Mismatch{tick, slot, speaker, verdict, own_.at(tick), player.reported.at(tick)};
     }
     ++player.equal;
   }
@@ -42,7 +51,15 @@ std::optional<Mismatch> HashJudge::compare_with_own(std::uint8_t slot) {
 }
 
 bool HashJudge::takes_part(const Player& player, std::uint64_t tick) const {
-  return !player.ignored && player.reported.next_tick() > tick;
+  return !player.ignored && player.first <= tick && player.reported.next_tick() > tick;
+}
+
+// A player that had the agreed hash of a tick: the first one that still takes part.
+std::uint8_t HashJudge::speaker_for(std::uint64_t tick) const {
+  for (std::uint8_t slot = 0; slot < players_.size(); ++slot) {
+    if (takes_part(players_[slot], tick) && players_[slot].judged > tick) return slot;
+  }
+  return k_no_slot;
 }
 
 bool HashJudge::all_reported(std::uint64_t tick) const {
@@ -94,6 +111,7 @@ void HashJudge::compare_tick(std::uint64_t tick) {
     Player& player = players_[slot];
     if (!takes_part(player, tick)) continue;
     ++player.compared;
+    player.judged = tick + 1;
     const std::uint64_t hash = player.reported.at(tick);
     if (hash == right) {
       ++player.equal;

@@ -40,6 +40,9 @@ class HashJudge {
     return players_[slot].reported.next_tick();
   }
 
+  /// `slot` reports anew, from `tick` on, whatever it reported before. Nobody waits for it yet.
+  void restart(std::size_t slot, std::uint64_t tick);
+
   /// Players that do not report any more are not waited for.
   void set_present(std::size_t slot, bool present) { players_[slot].present = present; }
 
@@ -60,7 +63,8 @@ class HashJudge {
  private:
   struct Player {
     HashRing reported;
-    std::uint64_t judged = 0;  ///< next tick to compare, with a hash of our own
+    std::uint64_t first = 0;   ///< reports began here
+    std::uint64_t judged = 0;  ///< next tick to compare
     std::uint64_t compared = 0;
     std::uint64_t equal = 0;
     bool present = false;
@@ -72,6 +76,7 @@ class HashJudge {
   void compare_tick(std::uint64_t tick);
   [[nodiscard]] bool all_reported(std::uint64_t tick) const;
   [[nodiscard]] bool takes_part(const Player& player, std::uint64_t tick) const;
+  [[nodiscard]] std::uint8_t speaker_for(std::uint64_t tick) const;
   [[nodiscard]] std::uint8_t speaker_of_largest_group(std::size_t& votes, std::size_t& all) const;
 
   bool has_own_;

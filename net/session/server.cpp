@@ -11,7 +11,19 @@ namespace lockstone::net {
 namespace {
 
 constexpr std::size_t k_spare_links = 4;  // for those who are refused
+constexpr std::uint32_t k_max_spectators = 256;
+constexpr std::uint32_t k_max_spectator_delay_s = 180;
 constexpr std::size_t k_input_ring_ticks = 4 * k_input_window_ticks;
+
+// Ticks that a delayed spectator may lack are still there.
+bool spectators_fit(const ServerConfig& config, std::uint32_t tick_rate) {
+  if (config.max_spectators == 0) return true;
+  if (config.max_spectators > k_max_spectators) return false;
+  if (config.spectator_delay_ticks > k_max_spectator_delay_s * tick_rate) return false;
+  const std::uint64_t lack = std::uint64_t{config.spectator_delay_ticks} +
+                             config.spectator_queue_ticks + 2 * keyframe_ticks_of(config);
+  return config.entry_bytes_per_s > 0 && lack < config.history_ticks;
+}
 
 SetupError check(const ServerConfig& config, const SimulationInfo& info) {
   if (config.match_config.size() > k_max_config_bytes) return SetupError::match_config_too_long;
@@ -21,6 +33,7 @@ SetupError check(const ServerConfig& config, const SimulationInfo& info) {
   if (config.tick_count > k_max_tick) return SetupError::history_out_of_range;
   const SetupError info_error = check_info(info);
   if (info_error != SetupError::none) return info_error;
+  if (!spectators_fit(config, info.tick_rate)) return SetupError::spectators_out_of_range;
   return check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);
 }
 
@@ -68,6 +81,21 @@ PlayerStats Server::stats(std::uint8_t slot) const {
   return impl_->stats_of(slot);
 }
 
+bool Server::paused() const {
+  return impl_->paused;
+}
+void Server::pause() {
+  impl_->set_paused(true);
+}
+void Server::resume() {
+  impl_->set_paused(false);
+}
+std::size_t Server::spectators() const {
+  return static_cast<std::size_t>(
+      std::count_if(impl_->watchers.begin(), impl_->watchers.end(),
+                    [](const auto& watcher) { return watcher.link != nullptr; }));
+}
+
 void Server::stop() {
   if (impl_->state > ServerState::running) return;
   impl_->finish_reason = FinishReason::stopped;
@@ -82,8 +110,9 @@ Server::Impl::Impl(const ServerConfig& server_config, const ServerParts& server_
       info(parts.simulation == nullptr ? config.info : parts.simulation->info()),
       shape{info.player_count, info.input_bytes},
       tick_us(1'000'000 / info.tick_rate),
-      links(info.player_count + k_spare_links),
+      links(info.player_count + config.max_spectators + k_spare_links),
       seats(info.player_count),
+      watchers(config.max_spectators),
       end_tick(config.tick_count == 0 ? k_max_tick : config.tick_count),
       records(config.history_ticks, shape.record_bytes()),
       snapshots(parts.simulation == nullptr ? 0 : config.snapshot_ticks,
@@ -92,6 +121,13 @@ Server::Impl::Impl(const ServerConfig& server_config, const ServerParts& server_
       out(k_max_message_bytes) {
   for (Seat& place : seats)
     place.inputs = TickRing(k_input_ring_ticks, info.input_bytes);
+  if (parts.simulation == nullptr) return;
+  entry.bytes.resize(snapshot_bytes(parts.simulation));
+  if (config.max_spectators > 0 && config.spectator_delay_ticks > 0) {
+    const std::size_t count = config.spectator_delay_ticks / keyframe_ticks_of(config) + 4;
+    keyframes = TickRing(count, entry.bytes.size());
+    keyframe_hashes.resize(count);
+  }
 }
 
 void Server::Impl::update(std::int64_t now) {
@@ -100,13 +136,18 @@ void Server::Impl::update(std::int64_t now) {
   now_us = now;
   receive();
   watch_peers();
+  end_if_deserted();
   if (state == ServerState::lobby) try_start();
-  if (state == ServerState::running) close_due_ticks();
+  if (state == ServerState::running) {
+    close_due_ticks();
+    advance_entries();
+  }
   judge_hashes();
   advance_case();
   if (state == ServerState::finishing) try_finish();
   if (state == ServerState::closing) try_end();
   send_due_ticks();
+  serve_spectators();
   parts.transport->flush();
 }
 
@@ -125,7 +166,7 @@ void Server::Impl::receive() {
       const std::uint8_t slot = link->slot;
       const bool flooding = event.reason == RefuseReason::flooding;
       release(*link);
-      if (slot != k_no_slot) {
+      if (slot < seats.size()) {
         seat_lost(slot, flooding ? LeaveReason::flooding : LeaveReason::disconnected);
       }
     }
@@ -136,7 +177,7 @@ void Server::Impl::receive_packet(Link& link, const TransportEvent& event) {
   link.watch.heard(now_us);
   if (dispatch(link, event.bytes)) return;
   const bool too_many = link.watch.malformed(now_us);
-  if (link.slot != k_no_slot) ++seats[link.slot].stats.malformed_packets;
+  if (link.slot < seats.size()) ++seats[link.slot].stats.malformed_packets;
   if (too_many) drop(link, LeaveReason::malformed);
 }
 
@@ -151,11 +192,15 @@ bool Server::Impl::dispatch(Link& link, ByteView packet) {
     case MessageType::answer:
       return link.stage == Stage::offered && on_answer(link, packet);
     case MessageType::inputs:
-      return link.stage == Stage::seated && on_inputs(link, packet);
+      return link.stage >= Stage::seated && on_inputs(link, packet);
     case MessageType::resend:
-      return link.stage == Stage::seated && on_resend(link, packet);
+      return link.stage >= Stage::seated && on_resend(link, packet);
     case MessageType::dump:
       return link.stage == Stage::seated && on_dump(link, packet);
+    case MessageType::snapshot_taken:
+      return link.stage >= Stage::seated && on_snapshot_taken(link, packet);
+    case MessageType::ask:
+      return link.stage == Stage::seated && on_ask(link, packet);
     case MessageType::bye:
       if (decode(packet, bye) != Status::ok) return false;
       drop(link, LeaveReason::left);
@@ -168,14 +213,15 @@ bool Server::Impl::dispatch(Link& link, ByteView packet) {
 void Server::Impl::watch_peers() {
   for (Link& link : links) {
     if (link.stage == Stage::unused) continue;
-    if (link.stage != Stage::seated) {
+    if (link.stage < Stage::seated) {
       if (now_us - link.since_us > config.timeouts.handshake_us) {
         refuse(link, {RefuseReason::handshake_timeout, RefuseField::none, 0, 0});
       }
       continue;
     }
     const std::int64_t silent_us = link.watch.silent_us(now_us);
-    if (link.watch.warn(now_us, config.timeouts.silence_warning_us)) {
+    const bool warns = link.watch.warn(now_us, config.timeouts.silence_warning_us);
+    if (warns && link.stage == Stage::seated) {
       observer->player_silent(link.slot, silent_us);
     }
     if (silent_us > config.timeouts.drop_us) drop(link, LeaveReason::timed_out);
@@ -184,10 +230,13 @@ void Server::Impl::watch_peers() {
 
 // Forgets a connection without a word.
 void Server::Impl::release(Link& link) {
-  if (link.slot != k_no_slot) {
+  if (link.slot < seats.size()) {
     PlayerStats& stats = seats[link.slot].stats;
     stats = stats_of(link.slot);
     seats[link.slot].link = nullptr;
+  }
+  for (Watcher& watcher : watchers) {
+    if (watcher.link == &link) watcher.link = nullptr;
   }
   link = {};
 }
@@ -198,20 +247,37 @@ void Server::Impl::drop(Link& link, LeaveReason reason) {
   const ConnectionId connection = link.connection;
   release(link);
   parts.transport->disconnect(connection);
-  if (slot != k_no_slot) seat_lost(slot, reason);
+  if (slot < seats.size()) seat_lost(slot, reason);
 }
 
 void Server::Impl::seat_lost(std::uint8_t slot, LeaveReason reason) {
   if (state >= ServerState::closing) return;
   judge.set_present(slot, false);
+  Seat& place = seats[slot];
+  place.active_tick = k_never;
+  const bool may_return = reason == LeaveReason::disconnected || reason == LeaveReason::timed_out ||
+                          reason == LeaveReason::too_far_behind;
+  if (!may_return || state == ServerState::lobby) place.rejoin_key = 0;
+  place.reserved_until_us = place.rejoin_key == 0 ? now_us : now_us + config.timeouts.rejoin_us;
   if (desync) {
     for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
       if (transfer->slot == slot && !transfer->done) *transfer = {slot, {}, 0, true};
     }
   }
   observer->player_left(slot, reason);
-  if (state == ServerState::lobby || present_mask() != 0 || desync) return;
-  finish(state == ServerState::running ? FinishReason::no_players : finish_reason);
+  end_if_deserted();
+}
+
+// Nobody plays, and nobody is expected back.
+void Server::Impl::end_if_deserted() {
+  const bool playing = state == ServerState::running || state == ServerState::finishing;
+  if (!playing || desync || present_mask() != 0) return;
+  const bool running = state == ServerState::running;
+  const bool expected = std::any_of(seats.begin(), seats.end(), [this](const Seat& place) {
+    return now_us < place.reserved_until_us;
+  });
+  if (running && expected) return;
+  finish(running ? FinishReason::no_players : finish_reason);
 }
 
 void Server::Impl::begin_finishing() {
@@ -251,7 +317,7 @@ void Server::Impl::try_end() {
   bool anybody = false;
   for (Link& link : links) {
     if (link.stage == Stage::unused) continue;
-    if (link.stage == Stage::seated && !timed_out) {
+    if (link.stage >= Stage::seated && !timed_out) {
       anybody = true;
     } else {
       drop(link, LeaveReason::match_over);
@@ -304,6 +370,8 @@ void ServerObserver::player_silent(std::uint8_t, std::int64_t) {}
 void ServerObserver::player_refused(const Refusal&) {}
 void ServerObserver::desync_found(const DesyncReport&) {}
 void ServerObserver::match_started() {}
+void ServerObserver::player_active(std::uint8_t, std::uint64_t) {}
+void ServerObserver::player_asks(std::uint8_t, AskKind, std::uint8_t, std::uint8_t) {}
 void ServerObserver::match_finished(FinishReason, std::uint64_t, std::optional<std::uint64_t>) {}
 
 }  // namespace lockstone::net

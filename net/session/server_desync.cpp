@@ -28,6 +28,7 @@ void Server::Impl::open_case(const Mismatch& mismatch) {
   desync->mismatch = mismatch;
   desync->since_us = now_us;
   waiting = 0;
+  entry.fetching = false;  // a player has one dump to send at a time
   if (mismatch.reference == k_no_slot) {
     const ByteView own = snapshots.find(mismatch.tick);
     desync->here = {k_no_slot, {own.begin(), own.end()}, own.size(), true};
@@ -46,6 +47,9 @@ void Server::Impl::request_dump(DumpTransfer& transfer, std::uint8_t slot) {
 bool Server::Impl::on_dump(Link& link, ByteView packet) {
   Dump dump;
   if (decode(packet, dump) != Status::ok) return false;
+  const bool for_entry = entry.fetching && entry.transfer.slot == link.slot &&
+                         dump.tick + 1 == entry.ticks && !entry.transfer.done;
+  if (for_entry) return take_chunk(entry.transfer, dump);
   if (!desync || dump.tick != desync->mismatch.tick) return true;  // asked for, but too late
   for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
     if (transfer->slot == link.slot && !transfer->done) return take_chunk(*transfer, dump);
@@ -81,8 +85,14 @@ void Server::Impl::advance_case() {
   if (report.verdict == Verdict::undecided || config.desync_policy == DesyncPolicy::end_match) {
     return finish(FinishReason::desync);
   }
-  if (seats[report.slot].link != nullptr) drop(*seats[report.slot].link, LeaveReason::desync);
-  if (state == ServerState::running && present_mask() == 0) finish(FinishReason::no_players);
+  Seat& place = seats[report.slot];
+  const bool again = config.desync_policy == DesyncPolicy::resync && !place.resynced;
+  if (place.link != nullptr && again && state == ServerState::running) {
+    resync(report.slot);
+  } else if (place.link != nullptr) {
+    drop(*place.link, LeaveReason::desync);
+  }
+  end_if_deserted();
   rebase_schedule(now_us);
 }
 

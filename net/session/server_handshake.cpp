@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 
+#include <lockstone/hash.h>
+
 #include "net/security/packet_seal.h"
 #include "net/session/server_impl.h"
 
@@ -25,13 +27,16 @@ void Server::Impl::accept(ConnectionId connection) {
 bool Server::Impl::on_hello(Link& link, ByteView packet) {
   Hello hello;
   if (decode(packet, hello) != Status::ok) return false;
+  link.wanted_slot = hello.wanted_slot;
+  link.rejoin_key = hello.rejoin_key;
+  link.ticks_stepped = hello.ticks_stepped;
+  link.build = hello.build;
   const Refusal refusal = judge_hello(link, hello);
   if (refusal.reason != RefuseReason::none) {
     refuse(link, refusal);
     return true;
   }
   link.name = hello.name;
-  link.wanted_slot = link.identity.authenticated ? link.identity.slot : hello.wanted_slot;
   link.stage = Stage::offered;
   send(link, Offer{config.insecure, config.match_config});
   return true;
@@ -54,30 +59,55 @@ Refusal Server::Impl::judge_hello(const Link& link, const Hello& hello) const {
     return {RefuseReason::insecure_not_allowed, RefuseField::insecure, config.insecure ? 1U : 0U,
             hello.insecure ? 1U : 0U};
   }
-  if (!link.identity.authenticated) return judge_seats(hello.wanted_slot);
+  if (!link.identity.authenticated) return judge_seats(link);
   const std::uint8_t slot = link.identity.slot;
-  if (slot >= seats.size() || (hello.wanted_slot != k_any_slot && hello.wanted_slot != slot)) {
+  const bool exists = slot < seats.size() || slot == k_spectator_slot;
+  if (!exists || (hello.wanted_slot != k_any_slot && hello.wanted_slot != slot)) {
     return {RefuseReason::wrong_slot, RefuseField::slot, slot, hello.wanted_slot};
   }
-  return judge_seats(slot);
+  return judge_seats(link);
 }
 
-Refusal Server::Impl::judge_seats(std::uint8_t wanted_slot) const {
-  if (state != ServerState::lobby) return {RefuseReason::match_running, RefuseField::none, 0, 0};
+Refusal Server::Impl::judge_seats(const Link& link) const {
+  const std::uint8_t wanted = wanted_slot(link);
+  if (wanted == k_spectator_slot) return judge_spectator();
+  const bool runs = state == ServerState::running && config.late_join;
+  if (state != ServerState::lobby && !runs) {
+    return {RefuseReason::match_running, RefuseField::none, 0, 0};
+  }
+  if (free_slot(link) != k_no_slot) return {};
   const std::size_t count = seats.size();
-  const auto taken = std::count_if(seats.begin(), seats.end(),
-                                   [](const Seat& place) { return place.link != nullptr; });
-  if (static_cast<std::size_t>(taken) == count) {
+  if (wanted == k_any_slot) {
     return {RefuseReason::match_full, RefuseField::player_count, count, count + 1};
   }
-  if (wanted_slot == k_any_slot) return {};
-  if (wanted_slot >= count) {
-    return {RefuseReason::slot_taken, RefuseField::slot, count, wanted_slot};
+  const std::size_t limit = std::min<std::size_t>(wanted, count);
+  return {RefuseReason::slot_taken, RefuseField::slot, limit, wanted};
+}
+
+// A token says more than a wish.
+std::uint8_t Server::Impl::wanted_slot(const Link& link) const {
+  return link.identity.authenticated ? link.identity.slot : link.wanted_slot;
+}
+
+// Who lost a seat gets it back, even before the server has noticed that it was lost.
+std::uint8_t Server::Impl::free_slot(const Link& link) const {
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    const Seat& place = seats[slot];
+    if (place.rejoin_key != 0 && is_player_of(link, place)) return slot;
   }
-  if (seats[wanted_slot].link != nullptr) {
-    return {RefuseReason::slot_taken, RefuseField::slot, wanted_slot, wanted_slot};
+  const std::uint8_t wanted = wanted_slot(link);
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    const Seat& place = seats[slot];
+    const bool open = place.link == nullptr && now_us >= place.reserved_until_us;
+    if (open && (wanted == k_any_slot || wanted == slot)) return slot;
   }
-  return {};
+  return k_no_slot;
+}
+
+bool Server::Impl::is_player_of(const Link& link, const Seat& place) const {
+  if (!link.identity.authenticated) return place.rejoin_key == link.rejoin_key;
+  return link.identity.slot == static_cast<std::size_t>(&place - seats.data()) &&
+         link.identity.player == place.player;
 }
 
 bool Server::Impl::on_answer(Link& link, ByteView packet) {
@@ -85,11 +115,13 @@ bool Server::Impl::on_answer(Link& link, ByteView packet) {
   if (decode(packet, answer) != Status::ok) return false;
   Refusal refusal = judge_info(answer.info);
   // Somebody else may have sat down since the offer.
-  if (refusal.reason == RefuseReason::none) refusal = judge_seats(link.wanted_slot);
-  if (refusal.reason == RefuseReason::none) {
-    seat(link);
-  } else {
+  if (refusal.reason == RefuseReason::none) refusal = judge_seats(link);
+  if (refusal.reason != RefuseReason::none) {
     refuse(link, refusal);
+  } else if (wanted_slot(link) == k_spectator_slot) {
+    welcome_spectator(link);
+  } else {
+    seat(link, free_slot(link));
   }
   return true;
 }
@@ -124,35 +156,57 @@ void Server::Impl::refuse(Link& link, const Refusal& refusal) {
   observer->player_refused(refusal);
 }
 
-void Server::Impl::seat(Link& link) {
-  std::uint8_t slot = link.wanted_slot;
-  if (slot == k_any_slot) {
-    for (slot = 0; seats[slot].link != nullptr;)
-      ++slot;
-  }
+void Server::Impl::seat(Link& link, std::uint8_t slot) {
+  Seat& place = seats[slot];
+  if (place.link != nullptr) drop(*place.link, LeaveReason::disconnected);  // its player is back
   link.slot = slot;
   link.stage = Stage::seated;
-  Seat& place = seats[slot];
+  static_cast<Follower&>(place) = {};
   place.link = &link;
-  place.stats = {};
-  place.inputs_next = config.input_delay_ticks;
   place.last_sent_us = now_us;
-  judge.set_present(slot, true);
   parts.transport->trust(link.connection);
-  send(link, Welcome{slot, info.player_count, config.input_delay_ticks, config.late_policy,
-                     config.pacing, config.tick_count});
+  if (place.rejoin_key == 0 || !is_player_of(link, place)) {
+    place.stats = {};
+    place.resynced = false;
+    place.player = link.identity.player;
+    place.rejoin_key = hash64({}, hash64({}, config.rejoin_seed) + ++keys_given) | 1;
+  }
+  if (state == ServerState::lobby) {
+    place.inputs_next = config.input_delay_ticks;
+    place.active_tick = 0;
+    judge.set_present(slot, true);
+    send(link, welcome(slot, Entry::lobby));
+  } else {
+    enter(slot, link);
+  }
   observer->player_joined(slot, link.name.view());
 }
 
+Welcome Server::Impl::welcome(std::uint8_t slot, Entry way) const {
+  const std::uint64_t key = slot < seats.size() ? seats[slot].rejoin_key : 0;
+  return {slot,
+          info.player_count,
+          config.input_delay_ticks,
+          config.late_policy,
+          config.pacing,
+          config.tick_count,
+          way,
+          key};
+}
+
 void Server::Impl::try_start() {
-  const bool all_seated = std::all_of(seats.begin(), seats.end(),
-                                      [](const Seat& place) { return place.link != nullptr; });
-  if (!all_seated) return;
+  const auto seated = std::count_if(seats.begin(), seats.end(),
+                                    [](const Seat& place) { return place.link != nullptr; });
+  const std::size_t wanted = config.start_players == 0
+                                 ? seats.size()
+                                 : std::min<std::size_t>(config.start_players, seats.size());
+  if (static_cast<std::size_t>(seated) < wanted) return;
   state = ServerState::running;
   state_since_us = now_us;
   rebase_schedule(now_us + tick_us);
-  for (const Seat& place : seats)
-    send(*place.link, Start{present_mask()});
+  for (const Link& link : links) {
+    if (link.stage >= Stage::seated) send(link, Start{present_mask()});
+  }
   observer->match_started();
 }
 

@@ -1,6 +1,7 @@
 // The inside of net::Server, spread over server_*.cpp by theme.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -14,6 +15,11 @@
 #include "net/session/tick_ring.h"
 
 namespace lockstone::net {
+
+/// How far apart the states are that a delayed spectator may begin from.
+[[nodiscard]] inline std::uint32_t keyframe_ticks_of(const ServerConfig& config) {
+  return std::max<std::uint32_t>(60, config.spectator_delay_ticks / 8);
+}
 
 /// A canonical snapshot on its way from a player.
 struct DumpTransfer {
@@ -32,7 +38,8 @@ struct DesyncCase {
 };
 
 struct Server::Impl {
-  enum class Stage : std::uint8_t { unused, connected, offered, seated };
+  static constexpr std::uint64_t k_never = ~std::uint64_t{0};
+  enum class Stage : std::uint8_t { unused, connected, offered, seated, watching };
 
   struct Link {
     ConnectionId connection = k_no_connection;
@@ -40,22 +47,57 @@ struct Server::Impl {
     std::uint8_t slot = k_no_slot;  ///< of a seated one
     std::uint8_t wanted_slot = k_any_slot;
     PeerIdentity identity;
+    std::uint64_t rejoin_key = 0;
+    std::uint64_t ticks_stepped = 0;
+    BuildText build;
     std::int64_t since_us = 0;
     PeerWatch watch;
     NameText name;
   };
 
-  struct Seat {
-    Link* link = nullptr;  ///< null: nobody sits here (any more)
-    TickRing inputs;
-    std::uint64_t inputs_next = 0;     ///< inputs below are received or replaced
+  /// Somebody to whom closed ticks go: a player, or a spectator.
+  struct Follower {
+    Link* link = nullptr;              ///< null: nobody is here (any more)
     std::uint64_t ticks_received = 0;  ///< closed ticks below are at the client
     std::uint64_t cursor = 0;          ///< where the next Ticks goes on, if not all fit
     std::uint64_t last_sent_closed = 0;
     std::int64_t last_sent_us = 0;
     std::uint64_t resend_next = 0;  ///< resend_next … resend_end - 1 were asked for
     std::uint64_t resend_end = 0;
+    bool loading = false;            ///< waits for a state to begin from; gets no ticks
+    bool offered = false;            ///< and is being sent the one after `ticks_received` ticks
+    bool keyframed = false;          ///< out of `keyframes`, not `entry`
+    std::uint64_t oldest_entry = 0;  ///< a state of fewer ticks does not help it
+    std::size_t snapshot_sent = 0;
+    unsigned bad_snapshots = 0;
+  };
+
+  struct Seat : Follower {
+    TickRing inputs;
+    std::uint64_t inputs_next = 0;        ///< inputs below are received or replaced
+    std::uint64_t active_tick = k_never;  ///< its player plays from this tick on
+    std::uint64_t player = 0;              ///< the account in its token
+    std::uint64_t rejoin_key = 0;         ///< who has it may sit here again
+    std::int64_t reserved_until_us = -1;  ///< so long nobody else may, if it is empty
+    std::int8_t margin = k_no_margin;     ///< the least since it was last told
+    bool resynced = false;
     PlayerStats stats;
+  };
+  struct Watcher : Follower {
+    bool finish_sent = false;
+  };
+
+  /// A state for those who enter while the match runs; one for all at a time.
+  struct EntryState {
+    std::vector<std::byte> bytes;
+    std::size_t size = 0;
+    std::uint64_t ticks = 0;
+    std::uint64_t hash = 0;
+    bool ready = false;
+    DumpTransfer transfer;  ///< relay: from a donor, while `fetching`
+    bool fetching = false;
+    std::int64_t since_us = 0;
+    unsigned next_donor = 0;
   };
 
   Impl(const ServerConfig& server_config, const ServerParts& server_parts);
@@ -69,6 +111,7 @@ struct Server::Impl {
   void release(Link& link);
   void drop(Link& link, LeaveReason reason);
   void seat_lost(std::uint8_t slot, LeaveReason reason);
+  void end_if_deserted();
   void begin_finishing();
   void try_finish();
   void finish(FinishReason reason);
@@ -84,15 +127,48 @@ struct Server::Impl {
   [[nodiscard]] bool on_answer(Link& link, ByteView packet);
   [[nodiscard]] bool refuse_secure_hello(Link& link, ByteView packet);
   [[nodiscard]] Refusal judge_hello(const Link& link, const Hello& hello) const;
-  [[nodiscard]] Refusal judge_seats(std::uint8_t wanted_slot) const;
+  [[nodiscard]] Refusal judge_seats(const Link& link) const;
   [[nodiscard]] Refusal judge_info(const SimulationInfo& theirs) const;
   void refuse(Link& link, const Refusal& refusal);
-  void seat(Link& link);
+  void seat(Link& link, std::uint8_t slot);
+  [[nodiscard]] std::uint8_t free_slot(const Link& link) const;
+  [[nodiscard]] std::uint8_t wanted_slot(const Link& link) const;
+  [[nodiscard]] bool is_player_of(const Link& link, const Seat& place) const;
+  [[nodiscard]] Welcome welcome(std::uint8_t slot, Entry way) const;
   void try_start();
+
+  // server_entry.cpp: entering a match that runs.
+  void enter(std::uint8_t slot, const Link& link);
+  void resync(std::uint8_t slot);
+  void load_anew(Follower& follower, std::uint64_t oldest_ticks);
+  void advance_entries();
+  void offer_entry(Follower& follower, std::uint8_t slot);
+  void capture_entry();
+  void fetch_entry();
+  void take_fetched_entry();
+  [[nodiscard]] bool entry_in_use() const;
+  [[nodiscard]] ByteView entry_bytes(const Follower& follower) const;
+  void send_entry_chunks(Follower& follower);
+  [[nodiscard]] bool on_snapshot_taken(Link& link, ByteView packet);
+  void try_activate(std::uint8_t slot);
+  void set_paused(bool pause);
+  [[nodiscard]] bool on_ask(const Link& link, ByteView packet);
+  [[nodiscard]] Follower* follower_of(const Link& link);
+
+  // server_spectators.cpp
+  [[nodiscard]] Refusal judge_spectator() const;
+  void welcome_spectator(Link& link);
+  [[nodiscard]] std::uint64_t visible_ticks() const;
+  void keep_keyframe();
+  void begin_watching(Watcher& watcher, std::uint64_t has);
+  void offer_keyframe(Watcher& watcher);
+  void serve_spectators();
+  void end_spectators();
 
   // server_ticks.cpp: inputs in, closed ticks out.
   [[nodiscard]] bool on_inputs(Link& link, ByteView packet);
   [[nodiscard]] bool on_resend(Link& link, ByteView packet);
+  [[nodiscard]] bool take_spectators_word(const Link& link, const Inputs& message);
   void take_inputs(Seat& place, const Inputs& message);
   void take_hashes(std::uint8_t slot, const Inputs& message);
   void close_due_ticks();
@@ -107,10 +183,15 @@ struct Server::Impl {
   void rebase_schedule(std::int64_t due_us);
   [[nodiscard]] std::int64_t due_us() const;
   void send_due_ticks();
+  void note_margin(Seat& place, std::uint64_t tick);
+  [[nodiscard]] bool anybody_plays() const;
+  [[nodiscard]] bool follows(const Seat& place) const;
+  [[nodiscard]] std::uint64_t end_for(const Follower& follower) const;
   [[nodiscard]] bool ticks_due(const Seat& place) const;
-  void send_unconfirmed(std::uint8_t slot);
-  std::uint64_t send_ticks(std::uint8_t slot, std::uint64_t first_tick, Channel channel);
-  void send_resends(std::uint8_t slot);
+  void send_unconfirmed(Follower& follower, Ticks& message);
+  std::uint64_t send_ticks(const Follower& follower, std::uint64_t first_tick, Channel channel,
+                           Ticks& message);
+  void send_resends(Follower& follower, Ticks& message);
 
   // server_desync.cpp
   void judge_hashes();
@@ -145,12 +226,19 @@ struct Server::Impl {
 
   std::vector<Link> links;  ///< never resized: seats point into it
   std::vector<Seat> seats;
+  std::vector<Watcher> watchers;
+  EntryState entry;
+  TickRing keyframes;  ///< states for delayed spectators, by number of ticks / keyframe_ticks_of()
+  std::vector<std::uint64_t> keyframe_hashes;
+  std::int64_t chunks_until_us = 0;  ///< the time that the pieces sent so far take
+  std::uint64_t keys_given = 0;
   std::uint64_t closed = 0;          ///< ticks 0 … closed - 1 are closed
   std::uint64_t end_tick = 0;        ///< the match has ticks below
   std::uint64_t schedule_tick = 0;   ///< this tick is due …
   std::int64_t schedule_due_us = 0;  ///< … at this time, the others by the tick rate from it
   std::uint16_t waiting = 0;
   std::int64_t waiting_since_us = 0;
+  bool paused = false;
   TickRing records;
   TickRing snapshots;
   HashJudge judge;

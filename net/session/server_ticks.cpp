@@ -20,16 +20,26 @@ constexpr int k_resends_per_update = 4;
 bool Server::Impl::on_inputs(Link& link, ByteView packet) {
   Inputs message;
   if (decode(packet, info.input_bytes, message) != Status::ok) return false;
-  Seat& place = seats[link.slot];
   const std::uint64_t hash_end = message.first_hash_tick + message.hash_count;
-  const bool sane = message.ticks_received <= closed && message.first_tick <= place.inputs_next &&
-                    message.first_tick + message.count <= closed + k_input_window_ticks &&
-                    hash_end <= message.ticks_received;
+  if (message.ticks_received > closed || hash_end > message.ticks_received) return false;
+  if (link.slot >= seats.size()) return take_spectators_word(link, message);
+  Seat& place = seats[link.slot];
+  const bool sane = message.first_tick + message.count <= closed + k_input_window_ticks &&
+                    (message.first_tick <= place.inputs_next || place.active_tick == k_never);
   if (!sane) return false;
-  if (state >= ServerState::closing) return true;
+  if (state >= ServerState::closing || place.loading) return true;
   place.ticks_received = std::max(place.ticks_received, message.ticks_received);
   take_inputs(place, message);
   take_hashes(link.slot, message);
+  return true;
+}
+
+bool Server::Impl::take_spectators_word(const Link& link, const Inputs& message) {
+  Follower* follower = follower_of(link);
+  if (follower == nullptr || message.count > 0 || message.hash_count > 0) return false;
+  if (!follower->loading) {
+    follower->ticks_received = std::max(follower->ticks_received, message.ticks_received);
+  }
   return true;
 }
 
@@ -38,11 +48,24 @@ void Server::Impl::take_inputs(Seat& place, const Inputs& message) {
   for (std::uint64_t tick = message.first_tick; tick < message.first_tick + message.count; ++tick) {
     LKS_CHECK(reader.next());  // decode has walked through it
     const bool recent = tick + k_input_window_ticks > closed;
-    if (!recent || tick < config.input_delay_ticks || place.inputs.has(tick)) continue;
+    const bool own = tick >= config.input_delay_ticks && tick >= place.active_tick;
+    if (!recent || !own || place.inputs.has(tick)) continue;
+    note_margin(place, tick);
     if (tick < place.inputs_next) ++place.stats.late_inputs;
     place.inputs.put(tick, reader.record());
     place.inputs_next = std::max(place.inputs_next, tick + 1);
   }
+}
+
+// How early an input came for its tick, by the schedule.
+void Server::Impl::note_margin(Seat& place, std::uint64_t tick) {
+  if (config.pacing == Pacing::fast) return;
+  const auto ahead = static_cast<std::int64_t>(tick) - static_cast<std::int64_t>(schedule_tick);
+  const std::int64_t due = schedule_due_us + ahead * 1'000'000 / info.tick_rate;
+  const std::int64_t quarters = (due - now_us) * 4 / tick_us;
+  const auto margin = static_cast<std::int8_t>(std::clamp<std::int64_t>(quarters, -127, 127));
+  place.margin = place.margin == k_no_margin ? margin : std::min(place.margin, margin);
+  place.stats.margin_quarters = margin;
 }
 
 void Server::Impl::take_hashes(std::uint8_t slot, const Inputs& message) {
@@ -57,9 +80,10 @@ bool Server::Impl::on_resend(Link& link, ByteView packet) {
   Resend message;
   if (decode(packet, message) != Status::ok) return false;
   if (message.first_tick + message.count > closed) return false;
-  Seat& place = seats[link.slot];
-  place.resend_next = std::max(message.first_tick, place.ticks_received);
-  place.resend_end = message.first_tick + message.count;
+  Follower* follower = follower_of(link);
+  if (follower == nullptr) return false;
+  follower->resend_next = std::max(message.first_tick, follower->ticks_received);
+  follower->resend_end = message.first_tick + message.count;
   return true;
 }
 
@@ -76,6 +100,7 @@ void Server::Impl::close_due_ticks() {
 // Says who is waited for, if that is what keeps the next tick open.
 bool Server::Impl::may_close_next() {
   const bool fast = config.pacing == Pacing::fast;
+  if (paused || !anybody_plays()) return false;
   if (!fast && now_us < due_us()) return false;
   const bool waits = fast || config.late_policy == LatePolicy::strict;
   const std::uint16_t missing = waits ? missing_inputs_mask() : std::uint16_t{0};
@@ -89,19 +114,36 @@ bool Server::Impl::may_close_next() {
 std::uint16_t Server::Impl::missing_inputs_mask() const {
   unsigned mask = 0;
   for (std::size_t slot = 0; slot < seats.size(); ++slot) {
-    if (seats[slot].link != nullptr && seats[slot].inputs_next <= closed) mask |= 1U << slot;
+    const Seat& place = seats[slot];
+    const bool plays = place.link != nullptr && place.active_tick <= closed;
+    if (plays && place.inputs_next <= closed) mask |= 1U << slot;
   }
   return static_cast<std::uint16_t>(mask);
 }
 
-// Where the match may wait, it does so before a player loses ticks or snapshots.
+// A match in which nobody has a say stands still.
+bool Server::Impl::anybody_plays() const {
+  return std::any_of(seats.begin(), seats.end(), [](const Seat& place) {
+    return place.link != nullptr && place.active_tick != k_never;
+  });
+}
+
+// Where the match may wait, it does so before a player loses ticks or snapshots. For newcomers it
+// waits only if nothing else would slow it down.
 bool Server::Impl::laggard_holds() const {
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
-    if (seats[slot].link == nullptr) continue;
+    if (!follows(seats[slot])) continue;
+    const bool plays = seats[slot].active_tick <= closed;
+    if (!plays && config.pacing != Pacing::fast) continue;
     const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
     if (closed - has >= config.history_ticks / 2) return true;
   }
   return false;
+}
+
+// It has a state, or is being sent one, and so needs every tick from there on.
+bool Server::Impl::follows(const Seat& place) const {
+  return place.link != nullptr && (!place.loading || place.offered);
 }
 
 void Server::Impl::drop_waited_for() {
@@ -122,13 +164,14 @@ void Server::Impl::close_tick() {
   records.commit(closed, record.size());
   const std::optional<std::uint64_t> hash = step_simulation(record);
   const std::uint64_t tick = closed++;
+  if (parts.simulation != nullptr) keep_keyframe();
   observer->tick_closed(tick, RecordInputs(record, shape).view(), hash);
 }
 
 // The server never waits for them (deadline), so they would ask for what is gone.
 void Server::Impl::drop_laggards() {
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
-    if (seats[slot].link == nullptr) continue;
+    if (!follows(seats[slot])) continue;
     const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
     if (closed - has + 1 >= config.history_ticks) {
       drop(*seats[slot].link, LeaveReason::too_far_behind);
@@ -140,7 +183,8 @@ void Server::Impl::fill_slot(std::span<std::byte> record, std::uint8_t slot) {
   constexpr std::array<std::byte, k_max_input_bytes> k_zeros{};
   const ByteView zeros = ByteView(k_zeros).first(info.input_bytes);
   Seat& place = seats[slot];
-  if (place.link == nullptr) return set_slot(record, shape, slot, InputOrigin::absent, zeros);
+  if (place.link == nullptr || closed < place.active_tick)
+    return set_slot(record, shape, slot, InputOrigin::absent, zeros);
   if (closed < config.input_delay_ticks) {
     return set_slot(record, shape, slot, InputOrigin::neutral, zeros);
   }
@@ -185,24 +229,37 @@ void Server::Impl::send_due_ticks() {
   if (state >= ServerState::closing) return;
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     Seat& place = seats[slot];
-    if (place.link == nullptr) continue;
-    send_resends(slot);
+    if (place.link == nullptr || place.loading) continue;
+    Ticks message;
+    message.inputs_received = place.inputs_next;
+    message.hashes_received = judge.wanted(slot);
+    message.margin_quarters = place.margin;
+    send_resends(place, message);
     if (!ticks_due(place)) continue;
     place.last_sent_closed = closed;
     place.last_sent_us = now_us;
-    send_unconfirmed(slot);
+    place.margin = k_no_margin;
+    send_unconfirmed(place, message);
   }
 }
 
 // All that the player has not confirmed. What does not fit one datagram goes round over the next
 // ones, and the newest ticks go along, so that they wait for nothing. If ticks still lack between
 // others, the client asks for them.
-void Server::Impl::send_unconfirmed(std::uint8_t slot) {
-  Seat& place = seats[slot];
-  const std::uint64_t first = std::max(place.cursor, place.ticks_received);
-  const std::uint64_t end = send_ticks(slot, first, Channel::unreliable);
-  place.cursor = end < closed ? end : 0;
-  if (end < closed) send_ticks(slot, std::max(end, closed - (end - first)), Channel::unreliable);
+void Server::Impl::send_unconfirmed(Follower& follower, Ticks& message) {
+  const std::uint64_t all = end_for(follower);
+  const std::uint64_t first = std::min(all, std::max(follower.cursor, follower.ticks_received));
+  const std::uint64_t end = send_ticks(follower, first, Channel::unreliable, message);
+  follower.cursor = end < all ? end : 0;
+  if (end == all) return;
+  message.margin_quarters = k_no_margin;
+  send_ticks(follower, std::max(end, all - (end - first)), Channel::unreliable, message);
+}
+
+// The ticks below are for it to see.
+std::uint64_t Server::Impl::end_for(const Follower& follower) const {
+  const bool watches = follower.link->stage == Stage::watching;
+  return watches ? std::max(visible_ticks(), follower.ticks_received) : closed;
 }
 
 // A player that has fallen silent gets less: its link may be down, and nothing confirms what it
@@ -216,36 +273,35 @@ bool Server::Impl::ticks_due(const Seat& place) const {
 }
 
 // Sends ticks from `first_tick` on, as many as one datagram holds; answers the first not sent.
-std::uint64_t Server::Impl::send_ticks(std::uint8_t slot, std::uint64_t first_tick,
-                                       Channel channel) {
+std::uint64_t Server::Impl::send_ticks(const Follower& follower, std::uint64_t first_tick,
+                                       Channel channel, Ticks& message) {
+  const std::uint64_t all = end_for(follower);
   const std::span<std::byte> room = std::span(coded).first(coded.size() - k_ticks_header_bytes);
   RecordWriter writer(room, shape.record_bytes());
   std::uint64_t end = first_tick;
-  while (end < closed && end - first_tick < k_max_ticks_per_message) {
+  while (end < all && end - first_tick < k_max_ticks_per_message) {
     const ByteView record = records.find(end);
     if (record.empty() || !writer.add(record)) break;
     ++end;
   }
-  Ticks message;
   message.first_tick = first_tick;
   message.count = static_cast<std::uint8_t>(end - first_tick);
-  message.ticks_closed = closed;
-  message.inputs_received = seats[slot].inputs_next;
-  message.hashes_received = judge.wanted(slot);
+  message.ticks_closed = all;
   message.waiting_mask = waiting;
   message.coded = writer.written();
   const std::size_t size = encode(message, out);
   static_cast<void>(
-      parts.transport->send(seats[slot].link->connection, channel, ByteView(out).first(size)));
+      parts.transport->send(follower.link->connection, channel, ByteView(out).first(size)));
   return end;
 }
 
-void Server::Impl::send_resends(std::uint8_t slot) {
-  Seat& place = seats[slot];
-  for (int i = 0; i < k_resends_per_update && place.resend_next < place.resend_end; ++i) {
-    const std::uint64_t end = send_ticks(slot, place.resend_next, Channel::reliable);
-    if (end == place.resend_next) place.resend_end = end;  // gone from the ring
-    place.resend_next = end;
+void Server::Impl::send_resends(Follower& follower, Ticks& message) {
+  for (int i = 0; i < k_resends_per_update && follower.resend_next < follower.resend_end; ++i) {
+    const std::uint64_t end =
+        send_ticks(follower, follower.resend_next, Channel::reliable, message);
+    if (end == follower.resend_next) follower.resend_end = end;  // gone from the ring
+    follower.resend_next = end;
+    message.margin_quarters = k_no_margin;
   }
 }
 

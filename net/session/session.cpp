@@ -39,6 +39,10 @@ std::string_view to_string(SetupError error) {
       return "time-outs out of range";
     case SetupError::simulation_already_stepped:
       return "simulation already stepped";
+    case SetupError::prediction_out_of_range:
+      return "prediction out of range";
+    case SetupError::spectators_out_of_range:
+      return "spectators out of range";
   }
   return "unknown";
 }

@@ -42,13 +42,15 @@ class TickRing {
   std::vector<std::byte> bytes_;
 };
 
-/// The last hashes of a stream, contiguous from tick 0.
+/// The last hashes of a stream, contiguous from tick 0 or a later one.
 class HashRing {
  public:
   HashRing() = default;
   explicit HashRing(std::size_t capacity) : hashes_(capacity) {}
 
   [[nodiscard]] std::uint64_t next_tick() const { return next_tick_; }
+  /// Forgets all; `tick` is the next one.
+  void restart(std::uint64_t tick) { next_tick_ = tick; }
   void push(std::uint64_t hash) { hashes_[next_tick_++ % hashes_.size()] = hash; }
   /// `tick` is one of the last `capacity` pushed ones.
   [[nodiscard]] std::uint64_t at(std::uint64_t tick) const {

@@ -19,6 +19,8 @@ struct SimNetwork::State {
   std::uint64_t seed = 0;
   std::uint64_t next_sequence = 0;  // breaks ties of arrival time in the order of sending
   std::uint64_t next_link = 0;
+  std::int64_t now_us = -1;  // below 0: each endpoint's own clock holds
+  SimTraffic traffic;
   std::vector<std::unique_ptr<SimTransport>> endpoints;
 };
 
@@ -106,11 +108,40 @@ ConnectionId SimNetwork::connect(SimTransport& from, SimTransport& to, const Lin
   return back.peer_connection;
 }
 
-void SimNetwork::set_faults(const SimTransport& endpoint, const LinkFaults& faults) {
+void SimNetwork::set_faults(const SimTransport& endpoint, const LinkFaults& faults, Cut way) {
   for (const auto& link : endpoint.links_) {
-    link->faults = faults;
-    link->peer->find(link->peer_connection)->faults = faults;
+    if (way != Cut::receiving) link->faults = faults;
+    if (way != Cut::sending) link->peer->find(link->peer_connection)->faults = faults;
   }
+}
+
+void SimNetwork::set_time(std::int64_t now_us) {
+  LKS_ASSERT(now_us >= state_->now_us);
+  state_->now_us = now_us;
+}
+
+void SimNetwork::kill(SimTransport& endpoint) {
+  endpoint.dead_ = true;
+  for (const SimTransport::Packet& packet : endpoint.arriving_) {
+    --state_->traffic.packets;
+    state_->traffic.bytes -= packet.bytes.size();
+  }
+  endpoint.arriving_.clear();
+  for (const auto& link : endpoint.links_)
+    link->open = false;
+}
+
+void SimNetwork::forge(SimTransport& receiver, ConnectionId connection, ByteView bytes) {
+  SimTransport::Packet packet;
+  packet.due_us = receiver.time();
+  packet.connection = connection;
+  packet.channel = Channel::unreliable;
+  packet.bytes.assign(bytes.begin(), bytes.end());
+  receiver.deliver(std::move(packet));
+}
+
+SimTraffic SimNetwork::traffic() const {
+  return state_->traffic;
 }
 
 void SimNetwork::partition(const SimTransport& endpoint, std::int64_t from_us,
@@ -131,10 +162,13 @@ SimTransport::Link* SimTransport::find(ConnectionId connection) const {
 bool SimTransport::poll(std::int64_t now_us, TransportEvent& event) {
   LKS_ASSERT(now_us >= now_us_);
   now_us_ = std::max(now_us, now_us_);
-  while (!arriving_.empty() && arriving_.front().due_us <= now_us_) {
+  SimTraffic& traffic = network_.state_->traffic;
+  while (!arriving_.empty() && arriving_.front().due_us <= time()) {
     std::pop_heap(arriving_.begin(), arriving_.end());
     current_ = std::make_unique<Packet>(std::move(arriving_.back()));
     arriving_.pop_back();
+    --traffic.packets;
+    traffic.bytes -= current_->bytes.size();
     Link* link = find(current_->connection);
     if (link == nullptr || !link->open) continue;
     if (current_->kind == TransportEventKind::disconnected) link->open = false;
@@ -209,7 +243,7 @@ std::int64_t SimTransport::after_partitions(const Link& link, std::int64_t sent_
 // A reliable packet always arrives; every loss that it would suffer costs one retransmission.
 void SimTransport::send_reliable(Link& link, Packet packet) {
   const std::int64_t retry_us = 2 * link.faults.delay_us + k_retransmit_floor_us;
-  std::int64_t due_us = after_partitions(link, now_us_) + link.draw_delay_us();
+  std::int64_t due_us = after_partitions(link, time()) + link.draw_delay_us();
   for (int i = 0; i < k_max_retransmits; ++i) {
     if (!link.retransmit.chance(link.faults.loss_ppm)) break;
     due_us += retry_us;
@@ -226,10 +260,10 @@ void SimTransport::send_unreliable(Link& link, const Packet& packet) {
   const int copies = link.duplicate.chance(link.faults.duplicate_ppm) ? 2 : 1;
   for (int i = 0; i < copies; ++i) {
     Packet copy = packet;
-    copy.due_us = now_us_ + link.draw_delay_us();
+    copy.due_us = time() + link.draw_delay_us();
     copy.connection = link.peer_connection;
     damage(link, copy);
-    if (lost || after_partitions(link, now_us_) != now_us_) continue;
+    if (lost || after_partitions(link, time()) != time()) continue;
     link.peer->deliver(std::move(copy));
   }
 }
@@ -243,7 +277,16 @@ void SimTransport::damage(Link& link, Packet& packet) const {
   if (truncate) packet.bytes.resize(std::max<std::size_t>(at, 1));
 }
 
+std::int64_t SimTransport::time() const {
+  return network_.state_->now_us < 0 ? now_us_ : network_.state_->now_us;
+}
+
 void SimTransport::deliver(Packet packet) {
+  if (dead_) return;
+  SimTraffic& traffic = network_.state_->traffic;
+  ++traffic.packets;
+  traffic.bytes += packet.bytes.size();
+  traffic.peak_bytes = std::max(traffic.peak_bytes, traffic.bytes);
   packet.sequence = network_.state_->next_sequence++;
   arriving_.push_back(std::move(packet));
   std::push_heap(arriving_.begin(), arriving_.end());

@@ -9,7 +9,7 @@ Result<MessageType> message_type(ByteView packet) {
   if (packet.empty()) return Status::truncated;
   const auto type = std::to_integer<std::uint8_t>(packet[0]);
   if (type < static_cast<std::uint8_t>(MessageType::hello)) return Status::malformed;
-  if (type > static_cast<std::uint8_t>(MessageType::bye)) return Status::malformed;
+  if (type > static_cast<std::uint8_t>(MessageType::paused)) return Status::malformed;
   return static_cast<MessageType>(type);
 }
 
@@ -19,7 +19,10 @@ std::size_t encode(const Hello& message, std::span<std::byte> out) {
   writer.put(message.protocol);
   writer.put_flag(message.insecure);
   writer.put(message.wanted_slot);
+  writer.put(message.rejoin_key);
+  writer.put(message.ticks_stepped);
   writer.put_text(message.name);
+  writer.put_text(message.build);
   return writer.finish();
 }
 
@@ -32,8 +35,12 @@ Status decode(ByteView packet, Hello& message) {
   if (message.protocol != k_protocol_version) return reader.status();
   message.insecure = reader.get_flag();
   message.wanted_slot = reader.get<std::uint8_t>();
-  reader.require(message.wanted_slot < k_max_players || message.wanted_slot == k_any_slot);
+  reader.require(message.wanted_slot < k_max_players || message.wanted_slot == k_any_slot ||
+                 message.wanted_slot == k_spectator_slot);
+  message.rejoin_key = reader.get<std::uint64_t>();
+  message.ticks_stepped = reader.get_tick();
   reader.get_text(message.name);
+  reader.get_text(message.build);
   return reader.finish();
 }
 
@@ -88,6 +95,8 @@ std::size_t encode(const Welcome& message, std::span<std::byte> out) {
   writer.put(message.late_policy);
   writer.put(message.pacing);
   writer.put(message.tick_count);
+  writer.put(message.entry);
+  writer.put(message.rejoin_key);
   return writer.finish();
 }
 
@@ -95,12 +104,15 @@ Status decode(ByteView packet, Welcome& message) {
   WireReader reader(MessageType::welcome, packet);
   message.slot = reader.get<std::uint8_t>();
   message.player_count = reader.get<std::uint8_t>();
-  reader.require(message.player_count <= k_max_players && message.slot < message.player_count);
+  reader.require(message.player_count <= k_max_players);
+  reader.require(message.slot < message.player_count || message.slot == k_spectator_slot);
   message.input_delay_ticks = reader.get<std::uint8_t>();
   reader.require(message.input_delay_ticks <= k_max_input_delay_ticks);
   message.late_policy = reader.get_enum(LatePolicy::strict);
   message.pacing = reader.get_enum(Pacing::fast);
   message.tick_count = reader.get_tick();
+  message.entry = reader.get_enum(Entry::snapshot);
+  message.rejoin_key = reader.get<std::uint64_t>();
   return reader.finish();
 }
 

@@ -48,6 +48,7 @@ std::size_t encode(const Ticks& message, std::span<std::byte> out) {
   writer.put(message.inputs_received);
   writer.put(message.hashes_received);
   writer.put(message.waiting_mask);
+  writer.put(static_cast<std::uint8_t>(message.margin_quarters));
   writer.put_bytes(message.coded);
   return writer.finish();
 }
@@ -60,6 +61,7 @@ Status decode(ByteView packet, TickShape shape, Ticks& message) {
   message.inputs_received = reader.get_tick();
   message.hashes_received = reader.get_tick();
   message.waiting_mask = reader.get<std::uint16_t>();
+  message.margin_quarters = static_cast<std::int8_t>(reader.get<std::uint8_t>());
   reader.require(message.first_tick + message.count <= message.ticks_closed);
   reader.require(message.hashes_received <= message.ticks_closed);
   message.coded = reader.get_rest();

@@ -83,19 +83,19 @@ void save_what_is_good(ByteView bytes) {
 
 void go_into(ByteView bytes) {
   MemorySource source(bytes);
-  (void)seek(source, test::toy_factory(), 9);
+  (void)seek(source, toy::toy_factory(), 9);
   MemorySink sink;
-  (void)cut(source, test::toy_factory(), 3, 6, sink);
+  (void)cut(source, toy::toy_factory(), 3, 6, sink);
 }
 
 // Several threads say what one does.
 bool check(ByteView bytes) {
   MemorySource source(bytes);
-  const VerifyReport report = verify(source, test::toy_factory());
+  const VerifyReport report = verify(source, toy::toy_factory());
   const std::vector<SourceOpener> openers{[bytes]() -> Result<std::unique_ptr<Source>> {
     return std::unique_ptr<Source>(std::make_unique<MemorySource>(bytes));
   }};
-  const std::vector<VerifyReport> reports = verify_all(openers, test::toy_factory());
+  const std::vector<VerifyReport> reports = verify_all(openers, toy::toy_factory());
   LKS_CHECK(reports[0].to_line() == report.to_line());
   return report.outcome == VerifyOutcome::same;
 }

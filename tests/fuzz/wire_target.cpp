@@ -89,6 +89,16 @@ bool run(ByteView packet) {
       return run_plain<Finish>(packet);
     case MessageType::bye:
       return run_plain<Bye>(packet);
+    case MessageType::snapshot:
+      return run_plain<Snapshot>(packet);
+    case MessageType::snapshot_taken:
+      return run_plain<SnapshotTaken>(packet);
+    case MessageType::activate:
+      return run_plain<Activate>(packet);
+    case MessageType::ask:
+      return run_plain<Ask>(packet);
+    case MessageType::paused:
+      return run_plain<Paused>(packet);
     default:
       return false;
   }
@@ -141,7 +151,12 @@ std::vector<Bytes> seeds() {
           bytes_of(DumpRequest{8}),
           bytes_of(Dump{8, 3, 0, chunk}),
           bytes_of(Finish{FinishReason::completed, 9, true, 77}),
-          bytes_of(Bye{LeaveReason::left})};
+          bytes_of(Bye{LeaveReason::left}),
+          bytes_of(Snapshot{8, 77, 3, 0, chunk}),
+          bytes_of(SnapshotTaken{8, true}),
+          bytes_of(Activate{2, 90}),
+          bytes_of(Ask{AskKind::vote, 1, 2}),
+          bytes_of(Paused{true})};
 }
 
 const Registration k_registration{{.name = "wire", .seeds = seeds, .run = run}};

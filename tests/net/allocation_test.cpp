@@ -10,7 +10,7 @@
 #include <lockstone/net/server.h>
 
 #include "tests/net/secure_fixture.h"
-#include "tests/support/toy_simulation.h"
+#include "tools/toy/toy_simulation.h"
 
 namespace {
 std::size_t g_allocations = 0;
@@ -90,14 +90,14 @@ class PipeTransport final : public Transport {
 class Presses final : public InputSource {
  public:
   void sample(std::uint64_t tick, std::span<std::byte> out) override {
-    lockstone::test::toy_input(1, 0, tick, out);
+    lockstone::toy::toy_input(1, 0, tick, out);
   }
 };
 
 void expect_no_allocation(bool secure) {
-  lockstone::test::ToyConfig toy;
+  lockstone::toy::ToyConfig toy;
   toy.player_count = 1;
-  lockstone::test::ToySimulation simulation(toy);
+  lockstone::toy::ToySimulation simulation(toy);
   const auto up = std::make_unique<Pipe>();
   const auto down = std::make_unique<Pipe>();
   PipeTransport server_end(*up, *down);
@@ -123,7 +123,7 @@ void expect_no_allocation(bool secure) {
   client_parts.transport = &client_end;
   if (secure) client_parts.transport = client_secure.get();
   client_parts.connection = 1;
-  client_parts.factory = lockstone::test::toy_factory();
+  client_parts.factory = lockstone::toy::toy_factory();
   client_parts.inputs = &presses;
   const auto client = Client::create(client_config, client_parts).client;
 

@@ -143,11 +143,11 @@ TEST_F(Handshake, RefusesAnotherInputSizeAndNamesBothValues) {
 
 TEST_F(Handshake, RefusesAnotherProtocolVersionAndNamesBothValues) {
   std::array<std::byte, 64> bytes{};
-  say(ByteView(bytes).first(encode(Hello{7, true, k_any_slot, {}}, bytes)));
+  say(ByteView(bytes).first(encode(Hello{7, true, k_any_slot, 0, 0, {}, {}}, bytes)));
   run_for(k_second_us);
   ASSERT_EQ(log_.refusals.size(), 1U);
   EXPECT_EQ(log_.refusals[0].to_line(),
-            "refused: protocol mismatch, protocol: 0x0000000000000001 here, "
+            "refused: protocol mismatch, protocol: 0x0000000000000002 here, "
             "0x0000000000000007 there");
 }
 
@@ -185,7 +185,7 @@ TEST_F(Handshake, RefusesWhoComesAfterTheStart) {
   EXPECT_EQ(server_->state(), ServerState::running);
   const Client& late = add_client();
   run_for(k_second_us);
-  EXPECT_EQ(late.refusal().reason, RefuseReason::match_running);
+  EXPECT_EQ(late.refusal().reason, RefuseReason::match_full);
 }
 
 TEST_F(Handshake, TimesOutOnASilentPeer) {
@@ -239,7 +239,7 @@ TEST(Setup, NeedsInsecureByNameOnBothEnds) {
   ClientParts client_parts;
   client_parts.transport = parts.transport;
   client_parts.inputs = &inputs;
-  client_parts.factory = lockstone::test::toy_factory();
+  client_parts.factory = lockstone::toy::toy_factory();
   EXPECT_EQ(Client::create({}, client_parts).error, SetupError::insecure_not_requested);
 }
 

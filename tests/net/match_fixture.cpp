@@ -14,12 +14,12 @@ void Seen::add(std::span<const PlayerInput> inputs) {
 }
 
 void FaultySimulation::step(std::span<const PlayerInput> inputs) {
+  const std::uint64_t tick = toy_.tick();
   toy_.step(inputs);
   for (const Flip& flip : flips_) {
-    if (flip.tick != stepped_) continue;
+    if (flip.tick != tick) continue;
     EXPECT_TRUE(toy_.flip_bit(flip.store, flip.object, flip.field, flip.bit));
   }
-  ++stepped_;
 }
 
 void ServerLog::tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
@@ -53,7 +53,7 @@ void ServerLog::desync_found(const DesyncReport& report) {
 
 void ClientLog::tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
                              std::uint64_t hash) {
-  EXPECT_EQ(tick, seen.ticks.size());
+  EXPECT_EQ(tick, first_tick + seen.ticks.size());
   seen.add(inputs);
   seen.hashes.push_back(hash);
 }
@@ -76,33 +76,43 @@ Match::Match(MatchOptions match_options)
   parts.describer = &server_simulation;
   parts.observer = &server_log;
   server = std::move(Server::create(options.server, parts).server);
-  players.resize(options.toy.player_count);
-  for (std::size_t slot = 0; slot < players.size(); ++slot) {
-    Player& player = players[slot];
-    player.transport = &network.add_endpoint();
-    player.inputs = std::make_unique<ScriptedInputs>(options.seed, slot);
-    player.log = std::make_unique<ClientLog>();
-    ClientConfig config = options.client;
-    config.insecure = !options.secure;
-    config.wanted_slot = static_cast<std::uint8_t>(slot);
-    ClientParts client_parts;
-    client_parts.transport = player.transport;
-    if (options.secure) {
-      player.secure = join_securely(*player.transport, slot, random);
-      client_parts.transport = player.secure.get();
-    }
-    client_parts.connection = network.connect(*player.transport, server_transport, options.faults);
-    std::vector<Flip> flips;
-    if (slot < options.flips.size()) flips = options.flips[slot];
-    client_parts.factory = [flips](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
-      const Result<ToyConfig> toy = ToyConfig::decode(bytes);
-      if (!toy) return toy.status();
-      return std::unique_ptr<Simulation>(std::make_unique<FaultySimulation>(toy.value(), flips));
-    };
-    client_parts.inputs = player.inputs.get();
-    client_parts.observer = player.log.get();
-    player.client = std::move(Client::create(config, std::move(client_parts)).client);
+  for (std::uint8_t slot = 0; slot < options.toy.player_count; ++slot)
+    add_player(slot);
+}
+
+Match::Player& Match::add_player(std::uint8_t wanted_slot, std::uint64_t rejoin_key) {
+  const std::size_t index = players.size();
+  Player& player = players.emplace_back();
+  player.transport = &network.add_endpoint();
+  player.inputs = std::make_unique<ScriptedInputs>(options.seed, wanted_slot);
+  player.log = std::make_unique<ClientLog>();
+  ClientConfig config = options.client;
+  config.insecure = !options.secure;
+  config.wanted_slot = wanted_slot;
+  config.rejoin_key = rejoin_key;
+  ClientParts client_parts;
+  client_parts.transport = player.transport;
+  if (options.secure) {
+    player.secure = join_securely(*player.transport, wanted_slot, random);
+    client_parts.transport = player.secure.get();
   }
+  client_parts.connection = network.connect(*player.transport, server_transport, options.faults);
+  std::vector<Flip> flips;
+  if (index < options.flips.size()) flips = options.flips[index];
+  client_parts.factory = [flips](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
+    const Result<ToyConfig> toy = ToyConfig::decode(bytes);
+    if (!toy) return toy.status();
+    return std::unique_ptr<Simulation>(std::make_unique<FaultySimulation>(toy.value(), flips));
+  };
+  client_parts.inputs = player.inputs.get();
+  client_parts.observer = player.log.get();
+  player.client = std::move(Client::create(config, std::move(client_parts)).client);
+  return player;
+}
+
+bool Match::reconnect(Player& player) {
+  return player.client->reconnect(
+      network.connect(*player.transport, server_transport, options.faults));
 }
 
 void Match::step() {
@@ -150,10 +160,11 @@ void Match::expect_all_equal() const {
   EXPECT_TRUE(truth.hashes == hashes || !options.authoritative);
   for (const Player& player : players) {
     const Seen& seen = player.log->seen;
-    ASSERT_LE(seen.ticks.size(), truth.ticks.size());
-    for (std::size_t tick = 0; tick < seen.ticks.size(); ++tick) {
-      ASSERT_TRUE(seen.ticks[tick] == truth.ticks[tick]) << "tick " << tick;
-      ASSERT_EQ(seen.hashes[tick], hashes[tick]) << "tick " << tick;
+    const auto first = static_cast<std::size_t>(player.log->first_tick);
+    ASSERT_LE(first + seen.ticks.size(), truth.ticks.size());
+    for (std::size_t i = 0; i < seen.ticks.size(); ++i) {
+      ASSERT_TRUE(seen.ticks[i] == truth.ticks[first + i]) << "tick " << first + i;
+      ASSERT_EQ(seen.hashes[i], hashes[first + i]) << "tick " << first + i;
     }
   }
 }

@@ -12,12 +12,12 @@
 #include <lockstone/net/transport_sim.h>
 
 #include "tests/net/secure_fixture.h"
-#include "tests/support/toy_simulation.h"
+#include "tools/toy/toy_simulation.h"
 
 namespace lockstone::net::test {
 
-using lockstone::test::ToyConfig;
-using lockstone::test::ToySimulation;
+using lockstone::toy::ToyConfig;
+using lockstone::toy::ToySimulation;
 
 /// One tick as a peer saw it, comparable.
 struct SeenTick {
@@ -65,7 +65,6 @@ class FaultySimulation final : public Simulation {
  private:
   ToySimulation toy_;
   std::vector<Flip> flips_;
-  std::uint64_t stepped_ = 0;
 };
 
 /// Presses what toy_input says.
@@ -73,7 +72,7 @@ class ScriptedInputs final : public InputSource {
  public:
   ScriptedInputs(std::uint64_t seed, std::size_t slot) : seed_(seed), slot_(slot) {}
   void sample(std::uint64_t tick, std::span<std::byte> out) override {
-    lockstone::test::toy_input(seed_, slot_, tick, out);
+    lockstone::toy::toy_input(seed_, slot_, tick, out);
   }
 
  private:
@@ -92,11 +91,27 @@ struct ServerLog final : ServerObserver {
   void match_finished(FinishReason, std::uint64_t, std::optional<std::uint64_t> hash) override {
     final_hash = hash;
   }
+  void player_active(std::uint8_t slot, std::uint64_t tick) override {
+    active.emplace_back(slot, tick);
+  }
+  void player_asks(std::uint8_t slot, AskKind kind, std::uint8_t topic,
+                   std::uint8_t choice) override {
+    asked.push_back({slot, kind, topic, choice});
+  }
+
+  struct Asked {
+    std::uint8_t slot;
+    AskKind kind;
+    std::uint8_t topic, choice;
+    friend bool operator==(const Asked&, const Asked&) = default;
+  };
 
   Seen seen;
   std::vector<std::uint64_t> agreed;
   std::vector<std::pair<std::uint8_t, LeaveReason>> left;
   std::vector<std::uint8_t> silent;
+  std::vector<std::pair<std::uint8_t, std::uint64_t>> active;
+  std::vector<Asked> asked;
   std::vector<Refusal> refusals;
   std::vector<DesyncReport> reports;
   std::vector<std::size_t> dump_sizes;
@@ -107,7 +122,18 @@ struct ClientLog final : ClientObserver {
   void tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
                     std::uint64_t hash) override;
   void desync_reported(const DesyncReport& report) override { reports.push_back(report); }
+  void state_loaded(std::uint64_t ticks) override {
+    seen = {};
+    first_tick = ticks;
+  }
+  void rolled_back(std::uint64_t, std::uint64_t count) override {
+    longest_rollback = std::max(longest_rollback, count);
+  }
+  void input_replaced(std::uint64_t tick) override { replaced.push_back(tick); }
   Seen seen;
+  std::uint64_t first_tick = 0;  ///< `seen` begins here
+  std::uint64_t longest_rollback = 0;
+  std::vector<std::uint64_t> replaced;
   std::vector<DesyncReport> reports;
 };
 
@@ -135,6 +161,12 @@ class Match {
   };
 
   explicit Match(MatchOptions options);
+
+  /// One more client, which has begun to connect; `wanted_slot` as in ClientConfig.
+  Player& add_player(std::uint8_t wanted_slot, std::uint64_t rejoin_key = 0);
+
+  /// A new connection for a client that has lost its own.
+  [[nodiscard]] bool reconnect(Player& player);
 
   /// Runs until everybody is done, or for `limit_us` of virtual time. True if all are done.
   bool run(std::int64_t limit_us);

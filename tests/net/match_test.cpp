@@ -59,7 +59,7 @@ TEST(Match, CarriesWhatThePlayersPressedUnchanged) {
   for (std::uint64_t tick = 4; tick < 120; ++tick) {
     for (std::size_t slot = 0; slot < 2; ++slot) {
       std::array<std::byte, 4> expected{};
-      lockstone::test::toy_input(11, slot, tick, expected);
+      lockstone::toy::toy_input(11, slot, tick, expected);
       const SeenTick& seen = match.server_log.seen.ticks[tick];
       for (std::size_t i = 0; i < 4; ++i)
         EXPECT_EQ(seen.bytes[slot * 4 + i], expected[i]);
@@ -185,6 +185,7 @@ TEST(Match, FlagsLateInputsTheSameEverywhere) {
   MatchOptions options = match_of(2, 240, 21);
   options.server.input_delay_ticks = 1;
   options.faults.delay_us = 60'000;
+  options.client.adapt_lead = false;
   Match match(options);
   ASSERT_TRUE(match.run(60 * k_second_us));
   expect_played_through(match, 240);
@@ -200,6 +201,7 @@ TEST(Match, SubstitutesNeutralInputsWhereAsked) {
   options.server.input_delay_ticks = 0;
   options.server.substitute = Substitute::neutral;
   options.faults.delay_us = 80'000;
+  options.client.adapt_lead = false;
   Match match(options);
   ASSERT_TRUE(match.run(60 * k_second_us));
   expect_played_through(match, 120);

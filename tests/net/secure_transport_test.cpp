@@ -264,7 +264,7 @@ struct Mixed {
       client_parts.transport = secure_client.get();
     }
     client_parts.connection = k_first;
-    client_parts.factory = lockstone::test::toy_factory();
+    client_parts.factory = lockstone::toy::toy_factory();
     client_parts.inputs = &inputs;
     const auto client = Client::create(client_config, std::move(client_parts)).client;
     for (std::int64_t now_us = 0; now_us < k_second_us; now_us += 10'000) {
@@ -275,7 +275,7 @@ struct Mixed {
     refusal = client->refusal();
   }
 
-  lockstone::test::ToyConfig toy;
+  lockstone::toy::ToyConfig toy;
   ToySimulation simulation{toy};
   ServerLog log;
   ClientState state = ClientState::connecting;
@@ -295,7 +295,7 @@ TEST(SecureTransport, InsecureAndSecureRefuseEachOtherWithTheReason) {
 TEST(SecureTransport, SessionsMustSayWhatTheyStandOn) {
   Pair pair;
   const auto secure = serve_securely(pair.server_end, pair.random);
-  lockstone::test::ToyConfig toy;
+  lockstone::toy::ToyConfig toy;
   ServerConfig config;
   config.info = ToySimulation(toy).info();
   config.match_config = toy.encode();
@@ -319,7 +319,7 @@ TEST(SecureTransport, ASlotThatTheTokenDoesNotGiveIsRefused) {
   ClientParts parts;
   parts.transport = secure.get();
   parts.connection = match.network.connect(end, match.server_transport, {});
-  parts.factory = lockstone::test::toy_factory();
+  parts.factory = lockstone::toy::toy_factory();
   parts.inputs = match.players[0].inputs.get();
   const auto client = Client::create(config, std::move(parts)).client;
   match.players[0].paused = true;

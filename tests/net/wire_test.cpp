@@ -74,7 +74,7 @@ Ticks some_ticks(Random& random, std::span<std::byte> room) {
   RecordWriter writer(room, k_shape.record_bytes());
   std::vector<std::byte> record(k_shape.record_bytes());
   const std::vector<std::byte> zeros(k_shape.input_bytes);
-  Ticks ticks{7, 0, 40, 44, 5, 0b10, {}};
+  Ticks ticks{7, 0, 40, 44, 5, 0b10, -9, {}};
   for (int i = 0; i < 9; ++i) {
     const std::vector<std::byte> pressed = random_bytes(random, k_shape.input_bytes);
     set_slot(record, k_shape, 0, InputOrigin::received, pressed);
@@ -94,10 +94,12 @@ std::vector<Sample> samples() {
   static const std::vector<std::byte> config = random_bytes(random, 50);
   const SimulationInfo info{1, 2, 3, 4, 60, 2, 4};
   return {
-      sample("hello", Hello{k_protocol_version, true, 3, NameText("Ann")}),
+      sample("hello",
+             Hello{k_protocol_version, true, 3, 77, 1200, NameText("Ann"), BuildText("1.2")}),
       sample("offer", Offer{true, config}),
       sample("answer", Answer{info}),
-      sample("welcome", Welcome{1, 2, 6, LatePolicy::strict, Pacing::fast, 3600}),
+      sample("welcome",
+             Welcome{1, 2, 6, LatePolicy::strict, Pacing::fast, 3600, Entry::snapshot, 88}),
       sample("refuse", Refuse{RefuseReason::simulation_mismatch, RefuseField::canary, 5, 6}),
       sample("start", Start{0b11}),
       sample("inputs", some_inputs(random, inputs_room)),
@@ -110,6 +112,11 @@ std::vector<Sample> samples() {
       sample("dump", Dump{1842, 200, 100, config}),
       sample("finish", Finish{FinishReason::stopped, 99, true, 5}),
       sample("bye", Bye{LeaveReason::malformed}),
+      sample("snapshot", Snapshot{1800, 5, 200, 100, config}),
+      sample("snapshot_taken", SnapshotTaken{1800, true}),
+      sample("activate", Activate{2, 1900}),
+      sample("ask", Ask{AskKind::vote, 3, 200}),
+      sample("paused", Paused{true}),
   };
 }
 
@@ -170,7 +177,7 @@ TEST(Wire, NeverCrashesOnRandomBytes) {
   constexpr std::uint64_t k_seed = 4711;
   Random random(k_seed);
   for (int round = 0; round < 20000; ++round) {
-    for (const Sample& message : {samples()[static_cast<std::size_t>(round) % 14]}) {
+    for (const Sample& message : {samples()[static_cast<std::size_t>(round) % 19]}) {
       std::vector<std::byte> bytes = random_bytes(random, 1 + random.below(80));
       bytes[0] = message.bytes[0];
       Status status = Status::ok;
@@ -203,8 +210,10 @@ TEST(Wire, HelloOfAnotherVersionTellsItsVersion) {
 }
 
 TEST(Wire, HasTheDocumentedBytes) {
-  const std::vector<std::byte> bytes = encoded(Hello{1, true, 255, NameText("A")});
-  const std::array<int, 11> expected{1, 'L', 'K', 'S', 'N', 1, 0, 1, 255, 1, 'A'};
+  const std::vector<std::byte> bytes =
+      encoded(Hello{2, true, 255, 3, 4, NameText("A"), BuildText("B")});
+  const std::array<int, 29> expected{1, 'L', 'K', 'S', 'N', 2, 0, 1, 255, 3, 0, 0,   0, 0,  0,
+                                     0, 0,   4,   0,   0,   0, 0, 0, 0,   0, 1, 'A', 1, 'B'};
   ASSERT_EQ(bytes.size(), expected.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;

@@ -11,9 +11,11 @@
 #include <lockstone/replay/verifier.h>
 
 #include "replay/header_codec.h"
-#include "tests/support/toy_simulation.h"
+#include "tools/toy/toy_simulation.h"
 
 namespace lockstone::test {
+
+using namespace toy;
 
 using Bytes = std::vector<std::byte>;
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,6 +18,7 @@ enum class ClientState : std::uint8_t {
   connecting,   ///< the transport is not through yet
   handshaking,  ///< until seated
   lobby,        ///< seated; waits for the others
+  joining,      ///< seated in a match that runs; gets its state
   running,
   finished,  ///< the server ended the match
   refused,   ///< see Client::refusal
@@ -32,17 +34,26 @@ enum class ClientFailure : std::uint8_t {
   server_malformed,       ///< the server's packets break the format
   config_not_understood,  ///< the factory refused the match's configuration
   dropped,                ///< the server said good-bye before the match was over; see leave_reason
+  not_deterministic,      ///< stepping the same ticks again gave another state (sync_test)
 };
 
 struct ClientConfig {
   /// For a transport that does not encrypt; the server must ask for this too.
   bool insecure = false;
   std::string name;                      ///< printable ASCII, the first 32 characters
-  std::uint8_t wanted_slot = k_no_slot;  ///< k_no_slot: any
-  std::uint32_t history_ticks = 1024;    ///< closed ticks buffered; power of two, 256 … 65536
-  std::uint32_t snapshot_ticks = 64;     ///< canonical snapshots kept, one a tick; 0 … 4096
-  std::uint32_t max_lead_ticks = 16;  ///< inputs sampled beyond the delay while ticks lack; ≤ 32
-  std::uint32_t max_steps_per_update = 64;    ///< above 0
+  std::uint8_t wanted_slot = k_no_slot;  ///< k_no_slot: any; k_spectator_slot: only watch
+  std::string build;             ///< of the game and the machine, for reports; 64 characters
+  std::uint64_t rejoin_key = 0;  ///< Client::rejoin_key of a former process: the same seat again
+  std::uint32_t history_ticks = 1024;  ///< closed ticks buffered; power of two, 256 … 65536
+  std::uint32_t snapshot_ticks = 64;   ///< canonical snapshots kept, one a tick; 0 … 4096
+  std::uint32_t max_lead_ticks = 16;   ///< inputs sampled beyond the delay while ticks lack; ≤ 32
+  std::uint32_t max_steps_per_update = 64;  ///< above 0
+  bool adapt_lead = true;  ///< send inputs earlier when they come late, later when there is time
+  bool play_out_evenly = true;  ///< keep ticks back as long as their arrival jitters, ≤ 250 ms
+  /// Rollback: ticks stepped beyond the closed ones, on guesses; 0 … 15. 0: lockstep.
+  std::uint8_t prediction_ticks = 0;
+  std::uint8_t prediction_delay_ticks = 0;  ///< own inputs show that much later, and fewer guesses
+  bool sync_test = false;  ///< roll back every tick, step it again and compare; for tests
   std::size_t max_snapshot_bytes = 64 << 20;  ///< a bigger simulation keeps no snapshots
   Timeouts timeouts;
 };
@@ -70,6 +81,25 @@ class ClientObserver {
   /// The server found states that differ; without dumps.
   virtual void desync_reported(const DesyncReport& report);
   virtual void match_finished(FinishReason reason, std::uint64_t ticks);
+  /// The state after `ticks` ticks came from the server: all seen so far is void.
+  virtual void state_loaded(std::uint64_t ticks);
+  /// From `tick` on, the player of `slot` plays: it came late, or came back.
+  virtual void player_active(std::uint8_t slot, std::uint64_t tick);
+  virtual void pause_changed(bool paused);
+  /// The server replaced this player's input for a tick: it came too late.
+  virtual void input_replaced(std::uint64_t tick);
+  /// Rollback: a tick was stepped on guesses. It may be stepped again, then told of again.
+  virtual void tick_predicted(std::uint64_t tick, std::span<const PlayerInput> inputs);
+  /// Rollback: the last `count` guessed ticks, from `tick` on, are void.
+  virtual void rolled_back(std::uint64_t tick, std::uint64_t count);
+};
+
+/// Guesses what other players press (rollback).
+class InputPredictor {
+ public:
+  virtual ~InputPredictor() = default;
+  /// `out` comes as the slot's last known input, which is the guess if nothing is changed.
+  virtual void predict(std::uint64_t tick, std::uint8_t slot, std::span<std::byte> out) = 0;
 };
 
 /// What the client works with; all outlive it. `observer` may be null.
@@ -79,6 +109,7 @@ struct ClientParts {
   SimulationFactory factory;
   InputSource* inputs = nullptr;
   ClientObserver* observer = nullptr;
+  InputPredictor* predictor = nullptr;  ///< may be null: inputs are held
 };
 
 /// Driven by `update`; one thread. Memory does not grow once the client is seated.
@@ -97,6 +128,17 @@ class Client {
   /// events of the transport: a client needs one of its own.
   void update(std::int64_t now_us);
 
+  /// After a failure of the connection: goes on over a new one, in the same seat if the server has
+  /// kept it, with the state that is here. False, and nothing happens, in other states.
+  bool reconnect(ConnectionId connection);
+
+  /// Opens the same seat again, also for another process; 0 before being seated.
+  [[nodiscard]] std::uint64_t rejoin_key() const;
+
+  /// Asks the server's owner for something.
+  void ask(AskKind kind, std::uint8_t topic = 0, std::uint8_t choice = 0);
+  [[nodiscard]] bool paused() const;
+
   /// Leaves the match: the client is then finished (and its slot absent).
   void leave();
 
@@ -107,8 +149,14 @@ class Client {
   [[nodiscard]] FinishReason finish_reason() const;
   [[nodiscard]] std::uint8_t slot() const;  ///< k_no_slot before being seated
 
-  /// How many ticks were stepped.
+  /// How many closed ticks were stepped.
   [[nodiscard]] std::uint64_t ticks_stepped() const;
+
+  /// Rollback: ticks stepped, guessed ones included; else as ticks_stepped.
+  [[nodiscard]] std::uint64_t ticks_predicted() const;
+
+  /// The first tick with an input of this player; no tick yet before the server announced it.
+  [[nodiscard]] std::optional<std::uint64_t> active_tick() const;
 
   /// Bit n: the match waits for slot n, as of the last word from the server.
   [[nodiscard]] std::uint16_t waiting_mask() const;

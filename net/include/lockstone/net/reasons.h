@@ -79,6 +79,9 @@ enum class LeaveReason : std::uint8_t {
   flooding = 7,  ///< far more packets than a session sends
 };
 
+/// What a player asks the server for.
+enum class AskKind : std::uint8_t { pause = 0, resume = 1, vote = 2 };
+
 /// Short lower-case English names, for logs.
 [[nodiscard]] std::string_view to_string(RefuseReason reason);
 [[nodiscard]] std::string_view to_string(RefuseField field);

@@ -22,7 +22,11 @@ enum class Substitute : std::uint8_t {
 };
 
 /// What follows a DesyncReport. Without a judge and a majority the match always ends.
-enum class DesyncPolicy : std::uint8_t { end_match, kick };
+enum class DesyncPolicy : std::uint8_t {
+  end_match,
+  kick,
+  resync,  ///< send the right state, once a player; kick it the second time
+};
 
 enum class ServerState : std::uint8_t {
   lobby,      ///< waits for all players
@@ -48,6 +52,15 @@ struct ServerConfig {
       1024;  ///< closed ticks kept for laggards; power of two, 256 … 65536
   std::uint32_t snapshot_ticks = 64;      ///< canonical snapshots kept, one a tick; 0 … 4096
   std::size_t max_dump_bytes = 16 << 20;  ///< of a client's snapshot, where no simulation says
+  /// Ticks run without a player in its seat, and whoever comes later may take it.
+  bool late_join = true;
+  std::uint8_t start_players = 0;  ///< the match begins with so many; 0: with all
+  /// Makes the keys that open a seat again. Use random bits: who guesses a key gets the seat.
+  std::uint64_t rejoin_seed = 0;
+  std::uint16_t max_spectators = 0;           ///< 0 … 256
+  std::uint32_t spectator_delay_ticks = 0;    ///< how old the newest tick is that they see
+  std::uint32_t spectator_queue_ticks = 600;  ///< one that lacks more than these is dropped
+  std::uint32_t entry_bytes_per_s = 1 << 20;  ///< of states sent to those who enter, all together
   Timeouts timeouts;
 };
 
@@ -68,6 +81,11 @@ class ServerObserver {
   virtual void player_refused(const Refusal& refusal);
   virtual void desync_found(const DesyncReport& report);
   virtual void match_started();
+  /// A player came into a match that runs, or came back: from `tick` on it plays.
+  virtual void player_active(std::uint8_t slot, std::uint64_t tick);
+  /// A player's wish: answer it by calling the server after `update`, or not at all.
+  virtual void player_asks(std::uint8_t slot, AskKind kind, std::uint8_t topic,
+                           std::uint8_t choice);
   virtual void match_finished(FinishReason reason, std::uint64_t ticks,
                               std::optional<std::uint64_t> hash);
 };
@@ -101,11 +119,18 @@ class Server {
   /// Ends the match after the ticks closed so far.
   void stop();
 
+  /// No ticks close until `resume`. The players are told.
+  void pause();
+  void resume();
+  [[nodiscard]] bool paused() const;
+
   [[nodiscard]] ServerState state() const;
   [[nodiscard]] FinishReason finish_reason() const;  ///< once finishing is over
 
   /// How many ticks are closed: tick 0 … ticks_closed() - 1.
   [[nodiscard]] std::uint64_t ticks_closed() const;
+
+  [[nodiscard]] std::size_t spectators() const;
 
   /// Bit n: slot n is seated.
   [[nodiscard]] std::uint16_t present_mask() const;

@@ -21,6 +21,7 @@ struct Timeouts {
   std::int64_t drop_us = 5'000'000;           ///< then the peer is gone
   std::int64_t dump_us = 3'000'000;           ///< for the snapshots after a desync
   std::int64_t finish_us = 3'000'000;         ///< for the last hashes, and again for the good-byes
+  std::int64_t rejoin_us = 30'000'000;        ///< so long a lost player's seat is kept
 };
 
 /// Why a session could not be made. A programmer's or operator's error, not a peer's.
@@ -36,6 +37,8 @@ enum class SetupError : std::uint8_t {
   history_out_of_range,
   timeouts_out_of_range,
   simulation_already_stepped,
+  prediction_out_of_range,  ///< rollback beyond 15 ticks, or its delay beyond 60
+  spectators_out_of_range,  ///< too many, or the history is shorter than their delay and queue
 };
 [[nodiscard]] std::string_view to_string(SetupError error);
 
@@ -43,6 +46,8 @@ enum class SetupError : std::uint8_t {
 inline constexpr std::uint32_t k_min_history_ticks = 256;
 inline constexpr std::uint32_t k_max_history_ticks = 1 << 16;
 inline constexpr std::uint32_t k_max_snapshot_ticks = 1 << 12;
+
+inline constexpr std::uint8_t k_max_prediction_ticks = 15;
 
 /// How far beyond the closed ticks a server takes inputs.
 inline constexpr std::uint32_t k_input_window_ticks = 128;
@@ -86,6 +91,8 @@ struct PlayerStats {
   std::uint64_t hashes_compared = 0;
   std::uint64_t hashes_equal = 0;
   std::uint64_t malformed_packets = 0;
+  std::int32_t margin_quarters = 0;  ///< how early the newest inputs came, quarter ticks
+  std::uint64_t entries = 0;         ///< how often it came into the running match
 };
 
 /// Traffic and progress of a client.
@@ -98,6 +105,13 @@ struct ClientStats {
   std::uint64_t substituted_inputs = 0;  ///< own inputs that the server replaced
   std::uint64_t resends_requested = 0;
   std::uint64_t malformed_packets = 0;
+  std::int32_t margin_quarters = 0;  ///< the server's last word on it, quarter ticks
+  std::uint32_t lead_ticks = 0;      ///< inputs are sent that much earlier than at first
+  std::int32_t rate_trim_ppm = 0;    ///< of the local clock
+  std::int64_t jitter_us = 0;        ///< of arriving ticks: the 99th percentile
+  std::uint64_t rollbacks = 0;
+  std::uint64_t ticks_stepped_again = 0;
+  std::uint64_t states_loaded = 0;  ///< from the server
 };
 
 }  // namespace lockstone::net

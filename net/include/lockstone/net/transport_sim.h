@@ -26,6 +26,13 @@ struct LinkFaults {
   std::int64_t reorder_us = 40'000;
 };
 
+/// What is on its way, to all endpoints together.
+struct SimTraffic {
+  std::size_t packets = 0;
+  std::size_t bytes = 0;
+  std::size_t peak_bytes = 0;
+};
+
 class SimTransport;
 
 /// Which way an endpoint is cut off.
@@ -46,8 +53,20 @@ class SimNetwork {
   /// poll. Answers `from`'s connection. `faults` holds for both directions.
   ConnectionId connect(SimTransport& from, SimTransport& to, const LinkFaults& faults);
 
-  /// Changes both directions of every link of an endpoint, for packets sent from now on.
-  void set_faults(const SimTransport& endpoint, const LinkFaults& faults);
+  /// Changes every link of an endpoint, one way or both, for packets sent from now on.
+  void set_faults(const SimTransport& endpoint, const LinkFaults& faults, Cut way = Cut::both);
+
+  /// From now on this is the network's time, whatever clocks the endpoints go by. Never runs
+  /// backwards. Without a call, the network believes each endpoint's own clock.
+  void set_time(std::int64_t now_us);
+
+  /// An endpoint dies without a word: what is on its way to it is lost, and all that follows.
+  void kill(SimTransport& endpoint);
+
+  /// Somebody sends a packet that seems to come from the peer of one of `receiver`'s connections.
+  void forge(SimTransport& receiver, ConnectionId connection, ByteView bytes);
+
+  [[nodiscard]] SimTraffic traffic() const;
 
   /// Cuts an endpoint off for packets sent in from_us ≤ t < until_us: unreliable ones are lost,
   /// reliable ones wait for the end. Both times are in 0 … 2^62.
@@ -87,10 +106,12 @@ class SimTransport final : public Transport {
   void send_unreliable(Link& link, const Packet& packet);
   void damage(Link& link, Packet& packet) const;
   void deliver(Packet packet);
+  [[nodiscard]] std::int64_t time() const;
 
   SimNetwork& network_;
   std::size_t index_;
   std::int64_t now_us_ = 0;
+  bool dead_ = false;
   std::vector<std::unique_ptr<Link>> links_;  ///< connection id - 1
   std::vector<Packet> arriving_;              ///< heap, earliest first
   std::unique_ptr<Packet> current_;           ///< what the last event's bytes point into

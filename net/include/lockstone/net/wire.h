@@ -21,11 +21,12 @@
 namespace lockstone::net {
 
 inline constexpr std::uint32_t k_protocol_magic = 0x4e534b4c;  ///< "LKSN"
-inline constexpr std::uint16_t k_protocol_version = 1;
+inline constexpr std::uint16_t k_protocol_version = 2;
 inline constexpr std::uint8_t k_any_slot = 255;
 inline constexpr std::uint64_t k_max_tick = std::uint64_t{1} << 62;  ///< no tick or count is above
 inline constexpr std::size_t k_max_name_bytes = 32;
 inline constexpr std::size_t k_max_text_bytes = 96;
+inline constexpr std::size_t k_max_build_bytes = 64;
 inline constexpr std::size_t k_max_config_bytes = 32 * 1024;
 inline constexpr std::size_t k_max_chunk_bytes = 8 * 1024;
 inline constexpr std::size_t k_max_hashes_per_message = 32;
@@ -48,6 +49,11 @@ enum class MessageType : std::uint8_t {
   dump = 12,
   finish = 13,
   bye = 14,
+  snapshot = 15,
+  snapshot_taken = 16,
+  activate = 17,
+  ask = 18,
+  paused = 19,
 };
 
 /// Text of bounded length: printable ASCII on the wire.
@@ -70,13 +76,17 @@ class FixedText {
 };
 using NameText = FixedText<k_max_name_bytes>;
 using FieldText = FixedText<k_max_text_bytes>;
+using BuildText = FixedText<k_max_build_bytes>;
 
 /// Client: the first message. With another `protocol` the rest is not read and keeps its defaults.
 struct Hello {
   std::uint16_t protocol = k_protocol_version;
   bool insecure = false;                  ///< asks for a session without encryption
-  std::uint8_t wanted_slot = k_any_slot;  ///< 0 … k_max_players - 1, or k_any_slot
+  std::uint8_t wanted_slot = k_any_slot;  ///< 0 … k_max_players - 1, k_spectator_slot, k_any_slot
+  std::uint64_t rejoin_key = 0;           ///< from an earlier Welcome; 0: never was here
+  std::uint64_t ticks_stepped = 0;        ///< the state after so many ticks is still here
   NameText name;
+  BuildText build;  ///< of the game, and the processor: for reports
 };
 
 /// Server: what to build the simulation from. `config` points into the decoded packet.
@@ -90,6 +100,13 @@ struct Answer {
   SimulationInfo info;
 };
 
+/// Where somebody who is seated begins.
+enum class Entry : std::uint8_t {
+  lobby = 0,     ///< at tick 0, with everybody else, when Start comes
+  ticks = 1,     ///< where it was: the ticks since then follow
+  snapshot = 2,  ///< at a state that follows in pieces
+};
+
 /// Server: the client sits in `slot`.
 struct Welcome {
   std::uint8_t slot = 0;
@@ -98,6 +115,8 @@ struct Welcome {
   LatePolicy late_policy = LatePolicy::deadline;
   Pacing pacing = Pacing::real_time;
   std::uint64_t tick_count = 0;  ///< 0: until stopped
+  Entry entry = Entry::lobby;
+  std::uint64_t rejoin_key = 0;  ///< opens the same seat again
 };
 
 /// Server: the client does not play. `here` is the server's value, `there` the client's.
@@ -127,6 +146,9 @@ struct TickShape {
 inline constexpr std::size_t k_max_record_bytes =
     (k_max_players + 3) / 4 + k_max_players * k_max_input_bytes;
 
+/// No inputs came since the last time that a margin was told.
+inline constexpr std::int8_t k_no_margin = -128;
+
 /// Client: its inputs from `first_tick` on, in `coded` for a RecordReader of input_bytes; what it
 /// has; and the hashes that the server has not acknowledged.
 struct Inputs {
@@ -143,10 +165,11 @@ struct Inputs {
 struct Ticks {
   std::uint64_t first_tick = 0;
   std::uint8_t count = 0;
-  std::uint64_t ticks_closed = 0;     ///< how many ticks the server has closed
-  std::uint64_t inputs_received = 0;  ///< this client need not send inputs below
-  std::uint64_t hashes_received = 0;  ///< this client need not send hashes below
-  std::uint16_t waiting_mask = 0;     ///< slots that the match waits for (strict)
+  std::uint64_t ticks_closed = 0;             ///< how many ticks the server has closed
+  std::uint64_t inputs_received = 0;          ///< this client need not send inputs below
+  std::uint64_t hashes_received = 0;          ///< this client need not send hashes below
+  std::uint16_t waiting_mask = 0;             ///< slots that the match waits for (strict)
+  std::int8_t margin_quarters = k_no_margin;  ///< how early the last inputs came, quarter ticks
   ByteView coded;
 };
 
@@ -189,6 +212,39 @@ struct Finish {
   std::uint64_t hash = 0;
 };
 
+/// Server: a piece of a canonical snapshot, to begin from.
+struct Snapshot {
+  std::uint64_t ticks = 0;  ///< the state after so many ticks
+  std::uint64_t hash = 0;   ///< what its hash must be
+  std::uint32_t total_bytes = 0;
+  std::uint32_t offset_bytes = 0;
+  ByteView chunk;  ///< 1 … k_max_chunk_bytes
+};
+
+/// Client: a snapshot was loaded, or is not what it should be.
+struct SnapshotTaken {
+  std::uint64_t ticks = 0;
+  bool good = false;
+};
+
+/// Server: from `tick` on, `slot` plays.
+struct Activate {
+  std::uint8_t slot = 0;
+  std::uint64_t tick = 0;
+};
+
+/// Client: a wish; what comes of it is the server's owner's affair.
+struct Ask {
+  AskKind kind = AskKind::pause;
+  std::uint8_t topic = 0;   ///< of a vote: what about
+  std::uint8_t choice = 0;  ///< of a vote
+};
+
+/// Server: the match stands still, or goes on.
+struct Paused {
+  bool paused = false;
+};
+
 /// Either: the last message of a connection.
 struct Bye {
   LeaveReason reason = LeaveReason::left;
@@ -210,6 +266,11 @@ struct Bye {
 [[nodiscard]] std::size_t encode(const DumpRequest& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Dump& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Finish& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Snapshot& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const SnapshotTaken& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Activate& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Ask& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Paused& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Bye& message, std::span<std::byte> out);
 
 [[nodiscard]] Status decode(ByteView packet, Hello& message);
@@ -225,10 +286,15 @@ struct Bye {
 [[nodiscard]] Status decode(ByteView packet, DumpRequest& message);
 [[nodiscard]] Status decode(ByteView packet, Dump& message);
 [[nodiscard]] Status decode(ByteView packet, Finish& message);
+[[nodiscard]] Status decode(ByteView packet, Snapshot& message);
+[[nodiscard]] Status decode(ByteView packet, SnapshotTaken& message);
+[[nodiscard]] Status decode(ByteView packet, Activate& message);
+[[nodiscard]] Status decode(ByteView packet, Ask& message);
+[[nodiscard]] Status decode(ByteView packet, Paused& message);
 [[nodiscard]] Status decode(ByteView packet, Bye& message);
 
 /// Header bytes of Inputs (without hashes) and Ticks: what is left of a datagram holds the records.
 inline constexpr std::size_t k_inputs_header_bytes = 1 + 8 + 8 + 1 + 8 + 1;
-inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 2;
+inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 2 + 1;
 
 }  // namespace lockstone::net

@@ -1,4 +1,4 @@
-#include "tests/support/toy_simulation.h"
+#include "tools/toy/toy_simulation.h"
 
 #include <array>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
 
-namespace lockstone::test {
+namespace lockstone::toy {
 namespace {
 
 constexpr std::uint32_t k_config_magic = 0x43594f54;    // "TOYC"
@@ -83,7 +83,7 @@ bool in_range(const ToyConfig& config) {
 
 // What this build computes for a short match: a constant unless the rules change.
 std::uint64_t canary() {
-  static bool computing = false;  // the canary's own simulation has none
+  static thread_local bool computing = false;  // the canary's own simulation has none
   if (computing) return 0;
   computing = true;
   static const std::uint64_t value = [] {
@@ -358,4 +358,4 @@ void toy_input(std::uint64_t seed, std::size_t slot, std::uint64_t tick, std::sp
   }
 }
 
-}  // namespace lockstone::test
+}  // namespace lockstone::toy

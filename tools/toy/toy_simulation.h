@@ -1,4 +1,4 @@
-// A deterministic game of a few dozen integer bodies, for the tests of `net` and `replay`.
+// A deterministic game of a few dozen integer bodies, for trying out `net` and `replay`.
 //
 // Every player pushes one body around; bodies drift, bounce and pass momentum on. The state is a
 // flat list of 64-bit words, so that saving, hashing, describing and flipping a bit are one loop.
@@ -14,7 +14,7 @@
 
 #include <lockstone/simulation.h>
 
-namespace lockstone::test {
+namespace lockstone::toy {
 
 /// What a match of the toy is made from. `encode` and `decode` give the configuration bytes.
 struct ToyConfig {
@@ -74,4 +74,4 @@ class ToySimulation final : public Simulation {
 /// A reproducible input for a slot and tick: what a test's players press. `out` is filled whole.
 void toy_input(std::uint64_t seed, std::size_t slot, std::uint64_t tick, std::span<std::byte> out);
 
-}  // namespace lockstone::test
+}  // namespace lockstone::toy

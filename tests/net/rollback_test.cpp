@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include "tests/net/match_fixture.h"
+
+namespace lockstone::net::test {
+namespace {
+
+constexpr std::int64_t k_second_us = 1'000'000;
+
+MatchOptions predicting_match(std::uint64_t seed) {
+  MatchOptions options;
+  options.toy.player_count = 3;
+  options.toy.seed = seed;
+  options.server.tick_count = 400;
+  options.server.input_delay_ticks = 2;
+  options.client.prediction_ticks = 8;
+  options.seed = seed;
+  return options;
+}
+
+TEST(Rollback, GivesTheSameConfirmedTicksAsLockstep) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    MatchOptions options = predicting_match(seed);
+    options.faults = rough(static_cast<std::uint32_t>(20'000 * seed));
+    options.server.late_policy = seed % 3 == 0 ? LatePolicy::strict : LatePolicy::deadline;
+    options.authoritative = seed % 4 != 0;
+    Match match(options);
+    ASSERT_TRUE(match.run(60 * k_second_us)) << "seed " << seed;
+    EXPECT_EQ(match.server->finish_reason(), FinishReason::completed);
+    for (const Match::Player& player : match.players) {
+      EXPECT_EQ(player.client->ticks_stepped(), 400U);
+      EXPECT_GT(player.client->stats().rollbacks, 10U);
+      EXPECT_LE(player.log->longest_rollback, 8U);
+    }
+    match.expect_all_equal();
+  }
+}
+
+TEST(Rollback, RunsAheadByNoMoreThanItMay) {
+  MatchOptions options = predicting_match(20);
+  options.faults.delay_us = 100'000;
+  options.client.prediction_ticks = 5;
+  Match match(options);
+  std::uint64_t most = 0;
+  while (!match.done() && match.now_us < 30 * k_second_us) {
+    match.step();
+    const Client& client = *match.players[0].client;
+    most = std::max(most, client.ticks_predicted() - client.ticks_stepped());
+  }
+  EXPECT_EQ(most, 5U);
+  match.expect_all_equal();
+}
+
+TEST(Rollback, AsksThePredictorForOthersAlone) {
+  class Zeros final : public InputPredictor {
+   public:
+    void predict(std::uint64_t, std::uint8_t slot, std::span<std::byte> out) override {
+      ++asked[slot];
+      std::fill(out.begin(), out.end(), std::byte{0});
+    }
+    std::array<int, 2> asked{};
+  };
+  Zeros zeros;
+  MatchOptions options = predicting_match(21);
+  options.toy.player_count = 2;
+  options.server.start_players = 1;
+  Match match(options);
+  match.players[1].paused = true;
+  SimTransport& transport = match.network.add_endpoint();
+  ClientConfig config = options.client;
+  config.insecure = true;
+  ClientParts parts;
+  parts.transport = &transport;
+  parts.connection = match.network.connect(transport, match.server_transport, {.delay_us = 50'000});
+  parts.factory = toy::toy_factory();
+  parts.inputs = match.players[1].inputs.get();
+  parts.predictor = &zeros;
+  const auto client = std::move(Client::create(config, std::move(parts)).client);
+  for (int i = 0; i < 500; ++i) {
+    client->update(match.now_us);
+    match.step();
+  }
+  EXPECT_GT(zeros.asked[0], 100);
+  EXPECT_EQ(zeros.asked[1], 0);
+}
+
+TEST(Rollback, LocatesAFlippedBit) {
+  const Flip flip{150, "body", "velocity.x", 12, 7};
+  MatchOptions options = predicting_match(22);
+  options.faults = rough(100'000);
+  options.flips = {{}, {flip}};
+  Match match(options);
+  ASSERT_TRUE(match.run(60 * k_second_us));
+  ASSERT_EQ(match.server_log.reports.size(), 1U);
+  const DesyncReport& report = match.server_log.reports[0];
+  EXPECT_EQ(report.tick, 150U);
+  EXPECT_EQ(report.slot, 1);
+  EXPECT_EQ(report.difference.object, 12U);
+  EXPECT_EQ(report.difference.field, "velocity.x");
+}
+
+// A toy whose snapshots leave out what was saved before.
+class Forgetful final : public Simulation {
+ public:
+  explicit Forgetful(const ToyConfig& config) : toy_(config) {}
+  [[nodiscard]] SimulationInfo info() const override { return toy_.info(); }
+  [[nodiscard]] std::uint64_t tick() const override { return toy_.tick(); }
+  void step(std::span<const PlayerInput> inputs) override { toy_.step(inputs); }
+  [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override {
+    return toy_.snapshot_bytes_max(kind);
+  }
+  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override {
+    const std::size_t size = toy_.save(kind, out);
+    ByteWriter(out.subspan(size - 8)).put(std::uint64_t{1});
+    return size;
+  }
+  Status load(SnapshotKind kind, ByteView bytes) override { return toy_.load(kind, bytes); }
+  [[nodiscard]] std::uint64_t hash() const override { return toy_.hash(); }
+  [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
+    return toy_.describe(here, there);
+  }
+
+ private:
+  ToySimulation toy_;
+};
+
+ClientFailure failure_of_sync_test(bool forgets) {
+  MatchOptions options = predicting_match(23);
+  options.server.start_players = 1;
+  Match match(options);
+  for (Match::Player& player : match.players)
+    player.paused = true;
+  SimTransport& transport = match.network.add_endpoint();
+  ClientConfig config = options.client;
+  config.insecure = true;
+  config.sync_test = true;
+  ClientParts parts;
+  parts.transport = &transport;
+  parts.connection = match.network.connect(transport, match.server_transport, {});
+  parts.factory = [forgets](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
+    if (!forgets) return toy::toy_factory()(bytes);
+    return std::unique_ptr<Simulation>(
+        std::make_unique<Forgetful>(ToyConfig::decode(bytes).value()));
+  };
+  parts.inputs = match.players[1].inputs.get();
+  const auto client = std::move(Client::create(config, std::move(parts)).client);
+  for (int i = 0; i < 1000; ++i) {
+    client->update(match.now_us);
+    match.step();
+  }
+  EXPECT_GT(match.server->ticks_closed(), 0U);
+  return client->failure();
+}
+
+TEST(Rollback, SyncTestFindsWhatASnapshotForgets) {
+  EXPECT_EQ(failure_of_sync_test(true), ClientFailure::not_deterministic);
+  EXPECT_EQ(failure_of_sync_test(false), ClientFailure::none);
+}
+
+}  // namespace
+}  // namespace lockstone::net::test
