@@ -133,7 +133,7 @@ void SimNetwork::kill(SimTransport& endpoint) {
 
 void SimNetwork::forge(SimTransport& receiver, ConnectionId connection, ByteView bytes) {
   SimTransport::Packet packet;
-  packet.due_us = receiver.time();
+  packet.due_us = receiver.network_time();
   packet.connection = connection;
   packet.channel = Channel::unreliable;
   packet.bytes.assign(bytes.begin(), bytes.end());
@@ -163,7 +163,7 @@ bool SimTransport::poll(std::int64_t now_us, TransportEvent& event) {
   LKS_ASSERT(now_us >= now_us_);
   now_us_ = std::max(now_us, now_us_);
   SimTraffic& traffic = network_.state_->traffic;
-  while (!arriving_.empty() && arriving_.front().due_us <= time()) {
+  while (!arriving_.empty() && arriving_.front().due_us <= network_time()) {
     std::pop_heap(arriving_.begin(), arriving_.end());
     current_ = std::make_unique<Packet>(std::move(arriving_.back()));
     arriving_.pop_back();
@@ -243,7 +243,7 @@ std::int64_t SimTransport::after_partitions(const Link& link, std::int64_t sent_
 // A reliable packet always arrives; every loss that it would suffer costs one retransmission.
 void SimTransport::send_reliable(Link& link, Packet packet) {
   const std::int64_t retry_us = 2 * link.faults.delay_us + k_retransmit_floor_us;
-  std::int64_t due_us = after_partitions(link, time()) + link.draw_delay_us();
+  std::int64_t due_us = after_partitions(link, network_time()) + link.draw_delay_us();
   for (int i = 0; i < k_max_retransmits; ++i) {
     if (!link.retransmit.chance(link.faults.loss_ppm)) break;
     due_us += retry_us;
@@ -260,10 +260,10 @@ void SimTransport::send_unreliable(Link& link, const Packet& packet) {
   const int copies = link.duplicate.chance(link.faults.duplicate_ppm) ? 2 : 1;
   for (int i = 0; i < copies; ++i) {
     Packet copy = packet;
-    copy.due_us = time() + link.draw_delay_us();
+    copy.due_us = network_time() + link.draw_delay_us();
     copy.connection = link.peer_connection;
     damage(link, copy);
-    if (lost || after_partitions(link, time()) != time()) continue;
+    if (lost || after_partitions(link, network_time()) != network_time()) continue;
     link.peer->deliver(std::move(copy));
   }
 }
@@ -277,7 +277,7 @@ void SimTransport::damage(Link& link, Packet& packet) const {
   if (truncate) packet.bytes.resize(std::max<std::size_t>(at, 1));
 }
 
-std::int64_t SimTransport::time() const {
+std::int64_t SimTransport::network_time() const {
   return network_.state_->now_us < 0 ? now_us_ : network_.state_->now_us;
 }
 

@@ -27,6 +27,7 @@ void add_demo_command(CLI::App& app, int& exit_code);
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code);
 void add_fuzz_scene_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
+void add_simnet_command(CLI::App& app, int& exit_code);
 void add_asset_command(CLI::App& app, int& exit_code);
 
 }  // namespace lockstone::tool

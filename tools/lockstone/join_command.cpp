@@ -101,6 +101,8 @@ std::string_view failure_text(net::ClientFailure failure) {
       return "the server sent malformed packets";
     case net::ClientFailure::config_not_understood:
       return "the match's configuration is unknown";
+    case net::ClientFailure::not_deterministic:
+      return "the simulation is not deterministic";
     case net::ClientFailure::dropped:
       return "the server dropped this player";
   }

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   lockstone::tool::add_fuzz_pairs_command(app, exit_code);
   lockstone::tool::add_fuzz_scene_command(app, exit_code);
   lockstone::tool::add_bench_command(app, exit_code);
+  lockstone::tool::add_simnet_command(app, exit_code);
   lockstone::tool::add_asset_command(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->footer(k_footer);

@@ -106,7 +106,7 @@ class SimTransport final : public Transport {
   void send_unreliable(Link& link, const Packet& packet);
   void damage(Link& link, Packet& packet) const;
   void deliver(Packet packet);
-  [[nodiscard]] std::int64_t time() const;
+  [[nodiscard]] std::int64_t network_time() const;
 
   SimNetwork& network_;
   std::size_t index_;

@@ -1,0 +1,69 @@
+#include "tools/simnet/node.h"
+
+#include <string>
+#include <utility>
+
+#include "tools/toy/toy_simulation.h"
+
+namespace lockstone::simnet {
+
+void Node::start(net::SimNetwork& network, net::SimTransport& server, std::uint64_t key,
+                 const net::LinkFaults& faults, const net::ClientConfig& config,
+                 const SimulationFactory& factory) {
+  endpoint_ = &network.add_endpoint();
+  sealed_ = std::make_unique<SealedTransport>(*endpoint_, key);
+  const net::ConnectionId connection = network.connect(*endpoint_, server, faults);
+  net::ClientConfig own = config;
+  own.rejoin_key = rejoin_key_;
+  net::ClientParts parts{sealed_.get(), connection, factory, this, this, nullptr};
+  client_ = std::move(net::Client::create(own, std::move(parts)).client);
+}
+
+void Node::reconnect(net::SimNetwork& network, net::SimTransport& server,
+                     const net::LinkFaults& faults) {
+  if (!client_->reconnect(network.connect(*endpoint_, server, faults))) {
+    oracle_.fail("client " + std::to_string(index_) + " cannot go on");
+  }
+}
+
+void Node::kill(net::SimNetwork& network) {
+  refused_before_ = refused_packets();
+  resends_before_ = resends();
+  rollbacks_before_ = rollbacks();
+  rejoin_key_ = client_->rejoin_key();
+  client_.reset();
+  network.kill(*endpoint_);
+  sealed_.reset();
+}
+
+void Node::update(std::int64_t span_us) {
+  clock_.advance(span_us, skew_ppm_);
+  if (client_ != nullptr && !paused_) client_->update(clock_.now_us());
+}
+
+std::uint64_t Node::refused_packets() const {
+  return refused_before_ + (sealed_ == nullptr ? 0 : sealed_->refused());
+}
+
+std::uint64_t Node::resends() const {
+  return resends_before_ + (client_ == nullptr ? 0 : client_->stats().resends_requested);
+}
+
+std::uint64_t Node::rollbacks() const {
+  return rollbacks_before_ + (client_ == nullptr ? 0 : client_->stats().rollbacks);
+}
+
+void Node::sample(std::uint64_t tick, std::span<std::byte> out) {
+  toy::toy_input(seed_, index_, tick, out);
+}
+
+void Node::tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                        std::uint64_t hash) {
+  ++ticks_;
+  oracle_.stepped(index_, tick, inputs, hash);
+  if (!oracle_.over() && tick + delay_ticks_ >= oracle_.ticks()) {
+    oracle_.fail("tick " + std::to_string(tick) + ": a spectator saw it too early");
+  }
+}
+
+}  // namespace lockstone::simnet

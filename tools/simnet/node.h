@@ -1,0 +1,82 @@
+// One client of a simulated match, with its faulty machine: clock, pauses, deaths.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <lockstone/net/client.h>
+#include <lockstone/net/transport_sim.h>
+
+#include "tools/simnet/oracle.h"
+#include "tools/simnet/schedule.h"
+#include "tools/simnet/sealed_transport.h"
+
+namespace lockstone::simnet {
+
+/// A clock that runs up to 500 ppm fast or slow, and never backwards.
+class SkewedClock {
+ public:
+  void advance(std::int64_t span_us, std::int64_t skew_ppm) {
+    local_ns_ += span_us * 1000 + span_us * skew_ppm / 1000;
+  }
+  [[nodiscard]] std::int64_t now_us() const { return local_ns_ / 1000; }
+
+ private:
+  std::int64_t local_ns_ = 0;
+};
+
+class Node final : public net::ClientObserver, public net::InputSource {
+ public:
+  Node(std::size_t index, std::uint64_t seed, Oracle& oracle)
+      : index_(index), seed_(seed), oracle_(oracle) {}
+
+  /// Starts the client's process: a new endpoint, a new connection.
+  void start(net::SimNetwork& network, net::SimTransport& server, std::uint64_t key,
+             const net::LinkFaults& faults, const net::ClientConfig& config,
+             const SimulationFactory& factory);
+  void kill(net::SimNetwork& network);
+  /// A new connection for a client that has lost its own.
+  void reconnect(net::SimNetwork& network, net::SimTransport& server,
+                 const net::LinkFaults& faults);
+
+  void update(std::int64_t span_us);
+
+  void set_paused(bool paused) { paused_ = paused; }
+  void set_skew(std::int64_t ppm) { skew_ppm_ = ppm; }
+
+  [[nodiscard]] bool alive() const { return client_ != nullptr; }
+  [[nodiscard]] const net::Client& client() const { return *client_; }
+  [[nodiscard]] net::SimTransport& endpoint() const { return *endpoint_; }
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] std::uint64_t refused_packets() const;
+  [[nodiscard]] std::uint64_t resends() const;
+  [[nodiscard]] std::uint64_t rollbacks() const;
+
+  /// A spectator of ticks that are at least so old.
+  void watch_only(std::uint32_t delay_ticks) { delay_ticks_ = delay_ticks; }
+
+  // What the client tells and asks.
+  void sample(std::uint64_t tick, std::span<std::byte> out) override;
+  void tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                    std::uint64_t hash) override;
+
+ private:
+  std::size_t index_;
+  std::uint64_t seed_;
+  Oracle& oracle_;
+  SkewedClock clock_;
+  std::int64_t skew_ppm_ = 0;
+  bool paused_ = false;
+  net::SimTransport* endpoint_ = nullptr;
+  std::unique_ptr<SealedTransport> sealed_;
+  std::unique_ptr<net::Client> client_;
+  std::uint64_t ticks_ = 0;
+  std::uint32_t delay_ticks_ = 0;
+  std::uint64_t rejoin_key_ = 0;  ///< survives the process, as in a file
+  std::uint64_t rollbacks_before_ = 0;
+  std::uint64_t refused_before_ = 0;  ///< of former lives
+  std::uint64_t resends_before_ = 0;
+};
+
+}  // namespace lockstone::simnet
