@@ -19,20 +19,32 @@ bool is_supported(const LatticePair& lattice, const Simplex& simplex, const RawV
   return beyond <= step;
 }
 
+/// The weights that an edge's ends have on the lattice: there the foot lies along the normal, and
+/// in fine lanes so within the few steps that the lattice moves a vertex by.
+void weigh_edge_as_on_lattice(FineFeatures& features, const Simplex& simplex) {
+  const RawVec& from = simplex.vertices[0].point;
+  const RawVec edge = simplex.vertices[1].point - from;
+  const Int128 square = wide_dot(edge, edge);
+  if (!is_zero(square)) features.weight[1] = weight_of(-wide_dot(from, edge), square);
+}
+
 /// The gap whose vector from A to B is the blend of the differences. Where that is too short to
-/// have a direction, or its direction does not separate as well, the lattice's stands in.
-CoreGap gap_between(const FineFeatures& features, const LatticePair& lattice,
-                    const Simplex& simplex, Side rest) {
+/// have a direction, or its direction does not separate as well, the lattice's stands in, with the
+/// points that lie along it.
+CoreGap gap_between(FineFeatures& features, const LatticePair& lattice, const Simplex& simplex,
+                    Side rest) {
   const RawVec v = blend(features, features.difference);
-  const Direction d = direction(v.x, v.y, v.z);
-  CoreGap gap{d.unit, static_cast<Fine>(d.length), blend(features, features.a),
-              blend(features, features.b)};
-  if (is_negligible(v) || !is_supported(lattice, simplex, v, rest)) {
-    const RawVec along_lattice = direction_to(simplex);
-    gap.normal = direction_of(along_lattice.x, along_lattice.y, along_lattice.z);
-    gap.distance = std::max(Fine{0}, dot(v, gap.normal));
+  if (!is_negligible(v) && is_supported(lattice, simplex, v, rest)) {
+    const Direction d = direction(v.x, v.y, v.z);
+    return {d.unit, static_cast<Fine>(d.length), blend(features, features.a),
+            blend(features, features.b)};
   }
-  return gap;
+  if (simplex.count == 2) weigh_edge_as_on_lattice(features, simplex);
+  const RawVec along_lattice = direction_to(simplex);
+  const Vec3<Unit> normal = direction_of(along_lattice.x, along_lattice.y, along_lattice.z);
+  const Fine distance = dot(blend(features, features.difference), normal);
+  return {normal, std::max(Fine{0}, distance), blend(features, features.a),
+          blend(features, features.b)};
 }
 
 CoreGap refine_edge(FineFeatures& features, const LatticePair& lattice, const Simplex& simplex,
@@ -55,11 +67,10 @@ CoreGap keep_lattice_triangle(FineFeatures& features, const Simplex& simplex) {
           blend(features, features.b)};
 }
 
-/// Whether the weighed point is as near as the foot, within 8 steps.
-bool is_near(const FineFeatures& features, Fine distance, int shift) {
-  const RawVec v = blend(features, features.difference);
-  const auto length = static_cast<Fine>(norm(v.x, v.y, v.z));
-  return length - distance <= Fine{8} << shift;
+/// Whether the weighed point is within 8 steps of the foot.
+bool is_near(const FineFeatures& features, const RawVec& foot, int shift) {
+  const RawVec aside = blend(features, features.difference) - foot;
+  return norm(aside.x, aside.y, aside.z) <= std::uint64_t{8} << shift;
 }
 
 CoreGap refine_triangle(FineFeatures& features, const LatticePair& lattice, const Simplex& simplex,
@@ -75,8 +86,9 @@ CoreGap refine_triangle(FineFeatures& features, const LatticePair& lattice, cons
   const Fine distance =
       std::max(Fine{0}, round_divide(wide_dot(normal, features.difference[0]), norm_of_normal));
   const RawVec foot = scaled_by_ratio(normal, distance, norm_of_normal);
-  if (!weigh_foot(features, foot, normal) && !is_near(features, distance, lattice.shift)) {
-    return keep_lattice_triangle(features, simplex);
+  if (!weigh_foot(features, foot, normal)) {
+    weigh_rim(features);
+    if (!is_near(features, foot, lattice.shift)) return keep_lattice_triangle(features, simplex);
   }
   return {direction_of(normal.x, normal.y, normal.z), distance, blend(features, features.a),
           blend(features, features.b)};

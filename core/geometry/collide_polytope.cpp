@@ -156,19 +156,28 @@ Manifold least_way_out(const Meeting& meeting) {
   return meeting.toward_front.allows(-n) ? manifold : deepest_vertex(meeting);
 }
 
-/// No axis separates. Where the polytopes overlap only beside the face, two edges meet after all.
+/// Whether an axis of this separation stands beside the best one of all faces: not deeper by more
+/// than a tenth and k_edge_margin.
+bool may_stand_for(Fine separation, Fine best) {
+  return edge_threshold(separation) >= best;
+}
+
+/// No axis separates. Where the polytopes overlap only beside the face, two edges meet after all,
+/// or the other face does.
 Manifold collide_overlapping(const Meeting& meeting) {
   const Manifold on_reference = reference_manifold(meeting);
   if (touches(on_reference)) return on_reference;
   const EdgeSupport edge = best_edge(meeting.pair, -k_any_separation, meeting.toward_front,
                                      meeting.of_a, meeting.of_b_points);
-  if (edge.found) {
+  if (edge.found && may_stand_for(edge.separation, meeting.separation())) {
     const CrossedEdges crossed = edge_manifold(meeting.pair, edge);
     if (is_sure(meeting.pair, crossed)) return crossed.manifold;
   }
-  const Manifold on_other = other_manifold(meeting);
-  const bool is_preferred = meeting.other_separation() >= edge_threshold(meeting.separation());
-  return is_preferred && touches(on_other) ? on_other : least_way_out(meeting);
+  if (may_stand_for(meeting.other_separation(), meeting.separation())) {
+    const Manifold on_other = other_manifold(meeting);
+    if (touches(on_other)) return on_other;
+  }
+  return least_way_out(meeting);
 }
 
 /// Whether the manifold of a face, whose plane separates by `plane`, is where the polytopes are

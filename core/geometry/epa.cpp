@@ -93,16 +93,21 @@ CoreOverlap core_overlap(const GapQuery& query) {
     if (!add_dimension(lattice, frame)) return {flat_overlap(query, frame), true};
   }
   ExpandingPolytope polytope(frame.vertices);
+  const auto gap_of = [&](const ExpandingFace& face) {
+    return way_out(refine(query.fine_pair(), lattice, polytope.simplex_of(face), Side::before));
+  };
   // A vertex is added in each turn, and is_full ends the loop at the latest.
   for (;;) {
-    const ExpandingFace& face = polytope.nearest();
-    const DifferenceVertex vertex = greatest_along(lattice, face.normal);
-    const bool supports = !polytope.sees(vertex.point, face);
-    if (supports) {
-      const Simplex triangle = polytope.foot_triangle(face);
-      return {way_out(refine(query.fine_pair(), lattice, triangle, Side::before)), true};
+    const ExpandingFace& nearest = polytope.nearest();
+    DifferenceVertex vertex = greatest_along(lattice, nearest.normal);
+    if (!polytope.sees(vertex.point, nearest)) {
+      const ExpandingFace& held = polytope.foot_face(nearest);
+      if (&held == &nearest) return {gap_of(nearest), true};
+      vertex = greatest_along(lattice, held.normal);
+      if (!polytope.sees(vertex.point, held)) return {gap_of(held), true};
+      if (polytope.is_full()) return {gap_of(nearest), true};
     }
-    if (polytope.is_full()) return overlap_without_room(query, polytope.foot_triangle(face));
+    if (polytope.is_full()) return overlap_without_room(query, polytope.simplex_of(nearest));
     polytope.expand(vertex);
   }
 }

@@ -98,21 +98,24 @@ void ExpandingPolytope::expand(const DifferenceVertex& vertex) {
     add_face(rim.edges[i].from, rim.edges[i].to, added);
 }
 
-Simplex ExpandingPolytope::simplex_of_face(const ExpandingFace& face) const {
+Simplex ExpandingPolytope::simplex_of(const ExpandingFace& face) const {
   const auto& [a, b, c] = face.vertices;
   return {3, {vertices_[a], vertices_[b], vertices_[c]}, face.normal};
 }
 
-Simplex ExpandingPolytope::foot_triangle(const ExpandingFace& face) const {
+bool ExpandingPolytope::holds_foot(const ExpandingFace& face) const {
+  const auto& [a, b, c] = face.vertices;
+  const TriangleWeights weights = weights_of(point(a), point(b), point(c));
+  return std::ranges::none_of(weights.numerators, [](Int128 w) { return w.negative(); });
+}
+
+const ExpandingFace& ExpandingPolytope::foot_face(const ExpandingFace& face) const {
+  if (holds_foot(face)) return face;
   for (std::size_t i = 0; i < static_cast<std::size_t>(face_count_); ++i) {
-    const auto& [a, b, c] = faces_[i].vertices;
     if (faces_[i].distance > face.distance + k_same_distance) continue;
-    const TriangleWeights weights = weights_of(point(a), point(b), point(c));
-    const bool outside =
-        std::ranges::any_of(weights.numerators, [](Int128 w) { return w.negative(); });
-    if (!outside) return simplex_of_face(faces_[i]);
+    if (holds_foot(faces_[i])) return faces_[i];
   }
-  return simplex_of_face(face);
+  return face;
 }
 
 }  // namespace lockstone::geometry

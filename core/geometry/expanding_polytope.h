@@ -39,8 +39,12 @@ class ExpandingPolytope {
   /// Adds a vertex that sees a face. Not when full.
   void expand(const DifferenceVertex& vertex);
 
-  /// The triangle in the plane of `face` that holds the foot of the origin, as a simplex.
-  [[nodiscard]] Simplex foot_triangle(const ExpandingFace& face) const;
+  /// `face` if it holds the foot of the origin; else the first face that does and is as near, by
+  /// rounded distances: it may be in another plane, which nothing says supports the difference.
+  /// `face` when there is none.
+  [[nodiscard]] const ExpandingFace& foot_face(const ExpandingFace& face) const;
+
+  [[nodiscard]] Simplex simplex_of(const ExpandingFace& face) const;
 
  private:
   struct Edge {
@@ -57,7 +61,7 @@ class ExpandingPolytope {
   void add_face(std::uint8_t a, std::uint8_t b, std::uint8_t c);
   /// Removes the faces that `vertex` sees; their rim.
   void remove_visible(const RawVec& vertex, Rim& rim);
-  [[nodiscard]] Simplex simplex_of_face(const ExpandingFace& face) const;
+  [[nodiscard]] bool holds_foot(const ExpandingFace& face) const;
 
   int vertex_count_ = 0;
   int face_count_ = 0;

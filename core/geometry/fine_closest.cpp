@@ -160,26 +160,39 @@ bool has(const Simplex& simplex, const DifferenceVertex& vertex) {
   return false;
 }
 
+FineClosest closest_of(const Candidate& nearest, const RawVec& n, bool apart) {
+  return {{direction_of(n.x, n.y, n.z), nearest.distance, nearest.on_a, nearest.on_b},
+          nearest.simplex,
+          apart};
+}
+
+/// The points lie along the normal. Of another plane that proves a distance d within ε they would
+/// be aside by up to √(2εd), which beside a giant is millimetres.
+FineClosest proven(const Candidate& candidate) {
+  return closest_of(candidate, candidate.normal, true);
+}
+
+FineClosest of_bounds(const Bounds& bounds) {
+  if (!bounds.nearest.is_within) return {};
+  return closest_of(bounds.nearest, bounds.normal, bounds.meet() || bounds.height > 0);
+}
+
 }  // namespace
 
 FineClosest fine_closest(const FinePair& pair, const Simplex& start) {
   Bounds bounds;
   Simplex simplex = start;
-  for (int step = 0; step < k_max_steps && !bounds.meet(); ++step) {
+  for (int step = 0; step < k_max_steps; ++step) {
     const Candidate candidate = nearest_of(pair, simplex, bounds);
     if (!candidate.is_within) break;
     const LeastVertex least = least_vertex(pair, truncated(candidate.normal, 61));
+    if (least.height >= candidate.distance - k_proof) return proven(candidate);
     bounds.take_plane(candidate.normal, least.height);
     if (has(candidate.simplex, least.vertex)) break;
     simplex = candidate.simplex;
     simplex.vertices[static_cast<std::size_t>(simplex.count++)] = least.vertex;
   }
-  const Candidate& nearest = bounds.nearest;
-  if (!nearest.is_within) return {};
-  const RawVec& n = bounds.normal;
-  return {{direction_of(n.x, n.y, n.z), nearest.distance, nearest.on_a, nearest.on_b},
-          nearest.simplex,
-          bounds.meet() || bounds.height > 0};
+  return of_bounds(bounds);
 }
 
 }  // namespace lockstone::geometry

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/wide_vectors.h"
+#include "core/math/roots.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -68,6 +69,26 @@ void weigh_edge(FineFeatures& features) {
   const Int128 square = wide_dot(edge, edge);
   if (!is_zero(square))
     features.weight[1] = weight_of(-wide_dot(features.difference[0], edge), square);
+}
+
+void weigh_rim(FineFeatures& features) {
+  std::array<Weight, 3> best{};
+  std::uint64_t least = ~std::uint64_t{0};
+  for (std::size_t from = 0; from < 3; ++from) {
+    const std::size_t to = from < 2 ? from + 1 : 0;
+    FineFeatures edge;
+    edge.count = 2;
+    edge.difference = {features.difference[from], features.difference[to], {}};
+    weigh_edge(edge);
+    const RawVec point = blend(edge, edge.difference);
+    const std::uint64_t distance = norm(point.x, point.y, point.z);
+    if (distance >= least) continue;
+    least = distance;
+    best = {};
+    best[from] = k_whole - edge.weight[1];
+    best[to] = edge.weight[1];
+  }
+  features.weight = best;
 }
 
 RawVec scaled_by_ratio(const RawVec& v, std::int64_t numerator, std::int64_t denominator) {

@@ -31,12 +31,16 @@ struct FineFeatures {
 /// Weighs an edge's ends at the point nearest to the origin.
 void weigh_edge(FineFeatures& features);
 
+/// Weighs a triangle's vertices at the point of its rim that is nearest to the origin.
+void weigh_rim(FineFeatures& features);
+
 /// x · numerator / denominator.
 [[nodiscard]] RawVec scaled_by_ratio(const RawVec& v, std::int64_t numerator,
                                      std::int64_t denominator);
 
 /// Weights of the foot of the origin, by areas in the plane of the two axes that the normal is
-/// least along. False when the foot is outside the triangle; then they are those of a point of it.
+/// least along. False when the foot is outside the triangle; then they are those of a point of it,
+/// which need not be the nearest.
 [[nodiscard]] bool weigh_foot(FineFeatures& features, const RawVec& foot, const RawVec& normal);
 
 }  // namespace lockstone::geometry

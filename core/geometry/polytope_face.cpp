@@ -28,11 +28,19 @@ static_assert(k_reference_label + k_max_polytope_edges <= k_bounds_label);
 /// Each side adds at most one vertex to a convex polygon; rounding may cost a few more.
 constexpr int k_capacity = 2 * k_max_polytope_face_edges + 16;
 
+/// How far snapping moved a vertex along the face, 2^-42 m.
+struct Shift {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+};
+constexpr int k_fine_per_shift = 8;
+
 struct ClipVertex {
   Fine x;
   Fine y;
   Fine z;
   std::uint32_t edge;  ///< label of the edge that leaves it
+  Shift moved{};
 };
 
 struct ClipPolygon {
@@ -150,7 +158,8 @@ void incident_polygon(const Frame& frame, int incident, ClipPolygon& polygon) {
     polygon.add({frame.x_origin + lockstone::dot(p, frame.u_other).raw,
                  frame.y_origin + lockstone::dot(p, frame.v_other).raw,
                  frame.z_origin + lockstone::dot(p, frame.n_other).raw,
-                 static_cast<std::uint32_t>(edge)});
+                 static_cast<std::uint32_t>(edge),
+                 {}});
   }
 }
 
@@ -180,6 +189,17 @@ bool may_snap(const Frame& frame) {
          magnitude_of(frame.incident_normal.y) <= limit;
 }
 
+/// What snapping by x and y makes of a shift, and whether it may: two square sides may both move a
+/// vertex, but the many of a rounded outline no farther than two such.
+bool add_shift(Shift& moved, Fine x, Fine y) {
+  constexpr std::int64_t limit = k_snap >> k_fine_per_shift;
+  const std::int64_t sum_x = moved.x - raw::round_shift(x, k_fine_per_shift);
+  const std::int64_t sum_y = moved.y - raw::round_shift(y, k_fine_per_shift);
+  if (sum_x * sum_x + sum_y * sum_y > 2 * limit * limit) return false;
+  moved = {static_cast<std::int32_t>(sum_x), static_cast<std::int32_t>(sum_y)};
+  return true;
+}
+
 /// Moves a vertex that is just outside onto the side, within the plane of the incident face.
 /// Answers whether it did.
 bool snap(const Frame& frame, const Side& side, std::int64_t excess, ClipVertex& vertex) {
@@ -193,6 +213,7 @@ bool snap(const Frame& frame, const Side& side, std::int64_t excess, ClipVertex&
   const Fine way = distance << frame.shift;  // at most 2^35
   const Fine x = raw::round_divide((way >> 4) * side.dy, length) * 16;
   const Fine y = raw::round_divide((way >> 4) * -side.dx, length) * 16;
+  if (!add_shift(vertex.moved, x, y)) return false;
   vertex.x -= x;
   vertex.y -= y;
   const RawVec& m = frame.incident_normal;
@@ -232,8 +253,14 @@ bool measure(const Frame& frame, const Side& side, ClipPolygon& polygon, Excesse
 ClipVertex cut(const ClipVertex& inside, std::int64_t depth, const ClipVertex& outside,
                std::int64_t excess, std::uint32_t label) {
   const std::uint64_t share = share_inside(depth, excess);
-  return {cut_between(inside.x, outside.x, share), cut_between(inside.y, outside.y, share),
-          cut_between(inside.z, outside.z, share), label};
+  const auto lane = [share](std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(cut_between(a, b, share));
+  };
+  return {cut_between(inside.x, outside.x, share),
+          cut_between(inside.y, outside.y, share),
+          cut_between(inside.z, outside.z, share),
+          label,
+          {lane(inside.moved.x, outside.moved.x), lane(inside.moved.y, outside.moved.y)}};
 }
 
 void clip(const Side& side, const ClipPolygon& polygon, const Excesses& excesses,
@@ -247,7 +274,7 @@ void clip(const Side& side, const ClipPolygon& polygon, const Excesses& excesses
     const std::int64_t to_excess = excesses[static_cast<std::size_t>(next)];
     if (from_excess <= 0) {
       const bool leaves_on_side = from_excess == 0 && to_excess > 0;
-      result.add({from.x, from.y, from.z, leaves_on_side ? side.label : from.edge});
+      result.add({from.x, from.y, from.z, leaves_on_side ? side.label : from.edge, from.moved});
       if (from_excess < 0 && to_excess > 0)
         result.add(cut(from, -from_excess, to, to_excess, side.label));
     } else if (to_excess < 0) {

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t k_hull_of_b = 1U << 27;
 /// The incident face is, of those around the deepest vertex, the one that is turned most towards
 /// the reference (Gregorius, as above; Box3D). Clipped by Sutherland and Hodgman, Reentrant polygon
 /// clipping, on a lattice of 30 bits a lane: resolution 2^-29 of the extent. A vertex beyond a side
-/// by less than k_snap is moved onto it and keeps its feature.
+/// by less than k_snap is moved onto it and keeps its feature; by √2 · k_snap in all.
 [[nodiscard]] Manifold face_manifold(const FaceMeeting& meeting);
 
 /// One point at the deepest vertex.

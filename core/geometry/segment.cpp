@@ -44,6 +44,13 @@ RawVec cross_exact(const RawVec& d, const Vec3<Unit>& n) {
           d.x * n.y.raw - d.y * n.x.raw};
 }
 
+/// One step of Newton's from a parameter near that of the closest point: an axis of 30 bits is not
+/// of norm 1, and leaves s · 2^-30 of the way along it to the point.
+Fine improved(const Segment& segment, Fine s, const RawVec& point) {
+  const Fine rest = dot(point - point_at(segment, s), segment.axis);
+  return clamp_to(raw::add(s, rest), fine(segment.half));
+}
+
 }  // namespace
 
 std::int64_t clamped_ratio(std::int64_t numerator, int shift, std::int64_t denominator,
@@ -68,7 +75,9 @@ RawVec point_at(const Segment& segment, Fine s) {
 }
 
 Fine closest_parameter(const Segment& segment, const RawVec& point) {
-  return clamp_to(dot(point - segment.centre, segment.axis), fine(segment.half));
+  const Fine half = fine(segment.half);
+  const Fine s = clamp_to(dot(point - segment.centre, segment.axis), half);
+  return improved(segment, s, point);
 }
 
 RawVec cross_of(const Vec3<Unit>& a, const Vec3<Unit>& b) {
@@ -96,6 +105,9 @@ ClosestParameters closest_parameters(const Segment& a, const Segment& b) {
     crossing = false;
     t = clamp_to(t, half_b);
     s = clamp_to(raw::add(d_a, scaled(t, cosine)), half_a);
+    s = improved(a, s, point_at(b, t));
+  } else if (!crossing) {
+    t = improved(b, t, point_at(a, s));
   }
   return {s, t, crossing};
 }

@@ -18,8 +18,8 @@ struct Segment {
 
 [[nodiscard]] RawVec point_at(const Segment& segment, Fine s);
 
-/// The parameter of the point of `segment` closest to `point`. Error < 2^-40 m plus that of
-/// the axis' norm.
+/// The parameter of the point of `segment` closest to `point`. Error < 2^-46 m, whatever the
+/// axis' norm.
 [[nodiscard]] Fine closest_parameter(const Segment& segment, const RawVec& point);
 
 struct ClosestParameters {

@@ -82,5 +82,34 @@ TEST(FuzzedPairs, ATriangleAtARimIsMet) {
   EXPECT_GT(m.count, 0);
 }
 
+// A corner of a small box on the face of a large one. Another face of the expanding polytope was as
+// near, held the foot, and supported nothing: the way out led through 240 m.
+TEST(FuzzedPairs, TheWayOutLeadsOut) {
+  const Mat3 turn{raw_unit(1073741822, -22737, 64976), raw_unit(22739, 1073741824, -21213),
+                  raw_unit(-64976, 21215, 1073741822)};
+  const Shape a = raw_box(38191, 10651, 10651), b = raw_box(301596964, 125637077, 239719122);
+  const Penetration deep =
+      penetration({a, turn}, {b, Mat3{}}, raw(301635155, -125647729, -120142668));
+  ASSERT_TRUE(deep.overlapping);
+  EXPECT_LT(real(deep.depth), 1e-6L);
+  EXPECT_LT(deep.normal.y.raw, -1'000'000'000);
+}
+
+// The axis of 30 bits is not of norm 1, and left the nearest point 0.2 µm along it: between cores
+// 2 µm apart the normal leaned on the axes by 5°.
+TEST(FuzzedPairs, TheNormalOfCapsulesThatAlmostCoincideIsSquareToThem) {
+  const Mat3 turn_a{raw_unit(-1045488595, -103334942, -221803955),
+                    raw_unit(-102844379, -697590425, 809760544),
+                    raw_unit(-222031841, 809698089, 669337263)};
+  const Mat3 turn_b{raw_unit(-1045488596, -103334942, -221803952),
+                    raw_unit(-102844377, -697590425, 809760544),
+                    raw_unit(-222031839, 809698089, 669337263)};
+  const Shape a = Shape::capsule(Length::from_raw(227101125), Length::from_raw(55583587));
+  const Shape b = Shape::capsule(Length::from_raw(163029852), Length::from_raw(67107178));
+  const Manifold m = collide({a, turn_a}, {b, turn_b}, raw(2, -3, 2), {});
+  ASSERT_GT(m.count, 0);
+  EXPECT_LT(std::abs(dot(real(m.normal), real(turn_a.y))), 1e-3L);
+}
+
 }  // namespace
 }  // namespace lockstone::test

@@ -12,26 +12,32 @@ const Figure& figure_of(const std::array<Figure, k_checks>& figures, Check check
   return figures[static_cast<std::size_t>(check)];
 }
 
-// What none of ten million pairs broke.
-constexpr std::array k_laws{Check::flip,   Check::distance,  Check::depth,
-                            Check::turned, Check::manifold,  Check::separated,
-                            Check::cast,   Check::cast_miss, Check::ray_miss};
-
-// Of a million pairs some eighty break another bound: rims that touch within micrometres, points
-// beside what they are deepest in.
 constexpr std::uint64_t k_pairs = 20'000;
-constexpr std::uint64_t k_rare = 12;
 
 TEST(FuzzPairs, OfARandomSeedKeepTheLaws) {
   const FuzzReport report = fuzz_pairs(
       {.seed = test::run_seed(), .first = 0, .count = k_pairs, .threads = 2, .kinds = {}});
   EXPECT_EQ(report.pairs, k_pairs);
-  for (const Check check : k_laws) {
+  for (int i = 0; i < k_checks; ++i) {
+    const auto check = static_cast<Check>(i);
     const Figure& figure = figure_of(report.figures, check);
     EXPECT_GT(figure.count, 1000U) << text_of(check).name;
     EXPECT_EQ(figure.failures, 0U) << text_of(check).name << " of pair " << figure.worst_index;
   }
-  EXPECT_LE(report.failed_pairs, k_rare);
+}
+
+// Those of ten million that once broke a bound: normals of other features than the points, deepest
+// points at the wrong vertices of slivers, corners moved onto many sides, boxes that are not quite
+// square, edges taken for four times the depth, and a way out through 240 m (8313088).
+TEST(FuzzPairs, ThatBrokeABoundKeepIt) {
+  constexpr std::uint64_t seed = 20261121;
+  HullPool pool(seed);
+  for (const std::uint64_t index : {281954U, 1124006U, 1764039U, 2323353U, 3752046U, 6170449U,
+                                    6882126U, 7015749U, 7139934U, 8313088U, 8653509U, 8689195U}) {
+    Verdict verdict(index);
+    check_pair(make_pair(pool, seed, index, all_kinds()), verdict);
+    EXPECT_FALSE(verdict.failed()) << index;
+  }
 }
 
 TEST(FuzzPairs, GiveOneReportForAnyNumberOfThreads) {

@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<CheckText, k_checks> k_texts{{
     {"flip", "bit for bit; spheres' anchors 1 step"},
     {"distance", "2 um"},
-    {"witness", "4 um; of depths + 26e-9 of the sizes, aside 1e-6"},
+    {"witness", "4 um; of depths + 26e-9 of the sizes"},
     {"depth", "2 um + 13e-9 of the sizes"},
     {"turned", "4 um + 26e-9 of the sizes"},
     {"apart", "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance"},
