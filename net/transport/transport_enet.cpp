@@ -19,7 +19,7 @@ constexpr std::size_t k_max_connections = 1024;
 constexpr std::uint32_t k_index_bits = 10;  // of a ConnectionId; the rest is the generation
 constexpr std::uint32_t k_index_mask = (1U << k_index_bits) - 1;
 
-// A session counts its own time-outs; ENet's shall not be the first to fire by much.
+// A session counts its own time-outs; ENet's, in which this plays a part, shall not be the first.
 constexpr std::uint32_t k_timeout_doublings = 32;
 // But a connection that was asked for and never confirmed holds a place.
 constexpr std::uint32_t k_half_open_ms = 2000;

@@ -108,6 +108,8 @@ void print_bots(const LossyOptions& options, const relay::TrialMatch& match) {
         static_cast<double>(player.stalled_us) / 1000 / minutes,
         static_cast<double>(player.longest_us) / 1000,
         player.equal ? "all hashes equal" : "hashes DIFFER");
+    if (player.state == net::ClientState::finished) continue;
+    fmt::print("player {} did not stay to the end: {}\n", slot, to_string(player.leave_reason));
   }
 }
 

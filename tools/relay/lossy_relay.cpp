@@ -71,7 +71,7 @@ void LossyRelay::pump(std::int64_t now_us) {
 void LossyRelay::take(std::size_t client, bool upwards, ByteView bytes, std::int64_t now_us) {
   ++counters_.received;
   Way& way = upwards ? clients_[client]->up : clients_[client]->down;
-  const bool lost = draw_loss(way);
+  const bool lost = draw_loss(way, now_us);
   const int copies = way.duplicate.chance(faults_.duplicate_ppm) ? 2 : 1;
   if (lost) {
     ++counters_.lost;
@@ -96,14 +96,15 @@ void LossyRelay::take(std::size_t client, bool upwards, ByteView bytes, std::int
 
 // Two states, after E. N. Gilbert, "Capacity of a burst-noise channel", 1960: a run of losses
 // begins with the chance that makes `loss_ppm` of all datagrams lost in runs of the mean length.
-bool LossyRelay::draw_loss(Way& way) const {
+bool LossyRelay::draw_loss(Way& way, std::int64_t now_us) const {
   if (faults_.loss_ppm == 0) return false;
   const std::uint64_t draw = way.loss.below(k_million * k_million);
   if (faults_.burst_packets == 0) return draw / k_million < faults_.loss_ppm;
   const std::uint64_t change = k_million * k_million / faults_.burst_packets;
   if (way.in_burst) {
-    way.in_burst = draw >= change;
+    way.in_burst = draw >= change && now_us - way.burst_began_us < k_longest_burst_us;
   } else {
+    way.burst_began_us = now_us;
     way.in_burst = draw < change / (k_million - faults_.loss_ppm) * faults_.loss_ppm;
   }
   return way.in_burst;

@@ -15,7 +15,8 @@ namespace lockstone::relay {
 /// What happens to each datagram, in either direction. Chances in parts per million.
 struct Faults {
   std::uint32_t loss_ppm = 0;       ///< of all datagrams, 0 … 900'000
-  std::uint32_t burst_packets = 0;  ///< losses come in runs of this mean length; 0: independent
+  std::uint32_t burst_packets = 0;  ///< losses come in runs of this mean length, which end after
+                                    ///< k_longest_burst_us; 0: independent
   std::uint32_t duplicate_ppm = 0;
   std::uint32_t reorder_ppm = 0;   ///< held back by up to 40 ms more
   std::uint32_t flip_ppm = 0;      ///< one bit is flipped
@@ -37,6 +38,7 @@ struct RelayCounters {
 
 class LossyRelay {
  public:
+  static constexpr std::int64_t k_longest_burst_us = 200'000;
   static constexpr std::size_t k_max_clients = 64;
   static constexpr std::size_t k_max_waiting = 1 << 16;
 
@@ -62,6 +64,7 @@ class LossyRelay {
     explicit Way(std::uint64_t seed);
     net::Random loss, duplicate, reorder, delay, damage;
     bool in_burst = false;
+    std::int64_t burst_began_us = 0;
   };
 
   struct Client {
@@ -87,7 +90,7 @@ class LossyRelay {
              std::uint64_t seed);
   [[nodiscard]] Client* client_of(const Endpoint& endpoint);
   void take(std::size_t client, bool upwards, ByteView bytes, std::int64_t now_us);
-  [[nodiscard]] bool draw_loss(Way& way) const;
+  [[nodiscard]] bool draw_loss(Way& way, std::int64_t now_us) const;
   [[nodiscard]] std::int64_t draw_delay_us(Way& way);
   void damage(Way& way, std::vector<std::byte>& bytes);
   void deliver(const Waiting& waiting);

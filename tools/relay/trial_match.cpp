@@ -232,6 +232,7 @@ PlayerOutcome TrialMatch::outcome(unsigned slot) const {
   outcome.equal =
       mine.size() <= truth.size() && std::equal(mine.begin(), mine.end(), truth.begin());
   outcome.state = player.client->state();
+  outcome.failure = player.client->failure();
   outcome.leave_reason = player.client->leave_reason();
   return outcome;
 }

@@ -34,6 +34,7 @@ struct PlayerOutcome {
   std::int64_t longest_us = 0;    ///< between two ticks
   bool equal = false;             ///< had the server's hash in each of its ticks
   net::ClientState state = net::ClientState::connecting;
+  net::ClientFailure failure = net::ClientFailure::none;
   net::LeaveReason leave_reason = net::LeaveReason::left;
 };
 

@@ -34,8 +34,10 @@ struct EnetOptions {
   std::uint16_t port = 0;                  ///< 0: the system chooses, see EnetTransport::port
   std::size_t max_connections = 32;        ///< 1 … 1024
   std::size_t max_connections_per_address = 1024;
-  std::size_t max_waiting_bytes = 1 << 20;         ///< received but not yet polled, per connection
-  std::uint32_t timeout_ms = 5000;                 ///< unanswered reliable packets end a connection
+  std::size_t max_waiting_bytes = 1 << 20;  ///< received but not yet polled, per connection
+  /// Without an answer to any reliable packet a connection ends. Well above the session's drop
+  /// time: on a bad line ENet may send only three times in 5 s, and all three may be lost.
+  std::uint32_t timeout_ms = 20000;
   std::optional<LinkKey> link_key = std::nullopt;  ///< none: open to everybody
   DatagramLimits limits = {};                      ///< of those who call a listening socket
   RandomSource* random = nullptr;  ///< for numbers of connections; null: the system's
