@@ -64,7 +64,7 @@ class CastPieces final : public geometry::WayPartVisitor {
              Unit limit)
       : placed_(placed),
         shape_(single_piece(convex)),
-        middle_(oriented_box(convex).centre),
+        middle_(middle_of(shape_)),
         translation_(translation),
         limit_(limit) {}
 

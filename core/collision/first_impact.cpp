@@ -44,12 +44,6 @@ Piece as_box(const Piece& half_space, const Vec3<Position>& above) {
   return box;
 }
 
-// What contacts take for the middle.
-Vec3<Position> middle_of(const Piece& piece) {
-  if (piece.polytope == nullptr) return piece.origin;
-  return piece.origin + rounded<Position>(rotate(piece.rotation, piece.polytope->interior));
-}
-
 // At least how far the turning of B takes any of its points that A may come to: the angle times
 // their distance from its centre, or across it.
 Position turned_way(const MovingShape& a, const MovingShape& b, Position radius_a) {

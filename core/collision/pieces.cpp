@@ -74,6 +74,11 @@ Piece single_piece(const PlacedShape& placed) {
   return {placed.shape, polytope, placed.origin, placed.rotation, 0, nullptr, {}};
 }
 
+Vec3<Position> middle_of(const Piece& piece) {
+  if (piece.polytope == nullptr) return piece.origin;
+  return piece.origin + rounded<Position>(rotate(piece.rotation, piece.polytope->interior));
+}
+
 bool is_behind(const Vec3<Position>& point, const Piece& piece) {
   if (!piece.triangle.is_triangle) return false;
   const geometry::PolytopeFace& front = piece.polytope->faces.front();

@@ -53,6 +53,10 @@ struct OrientedBox {
 /// A part of a placed asset, placed.
 [[nodiscard]] Piece piece_of(const PlacedShape& placed, const geometry::Part& part);
 
+/// The point by which contacts tell the front of a triangle from its back: the centre, of a hull a
+/// point inside. The middle of a hull's bounds may be outside, and behind what is before it.
+[[nodiscard]] Vec3<Position> middle_of(const Piece& piece);
+
 /// Whether the piece is a triangle of a mesh and the point lies behind it: triangles are met from
 /// the front only.
 [[nodiscard]] bool is_behind(const Vec3<Position>& point, const Piece& piece);

@@ -7,6 +7,7 @@
 
 #include <lockstone/compound.h>
 #include <lockstone/height_field.h>
+#include <lockstone/hull.h>
 #include <lockstone/mesh.h>
 
 #include "core/collision/pieces.h"
@@ -158,6 +159,28 @@ TEST_P(ManyPieces, AreAsNearAsTheNearestOfThem) {
 
 INSTANTIATE_TEST_SUITE_P(Assets, ManyPieces,
                          testing::Values(random_mesh, random_field, random_compound));
+
+// The middle of the corner's bounds lies half a metre beyond its slanted face, and behind a
+// triangle in front of that face.
+TEST(CastPlaced, AHullMeetsTheTriangleThatTheMiddleOfItsBoundsIsBehind) {
+  const std::vector<Vec3<Length>> corner{metres(0, 0, 0), metres(1, 0, 0), metres(0, 1, 0),
+                                         metres(0, 0, 1)};
+  const auto hull = Hull::build(corner).hull;
+  ASSERT_NE(hull, nullptr);
+  const std::vector<Vec3<Length>> vertices{metres(3.6, -1.2, -1.2), metres(-1.2, -1.2, 3.6),
+                                           metres(-1.2, 3.6, -1.2)};
+  const std::vector<TriangleIndices> triangles{{0, 1, 2}};
+  MeshDef def;
+  def.vertices = vertices;
+  def.triangles = triangles;
+  const auto mesh = Mesh::build(def).mesh;
+  ASSERT_NE(mesh, nullptr);
+  const PlacedShape target{mesh->shape(), mesh.get(), {}, {}, {}};
+  const PlacedShape convex{hull->shape(), hull.get(), {}, {}, {}};
+  const PlacedShapeHit hit = cast_shape(target, convex, metres(0.5, 0.5, 0.5), k_whole);
+  ASSERT_TRUE(hit.hit);
+  EXPECT_NEAR(static_cast<double>(real(hit.fraction)), 0.2 / 1.5, 1e-5);
+}
 
 }  // namespace
 }  // namespace lockstone::test
