@@ -5,8 +5,16 @@
 
 namespace lockstone {
 
+/// Called after each stage.
+using StageHook = void (*)(void* context, StepStage stage);
+
 class Profiler {
  public:
+  void set_hook(StageHook hook, void* context) {
+    hook_ = hook;
+    hook_context_ = context;
+  }
+
   void set_clock(ProfileClock now, ProfileDetail detail) {
     now_ = now;
     pair_clock_ = detail == ProfileDetail::pairs ? now : nullptr;
@@ -26,26 +34,29 @@ class Profiler {
 
   ProfileClock now_ = nullptr;
   ProfileClock pair_clock_ = nullptr;
+  StageHook hook_ = nullptr;
+  void* hook_context_ = nullptr;
   StepProfile profile_;
 };
 
-/// Adds its own lifetime to a stage.
+/// Adds its own lifetime to a stage; at its end the hook is called, whose time is not counted.
 class StageTimer {
  public:
-  StageTimer(Profiler& profiler, StepStage stage)
-      : now_(profiler.now_),
-        total_(profiler.profile_.stage_ticks[static_cast<std::size_t>(stage)]) {
-    if (now_ != nullptr) begin_ = now_();
+  StageTimer(Profiler& profiler, StepStage stage) : profiler_(profiler), stage_(stage) {
+    if (profiler_.now_ != nullptr) begin_ = profiler_.now_();
   }
   ~StageTimer() {
-    if (now_ != nullptr) total_ += now_() - begin_;
+    if (profiler_.now_ != nullptr) {
+      profiler_.profile_.stage_ticks[static_cast<std::size_t>(stage_)] += profiler_.now_() - begin_;
+    }
+    if (profiler_.hook_ != nullptr) profiler_.hook_(profiler_.hook_context_, stage_);
   }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  ProfileClock now_;
-  std::uint64_t& total_;
+  Profiler& profiler_;
+  StepStage stage_;
   std::uint64_t begin_ = 0;
 };
 

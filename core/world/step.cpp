@@ -73,6 +73,7 @@ Bounds World::Impl::bounds_of(std::uint32_t body) const {
 
 StepReport World::Impl::step() {
   StepReport report;
+  if (traces_stages) stage_digests.before = digest_of(StepStage::move);
   find_pairs(report);
   collide_pairs(report);
   solve_contacts(report);

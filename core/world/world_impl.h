@@ -211,7 +211,12 @@ struct World::Impl {
   IndexSet changed_sleep;  // dynamic bodies that sleep and did not, or the reverse, since events
 
   Profiler profiler;
+  bool traces_stages = false;
+  StageDigests stage_digests{};
   Parallel parallel;  // changes no result
+
+  /// What a stage left behind (stage_digests.cpp).
+  [[nodiscard]] std::uint64_t digest_of(StepStage stage) const;
 
  private:
   void find_pairs(StepReport& report);

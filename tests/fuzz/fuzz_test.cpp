@@ -1,7 +1,7 @@
 // Every parser of bytes from outside, for a moment each: its good examples, the corpus, and
 // mutations of both.
 //
-//   LOCKSTONE_FUZZ_SECONDS=600   how long (a quarter of a second)
+//   LOCKSTONE_FUZZ_SECONDS=600   how long (a tenth of a second)
 //   LOCKSTONE_TEST_SEED=…        which mutations
 //   LOCKSTONE_FUZZ_LAST=FILE     writes each input there before it is run: what stopped the program
 
@@ -47,7 +47,7 @@ std::vector<Bytes> read_corpus(std::string_view name) {
 
 Clock::duration budget() {
   const char* text = std::getenv("LOCKSTONE_FUZZ_SECONDS");
-  return std::chrono::milliseconds(text == nullptr ? 250 : 1000L * std::atoi(text));
+  return std::chrono::milliseconds(text == nullptr ? 100 : 1000L * std::atoi(text));
 }
 
 bool run(const Target& target, const Bytes& bytes) {

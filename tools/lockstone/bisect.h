@@ -15,6 +15,7 @@ struct BisectReport {
   int exit_code = 0;
   bool found = false;      ///< false: no difference, or an error that was complained about
   std::uint64_t tick = 0;  ///< whose inputs lead to different states
+  std::string stage;       ///< of that tick, the first that came to something else; may be empty
   StateDifference difference;  ///< after the tick, or at `difference_tick`
   std::uint64_t difference_tick = 0;
   std::string note;  ///< what else there is to say

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <lockstone/replay/seek.h>
+#include <lockstone/replay/snapshot_file.h>
 
 #include "tools/lockstone/bisect.h"
 #include "tools/lockstone/canonical_bytes.h"
@@ -84,6 +85,17 @@ class TemporaryFile {
   std::string path_;
 };
 
+StageTrace stages_from(const std::optional<nlohmann::json>& answer) {
+  StageTrace stages;
+  if (!answer || !answer->is_array()) return stages;
+  for (const nlohmann::json& stage : *answer) {
+    if (!stage.is_object()) return {};
+    const std::string digest = stage.value("digest", "");
+    stages.push_back({stage.value("stage", ""), std::strtoull(digest.c_str(), nullptr, 16)});
+  }
+  return stages;
+}
+
 // What the two builds' states after the tick differ in.
 bool describe(replay::Source& source, const OtherBuild& other, BisectReport& report) {
   const std::uint64_t after = report.tick + 1;
@@ -94,8 +106,10 @@ bool describe(replay::Source& source, const OtherBuild& other, BisectReport& rep
       other.ask("seek", fmt::format("{} --replay --json --state {}", after, quoted(state.path())));
   const std::optional<std::string> there = read_file(state.path());
   if (found.status != Status::ok || !answer || !there) return false;
-  report.difference = found.simulation->describe(canonical_bytes(*found.simulation),
-                                                 std::as_bytes(std::span(*there)));
+  const auto unpacked = replay::unpack_snapshot(std::as_bytes(std::span(*there)));
+  if (!unpacked.ok()) return false;
+  report.difference =
+      found.simulation->describe(canonical_bytes(*found.simulation), unpacked.value());
   report.difference_tick = after;
   return true;
 }
@@ -127,6 +141,9 @@ BisectReport bisect_builds(const std::string& log, const std::string& other_prog
   report.exit_code = k_different;
   report.found = true;
   report.tick = here.value().first_tick + ticks;
+  const std::optional<StageTrace> stages = stages_of(*source, report.tick);
+  const auto others = stages_from(other.ask("trace", fmt::format("--stages {}", report.tick)));
+  if (stages) report.stage = first_difference(*stages, others);
   if (!describe(*source, other, report)) report.note += "; the states could not be compared";
   return report;
 }

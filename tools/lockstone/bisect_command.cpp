@@ -42,6 +42,7 @@ int bisect(const BisectOptions& options) {
 std::string BisectReport::to_line() const {
   if (!found) return "no difference";
   std::string line = fmt::format("tick {}", tick);
+  if (!stage.empty()) line += ", stage " + stage;
   if (!difference.differs) return line;
   line += ", ";
   if (difference_tick != tick + 1) line += fmt::format("at tick {}: ", difference_tick);
@@ -52,6 +53,7 @@ nlohmann::ordered_json BisectReport::to_json() const {
   nlohmann::ordered_json json{{"found", found}};
   if (!found) return json;
   json["tick"] = tick;
+  if (!stage.empty()) json["stage"] = stage;
   if (difference.differs) {
     json["state_at"] = difference_tick;
     json["store"] = difference.store;
@@ -70,7 +72,7 @@ void add_bisect_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BisectOptions>();
   CLI::App* command = app.add_subcommand(
       "bisect",
-      "Find the first tick, object and field in which two logs or two builds part");
+      "Find the first tick, stage, object and field in which two logs or two builds part");
   command->add_option("here", options->here, "A .lks log")->required();
   command->add_option("there", options->there, "Another log of the same match");
   command->add_option("--with", options->other_program,

@@ -7,9 +7,11 @@
 #include <lockstone/replay/seek.h>
 
 #include "tools/lockstone/bisect.h"
+#include "tools/lockstone/canonical_bytes.h"
+#include "tools/lockstone/canonical_fields.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/log_file.h"
-#include "tools/lockstone/canonical_bytes.h"
+#include "tools/lockstone/stage_trace.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -20,6 +22,7 @@ struct Side {
   std::string path;
   std::unique_ptr<replay::FileSource> source;
   replay::SeekResult found;
+  StageTrace stages{};
   bool reproduced = false;  // this build computes the hash that was recorded
 
   [[nodiscard]] bool step_through(std::uint64_t tick) {
@@ -29,13 +32,12 @@ struct Side {
       complain(fmt::format("{}: {}", path, found.what));
       return false;
     }
-    found.simulation->step(found.ticks->inputs());
+    stages = step_traced(*found.simulation, found.ticks->inputs());
     reproduced = found.simulation->hash() == found.ticks->hash();
     return true;
   }
 
-  // Steps on to the log's next keyframe: what else is known of a state that this build does not
-  // compute.
+  // Steps on to the log's next keyframe: a whole state that this build does not compute.
   [[nodiscard]] bool step_to_keyframe() {
     while (found.ticks->next()) {
       if (found.ticks->at_keyframe()) return true;
@@ -45,27 +47,52 @@ struct Side {
   }
 };
 
+// Describes a difference with the sides in their order: `is_here` says that `recorded` is the
+// first.
+StateDifference describe_sides(const Simulation& simulation, ByteView recorded, ByteView computed,
+                               bool is_here) {
+  return is_here ? simulation.describe(recorded, computed)
+                 : simulation.describe(computed, recorded);
+}
+
+// Looks for one flipped bit of the state behind the tick that explains the recorded hash.
+bool blame_one_bit(Side& odd, bool is_here, BisectReport& report) {
+  Simulation& simulation = *odd.found.simulation;
+  const std::vector<std::byte> computed = canonical_bytes(simulation);
+  const std::vector<std::byte> flipped = find_flipped_bit(simulation, odd.found.ticks->hash());
+  if (flipped.empty()) return false;
+  report.difference = describe_sides(simulation, flipped, computed, is_here);
+  report.difference_tick = simulation.tick();
+  report.note += "; its hash is that of the state here with this one bit flipped";
+  return true;
+}
+
 // Both inputs were equal and so are the states here: one of the logs was made by something else.
 void blame(Side& here, Side& there, BisectReport& report) {
   Side& odd = here.reproduced ? there : here;
-  report.note = fmt::format("this build computes the hash of {}, {}; {} holds another one",
-                            here.reproduced ? here.path : there.path,
-                            here.reproduced || there.reproduced ? "step by step" : "of neither log",
-                            odd.path);
+  const bool is_here = &odd == &here;
+  report.note = here.reproduced || there.reproduced
+                    ? fmt::format(
+                          "this build comes to the hash of {}; {} was made by another "
+                          "build, or a fault",
+                          (is_here ? there : here).path, odd.path)
+                    : std::string("this build comes to another hash than both");
+  if (blame_one_bit(odd, is_here, report)) return;
   if (!odd.step_to_keyframe()) {
-    report.note += ", and no keyframe after it to compare with";
+    report.note += "; no keyframe after the tick says more";
     return;
   }
   const std::vector<std::byte> computed = canonical_bytes(*odd.found.simulation);
-  const ByteView recorded = odd.found.ticks->snapshot();
-  report.difference = &odd == &here ? odd.found.simulation->describe(recorded, computed)
-                                    : odd.found.simulation->describe(computed, recorded);
+  report.difference =
+      describe_sides(*odd.found.simulation, odd.found.ticks->snapshot(), computed, is_here);
   report.difference_tick = odd.found.simulation->tick();
+  report.note += "; the field is that of its next keyframe";
 }
 
 void explain(Side& here, Side& there, BisectReport& report) {
   const Simulation& simulation = *here.found.simulation;
   if (simulation.hash() == there.found.simulation->hash()) return blame(here, there, report);
+  report.stage = first_difference(here.stages, there.stages);
   report.difference =
       simulation.describe(canonical_bytes(simulation), canonical_bytes(*there.found.simulation));
   report.difference_tick = simulation.tick();
@@ -80,8 +107,8 @@ BisectReport logs_failed(int exit_code) {
 }  // namespace
 
 BisectReport bisect_logs(const std::string& here_path, const std::string& there_path) {
-  Side here{.path = here_path, .source = open_log(here_path), .found = {}};
-  Side there{.path = there_path, .source = open_log(there_path), .found = {}};
+  Side here{.path = here_path, .source = open_log(here_path), .found = {}, .stages = {}};
+  Side there{.path = there_path, .source = open_log(there_path), .found = {}, .stages = {}};
   if (here.source == nullptr || there.source == nullptr) return logs_failed(k_corrupt);
   const replay::LogComparison comparison = replay::compare_logs(*here.source, *there.source);
   if (!comparison.header.empty() || !comparison.same_config) {

@@ -6,6 +6,8 @@
 
 #include "core/world/record_codec.h"
 #include "core/world/snapshot_format.h"
+#include "tools/lockstone/canonical_bytes.h"
+#include "tools/lockstone/flipping_simulation.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -52,6 +54,29 @@ std::vector<FieldPlace> fields_of_world(ByteView world) {
   for (std::uint32_t i = 0; i < header.joint_limit; ++i)
     lister.add<JointRecord>("joint", i);
   return lister.take();
+}
+
+std::vector<std::byte> find_flipped_bit(Simulation& simulation, std::uint64_t hash) {
+  World* world = world_to_disturb(simulation);
+  if (world == nullptr) return {};
+  std::vector<std::byte> native(simulation.snapshot_bytes_max(SnapshotKind::native));
+  native.resize(simulation.save(SnapshotKind::native, native));
+  std::vector<std::byte> bytes = canonical_bytes(simulation);
+  const std::span<std::byte> part = world_part(simulation, bytes);
+  for (const FieldPlace& place : fields_of_world(part)) {
+    for (unsigned bit = 0; bit < 8 * place.bytes; ++bit) {
+      LKS_CHECK(world->flip_bit(place.store, place.object, place.field, bit));
+      const bool found = simulation.hash() == hash;
+      LKS_CHECK(world->flip_bit(place.store, place.object, place.field, bit));
+      if (!found) continue;
+      part[place.offset + bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+      reseal(part);
+      LKS_CHECK(simulation.load(SnapshotKind::native, native) == Status::ok);
+      return bytes;
+    }
+  }
+  LKS_CHECK(simulation.load(SnapshotKind::native, native) == Status::ok);
+  return {};
 }
 
 void reseal(std::span<std::byte> world) {

@@ -24,8 +24,13 @@ struct FieldPlace {
 [[nodiscard]] std::span<std::byte> world_part(const Simulation& simulation,
                                               std::span<std::byte> canonical);
 
-/// All fields of the header, the bodies, contacts and joints, in their order. `world` is well formed.
+/// All fields of the header, the bodies, contacts and joints, in their order. `world` is well
+/// formed.
 [[nodiscard]] std::vector<FieldPlace> fields_of_world(ByteView world);
+
+/// The canonical snapshot that differs from the simulation's in one bit of its world, and has this
+/// hash; empty when there is none. Tries all, for a second or so; leaves the simulation as it was.
+[[nodiscard]] std::vector<std::byte> find_flipped_bit(Simulation& simulation, std::uint64_t hash);
 
 /// Makes the checksum at the end right again.
 void reseal(std::span<std::byte> world);

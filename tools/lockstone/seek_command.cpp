@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include <lockstone/replay/seek.h>
+#include <lockstone/replay/snapshot_file.h>
 
+#include "tools/lockstone/canonical_bytes.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/lockstone/log_file.h"
-#include "tools/lockstone/canonical_bytes.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
 
@@ -29,7 +30,7 @@ struct SeekOptions {
 
 bool write_state(const SeekOptions& options, const Simulation& simulation) {
   if (options.state.empty()) return true;
-  const std::vector<std::byte> bytes = canonical_bytes(simulation);
+  const std::vector<std::byte> bytes = replay::pack_snapshot(canonical_bytes(simulation));
   return write_text_file(options.state,
                          std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
@@ -82,7 +83,8 @@ void add_seek_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("seek", "Bring a match to a tick, and show or save it");
   command->add_option("file", options->file, "A .lks log")->required();
   command->add_option("tick", options->tick, "The state before this tick")->required();
-  command->add_option("--state", options->state, "Write the canonical snapshot into this file");
+  command->add_option("--state", options->state,
+                      "Write the canonical snapshot into this file, packed");
   command->add_option("--svg", options->svg, "Draw the state into this file");
   command->add_flag("--replay", options->replay, "Use no keyframe but the first");
   command->add_flag("--json", options->json, "Print JSON");

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <lockstone/replay/source.h>
 #include <lockstone/status.h>
+
+#include "tools/lockstone/stage_trace.h"
 
 namespace lockstone::tool {
 
@@ -14,6 +17,9 @@ struct Trace {
   std::vector<std::uint64_t> hashes;  ///< after each tick
   std::uint64_t agreed = 0;           ///< ticks from the first on whose hash is the recorded one
 };
+
+/// What the stages of a tick leave behind, simulated from the log's beginning.
+[[nodiscard]] std::optional<StageTrace> stages_of(replay::Source& source, std::uint64_t tick);
 
 /// Simulates from the log's beginning. On an error it complains.
 [[nodiscard]] Result<Trace> trace_log(replay::Source& source);

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -26,9 +27,21 @@ void print_hashes(const Trace& trace) {
   fmt::print("{}\n", json.dump(1));
 }
 
-int trace(const std::string& file) {
+// What the stages of one tick leave behind.
+int print_stages(replay::Source& source, std::uint64_t tick) {
+  const std::optional<StageTrace> stages = stages_of(source, tick);
+  if (!stages) return k_corrupt;
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const StageDigest& stage : *stages)
+    json.push_back({{"stage", stage.name}, {"digest", hash_text(stage.digest)}});
+  fmt::print("{}\n", json.dump(1));
+  return k_ok;
+}
+
+int trace(const std::string& file, const std::optional<std::uint64_t>& stages_at) {
   const auto source = open_log(file);
   if (source == nullptr) return k_corrupt;
+  if (stages_at) return print_stages(*source, *stages_at);
   const Result<Trace> trace = trace_log(*source);
   if (!trace) return exit_code_of(trace.status());
   print_hashes(trace.value());
@@ -36,6 +49,15 @@ int trace(const std::string& file) {
 }
 
 }  // namespace
+
+std::optional<StageTrace> stages_of(replay::Source& source, std::uint64_t tick) {
+  replay::SeekResult found =
+      replay::seek(source, scenes::make_simulation, tick, replay::SeekFrom::beginning);
+  if (found.status == Status::ok && found.ticks->next())
+    return step_traced(*found.simulation, found.ticks->inputs());
+  complain(found.what.empty() ? "the log ends before that tick" : found.what);
+  return std::nullopt;
+}
 
 Result<Trace> trace_log(replay::Source& source) {
   replay::LogReader header(source);
@@ -62,10 +84,12 @@ Result<Trace> trace_log(replay::Source& source) {
 
 void add_trace_command(CLI::App& app, int& exit_code) {
   auto file = std::make_shared<std::string>();
+  auto stages_at = std::make_shared<std::optional<std::uint64_t>>();
   CLI::App* command = app.add_subcommand(
       "trace", "Print, as JSON, the hash that this build computes for each tick of a log");
   command->add_option("file", *file, "A .lks log")->required();
-  command->callback([file, &exit_code] { exit_code = trace(*file); });
+  command->add_option("--stages", *stages_at, "Instead, what the stages of this tick leave behind");
+  command->callback([file, stages_at, &exit_code] { exit_code = trace(*file, *stages_at); });
 }
 
 }  // namespace lockstone::tool

@@ -47,6 +47,15 @@ inline constexpr std::size_t k_step_stages = 0 LKS_STEP_STAGES(LKS_COUNT_STAGE);
   return k_names[static_cast<std::size_t>(stage)];
 }
 
+/// What each stage of a step left behind, as a hash: equal in equal steps, and in steps that part
+/// different from the first stage on that saw a difference.
+struct StageDigests {
+  std::uint64_t before = 0;  ///< of what the step began with: the state after the tick's commands
+  std::array<std::uint64_t, k_step_stages> after{};
+
+  friend bool operator==(const StageDigests&, const StageDigests&) = default;
+};
+
 /// How closely to look. A pair takes about as long as a few calls of a clock: `pairs` makes the
 /// stage `collide` slower than it is without.
 enum class ProfileDetail : std::uint8_t {

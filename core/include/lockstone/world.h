@@ -142,6 +142,11 @@ class World {
   void set_clock(ProfileClock now, ProfileDetail detail = ProfileDetail::stages);
   [[nodiscard]] const StepProfile& profile() const;
 
+  /// Whether steps note what each stage leaves behind, which takes about as long as the step. No
+  /// result depends on it. Without it, as at first, the digests are zero.
+  void trace_stages(bool on);
+  [[nodiscard]] const StageDigests& stage_digests() const;  ///< of the last step
+
   /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone.
   /// Not state: no result depends on it. The runner must outlive its use. Allocates what the
   /// workers need for themselves, so that `step` does not.
