@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/dynamics/mass_share.h"
 #include "core/math/roots.h"
 
 namespace lockstone {
@@ -38,12 +39,6 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   const std::int64_t omega_q20 = raw::round_shift(k_two_pi_q28 * hertz, 8);
   const std::int64_t rate_q20 = raw::round_divide(omega_q20 << 20, a1_q28 >> 8);
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
-}
-
-// α of B; what is immovable gives all to the other.
-std::int32_t share_of_b(const BlockFloat& a, const BlockFloat& b) {
-  if (a == b) return 1 << 29;
-  return ratio(b, a).raw;
 }
 
 // The impulse that a point of the same feature ended with a tick ago.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/dynamics/lane_bodies.h"
 #include "core/dynamics/motion.h"
 
 namespace lockstone {
@@ -89,9 +90,10 @@ void prefetch(const T& object) {
 }
 
 // What a piece of a loop has at least: a microsecond or so of work.
-constexpr std::uint32_t k_body_grain = 64;
-constexpr std::uint32_t k_block_grain = 4;
 constexpr std::uint32_t k_slot_grain = 64;
+
+// Loops of a substep: six of bodies and joints; the colours of contacts twice, of nets four times.
+constexpr std::size_t k_most_substep_loops = 6 + 6 * (k_graph_colors + 1);
 
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 8;
@@ -103,9 +105,6 @@ std::int32_t high(std::int64_t word) {
   return static_cast<std::int32_t>(word >> 32);
 }
 
-// Loops of half a substep: joints, bodies, joints, and the colours with the overflow.
-constexpr std::size_t k_half_step_loops = k_graph_colors + 4;
-
 }  // namespace
 
 ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
@@ -116,8 +115,9 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
       graph_(body_capacity + contact_capacity, contact_capacity),
       solver_index_(body_capacity),
-      joints_(step, body_capacity, joint_capacity) {
-  const std::size_t most_rows = body_capacity + contact_capacity + 1;
+      joints_(step, body_capacity, joint_capacity),
+      net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity) {
+  const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
   bodies_.reserve(most_rows);
   rows_.reserve(most_rows);
@@ -125,6 +125,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   before_.reserve(most_rows);
   travel_.reserve(most_rows);
   axes_.reserve(most_rows);
+  places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   entries_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
@@ -133,7 +134,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   approaches_.reserve(most);
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
-  loops_.reserve((2U * static_cast<std::size_t>(step.substeps) + 1) * k_half_step_loops);
+  loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
+  stages_.reserve(loops_.capacity());
 }
 
 std::uint32_t ContactSolver::contacts() const {
@@ -151,24 +153,6 @@ std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t bo
   members_.push_back(body);
   graph_.add_body();
   return index;
-}
-
-void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
-  take_up_contacts(scene);
-  lay_out();
-  points_ = saturations_ = 0;
-  bounces_ = holds_ = false;
-  loops_.clear();
-  loops_.push_back({row_count(), k_body_grain});
-  loops_.push_back({joints_.empty() ? 0U : 1U, 1, true});
-  add_loop_of_each_color();
-  parallel.run_all(loops_,
-                   [&](std::size_t loop, std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                     if (loop == 0) return fill_bodies(scene, first, end);
-                     if (loop == 1) return begin_joints();
-                     fill_blocks(scene, loop - 2, first, end);
-                   });
-  if (!joints_.empty()) joints_.prepare();
 }
 
 // In the order of the records: bodies, colours and lanes follow from the state alone.
@@ -190,6 +174,7 @@ void ContactSolver::take_up_contacts(const ContactScene& scene) {
   }
   first_without_contacts_ = static_cast<std::uint32_t>(members_.size());
   take_up_joints(scene);
+  if (!net_.empty() && places_.size() < row_count()) places_.resize(row_count());
   if (bodies_.size() < members_.size()) bodies_.resize(members_.size());
   if (rows_.size() >= row_count()) return;  // they only grow, within what is reserved
   inertias_.resize(row_count());
@@ -222,19 +207,10 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
   const BodyRecord& record = scene.bodies[body];
   bodies_[index] = solver_body(record, scene.rotations[body], scene.gravity, step_);
   if (bodies_[index].held != 0) holds_.store(true, std::memory_order_relaxed);
-  const InverseInertia& m = bodies_[index].inverse_inertia;
-  inertias_[index].inertia = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+  inertias_[index] = source_body(bodies_[index].inverse_inertia);
   for (int i = 0; i < 3; ++i) {
     rows_[index].velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
     rows_[index].spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
-  }
-}
-
-// The overflow is one piece, which is solved one by one.
-void ContactSolver::add_loop_of_each_color() {
-  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    const auto count = static_cast<std::uint32_t>(ranges_[color].count);
-    loops_.push_back({count, k_block_grain, color == k_overflow_color});
   }
 }
 
@@ -324,11 +300,11 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
 // In the first substep: gravity and the impulses of the tick before. Later ones start with the
 // impulses that the substep before ended with. Since all responses are fixed for a tick, what these
 // did to a body is all that it gained in that substep, gravity included; so it gains that again.
-void ContactSolver::integrate_velocities(std::size_t substep, std::size_t first, std::size_t end) {
+void ContactSolver::integrate_velocities(bool is_first, std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     const RowBody start = limited(rows_[i]);
     RowBody& row = rows_[i];
-    if (substep == 0) {
+    if (is_first) {
       const RowBody warm = limited(before_[i]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t gain = bodies_[i].gain[axis] * (std::int64_t{1} << k_row_shift);
@@ -379,52 +355,6 @@ void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
       travel.surface[axis] += surface[axis];
     }
   }
-}
-
-// Joints before, bodies, joints after, and each colour.
-void ContactSolver::add_loops_of_half_step() {
-  const Loop joints{joints_.empty() ? 0U : 1U, 1, true};
-  loops_.push_back(joints);
-  loops_.push_back({static_cast<std::uint32_t>(members_.size()), k_body_grain});
-  loops_.push_back(joints);
-  add_loop_of_each_color();
-}
-
-// Of each substep: velocities, colours that are solved, positions, colours that are relaxed; then
-// colours that bounce.
-void ContactSolver::run(Parallel& parallel) {
-  if (entries_.empty() && joints_.empty()) return;
-  loops_.clear();
-  for (int half_step = 0; half_step < 2 * step_.substeps; ++half_step)
-    add_loops_of_half_step();
-  if (bounces_) {
-    loops_.resize(loops_.size() + k_half_step_loops - k_graph_colors - 1);
-    add_loop_of_each_color();
-  }
-  parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
-                               std::uint32_t) { run_piece(loop, first, end); });
-  joints_.end(joint_run());
-}
-
-void ContactSolver::run_piece(std::size_t loop, std::size_t first, std::size_t end) {
-  constexpr std::size_t k_loops = k_half_step_loops;
-  const std::size_t substep = loop / k_loops / 2, stage = loop % k_loops;
-  const bool relaxes = loop / k_loops % 2 != 0;
-  if (stage == 0 || stage == 2) return run_joints(relaxes, stage == 2);
-  if (stage == 1) {
-    relaxes ? integrate_positions(first, end) : integrate_velocities(substep, first, end);
-    return;
-  }
-  const std::size_t color = stage - 3, begin = ranges_[color].first + first;
-  const ManifoldKernels& kernels = kernels_of(color);
-  if (substep == static_cast<std::size_t>(step_.substeps)) {
-    bounce(kernels, begin, begin + end - first);
-  } else if (relaxes) {
-    kernels.relax(rows_.data(), travel_.data(), &blocks_[begin], end - first, rules_);
-  } else {
-    kernels.solve(rows_.data(), &blocks_[begin], end - first, rules_);
-  }
-  hold_blocks(begin, begin + end - first);
 }
 
 void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, std::size_t end) {

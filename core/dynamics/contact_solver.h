@@ -15,6 +15,7 @@
 #include "core/dynamics/constraint_graph.h"
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
+#include "core/dynamics/joint_net.h"
 #include "core/dynamics/joint_solver.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
@@ -55,7 +56,8 @@ class ContactSolver {
              std::span<SolverVelocity> approaches, Parallel& parallel);
 
   /// Writes what each joint ended with to the records.
-  void store_joints(std::span<const JointLink> links, std::span<JointRecord> joints) const;
+  void store_joints(std::span<const JointLink> links, std::span<JointRecord> joints,
+                    Parallel& parallel) const;
 
   /// Null when no constraint touched the body.
   [[nodiscard]] const SolverBody* find(std::uint32_t body) const;
@@ -83,6 +85,26 @@ class ContactSolver {
     std::size_t first = 0;
     std::size_t count = 0;
   };
+  // A loop of the substeps.
+  enum class StageKind : std::uint8_t {
+    velocities,
+    warm_joints,
+    solve,
+    lift_net,
+    solve_joints,
+    positions,
+    move_joined,
+    follow_net,
+    relax_joints,
+    relax_net,
+    relax,
+    bounce,
+  };
+  struct Stage {
+    StageKind kind = StageKind::velocities;
+    std::uint8_t color = 0;
+    bool is_first = false;  // of the tick's substeps
+  };
   // One contact in the solver.
   struct Entry {
     std::uint32_t record;
@@ -104,13 +126,18 @@ class ContactSolver {
   void take_up_contacts(const ContactScene& scene);
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
-  [[nodiscard]] JointRun joint_run() { return {bodies_, rows_, before_, travel_}; }
+  void take_up_net(const ContactScene& scene);
+  [[nodiscard]] JointRun joint_run() { return {bodies_, rows_, before_, inertias_, places_}; }
+  [[nodiscard]] NetRun net_run() {
+    return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};
+  }
   [[nodiscard]] std::uint32_t row_count() const;
   [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const;
   void lay_out();
-  void add_loop_of_each_color();
-  void add_loops_of_half_step();
-  void run_joints(bool relaxes, bool after);
+  void add_loop(Stage stage, std::uint32_t count, std::uint32_t grain, bool is_serial = false);
+  void add_loop_of_each_color(StageKind kind);
+  void add_net_loops(StageKind kind);
+  void add_loops_of_substep(bool is_first);
   [[nodiscard]] static const lanes::ManifoldKernels& kernels_of(std::size_t color);
 
   // Pieces of loops.
@@ -121,8 +148,11 @@ class ContactSolver {
   void look_ahead(const ContactScene& scene, std::size_t slot) const;
   std::uint32_t fill_block(const ContactScene& scene, std::size_t block,
                            lanes::ManifoldSources& sources);
-  void run_piece(std::size_t loop, std::size_t first, std::size_t end);
-  void integrate_velocities(std::size_t substep, std::size_t first, std::size_t end);
+  void prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
+                     std::size_t end);
+  void run_piece(const Stage& stage, std::size_t first, std::size_t end);
+  void sweep(const Stage& stage, std::size_t first, std::size_t end);
+  void integrate_velocities(bool is_first, std::size_t first, std::size_t end);
   void integrate_positions(std::size_t first, std::size_t end);
   void hold(std::size_t index);
   void hold_blocks(std::size_t first, std::size_t end);
@@ -154,8 +184,10 @@ class ContactSolver {
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
   std::vector<PushAxis> axes_;
+  std::vector<lanes::BodyPlace> places_;  // of what nets of joints hold
 
   JointSolver joints_;
+  JointNet net_;
   std::uint32_t first_without_contacts_ = 1;  // by number
 
   std::vector<Entry> entries_;
@@ -168,6 +200,7 @@ class ContactSolver {
   std::atomic<bool> bounces_{false};  // any restitution at all
   std::atomic<bool> holds_{false};    // any locked axis of moving
   std::vector<Loop> loops_;           // of the sequence at hand
+  std::vector<Stage> stages_;         // what they are
 };
 
 }  // namespace lockstone

@@ -6,6 +6,7 @@
 
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
+#include "core/dynamics/lane_bodies.h"
 #include "core/dynamics/motion.h"
 #include "core/math/product_sum.h"
 #include "core/math/roots.h"
@@ -34,27 +35,50 @@ std::int64_t sum_of(const Vec3<Length>& v) {
 
 }  // namespace
 
-// A link that is pulled at both ends by T swings at ω² = ΣT·r / I, which the step does not resolve
-// where h·ω is large: there links are taken to be heavier to turn. A diagonal form of the geometric
-// stiffness: S. Andrews, M. Teichmann, J. Kövecses, "Geometric Stiffness for Real-time Constrained
-// Multibody Dynamics", 2017.
-void JointSolver::set_inertias(const JointRun& run, bool all) {
+// `jump`: what joints at the anchor pull, of the body's own velocity, Q30.
+void JointSolver::add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Length>& anchor) {
+  const int scale = bodies_[body].record->scale_exponent;
+  const std::int64_t lever = sum_of(anchor);  // Q20
+  std::int64_t& sum = pulls_[body];
+  sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * scale), k_row_bound);
+}
+
+// Of joints in nets at a tick's beginning only.
+void JointSolver::find_pulls(bool all) {
   pulls_.assign(bodies_.size(), 0);
   for (const Joint& joint : joints_) {
     const auto total = [&](std::size_t i) { return joint.locks[i] + joint.relaxed[i]; };
     const auto pull =
         static_cast<std::int64_t>(norm(total(0) >> 20, total(1) >> 20, total(2) >> 20));  // Q30
-    const auto add_pull = [&](std::uint32_t index, const Share& share, const Vec3<Length>& anchor) {
+    const auto add = [&](std::uint32_t body, const Share& share, const Vec3<Length>& anchor) {
       if (share.mantissa == 0) return;
-      const int scale = bodies_[index].record->scale_exponent;
-      const std::int64_t jump = product_rounded(pull, share.mantissa, share.shift);
-      const std::int64_t lever = sum_of(anchor);  // Q20
-      std::int64_t& sum = pulls_[index];
-      sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * scale), k_row_bound);
+      add_pull(body, product_rounded(pull, share.mantissa, share.shift), anchor);
     };
-    add_pull(joint.a, joint.share_a, joint.record->anchor_a);
-    add_pull(joint.b, joint.share_b, joint.record->anchor_b);
+    add(joint.a, joint.share_a, joint.record->anchor_a);
+    add(joint.b, joint.share_b, joint.record->anchor_b);
   }
+  if (!all) return;
+  for (const std::uint32_t index : in_net_) {
+    const Link& link = links_[index];
+    const auto part = [&](std::size_t i) {
+      return std::int64_t{link.record->axes[i].impulse.raw} * (1 << 10);
+    };
+    const auto pull = static_cast<std::int64_t>(norm(part(0), part(1), part(2)));  // Q30
+    if (bodies_[link.a].pushed) {
+      add_pull(link.a, product_rounded(pull, k_one - link.share_b, 30), link.record->anchor_a);
+    }
+    if (bodies_[link.b].pushed) {
+      add_pull(link.b, product_rounded(pull, link.share_b, 30), link.record->anchor_b);
+    }
+  }
+}
+
+// A link that is pulled at both ends by T swings at ω² = ΣT·r / I, which the step does not resolve
+// where h·ω is large: there links are taken to be heavier to turn. A diagonal form of the geometric
+// stiffness: S. Andrews, M. Teichmann, J. Kövecses, "Geometric Stiffness for Real-time Constrained
+// Multibody Dynamics", 2017.
+void JointSolver::set_inertias(const JointRun& run, bool all) {
+  find_pulls(all);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     if (!body.pushed || !body.record->rotates() || (!all && !body.centred)) continue;
@@ -148,13 +172,26 @@ JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
   return after;
 }
 
-void JointSolver::move(const JointRun& run) {
-  for (Body& body : bodies_) {
+void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end) const {
+  for (std::size_t i = first; i < end; ++i) {
+    const Body& body = bodies_[i];
+    if (body.solver == 0 || !body.in_net) continue;
+    run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
+  }
+}
+
+void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
+    Body& body = bodies_[i];
     if (body.solver == 0) continue;
     body.pose = pose_after(run, body);
+    if (body.in_net) {
+      run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
+    }
     if (!body.record->is_dynamic() || body.record->has_spherical_inertia()) continue;
     body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
     run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
+    run.inertias[body.solver] = source_body(body.inverse_inertia);
   }
 }
 

@@ -1,10 +1,11 @@
 // The joints of one tick, inside the substeps of the contact solver.
 //
 // Joints that hang together by pushed bodies form a group. In a group that is a tree, or nearly
-// one, all locks are solved at once (`JointFactor`); joints of other groups are solved one after
-// another, by index. The scheme is RATTLE: impulses at the beginning of the substep such that locks
-// hold at its end, and at the end such that they do not open (H. C. Andersen, "Rattle: a velocity
-// version of the Shake algorithm", 1983). What this does for accuracy is told in docs/solver.md.
+// one, all locks are solved at once (`JointFactor`). Of other groups, balls are left to `JointNet`,
+// and other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
+// beginning of the substep such that locks hold at its end, and at the end such that they do not
+// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). What this does
+// for accuracy is told in docs/solver.md.
 #pragma once
 
 #include <array>
@@ -18,6 +19,7 @@
 #include "core/dynamics/joint_rows.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
+#include "core/math/wide/ball_block.h"
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/manifold_block.h"
 
@@ -28,7 +30,8 @@ struct JointRun {
   std::span<SolverBody> bodies;
   std::span<lanes::RowBody> rows;
   std::span<lanes::RowBody> before;  // receives joint impulses too: they are not replayed
-  std::span<lanes::RowTravel> travel;
+  std::span<lanes::SourceBody> inertias;
+  std::span<lanes::BodyPlace> places;
 };
 
 class JointSolver {
@@ -47,15 +50,21 @@ class JointSolver {
   };
   void add(const JointRecord& joint, const Side& a, const Side& b);
 
-  [[nodiscard]] bool empty() const { return joints_.empty(); }
+  [[nodiscard]] bool empty() const { return links_.empty(); }
 
-  /// Once all are added, before contacts are prepared: bodies as heavy to turn as the step needs.
+  /// Whether any joints are solved here.
+  [[nodiscard]] bool has_own() const { return !joints_.empty(); }
+
+  /// Once all are added: groups. Answers which joints, in the order of adding, are left to a net.
+  std::span<const std::uint32_t> plan();
+
+  /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
   void begin(const JointRun& run, std::uint32_t first_without_contacts);
 
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
 
-  /// Then: groups, rows, factors.
+  /// Then: rows and factors.
   void prepare();
 
   /// At the beginning of a substep, after forces: the impulses of the last one again.
@@ -64,13 +73,20 @@ class JointSolver {
   /// Before positions move: drives, limits, and locks such that they hold afterwards.
   void solve(const JointRun& run);
 
-  /// Moves the jointed bodies, as the contact solver moved them in `travel`.
-  void move(const JointRun& run);
+  /// Writes where they are to `places`, each by itself.
+  void place(const JointRun& run, std::size_t first, std::size_t end) const;
+
+  /// Moves the jointed bodies, as the contact solver moves those without joints: each by itself, in
+  /// the order in which joints first named them.
+  void move(const JointRun& run, std::size_t first, std::size_t end);
+  [[nodiscard]] std::uint32_t body_count() const {
+    return static_cast<std::uint32_t>(bodies_.size());
+  }
 
   /// After positions moved: locks and limits such that they do not open.
   void relax(const JointRun& run);
 
-  /// Impulses back to a record, in the order of adding.
+  /// Impulses back to a record, in the order of adding; not of those in a net.
   void store(std::size_t added, JointRecord& joint) const;
 
   /// Where a body of the world is now; null when no joint holds it.
@@ -89,9 +105,20 @@ class JointSolver {
     std::uint32_t solver = 0;
     lanes::RowBody saved_row{}, saved_before{};
     bool pushed = false;
-    bool centred = false;           // half kick, drift, half kick
+    bool centred = false;  // half kick, drift, half kick
+    bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
+  };
+  static constexpr std::uint32_t k_in_net = 0xffffffff;
+
+  // A joint as groups are found.
+  struct Link {
+    const JointRecord* record = nullptr;
+    std::uint32_t a = 0, b = 0;  // bodies of this solver
+    std::uint32_t order = 0;     // within its group
+    std::uint32_t joint = 0;     // in joints_, or k_in_net
+    std::int32_t share_b = 0;    // in a net: of the pair's inverse mass, Q30
   };
   // A part of an inverse mass as mantissa · 2^-shift.
   struct Share {
@@ -123,7 +150,6 @@ class JointSolver {
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
     int exponent = 0;
-    std::uint32_t order = 0;  // within its group
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -140,11 +166,17 @@ class JointSolver {
   void link_bodies();
   void find_group(std::uint32_t root);
   void plan_group(Group group);
+  void plan_singles(const Group& group);
+  [[nodiscard]] bool fits_net(const Link& link) const;
+  void add_to_net(Link& link);
+  void make_joint(Link& link);
   [[nodiscard]] static std::uint32_t most_locks(const JointRecord& joint);
   void set_drives(Joint& joint) const;
   void load_impulses(Joint& joint) const;
   [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
                                     const JointPose& b) const;
+  void add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Length>& anchor);
+  void find_pulls(bool all);
   void set_inertias(const JointRun& run, bool all);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
   [[nodiscard]] static InverseInertia inverse_inertia_of(const Body& body, const Mat3& rotation);
@@ -179,11 +211,13 @@ class JointSolver {
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> place_;   // by body of the world: in bodies_, + 1
   std::vector<std::uint32_t> placed_;  // bodies of the world that have a place
+  std::vector<Link> links_;
+  std::vector<std::uint32_t> in_net_;  // links
   std::vector<Joint> joints_;
-  std::vector<std::uint32_t> by_body_;       // joints of each pushed body
+  std::vector<std::uint32_t> by_body_;       // links of each pushed body
   std::vector<std::uint32_t> order_;         // joints, group by group, as they are eliminated
   std::vector<std::uint32_t> group_bodies_;  // bodies, group by group
-  std::vector<std::uint8_t> seen_;           // by joint
+  std::vector<std::uint8_t> seen_;           // by link
   std::vector<std::uint8_t> visited_;        // by body
   std::vector<Group> groups_;
   std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale

@@ -335,7 +335,7 @@ void World::Impl::run_substeps() {
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
   solver.store(manifolds, new_contacts, approach_speeds, parallel);
-  solver.store_joints(active_joints, joints);
+  solver.store_joints(active_joints, joints, parallel);
 }
 
 // Joints of awake bodies may have changed.

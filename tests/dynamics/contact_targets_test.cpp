@@ -1,6 +1,8 @@
 // The contact solver where its colours run out and where values are extreme: the same on every
 // target, and physical.
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/math/wide/target.h"
@@ -56,6 +58,49 @@ TEST(RandomScenes, AreTheSameOnEveryTarget) {
     World world = test::make_world();
     test::fill_with_random_bodies(world, test::run_seed(), 120);
     test::step(world, 90);
+    return world.hash().total;
+  };
+  const std::uint64_t expected = run("scalar");
+  for (const std::string_view target : lanes::supported_targets())
+    EXPECT_EQ(run(target), expected) << target;
+}
+
+// A wheel of balls in a row of wheels: hubs of 40 spokes, more than there are colours, in a ring of
+// balls that are tied to each other, hung from one that stands still.
+World wheels_of_balls() {
+  World world = test::make_world({.body_capacity = 256, .joint_capacity = 512});
+  const auto tie = [&](BodyHandle a, BodyHandle b, const Vec3<Length>& on_a,
+                       const Vec3<Length>& on_b) {
+    JointDef joint = JointDef::of(JointKind::ball, a, b);
+    joint.frame_a.position = on_a;
+    joint.frame_b.position = on_b;
+    EXPECT_TRUE(world.create_joint(joint).ok());
+  };
+  constexpr int k_spokes = 40;
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    const Position x = Position::from_integer(8 * wheel);
+    const BodyHandle hub = test::add(world, test::dynamic_body(Shape::sphere(2_m), x, 20_m, {}));
+    std::vector<BodyHandle> rim;
+    for (int i = 0; i < k_spokes; ++i) {
+      const Length turn = Length::from_ratio(2 * i - k_spokes, k_spokes);  // from −1 to 1
+      const Vec3<Length> at{turn, Length::from_integer(i % 2 == 0 ? 1 : -1), turn / 2};
+      BodyDef ball = test::dynamic_body(Shape::box(0.2_m, 0.1_m, 0.15_m), x, 20_m, {});
+      for (int axis = 0; axis < 3; ++axis)
+        ball.position[axis] += rounded<Position>(at[axis]);
+      if (i == 0) ball.motion = MotionType::static_body;
+      rim.push_back(test::add(world, ball));
+      tie(hub, rim.back(), at, {});
+      if (i > 1) tie(rim[static_cast<std::size_t>(i) - 2], rim.back(), {0.1_m, {}, {}}, {});
+    }
+  }
+  return world;
+}
+
+TEST(NetsOfBalls, AreTheSameOnEveryTarget) {
+  const auto run = [](std::string_view target) {
+    EXPECT_EQ(lanes::set_target(target), Status::ok);
+    World world = wheels_of_balls();
+    test::step(world, 60);
     return world.hash().total;
   };
   const std::uint64_t expected = run("scalar");

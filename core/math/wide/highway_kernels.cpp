@@ -11,6 +11,7 @@
 // What Highway falls back to has one lane and other rules for products: there we use our scalar
 // twins.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#include "core/math/wide/ball_block_inl.h"
 #include "core/math/wide/contact_rows_inl.h"
 #include "core/math/wide/manifold_prepare_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
@@ -21,42 +22,49 @@
 namespace lockstone::lanes {
 namespace {
 
-#define LKS_MANIFOLD_KERNELS(target)                                                               \
+#define LKS_BLOCK_KERNELS(target)                                                                  \
   constexpr ManifoldKernels k_manifolds_##target{target::prepare_manifolds,                        \
                                                  target::solve_manifolds, target::relax_manifolds, \
-                                                 target::bounce_manifolds};
+                                                 target::bounce_manifolds};                        \
+  constexpr BallKernels k_balls_##target{target::begin_balls, target::lift_balls,                  \
+                                         target::follow_balls, target::relax_balls};
 
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
-LKS_MANIFOLD_KERNELS(N_SSE4)
+LKS_BLOCK_KERNELS(N_SSE4)
 #endif
 #if HWY_TARGETS & HWY_AVX2
-LKS_MANIFOLD_KERNELS(N_AVX2)
+LKS_BLOCK_KERNELS(N_AVX2)
 #endif
 #if HWY_TARGETS & HWY_AVX3
-LKS_MANIFOLD_KERNELS(N_AVX3)
+LKS_BLOCK_KERNELS(N_AVX3)
 #endif
 #elif HWY_TARGETS & HWY_NEON
-LKS_MANIFOLD_KERNELS(N_NEON)
+LKS_BLOCK_KERNELS(N_NEON)
 #elif HWY_TARGETS & HWY_WASM
-LKS_MANIFOLD_KERNELS(N_WASM)
+LKS_BLOCK_KERNELS(N_WASM)
 #endif
 
 constexpr Kernels k_tables[] = {
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
-    {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations, &k_manifolds_N_SSE4},
+    {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations, &k_manifolds_N_SSE4,
+     &k_balls_N_SSE4},
 #endif
 #if HWY_TARGETS & HWY_AVX2
-    {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations, &k_manifolds_N_AVX2},
+    {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations, &k_manifolds_N_AVX2,
+     &k_balls_N_AVX2},
 #endif
 #if HWY_TARGETS & HWY_AVX3
-    {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations, &k_manifolds_N_AVX3},
+    {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations, &k_manifolds_N_AVX3,
+     &k_balls_N_AVX3},
 #endif
 #elif HWY_TARGETS & HWY_NEON
-    {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations, &k_manifolds_N_NEON},
+    {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations, &k_manifolds_N_NEON,
+     &k_balls_N_NEON},
 #elif HWY_TARGETS & HWY_WASM
-    {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations, &k_manifolds_N_WASM},
+    {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations, &k_manifolds_N_WASM,
+     &k_balls_N_WASM},
 #endif
     {},
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/math/wide/ball_block.h"
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/manifold_block.h"
 #include "core/math/wide/rotations.h"
@@ -17,6 +18,7 @@ struct Kernels {
   void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
                             Mat3* matrices);
   const ManifoldKernels* manifolds;
+  const BallKernels* balls;
 };
 
 #if defined(LOCKSTONE_WITH_HIGHWAY)

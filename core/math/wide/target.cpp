@@ -9,7 +9,7 @@ namespace lockstone::lanes {
 namespace {
 
 constexpr Kernels k_scalar{"scalar", solve_contact_rows_scalar, compute_rotations_scalar,
-                           &k_scalar_manifolds};
+                           &k_scalar_manifolds, &k_scalar_balls};
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -84,6 +84,10 @@ Status set_target(std::string_view name) {
 
 const ManifoldKernels& manifold_kernels() {
   return *current().manifolds;
+}
+
+const BallKernels& ball_kernels() {
+  return *current().balls;
 }
 
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {

@@ -14,6 +14,7 @@ namespace lockstone::lanes::test {
 [[nodiscard]] std::string check_contact_rows(std::uint64_t seed);
 [[nodiscard]] std::string check_rotations(std::uint64_t seed);
 [[nodiscard]] std::string check_manifolds(std::uint64_t seed);
+[[nodiscard]] std::string check_balls(std::uint64_t seed);
 
 /// Runs `check` on every target, names those where it finds something, and leaves the best in
 /// force.

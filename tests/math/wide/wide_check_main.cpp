@@ -16,7 +16,7 @@ int main() {
   const std::string report =
       lanes::test::check_operations(seed) + lanes::test::check_memory_operations(seed) +
       lanes::test::check_contact_rows(seed) + lanes::test::check_rotations(seed) +
-      lanes::test::check_manifolds(seed);
+      lanes::test::check_manifolds(seed) + lanes::test::check_balls(seed);
   std::printf("%s%s\n", report.c_str(), report.empty() ? "all equal" : "different");
   return report.empty() ? 0 : 1;
 }

@@ -86,6 +86,10 @@ TEST(WideKernels, SweepManifoldsAsTheScalarTwinDoes) {
   EXPECT_EQ(test::check_manifolds(run_seed()), "");
 }
 
+TEST(WideKernels, SolveBallJointsAsTheScalarTwinDoes) {
+  EXPECT_EQ(test::check_balls(run_seed()), "");
+}
+
 TEST(WideKernels, MakeTheMatricesOfToMatrix) {
   EXPECT_EQ(test::check_rotations(run_seed()), "");
 }

@@ -1,0 +1,149 @@
+// The loops of a tick's substeps, and in which order they go.
+
+#include "core/dynamics/contact_solver.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::ManifoldKernels;
+
+// What a piece of a loop has at least: a microsecond or so of work.
+constexpr std::uint32_t k_body_grain = 64;
+constexpr std::uint32_t k_joined_grain = 8;
+constexpr std::uint32_t k_block_grain = 4;
+
+// Nets converge slowly: sweeps before positions move, and after.
+constexpr int k_net_sweeps = 2;
+
+}  // namespace
+
+void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
+  take_up_contacts(scene);
+  lay_out();
+  points_ = saturations_ = 0;
+  bounces_ = holds_ = false;
+  loops_.clear();
+  stages_.clear();
+  const std::uint32_t joints = joints_.empty() ? 0 : 1;
+  add_loop({StageKind::velocities}, row_count(), k_body_grain);
+  add_loop({StageKind::warm_joints}, joints, 1, true);
+  add_loop({StageKind::move_joined}, net_.empty() ? 0 : joints_.body_count(), k_body_grain);
+  add_loop_of_each_color(StageKind::solve);
+  add_net_loops(StageKind::lift_net);
+  parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
+                               std::uint32_t) { prepare_piece(scene, stages_[loop], first, end); });
+  if (joints_.has_own()) joints_.prepare();
+}
+
+void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
+                                  std::size_t end) {
+  switch (stage.kind) {
+    case StageKind::velocities:
+      return fill_bodies(scene, first, end);
+    case StageKind::warm_joints:
+      return begin_joints();
+    case StageKind::move_joined:
+      return joints_.place(joint_run(), first, end);
+    case StageKind::lift_net:
+      return net_.fill(net_run(), stage.color, first, end);
+    default:
+      return fill_blocks(scene, stage.color, first, end);
+  }
+}
+
+void ContactSolver::add_loop(Stage stage, std::uint32_t count, std::uint32_t grain,
+                             bool is_serial) {
+  if (count == 0) return;
+  loops_.push_back({count, grain, is_serial});
+  stages_.push_back(stage);
+}
+
+// The overflow is one piece, which is solved one by one.
+void ContactSolver::add_loop_of_each_color(StageKind kind) {
+  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
+    add_loop({kind, static_cast<std::uint8_t>(color)},
+             static_cast<std::uint32_t>(ranges_[color].count), k_block_grain,
+             color == k_overflow_color);
+  }
+}
+
+void ContactSolver::add_net_loops(StageKind kind) {
+  if (net_.empty()) return;
+  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
+    add_loop({kind, static_cast<std::uint8_t>(color)}, net_.block_count(color), k_block_grain,
+             color == k_overflow_color);
+  }
+}
+
+// Velocities, contacts that push overlap out, joints such that they hold afterwards; positions;
+// joints and contacts such that they stay.
+void ContactSolver::add_loops_of_substep(bool is_first) {
+  const std::uint32_t joints = joints_.has_own() ? 1 : 0;
+  const auto bodies = static_cast<std::uint32_t>(members_.size());
+  add_loop({StageKind::velocities, 0, is_first}, bodies, k_body_grain);
+  add_loop({StageKind::warm_joints}, joints, 1, true);
+  add_loop_of_each_color(StageKind::solve);
+  for (int i = 0; i < k_net_sweeps; ++i)
+    add_net_loops(StageKind::lift_net);
+  add_loop({StageKind::solve_joints}, joints, 1, true);
+  add_loop({StageKind::positions}, bodies, k_body_grain);
+  add_loop({StageKind::move_joined}, joints_.body_count(), k_joined_grain);
+  add_loop({StageKind::relax_joints}, joints, 1, true);
+  add_net_loops(StageKind::follow_net);
+  for (int i = 1; i < k_net_sweeps; ++i)
+    add_net_loops(StageKind::relax_net);
+  add_loop_of_each_color(StageKind::relax);
+}
+
+// All substeps; then colours that bounce.
+void ContactSolver::run(Parallel& parallel) {
+  if (entries_.empty() && joints_.empty()) return;
+  loops_.clear();
+  stages_.clear();
+  for (int substep = 0; substep < step_.substeps; ++substep)
+    add_loops_of_substep(substep == 0);
+  if (bounces_) add_loop_of_each_color(StageKind::bounce);
+  parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
+                               std::uint32_t) { run_piece(stages_[loop], first, end); });
+  joints_.end(joint_run());
+}
+
+void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t end) {
+  switch (stage.kind) {
+    case StageKind::velocities:
+      return integrate_velocities(stage.is_first, first, end);
+    case StageKind::warm_joints:
+      return joints_.warm_start(joint_run());
+    case StageKind::lift_net:
+      return net_.lift(net_run(), stage.color, first, end);
+    case StageKind::solve_joints:
+      return joints_.solve(joint_run());
+    case StageKind::positions:
+      return integrate_positions(first, end);
+    case StageKind::move_joined:
+      return joints_.move(joint_run(), first, end);
+    case StageKind::relax_joints:
+      return joints_.relax(joint_run());
+    case StageKind::follow_net:
+      return net_.follow(net_run(), stage.color, first, end);
+    case StageKind::relax_net:
+      return net_.relax(net_run(), stage.color, first, end);
+    default:
+      return sweep(stage, first, end);
+  }
+}
+
+void ContactSolver::sweep(const Stage& stage, std::size_t first, std::size_t end) {
+  const ManifoldKernels& kernels = kernels_of(stage.color);
+  const std::size_t begin = ranges_[stage.color].first + first;
+  if (stage.kind == StageKind::bounce) {
+    bounce(kernels, begin, begin + end - first);
+  } else if (stage.kind == StageKind::relax) {
+    kernels.relax(rows_.data(), travel_.data(), &blocks_[begin], end - first, rules_);
+  } else {
+    kernels.solve(rows_.data(), &blocks_[begin], end - first, rules_);
+  }
+  hold_blocks(begin, begin + end - first);
+}
+
+}  // namespace lockstone

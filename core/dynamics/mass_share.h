@@ -1,0 +1,16 @@
+// How a pair of bodies shares a velocity jump.
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/block_float.h"
+
+namespace lockstone {
+
+/// α of B, mB⁻¹ / (mA⁻¹ + mB⁻¹), Q30; what is immovable gives all to the other.
+[[nodiscard]] inline std::int32_t share_of_b(const BlockFloat& a, const BlockFloat& b) {
+  if (a == b) return 1 << 29;
+  return ratio(b, a).raw;
+}
+
+}  // namespace lockstone
