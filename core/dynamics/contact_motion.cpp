@@ -19,13 +19,12 @@ Velocity from_row(std::int64_t row) {
 }  // namespace
 
 // In the order of the records.
-void ContactSolver::find_axes(std::span<const Manifold> manifolds,
-                              std::span<const ContactRecord> records) {
+void ContactSolver::find_axes() {
   axes_.assign(members_.size(), PushAxis{});
-  for (const Entry& entry : entries_) {
-    if (!records[entry.record].is_touching()) continue;
-    for (const std::uint32_t index : {entry.body_a, entry.body_b})
-      if ((index & k_immovable) == 0) axes_[index].add(manifolds[entry.slot].normal);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!touches_[i].touching) continue;
+    for (const std::uint32_t index : {entries_[i].body_a, entries_[i].body_b})
+      if ((index & k_immovable) == 0) axes_[index].add(touches_[i].normal);
   }
 }
 

@@ -127,6 +127,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   axes_.reserve(most_rows);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   entries_.reserve(contact_capacity);
+  touches_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
       std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
@@ -370,6 +371,7 @@ void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, st
 
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
+  touches_.resize(entries_.size());
   const Loop slots{static_cast<std::uint32_t>(block_count_ * k_block_lanes), k_slot_grain};
   std::atomic<std::uint32_t> saturations{0};
   parallel.for_each(slots, [&](std::size_t first, std::size_t end, std::uint32_t) {
@@ -379,11 +381,12 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
       const Entry& entry = entries_[slots_[slot]];
       clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[entry.slot],
                                records[entry.record], approaches[entry.record]);
+      touches_[slots_[slot]] = {manifolds[entry.slot].normal, records[entry.record].is_touching()};
     }
     saturations.fetch_add(clamped, std::memory_order_relaxed);
   });
   saturations_ = saturations;
-  find_axes(manifolds, records);
+  find_axes();
 }
 
 // Answers how many values were clamped.

@@ -113,6 +113,11 @@ class ContactSolver {
     std::uint32_t body_b;
   };
 
+  // How an entry ended the tick.
+  struct Touch {
+    Vec3<Unit> normal{};
+    bool touching = false;
+  };
   // Along which axis contacts pushed a body in this tick; `mixed` when along several.
   struct PushAxis {
     Vec3<Unit> normal{};
@@ -158,7 +163,7 @@ class ContactSolver {
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
   [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
-  void find_axes(std::span<const Manifold> manifolds, std::span<const ContactRecord> records);
+  void find_axes();
   std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
                               ContactRecord& record, SolverVelocity& approach);
 
@@ -191,6 +196,7 @@ class ContactSolver {
   std::uint32_t first_without_contacts_ = 1;  // by number
 
   std::vector<Entry> entries_;
+  std::vector<Touch> touches_;  // of each
   Range ranges_[k_graph_colors + 1];
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact
   std::size_t block_count_ = 0;

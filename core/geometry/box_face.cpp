@@ -1,5 +1,6 @@
 #include "core/geometry/box_face.h"
 
+#include <bit>
 #include <utility>
 
 #include "core/geometry/contact_point.h"
@@ -107,12 +108,14 @@ void incident_polygon(const FaceFrame& frame, const IncidentFace& face, ClipPoly
     polygon.add({{corners[i].x, corners[i].y, corners[i].z}, i});
 }
 
-/// Moves a vertex that is just outside onto the side, within the plane of the incident face. Not
-/// on a steep face, where the height would change too much.
-void snap(ClipVertex& vertex, const Side& side, const IncidentFace& face) {
-  const Fine excess = side.excess(vertex);
-  if (excess <= 0 || excess > k_snap) return;
-  if (16 * magnitude_of(face.normal[side.axis]) > magnitude_of(face.normal[2])) return;
+/// Whether vertices may be moved onto the side: not on a steep face, where the height would change
+/// too much.
+bool may_snap(const Side& side, const IncidentFace& face) {
+  return 16 * magnitude_of(face.normal[side.axis]) <= magnitude_of(face.normal[2]);
+}
+
+/// Moves a vertex that is just outside onto the side, within the plane of the incident face.
+void snap(ClipVertex& vertex, Fine excess, const Side& side, const IncidentFace& face) {
   // n·p stays: the height changes by excess · n_axis / n_z. Both factors fit 31 bits after the
   // shift by 8, and |n_z| > 1/2.
   vertex.at[side.axis] -= side.sign * excess;
@@ -132,20 +135,23 @@ ClipVertex intersection(const ClipVertex& inside, Fine inside_excess, const Clip
   return result;
 }
 
-/// How far the vertices of a polygon lie beyond a side.
+/// How far the vertices of a polygon lie beyond a side, and which are beyond it by so little that
+/// they may be moved onto it: a bit each.
 struct Excesses {
   std::array<Fine, 8> of;
   Fine least;
-  Fine most;
+  std::uint32_t beyond = 0;
+  std::uint32_t near = 0;
 
   Excesses(const ClipPolygon& polygon, const Side& side) {
-    least = of[0] = side.excess(polygon[0]);
-    most = least;
-    for (int i = 1; i < polygon.count; ++i) {
+    least = side.excess(polygon[0]);
+    for (int i = 0; i < polygon.count; ++i) {
       const Fine excess = side.excess(polygon[i]);
       of[static_cast<std::size_t>(i)] = excess;
       least = std::min(least, excess);
-      most = std::max(most, excess);
+      const std::uint32_t is_beyond = excess > 0 ? 1U : 0U;
+      beyond |= is_beyond << i;
+      near |= (excess <= k_snap ? is_beyond : 0U) << i;
     }
   }
   [[nodiscard]] Fine operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
@@ -191,12 +197,15 @@ struct Clipping {
   void clip(const Side& side) {
     if (polygon->count == 0) return;
     Excesses excesses(*polygon, side);
-    if (excesses.least < 0) {
-      for (int i = 0; i < polygon->count; ++i)
-        snap(polygon->vertices[static_cast<std::size_t>(i)], side, face);
-      excesses = Excesses(*polygon, side);
+    if (excesses.least < 0 && may_snap(side, face)) {
+      for (std::uint32_t left = excesses.near; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        snap(polygon->vertices[i], excesses.of[i], side, face);
+        excesses.of[i] = 0;
+      }
+      excesses.beyond &= ~excesses.near;
     }
-    if (excesses.most <= 0) return;
+    if (excesses.beyond == 0) return;
     cut(*polygon, excesses, side, *spare);
     std::swap(polygon, spare);
   }

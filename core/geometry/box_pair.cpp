@@ -18,6 +18,10 @@ Vec3<Unit> row(const BoxPair& pair, int i) {
 
 using Lanes = std::array<std::int64_t, 3>;
 
+// The axes after another one, around.
+constexpr std::array<std::size_t, 3> k_next = {1, 2, 0};
+constexpr std::array<std::size_t, 3> k_after_next = {2, 0, 1};
+
 /// What the bounds of the nine edge axes share.
 struct EdgeBounds {
   Lanes centre;                  ///< of B in A's axes, with 20 fraction bits
@@ -47,8 +51,8 @@ struct EdgeBounds {
 
   /// The separation on a_i × b_j times the length of that product, up to rounding below 2^-18 m.
   [[nodiscard]] Fine rough_separation(std::size_t i, std::size_t j) const {
-    const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+    const std::size_t i1 = k_next[i], i2 = k_after_next[i];
+    const std::size_t j1 = k_next[j], j2 = k_after_next[j];
     const Fine apart = magnitude_of(centre[i2] * b[j][i1] - centre[i1] * b[j][i2]);
     const Fine reach_a = half_a[i1] * b_sizes[j][i2] + half_a[i2] * b_sizes[j][i1];
     const Fine reach_b = half_b[j1] * b_sizes[j2][i] + half_b[j2] * b_sizes[j1][i];
@@ -67,7 +71,7 @@ struct EdgeBounds {
     // unit normal round by 2^-30; all these count times a size or the distance of the centres,
     // together below 2^-23 of their sum. The centre rounds by 2^-21 m, which counts times a
     // component of b: less than 2^-20 m times the width.
-    const std::int64_t width = b_sizes[j][(i + 1) % 3] + b_sizes[j][(i + 2) % 3];
+    const std::int64_t width = b_sizes[j][k_next[i]] + b_sizes[j][k_after_next[i]];
     const Fine limit = scaled(std::min(threshold, Fine{0}), static_cast<std::int32_t>(width));
     return rough + slack + width < limit;
   }
