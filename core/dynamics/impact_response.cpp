@@ -44,18 +44,19 @@ struct Side {
   ImpactBody body;
   Unit share;  // α: its part of the pair's velocity jump
   bool turns;
+  bool is_ball;
 
   [[nodiscard]] Vec3<Velocity> velocity_at(const Vec3<Unit>& arm) const {
     const Vec3<Velocity> w = surface_velocity(body.inertia, body.record.spin);
     return body.record.velocity - cross(arm, w);  // ω × r = −(r × ω)
   }
 
-  // The jump P, or −P, at a point.
-  void push(const Vec3<Velocity>& jump, const Vec3<Unit>& arm) const {
+  // The jump P, or −P, at a point. Along the normal it does not turn a ball.
+  void push(const Vec3<Velocity>& jump, const Vec3<Unit>& arm, bool along_normal) const {
     if (share == Unit{}) return;  // others may be reading it
     const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
     body.record.velocity += own;
-    if (turns) body.record.spin += cross(arm, own);
+    if (turns && !(is_ball && along_normal)) body.record.spin += cross(arm, own);
     hold_axes(body.record);
   }
 
@@ -120,9 +121,9 @@ class ImpactSolver {
     return Velocity::from_raw(round_divide(Int128::from(change.raw) << 32, stiffness));
   }
 
-  void push(const Point& point, const Vec3<Velocity>& jump) {
-    a_.push(-jump, point.arm_a);
-    b_.push(jump, point.arm_b);
+  void push(const Point& point, const Vec3<Velocity>& jump, bool along_normal) {
+    a_.push(-jump, point.arm_a, along_normal);
+    b_.push(jump, point.arm_b, along_normal);
   }
 
   void solve(Point& point) {
@@ -130,7 +131,7 @@ class ImpactSolver {
     const Velocity before = point.impulse;
     point.impulse = max(before + jump_for(missing, point, normal_), Velocity{});
     const Velocity change = point.impulse - before;
-    push(point, times(normal_, change));
+    push(point, times(normal_, change), true);
     if (change > Velocity{}) slow_sliding(point, times(change, contact_.friction));
   }
 
@@ -141,7 +142,7 @@ class ImpactSolver {
     if (across == Vec3<Velocity>{}) return;
     const Vec3<Unit> direction = direction_of(across);
     const Velocity stop = jump_for(dot(across, direction), point, direction);
-    push(point, times(direction, -min(stop, limit)));
+    push(point, times(direction, -min(stop, limit)), false);
   }
 
   const Side& a_;
@@ -154,7 +155,9 @@ class ImpactSolver {
 
 Side side_of(ImpactBody body, ImpactBody other) {
   const Unit share = ratio(body.record.inverse_mass_value(), other.record.inverse_mass_value());
-  return {body, share, body.record.rotates() && body.record.is_dynamic()};
+  const BodyRecord& record = body.record;
+  return {body, share, record.rotates() && record.is_dynamic(),
+          record.shape().kind == ShapeKind::sphere};
 }
 
 }  // namespace

@@ -308,9 +308,9 @@ void World::Impl::solve_contacts(StepReport& report) {
   store_impulses();
   report.contacts = solver.contacts();
   report.contact_points = solver.points();
-  report.contacts += static_cast<std::uint32_t>(bouncing_bodies.size());
-  for (const std::uint32_t body : bouncing_bodies) {
-    const Manifold& manifold = manifolds[slots[bounce_of[body] - 1]];
+  report.contacts += static_cast<std::uint32_t>(bouncing_contacts.size());
+  for (const BouncingContact& each : bouncing_contacts) {
+    const Manifold& manifold = manifolds[slots[each.contact]];
     report.contact_points += static_cast<std::uint32_t>(manifold.count);
   }
   report.colors = solver.colors();
@@ -399,15 +399,15 @@ void World::Impl::refresh_moved() {
 
 void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   BodyRecord& record = bodies[body];
-  const bool has_bounced = bounce_of[body] != 0;
-  if (!has_bounced) starts[body] = {record.position, record.orientation};
+  const bool bounced = has_bounced[body] != 0;
+  if (!bounced) starts[body] = {record.position, record.orientation};
   const SolverBody* solved = solver.find(body);
   const InverseInertia inertia =
       solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
   if (solved != nullptr) {
     counts.axis_turns += solver.move(*solved, rotations[body], record);
     if (record.is_dynamic()) damp_velocity(record, time_step);
-  } else if (has_bounced) {
+  } else if (bounced) {
     damp_velocity(record, time_step);
     ++counts.free_bodies;
   } else {

@@ -86,8 +86,10 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   far_movers.resize(definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
   bouncing_bodies.reserve(definition.body_capacity);
-  bounce_of.resize(definition.body_capacity);
-  neighbours.resize(definition.body_capacity);
+  bouncing_contacts.reserve(definition.contact_capacity);
+  bounce_groups.reserve(definition.contact_capacity);
+  has_bounced.resize(definition.body_capacity);
+  bounce_marks.resize(definition.body_capacity);
   new_contacts.reserve(definition.contact_capacity);
   slots.reserve(definition.contact_capacity);
   old_slots.reserve(definition.contact_capacity);

@@ -14,6 +14,7 @@
 #include "core/collision/first_impact.h"
 #include "core/collision/placed_shape.h"
 #include "core/dynamics/body_record.h"
+#include "core/dynamics/bounce_group.h"
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/islands.h"
@@ -269,22 +270,18 @@ struct World::Impl {
   void refresh_moved();
 
   // Bounces within the tick (bounces.cpp).
-  struct Bouncing;
-  struct Meeting {
-    bool meets = false;
-    std::int64_t fraction = 0;  // of the tick, Q30
-    std::int64_t speed = 0;     // m a tick, Q24
-  };
   void find_bounces();
-  void run_bounces();
-  [[nodiscard]] bool will_bounce(std::size_t contact);
+  void join_bouncing();
+  [[nodiscard]] bool flies(std::uint32_t body) const;
+  [[nodiscard]] bool one_flies(const ContactRecord& record) const;
+  [[nodiscard]] std::uint32_t bounce_root(const ContactRecord& record);
+  [[nodiscard]] BouncePair bounce_pair(std::size_t contact);
+  [[nodiscard]] bool may_bounce(const ContactRecord& record);
+  void look_for_bounce(std::size_t contact);
   [[nodiscard]] bool turns_much(std::uint32_t body) const;
   void mark_bounce(std::size_t contact);
-  [[nodiscard]] Bouncing bouncing(std::size_t contact);
-  [[nodiscard]] Meeting next_meeting(const Bouncing& b, Unit left) const;
-  void advance(Bouncing& b, Unit fraction) const;
-  void bounce(std::uint32_t body);
-  Velocity answer_bounce(const ContactRecord& record, std::size_t contact, bool rests);
+  void run_bounces();
+  void run_bounce_group(std::uint32_t index);
 
   // Continuous collision (continuous.cpp).
   struct NextImpact {
@@ -347,9 +344,18 @@ struct World::Impl {
   std::vector<std::uint8_t> far_movers;      // by body that moved
   std::vector<Transform> starts;             // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
+  // What bounces within the tick: contacts by group, a group by its least body.
+  struct BouncingContact {
+    std::uint32_t root = 0;
+    std::uint32_t contact = 0;
+
+    friend auto operator<=>(const BouncingContact&, const BouncingContact&) = default;
+  };
+  std::vector<BouncingContact> bouncing_contacts;
+  std::vector<std::uint32_t> bounce_groups;  // the first contact of each
   std::vector<std::uint32_t> bouncing_bodies;
-  std::vector<std::uint32_t> bounce_of;  // by body: 1 + the contact that it bounces off, or 0
-  std::vector<std::uint8_t> neighbours;  // by body: contacts, 0, 1 or more
+  std::vector<std::uint8_t> has_bounced;   // by body
+  std::vector<std::uint8_t> bounce_marks;  // by body
   NarrowSlots narrow;
 
   // By pair: the contacts that were found, in slots and in the list of contacts.

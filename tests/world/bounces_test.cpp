@@ -1,5 +1,6 @@
-// Bounces off what does not give way: at their moment within the tick.
+// Bounces off each other and off what does not give way: at their moment within the tick.
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,57 @@ TEST(Bounce, BeginsAContactWithItsApproach) {
     }
   }
   EXPECT_EQ(begins, 1);
+}
+
+World weightless() {
+  WorldDef def{.body_capacity = 16, .pair_capacity = 128, .contact_capacity = 128};
+  def.gravity = {};
+  return test::make_world(def);
+}
+
+BodyHandle elastic_ball(World& world, Position x, Position y, Velocity speed) {
+  BodyDef def = test::dynamic_body(Shape::sphere(0.25_m), x, y, 0_m);
+  def.material = {.friction = {}, .restitution = 1_r};
+  def.velocity.x = speed;
+  return test::add(world, def);
+}
+
+TEST(Bounce, PassesAlongARowOfBallsToTheLast) {
+  for (const Position gap : {Position{}, Position{0.001_m}}) {
+    World world = weightless();
+    std::vector<BodyHandle> row;
+    for (int i = 0; i < 5; ++i)
+      row.push_back(
+          elastic_ball(world, (gap + 0.5_m) * i, 0_m, i == 0 ? Velocity{1_mps} : Velocity{}));
+    test::step(world, 60);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_EQ(world.velocity(row[i]).x, Velocity{});
+    EXPECT_EQ(world.velocity(row[4]).x, 1_mps);
+  }
+}
+
+// The line of centres turns until they touch: the offset is half of both radii, the angle 30°.
+TEST(Bounce, OfTwoBallsIsAlongTheirCentresWhereTheyTouch) {
+  World world = weightless();
+  const BodyHandle moving = elastic_ball(world, -2_m, 0.25_m, 8_mps);
+  const BodyHandle still = elastic_ball(world, 0_m, 0_m, {});
+  test::step(world, 30);
+  const Vec3<Velocity> a = world.velocity(moving), b = world.velocity(still);
+  EXPECT_NEAR(to_double(b.x), 8 * 0.75, 1e-7);
+  EXPECT_NEAR(to_double(b.y), -8 * 0.75 / std::sqrt(3.0), 1e-7);
+  EXPECT_EQ(a.x + b.x, 8_mps);
+  EXPECT_EQ(a.y + b.y, Velocity{});
+}
+
+TEST(Bounce, OnABallThatRestsPressesItToTheGround) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle lower = drop(world, Shape::sphere(0.25_m), 0.25_m, 0.5_r);
+  test::step(world, 60);
+  const BodyHandle upper = drop(world, Shape::sphere(0.25_m), 1.5_m, 0.5_r);
+  test::step(world, 240);
+  EXPECT_NEAR(to_double(world.position(lower).y), 0.25, 1e-3);
+  EXPECT_GT(to_double(world.position(upper).y), 0.249);
 }
 
 }  // namespace
