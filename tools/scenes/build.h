@@ -56,6 +56,8 @@ extern const Scene k_hulls, k_compounds;                                 // conv
 extern const Scene k_terrain, k_mesh;                                    // surfaces.cpp
 extern const Scene k_bullets;                                            // bullets.cpp
 extern const Scene k_layers;                                             // layers.cpp
+extern const Scene k_belts;                                              // belts.cpp
+extern const Scene k_arch, k_cards;                                 // masonry.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
 
