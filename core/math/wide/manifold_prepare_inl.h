@@ -22,7 +22,7 @@ inline constexpr std::int64_t k_one = std::int64_t{1} << 30;  // Q30
 struct SourceLanes {
   Vector normal, friction;
   Lanes twist, load, coefficient, soft;
-  Lanes one_over_count;
+  Lanes one_over_count, count;
   Vector point[4];  // from the centre, on B, m, Q20
   Lanes separation[4], impulse[4];
   Tensor inertia_a, inertia_b;  // Q(shift)
@@ -113,6 +113,7 @@ HWY_INLINE HWY_ATTR Lanes load_source(const ManifoldSources& in, std::size_t lan
   out.scale_b = upper(word_1);
   load_operands(at, 44, out.soft, word_1);
   out.load = word_1;
+  out.count = upper_part(word_1);
   load_operands(at, 48, word_0, word_1);
   out.inertia_a = load_tensor(inertias, &in.body_a[lane], word_0);
   out.inertia_b = load_tensor(inertias, &in.body_b[lane], upper(word_0));
@@ -235,7 +236,9 @@ HWY_INLINE HWY_ATTR void find_offsets(const SourceLanes& in, const Axes& axes, O
     offsets.y[i] = offset_along(axes.b, in.point[i], shift, by);
     const Lanes square =
         multiply_add(multiply(offsets.x[i], offsets.x[i]), offsets.y[i], offsets.y[i]);
-    offsets.square = multiply_add(offsets.square, round_shift_low<32>(square), in.one_over_count);
+    const Lanes share = select_less(broadcast(static_cast<std::int64_t>(i)), in.count,
+                                    in.one_over_count, broadcast(0));
+    offsets.square = multiply_add(offsets.square, round_shift_low<32>(square), share);
   }
   offsets.square = round_shift_low<30>(offsets.square);
 }
