@@ -22,10 +22,12 @@ inline constexpr double k_degree = std::numbers::pi / 180;
   return {measure(k_usual_setting)};
 }
 
+/// Nothing sleeps.
 [[nodiscard]] inline WorldDef contact_world(std::uint32_t bodies = 64) {
   WorldDef def;
   def.body_capacity = bodies;
   def.pair_capacity = def.contact_capacity = 32 * bodies;
+  def.sleep_ms = 0;
   return def;
 }
 
