@@ -35,11 +35,13 @@ std::int64_t way(Velocity v, const TimeStep& step) {
 
 // A point above a surface: s + u·f + g·f²/2 after the fraction f of a tick, m, Q24.
 struct Fall {
+  static constexpr std::int64_t k_highest = std::int64_t{1} << 31;
+
   std::int64_t s = 0, u = 0, g = 0;
 
   // How fast it meets the surface, in m a tick, or −1 when it does not.
   [[nodiscard]] std::int64_t speed() const {
-    const std::int64_t square = u * u - 2 * g * std::max<std::int64_t>(s, 0);
+    const std::int64_t square = u * u - 2 * g * std::clamp<std::int64_t>(s, 0, k_highest);
     if (square < 0 || (u >= 0 && g >= 0)) return -1;
     return static_cast<std::int64_t>(isqrt(static_cast<std::uint64_t>(square)));
   }

@@ -108,12 +108,12 @@ BodyHandle elastic_ball(World& world, Position x, Position y, Velocity speed) {
 }
 
 TEST(Bounce, PassesAlongARowOfBallsToTheLast) {
-  for (const Position gap : {Position{}, Position{0.001_m}}) {
+  for (const Position gap : {Position{}, Position(0.001_m)}) {
     World world = weightless();
     std::vector<BodyHandle> row;
     for (int i = 0; i < 5; ++i)
       row.push_back(
-          elastic_ball(world, (gap + 0.5_m) * i, 0_m, i == 0 ? Velocity{1_mps} : Velocity{}));
+          elastic_ball(world, (gap + 0.5_m) * i, 0_m, i == 0 ? Velocity(1_mps) : Velocity{}));
     test::step(world, 60);
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_EQ(world.velocity(row[i]).x, Velocity{});
