@@ -7,6 +7,20 @@
 #include "net/transport/enet_datagram.h"
 
 namespace lockstone::relay {
+
+// ENet's CONNECT command for two channels, with random numbers, after a head with the time.
+std::vector<std::byte> connect_datagram(net::Random& random, bool with_checksum) {
+  std::vector<std::byte> bytes{std::byte{0x8f}, std::byte{0xff}, std::byte{1}, std::byte{2}};
+  if (with_checksum) bytes.resize(8);
+  const std::array<std::uint8_t, 24> command{0x82, 0xff, 0, 1, 0, 0, 0xff, 0xff, 0, 0, 5, 0x78,
+                                             0,    1,    0, 0, 0, 0, 0,    2,    0, 0, 0, 0};
+  for (const std::uint8_t byte : command)
+    bytes.push_back(std::byte{byte});
+  while (bytes.size() < (with_checksum ? 56U : 52U))
+    bytes.push_back(static_cast<std::byte>(random.below(256)));
+  return bytes;
+}
+
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -55,19 +69,6 @@ class SocketAttack : public Attack {
  private:
   std::int64_t next_us_ = 0;
 };
-
-// ENet's CONNECT command for two channels, with random numbers, after a head with the time.
-Bytes connect_datagram(net::Random& random, bool with_checksum) {
-  Bytes bytes{std::byte{0x8f}, std::byte{0xff}, std::byte{1}, std::byte{2}};
-  if (with_checksum) bytes.resize(8);
-  const std::array<std::uint8_t, 24> command{0x82, 0xff, 0, 1, 0, 0, 0xff, 0xff, 0, 0, 5, 0x78,
-                                             0,    1,    0, 0, 0, 0, 0,    2,    0, 0, 0, 0};
-  for (const std::uint8_t byte : command)
-    bytes.push_back(std::byte{byte});
-  while (bytes.size() < (with_checksum ? 56U : 52U))
-    bytes.push_back(static_cast<std::byte>(random.below(256)));
-  return bytes;
-}
 
 class ForgedConnects final : public SocketAttack {
  public:

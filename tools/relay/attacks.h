@@ -19,6 +19,10 @@ class Attack {
   AttackReport report_;
 };
 
+/// ENet's request for a connection, with random numbers in it; the checksum, where there is room
+/// for one, is left 0.
+[[nodiscard]] std::vector<std::byte> connect_datagram(net::Random& random, bool with_checksum);
+
 /// From outside: requests for connections without a checksum, with one at random, with the open
 /// one; each from a socket of its own.
 [[nodiscard]] std::unique_ptr<Attack> forged_connects(const TrialMatch& match, std::uint64_t seed);

@@ -9,6 +9,8 @@
 namespace lockstone::relay {
 namespace {
 
+constexpr std::int64_t k_patience_us = 20'000'000;
+
 std::vector<std::unique_ptr<Attack>> attacks_on(TrialMatch& match, const SiegeOptions& options) {
   std::vector<std::unique_ptr<Attack>> attacks;
   attacks.push_back(forged_connects(match, options.seed));
@@ -17,6 +19,11 @@ std::vector<std::unique_ptr<Attack>> attacks_on(TrialMatch& match, const SiegeOp
   attacks.push_back(bad_tokens(match, options.seed + 3));
   attacks.push_back(flood(match, options.honest, options.flood_per_second));
   return attacks;
+}
+
+bool all_sent(const std::vector<std::unique_ptr<Attack>>& attacks, std::uint64_t least) {
+  return std::all_of(attacks.begin(), attacks.end(),
+                     [least](const auto& attack) { return attack->report().sent >= least; });
 }
 
 SiegeReport report_of(const TrialMatch& match, const SiegeOptions& options,
@@ -67,11 +74,13 @@ std::optional<SiegeReport> run_siege(const SiegeOptions& options) {
     going = match->update(now.count());
     dropped = dropped || (match->ticks_closed() > 0 && !stopped &&
                           (match->present_mask() >> options.honest & 1) == 0);
-    if (!stopped && now.count() > options.duration_us) {
+    const std::int64_t longest_us = options.duration_us + k_patience_us;
+    const bool done = dropped && all_sent(attacks, options.least_sent);
+    if (!stopped && now.count() > (done ? options.duration_us : longest_us)) {
       match->stop();
       stopped = true;
     }
-    if (now.count() > options.duration_us + 20'000'000) break;
+    if (now.count() > longest_us + k_patience_us) break;
     std::this_thread::sleep_for(500us);
   }
   SiegeReport report = report_of(*match, options, attacks);

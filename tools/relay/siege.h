@@ -11,8 +11,9 @@ namespace lockstone::relay {
 
 struct SiegeOptions {
   std::uint64_t seed = 1;
-  std::int64_t duration_us = 10'000'000;
-  unsigned honest = 3;  ///< players; one more holds a good token and attacks from within
+  std::int64_t duration_us = 10'000'000;  ///< at least; up to 20 s more …
+  std::uint64_t least_sent = 4;  ///< … until every attacker has done so much, and the flood is over
+  unsigned honest = 3;           ///< players; one more holds a good token and attacks from within
   net::DatagramLimits limits = {};
   unsigned flood_per_second = 600;  ///< packets of the attacker from within, beside its session's
 };
