@@ -5,7 +5,10 @@
 // that flipped in memory.
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "net/session/server_impl.h"
+#include "net/wire/tick_record.h"
 
 namespace lockstone::net {
 
@@ -82,7 +85,9 @@ void Server::Impl::advance_case() {
   observer->desync_found(report);
   send_notice(report);
   desync.reset();
-  if (report.verdict == Verdict::undecided || config.desync_policy == DesyncPolicy::end_match) {
+  const bool decided =
+      report.verdict == Verdict::client_diverged || report.verdict == Verdict::minority;
+  if (!decided || config.desync_policy == DesyncPolicy::end_match) {
     return finish(FinishReason::desync);
   }
   Seat& place = seats[report.slot];
@@ -96,8 +101,31 @@ void Server::Impl::advance_case() {
   rebase_schedule(now_us);
 }
 
+std::string Server::Impl::build_of(std::uint8_t slot) const {
+  const bool seated = slot < seats.size() && seats[slot].link != nullptr;
+  return seated ? std::string(seats[slot].link->build.view()) : std::string();
+}
+
+// The judge may have been hit itself: it steps the tick again from the state that was kept before,
+// and believes the player if that gives the player's state.
+bool Server::Impl::server_is_wrong(const Mismatch& mismatch) {
+  const ByteView before = mismatch.tick == 0 ? ByteView{} : snapshots.find(mismatch.tick - 1);
+  const ByteView record = records.find(mismatch.tick);
+  if (mismatch.reference != k_no_slot || before.empty() || record.empty()) return false;
+  Simulation& simulation = *parts.simulation;
+  std::vector<std::byte> now(simulation.snapshot_bytes_max(SnapshotKind::native));
+  const std::size_t size = simulation.save(SnapshotKind::native, now);
+  bool wrong = false;
+  if (simulation.load(SnapshotKind::canonical, before) == Status::ok) {
+    simulation.step(RecordInputs(record, shape).view());
+    wrong = simulation.hash() == mismatch.hash_there;
+  }
+  LKS_CHECK(simulation.load(SnapshotKind::native, ByteView(now).first(size)) == Status::ok);
+  return wrong;
+}
+
 // The views in the answer point into the case.
-DesyncReport Server::Impl::report_of_case() const {
+DesyncReport Server::Impl::report_of_case() {
   const Mismatch& mismatch = desync->mismatch;
   DesyncReport report;
   report.tick = mismatch.tick;
@@ -105,6 +133,9 @@ DesyncReport Server::Impl::report_of_case() const {
   report.verdict = mismatch.verdict;
   report.hash_here = mismatch.hash_here;
   report.hash_there = mismatch.hash_there;
+  report.build_here = build_of(mismatch.reference);
+  report.build_there = build_of(mismatch.slot);
+  if (server_is_wrong(mismatch)) report.verdict = Verdict::server_diverged;
   report.dump_here = desync->here.bytes;
   report.dump_there = desync->there.bytes;
   const Simulation* describer = parts.simulation == nullptr ? parts.describer : parts.simulation;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <lockstone/net/server.h>
@@ -200,7 +201,9 @@ struct Server::Impl {
   [[nodiscard]] bool on_dump(Link& link, ByteView packet);
   [[nodiscard]] bool take_chunk(DumpTransfer& transfer, const Dump& dump) const;
   void advance_case();
-  [[nodiscard]] DesyncReport report_of_case() const;
+  [[nodiscard]] std::string build_of(std::uint8_t slot) const;
+  [[nodiscard]] bool server_is_wrong(const Mismatch& mismatch);
+  [[nodiscard]] DesyncReport report_of_case();
   void send_notice(const DesyncReport& report);
 
   template <class Message>

@@ -82,6 +82,7 @@ bool Server::Impl::on_resend(Link& link, ByteView packet) {
   if (message.first_tick + message.count > closed) return false;
   Follower* follower = follower_of(link);
   if (follower == nullptr) return false;
+  if (link.slot < seats.size()) ++seats[link.slot].stats.resends;
   follower->resend_next = std::max(message.first_tick, follower->ticks_received);
   follower->resend_end = message.first_tick + message.count;
   return true;

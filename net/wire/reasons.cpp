@@ -26,7 +26,8 @@ constexpr std::array<std::string_view, 16> k_refuse_reasons{"none",
 constexpr std::array<std::string_view, 11> k_refuse_fields{
     "none",   "protocol",  "insecure",     "abi",         "config_hash", "scene_hash",
     "canary", "tick_rate", "player_count", "input_bytes", "slot"};
-constexpr std::array<std::string_view, 3> k_verdicts{"client diverged", "minority", "undecided"};
+constexpr std::array<std::string_view, 4> k_verdicts{"client diverged", "minority", "undecided",
+                                                      "server diverged"};
 constexpr std::array<std::string_view, 4> k_finish_reasons{"completed", "stopped", "desync",
                                                            "no players"};
 constexpr std::array<std::string_view, 8> k_leave_reasons{

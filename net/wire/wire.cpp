@@ -169,7 +169,7 @@ Status decode(ByteView packet, DesyncNotice& message) {
   message.tick = reader.get_tick();
   message.slot = reader.get<std::uint8_t>();
   reader.require(message.slot < k_max_players);
-  message.verdict = reader.get_enum(Verdict::undecided);
+  message.verdict = reader.get_enum(Verdict::server_diverged);
   message.hash_here = reader.get<std::uint64_t>();
   message.hash_there = reader.get<std::uint64_t>();
   message.differs = reader.get_flag();

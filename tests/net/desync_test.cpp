@@ -157,6 +157,23 @@ TEST(Desync, IsExplainedThoughItsReportsWereCutOff) {
   expect_report(match.server_log.reports[0], flip, 1);
 }
 
+TEST(Desync, JudgeThatWasHitItselfSaysSo) {
+  MatchOptions options = match_with_flip(2, 12, 0, {100'000, "world", "random", 0, 0});
+  options.client.build = "toy 1.0";
+  options.server.desync_policy = DesyncPolicy::kick;
+  Match match(options);
+  match.run_for(2 * k_second_us);
+  const std::uint64_t tick = match.server->ticks_closed();
+  ASSERT_TRUE(match.server_simulation.flip_bit("body", 5, "spin", 17));
+  ASSERT_TRUE(match.run(60 * k_second_us));
+  ASSERT_GE(match.server_log.reports.size(), 1U);
+  EXPECT_EQ(match.server_log.reports[0].tick, tick);
+  EXPECT_EQ(match.server_log.reports[0].verdict, Verdict::server_diverged);
+  EXPECT_EQ(match.server_log.reports[0].difference.field, "spin");
+  EXPECT_EQ(match.server_log.reports[0].build_there, "toy 1.0");
+  EXPECT_EQ(match.server->finish_reason(), FinishReason::desync);
+}
+
 TEST(Desync, LineReadsLikeASentence) {
   DesyncReport report;
   report.tick = 1842;

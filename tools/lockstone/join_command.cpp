@@ -15,6 +15,7 @@
 
 #include "tools/arena/arena_simulation.h"
 #include "tools/arena/bots.h"
+#include "tools/lockstone/build_text.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/flipping_simulation.h"
@@ -33,6 +34,8 @@ struct JoinOptions {
   std::string name = "bot";
   int slot = net::k_no_slot;
   std::optional<std::uint64_t> flip_bit_at;
+  bool spectate = false;
+  unsigned predict = 0;
   bool insecure = false;
   bool json = false;
   bool quiet = false;
@@ -134,6 +137,13 @@ void print_json(const net::Client& client, const JoinObserver& observer) {
                                     {"bytes_received", stats.bytes_received},
                                     {"substituted_inputs", stats.substituted_inputs},
                                     {"resends_requested", stats.resends_requested},
+                                    {"round_trip_us", stats.round_trip_us},
+                                    {"jitter_us", stats.jitter_us},
+                                    {"margin_quarters", stats.margin_quarters},
+                                    {"lead_ticks", stats.lead_ticks},
+                                    {"rollbacks", stats.rollbacks},
+                                    {"ticks_stepped_again", stats.ticks_stepped_again},
+                                    {"states_loaded", stats.states_loaded},
                                     {"desync", observer.desync}};
   fmt::print("{}\n", json.dump(2));
 }
@@ -237,7 +247,10 @@ int join(JoinOptions options) {
   net::ClientConfig config;
   config.insecure = options.insecure;
   config.name = options.name;
-  config.wanted_slot = static_cast<std::uint8_t>(options.slot);
+  config.wanted_slot =
+      static_cast<std::uint8_t>(options.spectate ? net::k_spectator_slot : options.slot);
+  config.build = build_text();
+  config.prediction_ticks = static_cast<std::uint8_t>(options.predict);
   const net::Client::Created created = net::Client::create(
       config, {caller->transport(), caller->connection, factory_for(options), &inputs, &observer});
   if (created.client == nullptr) {
@@ -260,6 +273,10 @@ void add_join_command(CLI::App& app, int& exit_code) {
   command->add_option("--bot-seed", options->bot_seed, "What the bot feels like")
       ->capture_default_str();
   command->add_option("--name", options->name, "Shown to the server")->capture_default_str();
+  command->add_flag("--spectate", options->spectate, "Only watch");
+  command->add_option("--predict", options->predict, "Rollback: ticks to run ahead; 0: lockstep")
+      ->check(CLI::Range(0, 15))
+      ->capture_default_str();
   command->add_option("--slot", options->slot, "Player slot; any when not given")
       ->check(CLI::Range(0, 15));
   command->add_flag("--insecure", options->insecure,

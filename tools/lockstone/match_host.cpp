@@ -1,6 +1,7 @@
 #include "tools/lockstone/match_host.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cstdio>
@@ -16,8 +17,10 @@
 #include <lockstone/replay/sink.h>
 
 #include "tools/arena/config.h"
+#include "tools/lockstone/build_text.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/secrets.h"
+#include "tools/lockstone/tar.h"
 #include "tools/scenes/play.h"
 #include "tools/scenes/scene_simulation.h"
 
@@ -38,7 +41,8 @@ std::vector<std::byte> config_bytes(const MatchOptions& options) {
   return to_vector(config.encode());
 }
 
-net::ServerConfig server_config(const MatchOptions& options, std::vector<std::byte> match_config) {
+net::ServerConfig server_config(const MatchOptions& options, std::vector<std::byte> match_config,
+                                ByteView unguessable) {
   net::ServerConfig config;
   config.insecure = options.insecure;
   config.match_config = std::move(match_config);
@@ -46,6 +50,12 @@ net::ServerConfig server_config(const MatchOptions& options, std::vector<std::by
   config.input_delay_ticks = options.input_delay;
   config.late_policy = options.strict ? net::LatePolicy::strict : net::LatePolicy::deadline;
   config.pacing = options.fast ? net::Pacing::fast : net::Pacing::real_time;
+  config.start_players = static_cast<std::uint8_t>(options.start_players);
+  config.desync_policy = options.desync_policy;
+  config.rejoin_seed = hash64(unguessable);
+  config.max_spectators = options.spectators;
+  config.spectator_delay_ticks = options.spectator_delay_s * 60;
+  config.history_ticks = std::bit_ceil(1024 + config.spectator_delay_ticks * 5 / 4);
   return config;
 }
 
@@ -55,10 +65,16 @@ class MatchLog {
  public:
   [[nodiscard]] Status open(const MatchOptions& options, const Simulation& simulation,
                             ByteView config) {
-    if (options.record.empty()) return Status::ok;
-    auto sink = replay::FileSink::create(options.record);
-    if (!sink) return sink.status();
-    sink_ = std::move(sink).value();
+    if (options.record.empty() && options.bundle.empty()) return Status::ok;
+    if (options.record.empty()) {
+      auto memory = std::make_unique<replay::MemorySink>();
+      memory_ = memory.get();
+      sink_ = std::move(memory);
+    } else {
+      auto sink = replay::FileSink::create(options.record);
+      if (!sink) return sink.status();
+      sink_ = std::move(sink).value();
+    }
     replay::RecorderOptions recorder_options;
     recorder_options.keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical);
     background_.emplace(*sink_);
@@ -88,6 +104,14 @@ class MatchLog {
     return status_;
   }
 
+  /// After `finish`: what was recorded.
+  [[nodiscard]] std::vector<std::byte> bytes(const std::string& record) const {
+    if (memory_ != nullptr) return memory_->bytes();
+    const std::string text = read_file(record).value_or("");
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    return {begin, begin + text.size()};
+  }
+
  private:
   [[nodiscard]] bool active() const { return recorder_.has_value() && status_ == Status::ok; }
 
@@ -99,7 +123,8 @@ class MatchLog {
     return status;
   }
 
-  std::unique_ptr<replay::FileSink> sink_;
+  std::unique_ptr<replay::Sink> sink_;
+  const replay::MemorySink* memory_ = nullptr;  ///< it, where no file was asked for
   std::optional<replay::BackgroundSink> background_;
   std::optional<replay::Recorder> recorder_;
   Status status_ = Status::ok;
@@ -122,6 +147,9 @@ struct MatchHost::Impl final : net::ServerObserver {
   double started_seconds = 0;
   double last_tick_seconds = 0;
   std::uint64_t ticks_seen = 0;
+  std::unique_ptr<MetricsPort> metrics_port;
+  bool wanted_pause = false;
+  std::vector<TarEntry> bundle;  ///< of the first desync, without the log
 
   void say(const std::string& line) {
     progress.clear();
@@ -153,6 +181,42 @@ struct MatchHost::Impl final : net::ServerObserver {
     ++summary.desyncs;
     say("desync: " + report.to_line());
     log.event(replay::EventKind::note, report.slot, "desync: " + report.to_line());
+    if (!options.bundle.empty() && bundle.empty()) begin_bundle(report);
+  }
+  void player_active(std::uint8_t slot, std::uint64_t tick) override {
+    say(fmt::format("player {} plays from tick {} on", slot, tick));
+    log.event(replay::EventKind::join, slot, fmt::format("plays from tick {} on", tick));
+  }
+  void player_asks(std::uint8_t slot, net::AskKind kind, std::uint8_t topic,
+                   std::uint8_t choice) override {
+    const char* wish = kind == net::AskKind::vote     ? "votes"
+                       : kind == net::AskKind::resume ? "asks to go on"
+                                                      : "asks for a pause";
+    say(fmt::format("player {} {} ({}, {})", slot, wish, topic, choice));
+    if (kind != net::AskKind::vote) wanted_pause = kind == net::AskKind::pause;
+  }
+
+  // One archive that holds all that is known about it.
+  void begin_bundle(const net::DesyncReport& report) {
+    const std::string text = fmt::format(
+        "{}\nverdict: {}\nhash here:  {}\nhash there: {}\nbuild here:  {}\nbuild there: {}\n",
+        report.to_line(), to_string(report.verdict), hash_text(report.hash_here),
+        hash_text(report.hash_there), report.build_here.empty() ? build_text() : report.build_here,
+        report.build_there);
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    bundle.push_back({"report.txt", {begin, begin + text.size()}});
+    bundle.push_back({"here.snapshot", {report.dump_here.begin(), report.dump_here.end()}});
+    bundle.push_back({"there.snapshot", {report.dump_there.begin(), report.dump_there.end()}});
+  }
+
+  void write_bundle() {
+    if (bundle.empty()) return;
+    bundle.push_back({"match.lks", log.bytes(options.record)});
+    const std::vector<std::byte> archive = make_tar(bundle);
+    std::string text;
+    for (std::byte byte : archive)
+      text.push_back(static_cast<char>(byte));
+    if (write_text_file(options.bundle, text)) say("the desync is written to " + options.bundle);
   }
   void match_started() override {
     started_seconds = watch.seconds();
@@ -183,8 +247,15 @@ struct MatchHost::Impl final : net::ServerObserver {
     if (status != Status::ok) {
       return refuse(fmt::format("cannot write {}: {}", options.record, to_string(status)));
     }
-    net::Server::Created created = net::Server::create(
-        server_config(options, config), {session_transport(), simulation.get(), nullptr, this});
+    if (options.metrics_port != 0) {
+      metrics_port = MetricsPort::open(options.metrics_port);
+      if (metrics_port == nullptr) return false;
+    }
+    std::array<std::byte, 16> unguessable{};
+    random.fill(unguessable);
+    net::Server::Created created =
+        net::Server::create(server_config(options, config, unguessable),
+                            {session_transport(), simulation.get(), nullptr, this});
     server = std::move(created.server);
     if (server == nullptr) return refuse(std::string(to_string(created.error)));
     return true;
@@ -232,6 +303,12 @@ bool MatchHost::update() {
   Impl& impl = *impl_;
   impl.server->update(impl.watch.microseconds());
   if (impl.server->state() == net::ServerState::over) return false;
+  if (impl.wanted_pause != impl.server->paused()) {
+    impl.wanted_pause ? impl.server->pause() : impl.server->resume();
+  }
+  if (impl.metrics_port != nullptr) {
+    impl.metrics_port->serve([this] { return metrics(); });
+  }
   // The transport does not wait: give the processor away when there was nothing to do.
   const bool busy = std::exchange(impl.ticks_seen, ticks_closed()) != ticks_closed();
   if (!busy) std::this_thread::sleep_for(impl.options.fast ? 100us : 1000us);
@@ -251,6 +328,7 @@ MatchSummary MatchHost::finish() {
   summary.reason = impl.server->finish_reason();
   summary.seconds = std::max(0.0, impl.last_tick_seconds - impl.started_seconds);
   summary.record_status = impl.log.finish(to_string(summary.reason));
+  impl.write_bundle();
   for (unsigned slot = 0; slot < impl.simulation->info().player_count; ++slot) {
     summary.players.push_back(impl.server->stats(static_cast<std::uint8_t>(slot)));
   }
@@ -263,6 +341,19 @@ const Simulation& MatchHost::simulation() const {
 
 std::uint64_t MatchHost::ticks_closed() const {
   return impl_->server->ticks_closed();
+}
+
+MatchMetrics MatchHost::metrics() const {
+  MatchMetrics metrics;
+  metrics.port = port();
+  metrics.ticks = ticks_closed();
+  metrics.spectators = impl_->server->spectators();
+  metrics.present_mask = impl_->server->present_mask();
+  metrics.desyncs = impl_->summary.desyncs;
+  for (unsigned slot = 0; slot < impl_->simulation->info().player_count; ++slot) {
+    metrics.players.push_back(impl_->server->stats(static_cast<std::uint8_t>(slot)));
+  }
+  return metrics;
 }
 
 std::string MatchHost::progress_line() const {

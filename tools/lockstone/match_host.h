@@ -14,6 +14,7 @@
 #include <lockstone/simulation.h>
 
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/metrics.h"
 
 namespace lockstone::tool {
 
@@ -33,6 +34,12 @@ struct MatchOptions {
   std::uint64_t match = 0;      ///< of the tokens
   net::ServerList addresses;    ///< what tokens may call this server; none: no check
   std::string record;           ///< empty: no log
+  unsigned start_players = 0;   ///< the match begins with so many; 0: with all
+  std::uint16_t spectators = 0;
+  unsigned spectator_delay_s = 0;
+  net::DesyncPolicy desync_policy = net::DesyncPolicy::end_match;
+  std::string bundle;              ///< the first desync is written to this file; empty: nowhere
+  std::uint16_t metrics_port = 0;  ///< 0: none
 };
 
 /// What became of a match.
@@ -66,6 +73,8 @@ class MatchHost {
 
   [[nodiscard]] const Simulation& simulation() const;
   [[nodiscard]] std::uint64_t ticks_closed() const;
+
+  [[nodiscard]] MatchMetrics metrics() const;
 
   /// A line about how it goes.
   [[nodiscard]] std::string progress_line() const;

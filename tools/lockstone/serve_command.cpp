@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +20,8 @@ namespace {
 struct ServeOptions {
   MatchOptions match;
   std::string policy = "deadline";
+  std::string on_desync = "end";
+  unsigned matches = 1;
   std::string key;
   std::vector<std::string> addresses;
 };
@@ -49,26 +53,57 @@ void print_players(const MatchSummary& summary) {
   }
 }
 
-int serve(ServeOptions options) {
-  options.match.strict = options.policy == "strict";
-  if (!set_security(options)) return k_usage;
-  catch_interrupts();
-  const std::unique_ptr<MatchHost> host = MatchHost::create(options.match);
-  if (host == nullptr) return k_unavailable;
-  fmt::print("listening on {}:{}\n", options.match.bind, host->port());
-  std::fflush(stdout);
+int run_match(MatchHost& host) {
   bool stopping = false;
-  while (host->update()) {
+  while (host.update()) {
     if (!interrupted() || stopping) continue;
-    host->stop();
+    host.stop();
     stopping = true;
   }
-  const MatchSummary summary = host->finish();
+  const MatchSummary summary = host.finish();
   fmt::print("the match is over: {}, {} ticks, final hash {}\n", to_string(summary.reason),
              summary.ticks, hash_text(summary.final_hash));
   print_players(summary);
   if (summary.desyncs > 0) return k_different;
   return summary.record_status == Status::ok ? k_ok : k_unavailable;
+}
+
+// The options of one of several matches: ports count up, files get the number as an ending.
+MatchOptions options_of(const ServeOptions& options, unsigned index) {
+  MatchOptions match = options.match;
+  if (options.matches == 1) return match;
+  if (match.port != 0) match.port = static_cast<std::uint16_t>(match.port + index);
+  if (match.metrics_port != 0) {
+    match.metrics_port = static_cast<std::uint16_t>(match.metrics_port + index);
+  }
+  for (std::string* file : {&match.record, &match.bundle}) {
+    if (!file->empty()) *file += fmt::format(".{}", index);
+  }
+  return match;
+}
+
+int serve(ServeOptions options) {
+  options.match.strict = options.policy == "strict";
+  options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
+                                : options.on_desync == "resync" ? net::DesyncPolicy::resync
+                                                                : net::DesyncPolicy::end_match;
+  if (!set_security(options)) return k_usage;
+  catch_interrupts();
+  std::vector<std::unique_ptr<MatchHost>> hosts;
+  for (unsigned i = 0; i < options.matches; ++i) {
+    hosts.push_back(MatchHost::create(options_of(options, i)));
+    if (hosts.back() == nullptr) return k_unavailable;
+    fmt::print("listening on {}:{}\n", options.match.bind, hosts.back()->port());
+  }
+  std::fflush(stdout);
+  std::vector<int> exits(hosts.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 1; i < hosts.size(); ++i)
+    threads.emplace_back([&hosts, &exits, i] { exits[i] = run_match(*hosts[i]); });
+  exits[0] = run_match(*hosts[0]);
+  for (std::thread& thread : threads)
+    thread.join();
+  return *std::max_element(exits.begin(), exits.end());
 }
 
 }  // namespace
@@ -85,6 +120,27 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--record", options->match.record, "Write the log to this file");
   command->add_option("--policy", options->policy, "On a late input: replace it, or wait for it")
       ->check(CLI::IsMember({"deadline", "strict"}))
+      ->capture_default_str();
+  command
+      ->add_option("--start-players", options->match.start_players,
+                   "Begin with so many; others may come later. 0: with all")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command->add_option("--spectators", options->match.spectators, "So many may watch")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_option("--spectator-delay", options->match.spectator_delay_s, "Seconds")
+      ->check(CLI::Range(0, 180))
+      ->capture_default_str();
+  command->add_option("--on-desync", options->on_desync, "What becomes of a wrong player's match")
+      ->check(CLI::IsMember({"end", "kick", "resync"}))
+      ->capture_default_str();
+  command->add_option("--bundle", options->match.bundle,
+                      "Write the first desync to this file (tar): report, both states, log");
+  command->add_option("--metrics-port", options->match.metrics_port,
+                      "Answer /metrics and /stats.json on 127.0.0.1");
+  command->add_option("--matches", options->matches, "Host so many, on ports that follow")
+      ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command->add_option("--key", options->key, "File with the key of `token key`");
   command->add_option("--match", options->match.match, "The number that the tokens are for")

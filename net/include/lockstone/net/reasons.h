@@ -28,14 +28,14 @@ enum class RefuseReason : std::uint8_t {
   slot_taken = 5,
   match_running = 6,
   handshake_timeout = 7,
-  token_refused = 8,     ///< it is altered, or sealed under another key
-  token_expired = 9,     ///< or the clocks differ
-  wrong_match = 10,      ///< the token is for another match
-  wrong_server = 11,     ///< the token is for other servers
-  wrong_slot = 12,       ///< the token is for another seat
-  replaced = 13,         ///< the same player connected again
-  flooding = 14,         ///< far more packets than a session sends
-  stream_damaged = 15,   ///< a reliable packet was not authentic
+  token_refused = 8,    ///< it is altered, or sealed under another key
+  token_expired = 9,    ///< or the clocks differ
+  wrong_match = 10,     ///< the token is for another match
+  wrong_server = 11,    ///< the token is for other servers
+  wrong_slot = 12,      ///< the token is for another seat
+  replaced = 13,        ///< the same player connected again
+  flooding = 14,        ///< far more packets than a session sends
+  stream_damaged = 15,  ///< a reliable packet was not authentic
 };
 
 inline constexpr RefuseReason k_last_refuse_reason = RefuseReason::stream_damaged;
@@ -59,6 +59,7 @@ enum class Verdict : std::uint8_t {
   client_diverged = 0,  ///< the server's own simulation says so
   minority = 1,         ///< most other players agree with each other, not with this one
   undecided = 2,        ///< no judge and no majority
+  server_diverged = 3,  ///< stepped again, the server gets the player's state
 };
 
 enum class FinishReason : std::uint8_t {

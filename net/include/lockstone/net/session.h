@@ -73,6 +73,8 @@ struct DesyncReport {
   StateDifference difference;  ///< `differs` is false if a dump or a describing simulation lacked
   ByteView dump_here;  ///< canonical snapshots, valid during the callback; empty when not had
   ByteView dump_there;
+  std::string build_here;  ///< what the players' Hello said; the server's own: empty
+  std::string build_there;
 
   /// `tick 1842, player 2, body 17 "crate", velocity.y: 0x… here, 0x… there`; with the hashes
   /// instead of a field where the difference is not known.
@@ -93,6 +95,7 @@ struct PlayerStats {
   std::uint64_t malformed_packets = 0;
   std::int32_t margin_quarters = 0;  ///< how early the newest inputs came, quarter ticks
   std::uint64_t entries = 0;         ///< how often it came into the running match
+  std::uint64_t resends = 0;         ///< requests for ticks that lacked between others
 };
 
 /// Traffic and progress of a client.

@@ -1,0 +1,51 @@
+// The counters of a match as text for people, as JSON and for Prometheus, on a port if asked.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lockstone/net/session.h>
+
+namespace lockstone::tool {
+
+struct MatchMetrics {
+  std::uint16_t port = 0;  ///< of the match
+  std::uint64_t ticks = 0;
+  std::size_t spectators = 0;
+  std::uint16_t present_mask = 0;
+  std::uint64_t desyncs = 0;
+  std::vector<net::PlayerStats> players;
+};
+
+[[nodiscard]] std::string metrics_as_text(const MatchMetrics& metrics);
+[[nodiscard]] std::string metrics_as_json(const MatchMetrics& metrics);
+/// Prometheus' text format 0.0.4.
+[[nodiscard]] std::string metrics_for_prometheus(const MatchMetrics& metrics);
+
+/// A listening TCP socket on 127.0.0.1 that answers `GET /metrics`, `/stats.json` and everything
+/// else with a text. Never blocks.
+class MetricsPort {
+ public:
+  /// Null, with a complaint, when the system refuses.
+  [[nodiscard]] static std::unique_ptr<MetricsPort> open(std::uint16_t port);
+  ~MetricsPort();
+  MetricsPort(const MetricsPort&) = delete;
+  MetricsPort& operator=(const MetricsPort&) = delete;
+
+  /// Answers who has asked since the last call.
+  void serve(const std::function<MatchMetrics()>& metrics);
+
+ private:
+  explicit MetricsPort(int socket) : socket_(socket) {}
+  void answer(const std::function<MatchMetrics()>& metrics, std::string_view request);
+
+  int socket_;
+  int client_ = -1;  ///< has connected, and not yet said what it wants
+  std::string request_;
+};
+
+}  // namespace lockstone::tool
