@@ -66,6 +66,14 @@ const SolverBody* ContactSolver::find(std::uint32_t body) const {
   return index == 0 ? nullptr : &bodies_[index];
 }
 
+std::array<Vec3<Velocity>, 2> ContactSolver::speeds(const SolverBody& solved) const {
+  const RowBody& row = rows_[static_cast<std::size_t>(&solved - bodies_.data())];
+  const auto read = [](const auto& v) -> Vec3<Velocity> {
+    return {from_row(v[0]), from_row(v[1]), from_row(v[2])};
+  };
+  return {read(row.velocity), read(row.spin)};
+}
+
 std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation,
                                   BodyRecord& body) const {
   const auto index = static_cast<std::size_t>(&solved - bodies_.data());

@@ -5,6 +5,7 @@
 // What differs is told in docs/solver.md.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <span>
@@ -65,6 +66,9 @@ class ContactSolver {
   /// Writes a touched body's substeps back: position, orientation, velocity and spin.
   /// `rotation` is the matrix of its orientation; answers as `fly`.
   std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body) const;
+
+  /// The velocity and the spin that a touched body has after `run`.
+  [[nodiscard]] std::array<Vec3<Velocity>, 2> speeds(const SolverBody& solved) const;
 
   [[nodiscard]] std::uint32_t contacts() const;
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }

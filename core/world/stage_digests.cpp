@@ -74,11 +74,10 @@ std::uint64_t World::Impl::digest_of(StepStage stage) const {
       break;
     case StepStage::solve:
       for (std::uint32_t body = 0; body < header.body_limit; ++body) {
-        const SolverBody* solved = solver.find(body);
+        const SolverBody* solved = awake.has(body) ? solver.find(body) : nullptr;
         if (solved == nullptr) continue;
-        BodyRecord after = bodies[body];
-        (void)solver.move(*solved, rotations[body], after);
-        digest.add_record(after);
+        for (const Vec3<Velocity>& speed : solver.speeds(*solved))
+          digest.add(speed);
       }
       break;
     case StepStage::store:
