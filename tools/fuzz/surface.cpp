@@ -124,7 +124,8 @@ double outside(const Body& body, const Real3& point) {
 }
 
 double above_planes(const Body& body, const Real3& point) {
-  return body.kind == Kind::hull ? highest_plane(body, point) : outside(body, point);
+  const bool has_two_sides = body.kind == Kind::hull || body.kind == Kind::box;
+  return has_two_sides ? highest_plane(body, point) : outside(body, point);
 }
 
 bool is_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
