@@ -290,7 +290,8 @@ bool Client::Impl::on_start(ByteView packet) {
   Start start;
   if (decode(packet, start) != Status::ok || state != ClientState::lobby) return false;
   begin_running(0);
-  if (((start.present_mask >> seat.slot) & 1) != 0) active_tick = 0;
+  const bool plays = seat.slot < k_max_players;
+  if (plays && ((start.present_mask >> seat.slot) & 1) != 0) active_tick = 0;
   present_mask = start.present_mask;
   observer->match_started();
   return true;
