@@ -38,10 +38,14 @@ Shape random_shape(Random& random) {
   switch (random.between(0, 2)) {
     case 0:
       return Shape::sphere(size());
-    case 1:
-      return Shape::capsule(size(), size());
-    default:
-      return Shape::box(size(), size(), size());
+    case 1: {  // one number a statement, or compilers differ
+      const Length half_height = size();
+      return Shape::capsule(half_height, size());
+    }
+    default: {
+      const Length z = size(), y = size();
+      return Shape::box(size(), y, z);
+    }
   }
 }
 
