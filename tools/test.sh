@@ -15,15 +15,17 @@
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-passed=0 failed=0
+passed=0 failed=0 skipped=0
+# What failed, said again at the end, where readers of a long log look first.
+failures=$(mktemp)
+trap 'rm -f "$failures"' EXIT
 
-# count JUNIT-FILE: adds one test run's figures to the totals.
+# count JUNIT-FILE TITLE: adds one test run's figures to the totals.
 count() {
-  local text failures
-  text=$(<"$1")
-  [[ $text =~ failures=\"([0-9]+)\" ]] && failures=${BASH_REMATCH[1]}
-  [[ $text =~ tests=\"([0-9]+)\" ]] && passed=$((passed + BASH_REMATCH[1] - failures))
-  failed=$((failed + failures))
+  local counts p f s
+  counts=$(python3 -B tools/test_report.py "$1" "$2" "$failures")
+  read -r p f s <<<"$counts"
+  passed=$((passed + p)) failed=$((failed + f)) skipped=$((skipped + s))
 }
 
 # run_tests PRESET: runs all of them; a failing test does not end the script.
@@ -33,11 +35,19 @@ run_tests() {
   say "test $1"
   ctest --preset "$1" --parallel "$jobs" --output-junit "$report" || true
   [[ -s $report ]] || die "ctest ran no test of the preset $1"
-  count "$report"
+  count "$report" "$1"
 }
 
 run_cross() {
-  if tools/cross.sh "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+  local output
+  output=$(mktemp)
+  if tools/cross.sh "$@" 2>&1 | tee "$output"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    { echo "-- failed: tools/cross.sh $*" && tail -40 "$output"; } >>"$failures"
+  fi
+  rm -f "$output"
 }
 
 sanitize=false
@@ -65,5 +75,7 @@ build_preset release "${options[@]}"
 run_tests release
 
 echo
+cat "$failures"
+((skipped == 0)) || echo "$skipped skipped"
 echo "$passed passed, $failed failed"
 ((failed == 0))
