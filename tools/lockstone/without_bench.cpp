@@ -1,31 +1,19 @@
 // The subcommands that measure and fuzz, in a build without them.
-#include <fmt/format.h>
-
+#include "tools/lockstone/absent_command.h"
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/console.h"
 
 namespace lockstone::tool {
-namespace {
 
-void add_absent_bench(CLI::App& app, int& exit_code, const char* name) {
-  CLI::App* command = app.add_subcommand(name, "Not in this build: LOCKSTONE_BUILD_BENCH is off");
-  command->allow_extras();
-  command->callback([name, &exit_code] {
-    complain(fmt::format("{}: not in this build (LOCKSTONE_BUILD_BENCH is off)", name));
-    exit_code = k_unavailable;
-  });
-}
-
-}  // namespace
+static constexpr const char* k_no_bench = "LOCKSTONE_BUILD_BENCH is off";
 
 void add_bench_command(CLI::App& app, int& exit_code) {
-  add_absent_bench(app, exit_code, "bench");
+  add_absent_command(app, exit_code, "bench", k_no_bench);
 }
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
-  add_absent_bench(app, exit_code, "fuzz-pairs");
+  add_absent_command(app, exit_code, "fuzz-pairs", k_no_bench);
 }
 void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
-  add_absent_bench(app, exit_code, "fuzz-scene");
+  add_absent_command(app, exit_code, "fuzz-scene", k_no_bench);
 }
 
 }  // namespace lockstone::tool

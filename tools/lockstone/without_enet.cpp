@@ -1,43 +1,28 @@
 // The subcommands that need a network, in a build that has none.
-#include <cstdio>
-
-#include <fmt/format.h>
-
-#include "tools/lockstone/commands.h"
-#include "tools/lockstone/console.h"
+#include "tools/lockstone/absent_command.h"
 #include "tools/lockstone/net_commands.h"
 
 namespace lockstone::tool {
-namespace {
 
-void add_absent(CLI::App& app, int& exit_code, const char* name) {
-  CLI::App* command = app.add_subcommand(name, "Not in this build: it has no ENet");
-  command->allow_extras();
-  command->callback([name, &exit_code] {
-    complain(fmt::format("{}: this build has no network (LOCKSTONE_WITH_ENET is off)", name));
-    exit_code = k_unavailable;
-  });
-}
-
-}  // namespace
+static constexpr const char* k_no_network = "it has no network (LOCKSTONE_WITH_ENET is off)";
 
 void add_serve_command(CLI::App& app, int& exit_code) {
-  add_absent(app, exit_code, "serve");
+  add_absent_command(app, exit_code, "serve", k_no_network);
 }
 void add_join_command(CLI::App& app, int& exit_code) {
-  add_absent(app, exit_code, "join");
+  add_absent_command(app, exit_code, "join", k_no_network);
 }
 void add_token_command(CLI::App& app, int& exit_code) {
-  add_absent(app, exit_code, "token");
+  add_absent_command(app, exit_code, "token", k_no_network);
 }
 void add_lossy_command(CLI::App& app, int& exit_code) {
-  add_absent(app, exit_code, "lossy");
+  add_absent_command(app, exit_code, "lossy", k_no_network);
 }
 void add_siege_command(CLI::App& app, int& exit_code) {
-  add_absent(app, exit_code, "siege");
+  add_absent_command(app, exit_code, "siege", k_no_network);
 }
 void add_demo_command(CLI::App& app, int& exit_code) {
-  add_absent(app, exit_code, "demo");
+  add_absent_command(app, exit_code, "demo", k_no_network);
 }
 
 }  // namespace lockstone::tool
