@@ -2,20 +2,14 @@
 // of its own. To be included before any header of Highway.
 #pragma once
 
-// With sanitizers one target stands for all: they are one source, and take minutes to compile.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LKS_FEW_VECTOR_TARGETS
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define LKS_FEW_VECTOR_TARGETS
-#endif
-#endif
+#include "core/base/sanitized.h"
 
 // Nothing here needs what these add, so a processor without them still gets its widest target.
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_BMI2_FMA
 #define HWY_DISABLE_F16C
-#if defined(LKS_FEW_VECTOR_TARGETS)
+// With sanitizers one target stands for all: they are one source, and take minutes to compile.
+#if LKS_SANITIZED
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
 #else
 #define HWY_DISABLED_TARGETS HWY_SSSE3
