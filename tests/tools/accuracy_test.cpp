@@ -6,6 +6,7 @@
 #include <lockstone/literals.h>
 
 #include "tools/bench/accuracy/reference_mass.h"
+#include "tools/support/for_blocks.h"
 
 namespace lockstone::bench {
 namespace {
@@ -47,7 +48,7 @@ TEST(MassReference, OfACompoundIsThatOfTheWhole) {
 
 TEST(Accuracy, CoversEveryTryOnce) {
   std::vector<int> seen(1000);
-  for_blocks(seen.size(), 64, 3, [&](std::uint64_t first, std::uint64_t count) {
+  tool::for_blocks(seen.size(), 64, 3, [&](std::uint64_t first, std::uint64_t count) {
     for (std::uint64_t i = first; i < first + count; ++i)
       ++seen[i];
   });

@@ -1,10 +1,10 @@
 #include "tools/fuzz/fuzz_run.h"
 
-#include <atomic>
+#include <algorithm>
 #include <mutex>
-#include <thread>
 
 #include "tools/fuzz/pair_checks.h"
+#include "tools/support/for_blocks.h"
 
 namespace lockstone::fuzz {
 namespace {
@@ -33,45 +33,17 @@ void add(const FuzzReport& part, FuzzReport& report) {
   report.failures.insert(report.failures.end(), part.failures.begin(), part.failures.end());
 }
 
-// The indices of one run, handed out in blocks.
-class Work {
- public:
-  Work(const FuzzOptions& options, HullPool& pool) : options_(options), pool_(pool) {
-    if (options_.kinds.empty()) options_.kinds = all_kinds();
+FuzzReport check_block(const FuzzOptions& options, HullPool& pool, std::uint64_t first,
+                       std::uint64_t count) {
+  FuzzReport report;
+  for (std::uint64_t index = first; index < first + count; ++index) {
+    const Pair pair = make_pair(pool, options.seed, index, options.kinds);
+    Verdict verdict(index);
+    check_pair(pair, verdict);
+    add(pair, verdict, index, report);
   }
-
-  void run() {
-    FuzzReport part;
-    for (;;) {
-      const std::uint64_t done = next_.fetch_add(k_block);
-      if (done >= options_.count) break;
-      check_block(options_.first + done, std::min(k_block, options_.count - done), part);
-    }
-    const std::lock_guard lock(mutex_);
-    add(part, report_);
-  }
-
-  FuzzReport take() {
-    std::ranges::sort(report_.failures, {}, &PairFailure::index);
-    return std::move(report_);
-  }
-
- private:
-  void check_block(std::uint64_t first, std::uint64_t count, FuzzReport& report) {
-    for (std::uint64_t index = first; index < first + count; ++index) {
-      const Pair pair = make_pair(pool_, options_.seed, index, options_.kinds);
-      Verdict verdict(index);
-      check_pair(pair, verdict);
-      add(pair, verdict, index, report);
-    }
-  }
-
-  FuzzOptions options_;
-  HullPool& pool_;
-  std::atomic<std::uint64_t> next_{0};
-  std::mutex mutex_;
-  FuzzReport report_;
-};
+  return report;
+}
 
 }  // namespace
 
@@ -79,16 +51,20 @@ std::vector<Kind> all_kinds() {
   return {Kind::sphere, Kind::capsule, Kind::box, Kind::hull, Kind::triangle, Kind::half_space};
 }
 
-FuzzReport fuzz_pairs(const FuzzOptions& options) {
+FuzzReport fuzz_pairs(const FuzzOptions& asked) {
+  FuzzOptions options = asked;
+  if (options.kinds.empty()) options.kinds = all_kinds();
   HullPool pool(options.seed);
-  Work work(options, pool);
-  std::vector<std::thread> threads;
-  for (int i = 1; i < options.threads; ++i)
-    threads.emplace_back([&work] { work.run(); });
-  work.run();
-  for (std::thread& thread : threads)
-    thread.join();
-  return work.take();
+  FuzzReport sum;
+  std::mutex mutex;
+  tool::for_blocks(
+      options.count, k_block, options.threads, [&](std::uint64_t first, std::uint64_t count) {
+        const FuzzReport part = check_block(options, pool, options.first + first, count);
+        const std::lock_guard lock(mutex);
+        add(part, sum);
+      });
+  std::ranges::sort(sum.failures, {}, &PairFailure::index);
+  return sum;
 }
 
 }  // namespace lockstone::fuzz

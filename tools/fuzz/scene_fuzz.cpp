@@ -1,13 +1,12 @@
 #include "tools/fuzz/scene_fuzz.h"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "tools/fuzz/random_scene.h"
+#include "tools/support/for_blocks.h"
 
 namespace lockstone::fuzz {
 namespace {
@@ -122,20 +121,12 @@ void add(SceneFuzzReport& sum, SceneFuzzReport&& part) {
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options) {
   SceneFuzzReport sum;
   std::mutex mutex;
-  std::atomic<std::uint64_t> next = options.first;
-  const auto work = [&] {
+  tool::for_blocks(options.count, 1, options.threads, [&](std::uint64_t i, std::uint64_t /*one*/) {
     SceneFuzzReport part;
-    for (std::uint64_t i = next++; i < options.first + options.count; i = next++)
-      run_scene(options, i, part);
+    run_scene(options, options.first + i, part);
     const std::lock_guard lock(mutex);
     add(sum, std::move(part));
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < options.threads; ++i)
-    threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads)
-    thread.join();
+  });
   std::ranges::sort(sum.failures, {}, &SceneFailure::index);
   return sum;
 }

@@ -1,11 +1,10 @@
 #include "tools/simnet/batch.h"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
 
 #include "tools/simnet/shrink.h"
+#include "tools/support/for_blocks.h"
 
 namespace lockstone::simnet {
 namespace {
@@ -19,25 +18,19 @@ class Batch {
         hashes_(static_cast<std::size_t>(options.seeds)) {}
 
   BatchTotals run() {
-    std::vector<std::thread> threads;
-    for (unsigned i = 1; i < options_.threads; ++i)
-      threads.emplace_back([this] { work(); });
-    work();
-    for (std::thread& thread : threads)
-      thread.join();
+    tool::for_blocks(options_.seeds, 1, static_cast<int>(options_.threads),
+                     [this](std::uint64_t index, std::uint64_t /*one*/) { play_one(index); });
     finish();
     return totals_;
   }
 
  private:
-  void work() {
-    for (std::uint64_t index = next_++; index < options_.seeds; index = next_++) {
-      const Schedule schedule = schedule_of(options_.first_seed + index);
-      const MatchOutcome outcome = play(options_.first_seed + index, schedule);
-      const std::lock_guard lock(mutex_);
-      add(index, schedule, outcome);
-      if (progress_) progress_(totals_.matches);
-    }
+  void play_one(std::uint64_t index) {
+    const Schedule schedule = schedule_of(options_.first_seed + index);
+    const MatchOutcome outcome = play(options_.first_seed + index, schedule);
+    const std::lock_guard lock(mutex_);
+    add(index, schedule, outcome);
+    if (progress_) progress_(totals_.matches);
   }
 
   [[nodiscard]] Schedule schedule_of(std::uint64_t seed) const {
@@ -90,7 +83,6 @@ class Batch {
   const BatchOptions& options_;
   const GameMaker& make_game_;
   const BatchProgress& progress_;
-  std::atomic<std::uint64_t> next_{0};
   std::mutex mutex_;
   BatchTotals totals_;
   std::vector<std::uint64_t> hashes_;

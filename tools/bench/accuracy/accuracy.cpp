@@ -1,9 +1,6 @@
 #include "tools/bench/accuracy/accuracy.h"
 
-#include <algorithm>
 #include <array>
-#include <atomic>
-#include <thread>
 
 namespace lockstone::bench {
 namespace {
@@ -52,21 +49,6 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
 
 std::span<const AccuracyRow> accuracy_rows() {
   return k_rows;
-}
-
-void for_blocks(std::uint64_t tries, std::uint64_t block, int threads,
-                const std::function<void(std::uint64_t first, std::uint64_t count)>& work) {
-  std::atomic<std::uint64_t> next{0};
-  const auto run = [&] {
-    for (std::uint64_t first = next.fetch_add(block); first < tries; first = next.fetch_add(block))
-      work(first, std::min(block, tries - first));
-  };
-  std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i)
-    others.emplace_back(run);
-  run();
-  for (std::thread& thread : others)
-    thread.join();
 }
 
 }  // namespace lockstone::bench

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,10 +41,6 @@ struct AccuracyRow {
 
 /// Ascending by number.
 [[nodiscard]] std::span<const AccuracyRow> accuracy_rows();
-
-/// Calls `work(first, count)` for blocks that make up `tries`, on several threads.
-void for_blocks(std::uint64_t tries, std::uint64_t block, int threads,
-                const std::function<void(std::uint64_t first, std::uint64_t count)>& work);
 
 [[nodiscard]] std::vector<AccuracyResult> measure_free_fall(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_drift(const AccuracyOptions& options);

@@ -13,6 +13,7 @@
 
 #include "tools/bench/accuracy/accuracy.h"
 #include "tools/fuzz/dice.h"
+#include "tools/support/for_blocks.h"
 
 namespace lockstone::bench {
 namespace {
@@ -205,7 +206,7 @@ AccuracyResult count_tunnels(const Case& c, const Range& range, const AccuracyOp
   const std::uint64_t tries = options.tries;
   std::mutex mutex;
   std::vector<std::uint64_t> passed;
-  for_blocks(tries, k_block, options.threads, [&](std::uint64_t first, std::uint64_t count) {
+  tool::for_blocks(tries, k_block, options.threads, [&](std::uint64_t first, std::uint64_t count) {
     WorldDef def;
     def.body_capacity = 4;
     def.pair_capacity = def.contact_capacity = 64;
