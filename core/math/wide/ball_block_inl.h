@@ -53,16 +53,7 @@ HWY_INLINE HWY_ATTR Lanes closing(Lanes apart, Lanes arms, Lanes rate) {
 
 /// Adds α·r̄×·M·r̄×ᵀ, whose entry of axes e and f is (r̄ × e)·M·(r̄ × f), in Q(shift + 30).
 HWY_INLINE HWY_ATTR void add_body(const Tensor& m, const Vector& r, Lanes share, Tensor& k) {
-  // M times r × x = (0, r.z, −r.y), r × y = (−r.z, 0, r.x), r × z = (r.y, −r.x, 0).
-  const Vector x =
-      round_shift_low<30>(Vector{difference(m.xy, r.z, m.xz, r.y), difference(m.yy, r.z, m.yz, r.y),
-                                 difference(m.yz, r.z, m.zz, r.y)});
-  const Vector y =
-      round_shift_low<30>(Vector{difference(m.xz, r.x, m.xx, r.z), difference(m.yz, r.x, m.xy, r.z),
-                                 difference(m.zz, r.x, m.xz, r.z)});
-  const Vector z =
-      round_shift_low<30>(Vector{difference(m.xx, r.y, m.xy, r.x), difference(m.xy, r.y, m.yy, r.x),
-                                 difference(m.xz, r.y, m.yz, r.x)});
+  const auto [x, y, z] = turned_by_axes(m, r);
   const Vector diagonal =
       round_shift_low<30>(Vector{difference(x.y, r.z, x.z, r.y), difference(y.z, r.x, y.x, r.z),
                                  difference(z.x, r.y, z.y, r.x)});
@@ -187,31 +178,8 @@ HWY_INLINE HWY_ATTR void store_impulse(const Vector& p, BlockWord (&words)[2], s
   store(p.z, &words[1][lane]);
 }
 
-HWY_INLINE HWY_ATTR void add_to(Lanes (&sum)[3], const Vector& by) {
-  sum[0] = add(sum[0], by.x);
-  sum[1] = add(sum[1], by.y);
-  sum[2] = add(sum[2], by.z);
-}
-HWY_INLINE HWY_ATTR void take_from(Lanes (&sum)[3], const Vector& by) {
-  sum[0] = subtract(sum[0], by.x);
-  sum[1] = subtract(sum[1], by.y);
-  sum[2] = subtract(sum[2], by.z);
-}
-
 /// Both bodies of each joint.
-struct BallPair {
-  BodyLanes a, b;
-
-  HWY_INLINE HWY_ATTR void load_from(const std::int64_t* bodies, const BallBlock& block,
-                                     std::size_t lane) {
-    load_bodies(bodies, &block.body_a[lane], a);
-    load_bodies(bodies, &block.body_b[lane], b);
-  }
-  HWY_INLINE HWY_ATTR void store_to(std::int64_t* bodies, const BallBlock& block,
-                                    std::size_t lane) const {
-    store_bodies(a, bodies, &block.body_a[lane]);
-    store_bodies(b, bodies, &block.body_b[lane]);
-  }
+struct BallPair : BodyPair {
   /// What both lose and gain is the same, to the bit.
   HWY_INLINE HWY_ATTR void push(const Vector& impulse, Lanes share_b, const Vector& gain_a,
                                 const Vector& gain_b) {
@@ -247,22 +215,11 @@ HWY_ATTR inline void begin_balls(BallBlock* blocks, std::size_t count, const Bod
 /// u in Q20.
 HWY_INLINE HWY_ATTR Vector speed_of(const BallBlock& block, std::size_t lane, const EachShift& by,
                                     const BallPair& bodies) {
-  Lanes m[6];
-  for (std::size_t i = 0; i < 6; ++i)
-    m[i] = load(&block.inertia[i][lane]);
-  const Tensor of_a{m[0], m[1], m[2], m[3], m[4], m[5]};
-  const Tensor of_b{upper(m[0]), upper(m[1]), upper(m[2]), upper(m[3]), upper(m[4]), upper(m[5])};
-  const auto& a = bodies.a;
-  const auto& b = bodies.b;
-  const Vector spin_a = round_shift_low<30>(Vector{a.spin[0], a.spin[1], a.spin[2]});
-  const Vector spin_b = round_shift_low<30>(Vector{b.spin[0], b.spin[1], b.spin[2]});
+  const TensorPair inertia = load_tensors(block.inertia, lane);
   const Vector arm = load_vector(block.arm, lane);
-  const Vector apart = {subtract(b.velocity[0], a.velocity[0]),
-                        subtract(b.velocity[1], a.velocity[1]),
-                        subtract(b.velocity[2], a.velocity[2])};
-  const Vector around = subtract(cross(by.round(of_b.times(spin_b)), upper(arm)),
-                                 cross(by.round(of_a.times(spin_a)), arm));
-  return round_shift_low<30>(add(apart, around));
+  const Vector around = subtract(cross(by.round(inertia.b.times(spin_of(bodies.b))), upper(arm)),
+                                 cross(by.round(inertia.a.times(spin_of(bodies.a))), arm));
+  return round_shift_low<30>(add(bodies.apart(), around));
 }
 
 /// The impulse less K⁻¹·u, within its bounds: as whole words.

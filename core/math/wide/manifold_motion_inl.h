@@ -102,21 +102,57 @@ HWY_INLINE HWY_ATTR Axes load_axes(const ManifoldBlock& block, std::size_t lane)
           each_shift(upper_part(word_4))};
 }
 
-/// Both bodies of each manifold.
+/// The tensors of both bodies, which stand side by side in six words.
+struct TensorPair {
+  Tensor a, b;
+};
+
+HWY_INLINE HWY_ATTR TensorPair load_tensors(const BlockWord (&words)[6], std::size_t lane) {
+  Lanes m[6];
+  for (std::size_t i = 0; i < 6; ++i)
+    m[i] = load(&words[i][lane]);
+  return {{m[0], m[1], m[2], m[3], m[4], m[5]},
+          {upper(m[0]), upper(m[1]), upper(m[2]), upper(m[3]), upper(m[4]), upper(m[5])}};
+}
+
+/// Both bodies of each manifold or joint.
 struct BodyPair {
   BodyLanes a, b;
 
-  HWY_INLINE HWY_ATTR void load_from(const std::int64_t* bodies, const ManifoldBlock& block,
+  template <class Block>
+  HWY_INLINE HWY_ATTR void load_from(const std::int64_t* bodies, const Block& block,
                                      std::size_t lane) {
     load_bodies(bodies, &block.body_a[lane], a);
     load_bodies(bodies, &block.body_b[lane], b);
   }
-  HWY_INLINE HWY_ATTR void store_to(std::int64_t* bodies, const ManifoldBlock& block,
+  template <class Block>
+  HWY_INLINE HWY_ATTR void store_to(std::int64_t* bodies, const Block& block,
                                     std::size_t lane) const {
     store_bodies(a, bodies, &block.body_a[lane]);
     store_bodies(b, bodies, &block.body_b[lane]);
   }
+  /// vB − vA
+  [[nodiscard]] HWY_INLINE HWY_ATTR Vector apart() const {
+    return {subtract(b.velocity[0], a.velocity[0]), subtract(b.velocity[1], a.velocity[1]),
+            subtract(b.velocity[2], a.velocity[2])};
+  }
 };
+
+/// As an operand, 30 bits lower.
+HWY_INLINE HWY_ATTR Vector spin_of(const BodyLanes& body) {
+  return round_shift_low<30>(Vector{body.spin[0], body.spin[1], body.spin[2]});
+}
+
+HWY_INLINE HWY_ATTR void add_to(Lanes (&sum)[3], const Vector& by) {
+  sum[0] = add(sum[0], by.x);
+  sum[1] = add(sum[1], by.y);
+  sum[2] = add(sum[2], by.z);
+}
+HWY_INLINE HWY_ATTR void take_from(Lanes (&sum)[3], const Vector& by) {
+  sum[0] = subtract(sum[0], by.x);
+  sum[1] = subtract(sum[1], by.y);
+  sum[2] = subtract(sum[2], by.z);
+}
 
 /// What B does against A at the centre: velocity (Q50) and, as ℓ·ω, turning (Q20, operands).
 struct CenterMotion {
@@ -137,20 +173,10 @@ HWY_INLINE HWY_ATTR CenterMotion motion_of_center(const ManifoldBlock& block, st
 
 HWY_INLINE HWY_ATTR CenterMotion read_motion(const ManifoldBlock& block, std::size_t lane,
                                              const Axes& axes, const BodyPair& bodies) {
-  Lanes m[6];
-  for (std::size_t i = 0; i < 6; ++i)
-    m[i] = load(&block.inertia[i][lane]);
-  const Tensor of_a{m[0], m[1], m[2], m[3], m[4], m[5]};
-  const Tensor of_b{upper(m[0]), upper(m[1]), upper(m[2]), upper(m[3]), upper(m[4]), upper(m[5])};
-  const auto& a = bodies.a;
-  const auto& b = bodies.b;
-  const Vector spin_a = round_shift_low<30>(Vector{a.spin[0], a.spin[1], a.spin[2]});
-  const Vector spin_b = round_shift_low<30>(Vector{b.spin[0], b.spin[1], b.spin[2]});
-  const Vector apart = {subtract(b.velocity[0], a.velocity[0]),
-                        subtract(b.velocity[1], a.velocity[1]),
-                        subtract(b.velocity[2], a.velocity[2])};
-  return motion_of_center(block, lane, apart, axes.by.round(of_a.times(spin_a)),
-                          axes.by.round(of_b.times(spin_b)));
+  const TensorPair inertia = load_tensors(block.inertia, lane);
+  return motion_of_center(block, lane, bodies.apart(),
+                          axes.by.round(inertia.a.times(spin_of(bodies.a))),
+                          axes.by.round(inertia.b.times(spin_of(bodies.b))));
 }
 
 /// Six changes of impulse, operands in Q20: along n, t, b, and ℓ⁻¹ times the torques about them.
@@ -158,10 +184,6 @@ struct Impulse {
   Lanes n, t, b;
   Lanes about_n, about_t, about_b;
 };
-
-HWY_INLINE HWY_ATTR void change(Lanes& x, Lanes y) {
-  x = add(x, y);
-}
 
 /// vB += αB·J, vA += αB·J − J, LB += (αB r̄B) × J + αB(ℓ/sB)·T, LA −= the same of A.
 HWY_INLINE HWY_ATTR void apply(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
@@ -179,18 +201,10 @@ HWY_INLINE HWY_ATTR void apply(const ManifoldBlock& block, std::size_t lane, con
       round_to_multiple<k_below_grid>(add(cross(upper(gain), push), multiply(torque, upper(turn))));
   const Vector spin_a =
       round_to_multiple<k_below_grid>(add(cross(gain, push), multiply(torque, turn)));
-  change(bodies.b.velocity[0], to_b.x);
-  change(bodies.b.velocity[1], to_b.y);
-  change(bodies.b.velocity[2], to_b.z);
-  change(bodies.b.spin[0], spin_b.x);
-  change(bodies.b.spin[1], spin_b.y);
-  change(bodies.b.spin[2], spin_b.z);
-  bodies.a.velocity[0] = subtract(bodies.a.velocity[0], to_a.x);
-  bodies.a.velocity[1] = subtract(bodies.a.velocity[1], to_a.y);
-  bodies.a.velocity[2] = subtract(bodies.a.velocity[2], to_a.z);
-  bodies.a.spin[0] = subtract(bodies.a.spin[0], spin_a.x);
-  bodies.a.spin[1] = subtract(bodies.a.spin[1], spin_a.y);
-  bodies.a.spin[2] = subtract(bodies.a.spin[2], spin_a.z);
+  add_to(bodies.b.velocity, to_b);
+  add_to(bodies.b.spin, spin_b);
+  take_from(bodies.a.velocity, to_a);
+  take_from(bodies.a.spin, spin_a);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -51,19 +51,25 @@ HWY_INLINE HWY_ATTR Lanes difference(Lanes a, Lanes b, Lanes c, Lanes d) {
   return multiply_subtract(multiply(a, b), c, d);
 }
 
+/// What three unit impulses, along x, y and z, at r turn: M·(r × x), M·(r × y), M·(r × z).
+struct AxisTurns {
+  Vector x, y, z;
+};
+
+HWY_INLINE HWY_ATTR AxisTurns turned_by_axes(const Tensor& m, const Vector& r) {
+  // r × x = (0, r.z, −r.y), r × y = (−r.z, 0, r.x), r × z = (r.y, −r.x, 0).
+  return {
+      round_shift_low<30>(Vector{difference(m.xy, r.z, m.xz, r.y), difference(m.yy, r.z, m.yz, r.y),
+                                 difference(m.yz, r.z, m.zz, r.y)}),
+      round_shift_low<30>(Vector{difference(m.xz, r.x, m.xx, r.z), difference(m.yz, r.x, m.xy, r.z),
+                                 difference(m.zz, r.x, m.xz, r.z)}),
+      round_shift_low<30>(Vector{difference(m.xx, r.y, m.xy, r.x), difference(m.xy, r.y, m.yy, r.x),
+                                 difference(m.xz, r.y, m.yz, r.x)})};
+}
+
 HWY_INLINE HWY_ATTR void add_response(const BodyResponse& body, CenterResponse& k) {
   const Vector& r = body.arm;
-  const Tensor& m = body.m;
-  // M times r × n = (0, r.z, −r.y), r × t = (−r.z, 0, r.x) and r × b = (r.y, −r.x, 0).
-  const Vector n =
-      round_shift_low<30>(Vector{difference(m.xy, r.z, m.xz, r.y), difference(m.yy, r.z, m.yz, r.y),
-                                 difference(m.yz, r.z, m.zz, r.y)});
-  const Vector t =
-      round_shift_low<30>(Vector{difference(m.xz, r.x, m.xx, r.z), difference(m.yz, r.x, m.xy, r.z),
-                                 difference(m.zz, r.x, m.xz, r.z)});
-  const Vector b =
-      round_shift_low<30>(Vector{difference(m.xx, r.y, m.xy, r.x), difference(m.xy, r.y, m.yy, r.x),
-                                 difference(m.xz, r.y, m.yz, r.x)});
+  const auto [n, t, b] = turned_by_axes(body.m, r);
   const Lanes share = body.share, turn = body.turn, both = body.turn_scale;
   k.nn = multiply_add(k.nn, share, round_shift_low<30>(difference(r.z, n.y, r.y, n.z)));
   k.tt = multiply_add(k.tt, share, round_shift_low<30>(difference(r.x, t.z, r.z, t.x)));
