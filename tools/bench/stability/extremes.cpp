@@ -22,15 +22,10 @@ StabilityResult slender(double seconds) {
     def.orientation = from_axis_angle({{}, {}, 1_r}, Angle::from_ratio(i * 37 % 100, 100));
     scene.add(def);
   }
-  Worst speed(greatest_speed);
-  run_for(scene, seconds, [&](const World& world) { speed.see(world); });
-  double lowest = 0;
-  for_bodies(scene.world(), [&](const BodyView& body) {
-    if (body.motion == MotionType::dynamic)
-      lowest = std::min(lowest, testing::to_double(body.position.y));
-  });
-  return stability_of(scene, {{"greatest speed", "m/s", speed.value(), 15},
-                              {"lowest centre below the floor", "m", -lowest, 0.005}});
+  const auto [speed] = worst_of(scene, seconds, greatest_speed);
+  return stability_of(
+      scene, {{"greatest speed", "m/s", speed, 15},
+              {"lowest centre below the floor", "m", greatest_depth(scene.world()), 0.005}});
 }
 
 // Twice the energy of turning, over the mass, of a box.
@@ -59,16 +54,12 @@ StabilityResult spin(double seconds) {
   scene.step();  // what is too fast is limited in the first tick
   const std::array<double, 3> half{0.1, 0.2, 0.3};
   const double before = turning_energy(scene.world().body(body), half);
-  Worst off([&](const World& world) {
+  const auto energy_off = [&](const World& world) {
     return std::abs(turning_energy(world.body(body), half) / before - 1);
-  });
-  Worst norm(worst_norm);
-  run_for(scene, seconds, [&](const World& world) {
-    off.see(world);
-    norm.see(world);
-  });
-  return stability_of(scene, {{"energy of turning, relative", "", off.value(), 0.1},
-                              {"quaternion's length off 1", "", norm.value(), 1e-8}});
+  };
+  const auto [off, norm] = worst_of(scene, seconds, energy_off, worst_norm);
+  return stability_of(scene, {{"energy of turning, relative", "", off, 0.1},
+                              {"quaternion's length off 1", "", norm, 1e-8}});
 }
 
 // Thrown at each of its six sides.
@@ -84,16 +75,16 @@ StabilityResult edge(double seconds) {
     ball.velocity[axis] = Velocity::from_integer(low ? -300 : 300);
     scene.add(ball);
   }
-  Worst beyond([](const World& world) {
+  const auto most_beyond = [](const World& world) {
     double most = 0;
     for_bodies(world, [&](const BodyView& body) {
       for (int i = 0; i < 3; ++i)
         most = std::max(most, testing::to_double(abs(body.position[i]) - k_world_limit));
     });
     return most;
-  });
-  run_for(scene, seconds, [&](const World& world) { beyond.see(world); });
-  return stability_of(scene, {{"beyond the edge", "m", beyond.value(), 0},
+  };
+  const auto [beyond] = worst_of(scene, seconds, most_beyond);
+  return stability_of(scene, {{"beyond the edge", "m", beyond, 0},
                               {"speed left", "m/s", greatest_speed(scene.world()), 300}});
 }
 

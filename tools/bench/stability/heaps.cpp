@@ -94,15 +94,14 @@ StabilityResult sizes(double seconds) {
   giant.position.z = Position::from_integer(60);
   giant.material.density = 100_kgpm3;  // or it would weigh more than anything may
   const BodyHandle large = scene.add(giant);
-  Worst speed(greatest_speed);
-  run_for(scene, seconds, [&](const World& world) { speed.see(world); });
+  const auto [speed] = worst_of(scene, seconds, greatest_speed);
   double off = 0;
   for (const BodyHandle ball : balls)
     off = std::max(off, std::abs(height_of(scene.world(), ball) - 0.01));
   return stability_of(scene, {{"small ball off the floor", "m", off, 1e-4},
                               {"large ball off the floor", "m",
                                std::abs(height_of(scene.world(), large) - 100), 0.02},
-                              {"greatest speed", "m/s", speed.value(), 3}});
+                              {"greatest speed", "m/s", speed, 3}});
 }
 
 // The deepest overlap of two spheres of half a metre, m.
@@ -112,7 +111,7 @@ double deepest_overlap(const World& world) {
   double deepest = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     for (std::size_t k = i + 1; k < centres.size(); ++k)
-      deepest = std::max(deepest, 1 - real_length(centres[i] - centres[k]));
+      deepest = std::max(deepest, 1 - fuzz::norm(fuzz::real(centres[i] - centres[k])));
   }
   return deepest;
 }
@@ -127,9 +126,8 @@ StabilityResult overlap(double seconds) {
     scene.add(body_at(Shape::sphere(0.5_m), 1e-3 * i * std::cos(turn), 1e-3 * (i % 7),
                       1e-3 * i * std::sin(turn)));
   }
-  Worst speed(greatest_speed);
-  run_for(scene, seconds, [&](const World& world) { speed.see(world); });
-  return stability_of(scene, {{"greatest speed", "m/s", speed.value(), 30},
+  const auto [speed] = worst_of(scene, seconds, greatest_speed);
+  return stability_of(scene, {{"greatest speed", "m/s", speed, 30},
                               {"deepest overlap left", "m", deepest_overlap(scene.world()), 0.01}});
 }
 
@@ -158,19 +156,11 @@ StabilityResult mixed(double seconds) {
                                      : Shape::box(0.4_m, 0.3_m, 0.35_m);
     scene.add(body_at(shape, x, 2 + i / 16 * 1.2, z));
   }
-  Worst speed(greatest_speed), norm(worst_norm);
-  run_for(scene, seconds, [&](const World& world) {
-    speed.see(world);
-    norm.see(world);
-  });
-  double lowest = 0;
-  for_bodies(scene.world(), [&](const BodyView& body) {
-    if (body.motion == MotionType::dynamic)
-      lowest = std::min(lowest, testing::to_double(body.position.y));
-  });
-  return stability_of(scene, {{"greatest speed", "m/s", speed.value(), 15},
-                              {"quaternion's length off 1", "", norm.value(), 1e-8},
-                              {"deepest centre below the floor", "m", -lowest, 0}});
+  const auto [speed, norm] = worst_of(scene, seconds, greatest_speed, worst_norm);
+  return stability_of(scene,
+                      {{"greatest speed", "m/s", speed, 15},
+                       {"quaternion's length off 1", "", norm, 1e-8},
+                       {"deepest centre below the floor", "m", greatest_depth(scene.world()), 0}});
 }
 
 constexpr StabilityRow k_rows[] = {

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
 #include "tools/bench/accuracy/contact_scene.h"
 #include "tools/bench/accuracy/joint_scene.h"
 #include "tools/bench/stability/stability.h"
+#include "tools/fuzz/real.h"
 
 namespace lockstone::bench {
 
@@ -20,16 +21,12 @@ void for_bodies(const World& world, Visit&& visit) {
     if (const BodyHandle body = world.body_at(i); !body.is_null()) visit(world.body(body));
 }
 
-template <class Quantity>
-[[nodiscard]] double real_length(const Vec3<Quantity>& v) {
-  return std::hypot(testing::to_double(v.x), testing::to_double(v.y), testing::to_double(v.z));
-}
-
 /// m/s, of the fastest centre.
 [[nodiscard]] inline double greatest_speed(const World& world) {
   double most = 0;
-  for_bodies(world,
-             [&](const BodyView& body) { most = std::max(most, real_length(body.velocity)); });
+  for_bodies(world, [&](const BodyView& body) {
+    most = std::max(most, fuzz::norm(fuzz::real(body.velocity)));
+  });
   return most;
 }
 
@@ -45,25 +42,27 @@ template <class Quantity>
   return worst;
 }
 
-/// Steps, and keeps the worst of a figure.
-class Worst {
- public:
-  explicit Worst(std::function<double(const World&)> measure) : measure_(std::move(measure)) {}
-  void see(const World& world) { worst_ = std::max(worst_, measure_(world)); }
-  [[nodiscard]] double value() const { return worst_; }
+/// m, how far the lowest dynamic body's centre is below the origin's height; at least 0.
+[[nodiscard]] inline double greatest_depth(const World& world) {
+  double depth = 0;
+  for_bodies(world, [&](const BodyView& body) {
+    if (body.motion == MotionType::dynamic)
+      depth = std::max(depth, -testing::to_double(body.position.y));
+  });
+  return depth;
+}
 
- private:
-  std::function<double(const World&)> measure_;
-  double worst_ = 0;
-};
-
-/// Runs a scene; `each` sees the world after every tick.
-template <class Each>
-void run_for(SceneRun& scene, double seconds, Each&& each) {
+/// Runs a scene: the worst of each measure, which sees the world after every tick.
+template <class... Measures>
+[[nodiscard]] std::array<double, sizeof...(Measures)> worst_of(SceneRun& scene, double seconds,
+                                                               const Measures&... measures) {
+  std::array<double, sizeof...(Measures)> worst{};
   for (auto left = std::llround(seconds * scene.setting().tick_rate); left > 0; --left) {
     scene.step();
-    each(scene.world());
+    std::size_t i = 0;
+    ((worst[i] = std::max(worst[i], measures(scene.world())), ++i), ...);
   }
+  return worst;
 }
 
 [[nodiscard]] inline StabilityResult stability_of(SceneRun& scene,
