@@ -99,31 +99,6 @@ TEST(Rollback, LocatesAFlippedBit) {
   EXPECT_EQ(report.difference.field, "velocity.x");
 }
 
-// A toy whose snapshots leave out what was saved before.
-class Forgetful final : public Simulation {
- public:
-  explicit Forgetful(const ToyConfig& config) : toy_(config) {}
-  [[nodiscard]] SimulationInfo info() const override { return toy_.info(); }
-  [[nodiscard]] std::uint64_t tick() const override { return toy_.tick(); }
-  void step(std::span<const PlayerInput> inputs) override { toy_.step(inputs); }
-  [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override {
-    return toy_.snapshot_bytes_max(kind);
-  }
-  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override {
-    const std::size_t size = toy_.save(kind, out);
-    ByteWriter(out.subspan(size - 8)).put(std::uint64_t{1});
-    return size;
-  }
-  Status load(SnapshotKind kind, ByteView bytes) override { return toy_.load(kind, bytes); }
-  [[nodiscard]] std::uint64_t hash() const override { return toy_.hash(); }
-  [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
-    return toy_.describe(here, there);
-  }
-
- private:
-  ToySimulation toy_;
-};
-
 ClientFailure failure_of_sync_test(bool forgets) {
   MatchOptions options = predicting_match(23);
   options.server.start_players = 1;
@@ -137,11 +112,7 @@ ClientFailure failure_of_sync_test(bool forgets) {
   ClientParts parts;
   parts.transport = &transport;
   parts.connection = match.network.connect(transport, match.server_transport, {});
-  parts.factory = [forgets](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
-    if (!forgets) return toy::toy_factory()(bytes);
-    return std::unique_ptr<Simulation>(
-        std::make_unique<Forgetful>(ToyConfig::decode(bytes).value()));
-  };
+  parts.factory = forgets ? toy::toy_factory<toy::ForgetfulToy>() : toy::toy_factory();
   parts.inputs = match.players[1].inputs.get();
   const auto client = std::move(Client::create(config, std::move(parts)).client);
   for (int i = 0; i < 1000; ++i) {

@@ -30,7 +30,7 @@ struct ToyConfig {
 };
 
 /// The game. Input bytes of a player: push x (int8), push y (int8), buttons, target body.
-class ToySimulation final : public Simulation {
+class ToySimulation : public Simulation {
  public:
   explicit ToySimulation(const ToyConfig& config);
 
@@ -68,9 +68,23 @@ class ToySimulation final : public Simulation {
   std::vector<std::uint64_t> words_;  ///< world, then players, then bodies
 };
 
-/// Makes the toy from ToyConfig::encode's bytes.
-[[nodiscard]] SimulationFactory toy_factory();
+/// The toy with a fault that tests must find: the last body's heat is not saved, and comes back as
+/// one and the same number.
+class ForgetfulToy final : public ToySimulation {
+ public:
+  using ToySimulation::ToySimulation;
+  [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
+};
 
+/// Makes the toy, or one derived from it, from ToyConfig::encode's bytes.
+template <class Toy = ToySimulation, class... Further>
+[[nodiscard]] SimulationFactory toy_factory(Further... further) {
+  return [further...](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
+    const Result<ToyConfig> config = ToyConfig::decode(bytes);
+    if (!config) return config.status();
+    return std::unique_ptr<Simulation>(std::make_unique<Toy>(config.value(), further...));
+  };
+}
 /// A reproducible input for a slot and tick: what a test's players press. `out` is filled whole.
 void toy_input(std::uint64_t seed, std::size_t slot, std::uint64_t tick, std::span<std::byte> out);
 
