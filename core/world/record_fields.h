@@ -18,17 +18,6 @@ struct FieldText {
   std::string value;
 };
 
-template <class T>
-[[nodiscard]] std::string hexadecimal(T value) {
-  constexpr char k_digits[] = "0123456789abcdef";
-  auto bits = static_cast<std::make_unsigned_t<T>>(value);
-  std::string text(sizeof(T) * 2, '0');
-  for (std::size_t i = text.size(); i-- > 0; bits = static_cast<decltype(bits)>(bits >> 4)) {
-    text[i] = k_digits[bits & 0xf];
-  }
-  return text.insert(0, "0x");
-}
-
 template <class Record>
 [[nodiscard]] std::vector<FieldText> fields_of(Record record) {
   std::vector<FieldText> fields;

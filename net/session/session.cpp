@@ -3,17 +3,6 @@
 #include <lockstone/net/session.h>
 
 namespace lockstone::net {
-namespace {
-
-std::string hexadecimal(std::uint64_t value) {
-  constexpr std::string_view k_digits = "0123456789abcdef";
-  std::string text = "0x0000000000000000";
-  for (std::size_t i = text.size(); i-- > 2; value >>= 4)
-    text[i] = k_digits[value & 15];
-  return text;
-}
-
-}  // namespace
 
 std::string_view to_string(SetupError error) {
   switch (error) {

@@ -61,14 +61,6 @@ std::uint64_t sign_extended(std::byte byte) {
   return (bits ^ 0x80) - 0x80;
 }
 
-std::string hexadecimal(std::uint64_t value) {
-  constexpr std::string_view k_digits = "0123456789abcdef";
-  std::string text = "0x0000000000000000";
-  for (std::size_t i = text.size(); i-- > 2; value >>= 4)
-    text[i] = k_digits[value & 15];
-  return text;
-}
-
 std::size_t word_count(const ToyConfig& config) {
   return k_world_fields.size() + config.player_count * k_player_fields.size() +
          config.body_count * k_body_fields.size();

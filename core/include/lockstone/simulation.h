@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include <lockstone/bytes.h>
 #include <lockstone/status.h>
@@ -54,6 +55,17 @@ enum class SnapshotKind : std::uint8_t {
   canonical,  ///< little-endian and versioned: for other machines, late joiners, logs
 };
 
+/// An integer as differences show it: "0x", and two digits for each byte of its type.
+template <class T>
+[[nodiscard]] std::string hexadecimal(T value) {
+  constexpr char k_digits[] = "0123456789abcdef";
+  auto bits = static_cast<std::make_unsigned_t<T>>(value);
+  std::string text(sizeof(T) * 2, '0');
+  for (std::size_t i = text.size(); i-- > 0; bits = static_cast<decltype(bits)>(bits >> 4))
+    text[i] = k_digits[bits & 0xf];
+  return text.insert(0, "0x");
+}
+
 /// The first difference between two states, in canonical order. Text is for people.
 struct StateDifference {
   bool differs = false;
@@ -61,7 +73,7 @@ struct StateDifference {
   std::uint64_t object = 0;  ///< index within the store
   std::string name;          ///< the game's name of the object, may be empty
   std::string field;         ///< "velocity.y"
-  std::string here;          ///< raw value as hexadecimal, "0x0003a2f1"
+  std::string here;          ///< raw value, as `hexadecimal` writes it: "0x0003a2f1"
   std::string there;
 
   /// `body 17 "crate", velocity.y: 0x0003a2f1 here, 0x0003a2f0 there`, or "no difference".
