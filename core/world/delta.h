@@ -174,7 +174,7 @@ class DeltaState {
 
   template <class Store>
   void read(std::uint32_t index, typename Store::Record& record) {
-    Part& part = parts_[place_of<Store>()];
+    Part& part = parts_[List::template index_of<Store>()];
     if constexpr (Store::k_has_key) {
       return merge<Store>(part, record);
     } else if (!has_bit(part.bits.data(), index)) {
@@ -189,16 +189,6 @@ class DeltaState {
     ByteView records;        // that are not the base's; those not yet read
     std::uint32_t next = 0;  // with keys: record of the base
   };
-
-  template <class Store>
-  static std::size_t place_of() {
-    std::size_t index = 0, found = 0;
-    List::for_each([&](auto store) {
-      if (std::is_same_v<decltype(store), Store>) found = index;
-      ++index;
-    });
-    return found;
-  }
 
   template <class Record>
   static void copy(ByteView& from, Record& record) {
@@ -222,7 +212,7 @@ class DeltaState {
   // The counts must fit: what is kept and what is new are all there is.
   template <class Store>
   bool find() {
-    Part& part = parts_[place_of<Store>()];
+    Part& part = parts_[List::template index_of<Store>()];
     const std::uint32_t known = base_.header.*Store::k_count, count = header.*Store::k_count;
     const std::uint32_t places = Store::k_has_key ? known : count;
     if (!take(part.bits, bitmap_bytes(places))) return false;

@@ -70,6 +70,14 @@ struct StoreList {
     return (std::size_t{0} + ... + bytes_of<Stores>(def.*Stores::k_capacity));
   }
 
+  /// Where a store stands in the list.
+  template <class Store>
+  [[nodiscard]] static constexpr std::size_t index_of() {
+    std::size_t index = 0;
+    static_cast<void>((... || (std::is_same_v<Stores, Store> || (++index, false))));
+    return index;
+  }
+
  private:
   template <class Store>
   static std::size_t bytes_of(std::uint32_t count) {
@@ -130,12 +138,7 @@ class StoredRecords {
 
   template <class Store>
   [[nodiscard]] ByteView bytes_of() const {
-    std::size_t index = 0, found = 0;
-    List::for_each([&](auto store) {
-      if (std::is_same_v<decltype(store), Store>) found = index;
-      ++index;
-    });
-    return parts_[found];
+    return parts_[List::template index_of<Store>()];
   }
 
   /// A record of canonical bytes.
