@@ -12,62 +12,16 @@
 #include <lockstone/world.h>
 
 #include "tests/fuzz/target.h"
+#include "tests/support/sample_assets.h"
 
 namespace lockstone::fuzz {
 namespace {
 
 using namespace literals;
 
-std::shared_ptr<const Hull> sample_hull() {
-  constexpr std::array<Vec3<Length>, 5> points{Vec3<Length>{0_m, 0_m, 0_m},
-                                               {2_m, 0_m, 0_m},
-                                               {0_m, 1_m, 0_m},
-                                               {0_m, 0_m, 3_m},
-                                               {1_m, 1_m, 1_m}};
-  return Hull::build(points).hull;
-}
-
-AssetPtr sample_mesh() {
-  constexpr std::array<Vec3<Length>, 5> vertices{Vec3<Length>{0_m, 0_m, 0_m},
-                                                 {0_m, 0_m, 1_m},
-                                                 {1_m, 0_m, 0_m},
-                                                 {1_m, 1_m, 1_m},
-                                                 {2_m, 0_m, 0_m}};
-  constexpr std::array triangles{TriangleIndices{0, 1, 2}, TriangleIndices{2, 1, 3},
-                                 TriangleIndices{2, 3, 4}};
-  constexpr std::array surfaces{Surface{}};
-  constexpr std::array<std::uint8_t, 3> of_triangles{0, k_own_surface, 0};
-  MeshDef def;
-  def.vertices = vertices;
-  def.triangles = triangles;
-  def.surfaces = surfaces;
-  def.triangle_surfaces = of_triangles;
-  return Mesh::build(def).mesh;
-}
-
-AssetPtr sample_height_field() {
-  constexpr std::array<Length, 9> heights{0_m, 1_m, 0.5_m, 0_m, 2_m, 0_m, 1_m, 1_m, 1_m};
-  constexpr std::array<std::uint8_t, 4> holes{0, 1, 0, 0};
-  HeightFieldDef def;
-  def.columns = def.rows = 3;
-  def.heights = heights;
-  def.holes = holes;
-  return HeightField::build(def).height_field;
-}
-
-AssetPtr sample_compound() {
-  std::array<CompoundChild, 2> children;
-  children[0].shape = Shape::box(1_m, 1_m, 0.5_m);
-  children[1].asset = sample_hull();
-  children[1].shape = children[1].asset->shape();
-  children[1].position = {2_m, 0_m, 0_m};
-  return Compound::build(children).compound;
-}
-
 std::vector<Bytes> seeds() {
   std::vector<Bytes> all;
-  for (const AssetPtr& asset :
-       {AssetPtr(sample_hull()), sample_mesh(), sample_height_field(), sample_compound()})
+  for (const AssetPtr& asset : test::sample_assets())
     all.push_back(asset->canonical_bytes());
   return all;
 }
@@ -92,7 +46,7 @@ void use(const AssetPtr& asset) {
 }
 
 bool run(ByteView bytes) {
-  static const AssetSet known({sample_hull()});
+  static const AssetSet known({test::sample_hull()});
   const Result<AssetPtr> asset = load_asset(bytes, known);
   if (!asset.ok()) return false;
   const Bytes again = asset.value()->canonical_bytes();

@@ -12,6 +12,7 @@
 
 #include "core/geometry/asset_frame.h"
 #include "tests/support/random.h"
+#include "tests/support/sample_assets.h"
 
 namespace lockstone {
 namespace {
@@ -19,60 +20,12 @@ namespace {
 using namespace literals;
 using Bytes = std::vector<std::byte>;
 
-std::shared_ptr<const Hull> sample_hull() {
-  constexpr std::array<Vec3<Length>, 5> points{Vec3<Length>{0_m, 0_m, 0_m},
-                                               {2_m, 0_m, 0_m},
-                                               {0_m, 1_m, 0_m},
-                                               {0_m, 0_m, 3_m},
-                                               {1_m, 1_m, 1_m}};
-  return Hull::build(points).hull;
-}
-
-AssetPtr sample_mesh() {
-  constexpr std::array<Vec3<Length>, 4> vertices{
-      Vec3<Length>{0_m, 0_m, 0_m}, {0_m, 0_m, 1_m}, {1_m, 0_m, 0_m}, {1_m, 1_m, 1_m}};
-  constexpr std::array triangles{TriangleIndices{0, 1, 2}, TriangleIndices{2, 1, 3}};
-  constexpr std::array surfaces{Surface{}};
-  constexpr std::array<std::uint8_t, 2> of_triangles{0, k_own_surface};
-  MeshDef def;
-  def.vertices = vertices;
-  def.triangles = triangles;
-  def.surfaces = surfaces;
-  def.triangle_surfaces = of_triangles;
-  return Mesh::build(def).mesh;
-}
-
-AssetPtr sample_height_field() {
-  constexpr std::array<Length, 9> heights{0_m, 1_m, 0.5_m, 0_m, 2_m, 0_m, 1_m, 1_m, 1_m};
-  constexpr std::array<std::uint8_t, 4> holes{0, 1, 0, 0};
-  HeightFieldDef def;
-  def.columns = def.rows = 3;
-  def.heights = heights;
-  def.holes = holes;
-  return HeightField::build(def).height_field;
-}
-
-AssetPtr sample_compound() {
-  CompoundChild box;
-  box.shape = Shape::box(1_m, 1_m, 0.5_m);
-  CompoundChild hull;
-  hull.asset = sample_hull();
-  hull.shape = hull.asset->shape();
-  hull.position = {2_m, 0_m, 0_m};
-  const std::array children{box, hull};
-  return Compound::build(children).compound;
-}
-
-std::array<AssetPtr, 4> samples() {
-  return {sample_hull(), sample_mesh(), sample_height_field(), sample_compound()};
-}
-
 AssetSet known_hulls() {
-  return AssetSet({sample_hull()});
+  return AssetSet({test::sample_hull()});
 }
 
 TEST(LoadAsset, GivesBackEveryKind) {
-  for (const AssetPtr& asset : samples()) {
+  for (const AssetPtr& asset : test::sample_assets()) {
     ASSERT_NE(asset, nullptr);
     const Bytes bytes = asset->canonical_bytes();
     const Result<AssetPtr> loaded = load_asset(bytes, known_hulls());
@@ -84,13 +37,13 @@ TEST(LoadAsset, GivesBackEveryKind) {
 }
 
 TEST(LoadAsset, AsksForTheHullsOfACompound) {
-  const Bytes bytes = sample_compound()->canonical_bytes();
+  const Bytes bytes = test::sample_compound()->canonical_bytes();
   EXPECT_EQ(load_asset(bytes).status(), Status::not_found);
-  EXPECT_EQ(load_asset(bytes, AssetSet({sample_mesh()})).status(), Status::not_found);
+  EXPECT_EQ(load_asset(bytes, AssetSet({test::sample_mesh()})).status(), Status::not_found);
 }
 
 TEST(LoadAsset, RefusesEveryTruncation) {
-  for (const AssetPtr& asset : samples()) {
+  for (const AssetPtr& asset : test::sample_assets()) {
     const Bytes bytes = asset->canonical_bytes();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
       const Status status = load_asset(ByteView(bytes).first(size), known_hulls()).status();
@@ -100,7 +53,7 @@ TEST(LoadAsset, RefusesEveryTruncation) {
 }
 
 TEST(LoadAsset, RefusesTrailingBytes) {
-  for (const AssetPtr& asset : samples()) {
+  for (const AssetPtr& asset : test::sample_assets()) {
     Bytes bytes = asset->canonical_bytes();
     bytes.push_back({});
     EXPECT_EQ(load_asset(bytes, known_hulls()).status(), Status::malformed);
@@ -108,7 +61,7 @@ TEST(LoadAsset, RefusesTrailingBytes) {
 }
 
 TEST(LoadAsset, RefusesOtherKindsMagicAndVersions) {
-  for (const AssetPtr& asset : samples()) {
+  for (const AssetPtr& asset : test::sample_assets()) {
     const Bytes bytes = asset->canonical_bytes();
     for (int kind = 0; kind < 256; ++kind) {
       if (kind == static_cast<int>(asset->kind())) continue;
@@ -141,7 +94,7 @@ void expect_refused_or_faithful(const Bytes& bytes, AssetId original) {
 }
 
 TEST(LoadAsset, RefusesFlippedBitsOrNamesThemAnew) {
-  for (const AssetPtr& asset : samples()) {
+  for (const AssetPtr& asset : test::sample_assets()) {
     const Bytes bytes = asset->canonical_bytes();
     for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
       Bytes flipped = bytes;
@@ -154,7 +107,7 @@ TEST(LoadAsset, RefusesFlippedBitsOrNamesThemAnew) {
 TEST(LoadAsset, SurvivesArbitraryBytesAfterAGoodHead) {
   test::Random random(test::run_seed());
   for (int run = 0; run < 2000; ++run) {
-    const AssetPtr asset = samples()[static_cast<std::size_t>(run % 4)];
+    const AssetPtr asset = test::sample_assets()[static_cast<std::size_t>(run % 4)];
     Bytes bytes = asset->canonical_bytes();
     const std::int64_t changes = random.between(1, 12);
     for (std::int64_t i = 0; i < changes; ++i) {
