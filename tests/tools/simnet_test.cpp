@@ -60,6 +60,27 @@ TEST(Simnet, AFieldLeftOutOfSaveIsCaughtInEveryMatch) {
   EXPECT_EQ(play(options, Defect::unsaved).failures.size(), 6U);
 }
 
+// A fast relay match. Its client 0 dies, and comes back a moment before the end: no complaint.
+TEST(Simnet, WhoComesBackAtTheVeryEndOfAFastMatchIsTooLate) {
+  BatchOptions options = small_batch(1810);
+  options.seeds = 1;
+  options.ticks = 3600;
+  options.schedule = parse_schedule(
+      "burst@2:0-51000=22776,delay@0:7288-22660=461,delay@1:16435-47659=44,delay@2:0-51000=23,"
+      "delay@3:2512-15744=38,jitter@3:1763-40948=23,cut_sending@2:13722-17722=0,"
+      "kill@0:10475-22475=0");
+  const BatchTotals end = play(options, Defect::none);
+  EXPECT_TRUE(end.failures.empty());
+  EXPECT_EQ(end.too_late, 1U);
+
+  // The same death over earlier: it is back in and plays on.
+  options.schedule->back().until_ms = 15'475;
+  const BatchTotals back = play(options, Defect::none);
+  EXPECT_TRUE(back.failures.empty());
+  EXPECT_EQ(back.too_late, 0U);
+  EXPECT_EQ(back.kills, 1U);
+}
+
 TEST(Schedule, SurvivesItsText) {
   const Schedule schedule = draw_schedule(7, k_all_faults, 4, 60'000);
   EXPECT_FALSE(schedule.empty());

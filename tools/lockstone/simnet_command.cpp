@@ -72,6 +72,7 @@ void print_json(const SimnetOptions& options, const simnet::BatchTotals& totals,
                                     {"faults", totals.faults},
                                     {"kills", totals.kills},
                                     {"entries", totals.entries},
+                                    {"too_late", totals.too_late},
                                     {"rollbacks", totals.rollbacks},
                                     {"substituted_inputs", totals.substituted_inputs},
                                     {"resends", totals.resends},
@@ -86,7 +87,8 @@ void print_json(const SimnetOptions& options, const simnet::BatchTotals& totals,
 void print_text(const SimnetOptions& options, const simnet::BatchTotals& totals, double seconds) {
   fmt::print("{} matches, {} ticks, {} client-ticks, {} comparisons in {:.1f} s\n", totals.matches,
              totals.ticks, totals.client_ticks, totals.comparisons, seconds);
-  fmt::print("{} entries into running matches, {} rollbacks\n", totals.entries, totals.rollbacks);
+  fmt::print("{} entries into running matches, {} overtaken by the end, {} rollbacks\n",
+             totals.entries, totals.too_late, totals.rollbacks);
   fmt::print("{} faults, {} kills, {} inputs replaced, {} resends, {} damaged packets refused\n",
              totals.faults, totals.kills, totals.substituted_inputs, totals.resends,
              totals.refused_packets);

@@ -58,6 +58,7 @@ class Batch {
     totals_.refused_packets += outcome.refused_packets;
     totals_.kills += outcome.kills;
     totals_.entries += outcome.entries;
+    totals_.too_late += outcome.too_late;
     totals_.rollbacks += outcome.rollbacks;
     totals_.faults += schedule.size();
     totals_.peak_bytes = std::max(totals_.peak_bytes, outcome.peak_bytes);

@@ -42,6 +42,7 @@ struct BatchTotals {
   std::uint64_t refused_packets = 0;
   std::uint64_t kills = 0;
   std::uint64_t entries = 0;
+  std::uint64_t too_late = 0;
   std::uint64_t rollbacks = 0;
   std::uint64_t faults = 0;  ///< events of all schedules
   std::size_t peak_bytes = 0;
