@@ -10,8 +10,9 @@ namespace lockstone::net {
 
 bool Client::Impl::reconnect(ConnectionId connection) {
   if (state != ClientState::failed) return false;
-  const bool lost = failure == ClientFailure::connection_lost ||
-                    failure == ClientFailure::server_silent || failure == ClientFailure::dropped;
+  const bool lost =
+      failure == ClientFailure::connection_lost || failure == ClientFailure::server_silent ||
+      failure == ClientFailure::handshake_timed_out || failure == ClientFailure::dropped;
   if (!lost) return false;
   parts.connection = connection;
   state = ClientState::connecting;

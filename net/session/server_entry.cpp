@@ -200,6 +200,7 @@ void Server::Impl::try_activate(std::uint8_t slot) {
   place.active_tick =
       closed + config.input_delay_ticks + lag + std::min(trip_ticks, k_max_round_trip_ticks);
   place.inputs_next = place.active_tick;
+  place.inputs.clear();  // of a former life, which was ahead
   judge.set_present(slot, true);
   for (const Link& link : links) {
     if (link.stage >= Stage::seated) send(link, Activate{slot, place.active_tick});

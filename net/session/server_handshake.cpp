@@ -168,6 +168,7 @@ void Server::Impl::seat(Link& link, std::uint8_t slot) {
   if (place.rejoin_key == 0 || !is_player_of(link, place)) {
     place.stats = {};
     place.resynced = false;
+    place.confirmed = false;
     place.player = link.identity.player;
     place.rejoin_key = hash64({}, hash64({}, config.rejoin_seed) + ++keys_given) | 1;
   }

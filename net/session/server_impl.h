@@ -82,6 +82,7 @@ struct Server::Impl {
     std::int64_t reserved_until_us = -1;  ///< so long nobody else may, if it is empty
     std::int8_t margin = k_no_margin;     ///< the least since it was last told
     bool resynced = false;
+    bool confirmed = false;  ///< its player has spoken since it was told its key
     PlayerStats stats;
   };
   struct Watcher : Follower {

@@ -27,6 +27,7 @@ bool Server::Impl::on_inputs(Link& link, ByteView packet) {
   const bool sane = message.first_tick + message.count <= closed + k_input_window_ticks &&
                     (message.first_tick <= place.inputs_next || place.active_tick == k_never);
   if (!sane) return false;
+  place.confirmed = true;
   if (state >= ServerState::closing || place.loading) return true;
   place.ticks_received = std::max(place.ticks_received, message.ticks_received);
   take_inputs(place, message);

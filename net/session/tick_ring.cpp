@@ -28,6 +28,10 @@ void TickRing::put(std::uint64_t tick, ByteView record) {
   commit(tick, record.size());
 }
 
+void TickRing::clear() {
+  std::fill(entries_.begin(), entries_.end(), Entry{});
+}
+
 bool TickRing::has(std::uint64_t tick) const {
   if (entries_.empty()) return false;
   return entries_[static_cast<std::size_t>(tick % entries_.size())].tick == tick;

@@ -26,6 +26,7 @@ class TickRing {
   void commit(std::uint64_t tick, std::size_t size);
 
   void put(std::uint64_t tick, ByteView record);
+  void clear();
 
   [[nodiscard]] bool has(std::uint64_t tick) const;
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/net/match_fixture.h"
@@ -83,6 +85,23 @@ TEST(Entry, LostPlayerGoesOnWithTicksAlone) {
   match.expect_all_equal();
 }
 
+// The line is still dead when it calls for the first time.
+TEST(Entry, LostPlayerMayCallAgainAndAgain) {
+  Match match(match_of(2, 1200, 7));
+  match.network.partition(*match.players[1].transport, 2 * k_second_us, 15 * k_second_us);
+  match.run_for(9 * k_second_us);
+  ASSERT_EQ(match.players[1].client->failure(), ClientFailure::server_silent);
+  EXPECT_TRUE(match.reconnect(match.players[1]));
+  match.network.partition(*match.players[1].transport, 9 * k_second_us, 15 * k_second_us);
+  match.run_for(7 * k_second_us);
+  ASSERT_EQ(match.players[1].client->failure(), ClientFailure::handshake_timed_out);
+  EXPECT_TRUE(match.reconnect(match.players[1]));
+  ASSERT_TRUE(match.run(30 * k_second_us));
+  EXPECT_EQ(match.players[1].client->ticks_stepped(), 1200U);
+  EXPECT_EQ(match.server->stats(1).entries, 1U);
+  match.expect_all_equal();
+}
+
 TEST(Entry, LostPlayerGetsAStateWhenTheGapIsTooLong) {
   MatchOptions options = match_of(2, 900, 8);
   options.server.history_ticks = 256;
@@ -112,6 +131,55 @@ TEST(Entry, SeatIsKeptForWhoHasItsKey) {
   match.add_player(k_no_slot, key);
   match.run_for(2 * k_second_us);
   EXPECT_EQ(match.players.back().client->state(), ClientState::running);
+  EXPECT_EQ(match.players.back().client->slot(), 1);
+  match.expect_all_equal();
+}
+
+// The one that is gone had sent inputs far ahead, for ticks that its next life plays.
+TEST(Entry, InputsOfAFormerLifeAreForgotten) {
+  MatchOptions options = match_of(2, 600, 14);
+  options.server.late_policy = LatePolicy::strict;
+  Match match(options);
+  match.run_for(2 * k_second_us);
+  match.players[0].paused = true;  // the match waits, and player 1 samples ahead
+  match.run_for(k_second_us);
+  const std::uint64_t key = match.players[1].client->rejoin_key();
+  match.network.kill(*match.players[1].transport);
+  match.players[1].paused = true;
+  match.add_player(k_no_slot, key);  // whose inputs are others
+  match.run_for(k_second_us);
+  match.players[0].paused = false;
+  ASSERT_TRUE(match.run(30 * k_second_us));
+  const Match::Player& back = match.players.back();
+  EXPECT_EQ(back.client->ticks_stepped(), 600U);
+  const std::vector<SeenTick>& ticks = match.server_log.seen.ticks;
+  ASSERT_FALSE(match.server_log.active.empty());
+  const std::size_t size = options.toy.input_bytes;
+  std::vector<std::byte> own(size);
+  for (std::uint64_t tick = match.server_log.active.back().second; tick < ticks.size(); ++tick) {
+    back.inputs->sample(tick, own);
+    ASSERT_EQ(ticks[tick].origins[1], InputOrigin::received);
+    ASSERT_TRUE(std::equal(own.begin(), own.end(),
+                           ticks[tick].bytes.begin() + static_cast<std::ptrdiff_t>(size)))
+        << tick;
+  }
+  match.expect_all_equal();
+}
+
+// It died before it had heard of its key.
+TEST(Entry, SeatOfWhoNeverSpokeIsFreeWhenItIsLost) {
+  MatchOptions options = match_of(2, 900, 15);
+  options.faults.delay_us = 20'000;
+  Match match(options);
+  while (match.server->state() == ServerState::lobby)
+    match.step();
+  match.network.kill(*match.players[1].transport);
+  match.players[1].paused = true;
+  ASSERT_EQ(match.players[1].client->rejoin_key(), 0U);
+  match.run_for(7 * k_second_us);
+  match.add_player(1);
+  ASSERT_TRUE(match.run(30 * k_second_us));
+  EXPECT_EQ(match.players.back().client->ticks_stepped(), 900U);
   EXPECT_EQ(match.players.back().client->slot(), 1);
   match.expect_all_equal();
 }

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/await.h"
 #include "tools/relay/lossy_relay.h"
 
 namespace lockstone::relay {
 namespace {
+
+using test::await;
 
 // A server and a client with the relay between them; time is made up.
 struct Line {
@@ -18,26 +21,35 @@ struct Line {
   // What the server gets of `count` numbered datagrams, one a millisecond: when, by its number.
   std::multimap<unsigned, std::int64_t> send(unsigned count) {
     std::multimap<unsigned, std::int64_t> arrived;
-    std::array<std::byte, 4096> buffer{};
     for (std::int64_t now_us = 0; now_us < count * 1000 + 200'000; now_us += 1000) {
       const auto number = static_cast<unsigned>(now_us / 1000);
       const std::array bytes{static_cast<std::byte>(number & 255),
                              static_cast<std::byte>(number >> 8), std::byte{1}, std::byte{2}};
       if (number < count) client->send(Endpoint::loopback(relay->port()), bytes);
-      relay->pump(now_us);
-      Endpoint from;
-      while (const auto got = server->receive(from, buffer)) {
-        last = from;
-        if (got->size() != 4 || (*got)[2] != std::byte{1} || (*got)[3] != std::byte{2}) {
-          ++damaged;
-          continue;
-        }
-        arrived.emplace(
-            std::to_integer<unsigned>((*got)[0]) + 256 * std::to_integer<unsigned>((*got)[1]),
-            now_us);
-      }
+      const unsigned sent = std::min(number + 1, count);
+      await([&] { return relay->pump(now_us), relay->counters().received >= sent; });
+      await([&] {
+        take(arrived, now_us);
+        return arrived.size() + damaged >= relay->counters().delivered;
+      });
     }
     return arrived;
+  }
+
+  // What is at the server by now.
+  void take(std::multimap<unsigned, std::int64_t>& arrived, std::int64_t now_us) {
+    std::array<std::byte, 4096> buffer{};
+    Endpoint from;
+    while (const auto got = server->receive(from, buffer)) {
+      last = from;
+      if (got->size() != 4 || (*got)[2] != std::byte{1} || (*got)[3] != std::byte{2}) {
+        ++damaged;
+        continue;
+      }
+      arrived.emplace(
+          std::to_integer<unsigned>((*got)[0]) + 256 * std::to_integer<unsigned>((*got)[1]),
+          now_us);
+    }
   }
 
   std::unique_ptr<UdpSocket> server, client;
@@ -50,10 +62,11 @@ TEST(LossyRelay, PassesOnBothWays) {
   Line line({});
   EXPECT_EQ(line.send(5).size(), 5U);
   EXPECT_TRUE(line.server->send(line.last, std::array{std::byte{9}}));
-  line.relay->pump(1'000'000);
+  await([&] { return line.relay->pump(1'000'000), line.relay->counters().delivered >= 6; });
   std::array<std::byte, 16> buffer{};
   Endpoint from;
-  const auto got = line.client->receive(from, buffer);
+  std::optional<ByteView> got;
+  await([&] { return (got = line.client->receive(from, buffer)).has_value(); });
   ASSERT_TRUE(got.has_value());
   EXPECT_EQ((*got)[0], std::byte{9});
   EXPECT_EQ(from.port, line.relay->port());

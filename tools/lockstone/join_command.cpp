@@ -36,6 +36,7 @@ struct JoinOptions {
   std::optional<std::uint64_t> flip_bit_at;
   bool spectate = false;
   unsigned predict = 0;
+  double reconnect = 30;
   bool insecure = false;
   bool json = false;
   bool quiet = false;
@@ -80,6 +81,7 @@ class JoinObserver final : public net::ClientObserver {
 
   std::uint64_t final_hash = 0;
   std::string desync;
+  unsigned reconnects = 0;  ///< tried
 
  private:
   bool quiet_;
@@ -112,22 +114,6 @@ std::string_view failure_text(net::ClientFailure failure) {
   return "unknown failure";
 }
 
-void play(net::Client& client) {
-  using namespace std::chrono_literals;
-  const Stopwatch watch;
-  std::uint64_t seen = 0;
-  bool leaving = false;
-  while (!is_over(client.state())) {
-    client.update(watch.microseconds());
-    if (interrupted() && !leaving) {
-      client.leave();
-      leaving = true;
-    }
-    const bool busy = std::exchange(seen, client.ticks_stepped()) != client.ticks_stepped();
-    if (!busy) std::this_thread::sleep_for(100us);
-  }
-}
-
 void print_json(const net::Client& client, const JoinObserver& observer) {
   const net::ClientStats stats = client.stats();
   const nlohmann::ordered_json json{{"slot", client.slot()},
@@ -144,6 +130,7 @@ void print_json(const net::Client& client, const JoinObserver& observer) {
                                     {"rollbacks", stats.rollbacks},
                                     {"ticks_stepped_again", stats.ticks_stepped_again},
                                     {"states_loaded", stats.states_loaded},
+                                    {"reconnects", observer.reconnects},
                                     {"desync", observer.desync}};
   fmt::print("{}\n", json.dump(2));
 }
@@ -216,6 +203,61 @@ std::unique_ptr<Caller> call(const std::string& host, std::uint16_t port,
   return caller;
 }
 
+// The seat may still be there: nobody was sent away, the line was lost.
+bool may_come_back(const net::Client& client) {
+  if (client.state() != net::ClientState::failed || client.rejoin_key() == 0) return false;
+  if (client.failure() != net::ClientFailure::dropped) return true;
+  const net::LeaveReason reason = client.leave_reason();
+  return reason == net::LeaveReason::disconnected || reason == net::LeaveReason::timed_out ||
+         reason == net::LeaveReason::too_far_behind;
+}
+
+/// Plays to the end. A lost connection is made anew, for a while.
+class Play {
+ public:
+  Play(const JoinOptions& options, Caller& caller, net::Client& client, JoinObserver& observer)
+      : options_(options), caller_(caller), client_(client), observer_(observer) {}
+
+  void run() {
+    using namespace std::chrono_literals;
+    std::uint64_t seen = 0;
+    while (!is_over(client_.state()) || come_back()) {
+      client_.update(watch_.microseconds());
+      if (client_.state() == net::ClientState::running) lost_seconds_ = -1;
+      if (interrupted() && !std::exchange(leaving_, true)) client_.leave();
+      const bool busy = std::exchange(seen, client_.ticks_stepped()) != client_.ticks_stepped();
+      if (!busy) std::this_thread::sleep_for(100us);
+    }
+  }
+
+ private:
+  // False when there is nothing to come back to, or it took too long.
+  [[nodiscard]] bool come_back() {
+    constexpr double k_pause_seconds = 0.25;
+    if (leaving_ || interrupted() || !may_come_back(client_)) return false;
+    const double now = watch_.seconds();
+    if (lost_seconds_ < 0) lost_seconds_ = now;
+    if (now - lost_seconds_ > options_.reconnect) return false;
+    if (now - tried_seconds_ < k_pause_seconds) return true;
+    tried_seconds_ = now;
+    const Result<net::ConnectionId> connection =
+        caller_.enet->connect(options_.host, options_.port);
+    if (!connection || !client_.reconnect(connection.value())) return connection.ok();
+    ++observer_.reconnects;
+    if (!options_.quiet) fmt::print(stderr, "the connection was lost: calling again\n");
+    return true;
+  }
+
+  const JoinOptions& options_;
+  Caller& caller_;
+  net::Client& client_;
+  JoinObserver& observer_;
+  Stopwatch watch_;
+  bool leaving_ = false;
+  double lost_seconds_ = -1;   ///< since when; below 0: it is not
+  double tried_seconds_ = -1;  ///< to call, the last time
+};
+
 // Reads the token and takes the server from it where none is given. False, with a complaint.
 bool set_security(JoinOptions& options, std::optional<net::ConnectToken>& token) {
   if (options.insecure == !options.token.empty()) {
@@ -258,7 +300,7 @@ int join(JoinOptions options) {
     return k_usage;
   }
   inputs.watch(*created.client);
-  play(*created.client);
+  Play(options, *caller, *created.client, observer).run();
   return conclude(options, *created.client, observer);
 }
 
@@ -279,6 +321,11 @@ void add_join_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--slot", options->slot, "Player slot; any when not given")
       ->check(CLI::Range(0, 15));
+  command
+      ->add_option("--reconnect", options->reconnect,
+                   "Call again for so many seconds when the connection is lost; 0: never")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
   command->add_flag("--insecure", options->insecure,
                     "No token and no encryption: anybody may listen and forge");
   command->add_flag("--json", options->json, "Print the result as JSON");

@@ -50,6 +50,7 @@ net::ServerConfig server_config(const MatchOptions& options, std::vector<std::by
   config.input_delay_ticks = options.input_delay;
   config.late_policy = options.strict ? net::LatePolicy::strict : net::LatePolicy::deadline;
   config.pacing = options.fast ? net::Pacing::fast : net::Pacing::real_time;
+  config.timeouts.drop_us = static_cast<std::int64_t>(options.drop_after_s * 1e6);
   config.start_players = static_cast<std::uint8_t>(options.start_players);
   config.desync_policy = options.desync_policy;
   config.rejoin_seed = hash64(unguessable);

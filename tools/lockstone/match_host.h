@@ -27,6 +27,7 @@ struct MatchOptions {
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: the system chooses
   std::uint8_t input_delay = 4;
+  double drop_after_s = 5;  ///< of silence
   bool strict = false;
   bool fast = false;
   bool insecure = false;

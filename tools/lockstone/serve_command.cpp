@@ -126,6 +126,11 @@ void add_serve_command(CLI::App& app, int& exit_code) {
                    "Begin with so many; others may come later. 0: with all")
       ->check(CLI::Range(0, 16))
       ->capture_default_str();
+  command
+      ->add_option("--drop-after", options->match.drop_after_s,
+                   "Drop a player that is silent for so many seconds")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
   command->add_option("--spectators", options->match.spectators, "So many may watch")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();

@@ -79,6 +79,7 @@ class SimMatch final : public net::ServerObserver {
   void start_spectator(std::size_t index);
   void start_late();
   [[nodiscard]] std::int64_t kill_until_us(std::size_t client) const;
+  [[nodiscard]] bool must_ask_again(std::size_t client) const;
   void revive();
   [[nodiscard]] net::ClientConfig client_config(std::size_t index) const;
   [[nodiscard]] net::LinkFaults faults_of(std::size_t client) const;
@@ -233,11 +234,25 @@ void SimMatch::start_late() {
   }
 }
 
+// Who died before it had heard of its key finds its seat taken, until the server misses it.
+bool SimMatch::must_ask_again(std::size_t client) const {
+  constexpr std::int64_t k_pause_us = 1'000'000;
+  const net::Client& one = nodes_[client].client();
+  return one.state() == net::ClientState::refused && client < setup_.clients && !oracle_.over() &&
+         one.refusal().reason == net::RefuseReason::slot_taken &&
+         now_us_ - connected_us_[client] > k_pause_us;
+}
+
 // Who has lost its connection asks for a new one.
 void SimMatch::revive() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
-    if (!node.alive() || node.client().state() != net::ClientState::failed) continue;
+    if (!node.alive()) continue;
+    if (must_ask_again(i)) {
+      node.kill(network_);
+      start_node(i);
+    }
+    if (node.client().state() != net::ClientState::failed) continue;
     if (node.client().failure() == net::ClientFailure::not_deterministic) {
       return oracle_.fail(fmt::format("client {} is not deterministic", i));
     }
