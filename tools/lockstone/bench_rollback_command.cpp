@@ -35,9 +35,37 @@ struct Figures {
   double save_us = 0;
   double load_us = 0;
   double resimulate_us = 0;
+  std::size_t tick_delta_bytes = 0;  // one tick after the base, and
+  std::size_t delta_bytes = 0;       // as many as are simulated anew
+  double save_delta_us = 0;
+  double load_delta_us = 0;
   std::uint64_t hash = 0;
   bool repeated = true;  // each repeat came to the same hash
 };
+
+// A goal for one figure.
+struct Goal {
+  const char* name;
+  double figure;
+  double at_most;
+  const char* unit;
+
+  [[nodiscard]] bool met() const { return figure <= at_most; }
+};
+
+constexpr std::uint32_t k_goal_bodies = 800;
+constexpr int k_goal_ticks = 8;
+
+// The times are those of a certain scene.
+std::vector<Goal> goals_of(const RollbackOptions& options, const Figures& f) {
+  std::vector<Goal> goals{{"snapshot", f.body_bytes, 256, "bytes a body"},
+                          {"snapshot", f.contact_bytes, 96, "bytes a touching pair"}};
+  if (options.bodies != k_goal_bodies) return goals;
+  goals.push_back({"save", f.save_us, 100, "us"});
+  goals.push_back({"load", f.load_us, 100, "us"});
+  if (options.ticks == k_goal_ticks) goals.push_back({"ticks anew", f.resimulate_us, 16'000, "us"});
+  return goals;
+}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -51,14 +79,10 @@ double microseconds(F&& f) {
   return watch.seconds() * 1e6;
 }
 
-std::size_t saved_bytes(const World& world) {
-  std::vector<std::byte> bytes(world.snapshot_bytes_max(SnapshotKind::native));
-  return world.save(SnapshotKind::native, bytes);
-}
-
 // Boxes dropped into a square pit of four walls, in layers.
 World make_pit(std::uint32_t boxes) {
-  WorldDef def = bench::speed_def(BroadPhaseKind::tree, boxes + 8, 16 * (boxes + 8), 8 * (boxes + 8));
+  WorldDef def =
+      bench::speed_def(BroadPhaseKind::tree, boxes + 8, 16 * (boxes + 8), 8 * (boxes + 8));
   World world = bench::make_speed_world(def);
   const auto fixed = [&](int x, int y, int z, int sx, int sy, int sz) {
     BodyDef body;
@@ -87,32 +111,30 @@ World make_pit(std::uint32_t boxes) {
   return world;
 }
 
+std::vector<std::byte> native_snapshot(const World& world) {
+  std::vector<std::byte> bytes(world.snapshot_bytes_max(SnapshotKind::native));
+  bytes.resize(world.save(SnapshotKind::native, bytes));
+  return bytes;
+}
+
 // What one record of each store takes, found by counting: two worlds that differ in bodies alone.
 void measure_bytes(World& world, Figures& figures) {
-  figures.bytes = saved_bytes(world);
+  figures.bytes = native_snapshot(world).size();
   const World one = make_pit(1), two = make_pit(2);
-  figures.body_bytes = static_cast<double>(saved_bytes(two) - saved_bytes(one));
+  figures.body_bytes =
+      static_cast<double>(native_snapshot(two).size() - native_snapshot(one).size());
   const World none = make_pit(0);
-  figures.header_bytes =
-      saved_bytes(none) - static_cast<std::size_t>(figures.body_bytes * none.body_limit());
+  figures.header_bytes = native_snapshot(none).size() -
+                         static_cast<std::size_t>(figures.body_bytes * none.body_limit());
   const double rest = static_cast<double>(figures.bytes - figures.header_bytes) -
                       figures.body_bytes * world.body_limit();
   figures.contact_bytes = figures.contacts == 0 ? 0 : rest / figures.contacts;
 }
 
-Figures measure(const RollbackOptions& options) {
-  World world = make_pit(options.bodies);
-  StepReport report;
-  for (int tick = 0; tick < options.settle; ++tick)
-    report = world.step();
-  Figures figures;
-  figures.bodies = world.body_count();
-  figures.contacts = report.contacts;
-  measure_bytes(world, figures);
-  std::vector<std::byte> bytes(world.snapshot_bytes_max(SnapshotKind::native));
-  const std::size_t size = world.save(SnapshotKind::native, bytes);
-  const ByteView snapshot = ByteView(bytes).first(size);
-  std::vector<std::byte> scratch(bytes.size());
+// Goes back to the snapshot and simulates anew, over and over.
+void measure_returns(World& world, const RollbackOptions& options, ByteView snapshot,
+                     Figures& figures) {
+  std::vector<std::byte> scratch(world.snapshot_bytes_max(SnapshotKind::native));
   std::vector<double> saves, loads, steps;
   for (int i = 0; i < options.repeats; ++i) {
     loads.push_back(
@@ -130,22 +152,70 @@ Figures measure(const RollbackOptions& options) {
   figures.save_us = median(saves);
   figures.load_us = median(loads);
   figures.resimulate_us = median(steps);
+}
+
+// The world stands where the ticks simulated anew have led; the delta's base is where they began.
+void measure_deltas(World& world, const RollbackOptions& options, ByteView base, Figures& figures) {
+  std::vector<std::byte> delta(world.delta_bytes_max());
+  std::vector<double> saves, loads;
+  for (int i = 0; i < options.repeats; ++i) {
+    saves.push_back(microseconds([&] { figures.delta_bytes = world.save_delta(base, delta); }));
+    static_cast<void>(world.load(SnapshotKind::native, base));
+    loads.push_back(microseconds([&] {
+      static_cast<void>(world.load_delta(base, ByteView(delta).first(figures.delta_bytes)));
+    }));
+    figures.repeated = figures.repeated && world.hash().total == figures.hash;
+  }
+  figures.save_delta_us = median(saves);
+  figures.load_delta_us = median(loads);
+  static_cast<void>(world.load(SnapshotKind::native, base));
+  world.step();
+  figures.tick_delta_bytes = world.save_delta(base, delta);
+}
+
+Figures measure(const RollbackOptions& options) {
+  World world = make_pit(options.bodies);
+  StepReport report;
+  for (int tick = 0; tick < options.settle; ++tick)
+    report = world.step();
+  Figures figures;
+  figures.bodies = world.body_count();
+  figures.contacts = report.contacts;
+  measure_bytes(world, figures);
+  const std::vector<std::byte> snapshot = native_snapshot(world);
+  measure_returns(world, options, snapshot, figures);
+  measure_deltas(world, options, snapshot, figures);
   return figures;
+}
+
+nlohmann::ordered_json to_json(const RollbackOptions& options, const Figures& f) {
+  nlohmann::ordered_json json{{"bodies", f.bodies},
+                              {"contacts", f.contacts},
+                              {"snapshot_bytes", f.bytes},
+                              {"bytes_per_body", f.body_bytes},
+                              {"bytes_per_contact", f.contact_bytes},
+                              {"save_us", f.save_us},
+                              {"load_us", f.load_us},
+                              {"ticks", options.ticks},
+                              {"resimulate_us", f.resimulate_us},
+                              {"tick_delta_bytes", f.tick_delta_bytes},
+                              {"delta_bytes", f.delta_bytes},
+                              {"save_delta_us", f.save_delta_us},
+                              {"load_delta_us", f.load_delta_us},
+                              {"final_hash", hash_text(f.hash)}};
+  for (const Goal& goal : goals_of(options, f)) {
+    json["goals"].push_back({{"name", goal.name},
+                             {"figure", goal.figure},
+                             {"at_most", goal.at_most},
+                             {"unit", goal.unit},
+                             {"met", goal.met()}});
+  }
+  return json;
 }
 
 void print(const RollbackOptions& options, const Figures& f) {
   if (options.json) {
-    const nlohmann::ordered_json json{{"bodies", f.bodies},
-                                      {"contacts", f.contacts},
-                                      {"snapshot_bytes", f.bytes},
-                                      {"bytes_per_body", f.body_bytes},
-                                      {"bytes_per_contact", f.contact_bytes},
-                                      {"save_us", f.save_us},
-                                      {"load_us", f.load_us},
-                                      {"ticks", options.ticks},
-                                      {"resimulate_us", f.resimulate_us},
-                                      {"final_hash", hash_text(f.hash)}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", to_json(options, f).dump(2));
     return;
   }
   fmt::print("{} bodies, {} touching pairs, medians of {}\n", f.bodies, f.contacts,
@@ -155,7 +225,15 @@ void print(const RollbackOptions& options, const Figures& f) {
   fmt::print("save         {:>9.1f} us\n", f.save_us);
   fmt::print("load         {:>9.1f} us\n", f.load_us);
   fmt::print("{} ticks anew {:>9.1f} us\n", options.ticks, f.resimulate_us);
+  fmt::print("delta        {:>9} bytes after one tick, {} after {}\n", f.tick_delta_bytes,
+             f.delta_bytes, options.ticks);
+  fmt::print("save delta   {:>9.1f} us\n", f.save_delta_us);
+  fmt::print("load delta   {:>9.1f} us\n", f.load_delta_us);
   fmt::print("final hash   {}\n", hash_text(f.hash));
+  for (const Goal& goal : goals_of(options, f)) {
+    fmt::print("{:<7} {:<10} {:>7.1f} of at most {:.0f} {}\n", goal.met() ? "met" : "MISSED",
+               goal.name, goal.figure, goal.at_most, goal.unit);
+  }
 }
 
 int run(const RollbackOptions& options) {
