@@ -31,6 +31,12 @@ std::uint32_t chunk_ticks(const RecorderOptions& options, const SimulationInfo& 
   return options.chunk_ticks == 0 ? second : std::min(options.chunk_ticks, second);
 }
 
+std::uint32_t keyframe_interval(const RecorderOptions& options, std::uint64_t age) {
+  const std::uint32_t early = options.early_keyframe_interval_ticks;
+  if (age > k_early_ticks || early == 0) return options.keyframe_interval_ticks;
+  return std::min(options.keyframe_interval_ticks, early);
+}
+
 std::string printable(std::string_view text) {
   std::string result(text.substr(0, k_max_build_bytes));
   for (char& letter : result) {
@@ -160,8 +166,9 @@ Status Recorder::record_step(const Simulation& stepped, std::span<const PlayerIn
 bool Recorder::keyframe_due() const {
   if (state_ != State::recording || options_.keyframe_bytes_max == 0) return false;
   if (start_tick_ > 0 && totals_.keyframes == 0) return true;
-  return options_.keyframe_interval_ticks != 0 && next_tick_ != last_keyframe_tick_ &&
-         (next_tick_ - start_tick_) % options_.keyframe_interval_ticks == 0;
+  const std::uint64_t age = next_tick_ - start_tick_;
+  const std::uint32_t interval = keyframe_interval(options_, age);
+  return interval != 0 && next_tick_ != last_keyframe_tick_ && age % interval == 0;
 }
 
 Status Recorder::keyframe(const Simulation& simulation) {

@@ -116,6 +116,28 @@ TEST(Recorder, NeverAllocatesAfterBegin) {
   EXPECT_EQ(take_heap_use().allocations, 0U);
 }
 
+TEST(Recorder, TakesKeyframesMoreOftenInTheFirstMinute) {
+  ToySimulation game(ToyConfig{});
+  ToyInputs inputs(ToyConfig{});
+  MemorySink sink;
+  Recorder recorder(sink, {.keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical)});
+  ASSERT_EQ(recorder.begin(game.info(), ToyConfig{}.encode(), {}), Status::ok);
+  for (std::uint64_t tick = 0; tick < k_early_ticks + 1500; ++tick) {
+    game.step(inputs.at(tick));
+    ASSERT_EQ(recorder.record_step(game, inputs.at(tick)), Status::ok);
+  }
+  ASSERT_EQ(recorder.finish("done"), Status::ok);
+  MemorySource source(sink.bytes());
+  std::vector<std::uint64_t> ticks;
+  for (const KeyframePlace& place : map_log(source).keyframes)
+    ticks.push_back(place.tick);
+  ASSERT_EQ(ticks.size(), 3600U / 150 + 2);
+  EXPECT_EQ(ticks.front(), 150U);
+  EXPECT_EQ(ticks[23], 3600U);
+  EXPECT_EQ(ticks[24], 4200U);
+  EXPECT_EQ(ticks[25], 4800U);
+}
+
 TEST(Recorder, HandsOnInputsAndHashesAtLeastOnceASecond) {
   Fixture fixture;
   ASSERT_EQ(fixture.begin(), Status::ok);

@@ -25,7 +25,7 @@ struct RecordOptions {
   std::string out;
   std::uint64_t ticks = 600;
   std::uint64_t seed = 1;
-  std::uint32_t keyframes = 600;
+  std::optional<std::uint32_t> keyframes;
   bool plain = false;
   std::string key;
   std::optional<std::uint64_t> flip_bit_at;
@@ -33,7 +33,10 @@ struct RecordOptions {
 
 bool prepare(const RecordOptions& options, replay::RecorderOptions& recorder) {
   recorder.compress = !options.plain;
-  recorder.keyframe_interval_ticks = options.keyframes;
+  if (options.keyframes) {
+    recorder.keyframe_interval_ticks = *options.keyframes;
+    recorder.early_keyframe_interval_ticks = *options.keyframes;
+  }
   if (options.key.empty()) return true;
   recorder.signing_key = read_signing_key(options.key);
   return recorder.signing_key.has_value();
@@ -92,8 +95,8 @@ void add_record_command(CLI::App& app, int& exit_code) {
   command->add_option("--ticks", options->ticks, "Ticks to record")->capture_default_str();
   command->add_option("--seed", options->seed, "For scenes with chance in them")
       ->capture_default_str();
-  command->add_option("--keyframes", options->keyframes, "Ticks between keyframes; 0: none")
-      ->capture_default_str();
+  command->add_option("--keyframes", options->keyframes,
+                      "Ticks between keyframes; 0: none [600, at first 150]");
   command->add_flag("--plain", options->plain, "Compress nothing, so that every build can read it");
   command->add_option("--sign", options->key, "Sign with the secret key in this file");
   command->add_option("--flip-bit-at", options->flip_bit_at,

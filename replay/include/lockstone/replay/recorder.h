@@ -16,9 +16,15 @@
 
 namespace lockstone::replay {
 
+/// How long a match counts as young: a minute at 60 ticks a second.
+inline constexpr std::uint64_t k_early_ticks = 3600;
+
 struct RecorderOptions {
   /// Ticks between keyframes, counted from the start tick; 0: keyframe_due() is never true.
   std::uint32_t keyframe_interval_ticks = 600;
+  /// The same, if it is less, for the first k_early_ticks: so that a short match, too, has enough
+  /// parts to be verified on many cores.
+  std::uint32_t early_keyframe_interval_ticks = 150;
   /// Ticks a chunk; 0, and anything above it, means one second, and never more than
   /// k_max_chunk_ticks. This is also how much a killed recorder loses.
   std::uint32_t chunk_ticks = 0;
