@@ -8,10 +8,11 @@
 #   gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
 #   sanitized                                this machine, AddressSanitizer and UBSan
 #   simd-scalar simd-sse4 simd-avx2 simd-avx512   gcc-O3 with one kind of vectors
-#   aarch64 riscv64 armhf s390x              cross compilers and qemu-user
+#   aarch64 riscv64 armhf s390x              cross compilers and qemu-user; aarch64 with its vectors
 #   i386                                     32-bit x86
 #   windows                                  MinGW, under Wine
-#   wasm                                     WebAssembly, under Node
+#   wasm                                     WebAssembly with its vectors, under Node
+#   aarch64-scalar wasm-scalar               the same two programs without vectors
 #
 # A match of bots in the arena is recorded on the first target and verified on every one. The table
 # also goes to build/cross/table.txt and, as JUnit XML, to build/cross/junit.xml.
@@ -24,30 +25,29 @@
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 all=(gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3 sanitized simd-scalar simd-sse4 simd-avx2 simd-avx512
-  aarch64 riscv64 armhf s390x i386 windows wasm)
+  aarch64 aarch64-scalar riscv64 armhf s390x i386 windows wasm wasm-scalar)
 
 # compiler_of TARGET
 compiler_of() {
-  case $1 in
-    gcc-*) echo g++ ;;
-    sanitized | simd-*) echo g++ ;;
+  case $(preset_of "$1") in
+    gcc-* | sanitized) echo g++ ;;
     clang-*) echo clang++ ;;
     i386) echo i686-linux-gnu-g++ ;;
     windows) echo x86_64-w64-mingw32-g++-posix ;;
     wasm) echo em++ ;;
     armhf) echo arm-linux-gnueabihf-g++ ;;
-    *) echo "$1-linux-gnu-g++" ;;
+    *) echo "$(preset_of "$1")-linux-gnu-g++" ;;
   esac
 }
 
 # emulator_of TARGET: the qemu binary, or nothing for this machine.
 emulator_of() {
-  case $1 in
-    gcc-* | clang-* | sanitized | simd-* | i386) ;;
+  case $(preset_of "$1") in
+    gcc-* | clang-* | sanitized | i386) ;;
     windows) echo wine ;;
     wasm) echo node ;;
     armhf) echo qemu-arm ;;
-    *) echo "qemu-$1" ;;
+    *) echo "qemu-$(preset_of "$1")" ;;
   esac
 }
 
@@ -63,7 +63,15 @@ lacking() {
 preset_of() {
   case $1 in
     simd-*) echo gcc-O3 ;;
-    *) echo "$1" ;;
+    *) echo "${1%-scalar}" ;;
+  esac
+}
+
+# vectors_of TARGET: the kind that it is told to use, or nothing for the best there is.
+vectors_of() {
+  case $1 in
+    simd-*) echo "${1#simd-}" ;;
+    *-scalar) echo scalar ;;
   esac
 }
 
@@ -79,14 +87,16 @@ program_of() {
 
 # runs_here TARGET: whether this processor has the vectors.
 runs_here() {
-  [[ $1 != simd-* ]] || "$(program_of "$1")" run --scene spin --ticks 1 --simd "${1#simd-}" >/dev/null 2>&1
+  [[ $1 != simd-* ]] ||
+    "$(program_of "$1")" run --scene spin --ticks 1 --simd "$(vectors_of "$1")" >/dev/null 2>&1
 }
 
 # runner_of TARGET: the command line, for cross_table.py.
 runner_of() {
-  local runner
+  local runner vectors
   runner="$1=$(emulator_of "$1") $(program_of "$1")"
-  if [[ $1 == simd-* ]]; then runner+=" :: --simd ${1#simd-}"; fi
+  vectors=$(vectors_of "$1")
+  if [[ -n $vectors ]]; then runner+=" :: --simd $vectors"; fi
   echo "$runner"
 }
 
@@ -117,8 +127,10 @@ wanted=("$@")
 
 # A package that cannot be installed costs its target, not the others.
 (require_packages build clang cross) || true
-if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm)\  ]]; then (require_packages cross-more) || true; fi
+if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm|wasm-scalar)\  ]]; then (require_packages cross-more) || true; fi
 export WINEDEBUG=${WINEDEBUG:--all}
+# Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.
+export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
 runners=()
 for target in "${wanted[@]}"; do
   mapfile -t programs < <(lacking "$target")

@@ -17,6 +17,7 @@ constexpr const char* k_footer =
 int main(int argc, char** argv) {
   CLI::App app("Deterministic lockstep physics: scenes, matches and their logs.", "lockstone");
   app.set_version_flag("--version", "lockstone " LOCKSTONE_VERSION);
+  app.allow_windows_style_options(false);  // "/" begins a path
   app.require_subcommand(1);
   app.footer(k_footer);
   int exit_code = lockstone::tool::k_ok;

@@ -8,6 +8,10 @@ set(CMAKE_C_COMPILER emcc)
 set(CMAKE_AR emar)
 set(CMAKE_RANLIB emranlib)
 set(CMAKE_EXECUTABLE_SUFFIX .js)
-set(CMAKE_CXX_FLAGS_INIT -fexceptions)
+set(CMAKE_CXX_FLAGS_INIT "-fexceptions -msimd128")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
   "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sTOTAL_STACK=4MB")
+# Loaded in one piece: what loads it piece by piece takes Node's fetch() for a browser's.
+string(APPEND CMAKE_EXE_LINKER_FLAGS_INIT " -sENVIRONMENT=node -sWASM_ASYNC_COMPILATION=0")
+# CMake does not know the system: where below the roots to look, a Unix says by itself.
+set(CMAKE_SYSTEM_PREFIX_PATH /)
