@@ -15,32 +15,78 @@ struct EdgeList {
   int count;
 };
 
-/// Bit i: witness i is not above the plane by more than the threshold.
-using WitnessMask = std::uint8_t;
+/// Of a polytope's half edges.
+using EdgeBits = std::array<std::uint64_t, (k_max_polytope_edges + 63) / 64>;
 
-WitnessMask mask_of(const PolytopeFace& face, const Witness& witness, Fine threshold) {
-  unsigned mask = 0;
-  const Fine bound = threshold + face.offset - k_witness_slack;
-  for (std::size_t i = 0; i < witness.points.size(); ++i)
-    mask |= static_cast<unsigned>(lean_of(witness.points[i], face.normal) <= bound) << i;
-  return static_cast<WitnessMask>(mask);
+/// What the witnesses are not above, by more than the bound.
+class WitnessedFaces {
+ public:
+  WitnessedFaces(const Polytope& own, const Witness& witness, Fine bound)
+      : own_(own), witness_(witness), bound_(bound - k_witness_slack) {
+    for (std::size_t i = 0; i < own.faces.size(); ++i)
+      masks_[i] = is_below(0, i) ? k_first : k_unknown;
+  }
+
+  /// Whether the first witness is not above the face.
+  [[nodiscard]] bool is_first_below(std::size_t face) const { return masks_[face] == k_first; }
+
+  /// Whether one witness is above neither face.
+  [[nodiscard]] bool share(std::size_t face, std::size_t other) {
+    return (mask_of(face) & mask_of(other)) != 0;
+  }
+
+ private:
+  static constexpr std::uint8_t k_first = 1;       // and nothing is known of the others
+  static constexpr std::uint8_t k_unknown = 0;     // but not the first
+  static constexpr std::uint8_t k_complete = 128;  // bit i: witness i
+
+  [[nodiscard]] bool is_below(std::size_t i, std::size_t face) const {
+    const PolytopeFace& plane = own_.faces[face];
+    return lean_of(witness_.points[i], plane.normal) <= bound_ + plane.offset;
+  }
+
+  std::uint8_t mask_of(std::size_t face) {
+    unsigned mask = masks_[face];
+    if ((mask & k_complete) != 0) return static_cast<std::uint8_t>(mask ^ k_complete);
+    for (std::size_t i = 1; i < witness_.points.size(); ++i)
+      mask |= static_cast<unsigned>(is_below(i, face)) << i;
+    masks_[face] = static_cast<std::uint8_t>(mask | k_complete);
+    return static_cast<std::uint8_t>(mask);
+  }
+
+  const Polytope& own_;
+  const Witness& witness_;
+  Fine bound_;
+  std::array<std::uint8_t, k_max_polytope_faces> masks_;
+};
+
+/// The edges around faces that the first witness is above; each by its first half.
+void mark_edges(const Polytope& own, const WitnessedFaces& faces, EdgeBits& marks) {
+  for (std::size_t i = 0; i < own.faces.size(); ++i) {
+    if (faces.is_first_below(i)) continue;
+    const PolytopeFace& face = own.faces[i];
+    for (unsigned k = face.first_edge; k < unsigned{face.first_edge} + face.edge_count; ++k) {
+      const unsigned first = std::min<unsigned>(k, own.edges[k].twin);
+      marks[first / 64] |= std::uint64_t{1} << (first % 64);
+    }
+  }
 }
 
 /// On an axis between the normals of the edge's faces the separation is at most the greater height
 /// of a witness over the two, when that is not above zero: dividing a sum of heights by the length
 /// of the sum of normals, which is below 1, only lowers it.
 void collect_edges(const Polytope& own, const Witness& witness, Fine threshold, EdgeList& list) {
-  std::array<WitnessMask, k_max_polytope_faces> masks;
-  const Fine bound = std::min(threshold, Fine{0});
-  for (std::size_t i = 0; i < own.faces.size(); ++i)
-    masks[i] = mask_of(own.faces[i], witness, bound);
+  WitnessedFaces faces(own, witness, std::min(threshold, Fine{0}));
+  EdgeBits marks{};
+  mark_edges(own, faces, marks);
   list.count = 0;
-  const int count = static_cast<int>(own.edges.size());
-  for (int edge = 0; edge < count; ++edge) {
-    const HalfEdge& half = own.edges[static_cast<std::size_t>(edge)];
-    if (edge > half.twin) continue;
-    if ((masks[half.face] & masks[own.edges[half.twin].face]) != 0) continue;
-    list.at[static_cast<std::size_t>(list.count++)] = static_cast<std::uint16_t>(edge);
+  for (std::size_t word = 0; word < marks.size(); ++word) {
+    for (std::uint64_t bits = marks[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t edge = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+      const HalfEdge& half = own.edges[edge];
+      if (faces.share(half.face, own.edges[half.twin].face)) continue;
+      list.at[static_cast<std::size_t>(list.count++)] = static_cast<std::uint16_t>(edge);
+    }
   }
 }
 

@@ -30,8 +30,8 @@ constexpr int k_capacity = 2 * k_max_polytope_face_edges + 16;
 
 /// How far snapping moved a vertex along the face, 2^-42 m.
 struct Shift {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
+  std::int32_t x;
+  std::int32_t y;
 };
 constexpr int k_fine_per_shift = 8;
 
@@ -40,9 +40,10 @@ struct ClipVertex {
   Fine y;
   Fine z;
   std::uint32_t edge;  ///< label of the edge that leaves it
-  Shift moved{};
+  Shift moved;
 };
 
+/// Room for more vertices than most polygons have: it begins uninitialised.
 struct ClipPolygon {
   std::array<ClipVertex, k_capacity> vertices;
   int count;

@@ -97,6 +97,7 @@ void Witness::add(const RawVec& point) {
 FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enough,
                       Witness& witness) {
   FaceSearch search{view, witness};
+  std::array<Fine, k_max_polytope_faces> heights;  // of the other's inside
   const RawVec inside = view.to_own_coarse(view.other.interior);
   const int count = static_cast<int>(view.own.faces.size());
   // The plane highest below the other's inside is the likeliest to be the best.
@@ -104,6 +105,7 @@ FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enoug
   Fine highest = 0;
   for (int face = 0; face < count; ++face) {
     const Fine height = search.height(face, inside);
+    heights[static_cast<std::size_t>(face)] = height;
     if (first >= 0 && height <= highest) continue;
     if (!facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) continue;
     first = face;
@@ -112,8 +114,8 @@ FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enoug
   if (first < 0) return {};
   search.look_at(first);
   for (int face = 0; face < count && search.best.separation <= enough; ++face) {
-    if (face == first || search.height(face, inside) + k_witness_slack < search.best.separation)
-      continue;
+    const Fine height = heights[static_cast<std::size_t>(face)];
+    if (face == first || height + k_witness_slack < search.best.separation) continue;
     if (search.is_worse(face)) continue;
     if (facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) search.look_at(face);
   }
