@@ -3,6 +3,7 @@
 #include "core/collision/pieces.h"
 #include "core/geometry/contact_point.h"
 #include "core/geometry/mesh_kernels.h"
+#include "core/geometry/separation.h"
 
 namespace lockstone {
 namespace {
@@ -49,7 +50,10 @@ void add_singles(const BodyPair& pair, PartContacts& out) {
   const Vec3<Length> offset = saturated<Length>(pair.b.origin - pair.a.origin);
   PartContact& contact = out.contacts.front();
   contact = {0, 0, nullptr, nullptr, collide(posed(pair.a), posed(pair.b), offset, pair.margin)};
-  if (contact.manifold.count == 0) return;
+  if (contact.manifold.count == 0) {
+    out.separating_axis = contact.manifold.normal;
+    return;
+  }
   shift_anchors(pair, pair.a.origin, pair.b.origin, contact.manifold);
   out.count = 1;
 }
@@ -123,6 +127,12 @@ void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
   if (b.shape.kind != ShapeKind::half_space) return collide_near({a, b, margin}, scratch, out);
   const PlacedShape near_b = brought_near(b, a.centre);
   collide_near({a, near_b, margin}, scratch, out);
+}
+
+bool separated_along(const PlacedShape& a, const PlacedShape& b, Length margin,
+                     const Vec3<Unit>& axis) {
+  if (!is_single(a) || !is_single(b) || b.shape.kind == ShapeKind::half_space) return false;
+  return separated_along(posed(a), posed(b), saturated<Length>(b.origin - a.origin), margin, axis);
 }
 
 bool bodies_overlap(const PlacedShape& a, const PlacedShape& b) {

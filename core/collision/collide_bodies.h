@@ -30,6 +30,7 @@ struct PartContacts {
   std::array<PartContact, k_capacity> contacts{};
   int count = 0;
   bool overflowed = false;
+  Vec3<Unit> separating_axis{};  ///< of two single shapes without contacts: zero when none is known
 
   [[nodiscard]] const PartContact* begin() const { return contacts.data(); }
   [[nodiscard]] const PartContact* end() const { return contacts.data() + count; }
@@ -37,6 +38,7 @@ struct PartContacts {
   void clear() {
     count = 0;
     overflowed = false;
+    separating_axis = {};
   }
   void add(const PartContact& contact) {
     overflowed = overflowed || count == k_capacity;
@@ -56,6 +58,11 @@ struct TriangleScratch {
 /// be one. `scratch` may be null when B has no triangles.
 void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
                     TriangleScratch* scratch, PartContacts& out);
+
+/// Whether the unit axis, from A to B, shows that `collide_bodies` finds nothing (see
+/// `separated_along` of posed shapes). Only single shapes, neither a half-space, are looked at.
+[[nodiscard]] bool separated_along(const PlacedShape& a, const PlacedShape& b, Length margin,
+                                   const Vec3<Unit>& axis);
 
 /// Whether the two touch or overlap.
 [[nodiscard]] bool bodies_overlap(const PlacedShape& a, const PlacedShape& b);

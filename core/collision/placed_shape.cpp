@@ -41,13 +41,22 @@ WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& loca
 
 }  // namespace
 
-PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
-                  const Mat3& rotation) {
+ShapeFrame shape_frame(const Asset* asset, const Mat3& rotation) {
   const geometry::Solid* solid = solid_of(asset);
-  if (solid == nullptr) return {shape, asset, centre, rotation, centre};
+  if (solid == nullptr) return {rotation, {}};
   const bool turned = solid->axes != Quat{};
   const Mat3 frame = turned ? multiply(rotation, transposed(to_matrix(solid->axes))) : rotation;
-  return {shape, asset, centre - rotate(frame, rounded<Position>(solid->centre)), frame, centre};
+  return {frame, rotate(frame, rounded<Position>(solid->centre))};
+}
+
+PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
+                  const Mat3& rotation) {
+  return place(shape, asset, centre, shape_frame(asset, rotation));
+}
+
+PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
+                  const ShapeFrame& frame) {
+  return {shape, asset, centre - frame.centre, frame.rotation, centre};
 }
 
 Transform body_pose(const Asset* asset, const Transform& shape_pose) {

@@ -19,10 +19,19 @@ struct PlacedShape {
   Vec3<Position> centre{};       ///< of mass; of a shape without mass its origin
 };
 
+/// What of an asset's frame follows from its body's rotation alone.
+struct ShapeFrame {
+  Mat3 rotation{};
+  Vec3<Position> centre{};  ///< of mass, as seen from the frame's origin, in world axes
+};
+[[nodiscard]] ShapeFrame shape_frame(const Asset* asset, const Mat3& rotation);
+
 /// Places a shape on a body whose centre of mass is at `centre` and whose principal axes are the
 /// columns of `rotation`. Within 2^-32 m and 2^-29 of the exact pose.
 [[nodiscard]] PlacedShape place(const Shape& shape, const Asset* asset,
                                 const Vec3<Position>& centre, const Mat3& rotation);
+[[nodiscard]] PlacedShape place(const Shape& shape, const Asset* asset,
+                                const Vec3<Position>& centre, const ShapeFrame& frame);
 
 /// Between the pose of a shape's frame and that of its body: centre of mass and principal axes. The
 /// two are the same but for assets with mass. Orientations are normalised.

@@ -112,11 +112,11 @@ Manifold vertex_manifold(const BoxPair& pair) {
   const RawVec gap = rotate(rotation, best.gap);
   const Direction d = direction(gap.x, gap.y, gap.z);
   const auto distance = static_cast<Fine>(d.length);
+  manifold.normal = best.of_b ? d.unit : -d.unit;
   if (!keeps(distance, pair.margin)) return manifold;
   const RawVec tip = rotate(rotation, best.point);
   const RawVec foot = rotate(rotation, best.point - best.gap);
   const RawVec centre = fine(pair.offset);
-  manifold.normal = best.of_b ? d.unit : -d.unit;
   const Witnesses witnesses =
       best.of_b ? Witnesses{foot, tip} : Witnesses{centre + tip, centre + foot};
   const std::uint32_t side = best.of_b ? 0 : 8;

@@ -61,7 +61,7 @@ Manifold collide_overlapping(const BoxPair& pair, const FaceChoice& faces) {
 /// involves a vertex.
 Manifold collide_apart(const BoxPair& pair, const FaceChoice& faces, const EdgeAxis& edge) {
   const Fine separation = edge.found ? edge.separation : faces.separation();
-  if (!keeps(separation, pair.margin)) return {};
+  if (!keeps(separation, pair.margin)) return separated_by(edge.normal);
   const Manifold on_reference = reference_manifold(pair, faces);
   if (attains(on_reference, separation)) return on_reference;
   const Manifold on_other = other_manifold(pair, faces);
@@ -80,9 +80,11 @@ Manifold collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Leng
   const BoxPair pair = make_box_pair(a, b, offset, margin);
   FaceChoice faces;
   faces.a = best_face_of_a(pair);
-  if (!keeps(faces.a.separation, margin)) return {};
+  if (!keeps(faces.a.separation, margin))
+    return separated_by(signed_axis(a.rotation.column(faces.a.axis), faces.a.sign));
   faces.b = best_face_of_b(pair);
-  if (!keeps(faces.b.separation, margin)) return {};
+  if (!keeps(faces.b.separation, margin))
+    return separated_by(signed_axis(b.rotation.column(faces.b.axis), faces.b.sign));
   faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
 
   const Fine separation = faces.separation();

@@ -3,6 +3,7 @@
 // planes and gives two points.
 #include "core/geometry/box_segment.h"
 #include "core/geometry/collide_pairs.h"
+#include "core/geometry/contact_choice.h"
 #include "core/geometry/contact_point.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/segment.h"
@@ -102,7 +103,10 @@ bool attains(const BoxCapsule& pair, int axis, int sign, const Interval& beside,
 
 Manifold collide_apart(const BoxCapsule& pair, Fine s, const RawVec& gap) {
   const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
-  if (!keeps(distance - fine(pair.radius), pair.margin)) return {};
+  if (!keeps(distance - fine(pair.radius), pair.margin)) {
+    const RawVec world_gap = rotate(pair.box.rotation, gap);
+    return separated_by(direction_of(world_gap.x, world_gap.y, world_gap.z));
+  }
   const int axis = facing_axis(gap);
   if (axis < 0 || is_steep(pair, axis)) return nearest_point(pair, s, gap);
   const Interval beside = beside_face(pair.local, axis);

@@ -89,8 +89,8 @@ Manifold collide_capsules(const PosedShape& a, const PosedShape& b, const Vec3<L
                       fine(min(radius_a, radius_b))};
   const CoreContact contact = closest_cores(pair);
   Manifold manifold;
-  if (!keeps(contact.distance - pair.radii, margin)) return manifold;
   manifold.normal = contact.normal;
+  if (!keeps(contact.distance - pair.radii, margin)) return manifold;
   const Overlap overlap = overlap_of(pair);
   if (!lies_along(pair, contact, overlap)) {
     add_point(manifold, inflate(contact.on_a, radius_a, contact.on_b, radius_b, contact.normal),

@@ -193,7 +193,10 @@ bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine plane, Fi
 /// nor two crossing edges involves a vertex.
 Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
   const Fine separation = edge.found ? edge.separation : meeting.separation();
-  if (!keeps(separation, meeting.pair.margin)) return {};
+  if (!keeps(separation, meeting.pair.margin)) {
+    return edge.found ? separated_by(lockstone::rotate(meeting.pair.rotation_a, edge.normal))
+                      : Manifold{};
+  }
   const Manifold on_reference = reference_manifold(meeting);
   if (is_nearest(meeting, on_reference, meeting.reference_separation(), separation))
     return on_reference;
@@ -231,13 +234,6 @@ Manifold collide_meeting(Meeting& meeting) {
   if (edge.separation > 0) return collide_apart(meeting, edge);
   const CrossedEdges crossed = edge_manifold(pair, edge);
   return is_sure(pair, crossed) ? crossed.manifold : least_way_out(meeting);
-}
-
-/// A manifold without points whose normal separates.
-Manifold separated_by(const Vec3<Unit>& normal) {
-  Manifold manifold;
-  manifold.normal = unit_axis(normal);
-  return manifold;
 }
 
 Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePair& pair,

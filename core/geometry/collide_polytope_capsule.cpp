@@ -3,6 +3,7 @@
 // side planes and gives two points. What these features do not prove, GJK and EPA decide.
 #include <algorithm>
 
+#include "core/geometry/contact_choice.h"
 #include "core/geometry/contact_point.h"
 #include "core/geometry/nearest_manifold.h"
 #include "core/geometry/normals.h"
@@ -194,7 +195,10 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
   SegmentHeights heights;
   measure(pair.local, heights);
   const SegmentFace face = best_face(pair.local, heights);
-  if (face.separation > limit) return {};
+  if (face.separation > limit) {
+    const PolytopeFace& parting = p.faces[static_cast<std::size_t>(face.face)];
+    return separated_by(lockstone::rotate(polytope.rotation, parting.normal));
+  }
   SegmentEdge edge;
   if (face.separation <= 0) {
     edge = best_edge(pair.local, heights, std::min(edge_threshold(face.separation), Fine{0}));

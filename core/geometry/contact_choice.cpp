@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/normals.h"
 #include "core/geometry/preference.h"
 
 namespace lockstone::geometry {
@@ -22,6 +23,12 @@ bool touches(const Manifold& manifold) {
     if (manifold.points[static_cast<std::size_t>(i)].separation.raw <= 0) return true;
   }
   return false;
+}
+
+Manifold separated_by(const Vec3<Unit>& normal) {
+  Manifold manifold;
+  manifold.normal = unit_axis(normal);
+  return manifold;
 }
 
 }  // namespace lockstone::geometry

@@ -12,6 +12,10 @@ namespace lockstone::geometry {
 /// Whether some point touches or overlaps.
 [[nodiscard]] bool touches(const Manifold& manifold);
 
+/// A manifold without points whose normal is that of a plane which separates by more than the
+/// margin.
+[[nodiscard]] Manifold separated_by(const Vec3<Unit>& normal);
+
 /// More than any overlap.
 inline constexpr Fine k_any_separation = Fine{1} << 62;
 

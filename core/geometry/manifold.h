@@ -46,7 +46,8 @@ struct PosedShape {
 
 /// Contact points between A and B: those with a separation below `margin` (≥ 0, ≤ 64 m) or not
 /// above zero. `offset` = centre of B − centre of A, in world axes, each component within ±2000 m.
-/// Depends on nothing but its arguments. Points ascend by feature.
+/// Depends on nothing but its arguments. Points ascend by feature. Without points, its normal may be
+/// that of a plane which separates by the margin and more (see `separated_along`), else it is zero.
 ///
 /// Apart, the least separation is the distance: within 2 µm and 4e-9 of the sizes, for two boxes
 /// within 2^-16 m, and beside a box's rim within 1/2048 of the capsule core's distance.
@@ -58,11 +59,9 @@ struct PosedShape {
 /// point is the deepest of the core.
 ///
 /// What has a polytope keeps to the same bounds as boxes; where more than four points were reduced,
-/// the deepest may be 7.6 µm deeper than those kept. Without points, its normal may be that of a
-/// plane which separates by the margin and more (see `separated_along`). A one-sided polytope (a
-/// triangle of a mesh) meets nothing whose centre (of a hull: the interior point) is behind its
-/// front, and its normals lean backward by at most 2^-10. A half-space meets everything but its
-/// like.
+/// the deepest may be 7.6 µm deeper than those kept. A one-sided polytope (a triangle of a mesh)
+/// meets nothing whose centre (of a hull: the interior point) is behind its front, and its normals
+/// lean backward by at most 2^-10. A half-space meets everything but its like.
 ///
 /// collide(b, a, −offset) gives the same manifold flipped, bit for bit (of two spheres, the anchors
 /// within one step; equal shapes with one centre and one rotation have no order). Mirror images

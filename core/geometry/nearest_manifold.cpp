@@ -30,7 +30,7 @@ Manifold nearest_manifold(const PosedShape& a, const PosedShape& b, const Vec3<L
     add_point(manifold, {geometry::fine(deep.point_a), on_b}, offset, -fine(deep.depth), margin,
               k_nearest_feature);
   }
-  return manifold.count > 0 ? manifold : Manifold{};
+  return manifold;
 }
 
 }  // namespace lockstone::geometry

@@ -85,6 +85,9 @@ class PairTimer {
     total_.reused += static_cast<std::uint64_t>(reused);
   }
 
+  /// By the axis that parted the pair in the tick before.
+  void found_apart() { total_.parted += now_ != nullptr ? 1U : 0U; }
+
  private:
   ProfileClock now_;
   PairProfile& total_;

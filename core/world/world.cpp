@@ -63,6 +63,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       awake(definition.body_capacity),
       joint_edges(definition.body_capacity, definition.joint_capacity),
       rotations(definition.body_capacity),
+      frames(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
@@ -85,6 +86,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   leaves_fat_box.resize(definition.body_capacity);
   far_movers.resize(definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
+  separating_axes.reserve(definition.pair_capacity);
   bouncing_bodies.reserve(definition.body_capacity);
   bouncing_contacts.reserve(definition.contact_capacity);
   bounce_groups.reserve(definition.contact_capacity);
@@ -143,6 +145,7 @@ void World::Impl::rebuild_derived() {
   body_hashes.clear();
   joint_hashes.clear();
   remembers_manifolds = false;
+  separating_axes.forget();
   free_hint = 0;
   awake.clear();
   asleep_count = 0;
@@ -160,7 +163,9 @@ void World::Impl::rebuild_derived() {
 
 PlacedShape World::Impl::placed(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
-  return place(record.shape(), body_assets[body], record.position, rotations[body]);
+  if (body_assets[body] == nullptr)
+    return {record.shape(), nullptr, record.position, rotations[body], record.position};
+  return place(record.shape(), body_assets[body], record.position, frames[body]);
 }
 
 World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

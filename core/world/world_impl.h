@@ -29,6 +29,7 @@
 #include "core/world/narrow_slots.h"
 #include "core/world/profiler.h"
 #include "core/world/record_hashes.h"
+#include "core/world/separating_axes.h"
 #include "core/world/stores.h"
 #include "core/world/world_header.h"
 
@@ -36,6 +37,9 @@ namespace lockstone {
 
 // A ball in a corner meets three walls; what has had so many impacts in a tick stays where it is.
 inline constexpr int k_max_impacts = 4;
+
+// Pairs closer than this get contact points ahead of time. Half of it widens each body's bounds.
+inline constexpr Length k_contact_margin = Length::from_ratio(1, 50);
 
 struct World::Impl {
   Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
@@ -77,6 +81,7 @@ struct World::Impl {
 
   /// Brings what is derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
+  void turn_frame(std::uint32_t body);
   void rebuild_derived();
   void drop_derived();
 
@@ -199,6 +204,7 @@ struct World::Impl {
 
   // Derived, by body index.
   std::vector<Mat3> rotations;
+  std::vector<ShapeFrame> frames;         // kept where an asset is
   std::vector<const Asset*> body_assets;  // null: a shape complete in itself
   std::vector<Length> inner_radii;
   BroadPhase broad_phase;
@@ -226,7 +232,7 @@ struct World::Impl {
   void collide_one_by_one();
   void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
   void collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
-                    PairScratch& scratch);
+                    const Vec3<Unit>& last_axis, PairScratch& scratch);
   // What the manifold of two convex shapes follows from, besides the shapes.
   struct ManifoldInput {
     Vec3<Position> offset{};
@@ -386,6 +392,7 @@ struct World::Impl {
   std::vector<Manifold> old_manifolds;
   std::vector<ManifoldInput> old_inputs;
   bool remembers_manifolds = false;
+  SeparatingAxes separating_axes;
   ContactSolver solver;
   std::vector<SolverVelocity> approach_speeds;  // by new contact
 };

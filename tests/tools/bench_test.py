@@ -55,6 +55,7 @@ class Speed(Case):
         for row in pairs.values():
             self.assertLessEqual(row["in_contact"], row["pairs"])
             self.assertLessEqual(row["reused"], row["manifolds"])
+            self.assertLessEqual(row["parted"], row["pairs"] - row["in_contact"])
 
     def test_what_cannot_run_is_absent_with_a_reason(self):
         report = self.json_of("speed", "--scene", "ragdoll-rain")

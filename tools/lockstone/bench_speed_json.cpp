@@ -28,6 +28,7 @@ Json pairs_of(const bench::SpeedResult& result, double clock_nanoseconds) {
                     {"in_contact", pairs.in_contact},
                     {"manifolds", pairs.manifolds},
                     {"reused", pairs.reused},
+                    {"parted", pairs.parted},
                     {"nanoseconds", net_nanoseconds(pairs, clock_nanoseconds)}});
   }
   return json;

@@ -62,17 +62,18 @@ void print_stages(const SpeedReport& report) {
 void print_pairs(const bench::SpeedResult& result, double clock_nanoseconds) {
   fmt::print("\n{}: pairs of shapes, a tick; {:.0f} ns taken off each pair for the clock\n",
              result.scene->name, clock_nanoseconds);
-  fmt::print("{:<22} {:>9} {:>8} {:>10} {:>8} {:>9} {:>9}\n", "", "pairs", "contact", "manifolds",
-             "reused", "ns/pair", "ms/tick");
+  fmt::print("{:<22} {:>9} {:>8} {:>10} {:>8} {:>8} {:>9} {:>9}\n", "", "pairs", "contact",
+             "manifolds", "reused", "by axis", "ns/pair", "ms/tick");
   const auto steps = static_cast<double>(result.detail.steps);
   for (const PairRow& row : pair_rows(result.detail)) {
     const PairProfile& pairs = *row.profile;
     const double time = net_nanoseconds(pairs, clock_nanoseconds);
-    fmt::print("{:<22} {:>9.0f} {:>7.0f}% {:>10.0f} {:>7.0f}% {:>9.0f} {:>9.3f}\n", row.name,
-               static_cast<double>(pairs.pairs) / steps,
+    fmt::print("{:<22} {:>9.0f} {:>7.0f}% {:>10.0f} {:>7.0f}% {:>7.0f}% {:>9.0f} {:>9.3f}\n",
+               row.name, static_cast<double>(pairs.pairs) / steps,
                100 * per(static_cast<double>(pairs.in_contact), pairs.pairs),
                static_cast<double>(pairs.manifolds) / steps,
                100 * per(static_cast<double>(pairs.reused), pairs.manifolds),
+               100 * per(static_cast<double>(pairs.parted), pairs.pairs - pairs.in_contact),
                per(time, pairs.pairs), time / steps / k_ns_per_ms);
   }
 }

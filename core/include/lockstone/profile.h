@@ -69,6 +69,7 @@ struct PairProfile {
   std::uint64_t in_contact = 0;  ///< of these, pairs with a manifold
   std::uint64_t manifolds = 0;   ///< a pair has several where a body has parts
   std::uint64_t reused = 0;      ///< manifolds of the tick before, taken as they were
+  std::uint64_t parted = 0;      ///< pairs without contact that last tick's axis showed to be apart
   std::uint64_t ticks = 0;       ///< of the clock: finding manifolds and noting them down
 };
 
