@@ -21,6 +21,7 @@
 #include "tools/lockstone/flipping_simulation.h"
 #include "tools/lockstone/interrupt.h"
 #include "tools/lockstone/secrets.h"
+#include "tools/relay/stall_watch.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -69,10 +70,16 @@ class JoinObserver final : public net::ClientObserver {
   explicit JoinObserver(bool quiet) : quiet_(quiet) {}
 
   void joined(std::uint8_t slot) override {
+    own_slot_ = slot;
     if (!quiet_) fmt::print(stderr, "joined as player {}\n", slot);
   }
-  void tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t hash) override {
+  void tick_stepped(std::uint64_t tick, std::span<const PlayerInput>, std::uint64_t hash) override {
     final_hash = hash;
+    stalls.tick(watch.microseconds());
+    if (tick == active_tick_) active_seconds = watch.seconds();
+  }
+  void player_active(std::uint8_t slot, std::uint64_t tick) override {
+    if (slot == own_slot_) active_tick_ = tick;
   }
   void desync_reported(const net::DesyncReport& report) override {
     desync = report.to_line();
@@ -82,9 +89,14 @@ class JoinObserver final : public net::ClientObserver {
   std::uint64_t final_hash = 0;
   std::string desync;
   unsigned reconnects = 0;  ///< tried
+  Stopwatch watch;
+  relay::StallWatch stalls;
+  double active_seconds = 0;  ///< from the start until it played in a running match; 0: it did not
 
  private:
   bool quiet_;
+  std::uint8_t own_slot_ = net::k_no_slot;
+  std::uint64_t active_tick_ = ~std::uint64_t{0};
 };
 
 bool is_over(net::ClientState state) {
@@ -116,22 +128,26 @@ std::string_view failure_text(net::ClientFailure failure) {
 
 void print_json(const net::Client& client, const JoinObserver& observer) {
   const net::ClientStats stats = client.stats();
-  const nlohmann::ordered_json json{{"slot", client.slot()},
-                                    {"ticks", client.ticks_stepped()},
-                                    {"final_hash", hash_text(observer.final_hash)},
-                                    {"bytes_sent", stats.bytes_sent},
-                                    {"bytes_received", stats.bytes_received},
-                                    {"substituted_inputs", stats.substituted_inputs},
-                                    {"resends_requested", stats.resends_requested},
-                                    {"round_trip_us", stats.round_trip_us},
-                                    {"jitter_us", stats.jitter_us},
-                                    {"margin_quarters", stats.margin_quarters},
-                                    {"lead_ticks", stats.lead_ticks},
-                                    {"rollbacks", stats.rollbacks},
-                                    {"ticks_stepped_again", stats.ticks_stepped_again},
-                                    {"states_loaded", stats.states_loaded},
-                                    {"reconnects", observer.reconnects},
-                                    {"desync", observer.desync}};
+  const nlohmann::ordered_json json{
+      {"slot", client.slot()},
+      {"ticks", client.ticks_stepped()},
+      {"final_hash", hash_text(observer.final_hash)},
+      {"bytes_sent", stats.bytes_sent},
+      {"bytes_received", stats.bytes_received},
+      {"substituted_inputs", stats.substituted_inputs},
+      {"resends_requested", stats.resends_requested},
+      {"round_trip_us", stats.round_trip_us},
+      {"jitter_us", stats.jitter_us},
+      {"margin_quarters", stats.margin_quarters},
+      {"lead_ticks", stats.lead_ticks},
+      {"rollbacks", stats.rollbacks},
+      {"ticks_stepped_again", stats.ticks_stepped_again},
+      {"states_loaded", stats.states_loaded},
+      {"reconnects", observer.reconnects},
+      {"stalled_ms", observer.stalls.stalled_us() / 1000},
+      {"longest_between_ticks_ms", observer.stalls.longest_us() / 1000},
+      {"seconds_to_active", observer.active_seconds},
+      {"desync", observer.desync}};
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -221,12 +237,16 @@ class Play {
   void run() {
     using namespace std::chrono_literals;
     std::uint64_t seen = 0;
+    std::int64_t busy_us = 0;
     while (!is_over(client_.state()) || come_back()) {
       client_.update(watch_.microseconds());
       if (client_.state() == net::ClientState::running) lost_seconds_ = -1;
       if (interrupted() && !std::exchange(leaving_, true)) client_.leave();
       const bool busy = std::exchange(seen, client_.ticks_stepped()) != client_.ticks_stepped();
-      if (!busy) std::this_thread::sleep_for(100us);
+      if (busy) busy_us = watch_.microseconds();
+      // In a fast match the next tick is near; at 60 a second there is time.
+      const bool soon = watch_.microseconds() - busy_us < 2000;
+      if (!busy) std::this_thread::sleep_for(soon ? 100us : 1000us);
     }
   }
 

@@ -160,7 +160,11 @@ struct MatchHost::Impl final : net::ServerObserver {
 
   void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                    std::optional<std::uint64_t> hash) override {
-    last_tick_seconds = watch.seconds();
+    const double now = watch.seconds();
+    if (tick > 0) {
+      summary.longest_seconds = std::max(summary.longest_seconds, now - last_tick_seconds);
+    }
+    last_tick_seconds = now;
     summary.final_hash = hash.value_or(0);
     log.record(*simulation, tick, inputs, summary.final_hash);
   }

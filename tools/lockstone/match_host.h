@@ -46,7 +46,8 @@ struct MatchOptions {
 /// What became of a match.
 struct MatchSummary {
   std::uint64_t ticks = 0;
-  double seconds = 0;  ///< from the first tick to the last
+  double seconds = 0;          ///< from the first tick to the last
+  double longest_seconds = 0;  ///< between two ticks
   net::FinishReason reason = net::FinishReason::stopped;
   std::uint64_t final_hash = 0;
   unsigned desyncs = 0;

@@ -63,6 +63,8 @@ int run_match(MatchHost& host) {
   const MatchSummary summary = host.finish();
   fmt::print("the match is over: {}, {} ticks, final hash {}\n", to_string(summary.reason),
              summary.ticks, hash_text(summary.final_hash));
+  fmt::print("{:.1f} s, longest between two ticks {:.0f} ms\n", summary.seconds,
+             1000 * summary.longest_seconds);
   print_players(summary);
   if (summary.desyncs > 0) return k_different;
   return summary.record_status == Status::ok ? k_ok : k_unavailable;

@@ -29,28 +29,21 @@ struct ServerTrace final : net::ServerObserver {
   void tick_closed(std::uint64_t, std::span<const PlayerInput>,
                    std::optional<std::uint64_t> hash) override {
     hashes.push_back(hash.value_or(0));
-    if (hashes.size() > 1) longest_us = std::max(longest_us, now_us - last_us);
-    last_us = now_us;
+    stalls.tick(now_us);
   }
   std::vector<std::uint64_t> hashes;
   std::int64_t now_us = 0;
-  std::int64_t last_us = 0;
-  std::int64_t longest_us = 0;
+  StallWatch stalls;
 };
 
 struct ClientTrace final : net::ClientObserver {
   void tick_stepped(std::uint64_t, std::span<const PlayerInput>, std::uint64_t hash) override {
     hashes.push_back(hash);
-    const std::int64_t gap_us = hashes.size() > 1 ? now_us - last_us : 0;
-    longest_us = std::max(longest_us, gap_us);
-    if (gap_us > k_stall_us) stalled_us += gap_us - 16'667;
-    last_us = now_us;
+    stalls.tick(now_us);
   }
   std::vector<std::uint64_t> hashes;
   std::int64_t now_us = 0;
-  std::int64_t last_us = 0;
-  std::int64_t longest_us = 0;
-  std::int64_t stalled_us = 0;
+  StallWatch stalls;
 };
 
 struct Player {
@@ -192,7 +185,7 @@ std::uint16_t TrialMatch::present_mask() const {
   return impl_->server->present_mask();
 }
 std::int64_t TrialMatch::longest_server_gap_us() const {
-  return impl_->trace.longest_us;
+  return impl_->trace.stalls.longest_us();
 }
 std::uint16_t TrialMatch::port() const {
   return impl_->enet->port();
@@ -227,8 +220,8 @@ PlayerOutcome TrialMatch::outcome(unsigned slot) const {
   PlayerOutcome outcome;
   outcome.ticks = mine.size();
   outcome.substituted = impl_->server->stats(static_cast<std::uint8_t>(slot)).substituted_inputs;
-  outcome.stalled_us = player.trace.stalled_us;
-  outcome.longest_us = player.trace.longest_us;
+  outcome.stalled_us = player.trace.stalls.stalled_us();
+  outcome.longest_us = player.trace.stalls.longest_us();
   outcome.equal =
       mine.size() <= truth.size() && std::equal(mine.begin(), mine.end(), truth.begin());
   outcome.state = player.client->state();

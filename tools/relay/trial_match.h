@@ -13,6 +13,7 @@
 #include <lockstone/net/transport_secure.h>
 
 #include "tools/relay/lossy_relay.h"
+#include "tools/relay/stall_watch.h"
 
 namespace lockstone::relay {
 
@@ -37,8 +38,6 @@ struct PlayerOutcome {
   net::ClientFailure failure = net::ClientFailure::none;
   net::LeaveReason leave_reason = net::LeaveReason::left;
 };
-
-inline constexpr std::int64_t k_stall_us = 50'000;  ///< three ticks: seen as a jerk
 
 class TrialMatch {
  public:
