@@ -1,5 +1,6 @@
 // The only file that includes ENet.
 // Behaviour relied upon: http://enet.bespin.org/ (1.3.17), "Features and Architecture".
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -23,6 +24,8 @@ constexpr std::uint32_t k_index_mask = (1U << k_index_bits) - 1;
 constexpr std::uint32_t k_timeout_doublings = 32;
 // But a connection that was asked for and never confirmed holds a place.
 constexpr std::uint32_t k_half_open_ms = 2000;
+
+constexpr std::int64_t k_longest_wait_us = 3'600'000'000;
 
 constexpr std::size_t k_remembered_connects = 1024;
 constexpr std::uint32_t k_refusals_per_second = 20;
@@ -406,6 +409,15 @@ Status EnetTransport::send(ConnectionId connection, Channel channel, ByteView by
 
 void EnetTransport::flush() {
   enet_host_flush(state_->host);
+}
+
+bool EnetTransport::wait(std::int64_t limit_us) {
+  enet_uint32 condition = ENET_SOCKET_WAIT_RECEIVE | ENET_SOCKET_WAIT_INTERRUPT;
+  const std::int64_t limit_ms =
+      (std::clamp<std::int64_t>(limit_us, 0, k_longest_wait_us) + 999) / 1000;
+  const int result =
+      enet_socket_wait(state_->host->socket, &condition, static_cast<enet_uint32>(limit_ms));
+  return result == 0 && (condition & ENET_SOCKET_WAIT_RECEIVE) != 0;
 }
 
 void EnetTransport::disconnect(ConnectionId connection) {

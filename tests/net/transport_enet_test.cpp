@@ -195,6 +195,17 @@ TEST(EnetTransport, CarriesTheDumpOfADesync) {
   EXPECT_EQ(match.players[1].log->reports.size(), 1U);
 }
 
+TEST(EnetTransport, WaitsForADatagram) {
+  const auto server = std::move(EnetTransport::listen({})).value();
+  EXPECT_FALSE(server->wait(0));
+  EXPECT_FALSE(server->wait(1000));
+  const auto client = std::move(EnetTransport::open({})).value();
+  EXPECT_TRUE(client->connect("127.0.0.1", server->port()).ok());
+  TransportEvent event;
+  static_cast<void>(client->poll(clock_us(), event));
+  EXPECT_TRUE(server->wait(60'000'000));
+}
+
 TEST(EnetTransport, SaysWhyItCannotBind) {
   const auto first = EnetTransport::listen({});
   ASSERT_TRUE(first.ok());

@@ -79,6 +79,11 @@ class EnetTransport final : public Transport {
   bool poll(std::int64_t now_us, TransportEvent& event) override;
   Status send(ConnectionId connection, Channel channel, ByteView bytes) override;
   void flush() override;
+
+  /// Sleeps until a datagram has come, at most `limit_us`, rounded up to milliseconds. For a program
+  /// whose loop has nothing else to do; all else here returns at once. True if one has come.
+  bool wait(std::int64_t limit_us);
+
   void disconnect(ConnectionId connection) override;
   [[nodiscard]] TransportStats stats(ConnectionId connection) const override;
   void trust(ConnectionId connection) override;
