@@ -10,6 +10,7 @@
 #include "core/geometry/hull_faces.h"
 #include "core/geometry/parts.h"
 #include "core/geometry/polytope.h"
+#include "core/geometry/polytope_columns.h"
 #include "core/geometry/polytope_kernels.h"
 #include "core/geometry/solid.h"
 #include "core/geometry/solid_integrals.h"
@@ -29,6 +30,7 @@ struct Hull::Data {
   std::vector<Vec3<Length>> vertices;
   std::vector<PolytopeFace> faces;
   std::vector<HalfEdge> edges;
+  geometry::PolytopeColumns columns;
   geometry::Polytope polytope;
   LocalBounds bounds;
   geometry::Solid solid;
@@ -251,6 +253,8 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
   data->tolerance = options.tolerance;
   data->polytope = {data->vertices, data->faces, data->edges, solid->centre,
                     &geometry::polytope_kernels()};
+  data->columns.fill(data->vertices, data->faces);
+  data->polytope.wide = &data->columns.view();
   data->polytope.unevenness = unevenness_of(surface.faces, data->faces, data->vertices);
   const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance));
   const Length deviation = deviation_of(data->faces, points);

@@ -3,6 +3,11 @@
 namespace lockstone::geometry {
 
 Support support_of(const Polytope& polytope, const Vec3<Unit>& n) {
+  if (polytope.wide != nullptr) {
+    const lanes::Farthest farthest =
+        lanes::farthest_point(polytope.wide->vertices, {n.x.raw, n.y.raw, n.z.raw});
+    return {static_cast<int>(farthest.index), farthest.product};
+  }
   Support best{0, lockstone::dot(polytope.vertices[0], n).raw};
   const int count = static_cast<int>(polytope.vertices.size());
   for (int i = 1; i < count; ++i) {
@@ -10,6 +15,22 @@ Support support_of(const Polytope& polytope, const Vec3<Unit>& n) {
     if (height > best.height) best = {i, height};
   }
   return best;
+}
+
+void measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights) {
+  const lanes::Direction32 narrow{static_cast<std::int32_t>(point.x),
+                                  static_cast<std::int32_t>(point.y),
+                                  static_cast<std::int32_t>(point.z)};
+  const bool fits = RawVec{narrow[0], narrow[1], narrow[2]} == point;
+  if (polytope.wide != nullptr && fits) {
+    lanes::heights_above(polytope.wide->normals, polytope.wide->offsets, narrow, heights.data());
+    return;
+  }
+  for (std::size_t i = 0; i < polytope.faces.size(); ++i) {
+    const PolytopeFace& face = polytope.faces[i];
+    heights[i] = point.x * face.normal.x.raw + point.y * face.normal.y.raw +
+                 point.z * face.normal.z.raw - face.offset;
+  }
 }
 
 int most_opposed_face(const Polytope& polytope, int vertex, const Vec3<Unit>& direction) {

@@ -1,6 +1,7 @@
 // Convex polyhedra as the kernels see them: hulls, and triangles as polyhedra of two faces.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -8,6 +9,7 @@
 #include <lockstone/vec3.h>
 
 #include "core/geometry/fine.h"
+#include "core/math/wide/points.h"
 
 namespace lockstone::geometry {
 
@@ -31,6 +33,13 @@ struct HalfEdge {
   friend constexpr bool operator==(const HalfEdge&, const HalfEdge&) = default;
 };
 
+/// The same numbers by coordinate. The places after the last vertex and face are filled up.
+struct PolytopeLanes {
+  lanes::PointColumns vertices;
+  lanes::PointColumns normals;
+  const Fine* offsets = nullptr;
+};
+
 /// A view; what it names must outlive it. All in the shape's own frame.
 struct Polytope {
   std::span<const Vec3<Length>> vertices;
@@ -41,7 +50,8 @@ struct Polytope {
   /// Of a flat one that is the skin of a solid: only face 0 pushes, and what has its centre behind
   /// that face is not met at all.
   bool one_sided = false;
-  Fine unevenness = 0;  ///< how far a vertex may lie below a face that it is around
+  Fine unevenness = 0;                  ///< how far a vertex may lie below a face that it is around
+  const PolytopeLanes* wide = nullptr;  ///< null: few enough to be read one by one
 };
 
 /// Whether faces were merged so roughly that their planes, and the arcs between them, do not tell
@@ -92,6 +102,13 @@ struct Support {
 
 /// The vertex with the greatest n · v, the first of equals; exact.
 [[nodiscard]] Support support_of(const Polytope& polytope, const Vec3<Unit>& n);
+
+using FaceHeights = std::array<Fine, 256>;  // room for what fills up the last lanes
+static_assert(k_max_polytope_faces <= 256);
+
+/// How high a point (own frame, 20 fraction bits) is above each face's plane; exact. The places
+/// after the last face mean nothing.
+void measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights);
 
 /// Of the faces around `vertex`, the one with the least n · direction, the first of
 /// equals.

@@ -23,8 +23,10 @@ class WitnessedFaces {
  public:
   WitnessedFaces(const Polytope& own, const Witness& witness, Fine bound)
       : own_(own), witness_(witness), bound_(bound - k_witness_slack) {
+    FaceHeights heights;
+    measure_heights(own, witness.points[0], heights);
     for (std::size_t i = 0; i < own.faces.size(); ++i)
-      masks_[i] = is_below(0, i) ? k_first : k_unknown;
+      masks_[i] = heights[i] <= bound_ ? k_first : k_unknown;
   }
 
   /// Whether the first witness is not above the face.

@@ -97,15 +97,14 @@ void Witness::add(const RawVec& point) {
 FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enough,
                       Witness& witness) {
   FaceSearch search{view, witness};
-  std::array<Fine, k_max_polytope_faces> heights;  // of the other's inside
-  const RawVec inside = view.to_own_coarse(view.other.interior);
+  FaceHeights heights;  // of the other's inside
+  measure_heights(view.own, view.to_own_coarse(view.other.interior), heights);
   const int count = static_cast<int>(view.own.faces.size());
   // The plane highest below the other's inside is the likeliest to be the best.
   int first = -1;
   Fine highest = 0;
   for (int face = 0; face < count; ++face) {
-    const Fine height = search.height(face, inside);
-    heights[static_cast<std::size_t>(face)] = height;
+    const Fine height = heights[static_cast<std::size_t>(face)];
     if (first >= 0 && height <= highest) continue;
     if (!facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) continue;
     first = face;

@@ -8,6 +8,7 @@
 #include "core/math/wide/ball_block.h"
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/manifold_block.h"
+#include "core/math/wide/points.h"
 #include "core/math/wide/rotations.h"
 
 namespace lockstone::lanes {
@@ -17,6 +18,9 @@ struct Kernels {
   void (*solve_contact_rows)(RowBody* bodies, ContactBlock* blocks, std::size_t count);
   void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
                             Mat3* matrices);
+  Farthest (*farthest_point)(const PointColumns& points, const Direction32& n);
+  void (*heights_above)(const PointColumns& normals, const std::int64_t* offsets,
+                        const Direction32& p, std::int64_t* heights);
   const ManifoldKernels* manifolds;
   const BallKernels* balls;
 };

@@ -8,8 +8,13 @@
 namespace lockstone::lanes {
 namespace {
 
-constexpr Kernels k_scalar{"scalar", solve_contact_rows_scalar, compute_rotations_scalar,
-                           &k_scalar_manifolds, &k_scalar_balls};
+constexpr Kernels k_scalar{"scalar",
+                           solve_contact_rows_scalar,
+                           compute_rotations_scalar,
+                           farthest_point_scalar,
+                           heights_above_scalar,
+                           &k_scalar_manifolds,
+                           &k_scalar_balls};
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -97,6 +102,15 @@ void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> block
 void compute_rotations(const QuatField& quats, std::span<const std::uint32_t> indices,
                        Mat3* matrices) {
   current().compute_rotations(quats, indices.data(), indices.size(), matrices);
+}
+
+Farthest farthest_point(const PointColumns& points, const Direction32& n) {
+  return current().farthest_point(points, n);
+}
+
+void heights_above(const PointColumns& normals, const std::int64_t* offsets, const Direction32& p,
+                   std::int64_t* heights) {
+  current().heights_above(normals, offsets, p, heights);
 }
 
 }  // namespace lockstone::lanes

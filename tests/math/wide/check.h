@@ -13,6 +13,7 @@ namespace lockstone::lanes::test {
 [[nodiscard]] std::string check_memory_operations(std::uint64_t seed);
 [[nodiscard]] std::string check_contact_rows(std::uint64_t seed);
 [[nodiscard]] std::string check_rotations(std::uint64_t seed);
+[[nodiscard]] std::string check_points(std::uint64_t seed);
 [[nodiscard]] std::string check_manifolds(std::uint64_t seed);
 [[nodiscard]] std::string check_balls(std::uint64_t seed);
 

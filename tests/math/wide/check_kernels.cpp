@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/math/wide/contact_rows.h"
+#include "core/math/wide/points.h"
 #include "core/math/wide/rotations.h"
 #include "core/math/wide/scalar_lanes.h"
 #include "core/math/wide/target.h"
@@ -140,6 +141,47 @@ std::string compare_rotations(std::size_t count, Random& random) {
   });
 }
 
+struct Cloud {
+  std::vector<std::int32_t> coordinates;
+  std::vector<std::int64_t> offsets;
+  Direction32 direction{};
+
+  [[nodiscard]] std::size_t count() const { return offsets.size(); }
+  [[nodiscard]] PointColumns points() const {
+    return {coordinates.data(), coordinates.data() + count(), coordinates.data() + 2 * count(),
+            count()};
+  }
+};
+
+// Few different coordinates make many equals.
+Cloud random_cloud(std::size_t count, Random& random) {
+  const bool coarse = random.next() % 2 == 0;
+  const auto coordinate = [&] {
+    return coarse ? static_cast<std::int32_t>(random.between(-2, 2)) : operand(random);
+  };
+  Cloud cloud;
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    cloud.coordinates.push_back(coordinate());
+  for (std::size_t i = 0; i < count; ++i)
+    cloud.offsets.push_back(word(random));
+  for (std::int32_t& x : cloud.direction)
+    x = coordinate();
+  return cloud;
+}
+
+std::string compare_points(const Cloud& cloud) {
+  const Farthest farthest = farthest_point_scalar(cloud.points(), cloud.direction);
+  std::vector<std::int64_t> expected(cloud.count());
+  heights_above_scalar(cloud.points(), cloud.offsets.data(), cloud.direction, expected.data());
+  return on_each_target([&] {
+    std::vector<std::int64_t> heights(cloud.count());
+    heights_above(cloud.points(), cloud.offsets.data(), cloud.direction, heights.data());
+    const bool same = farthest_point(cloud.points(), cloud.direction) == farthest;
+    if (same && heights == expected) return std::string();
+    return std::to_string(cloud.count()) + " points\n";
+  });
+}
+
 }  // namespace
 
 std::string on_each_target(const std::function<std::string()>& check) {
@@ -159,6 +201,16 @@ std::string check_contact_rows(std::uint64_t seed) {
     const auto blocks = static_cast<std::size_t>(random.between(0, 5));
     const auto lanes_of_last = static_cast<std::size_t>(random.between(0, k_block_lanes));
     report += compare_rows(make_rows(blocks, lanes_of_last, round % 2 == 0, random));
+  }
+  return report;
+}
+
+std::string check_points(std::uint64_t seed) {
+  Random random(seed);
+  std::string report;
+  for (int round = 0; round < 100 && report.empty(); ++round) {
+    for (std::size_t count = k_point_step; count <= 16 * k_point_step; count += k_point_step)
+      report += compare_points(random_cloud(count, random));
   }
   return report;
 }

@@ -13,10 +13,11 @@ int main() {
   }
   std::printf("\n");
   const std::uint64_t seed = lockstone::test::run_seed();
-  const std::string report =
-      lanes::test::check_operations(seed) + lanes::test::check_memory_operations(seed) +
-      lanes::test::check_contact_rows(seed) + lanes::test::check_rotations(seed) +
-      lanes::test::check_manifolds(seed) + lanes::test::check_balls(seed);
+  const std::string report = lanes::test::check_operations(seed) +
+                             lanes::test::check_memory_operations(seed) +
+                             lanes::test::check_contact_rows(seed) +
+                             lanes::test::check_rotations(seed) + lanes::test::check_points(seed) +
+                             lanes::test::check_manifolds(seed) + lanes::test::check_balls(seed);
   std::printf("%s%s\n", report.c_str(), report.empty() ? "all equal" : "different");
   return report.empty() ? 0 : 1;
 }

@@ -4,6 +4,7 @@
 
 #include <lockstone/fixed.h>
 
+#include "core/math/wide/points.h"
 #include "core/math/wide/scalar_lanes.h"
 #include "core/math/wide/target.h"
 #include "tests/math/wide/check.h"
@@ -92,6 +93,20 @@ TEST(WideKernels, SolveBallJointsAsTheScalarTwinDoes) {
 
 TEST(WideKernels, MakeTheMatricesOfToMatrix) {
   EXPECT_EQ(test::check_rotations(run_seed()), "");
+}
+
+TEST(WideKernels, FindTheFarthestPointAndTheHeightsOfTheScalarTwin) {
+  EXPECT_EQ(test::check_points(run_seed()), "");
+}
+
+TEST(WideKernels, TakeTheFirstOfEquallyFarPoints) {
+  const std::int32_t x[16] = {0, 1, 2, 2, 2, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2};
+  const std::int32_t zeros[16] = {};
+  EXPECT_EQ(test::on_each_target([&] {
+              const Farthest found = farthest_point({x, zeros, zeros, 16}, {3, 0, 0});
+              return found == Farthest{2, 6} ? std::string() : std::string("not the first\n");
+            }),
+            "");
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// Many points against one direction, and many planes against one point: what separating axes of
+// polyhedra are found by.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace lockstone::lanes {
+
+/// The number of points is a multiple of this: so many words have the widest lanes.
+inline constexpr std::size_t k_point_step = 8;
+
+/// Points or directions by coordinates.
+struct PointColumns {
+  const std::int32_t* x = nullptr;
+  const std::int32_t* y = nullptr;
+  const std::int32_t* z = nullptr;
+  std::size_t count = 0;  ///< a multiple of k_point_step
+};
+
+using Direction32 = std::array<std::int32_t, 3>;
+
+struct Farthest {
+  std::size_t index = 0;
+  std::int64_t product = 0;
+
+  friend constexpr bool operator==(const Farthest&, const Farthest&) = default;
+};
+
+/// The point p with the greatest p · n, the first of equals. There is at least one. Sums wrap.
+[[nodiscard]] Farthest farthest_point(const PointColumns& points, const Direction32& n);
+
+/// heights[i] = n_i · p − offsets[i]. Sums wrap.
+void heights_above(const PointColumns& normals, const std::int64_t* offsets, const Direction32& p,
+                   std::int64_t* heights);
+
+/// The same, one at a time.
+[[nodiscard]] Farthest farthest_point_scalar(const PointColumns& points, const Direction32& n);
+void heights_above_scalar(const PointColumns& normals, const std::int64_t* offsets,
+                          const Direction32& p, std::int64_t* heights);
+
+}  // namespace lockstone::lanes

@@ -1,0 +1,62 @@
+// The kernels of points.h for the target at hand.
+#if defined(LKS_WIDE_POINTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_POINTS_INL_H
+#undef LKS_WIDE_POINTS_INL_H
+#else
+#define LKS_WIDE_POINTS_INL_H
+#endif
+
+#include "core/math/wide/lanes_inl.h"
+#include "core/math/wide/points.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lockstone::lanes {
+namespace HWY_NAMESPACE {
+
+static_assert(k_point_step % k_lanes == 0);
+
+/// So many coordinates, each in a word of its own.
+HWY_INLINE HWY_ATTR Lanes load_operands(const std::int32_t* from) {
+  return hn::PromoteTo(k_words, hn::LoadU(hn::Rebind<std::int32_t, Words>(), from));
+}
+
+HWY_INLINE HWY_ATTR Lanes products_at(const PointColumns& points, std::size_t i, Lanes x, Lanes y,
+                                      Lanes z) {
+  const Lanes sum =
+      multiply_add(multiply(load_operands(points.x + i), x), load_operands(points.y + i), y);
+  return multiply_add(sum, load_operands(points.z + i), z);
+}
+
+HWY_ATTR Farthest farthest_point(const PointColumns& points, const Direction32& n) {
+  const Lanes x = broadcast(n[0]), y = broadcast(n[1]), z = broadcast(n[2]);
+  Lanes best = products_at(points, 0, x, y, z);
+  Lanes best_at = broadcast(0);  // where the best of each lane began
+  for (std::size_t i = k_lanes; i < points.count; i += k_lanes) {
+    const Lanes reach = products_at(points, i, x, y, z);
+    best_at = select_less(best, reach, broadcast(static_cast<std::int64_t>(i)), best_at);
+    best = select_less(best, reach, reach, best);
+  }
+  std::int64_t products[k_lanes], starts[k_lanes];
+  store(best, products);
+  store(best_at, starts);
+  Farthest farthest{static_cast<std::size_t>(starts[0]), products[0]};
+  for (std::size_t lane = 1; lane < k_lanes; ++lane) {
+    const std::size_t index = static_cast<std::size_t>(starts[lane]) + lane;
+    const bool first = products[lane] == farthest.product && index < farthest.index;
+    if (products[lane] > farthest.product || first) farthest = {index, products[lane]};
+  }
+  return farthest;
+}
+
+HWY_ATTR void heights_above(const PointColumns& normals, const std::int64_t* offsets,
+                            const Direction32& p, std::int64_t* heights) {
+  const Lanes x = broadcast(p[0]), y = broadcast(p[1]), z = broadcast(p[2]);
+  for (std::size_t i = 0; i < normals.count; i += k_lanes)
+    store(subtract(products_at(normals, i, x, y, z), load(offsets + i)), heights + i);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lockstone::lanes
+HWY_AFTER_NAMESPACE();
+
+#endif  // the guard
