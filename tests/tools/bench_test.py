@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 LOCKSTONE = ""
 OK, USAGE = 0, 64
@@ -127,6 +128,52 @@ class Queries(Case):
 
     def test_refuse_wrong_usage(self):
         self.expect(USAGE, "queries", "--bodies", 0)
+
+
+class Front(Case):
+    """Time against error, ours alone: peers and their versions differ between machines."""
+
+    def test_scenes_are_described_for_anyone(self):
+        described = self.json_of("scenes")
+        self.assertEqual((described["format"], described["tick_rate"]), ("lockstone scenes 1", 60))
+        scenes = {scene["name"]: scene for scene in described["scenes"]}
+        self.assertLessEqual({"free-fall", "slide", "chain", "stack-20", "pendulum", "net"}, set(scenes))
+        self.assertEqual(len(scenes), len(described["scenes"]))
+        for scene in scenes.values():
+            bodies = len(scene["bodies"])
+            self.assertTrue(all(0 <= body < bodies for body in scene["watched"]), scene["name"])
+            self.assertTrue(all(max(joint["a"], joint["b"]) < bodies for joint in scene["joints"]), scene["name"])
+
+    def test_a_run_is_a_line_of_json_for_each_setting(self):
+        lines = self.expect(OK, "scenes", "--run", "--alone", "--scenes", "free-fall", "--settings", "1,4",
+                            "--repeats", 2).splitlines()
+        runs = [json.loads(line) for line in lines]
+        self.assertEqual([(run["scene"], run["setting"]) for run in runs], [("free-fall", 1), ("free-fall", 4)])
+        for run in runs:
+            self.assertEqual((len(run["cpu_seconds"]), len(run["samples"])), (2, 1))
+            self.assertAlmostEqual(run["samples"][0][0][1], -490.5, places=6)
+
+    def test_draws_charts_and_writes_pages(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            run = ("accuracy", "--scenes", "bounce,throw", "--settings", "1,4", "--repeats", 1, "--alone", "--plot")
+            self.expect(OK, *run, folder / "front")
+            self.expect(OK, *run, folder / "all.svg")
+            pictures = {path.stem for path in (folder / "front").glob("*.svg")}
+            self.assertEqual(pictures, {"bounce", "throw-speed", "throw-way"})
+            for picture in [*(folder / "front").glob("*.svg"), folder / "all.svg"]:
+                xml.etree.ElementTree.parse(picture)
+            with (folder / "front" / "front.csv").open() as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            self.assertIn("## Row 12", (folder / "front" / "front.md").read_text())
+        self.assertEqual([(row["figure"], row["setting"]) for row in rows],
+                         [(name, setting) for name in ("bounce", "throw-speed", "throw-way") for setting in "14"])
+        for row in rows:
+            self.assertRegex(row["hash"], HASH)
+            self.assertLess(float(row["error"]), 1e-2)
+
+    def test_refuses_unknown_scenes(self):
+        self.expect(USAGE, "accuracy", "--plot", "nowhere", "--scenes", "nothing")
 
 
 if __name__ == "__main__":

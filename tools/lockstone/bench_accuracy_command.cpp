@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/accuracy/accuracy.h"
+#include "tools/lockstone/bench_front.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 
@@ -19,6 +20,8 @@ struct BenchAccuracyOptions {
   bench::AccuracyOptions measure;
   std::vector<int> rows;  // empty: all
   bool json = false;
+  std::string plot;  // empty: rows instead of charts
+  FrontOptions front;
 };
 
 struct MeasuredRow {
@@ -69,7 +72,13 @@ bool is_chosen(const BenchAccuracyOptions& options, int number) {
   return options.rows.empty() || std::ranges::count(options.rows, number) > 0;
 }
 
+int plot(const BenchAccuracyOptions& options) {
+  const std::string command = fmt::format("lockstone bench accuracy --plot {}", options.plot);
+  return write_front(measure_front(options.front), options.plot, command) ? k_ok : k_unavailable;
+}
+
 int run(const BenchAccuracyOptions& options) {
+  if (!options.plot.empty()) return plot(options);
   Json json = Json::array();
   bool met = true;
   for (const bench::AccuracyRow& row : bench::accuracy_rows()) {
@@ -104,6 +113,10 @@ void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
   command->add_flag("--sweep", options->measure.sweep,
                     "Rows of contact at 1, 2, 4, 8 and 16 substeps");
   command->add_flag("--json", options->json, "Print JSON");
+  command->add_option("--plot", options->plot,
+                      "Instead: time against error of all engines as charts, into a folder or one "
+                      "file *.svg");
+  add_front_options(*command, options->front);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

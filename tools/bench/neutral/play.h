@@ -1,0 +1,33 @@
+// Plays a scene by an engine: once for what it does, and again for the time it takes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/bench/neutral/engine.h"
+
+namespace lockstone::bench {
+
+/// What an engine did with a scene at a setting.
+struct Played {
+  std::string engine;
+  std::string scene;
+  int setting = 0;
+  std::vector<double> cpu_seconds;  ///< of each repeat, a simulated second
+  std::uint64_t hash = 0;
+  std::string note;
+  std::vector<std::vector<BodyState>> samples;  ///< every so many ticks, of all watched bodies
+
+  [[nodiscard]] double median_seconds() const;
+};
+
+/// Records what happens; nothing when the engine cannot do the scene.
+[[nodiscard]] std::optional<Played> play(const NeutralMaker& maker, const NeutralScene& scene,
+                                         int setting);
+
+/// The same again without looking at anything; adds its time.
+void time_again(const NeutralMaker& maker, const NeutralScene& scene, Played& played);
+
+}  // namespace lockstone::bench

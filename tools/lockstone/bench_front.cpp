@@ -1,0 +1,212 @@
+#include "tools/lockstone/bench_front.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <CLI/App.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "tools/bench/charts/page.h"
+#include "tools/bench/neutral/scene_json.h"
+#include "tools/bench/peers/scene_peers.h"
+#include "tools/bench/support/machine.h"
+#include "tools/lockstone/console.h"
+
+namespace lockstone::tool {
+namespace {
+
+using bench::EngineRuns;
+using bench::NeutralMaker;
+using bench::NeutralScene;
+using bench::Played;
+
+constexpr double k_enough_seconds = 2;  // of one point: not repeated any more
+constexpr double k_quick_size = 1100;   // bodies times seconds
+
+std::vector<NeutralScene> scenes_of(const FrontOptions& options) {
+  std::vector<NeutralScene> scenes;
+  for (const NeutralScene& scene : bench::neutral_scenes()) {
+    const bool named = std::ranges::count(options.scenes, scene.name) > 0;
+    const bool small = static_cast<double>(scene.bodies.size()) * scene.seconds < k_quick_size;
+    if (options.scenes.empty() ? small || !options.quick : named) scenes.push_back(scene);
+  }
+  return scenes;
+}
+
+// All native engines with a scene at a setting: what they do, then the times in turns.
+void measure_point(const std::vector<NeutralMaker>& makers, std::vector<EngineRuns>& engines,
+                   const NeutralScene& scene, int setting, int repeats) {
+  std::vector<std::optional<Played>> plays;
+  for (const NeutralMaker& maker : makers)
+    plays.push_back(bench::play(maker, scene, setting));
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    for (std::size_t i = 0; i < makers.size(); ++i) {
+      if (!plays[i]) continue;
+      const std::vector<double>& taken = plays[i]->cpu_seconds;
+      const bool enough = !taken.empty() && taken.front() * scene.seconds > k_enough_seconds;
+      if (!enough) bench::time_again(makers[i], scene, *plays[i]);
+    }
+  }
+  for (std::size_t i = 0; i < makers.size(); ++i) {
+    if (plays[i]) engines[i].runs.push_back(std::move(*plays[i]));
+  }
+}
+
+void measure_native(const FrontOptions& options, Progress& progress, MeasuredFront& measured) {
+  std::vector<NeutralMaker> makers{bench::lockstone_maker()};
+  if (!options.alone)
+    makers.insert(makers.end(), bench::scene_peers().begin(), bench::scene_peers().end());
+  std::vector<EngineRuns> engines;
+  for (const NeutralMaker& maker : makers)
+    engines.push_back({std::string(maker.name), "native", std::string(maker.knob), {}});
+  // By way of JSON: what drives the other processes drives these.
+  const std::string json = bench::scenes_to_json(scenes_of(options));
+  for (const NeutralScene& scene : bench::scenes_from_json(json)) {
+    for (const int setting : options.settings) {
+      progress.show(fmt::format("{} at {}", scene.name, setting));
+      measure_point(makers, engines, scene, setting, options.repeats);
+    }
+  }
+  for (EngineRuns& engine : engines) {
+    if (engine.runs.empty())
+      measured.absent.push_back(engine.name + ", not in this build or not able to do the scenes");
+    else
+      measured.engines.push_back(std::move(engine));
+  }
+}
+
+// A file that is there while this lives.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() / fmt::format("lockstone-{}.json", getpid())) {
+    written_ = write_text_file(path_.string(), text);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  [[nodiscard]] bool written() const { return written_; }
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+  bool written_ = false;
+};
+
+std::string settings_text(const FrontOptions& options, std::string_view between) {
+  return fmt::format("{}", fmt::join(options.settings, between));
+}
+
+// What another process prints, a line a point.
+void measure_by(const std::string& command, std::string name, std::string knob, Progress& progress,
+                MeasuredFront& measured) {
+  EngineRuns engine{std::move(name), "node", std::move(knob), {}};
+  const int code = bench::for_lines_of(command, [&](std::string&& line) {
+    Played played;
+    if (!bench::played_from_json(line, played)) return;
+    progress.show(fmt::format("{}: {} at {}", engine.name, played.scene, played.setting));
+    engine.runs.push_back(std::move(played));
+  });
+  if (code != 0) complain(fmt::format("{}: ended with {}", engine.name, code));
+  if (engine.runs.empty())
+    measured.absent.push_back(engine.name + ", which needs Node and its package (tools/bench.sh)");
+  else
+    measured.engines.push_back(std::move(engine));
+}
+
+void measure_node(const FrontOptions& options, Progress& progress, MeasuredFront& measured) {
+  const TemporaryFile file(bench::scenes_to_json(scenes_of(options)));
+  if (!file.written()) return;
+  const auto runner = [&](std::string_view engine) {
+    return fmt::format("node {} {} {} {} {}", bench::quoted(options.node + "/run.mjs"), engine,
+                       bench::quoted(file.path()), options.repeats, settings_text(options, " "));
+  };
+  if (!options.wasm.empty()) {
+    const std::string command = fmt::format(
+        "node {} bench scenes --run --alone --repeats {} --settings {}{}",
+        bench::quoted(options.wasm), options.repeats, settings_text(options, ","),
+        options.scenes.empty() ? (options.quick ? " --quick" : "")
+                               : fmt::format(" --scenes {}", fmt::join(options.scenes, ",")));
+    measure_by(command, "lockstone wasm", "substeps", progress, measured);
+  } else {
+    measured.absent.push_back(
+        "lockstone wasm, which needs the WebAssembly build: native time against peers under Node "
+        "is "
+        "not fair, so these are judged by error alone");
+  }
+  measure_by(runner("rapier"), "Rapier", "solver iterations", progress, measured);
+  measure_by(runner("jolt"), "Jolt", "collision steps", progress, measured);
+}
+
+bool write_all(const std::filesystem::path& folder, const std::vector<bench::Front>& fronts,
+               const bench::PageFacts& facts) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  bool written = true;
+  for (const bench::Front& front : fronts)
+    written &= write_text_file((folder / fmt::format("{}.svg", front.error->name)).string(),
+                               bench::svg_of(bench::chart_of(front)));
+  return written &
+         write_text_file((folder / "front.md").string(), bench::front_page(fronts, facts, true)) &
+         write_text_file((folder / "front.csv").string(), bench::front_csv(fronts, facts));
+}
+
+}  // namespace
+
+void add_front_options(CLI::App& command, FrontOptions& options) {
+  std::vector<std::string> names;
+  for (const NeutralScene& scene : bench::neutral_scenes())
+    names.push_back(scene.name);
+  command.add_option("--scenes", options.scenes, "Names of neutral scenes; all when left out")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  command.add_option("--settings", options.settings, "Substeps, or a peer's own knob")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_option("--repeats", options.repeats, "A time is the median of so many")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 8, once");
+  command.add_flag("--alone", options.alone, "Without the native peers");
+  command.add_option("--node", options.node, "Folder of run.mjs, for peers under Node");
+  command.add_option("--wasm", options.wasm, "lockstone.js of the WebAssembly build");
+}
+
+MeasuredFront measure_front(FrontOptions options) {
+  if (options.quick) {
+    options.settings = {1, 2, 4, 8};
+    options.repeats = 1;
+  }
+  MeasuredFront measured;
+  Progress progress;
+  measure_native(options, progress, measured);
+  if (options.node.empty())
+    measured.absent.push_back("Rapier and Jolt, which need --node");
+  else
+    measure_node(options, progress, measured);
+  return measured;
+}
+
+bool write_front(const MeasuredFront& measured, const std::string& path,
+                 const std::string& command) {
+  const std::vector<bench::Front> fronts = bench::fronts_of(measured.engines);
+  const bench::PageFacts facts{bench::machine_text(), bench::compiler_text(), bench::commit_text(),
+                               command, measured.absent};
+  fmt::print("{}", bench::outcome_table(fronts));
+  for (const std::string& absent : measured.absent)
+    fmt::print("absent: {}\n", absent);
+  if (!path.ends_with(".svg")) return write_all(path, fronts, facts);
+  constexpr int k_columns = 3;
+  std::vector<bench::Chart> charts;
+  for (const bench::Front& front : fronts)
+    charts.push_back(bench::chart_of(front));
+  return write_text_file(path, bench::svg_sheet(charts, k_columns));
+}
+
+}  // namespace lockstone::tool
