@@ -43,6 +43,8 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {36, "chain of 20 with a heavy end, 10 s", 1, measure_heavy_chain},
     {37, "elastic spheres without gravity", 1, measure_elastic_cloud},
     {38, "the same scene far away", 1, measure_far_away},
+    {101, "baseline: three Euler methods, 10 min", 1, measure_integrators},
+    {102, "baseline: stack of 20 on springs", 1, measure_penalty},
 });
 
 }  // namespace

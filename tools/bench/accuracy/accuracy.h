@@ -79,4 +79,8 @@ struct AccuracyRow {
 [[nodiscard]] std::vector<AccuracyResult> measure_elastic_cloud(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_far_away(const AccuracyOptions& options);
 
+// What other methods would do; tools/bench/baselines.
+[[nodiscard]] std::vector<AccuracyResult> measure_integrators(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_penalty(const AccuracyOptions& options);
+
 }  // namespace lockstone::bench
