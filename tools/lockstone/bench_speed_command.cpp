@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tools/bench/support/measure.h"
+#include "tools/lockstone/bench_instructions.h"
 #include "tools/lockstone/bench_speed_print.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
@@ -27,6 +28,8 @@ struct BenchSpeedOptions {
   bool detail = false;
   bool json = false;
   std::string csv;
+  std::string instructions;  // a file to write; empty: times instead
+  std::string compare;       // a file that `instructions` wrote
 };
 
 // Empty when a name is unknown.
@@ -113,6 +116,9 @@ int run(const BenchSpeedOptions& options, bool list) {
     list_scenes(scenes);
     return k_ok;
   }
+  if (!options.compare.empty()) return compare_instructions(options.compare);
+  if (!options.instructions.empty())
+    return write_instructions(scenes, options.ticks, options.instructions);
   const SpeedReport report = measure(options, scenes);
   options.json ? print_speed_json(report) : print_speed_tables(report);
   if (!options.csv.empty() && !write_text_file(options.csv, speed_csv(report)))
@@ -143,6 +149,10 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
   command->add_flag("--list", *list, "Only name the scenes");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_option("--csv", options->csv, "Write a file with one line a tick");
+  command->add_option("--instructions", options->instructions,
+                      "Instead: count instructions by callgrind into this file");
+  command->add_option("--compare", options->compare,
+                      "Instead: count again what such a file holds; exit code 1 above 2 % more");
   command->callback([options, list, &exit_code] { exit_code = run(*options, *list); });
 }
 

@@ -1,0 +1,19 @@
+// `bench speed --instructions` and `--compare`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/bench/speed/speed_scene.h"
+
+namespace lockstone::tool {
+
+/// Counts a twentieth of each scene's ticks, or `ticks`, into a file. An exit code.
+[[nodiscard]] int write_instructions(const std::vector<const bench::SpeedScene*>& scenes,
+                                     std::uint32_t ticks, const std::string& path);
+
+/// Counts again what a file holds and prints both: k_different when a scene takes over a fiftieth
+/// more.
+[[nodiscard]] int compare_instructions(const std::string& path);
+
+}  // namespace lockstone::tool
