@@ -62,19 +62,33 @@ std::string table_of(const Front& front) {
 }
 
 std::string head_of(const PageFacts& facts) {
-  std::string text =
-      fmt::format("# Run time against error\n\nMade by `{}`; {}; {}; commit {}.\n\n", facts.command,
-                  facts.machine, facts.compiler, facts.commit);
+  std::string text = fmt::format("# Run time against error\n\nMade by `{}`; {}; {}; commit {}.\n\n",
+                                 facts.command, facts.machine, facts.compiler, facts.commit);
   text +=
       "Each scene is the same description for every engine, each error is found by the same judge. "
       "Time is the processor time of one\nsimulated second, the median of the repeats. In brackets "
       "the setting: substeps (lockstone), steps a tick (Bullet, ODE), solver\niterations (Rapier), "
       "collision steps (Jolt). *Ahead*: at every point of the peer we err no more in no more time; "
-      "*ahead at its\nbest*: at its least error, but not at every faster point; *behind at its best*: "
-      "only at other points; *behind*: at none. Errors\nbelow 1e-9 count as equal; *lost* is an error "
+      "*ahead at its\nbest*: at its least error, but not at every faster point; *behind at its "
+      "best*: "
+      "only at other points; *behind*: at none. Errors\nbelow 1e-9 count as equal; *lost* is an "
+      "error "
       "above 1000, or none that is a number.\n";
   for (const std::string& absent : facts.absent)
     text += fmt::format("\nAbsent: {}.\n", absent);
+  return text;
+}
+
+std::string csv_of(const JudgedError& error, const FrontLine& line) {
+  std::string text;
+  for (const FrontPoint& point : line.points) {
+    const auto run = std::ranges::find_if(line.engine->runs, [&](const Played& played) {
+      return played.scene == error.scene && played.setting == point.setting;
+    });
+    text += fmt::format("{},{},{},{},{},{},{:.4g},{:.4g},{:016x}\n", error.row, error.name,
+                        error.unit, line.engine->name, line.engine->family, point.setting,
+                        point.seconds, point.error, run->hash);
+  }
   return text;
 }
 
@@ -110,17 +124,8 @@ std::string front_csv(const std::vector<Front>& fronts, const PageFacts& facts) 
                                  facts.commit, facts.command);
   text += "row,figure,unit,engine,family,setting,cpu_seconds_per_second,error,hash\n";
   for (const Front& front : fronts) {
-    for (const FrontLine& line : front.lines) {
-      for (const FrontPoint& point : line.points) {
-        const auto run = std::ranges::find_if(line.engine->runs, [&](const Played& played) {
-          return played.scene == front.error->scene && played.setting == point.setting;
-        });
-        text +=
-            fmt::format("{},{},{},{},{},{},{:.4g},{:.4g},{:016x}\n", front.error->row,
-                        front.error->name, front.error->unit, line.engine->name,
-                        line.engine->family, point.setting, point.seconds, point.error, run->hash);
-      }
-    }
+    for (const FrontLine& line : front.lines)
+      text += csv_of(*front.error, line);
   }
   return text;
 }
