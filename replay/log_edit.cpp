@@ -127,6 +127,7 @@ CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t be
               std::uint64_t end, Sink& sink) {
   SeekResult found = seek(source, factory, begin);
   if (found.status != Status::ok) return {found.status, std::move(found.what), 0};
+  if (!found.same_canary) return {Status::incompatible, "this build has another canary", 0};
   if (found.diverged) {
     return {Status::incompatible,
             "this build goes another way at tick " + std::to_string(found.diverged_tick), 0};

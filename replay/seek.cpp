@@ -33,20 +33,29 @@ std::optional<KeyframePlace> start_of(Source& source, std::uint64_t tick, SeekFr
   return start_tick > 0 && first.tick <= tick ? std::optional(first) : std::nullopt;
 }
 
+// What of the header keeps the log from being stepped at all. Another canary does not: it says that
+// hashes will differ, and where they do is what one looks for.
+std::optional<FieldMismatch> obstacle(const SimulationInfo& log, const SimulationInfo& here) {
+  SimulationInfo comparable = here;
+  comparable.canary = log.canary;
+  const std::vector<FieldMismatch> mismatches = compare_info(log, comparable);
+  return mismatches.empty() ? std::nullopt : std::optional(mismatches.front());
+}
+
 // Makes the simulation and compares it with the log's header.
 SeekResult create(const SimulationFactory& factory, const TickReader& ticks) {
   Result<std::unique_ptr<Simulation>> made = factory(ticks.config());
   if (!made || made.value() == nullptr) {
     return failed(Status::incompatible, "the simulation refuses the configuration");
   }
-  const std::vector<FieldMismatch> mismatches =
-      compare_info(ticks.reader().header().info, made.value()->info());
-  if (!mismatches.empty()) {
-    const FieldMismatch& first = mismatches.front();
+  const std::optional<FieldMismatch> field =
+      obstacle(ticks.reader().header().info, made.value()->info());
+  if (field) {
     return failed(Status::incompatible,
-                  first.field + ' ' + first.log + " in the log, " + first.here + " here");
+                  field->field + ' ' + field->log + " in the log, " + field->here + " here");
   }
   SeekResult result;
+  result.same_canary = made.value()->info().canary == ticks.reader().header().info.canary;
   result.simulation = std::move(made).value();
   return result;
 }

@@ -1,6 +1,7 @@
 // The index, reading from the middle, compressed chunks.
 #include <gtest/gtest.h>
 
+#include <lockstone/replay/log_edit.h>
 #include <lockstone/replay/log_map.h>
 #include <lockstone/replay/log_reader.h>
 #include <lockstone/replay/seek.h>
@@ -106,6 +107,24 @@ TEST(Seek, TellsWhereTheLogGoesAnotherWay) {
   ASSERT_EQ(result.status, Status::ok);
   EXPECT_TRUE(result.diverged);
   EXPECT_EQ(result.diverged_tick, 11U);
+}
+
+TEST(Seek, ComparesWithABuildThatFailsTheCanary) {
+  const Bytes log = record(k_indexed);
+  MemorySource source(log);
+  const auto other_build = [](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
+    auto toy = std::make_unique<ToySimulation>(ToyConfig::decode(bytes).value());
+    SimulationInfo info = toy->info();
+    ++info.canary;
+    toy->override_info(info);
+    return std::unique_ptr<Simulation>(std::move(toy));
+  };
+  const SeekResult result = seek(source, other_build, 20);
+  EXPECT_EQ(result.status, Status::ok) << result.what;
+  EXPECT_FALSE(result.same_canary);
+  EXPECT_TRUE(seek(source, toy_factory(), 20).same_canary);
+  MemorySink sink;
+  EXPECT_EQ(cut(source, other_build, 20, 40, sink).status, Status::incompatible);
 }
 
 TEST(Compression, MakesKeyframesSmallerAndChangesNothingElse) {

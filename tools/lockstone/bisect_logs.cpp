@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -98,6 +99,15 @@ void explain(Side& here, Side& there, BisectReport& report) {
   report.difference_tick = simulation.tick();
 }
 
+// Builds that compute different things fail each other's canary: those are what one bisects.
+bool are_of_one_match(const replay::LogComparison& logs) {
+  const auto stands_in_the_way = [](const replay::FieldMismatch& field) {
+    return field.field != "canary";
+  };
+  return logs.same_config &&
+         std::none_of(logs.header.begin(), logs.header.end(), stands_in_the_way);
+}
+
 BisectReport logs_failed(int exit_code) {
   BisectReport report;
   report.exit_code = exit_code;
@@ -111,7 +121,7 @@ BisectReport bisect_logs(const std::string& here_path, const std::string& there_
   Side there{.path = there_path, .source = open_log(there_path), .found = {}, .stages = {}};
   if (here.source == nullptr || there.source == nullptr) return logs_failed(k_corrupt);
   const replay::LogComparison comparison = replay::compare_logs(*here.source, *there.source);
-  if (!comparison.header.empty() || !comparison.same_config) {
+  if (!are_of_one_match(comparison)) {
     complain("the logs are of different simulations or configurations; see `lockstone diff`");
     return logs_failed(k_incompatible);
   }

@@ -18,6 +18,7 @@ struct SeekResult {
   std::unique_ptr<Simulation> simulation;
   std::unique_ptr<TickReader> ticks;  ///< stands before the tick: next() reads it
   std::uint64_t loaded_tick = 0;      ///< of the keyframe that was started from
+  bool same_canary = true;            ///< false: this build computes something else than the log's
   /// The first tick on the way whose hash was not the recorded one; `diverged` tells whether any.
   bool diverged = false;
   std::uint64_t diverged_tick = 0;
@@ -29,7 +30,8 @@ enum class SeekFrom : std::uint8_t {
 };
 
 /// The state at `tick`: loads the last keyframe at or before it and steps on with the log's inputs.
-/// not_found when the log does not reach so far; incompatible when it is of another simulation.
+/// not_found when the log does not reach so far; incompatible when it is of another simulation. Only
+/// the canary may differ: what a build that computes something else makes of the log can be compared.
 /// `source` must outlive the result.
 [[nodiscard]] SeekResult seek(Source& source, const SimulationFactory& factory, std::uint64_t tick,
                               SeekFrom from = SeekFrom::keyframe);
