@@ -8,7 +8,8 @@ set(CMAKE_C_COMPILER emcc)
 set(CMAKE_AR emar)
 set(CMAKE_RANLIB emranlib)
 set(CMAKE_EXECUTABLE_SUFFIX .js)
-set(CMAKE_CXX_FLAGS_INIT "-fexceptions -msimd128")
+set(CMAKE_CXX_FLAGS_INIT
+  "-fexceptions -msimd128 -include ${CMAKE_CURRENT_LIST_DIR}/wasm_algorithms.h")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
   "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sTOTAL_STACK=4MB")
 # Loaded in one piece: what loads it piece by piece takes Node's fetch() for a browser's.
