@@ -71,6 +71,7 @@ struct Client::Impl {
   void step_one();
   void step_rest();
   void after_step(std::uint64_t hash);
+  void note_parts();
   [[nodiscard]] bool due(std::uint64_t tick) const;
   void sample_inputs();
   [[nodiscard]] std::uint64_t sample_target();
@@ -150,6 +151,7 @@ struct Client::Impl {
 
   HashRing hashes;
   std::uint64_t hashes_acked = 0;
+  Parts state_parts;  ///< of the newest state that has some; predicting, it may be a guess
   TickRing snapshots;
   std::vector<std::byte> dump;  ///< snapshot_bytes_max
   std::size_t dump_size = 0;

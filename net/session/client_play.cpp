@@ -93,7 +93,18 @@ bool Client::Impl::due(std::uint64_t tick) const {
 void Client::Impl::step_one() {
   const RecordInputs inputs(records.find(stepped), shape);
   simulation->step(inputs.view());
+  note_parts();
   after_step(simulation->hash());
+}
+
+// Called after every step.
+void Client::Impl::note_parts() {
+  if (simulation->tick() % k_parts_interval_ticks != 0 || spectates()) return;
+  std::array<PartHash, k_max_state_parts> hashed{};
+  state_parts.ticks = simulation->tick();
+  state_parts.count = static_cast<std::uint8_t>(simulation->part_hashes(hashed));
+  for (std::size_t part = 0; part < state_parts.count; ++part)
+    state_parts.hashes[part] = hashed[part].hash;
 }
 
 // The tick `stepped` has been stepped as it was closed; `hash` is the state after it.
@@ -105,6 +116,7 @@ void Client::Impl::after_step(std::uint64_t hash) {
   }
   news = true;
   const std::uint64_t tick = stepped++;
+  if (state_parts.ticks == stepped && state_parts.count > 0 && !spectates()) send(state_parts);
   const RecordInputs inputs(records.find(tick), shape);
   observer->tick_stepped(tick, inputs.view(), hash);
   if (spectates() || tick < std::max<std::uint64_t>(seat.input_delay_ticks, active_tick)) return;

@@ -22,6 +22,7 @@ void Client::Impl::keep_state() {
 std::uint64_t Client::Impl::step_record(ByteView record) {
   simulation->step(RecordInputs(record, shape).view());
   ++head;
+  note_parts();
   keep_state();
   return simulation->hash();
 }

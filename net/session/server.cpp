@@ -199,6 +199,8 @@ bool Server::Impl::dispatch(Link& link, ByteView packet) {
       return link.stage == Stage::seated && on_dump(link, packet);
     case MessageType::snapshot_taken:
       return link.stage >= Stage::seated && on_snapshot_taken(link, packet);
+    case MessageType::parts:
+      return link.stage == Stage::seated && on_parts(link, packet);
     case MessageType::ask:
       return link.stage == Stage::seated && on_ask(link, packet);
     case MessageType::bye:

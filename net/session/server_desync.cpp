@@ -23,7 +23,51 @@ void Server::Impl::judge_hashes() {
       observer->hash_agreed(agreed_told, judge.right_hash(agreed_told));
     }
   }
-  if (found) open_case(*found);
+  if (found) {
+    parts_judge.forget();
+    return open_case(*found);
+  }
+  judge_parts();
+}
+
+// Only what the hashes of every tick are blind to.
+void Server::Impl::judge_parts() {
+  const std::optional<PartMismatch> found = parts_judge.found();
+  if (!found || judge.judged_ticks() < found->ticks) return;
+  parts_judge.forget();
+  const bool judges = found->reference == k_no_slot;
+  open_case({found->ticks - 1, found->slot, found->reference,
+             judges ? Verdict::client_diverged : Verdict::undecided, found->here.low,
+             found->there.low});
+  desync->part = name_of_part(found->part);
+}
+
+void Server::Impl::note_own_parts() {
+  if (parts.simulation->tick() % k_parts_interval_ticks != 0) return;
+  std::array<PartHash, k_max_state_parts> hashed{};
+  Parts own;
+  own.ticks = parts.simulation->tick();
+  own.count = static_cast<std::uint8_t>(parts.simulation->part_hashes(hashed));
+  for (std::size_t part = 0; part < own.count; ++part)
+    own.hashes[part] = hashed[part].hash;
+  parts_judge.note_own(own);
+}
+
+bool Server::Impl::on_parts(const Link& link, ByteView packet) {
+  Parts message;
+  if (decode(packet, message) != Status::ok || message.ticks > closed) return false;
+  Seat& place = seats[link.slot];
+  if (place.loading || desync) return true;
+  const bool has_own = parts.simulation != nullptr;
+  if (parts_judge.compare(link.slot, message, has_own)) ++place.stats.parts_equal;
+  return true;
+}
+
+std::string Server::Impl::name_of_part(std::size_t part) const {
+  const Simulation* known = parts.simulation == nullptr ? parts.describer : parts.simulation;
+  std::array<PartHash, k_max_state_parts> hashed{};
+  const std::size_t count = known == nullptr ? 0 : known->part_hashes(hashed);
+  return part < count ? std::string(hashed[part].name) : "part " + std::to_string(part);
 }
 
 void Server::Impl::open_case(const Mismatch& mismatch) {
@@ -133,6 +177,7 @@ DesyncReport Server::Impl::report_of_case() {
   report.verdict = mismatch.verdict;
   report.hash_here = mismatch.hash_here;
   report.hash_there = mismatch.hash_there;
+  report.part = desync->part;
   report.build_here = build_of(mismatch.reference);
   report.build_there = build_of(mismatch.slot);
   if (server_is_wrong(mismatch)) report.verdict = Verdict::server_diverged;

@@ -12,6 +12,7 @@
 #include <lockstone/net/wire.h>
 
 #include "net/session/hash_judge.h"
+#include "net/session/parts_judge.h"
 #include "net/session/peer_watch.h"
 #include "net/session/tick_ring.h"
 
@@ -34,6 +35,7 @@ struct DumpTransfer {
 struct DesyncCase {
   Mismatch mismatch;
   std::int64_t since_us = 0;
+  std::string part;  ///< if the 128-bit hashes found it
   DumpTransfer here;
   DumpTransfer there;
 };
@@ -77,7 +79,7 @@ struct Server::Impl {
     TickRing inputs;
     std::uint64_t inputs_next = 0;        ///< inputs below are received or replaced
     std::uint64_t active_tick = k_never;  ///< its player plays from this tick on
-    std::uint64_t player = 0;              ///< the account in its token
+    std::uint64_t player = 0;             ///< the account in its token
     std::uint64_t rejoin_key = 0;         ///< who has it may sit here again
     std::int64_t reserved_until_us = -1;  ///< so long nobody else may, if it is empty
     std::int8_t margin = k_no_margin;     ///< the least since it was last told
@@ -197,6 +199,10 @@ struct Server::Impl {
 
   // server_desync.cpp
   void judge_hashes();
+  void judge_parts();
+  void note_own_parts();
+  [[nodiscard]] bool on_parts(const Link& link, ByteView packet);
+  [[nodiscard]] std::string name_of_part(std::size_t part) const;
   void open_case(const Mismatch& mismatch);
   void request_dump(DumpTransfer& transfer, std::uint8_t slot);
   [[nodiscard]] bool on_dump(Link& link, ByteView packet);
@@ -246,6 +252,7 @@ struct Server::Impl {
   TickRing records;
   TickRing snapshots;
   HashJudge judge;
+  PartsJudge parts_judge;
   std::uint64_t agreed_told = 0;  ///< hash_agreed was called below
   std::optional<DesyncCase> desync;
 

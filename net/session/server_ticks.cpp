@@ -206,6 +206,7 @@ void Server::Impl::fill_slot(std::span<std::byte> record, std::uint8_t slot) {
 std::optional<std::uint64_t> Server::Impl::step_simulation(ByteView record) {
   if (parts.simulation == nullptr) return std::nullopt;
   parts.simulation->step(RecordInputs(record, shape).view());
+  note_own_parts();
   const std::uint64_t hash = parts.simulation->hash();
   judge.push_own(hash);
   if (snapshots.capacity() > 0) {

@@ -46,7 +46,8 @@ std::string Refusal::to_line() const {
 std::string DesyncReport::to_line() const {
   std::string line = "tick " + std::to_string(tick) + ", player " + std::to_string(slot) + ", ";
   if (difference.differs) return line + difference.to_line();
-  return line + "hash: " + hexadecimal(hash_here) + " here, " + hexadecimal(hash_there) + " there";
+  return line + (part.empty() ? "hash" : part) + ": " + hexadecimal(hash_here) + " here, " +
+         hexadecimal(hash_there) + " there";
 }
 
 }  // namespace lockstone::net

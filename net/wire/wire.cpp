@@ -9,7 +9,7 @@ Result<MessageType> message_type(ByteView packet) {
   if (packet.empty()) return Status::truncated;
   const auto type = std::to_integer<std::uint8_t>(packet[0]);
   if (type < static_cast<std::uint8_t>(MessageType::hello)) return Status::malformed;
-  if (type > static_cast<std::uint8_t>(MessageType::paused)) return Status::malformed;
+  if (type > static_cast<std::uint8_t>(MessageType::parts)) return Status::malformed;
   return static_cast<MessageType>(type);
 }
 

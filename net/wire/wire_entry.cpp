@@ -1,4 +1,6 @@
-// The messages of joining late, of pausing and of wishes.
+// The messages of joining late, of pausing, of wishes and of parts of the state.
+#include <algorithm>
+
 #include <lockstone/net/wire.h>
 
 #include "net/wire/wire_io.h"
@@ -86,6 +88,32 @@ std::size_t encode(const Paused& message, std::span<std::byte> out) {
 Status decode(ByteView packet, Paused& message) {
   WireReader reader(MessageType::paused, packet);
   message.paused = reader.get_flag();
+  return reader.finish();
+}
+
+std::size_t encode(const Parts& message, std::span<std::byte> out) {
+  WireWriter writer(MessageType::parts, out);
+  writer.put(message.ticks);
+  writer.put(message.count);
+  for (std::size_t part = 0; part < message.count; ++part) {
+    writer.put(message.hashes[part].low);
+    writer.put(message.hashes[part].high);
+  }
+  return writer.finish();
+}
+
+Status decode(ByteView packet, Parts& message) {
+  WireReader reader(MessageType::parts, packet);
+  message = {};
+  message.ticks = reader.get_tick();
+  reader.require(message.ticks > 0 && message.ticks % k_parts_interval_ticks == 0);
+  message.count = reader.get<std::uint8_t>();
+  reader.require(message.count >= 1 && message.count <= k_max_state_parts);
+  const std::size_t count = std::min<std::size_t>(message.count, k_max_state_parts);
+  for (std::size_t part = 0; part < count; ++part) {
+    message.hashes[part].low = reader.get<std::uint64_t>();
+    message.hashes[part].high = reader.get<std::uint64_t>();
+  }
   return reader.finish();
 }
 

@@ -99,6 +99,8 @@ bool run(ByteView packet) {
       return run_plain<Ask>(packet);
     case MessageType::paused:
       return run_plain<Paused>(packet);
+    case MessageType::parts:
+      return run_plain<Parts>(packet);
     default:
       return false;
   }
@@ -156,7 +158,8 @@ std::vector<Bytes> seeds() {
           bytes_of(SnapshotTaken{8, true}),
           bytes_of(Activate{2, 90}),
           bytes_of(Ask{AskKind::vote, 1, 2}),
-          bytes_of(Paused{true})};
+          bytes_of(Paused{true}),
+          bytes_of(Parts{128, 2, {{{1, 2}, {3, 4}}}})};
 }
 
 const Registration k_registration{{.name = "wire", .seeds = seeds, .run = run}};

@@ -75,6 +75,42 @@ TEST(Desync, IsFoundInFastMatchesToo) {
   }
 }
 
+// Where 64 bits meet by chance, 128 a part do not: the next check finds it, and names the part.
+TEST(Desync, PartsShowWhatTheHashIsBlindTo) {
+  for (const std::uint8_t prediction : {std::uint8_t{0}, std::uint8_t{4}}) {
+    MatchOptions options = match_with_flip(3, 60, 1, {100, "body", "spin", 5, 9});
+    options.authoritative = false;
+    options.blind = true;
+    options.client.prediction_ticks = prediction;
+    Match match(options);
+    ASSERT_TRUE(match.run(60 * k_second_us));
+    ASSERT_EQ(match.server_log.reports.size(), 1U);
+    const DesyncReport& report = match.server_log.reports[0];
+    EXPECT_EQ(report.tick, 127U);
+    EXPECT_EQ(report.part, "bodies");
+    EXPECT_EQ(report.verdict, Verdict::undecided);
+    EXPECT_EQ(report.difference.store, "body");
+    EXPECT_EQ(match.server->stats(0).parts_equal, 2U);  // after 64 and 128 ticks
+    EXPECT_EQ(match.server->stats(1).parts_equal + match.server->stats(2).parts_equal, 3U);
+  }
+}
+
+TEST(Desync, PartsAreComparedEvery64Ticks) {
+  for (const bool authoritative : {true, false}) {
+    for (const std::uint8_t prediction : {std::uint8_t{0}, std::uint8_t{6}}) {
+      MatchOptions options = match_with_flip(3, 70, 0, {100'000, "world", "random", 0, 0});
+      options.authoritative = authoritative;
+      options.client.prediction_ticks = prediction;
+      options.faults = rough(100'000);
+      Match match(options);
+      ASSERT_TRUE(match.run(60 * k_second_us));
+      EXPECT_TRUE(match.server_log.reports.empty());
+      for (std::uint8_t slot = 0; slot < 3; ++slot)
+        EXPECT_EQ(match.server->stats(slot).parts_equal, 6U);  // of 400 ticks
+    }
+  }
+}
+
 TEST(Desync, IsNotReportedWithoutAFlip) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     MatchOptions options = match_with_flip(3, seed, 0, {100'000, "world", "random", 0, 0});

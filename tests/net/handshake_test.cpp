@@ -147,7 +147,7 @@ TEST_F(Handshake, RefusesAnotherProtocolVersionAndNamesBothValues) {
   run_for(k_second_us);
   ASSERT_EQ(log_.refusals.size(), 1U);
   EXPECT_EQ(log_.refusals[0].to_line(),
-            "refused: protocol mismatch, protocol: 0x0000000000000002 here, "
+            "refused: protocol mismatch, protocol: 0x0000000000000003 here, "
             "0x0000000000000007 there");
 }
 

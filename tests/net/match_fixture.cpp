@@ -99,10 +99,12 @@ Match::Player& Match::add_player(std::uint8_t wanted_slot, std::uint64_t rejoin_
   client_parts.connection = network.connect(*player.transport, server_transport, options.faults);
   std::vector<Flip> flips;
   if (index < options.flips.size()) flips = options.flips[index];
-  client_parts.factory = [flips](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
+  client_parts.factory =
+      [flips, blind = options.blind](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
     const Result<ToyConfig> toy = ToyConfig::decode(bytes);
     if (!toy) return toy.status();
-    return std::unique_ptr<Simulation>(std::make_unique<FaultySimulation>(toy.value(), flips));
+    return std::unique_ptr<Simulation>(
+        std::make_unique<FaultySimulation>(toy.value(), flips, blind));
   };
   client_parts.inputs = player.inputs.get();
   client_parts.observer = player.log.get();

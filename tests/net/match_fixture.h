@@ -44,8 +44,9 @@ struct Flip {
 /// A toy whose memory is faulty.
 class FaultySimulation final : public Simulation {
  public:
-  FaultySimulation(const ToyConfig& config, std::vector<Flip> flips)
-      : toy_(config), flips_(std::move(flips)) {}
+  /// A blind one's hash knows the tick alone.
+  FaultySimulation(const ToyConfig& config, std::vector<Flip> flips, bool blind = false)
+      : toy_(config), flips_(std::move(flips)), blind_(blind) {}
   [[nodiscard]] SimulationInfo info() const override { return toy_.info(); }
   [[nodiscard]] std::uint64_t tick() const override { return toy_.tick(); }
   void step(std::span<const PlayerInput> inputs) override;
@@ -56,7 +57,10 @@ class FaultySimulation final : public Simulation {
     return toy_.save(kind, out);
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return toy_.load(kind, bytes); }
-  [[nodiscard]] std::uint64_t hash() const override { return toy_.hash(); }
+  [[nodiscard]] std::uint64_t hash() const override { return blind_ ? toy_.tick() : toy_.hash(); }
+  [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override {
+    return toy_.part_hashes(out);
+  }
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
     return toy_.describe(here, there);
   }
@@ -65,6 +69,7 @@ class FaultySimulation final : public Simulation {
  private:
   ToySimulation toy_;
   std::vector<Flip> flips_;
+  bool blind_;
 };
 
 /// Presses what toy_input says.
@@ -145,6 +150,7 @@ struct MatchOptions {
   std::uint64_t seed = 1;
   bool authoritative = true;
   bool secure = false;
+  bool blind = false;  ///< in a relay: hashes of 64 bits show nothing
   std::int64_t step_us = 4'000;
   std::vector<std::vector<Flip>> flips;  ///< by client; may be shorter
 };

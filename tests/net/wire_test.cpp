@@ -117,6 +117,7 @@ std::vector<Sample> samples() {
       sample("activate", Activate{2, 1900}),
       sample("ask", Ask{AskKind::vote, 3, 200}),
       sample("paused", Paused{true}),
+      sample("parts", Parts{1920, 2, {{{1, 2}, {3, 4}}}}),
   };
 }
 

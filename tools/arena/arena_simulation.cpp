@@ -105,6 +105,19 @@ std::uint64_t ArenaSimulation::hash() const {
   return hash64(writer.written(), arena_.world.hash().total ^ k_hash_seed);
 }
 
+std::size_t ArenaSimulation::part_hashes(std::span<PartHash, k_max_state_parts> out) const {
+  std::array<std::byte, k_max_state_bytes> bytes;
+  ByteWriter writer(bytes);
+  encode_state(arena_.state, arena_.config.players, writer);
+  const StateHash128 world = arena_.world.hash128();
+  out[0] = {"rules", hash128(writer.written(), k_hash_seed)};
+  out[1] = {"world", world.header};
+  out[2] = {"bodies", world.bodies};
+  out[3] = {"contacts", world.contacts};
+  out[4] = {"joints", world.joints};
+  return 5;
+}
+
 std::string ArenaSimulation::name_of_body(ByteView world_bytes, std::uint64_t index) const {
   Result<World> world = World::create(arena_.world.def());
   if (!world || world.value().load(SnapshotKind::canonical, world_bytes) != Status::ok) return {};

@@ -23,6 +23,7 @@ class ArenaSimulation final : public Simulation {
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
   Status load(SnapshotKind kind, ByteView bytes) override;
   [[nodiscard]] std::uint64_t hash() const override;
+  [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override;
 
   /// To look at: for rendering, statistics and the bots.

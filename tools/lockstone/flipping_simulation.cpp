@@ -58,6 +58,9 @@ class FlippingSimulation final : public Simulation {
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return inner_->load(kind, bytes); }
   [[nodiscard]] std::uint64_t hash() const override { return inner_->hash(); }
+  [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override {
+    return inner_->part_hashes(out);
+  }
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
     return inner_->describe(here, there);
   }

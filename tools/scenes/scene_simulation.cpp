@@ -43,6 +43,15 @@ SceneSimulation::SceneSimulation(const Scene& scene, std::uint64_t seed, BroadPh
   info_.input_bytes = 1;
 }
 
+std::size_t SceneSimulation::part_hashes(std::span<PartHash, k_max_state_parts> out) const {
+  const StateHash128 hash = world_.hash128();
+  out[0] = {"world", hash.header};
+  out[1] = {"bodies", hash.bodies};
+  out[2] = {"contacts", hash.contacts};
+  out[3] = {"joints", hash.joints};
+  return 4;
+}
+
 void SceneSimulation::step(std::span<const PlayerInput> inputs) {
   LKS_CHECK(inputs.size() == 1);
   if (scene_.drive != nullptr) scene_.drive(world_, seed_);

@@ -38,6 +38,7 @@ class SceneSimulation final : public Simulation {
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return world_.load(kind, bytes); }
   [[nodiscard]] std::uint64_t hash() const override { return world_.hash().total; }
+  [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
     return world_.describe_difference(here, there);
   }

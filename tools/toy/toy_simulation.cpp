@@ -266,6 +266,28 @@ Status ToySimulation::load(SnapshotKind kind, ByteView bytes) {
   return Status::ok;
 }
 
+Hash128 ToySimulation::hash_words(std::size_t begin, std::size_t end) const {
+  Hash128 result;
+  for (std::size_t word = begin; word < end; ++word) {
+    std::array<std::byte, 24> bytes{};
+    ByteWriter writer(bytes);
+    writer.put(result.low);
+    writer.put(result.high);
+    writer.put(words_[word]);
+    result = hash128(bytes);
+  }
+  return result;
+}
+
+std::size_t ToySimulation::part_hashes(std::span<PartHash, k_max_state_parts> out) const {
+  const std::size_t players = k_world_fields.size();
+  const std::size_t bodies = players + config_.player_count * k_player_fields.size();
+  out[0] = {"world", hash_words(0, players)};
+  out[1] = {"players", hash_words(players, bodies)};
+  out[2] = {"bodies", hash_words(bodies, words_.size())};
+  return 3;
+}
+
 std::uint64_t ToySimulation::hash() const {
   // Words are hashed in blocks on the stack, so that the hash knows no byte order.
   std::array<std::byte, 512> block;

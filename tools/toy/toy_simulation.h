@@ -41,6 +41,7 @@ class ToySimulation : public Simulation {
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
   Status load(SnapshotKind kind, ByteView bytes) override;
   [[nodiscard]] std::uint64_t hash() const override;
+  [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override;
 
   /// Test hook: flips one bit of live state. Stores and fields:
@@ -53,6 +54,7 @@ class ToySimulation : public Simulation {
   void override_info(const SimulationInfo& info) { info_ = info; }
 
  private:
+  [[nodiscard]] Hash128 hash_words(std::size_t begin, std::size_t end) const;
   struct Place;  ///< what a word means
   [[nodiscard]] Place place_of(std::size_t word) const;
   [[nodiscard]] std::optional<std::size_t> find(std::string_view store, std::uint64_t object,

@@ -11,9 +11,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <lockstone/bytes.h>
+#include <lockstone/hash.h>
 #include <lockstone/status.h>
 
 namespace lockstone {
@@ -66,6 +68,14 @@ template <class T>
   return text.insert(0, "0x");
 }
 
+/// A part of the state, and 128 bits for it. The name is for people and lives as long as the
+/// program.
+struct PartHash {
+  std::string_view name;
+  Hash128 hash;
+};
+inline constexpr std::size_t k_max_state_parts = 8;
+
 /// The first difference between two states, in canonical order. Text is for people.
 struct StateDifference {
   bool differs = false;
@@ -80,7 +90,7 @@ struct StateDifference {
   [[nodiscard]] std::string to_line() const;
 };
 
-/// A deterministic game. `step`, `save`, `load` and `hash` must not allocate after creation.
+/// A deterministic game. `step`, `save`, `load` and the hashes must not allocate after creation.
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -104,6 +114,13 @@ class Simulation {
 
   /// A hash over everything that can change the future.
   [[nodiscard]] virtual std::uint64_t hash() const = 0;
+
+  /// Hashes of all parts of the state, at most k_max_state_parts, always the same ones in the same
+  /// order; answers how many. A session compares them every 64 ticks: what 64 bits are blind to
+  /// shows, and where. Without this it compares `hash` alone.
+  [[nodiscard]] virtual std::size_t part_hashes(std::span<PartHash, k_max_state_parts>) const {
+    return 0;
+  }
 
   /// Compares two canonical snapshots of this simulation. For people: may allocate, may be slow.
   [[nodiscard]] virtual StateDifference describe(ByteView here, ByteView there) const = 0;

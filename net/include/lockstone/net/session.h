@@ -70,6 +70,7 @@ struct DesyncReport {
   Verdict verdict = Verdict::undecided;
   std::uint64_t hash_here = 0;  ///< the server's, or of the player that speaks for the others
   std::uint64_t hash_there = 0;
+  std::string part;  ///< of the state, where only its 128 bits showed that they differ; else empty
   StateDifference difference;  ///< `differs` is false if a dump or a describing simulation lacked
   ByteView dump_here;  ///< canonical snapshots, valid during the callback; empty when not had
   ByteView dump_there;
@@ -92,6 +93,7 @@ struct PlayerStats {
   std::uint64_t substituted_inputs = 0;  ///< ticks closed without this player's input
   std::uint64_t hashes_compared = 0;
   std::uint64_t hashes_equal = 0;
+  std::uint64_t parts_equal = 0;  ///< checks of 128 bits a part, every 64 ticks
   std::uint64_t malformed_packets = 0;
   std::int32_t margin_quarters = 0;  ///< how early the newest inputs came, quarter ticks
   std::uint64_t entries = 0;         ///< how often it came into the running match

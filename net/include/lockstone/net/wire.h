@@ -21,7 +21,7 @@
 namespace lockstone::net {
 
 inline constexpr std::uint32_t k_protocol_magic = 0x4e534b4c;  ///< "LKSN"
-inline constexpr std::uint16_t k_protocol_version = 2;
+inline constexpr std::uint16_t k_protocol_version = 3;
 inline constexpr std::uint8_t k_any_slot = 255;
 inline constexpr std::uint64_t k_max_tick = std::uint64_t{1} << 62;  ///< no tick or count is above
 inline constexpr std::size_t k_max_name_bytes = 32;
@@ -31,6 +31,7 @@ inline constexpr std::size_t k_max_config_bytes = 32 * 1024;
 inline constexpr std::size_t k_max_chunk_bytes = 8 * 1024;
 inline constexpr std::size_t k_max_hashes_per_message = 32;
 inline constexpr std::size_t k_max_ticks_per_message = 255;
+inline constexpr std::uint64_t k_parts_interval_ticks = 64;
 inline constexpr std::size_t k_max_message_bytes = k_max_config_bytes + 64;
 static_assert(k_max_message_bytes <= k_max_reliable_bytes);
 
@@ -54,6 +55,7 @@ enum class MessageType : std::uint8_t {
   activate = 17,
   ask = 18,
   paused = 19,
+  parts = 20,
 };
 
 /// Text of bounded length: printable ASCII on the wire.
@@ -245,6 +247,13 @@ struct Paused {
   bool paused = false;
 };
 
+/// Client: hashes of its state's parts, every k_parts_interval_ticks.
+struct Parts {
+  std::uint64_t ticks = 0;  ///< of the state after so many ticks, a multiple of the interval
+  std::uint8_t count = 0;   ///< 1 … k_max_state_parts
+  std::array<Hash128, k_max_state_parts> hashes{};
+};
+
 /// Either: the last message of a connection.
 struct Bye {
   LeaveReason reason = LeaveReason::left;
@@ -271,6 +280,7 @@ struct Bye {
 [[nodiscard]] std::size_t encode(const Activate& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Ask& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Paused& message, std::span<std::byte> out);
+[[nodiscard]] std::size_t encode(const Parts& message, std::span<std::byte> out);
 [[nodiscard]] std::size_t encode(const Bye& message, std::span<std::byte> out);
 
 [[nodiscard]] Status decode(ByteView packet, Hello& message);
@@ -291,6 +301,7 @@ struct Bye {
 [[nodiscard]] Status decode(ByteView packet, Activate& message);
 [[nodiscard]] Status decode(ByteView packet, Ask& message);
 [[nodiscard]] Status decode(ByteView packet, Paused& message);
+[[nodiscard]] Status decode(ByteView packet, Parts& message);
 [[nodiscard]] Status decode(ByteView packet, Bye& message);
 
 /// Header bytes of Inputs (without hashes) and Ticks: what is left of a datagram holds the records.
