@@ -90,7 +90,8 @@ class Run(Case):
 
 class State(Case):
     def test_a_forgotten_field_is_caught(self):
-        for field in ("body.velocity.y", "body.orientation.w", "contact.point[0].normal_impulse"):
+        for field in ("body.velocity.y", "body.orientation.w", "contact.point[0].normal_impulse",
+                      "contact.flags"):
             done = self.expect(DIFFERENT, "run", "--scene", "stack", "--ticks", 40, "--forget", field)
             self.assertIn("went another way", done.stderr)
 

@@ -64,6 +64,7 @@ class Twin {
     if (!forget_.empty()) forget(saved);
     Status status = second_->simulation().load(SnapshotKind::canonical, saved);
     if (status != Status::ok) return fmt::format("load: {}", to_string(status));
+    const std::string lost = loss();
     second_->step();
     const std::size_t native = first.save(SnapshotKind::native, native_);
     status = first.load(SnapshotKind::native, std::span(native_).first(native));
@@ -72,7 +73,7 @@ class Twin {
     first_.step();
     const ByteView here = save(first_, bytes_), there = save(*second_, other_bytes_);
     const bool same = std::equal(here.begin(), here.end(), there.begin(), there.end());
-    if (same && first.hash() == second_->simulation().hash()) return {};
+    if (same && first.hash() == second_->simulation().hash()) return lost;
     return first.describe(here, there).to_line();
   }
 
@@ -80,6 +81,13 @@ class Twin {
   [[nodiscard]] std::uint64_t forgotten() const { return forgotten_; }
 
  private:
+  // What the second has not got of the first's state, for what no tick misses.
+  [[nodiscard]] std::string loss() {
+    const Simulation& first = first_.simulation();
+    if (first.hash() == second_->simulation().hash()) return {};
+    return first.describe(save(first_, bytes_), save(*second_, other_bytes_)).to_line();
+  }
+
   // As a `save` would that leaves the field out: the negative control.
   void forget(std::span<std::byte> saved) {
     const std::span<std::byte> world = world_part(first_.simulation(), saved);
