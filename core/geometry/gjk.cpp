@@ -20,6 +20,13 @@ auto key_of(const Vec3<Length>& v) {
   return std::tuple(v.x, v.y, v.z);
 }
 
+/// −1, 0 or 1. Without <=>, which older libraries lack for tuples.
+template <class Key>
+int compare_keys(const Key& a, const Key& b) {
+  if (a == b) return 0;
+  return a < b ? -1 : 1;
+}
+
 /// −1, 0 or 1: the order of two vertex lists.
 int compare(const Polytope* a, const Polytope* b) {
   if (a == b) return 0;
@@ -28,8 +35,8 @@ int compare(const Polytope* a, const Polytope* b) {
     return a->vertices.size() < b->vertices.size() ? -1 : 1;
   }
   for (std::size_t i = 0; i < a->vertices.size(); ++i) {
-    const auto order = key_of(a->vertices[i]) <=> key_of(b->vertices[i]);
-    if (order != 0) return order < 0 ? -1 : 1;
+    const int order = compare_keys(key_of(a->vertices[i]), key_of(b->vertices[i]));
+    if (order != 0) return order;
   }
   return 0;
 }
@@ -42,11 +49,11 @@ auto pose_key(const PosedShape& s) {
 
 bool is_exchanged(const PosedShape& a, const PosedShape& b, const RawVec& offset) {
   if (a.shape.kind != b.shape.kind) return a.shape.kind < b.shape.kind;
-  const auto sizes = key_of(a.shape.size) <=> key_of(b.shape.size);
+  const int sizes = compare_keys(key_of(a.shape.size), key_of(b.shape.size));
   if (sizes != 0) return sizes < 0;
   const int vertices = compare(a.polytope, b.polytope);
   if (vertices != 0) return vertices < 0;
-  const auto poses = pose_key(a) <=> pose_key(b);
+  const int poses = compare_keys(pose_key(a), pose_key(b));
   if (poses != 0) return poses < 0;
   return std::tuple(offset.x, offset.y, offset.z) < std::tuple(0, 0, 0);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "core/geometry/exact_plane.h"
 
@@ -181,9 +182,8 @@ struct Candidate {
   std::uint16_t b = 0;
   Fine depth = 0;
 
-  friend auto operator<=>(const Candidate& x, const Candidate& y) {
-    return std::array<std::int64_t, 3>{x.depth, x.a, x.b} <=>
-           std::array<std::int64_t, 3>{y.depth, y.a, y.b};
+  friend bool operator<(const Candidate& x, const Candidate& y) {
+    return std::tie(x.depth, x.a, x.b) < std::tie(y.depth, y.a, y.b);
   }
 };
 
@@ -205,7 +205,7 @@ class Merger {
 
   MergedFaces run() {
     while (!candidates_.empty()) {
-      const Candidate best = *std::ranges::min_element(candidates_, std::less<>{});
+      const Candidate best = *std::min_element(candidates_.begin(), candidates_.end());
       merge(best.a, best.b);
     }
     dented_.clear();  // only what keeps the final faces apart counts
