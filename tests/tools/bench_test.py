@@ -58,14 +58,16 @@ class Speed(Case):
             self.assertLessEqual(row["reused"], row["manifolds"])
             self.assertLessEqual(row["parted"], row["pairs"] - row["in_contact"])
 
-    def test_what_cannot_run_is_absent_with_a_reason(self):
-        report = self.json_of("speed", "--scene", "ragdoll-rain")
-        self.assertEqual(report["scenes"], [])
-        self.assertEqual(report["absent"], [{"scene": "ragdoll-rain", "needs": "a file of its own"}])
+    def test_commands_and_queries_before_a_step_repeat_themselves(self):
+        run = ("speed", "--ticks", 3, "--repeats", 2, "--threads", 1)
+        for name in ("storm", "ragdoll-rain"):
+            scene, = self.json_of(*run, "--scene", name)["scenes"]
+            self.assertTrue(scene["hashes_agree"], name)
+            self.assertEqual(scene["status"], "ok", name)
 
     def test_lists_its_scenes(self):
         names = [line.split()[0] for line in self.expect(OK, "speed", "--list").splitlines()]
-        self.assertLessEqual({"large-pyramid", "washer", "city"}, set(names))
+        self.assertLessEqual({"large-pyramid", "washer", "junkyard", "ragdoll-rain", "terrain", "storm", "city"}, set(names))
         self.assertEqual(len(names), len(set(names)))
 
     def test_writes_a_line_a_tick(self):

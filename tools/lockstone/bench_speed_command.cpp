@@ -70,9 +70,7 @@ bench::SpeedOptions measure_of(const BenchSpeedOptions& options, const bench::Sp
 
 void list_scenes(const std::vector<const bench::SpeedScene*>& scenes) {
   for (const bench::SpeedScene* scene : scenes) {
-    const std::string remark =
-        scene->is_absent() ? fmt::format("; absent: needs {}", scene->needs) : "";
-    fmt::print("{:<14} {:>5} ticks  {}{}\n", scene->name, scene->ticks, scene->description, remark);
+    fmt::print("{:<14} {:>5} ticks  {}\n", scene->name, scene->ticks, scene->description);
   }
 }
 
@@ -85,10 +83,6 @@ SpeedReport measure(const BenchSpeedOptions& options,
       bench::clock_overhead(options.cpu ? bench::thread_nanoseconds : bench::now_nanoseconds);
   Progress progress;
   for (const bench::SpeedScene* scene : scenes) {
-    if (scene->is_absent()) {
-      report.absent.push_back(scene);
-      continue;
-    }
     progress.show(std::string(scene->name));
     std::ranges::move(bench::run_speed(*scene, measure_of(options, *scene)),
                       std::back_inserter(report.results));

@@ -66,12 +66,9 @@ void print_speed_json(const SpeedReport& report) {
             {"asserts", k_asserts},
             {"clock", report.clock_name},
             {"clock_ns", report.clock_nanoseconds},
-            {"scenes", Json::array()},
-            {"absent", Json::array()}};
+            {"scenes", Json::array()}};
   for (const bench::SpeedResult& result : report.results)
     json["scenes"].push_back(scene_of(report, result));
-  for (const bench::SpeedScene* scene : report.absent)
-    json["absent"].push_back({{"scene", scene->name}, {"needs", scene->needs}});
   fmt::print("{}\n", json.dump(2));
 }
 

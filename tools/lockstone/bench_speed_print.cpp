@@ -38,8 +38,6 @@ void print_overview(const SpeedReport& report) {
         hash_text(result.hash), to_string(result.status()),
         result.hashes_agree ? "" : ", HASHES DIFFER");
   }
-  for (const bench::SpeedScene* scene : report.absent)
-    fmt::print("{:<14} absent: needs {}\n", scene->name, scene->needs);
 }
 
 void print_stages(const SpeedReport& report) {

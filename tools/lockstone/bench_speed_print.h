@@ -10,7 +10,6 @@ namespace lockstone::tool {
 
 struct SpeedReport {
   std::vector<bench::SpeedResult> results;
-  std::vector<const bench::SpeedScene*> absent;
   bool detail = false;
   std::string clock_name;
   double clock_nanoseconds = 0;  ///< what a call of the clock adds to an interval

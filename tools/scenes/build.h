@@ -43,6 +43,9 @@ void add_ground(World& world, Length half_width);
 /// `count` boxes of 1 m on top of each other, the lowest on y = 0.
 void add_stack(World& world, const Vec3<Position>& base, int count);
 
+/// Torso and head, two arms and two legs of two parts each: 10 bodies, 9 joints.
+void add_ragdoll(World& world, const Vec3<Position>& at, std::uint64_t user_data = 0);
+
 /// A sphere, capsule or box of random size.
 [[nodiscard]] Shape random_shape(Random& random);
 [[nodiscard]] Quat random_orientation(Random& random);
@@ -57,7 +60,7 @@ extern const Scene k_terrain, k_mesh;                                    // surf
 extern const Scene k_bullets;                                            // bullets.cpp
 extern const Scene k_layers;                                             // layers.cpp
 extern const Scene k_belts;                                              // belts.cpp
-extern const Scene k_arch, k_cards;                                 // masonry.cpp
+extern const Scene k_arch, k_cards;                                      // masonry.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
 

@@ -76,10 +76,13 @@ void build_bridge(World& world, std::uint64_t) {
     add(world, loose(Shape::box(0.3_m, 0.3_m, 0.3_m), {millimetres(i * 1500 - 2200), 4.5_m, {}}));
 }
 
-// Torso and head, two arms and two legs of two parts each.
-void add_ragdoll(World& world, const Vec3<Position>& at) {
+}  // namespace
+
+void add_ragdoll(World& world, const Vec3<Position>& at, std::uint64_t user_data) {
   const auto part = [&](const Shape& shape, std::int32_t x_mm, std::int32_t y_mm) {
-    return add(world, loose(shape, at + Vec3<Position>{millimetres(x_mm), millimetres(y_mm), {}}));
+    BodyDef def = loose(shape, at + Vec3<Position>{millimetres(x_mm), millimetres(y_mm), {}});
+    def.user_data = user_data;
+    return add(world, def);
   };
   const auto tie = [&](BodyHandle a, const Vec3<Length>& on_a, BodyHandle b,
                        const Vec3<Length>& on_b, Angle swing) {
@@ -107,6 +110,8 @@ void add_ragdoll(World& world, const Vec3<Position>& at) {
     tie(thigh, {{}, -0.21_m, {}}, shin, {{}, 0.21_m, {}}, 0.8_rad);
   }
 }
+
+namespace {
 
 void build_ragdoll(World& world, std::uint64_t) {
   add_ground(world, 8_m);

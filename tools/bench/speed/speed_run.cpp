@@ -17,10 +17,15 @@ struct Pass {
   std::uint32_t bodies = 0;
 };
 
+void drive(const SpeedScene& scene, World& world) {
+  if (scene.drive != nullptr) scene.drive(world);
+}
+
 // Setting the clock begins a new profile, so each tick has its own.
-TickTimes time_step(World& world, Clock clock, StepReport& report) {
+TickTimes time_tick(const SpeedScene& scene, World& world, Clock clock, StepReport& report) {
   world.set_clock(clock);
   const std::uint64_t begin = clock();
+  drive(scene, world);
   report = world.step();
   TickTimes times;
   times.whole = static_cast<double>(clock() - begin);
@@ -40,10 +45,6 @@ double time_hash(const World& world, Clock clock, std::uint64_t& hash) {
   return median(std::move(times));
 }
 
-void drive(const SpeedScene& scene, World& world) {
-  if (scene.drive != nullptr) scene.drive(world);
-}
-
 Pass run_pass(const SpeedScene& scene, const SpeedOptions& options, std::uint32_t ticks,
               std::uint32_t threads) {
   Pass pass;
@@ -51,8 +52,7 @@ Pass run_pass(const SpeedScene& scene, const SpeedOptions& options, std::uint32_
   World world = scene.make(options.broad_phase);
   if (threads > 1) world.set_task_runner(&pool);
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
-    drive(scene, world);
-    pass.times.push_back(time_step(world, options.clock, pass.reports.emplace_back()));
+    pass.times.push_back(time_tick(scene, world, options.clock, pass.reports.emplace_back()));
   }
   pass.hash_nanoseconds = time_hash(world, options.clock, pass.hash);
   pass.bodies = world.body_count();

@@ -5,22 +5,10 @@
 namespace lockstone::bench {
 namespace {
 
-constexpr SpeedScene absent(std::string_view name, std::string_view description,
-                            std::string_view needs) {
-  return {name, description, 0, nullptr, nullptr, needs};
-}
-
-constexpr SpeedScene k_junkyard =
-    absent("junkyard", "10,584 rocks swept by a pusher", "a file of its own");
-constexpr SpeedScene k_ragdoll_rain =
-    absent("ragdoll-rain", "ragdolls fall on a grid of triangles", "a file of its own");
-constexpr SpeedScene k_terrain =
-    absent("terrain", "mixed bodies on a mesh of 100,000 triangles", "a file of its own");
-
 constexpr const SpeedScene* k_scenes[] = {
     &k_large_pyramid, &k_many_pyramids, &k_ball_rain,  &k_capsule_pile, &k_box_rain,
     &k_mixed,         &k_washer,        &k_joint_grid, &k_convex_pile,  &k_junkyard,
-    &k_ragdoll_rain,  &k_terrain,       &k_city,
+    &k_ragdoll_rain,  &k_terrain,       &k_storm,      &k_city,
 };
 
 }  // namespace

@@ -10,17 +10,15 @@
 
 namespace lockstone::bench {
 
-/// A scene has no memory besides its world. One that the engine cannot do yet is listed with what
-/// it waits for, so that a table never looks complete when it is not.
+/// A scene has no memory besides its world.
 struct SpeedScene {
   std::string_view name;
   std::string_view description;
   std::uint32_t ticks = 0;
-  World (*make)(BroadPhaseKind broad_phase) = nullptr;  ///< null: absent
-  void (*drive)(World& world) = nullptr;                ///< commands before a step; may be null
-  std::string_view needs = {};                          ///< of an absent scene
+  World (*make)(BroadPhaseKind broad_phase) = nullptr;
 
-  [[nodiscard]] bool is_absent() const { return make == nullptr; }
+  /// Commands and queries before a step, timed with it; may be null.
+  void (*drive)(World& world) = nullptr;
 };
 
 /// All, in the order in which they are listed.
@@ -41,6 +39,10 @@ extern const SpeedScene k_ball_rain, k_capsule_pile, k_box_rain, k_mixed;  // pi
 extern const SpeedScene k_convex_pile;                                     // convex_pile.cpp
 extern const SpeedScene k_joint_grid;                                      // joint_grid.cpp
 extern const SpeedScene k_washer;                                          // washer.cpp
+extern const SpeedScene k_junkyard;                                        // junkyard.cpp
+extern const SpeedScene k_ragdoll_rain;                                    // ragdoll_rain.cpp
+extern const SpeedScene k_terrain;                                         // terrain.cpp
+extern const SpeedScene k_storm;                                           // storm.cpp
 extern const SpeedScene k_city;                                            // city.cpp
 
 }  // namespace lockstone::bench
