@@ -81,13 +81,6 @@ Position length_of(const Vec3<Position>& v) {
   return Position::from_raw(static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw)));
 }
 
-// λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
-std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inverse_mass,
-                       int exponent) {
-  const int shift = std::clamp(exponent - inverse_mass.exponent, -63, 63);
-  return divide_raw_saturating(impulse * rate, inverse_mass.mantissa, shift);
-}
-
 JointRecord make_joint(const JointDef& from) {
   JointRecord joint;
   joint.generation = 1;
@@ -109,6 +102,12 @@ JointRecord make_joint(const JointDef& from) {
 }
 
 }  // namespace
+
+std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inverse_mass,
+                       int exponent) {
+  const int shift = std::clamp(exponent - inverse_mass.exponent, -63, 63);
+  return divide_raw_saturating(impulse * rate, inverse_mass.mantissa, shift);
+}
 
 JointDef JointDef::of(JointKind kind, BodyHandle a, BodyHandle b) {
   JointDef def;

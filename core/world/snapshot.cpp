@@ -140,20 +140,29 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   return consistent && in_world ? Status::ok : Status::malformed;
 }
 
+Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
+  const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
+  const bool known = (record.flags & ~k_all_contact_flags) == 0;
+  const bool trigger = a.is_trigger() || b.is_trigger();
+  const bool valid = ordered && known && trigger == record.is_trigger() &&
+                     has_valid_points(record) && (!trigger || record.count == 0);
+  return valid ? Status::ok : Status::malformed;
+}
+
+Status validate(const JointRecord& record, const BodyRecord& a, const BodyRecord& b) {
+  const bool valid =
+      can_join(a, b) && is_anchor(a, record.anchor_a) && is_anchor(b, record.anchor_b);
+  return valid ? Status::ok : Status::malformed;
+}
+
 Status SnapshotView::check(ContactStore) const {
   for (std::uint32_t i = 0; i < header.contact_count; ++i) {
     const ContactRecord record = contact(i);
     if (record.body_a >= header.body_limit || record.body_b >= header.body_limit) {
       return Status::malformed;
     }
-    const BodyRecord a = body(record.body_a), b = body(record.body_b);
-    const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
-    const bool known = (record.flags & ~k_all_contact_flags) == 0 && record.reserved == 0;
-    const bool trigger = a.is_trigger() || b.is_trigger();
-    if (!ordered || !known || trigger != record.is_trigger() || !has_valid_points(record) ||
-        (trigger && record.count != 0)) {
+    if (validate(record, body(record.body_a), body(record.body_b)) != Status::ok)
       return Status::malformed;
-    }
     if (i == 0) continue;
     const ContactRecord last = contact(i - 1);
     if (last.key() >= record.key()) return Status::malformed;
@@ -194,10 +203,8 @@ Status SnapshotView::check(JointStore) const {
     if (record.body_a >= header.body_limit || record.body_b >= header.body_limit) {
       return Status::malformed;
     }
-    const BodyRecord a = body(record.body_a), b = body(record.body_b);
-    if (!can_join(a, b) || !is_anchor(a, record.anchor_a) || !is_anchor(b, record.anchor_b)) {
+    if (validate(record, body(record.body_a), body(record.body_b)) != Status::ok)
       return Status::malformed;
-    }
   }
   return Status::ok;
 }

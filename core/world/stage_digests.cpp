@@ -96,14 +96,21 @@ std::uint64_t World::Impl::digest_of(StepStage stage) const {
   return digest.value();
 }
 
-void World::trace_stages(bool on) {
+// Without anything to do after stages there is no hook.
+void World::Impl::set_stage_hook() {
   const auto hook = [](void* context, StepStage stage) {
     auto& world = *static_cast<Impl*>(context);
-    world.stage_digests.after[static_cast<std::size_t>(stage)] = world.digest_of(stage);
+    if (world.traces_stages)
+      world.stage_digests.after[static_cast<std::size_t>(stage)] = world.digest_of(stage);
+    if (world.validates) world.validate_after(stage);
   };
+  profiler.set_hook(traces_stages || validates ? +hook : nullptr, this);
+}
+
+void World::trace_stages(bool on) {
   impl_->traces_stages = on;
   impl_->stage_digests = {};
-  impl_->profiler.set_hook(on ? +hook : nullptr, impl_.get());
+  impl_->set_stage_hook();
 }
 
 const StageDigests& World::stage_digests() const {

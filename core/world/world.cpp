@@ -262,13 +262,17 @@ Vec3<Velocity> World::velocity(BodyHandle body) const {
   return record->velocity;
 }
 
+Mass mass_of(const BodyRecord& record) {
+  if (record.inverse_mass == 0) return {};
+  // 1 / (mantissa·2^e) in Q32 = (2^62 / mantissa) · 2^(−e − 30)
+  const std::int64_t quotient = raw::round_divide(std::int64_t{1} << 62, record.inverse_mass);
+  return Mass::from_raw(raw::scale_binary(quotient, -record.inverse_mass_exponent - 30));
+}
+
 Mass World::mass(BodyHandle body) const {
   const BodyRecord* record = impl_->find(body);
   LKS_CHECK(record != nullptr);
-  if (record->inverse_mass == 0) return {};
-  // 1 / (mantissa·2^e) in Q32 = (2^62 / mantissa) · 2^(−e − 30)
-  const std::int64_t quotient = raw::round_divide(std::int64_t{1} << 62, record->inverse_mass);
-  return Mass::from_raw(raw::scale_binary(quotient, -record->inverse_mass_exponent - 30));
+  return mass_of(*record);
 }
 
 bool World::touching(BodyHandle a, BodyHandle b) const {

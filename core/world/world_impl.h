@@ -222,10 +222,38 @@ struct World::Impl {
   StageDigests stage_digests{};
   Parallel parallel;  // changes no result
 
+  bool validates = false;
+
   /// What a stage left behind (stage_digests.cpp).
   [[nodiscard]] std::uint64_t digest_of(StepStage stage) const;
+  void set_stage_hook();
+
+  // Checks at level 2 (validate.cpp).
+  [[nodiscard]] WorldFault find_fault();
+  void validate_after(StepStage stage);
+
+  // What is drawn (debug_draw.cpp).
+  void draw_shapes(DebugDraw& out);
+  void draw_bounds(DebugDraw& out) const;
+  void draw_masses(DebugDraw& out) const;
+  void draw_contacts(DebugDraw& out);
+  void draw_joints(DebugDraw& out) const;
 
  private:
+  [[nodiscard]] WorldFault fault_after(StepStage stage);
+  [[nodiscard]] WorldFault fault_of_bodies() const;
+  [[nodiscard]] WorldFault fault_of_contacts(std::span<const ContactRecord> records) const;
+  [[nodiscard]] WorldFault fault_of_joints() const;
+  [[nodiscard]] WorldFault fault_of_derived_bodies() const;
+  [[nodiscard]] WorldFault fault_of_derived_contacts() const;
+  [[nodiscard]] WorldFault fault_of_derived_joints() const;
+  [[nodiscard]] WorldFault fault_of_hashes();
+  [[nodiscard]] WorldFault fault_of_pairs() const;
+  [[nodiscard]] WorldFault fault_of_manifolds() const;
+  void find_all_islands();
+  [[nodiscard]] DebugContact drawn_contact(const ContactRecord& record,
+                                           const Manifold& manifold) const;
+
   void find_pairs(StepReport& report);
   void collide_pairs(StepReport& report);
   bool collide_side_by_side();
@@ -400,6 +428,18 @@ struct World::Impl {
 /// ok, or what makes a stored record impossible. For bytes from outside.
 [[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
 [[nodiscard]] Status validate(const JointRecord& record);
+
+/// The same with the bodies that a contact is between, or that a joint holds.
+[[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,
+                              const BodyRecord& b);
+[[nodiscard]] Status validate(const JointRecord& record, const BodyRecord& a, const BodyRecord& b);
+
+/// Kilograms, 0 of what nothing pushes.
+[[nodiscard]] Mass mass_of(const BodyRecord& record);
+
+/// An impulse λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
+[[nodiscard]] std::int64_t effort_of(std::int64_t impulse, std::int32_t rate,
+                                     BlockFloat inverse_mass, int exponent);
 
 /// Whether a joint may hold the two, and whether a body's joints may sit there.
 [[nodiscard]] bool can_join(const BodyRecord& a, const BodyRecord& b);

@@ -21,7 +21,7 @@ PUBLIC_ROOMS = {
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "joint.h"],
-    "world": ["character.h", "command.h", "event.h", "profile.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
+    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"

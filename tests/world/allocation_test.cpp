@@ -57,6 +57,9 @@ void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullp
     (void)world.overlap_sphere({}, 3_m, found);
     const BodyHandle extra = world.create_body({}).value();
     ASSERT_EQ(world.apply(DestroyBody{extra}), Status::ok);
+    DebugDraw nothing;
+    world.draw(nothing, {true, true, true, true, true});
+    ASSERT_FALSE(world.find_fault());
   }
   EXPECT_EQ(g_allocations, before);
 }

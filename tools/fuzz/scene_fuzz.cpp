@@ -63,6 +63,9 @@ class SceneRun {
       const std::size_t size = plain_.save(SnapshotKind::canonical, bytes_);
       const Status status = other_.load(SnapshotKind::canonical, ByteView(bytes_).first(size));
       if (status != Status::ok) return fmt::format("load refuses the state: {}", to_string(status));
+      for (const World* world : {&plain_, &other_})
+        if (const WorldFault fault = world->find_fault())
+          return fmt::format("{} does not fit, {}", fault.what, fault.index);
     }
     return complaint_about(plain_);
   }

@@ -36,6 +36,8 @@ struct RunOptions {
   int frames = 1;
   bool json = false;
   bool heavy = false;
+  bool overlay = false;
+  bool validate = false;
   std::string forget;
 };
 
@@ -124,6 +126,7 @@ render::Picture picture_of(const RunOptions& options, scenes::ScenePlay& play) {
       fmt::format("{}   tick {}   {} bodies   {}", options.scene, play.simulation().tick(),
                   play.world().body_count(), hash_text(play.simulation().hash()));
   if (options.scene == "arena") picture.style = render::arena_look;
+  picture.overlay = options.overlay;
   return picture;
 }
 
@@ -175,7 +178,7 @@ class Run {
  private:
   [[nodiscard]] bool step(std::uint64_t tick) {
     progress_.show(options_.scene, tick, options_.ticks);
-    if (!step_worlds(tick)) return false;
+    if (!step_worlds(tick) || !is_valid(tick)) return false;
     if (options_.hash_every > 0 && tick % options_.hash_every == 0) {
       chain_.push_back({tick, play_->simulation().hash()});
     }
@@ -197,6 +200,15 @@ class Run {
     progress_.clear();
     complain(fmt::format("{}, tick {}: a saved and loaded copy went another way: {}",
                          options_.scene, tick, difference));
+    return false;
+  }
+
+  [[nodiscard]] bool is_valid(std::uint64_t tick) {
+    const WorldFault fault = options_.validate ? play_->world().find_fault() : WorldFault{};
+    if (!fault) return true;
+    progress_.clear();
+    complain(fmt::format("{}, tick {}: {} does not fit, {}", options_.scene, tick, fault.what,
+                         fault.index));
     return false;
   }
 
@@ -251,6 +263,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--svg", options->svg, "Draw the end into this file");
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
       ->check(CLI::Range(1, 60));
+  command->add_flag("--overlay", options->overlay,
+                    "Draw bounds, centres of mass, contacts and joints too");
+  command->add_flag("--validate", options->validate,
+                    "Check the whole world after each tick, and stop at a fault");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--heavy", options->heavy,
                     "Each tick, also step a copy loaded from the saved state, and compare");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tools/render/item.h"
+#include "tools/render/overlay.h"
 
 namespace lockstone::render {
 namespace {
@@ -257,6 +258,8 @@ std::string draw(const World& world, const Picture& picture) {
   canvas.out += "<rect width='100%' height='100%' fill='url(#sky)'/>\n";
   draw_items(canvas, items);
   draw_labels(canvas, items);
+  if (picture.overlay)
+    canvas.out += overlay(world, [&](const Vec& at) { return canvas.point(at); });
   canvas.out += fmt::format(
       "<text x='16' y='{}' font-size='18' fill='#203040' xml:space='preserve'>{}</text>\n</svg>\n",
       picture.height - 16, picture.caption);

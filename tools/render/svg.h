@@ -30,6 +30,7 @@ struct Picture {
   int height = 800;
   std::string caption = {};  ///< at the lower left
   Style style = plain_look;
+  bool overlay = false;  ///< bounds, centres of mass, contacts and joints too
 };
 
 /// One picture of the world as it stands, framed on what moves.

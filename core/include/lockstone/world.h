@@ -16,6 +16,7 @@
 #include <lockstone/bytes.h>
 #include <lockstone/collision.h>
 #include <lockstone/command.h>
+#include <lockstone/debug_draw.h>
 #include <lockstone/event.h>
 #include <lockstone/hash.h>
 #include <lockstone/joint.h>
@@ -94,6 +95,14 @@ struct StateHash128 {
   friend bool operator==(const StateHash128&, const StateHash128&) = default;
 };
 
+/// What does not fit in a world; false when nothing was found.
+struct WorldFault {
+  const char* what = nullptr;  ///< in English, for a log
+  std::uint32_t index = 0;     ///< of the record, where one is named
+
+  explicit operator bool() const { return what != nullptr; }
+};
+
 /// The stores of a state, in the order of snapshots.
 enum class StateStore : std::uint8_t { bodies, contacts, joints };
 
@@ -146,6 +155,15 @@ class World {
   /// result depends on it. Without it, as at first, the digests are zero.
   void trace_stages(bool on);
   [[nodiscard]] const StageDigests& stage_digests() const;  ///< of the last step
+
+  /// Checks at level 2: records within their ranges, order of contacts, lists, bounds and hashes as
+  /// they follow from the state; the first fault found. Takes about as long as a step. Not from two
+  /// threads at once.
+  [[nodiscard]] WorldFault find_fault() const;
+
+  /// Does so after each stage of a step from here on, and stops the program at a fault as LKS_CHECK
+  /// does. No result depends on it.
+  void set_validation(bool each_stage);
 
   /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone.
   /// Not state: no result depends on it. The runner must outlive its use. Allocates what the
@@ -236,6 +254,10 @@ class World {
   /// Bodies that hold a point, surface included.
   std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
                         const QueryFilter& filter = {}) const;
+
+  /// Shows what there is: bodies, then contacts by key, then joints, by index each. Not from two
+  /// threads at once.
+  void draw(DebugDraw& out, const DebugDrawOptions& options = {}) const;
 
   // State -----------------------------------------------------------------------------------------
 

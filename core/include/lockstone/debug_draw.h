@@ -1,0 +1,114 @@
+// What a world shows of itself to whoever draws it: everything that a body, a contact or a joint is
+// at the moment, in the order of the state, in integers and metres.
+//
+// A game derives from DebugDraw and overrides what it wants to see. Drawing reads the state alone,
+// changes nothing and allocates nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <lockstone/asset.h>
+#include <lockstone/body.h>
+#include <lockstone/joint.h>
+#include <lockstone/transform.h>
+
+namespace lockstone {
+
+/// What a body is doing, for its colour.
+enum class DebugState : std::uint8_t {
+  static_body,
+  kinematic,
+  awake,
+  asleep,
+  trigger,
+};
+
+/// A body's shape where it is. Hulls, meshes, height fields and compounds name their asset;
+/// `Asset::visit_parts` takes it apart.
+struct DebugShape {
+  BodyHandle body{};
+  DebugState state{};
+  Shape shape{};
+  Transform pose{};              ///< of the shape's frame
+  Mat3 rotation{};               ///< the same orientation
+  const Asset* asset = nullptr;  ///< null: a shape complete in itself
+
+  /// The least body of those that contacts and joints tie together, this one among them; null for
+  /// bodies that are not dynamic.
+  BodyHandle island{};
+  std::uint64_t user_data = 0;
+};
+
+/// The bounds that the broad phase has of a body: where it may go in the next tick.
+struct DebugBounds {
+  BodyHandle body{};
+  Vec3<Position> lower{};
+  Vec3<Position> upper{};
+};
+
+/// The centre of mass and the principal axes of a dynamic body.
+struct DebugMass {
+  BodyHandle body{};
+  Vec3<Position> centre{};
+  Mat3 axes{};  ///< the columns
+  Mass mass{};
+};
+
+struct DebugContactPoint {
+  Vec3<Position> point{};     ///< in the middle between the surfaces
+  Displacement separation{};  ///< negative when overlapping
+  Force force{};              ///< along the normal in the last substep, ≥ 0
+};
+
+/// The contact of two convex parts, or of one with the triangles of one plane.
+struct DebugContact {
+  BodyHandle a{};
+  BodyHandle b{};
+  Vec3<Unit> normal{};      ///< from a to b
+  bool touching = false;    ///< in the last step
+  Vec3<Force> friction{};   ///< on b in the last substep, of all points
+  std::uint32_t count = 0;  ///< of points, 0 … 4
+  std::array<DebugContactPoint, 4> points{};
+};
+
+/// A joint with its two frames where they are.
+struct DebugJoint {
+  JointHandle joint{};
+  JointView view{};  ///< how far it is moved, and what it bears
+  Vec3<Position> place_a{};
+  Vec3<Position> place_b{};
+  Mat3 frame_a{};  ///< its axes are the columns
+  Mat3 frame_b{};
+  std::array<AxisMode, 6> modes{};  ///< linear, then angular
+  std::array<Length, 3> linear_lower{};
+  std::array<Length, 3> linear_upper{};
+  std::array<Angle, 3> angular_lower{};
+  std::array<Angle, 3> angular_upper{};
+  Vec3<Position> ground_a{};  ///< of a pulley
+  Vec3<Position> ground_b{};
+};
+
+/// Called by `World::draw`, whose world it must not change.
+class DebugDraw {
+ public:
+  virtual ~DebugDraw() = default;
+
+  virtual void draw_shape(const DebugShape&) {}
+  virtual void draw_bounds(const DebugBounds&) {}
+  virtual void draw_mass(const DebugMass&) {}
+  virtual void draw_contact(const DebugContact&) {}
+  virtual void draw_joint(const DebugJoint&) {}
+};
+
+/// What to draw. Contacts are found anew from where bodies are, which takes as long as the narrow
+/// phase of a tick does.
+struct DebugDrawOptions {
+  bool shapes = true;
+  bool bounds = false;
+  bool masses = false;
+  bool contacts = false;
+  bool joints = false;
+};
+
+}  // namespace lockstone
