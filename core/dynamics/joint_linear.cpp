@@ -24,10 +24,16 @@ void set_inverse(std::int64_t response, std::int64_t& mantissa, int& shift) {
   shift = power - 30;
 }
 
-void add_scaled(std::array<std::int64_t, 3>& to, const RawVec3& direction, std::int64_t amount) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    to[axis] = bounded(to[axis] + product_rounded(direction[axis], amount, 30), k_row_bound);
-  }
+RawVec3 scaled(const RawVec3& direction, std::int64_t amount) {
+  RawVec3 result{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    result[axis] = product_rounded(direction[axis], amount, 30);
+  return result;
+}
+
+void gain(const RawVec3& by, std::array<std::int64_t, 3>& to) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    to[axis] = bounded(to[axis] + by[axis], k_row_bound);
 }
 
 std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
@@ -169,9 +175,10 @@ void JointSolver::push(const JointRun& run, const Joint& joint, const JointRow& 
     if (share.mantissa == 0) return;
     const std::uint32_t solver = bodies_[index].solver;
     const std::int64_t jump = product_rounded(impulse, share.mantissa, share.shift);
+    const RawVec3 velocity = scaled(linear, jump), spin = scaled(angular, jump);
     for (RowBody* body : {&run.rows[solver], &run.before[solver]}) {
-      add_scaled(body->velocity, linear, jump);
-      add_scaled(body->spin, angular, jump);
+      gain(velocity, body->velocity);
+      gain(spin, body->spin);
     }
   };
   push_side(joint.a, joint.share_a, row.linear_a, row.angular_a);
