@@ -28,6 +28,7 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {19, "stacks of boxes", 1, measure_stacks},
     {20, "heavy box on a light one", 1, measure_mass_ratios},
     {21, "momentum of 1,000 spheres", 1, measure_momentum},
+    {22, "arch, house of cards, dropped block of boxes", 1, measure_standing},
     {23, "fast bodies against thin walls", 100'000, measure_tunnels},
     {24, "rays, shape casts, distances", 1'000'000, measure_queries},
     {25, "mass of hulls and compounds", 20'000, measure_masses},
@@ -35,6 +36,7 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {27, "Dzhanibekov's body, 2 s", 1, measure_dzhanibekov},
     {28, "rod I = (.1, 2, 2.05), 10 s", 1, measure_rod},
     {29, "thrown sphere slips, then rolls", 1, measure_thrown},
+    {30, "box slides under 25 rolling balls", 1, measure_carried_balls},
     {31, "49 elastic spheres dropped 5 m", 1, measure_bouncing_grid},
     {32, "216 spheres dropped: overlap", 1, measure_heap},
     {33, "sphere, e = 0.5, from 5 m: rest and peaks", 1, measure_rest},
@@ -43,6 +45,7 @@ constexpr auto k_rows = std::to_array<AccuracyRow>({
     {36, "chain of 20 with a heavy end, 10 s", 1, measure_heavy_chain},
     {37, "elastic spheres without gravity", 1, measure_elastic_cloud},
     {38, "the same scene far away", 1, measure_far_away},
+    {39, "bodies that rest in one way only", 1, measure_monostable},
     {101, "baseline: three Euler methods, 10 min", 1, measure_integrators},
     {102, "baseline: stack of 20 on springs", 1, measure_penalty},
 });

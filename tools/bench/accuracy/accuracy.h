@@ -71,6 +71,9 @@ struct AccuracyRow {
 [[nodiscard]] std::vector<AccuracyResult> measure_stacks(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_mass_ratios(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_momentum(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_standing(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_carried_balls(const AccuracyOptions& options);
+[[nodiscard]] std::vector<AccuracyResult> measure_monostable(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_thrown(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_bouncing_grid(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_heap(const AccuracyOptions& options);

@@ -214,6 +214,28 @@ void measure_snapshot_sizes(Skips& skips) {
               static_cast<double>(native_bytes(world) - apart), 96);
 }
 
+// What a world takes from the heap for one more of everything that its definition counts.
+void measure_memory(Skips& skips) {
+  if (heap_bytes() == 0) return;
+  constexpr std::uint32_t k_few = 1024, k_more = 9216;
+  const auto bytes_of = [](const WorldDef& def) {
+    const std::uint64_t before = heap_bytes();
+    const World world = make_speed_world(def);
+    return static_cast<double>(heap_bytes() - before);
+  };
+  const auto measure = [&](std::uint32_t WorldDef::*capacity, const char* figure, double goal) {
+    WorldDef few, more;
+    few.*capacity = k_few;
+    more.*capacity = k_more;
+    skips.count("memory", figure, "bytes", (bytes_of(more) - bytes_of(few)) / (k_more - k_few),
+                goal);
+  };
+  measure(&WorldDef::body_capacity, "a body", 3072);
+  measure(&WorldDef::pair_capacity, "a pair of bodies with overlapping bounds", 96);
+  measure(&WorldDef::contact_capacity, "a contact", 2048);
+  measure(&WorldDef::joint_capacity, "a joint", 8192);
+}
+
 // Loading makes trees and lists of contacts anew.
 void measure_snapshot_time(Skips& skips) {
   if (!skips.options().times) return;
@@ -250,6 +272,7 @@ std::vector<SkipFigure> measure_skips(const SkipOptions& options) {
   measure_reuse(skips);
   measure_hash(skips);
   measure_snapshot_sizes(skips);
+  measure_memory(skips);
   measure_snapshot_time(skips);
   return std::move(skips.figures);
 }

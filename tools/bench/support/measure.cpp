@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cstddef>
 #include <ctime>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace lockstone::bench {
 
@@ -18,6 +21,15 @@ std::uint64_t thread_nanoseconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000U +
          static_cast<std::uint64_t>(time.tv_nsec);
+}
+
+std::uint64_t heap_bytes() {
+#if defined(__GLIBC__)
+  const struct mallinfo2 heap = mallinfo2();
+  return heap.uordblks + heap.hblkhd;
+#else
+  return 0;
+#endif
 }
 
 double clock_overhead(Clock clock) {

@@ -15,6 +15,9 @@ namespace lockstone::bench {
 
 using Clock = std::uint64_t (*)();
 
+/// What the heap has given out; 0 where that is not known (C libraries but glibc, sanitizers).
+[[nodiscard]] std::uint64_t heap_bytes();
+
 /// How much of its own time an interval between two calls of a clock holds, in nanoseconds: the
 /// median of many empty ones.
 [[nodiscard]] double clock_overhead(Clock clock);
