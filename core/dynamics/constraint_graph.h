@@ -6,6 +6,7 @@
 // colouring for wide solvers: E. Catto, "SIMD Matters", 2024.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,6 +38,9 @@ class ConstraintGraph {
     std::uint32_t rank;
   };
   [[nodiscard]] std::span<const Place> places() const { return places_; }
+
+  /// Constraints of a body, as many as there are colours at most.
+  [[nodiscard]] int degree(std::uint32_t body) const { return std::popcount(taken_[body]); }
 
   /// Constraints of a colour, the overflow included.
   [[nodiscard]] std::uint32_t count(std::size_t color) const { return counts_[color]; }

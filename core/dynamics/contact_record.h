@@ -50,7 +50,7 @@ struct ContactRecord {
   SolverVelocity load{};                    // normal impulse of a point, mean over the last seconds
   std::uint16_t count = 0;                  // 0 … 4
   std::uint8_t flags = 0;                   // ContactFlag
-  std::uint8_t reserved = 0;                // keeps the record free of padding; always 0
+  std::uint8_t age = 0;                     // ticks that `load` is the mean of, to 255
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
@@ -77,7 +77,7 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
   visit_value("load", "", record.load, f);
   visit_value("count", "", record.count, f);
   visit_value("flags", "", record.flags, f);
-  visit_value("reserved", "", record.reserved, f);
+  visit_value("age", "", record.age, f);
 }
 
 static_assert(visited_bytes<ContactRecord>() == sizeof(ContactRecord), "a field is missing");

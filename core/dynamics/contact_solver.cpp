@@ -98,6 +98,32 @@ constexpr std::size_t k_most_substep_loops = 6 + 6 * (k_graph_colors + 1);
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 8;
 
+// Of a point, a tick ago.
+std::int64_t mean_impulse(const ContactRecord& record) {
+  std::int64_t sum = 0;
+  for (const ContactPointRecord& point : record.points)
+    sum += point.normal_impulse.raw;
+  return raw::round_shift(sum * k_one_over_q28[record.count], 28);
+}
+
+// The load follows the impulses over 2^shift ticks. Of a body that touches nothing else it is the
+// mean of all at first: there is nobody to swing with. Then the lesser of two ticks in a row
+// counts, so that a blow is no load; what does not push for a while begins anew.
+void follow_load(std::int64_t before, std::int64_t now, bool alone, int shift,
+                 ContactRecord& record) {
+  constexpr std::uint8_t k_oldest = 255;
+  const std::int64_t load = record.load.raw;
+  const bool learns = alone && record.age < k_oldest;
+  if (now == 0 || !alone)
+    record.age = record.age / 2;
+  else if (learns)
+    ++record.age;
+  const std::int64_t gained = learns && now != 0
+                                  ? raw::round_divide(std::min(before, now) - load, record.age)
+                                  : raw::round_shift(now - load, shift);
+  record.load.raw = static_cast<std::int32_t>(load + gained);
+}
+
 std::int32_t low(std::int64_t word) {
   return static_cast<std::int32_t>(word);
 }
@@ -380,7 +406,7 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
       if (slots_[slot] == k_no_contact) continue;
       const Entry& entry = entries_[slots_[slot]];
       clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[entry.slot],
-                               records[entry.record], approaches[entry.record]);
+                               is_alone(entry), records[entry.record], approaches[entry.record]);
       touches_[slots_[slot]] = {manifolds[entry.slot].normal, records[entry.record].is_touching()};
     }
     saturations.fetch_add(clamped, std::memory_order_relaxed);
@@ -389,11 +415,19 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
   find_axes();
 }
 
+// Between what nothing moves and a body that touches nothing else.
+bool ContactSolver::is_alone(const Entry& entry) const {
+  const bool a_moves = (entry.body_a & k_immovable) == 0;
+  const bool b_moves = (entry.body_b & k_immovable) == 0;
+  return a_moves != b_moves && graph_.degree(a_moves ? entry.body_a : entry.body_b) == 1;
+}
+
 // Answers how many values were clamped.
 std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
-                                           const Manifold& manifold, ContactRecord& record,
-                                           SolverVelocity& approach) {
+                                           const Manifold& manifold, bool alone,
+                                           ContactRecord& record, SolverVelocity& approach) {
   const ManifoldBlock& block = blocks_[block_index];
+  const std::int64_t before = mean_impulse(record);
   record.points = {};
   record.count = static_cast<std::uint16_t>(manifold.count);
   auto saturations = static_cast<std::uint32_t>(approaches_[block_index].clamped[lane]);
@@ -411,10 +445,8 @@ std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t 
   record.friction_impulse = across(block, lane, block.friction[lane]);
   record.rolling_impulse = across(block, lane, block.rolling[lane]);
   record.twist_impulse.raw = low(block.twist[lane]);
-  const std::int64_t gained =
-      raw::round_shift(pushed * k_one_over_q28[record.count], 28) - record.load.raw;
-  record.load.raw =
-      static_cast<std::int32_t>(record.load.raw + raw::round_shift(gained, load_shift_));
+  const std::int64_t mean = raw::round_shift(pushed * k_one_over_q28[record.count], 28);
+  follow_load(before, mean, alone, load_shift_, record);
   record.flags = touching ? k_contact_touching : 0;
   approach = SolverVelocity::from_raw(raw::saturate<std::int32_t>(-fastest));
   return saturations;

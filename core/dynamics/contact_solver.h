@@ -168,8 +168,9 @@ class ContactSolver {
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
   [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
   void find_axes();
+  [[nodiscard]] bool is_alone(const Entry& entry) const;
   std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
-                              ContactRecord& record, SolverVelocity& approach);
+                              bool alone, ContactRecord& record, SolverVelocity& approach);
 
   TimeStep step_;
   ContactSoftness softness_;

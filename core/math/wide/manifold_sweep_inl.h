@@ -81,13 +81,23 @@ HWY_INLINE HWY_ATTR Lanes hard_impulse(Lanes impulse, Lanes mass_error) {
   return at_most(round_shift_positive<30>(exact), k_most_impulse);
 }
 
-/// What a soft row makes of it: κ·P + (1 − κ)·load, unless the points are apart.
+/// x − y in Q(20 + bits), within ±1024 m/s, in Q20.
+template <int bits>
+HWY_INLINE HWY_ATTR Lanes limited_difference(Lanes x, Lanes y) {
+  constexpr std::int64_t k_most = std::int64_t{1} << (30 + bits);
+  const Lanes wide = subtract(multiply(x, broadcast(std::int64_t{1} << bits)), y);
+  return round_shift_low<bits>(clamp(wide, broadcast(-k_most), broadcast(k_most)));
+}
+
+/// max(0, κ·(P − m·error) + (1 − κ)·load), unless the points are apart: what pulls away from a
+/// point by more than its share of the load is let go.
 struct SoftRow {
   Lanes keep, touching;
 
-  HWY_INLINE HWY_ATTR Lanes soften(Lanes impulse, Lanes rest, Lanes gap) const {
-    const Lanes softened = round_shift_low<30>(multiply_add(rest, keep, impulse));
-    return select_less(touching, gap, impulse, softened);
+  HWY_INLINE HWY_ATTR Lanes impulse(Lanes before, Lanes mass_error, Lanes rest, Lanes gap) const {
+    const Lanes exact = multiply_add(rest, keep, limited_difference<30>(before, mass_error));
+    const Lanes softened = at_most(round_shift_positive<30>(exact), k_most_impulse);
+    return select_less(touching, gap, hard_impulse(before, mass_error), softened);
   }
 };
 
@@ -106,8 +116,10 @@ HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t la
   const Lanes gap = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes own = select_equal(points.mass[i], broadcast(0), broadcast(0), mass_error);
-    points.impulse[i] = hard_impulse(points.impulse[i], own);
-    if constexpr (soft) points.impulse[i] = row.soften(points.impulse[i], points.rest[i], gap);
+    if constexpr (soft)
+      points.impulse[i] = row.impulse(points.impulse[i], own, points.rest[i], gap);
+    else
+      points.impulse[i] = hard_impulse(points.impulse[i], own);
   }
 }
 
@@ -150,8 +162,10 @@ HWY_INLINE HWY_ATTR void solve_points(const Responses& r, const EachShift& by, c
                                       PointLanes& points) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes error = add(points.speed[i], points.bias[i]);
-    Lanes next = hard_impulse(points.impulse[i], multiply(points.mass[i], error));
-    if constexpr (soft) next = row.soften(next, points.rest[i], points.gap[i]);
+    const Lanes mass_error = multiply(points.mass[i], error);
+    Lanes next = hard_impulse(points.impulse[i], mass_error);
+    if constexpr (soft)
+      next = row.impulse(points.impulse[i], mass_error, points.rest[i], points.gap[i]);
     const Lanes moved = subtract(next, points.impulse[i]);
     points.impulse[i] = next;
     for (std::size_t j = i + 1; j < 4; ++j)
@@ -272,14 +286,6 @@ HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, FrictionLanes& f) {
   for (std::size_t lane = 0; lane < k_lanes; ++lane)
     shorten_friction(limits[lane], along_t[lane], along_b[lane], about_n[lane]);
   f = {load(along_t), load(along_b), load(about_n)};
-}
-
-/// x − y in Q(20 + bits), within ±1024 m/s, in Q20.
-template <int bits>
-HWY_INLINE HWY_ATTR Lanes limited_difference(Lanes x, Lanes y) {
-  constexpr std::int64_t k_most = std::int64_t{1} << (30 + bits);
-  const Lanes wide = subtract(multiply(x, broadcast(std::int64_t{1} << bits)), y);
-  return round_shift_low<bits>(clamp(wide, broadcast(-k_most), broadcast(k_most)));
 }
 
 /// The tangents as one row of two, after the twist.
