@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Builds the project with all warnings in build/release and runs its tests.
 #
-# usage: tools/test.sh [--sanitize] [--cross[=TARGET,…]] [--werror]
+# usage: tools/test.sh [--sanitize] [--fuzz[=SECONDS]] [--cross[=TARGET,…]] [--werror]
 #
 #   --sanitize   also build and run the tests under AddressSanitizer and UBSan (build/asan-ubsan)
+#   --fuzz       also run the libFuzzer program of every parser, from its corpus, under both
+#                sanitizers (build/fuzz, default 30 s each)
 #   --cross      also compare the golden scenes between processors, see tools/cross.sh
 #                (default aarch64,s390x)
 #   --werror     compiler warnings are errors
@@ -50,12 +52,46 @@ run_cross() {
   rm -f "$output"
 }
 
+# run_fuzzers SECONDS: each from its corpus and its good examples. Nothing is written to the corpus.
+run_fuzzers() {
+  local name found output
+  for name in $(fuzzers); do
+    found=$(mktemp -d)
+    output=$(mktemp)
+    build/fuzz/tests/fuzz/"fuzz_$name" --seeds "$found"
+    mkdir -p "$found/corpus"
+    say "fuzz $name for $1 s"
+    if (cd "$found" && "$root/build/fuzz/tests/fuzz/fuzz_$name" -max_total_time="$1" \
+      -print_final_stats=1 . "$(corpus_of "$name" "$found")") >"$output" 2>&1; then
+      passed=$((passed + 1))
+      grep -E 'number_of_executed_units|new_units_added' "$output" >&2 || true
+    else
+      failed=$((failed + 1))
+      tail -n 30 "$output" >&2
+    fi
+  done
+}
+
+# fuzzers: the parsers' names.
+fuzzers() {
+  local file
+  for file in tests/fuzz/*_target.cpp; do basename "$file" _target.cpp; done
+}
+
+# corpus_of NAME EMPTY-FOLDER: the folder of its corpus, if it has one.
+corpus_of() {
+  if [[ -d $root/tests/fuzz/corpus/$1 ]]; then echo "$root/tests/fuzz/corpus/$1"; else echo "$2/corpus"; fi
+}
+
 sanitize=false
+fuzz_seconds=0
 cross=()
 options=()
 for argument in "$@"; do
   case $argument in
     --sanitize) sanitize=true ;;
+    --fuzz) fuzz_seconds=30 ;;
+    --fuzz=*) fuzz_seconds=${argument#*=} ;;
     --cross) cross=(aarch64 s390x) ;;
     --cross=*) IFS=, read -ra cross <<<"${argument#*=}" ;;
     --werror) options+=(-DLOCKSTONE_WARNINGS_AS_ERRORS=ON) ;;
@@ -69,6 +105,13 @@ if "$sanitize"; then
   require_packages clang
   build_preset asan-ubsan
   run_tests asan-ubsan
+fi
+if ((fuzz_seconds)); then
+  require_packages clang
+  mapfile -t build_targets < <(fuzzers | sed 's/^/fuzz_/')
+  build_preset fuzz
+  build_targets=()
+  run_fuzzers "$fuzz_seconds"
 fi
 if ((${#cross[@]})); then run_cross "${cross[@]}"; fi
 build_preset release "${options[@]}"

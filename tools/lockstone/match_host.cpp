@@ -239,6 +239,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     if (!made) return refuse(fmt::format("scene {}: {}", options.scene, to_string(made.status())));
     simulation = std::move(made).value();
     net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
+    enet.max_connections = connections();
     if (options.fast) enet.limits = net::DatagramLimits::none();
     if (options.key) enet.link_key = net::make_link_key(*options.key, options.match);
     auto listening = net::EnetTransport::listen(enet);
@@ -266,10 +267,17 @@ struct MatchHost::Impl final : net::ServerObserver {
     return true;
   }
 
+  // All seats, and strangers at the door.
+  [[nodiscard]] std::size_t connections() const {
+    constexpr std::size_t k_strangers = 16;
+    return options.players + options.spectators + k_strangers;
+  }
+
   [[nodiscard]] bool encrypt() {
     net::SecureServerOptions security;
     security.backend_key = *options.key;
     security.match = options.match;
+    security.max_connections = connections();
     security.own_addresses = options.addresses;
     security.unix_us_at_zero = unix_microseconds() - watch.microseconds();
     auto created = net::SecureTransport::serve(*transport, security, random);
