@@ -3,6 +3,7 @@
 #include "core/collision/pieces.h"
 #include "core/geometry/contact_point.h"
 #include "core/geometry/mesh_kernels.h"
+#include "core/geometry/polytope.h"
 #include "core/geometry/separation.h"
 
 namespace lockstone {
@@ -31,6 +32,28 @@ void shift_anchors(const BodyPair& pair, const Vec3<Position>& origin_a,
 
 Manifold collide_pieces(const BodyPair& pair, const Piece& a, const Piece& b) {
   return collide(a.posed(), b.posed(), saturated<Length>(b.origin - a.origin), pair.margin);
+}
+
+constexpr Length k_inside_slack = Length::from_ratio(1, 1000);  // far above what anything rounds
+
+// Whether A is a ball that clearly holds a point inside B: then they overlap, whatever their
+// surfaces do.
+bool holds_inside(const Piece& a, const Piece& b) {
+  if (a.shape.kind != ShapeKind::sphere || a.shape.size.x <= k_inside_slack) return false;
+  if (b.polytope != nullptr && b.polytope->one_sided) return false;
+  const std::int64_t reach = (a.shape.size.x - k_inside_slack).raw;
+  const Vec3<Length> gap = saturated<Length>(middle_of(b) - a.origin);
+  std::uint64_t square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t lane = gap[i].raw;
+    if (lane > reach || lane < -reach) return false;
+    square += static_cast<std::uint64_t>(lane * lane);  // each below 2^62
+  }
+  return square <= static_cast<std::uint64_t>(reach * reach);
+}
+
+bool pieces_overlap(const BodyPair& pair, const Piece& a, const Piece& b) {
+  return holds_inside(a, b) || holds_inside(b, a) || collide_pieces(pair, a, b).count > 0;
 }
 
 void add_pieces(const BodyPair& pair, const Piece& a, const Piece& b, PartContacts& out) {
@@ -140,7 +163,7 @@ bool bodies_overlap(const PlacedShape& a, const PlacedShape& b) {
   const BodyPair pair{near_a, near_b, {}};
   bool found = false;
   for_each_pair_of_pieces(pair, [&](const Piece& pa, const Piece& pb) {
-    found = found || collide_pieces(pair, pa, pb).count > 0;
+    found = found || pieces_overlap(pair, pa, pb);
   });
   return found;
 }

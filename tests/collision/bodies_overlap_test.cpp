@@ -1,0 +1,67 @@
+// Whether bodies overlap, found by a shortcut or by all of their contacts.
+#include <gtest/gtest.h>
+
+#include <lockstone/hull.h>
+#include <lockstone/mesh.h>
+
+#include "core/collision/collide_bodies.h"
+#include "tests/geometry/asset_parts.h"
+
+namespace lockstone::test {
+namespace {
+
+AssetPtr random_rock(Dice& dice) {
+  std::vector<Vec3<Length>> points;
+  for (int i = 0; i < 20; ++i)
+    points.push_back(metres(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)));
+  return Hull::build(points).hull;
+}
+
+PlacedShape placed_near(Dice& dice, const Shape& shape, const Asset* asset, double reach) {
+  Vec3<Position> at;
+  for (int i = 0; i < 3; ++i)
+    at[i] = rounded<Position>(metres(dice.uniform(-reach, reach)));
+  return {shape, asset, at, to_matrix(dice.orientation()), at};
+}
+
+// Balls of every size about hulls and primitives: inside, across their surfaces and beside them.
+TEST(BodiesOverlap, SaysOfBallsWhatTheirContactsSay) {
+  Dice dice;
+  PartContacts contacts;
+  int overlapping = 0, apart = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const AssetPtr rock = round % 2 == 0 ? random_rock(dice) : nullptr;
+    const Shape shape = rock != nullptr
+                            ? rock->shape()
+                            : dice.shape(static_cast<ShapeKind>(dice.between(0, 2)), 0.1, 1);
+    const Shape ball = Shape::sphere(metres(dice.uniform(0.001, 3)));
+    const PlacedShape a = placed_near(dice, ball, nullptr, 1.5);
+    const PlacedShape b = placed_near(dice, shape, rock.get(), 1.5);
+    collide_bodies(a, b, {}, nullptr, contacts);
+    const bool meet = contacts.count > 0;
+    ASSERT_EQ(bodies_overlap(a, b), meet) << "round " << round;
+    ASSERT_EQ(bodies_overlap(b, a), meet) << "round " << round;
+    (meet ? overlapping : apart) += 1;
+  }
+  EXPECT_GT(overlapping, 500);
+  EXPECT_GT(apart, 500);
+}
+
+// The control: what a ball holds of a triangle counts for nothing when the ball's centre is behind.
+TEST(BodiesOverlap, HoldsToTheFrontOfTriangles) {
+  const Vec3<Length> vertices[3] = {metres(-1, 0, -1), metres(-1, 0, 1), metres(1, 0, 0)};
+  const TriangleIndices triangle[1] = {{0, 1, 2}};
+  MeshDef def;
+  def.vertices = vertices;
+  def.triangles = triangle;
+  const AssetPtr sheet = Mesh::build(def).mesh;
+  const auto ball_meets = [&](double y) {
+    const Vec3<Position> at{{}, rounded<Position>(metres(y)), {}};
+    const PlacedShape ball{Shape::sphere(metres(2)), nullptr, at, to_matrix(Quat{}), at};
+    return bodies_overlap(ball, {sheet->shape(), sheet.get(), {}, to_matrix(Quat{}), {}});
+  };
+  EXPECT_NE(ball_meets(0.5), ball_meets(-0.5));
+}
+
+}  // namespace
+}  // namespace lockstone::test
