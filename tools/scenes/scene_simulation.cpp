@@ -27,7 +27,7 @@ std::array<std::byte, k_config_bytes> encode_config(std::string_view name, std::
   writer.put(k_config_magic);
   writer.put(k_config_version);
   writer.put(seed);
-  writer.put_bytes(std::as_bytes(std::span(name)));
+  writer.put_bytes(std::as_bytes(std::span(name.data(), name.size())));
   return bytes;
 }
 
