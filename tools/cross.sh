@@ -80,7 +80,6 @@ program_of() {
   local program=$root/build/cross/$(preset_of "$1")/tools/lockstone
   case $1 in
     windows) echo "$program.exe" ;;
-    wasm) echo "$program.js" ;;
     *) echo "$program" ;;
   esac
 }

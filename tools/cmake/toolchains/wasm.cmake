@@ -7,7 +7,6 @@ include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(CMAKE_C_COMPILER emcc)
 set(CMAKE_AR emar)
 set(CMAKE_RANLIB emranlib)
-set(CMAKE_EXECUTABLE_SUFFIX .js)
 set(CMAKE_CXX_FLAGS_INIT
   "-fexceptions -msimd128 -include ${CMAKE_CURRENT_LIST_DIR}/wasm_algorithms.h")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
