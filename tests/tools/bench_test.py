@@ -14,7 +14,7 @@ import unittest
 import xml.etree.ElementTree
 
 LOCKSTONE = ""
-OK, USAGE = 0, 64
+OK, CORRUPT, USAGE = 0, 2, 64
 HASH = r"^[0-9a-f]{16}$"
 
 
@@ -84,6 +84,9 @@ class Speed(Case):
     def test_refuses_wrong_usage(self):
         self.expect(USAGE, "speed", "--scene", "nothing")
         self.expect(USAGE, "speed", "--ticks", 0)
+
+    def test_compares_with_counts_alone(self):
+        self.expect(CORRUPT, "speed", "--compare", __file__)
 
 
 class Queries(Case):

@@ -14,7 +14,7 @@ namespace {
 using bench::InstructionCount;
 
 constexpr double k_allowed_growth = 0.02;
-constexpr std::uint32_t k_share_of_ticks = 20;
+constexpr std::uint32_t k_share_of_ticks = 100, k_least_ticks = 3;
 
 bool can_count() {
   if (bench::can_count_instructions()) return true;
@@ -56,7 +56,7 @@ int write_instructions(const std::vector<const bench::SpeedScene*>& scenes, std:
   if (!can_count()) return k_unavailable;
   std::vector<InstructionCount> wanted;
   for (const bench::SpeedScene* scene : scenes) {
-    const std::uint32_t share = std::max(scene->ticks / k_share_of_ticks, 1U);
+    const std::uint32_t share = std::max(scene->ticks / k_share_of_ticks, k_least_ticks);
     wanted.push_back({std::string(scene->name), ticks != 0 ? ticks : share, 0, {}});
   }
   const std::vector<InstructionCount> counts = count_all(wanted);

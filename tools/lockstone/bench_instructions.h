@@ -8,7 +8,7 @@
 
 namespace lockstone::tool {
 
-/// Counts a twentieth of each scene's ticks, or `ticks`, into a file. An exit code.
+/// Counts a hundredth of each scene's ticks, at least three, or `ticks`, into a file. An exit code.
 [[nodiscard]] int write_instructions(const std::vector<const bench::SpeedScene*>& scenes,
                                      std::uint32_t ticks, const std::string& path);
 

@@ -106,6 +106,23 @@ void measure_one_awake(Skips& skips) {
   skips.time(claim, "a tick, with its hash", 10 * k_microsecond, 600, roll);
 }
 
+// What no body needs, as a share of a tick.
+void count_idle_stage(Skips& skips, const std::string& claim, World& world) {
+  constexpr int k_ticks = 60;
+  world.set_clock(thread_nanoseconds);
+  for (int tick = 0; tick < k_ticks; ++tick)
+    (void)world.step();
+  const StepProfile& profile = world.profile();
+  double whole = 0;
+  for (const std::uint64_t stage : profile.stage_ticks)
+    whole += static_cast<double>(stage);
+  const double used = static_cast<double>(profile.ticks_of(StepStage::continuous)) -
+                      k_ticks * clock_overhead(thread_nanoseconds);
+  skips.count(claim, "of a tick's time, to follow no body", "%", 100 * std::max(used, 0.0) / whole,
+              1);
+  skips.figures.back().is_time = true;
+}
+
 void measure_absent_features(Skips& skips) {
   const std::string claim = "no triggers, no continuous bodies";
   World world = make_speed_world(speed_def(BroadPhaseKind::tree, 512, 8192, 4096));
@@ -126,6 +143,7 @@ void measure_absent_features(Skips& skips) {
   skips.count(claim, "bodies followed along their way", "", sum.continuous_bodies, 0);
   skips.count(claim, "impacts answered", "", sum.impacts, 0);
   skips.count(claim, "trigger events", "", static_cast<double>(triggers), 0);
+  if (skips.options().times) count_idle_stage(skips, claim, world);
 }
 
 // Far apart, in the air, spinning.
