@@ -229,6 +229,14 @@ JointRecord* World::Impl::edit(JointHandle joint) {
   return &joints[joint.index];
 }
 
+bool World::Impl::fits_joints(std::uint32_t body, const BodyRecord& changed) const {
+  return std::ranges::all_of(joint_links, [&](const JointLink& link) {
+    const JointRecord& joint = joints[link.joint];
+    return (link.body_a != body || is_anchor(changed, joint.anchor_a)) &&
+           (link.body_b != body || is_anchor(changed, joint.anchor_b));
+  });
+}
+
 void World::Impl::destroy_joint(std::uint32_t joint) {
   wake_ends(joints[joint]);
   unlink_joint(joint);

@@ -104,10 +104,13 @@ Status World::Impl::execute(const SetAxisLocks& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic()) return Status::invalid_argument;
+  BodyRecord locked = *record;
+  locked.locks = locks_of(command.locks);
+  if (!fits_joints(command.body.index, locked)) return Status::invalid_argument;
   disturb(command.body.index);
   const Vec3<Velocity> turning =
       surface_velocity(inverse_inertia(*record, rotations[command.body.index]), record->spin);
-  record->locks = locks_of(command.locks);
+  record->locks = locked.locks;
   record->spin = spin_of(*record, rotations[command.body.index], turning);
   hold_axes(*record);
   refresh(command.body.index);

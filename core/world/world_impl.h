@@ -114,6 +114,8 @@ struct World::Impl {
   [[nodiscard]] BodyHandle handle_of(std::uint32_t body) const {
     return {body, bodies[body].generation};
   }
+  /// Whether the joints of a body sit where they may if it becomes `changed`.
+  [[nodiscard]] bool fits_joints(std::uint32_t body, const BodyRecord& changed) const;
   void destroy_joint(std::uint32_t joint);
   void break_joints();
   void destroy_joints_of(std::uint32_t body);

@@ -76,6 +76,19 @@ TEST(JointStore, RefusesWhatNoJointCanBe) {
   EXPECT_EQ(p.world.joint_count(), 0U);
 }
 
+TEST(JointStore, RefusesToLetABodyTurnThatHangsTooFarAway) {
+  Pendulum p;
+  const AxisLocks upright{.turn_x = true, .turn_y = true, .turn_z = true};
+  JointDef far = p.ball();
+  far.frame_b.position = {-200_m, {}, {}};
+  EXPECT_FALSE(p.world.create_joint(far).ok());
+  ASSERT_EQ(p.world.apply(SetAxisLocks{p.bob, upright}), Status::ok);
+  const JointHandle joint = p.world.create_joint(far).value();
+  EXPECT_EQ(p.world.apply(SetAxisLocks{p.bob, {}}), Status::invalid_argument);
+  ASSERT_EQ(p.world.apply(DestroyJoint{joint}), Status::ok);
+  EXPECT_EQ(p.world.apply(SetAxisLocks{p.bob, {}}), Status::ok);
+}
+
 TEST(JointStore, IsFullAtItsCapacity) {
   World world = test::make_world(
       {.body_capacity = 2, .pair_capacity = 8, .contact_capacity = 8, .joint_capacity = 1});

@@ -53,7 +53,8 @@ struct SetSurfaceMotion { BodyHandle body{}; SurfaceMotion motion{}; };
 struct SetGravityScale { BodyHandle body{}; Number scale{}; };
 struct SetDamping { BodyHandle body{}; Rate linear{}; Rate angular{}; };
 
-/// Stops the body along and about the axes that are locked. Contacts keep what they carry.
+/// Stops the body along and about the axes that are locked. Contacts keep what they carry. Refused
+/// where a joint sits too far away for a body that turns.
 struct SetAxisLocks { BodyHandle body{}; AxisLocks locks{}; };
 struct SetSpeedLimit { BodyHandle body{}; SpeedLimit limit{}; };
 struct SetFilter { BodyHandle body{}; CollisionFilter filter{}; };
