@@ -12,8 +12,8 @@
 # Missing Debian packages are installed first (as root or through sudo), and engines of the npm
 # registry into build/bench/node. An engine that cannot be installed is reported as absent.
 # LOCKSTONE_JOBS bounds the number of parallel compilers; the benchmarks themselves use one thread,
-# so let nothing else run beside them. LOCKSTONE_WASM names the lockstone.js of a WebAssembly build
-# with benchmarks, to be timed beside the engines under Node.
+# so let nothing else run beside them. Where Emscripten is installed, ours is also built for
+# WebAssembly, to be timed beside the engines under Node; with --quick only when that was done before.
 
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -32,6 +32,17 @@ for argument in "$@"; do
 done
 ((${#benchmarks[@]})) || benchmarks=(speed queries rows numerics skip front)
 
+# wasm_options: what tells `lockstone` of ours under Node; nothing without Emscripten.
+wasm_options() {
+  local folder=build/bench/wasm
+  local player=$folder/tools/bench/player/lockstone_scene_player.js
+  if ! "$quick" && command -v em++ >/dev/null; then
+    cmake --preset wasm -B "$folder" -DLOCKSTONE_SCENE_PLAYER=ON >/dev/null &&
+      cmake --build "$folder" --target lockstone_scene_player --parallel "$jobs" >&2
+  fi
+  [[ ! -e $player ]] || printf '%s\n' --wasm "$player"
+}
+
 # node_options: what tells `lockstone` of engines under Node; nothing without them.
 node_options() {
   local folder=build/bench/node
@@ -40,7 +51,7 @@ node_options() {
   cp tools/bench/peers/node/*.mjs tools/bench/peers/node/package.json "$folder"
   npm install --prefix "$folder" --no-audit --no-fund --silent >&2 || return 0
   printf '%s\n' --node "$folder"
-  [[ -z ${LOCKSTONE_WASM-} ]] || printf '%s\n' --wasm "$LOCKSTONE_WASM"
+  wasm_options
 }
 
 # arguments_of BENCHMARK: of `lockstone bench`, a line each.

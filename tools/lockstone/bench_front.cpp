@@ -98,8 +98,8 @@ class TemporaryFile {
   bool written_ = false;
 };
 
-std::string settings_text(const FrontOptions& options, std::string_view between) {
-  return fmt::format("{}", fmt::join(options.settings, between));
+std::string settings_text(const FrontOptions& options) {
+  return fmt::format("{}", fmt::join(options.settings, " "));
 }
 
 // What another process prints, a line a point.
@@ -122,22 +122,20 @@ void measure_by(const std::string& command, std::string name, std::string knob, 
 void measure_node(const FrontOptions& options, Progress& progress, MeasuredFront& measured) {
   const TemporaryFile file(bench::scenes_to_json(scenes_of(options)));
   if (!file.written()) return;
+  const auto arguments =
+      fmt::format("{} {} {}", bench::quoted(file.path()), options.repeats, settings_text(options));
   const auto runner = [&](std::string_view engine) {
-    return fmt::format("node {} {} {} {} {}", bench::quoted(options.node + "/run.mjs"), engine,
-                       bench::quoted(file.path()), options.repeats, settings_text(options, " "));
+    return fmt::format("node {} {} {}", bench::quoted(options.node + "/run.mjs"), engine,
+                       arguments);
   };
   if (!options.wasm.empty()) {
-    const std::string command = fmt::format(
-        "node {} bench scenes --run --alone --repeats {} --settings {}{}",
-        bench::quoted(options.wasm), options.repeats, settings_text(options, ","),
-        options.scenes.empty() ? (options.quick ? " --quick" : "")
-                               : fmt::format(" --scenes {}", fmt::join(options.scenes, ",")));
-    measure_by(command, "lockstone wasm", "substeps", progress, measured);
+    measure_by(fmt::format("node {} {}", bench::quoted(options.wasm), arguments), "lockstone wasm",
+               "substeps", progress, measured);
   } else {
     measured.absent.push_back(
-        "lockstone wasm, which needs the WebAssembly build: native time against peers under Node "
-        "is "
-        "not fair, so these are judged by error alone");
+        "lockstone wasm, which needs its player in WebAssembly: native times beside peers under "
+        "Node "
+        "are not fair, so these are judged by error alone");
   }
   measure_by(runner("rapier"), "Rapier", "solver iterations", progress, measured);
   measure_by(runner("jolt"), "Jolt", "collision steps", progress, measured);
@@ -175,7 +173,7 @@ void add_front_options(CLI::App& command, FrontOptions& options) {
   command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 8, once");
   command.add_flag("--alone", options.alone, "Without the native peers");
   command.add_option("--node", options.node, "Folder of run.mjs, for peers under Node");
-  command.add_option("--wasm", options.wasm, "lockstone.js of the WebAssembly build");
+  command.add_option("--wasm", options.wasm, "lockstone_scene_player.js, ours under Node");
 }
 
 MeasuredFront measure_front(FrontOptions options) {

@@ -19,7 +19,7 @@ struct FrontOptions {
   bool quick = false;  ///< small scenes, fewer settings, once
   bool alone = false;  ///< ours alone
   std::string node;    ///< folder of the runner of engines under Node; empty: none
-  std::string wasm;    ///< this program's own JavaScript, for Node; empty: none
+  std::string wasm;    ///< lockstone_scene_player.js, for Node; empty: none
 };
 
 /// --scenes, --settings, --repeats, --quick, --alone, --node, --wasm

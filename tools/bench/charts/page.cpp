@@ -50,8 +50,8 @@ std::string point_text(const FrontPoint& point) {
 
 std::string table_of(const Front& front) {
   std::string text =
-      "| peer | verdict | at its points | its best | ours in no more time "
-      "|\n|---|---|---|---|---|\n";
+      "| peer | verdict | at its points | its best | ours |\n"
+      "|---|---|---|---|---|\n";
   for (const Verdict& verdict : verdicts_of(front)) {
     text +=
         fmt::format("| {} | {}{} | {} of {} | {} | {} |\n", verdict.peer->engine->name,
@@ -71,7 +71,8 @@ std::string head_of(const PageFacts& facts) {
       "collision steps (Jolt). *Ahead*: at every point of the peer we err no more in no more time; "
       "*ahead at its\nbest*: at its least error, but not at every faster point; *behind at its "
       "best*: "
-      "only at other points; *behind*: at none. Errors\nbelow 1e-9 count as equal; *lost* is an "
+      "only at other points; *behind*: at none. The last column is our least error in no more time "
+      "than its best, or at any time. Errors\nbelow 1e-9 count as equal; *lost* is an "
       "error "
       "above 1000, or none that is a number.\n";
   for (const std::string& absent : facts.absent)

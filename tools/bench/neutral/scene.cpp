@@ -26,7 +26,7 @@ Triple NeutralScene::gravity_at(double time) const {
   if (tilt.empty()) return {0, -gravity, 0};
   double degrees = tilt.back().degrees;
   const auto after =
-      std::ranges::find_if(tilt, [&](const NeutralTilt& t) { return t.time > time; });
+      std::find_if(tilt.begin(), tilt.end(), [&](const NeutralTilt& t) { return t.time > time; });
   if (after == tilt.begin()) {
     degrees = tilt.front().degrees;
   } else if (after != tilt.end()) {
@@ -80,7 +80,8 @@ const std::vector<NeutralScene>& neutral_scenes() {
 
 const NeutralScene* find_neutral_scene(std::string_view name) {
   const auto& all = neutral_scenes();
-  const auto found = std::ranges::find(all, name, &NeutralScene::name);
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const NeutralScene& scene) { return scene.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 

@@ -51,6 +51,7 @@ Played played_of(const Json& json) {
   json.at("scene").get_to(played.scene);
   json.at("setting").get_to(played.setting);
   json.at("cpu_seconds").get_to(played.cpu_seconds);
+  played.hash = json.value("hash", std::uint64_t{0});
   played.note = json.value("note", "");
   for (const Json& sample : json.at("samples")) {
     auto& states = played.samples.emplace_back();
@@ -79,11 +80,9 @@ std::vector<NeutralScene> scenes_from_json(std::string_view text) {
 }
 
 std::string played_to_json(const Played& played) {
-  Json json{{"engine", played.engine},
-            {"scene", played.scene},
-            {"setting", played.setting},
-            {"cpu_seconds", played.cpu_seconds},
-            {"note", played.note}};
+  Json json{{"engine", played.engine},   {"scene", played.scene},
+            {"setting", played.setting}, {"cpu_seconds", played.cpu_seconds},
+            {"hash", played.hash},       {"note", played.note}};
   json["samples"] = Json::array();
   for (const auto& sample : played.samples) {
     Json states = Json::array();
