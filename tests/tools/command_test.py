@@ -248,7 +248,7 @@ class Logs(Case):
     def test_info_sums_up(self):
         info = json.loads(self.expect(OK, "info", "--json", self.folder / "good.lks").stdout)
         self.assertEqual(info["ticks"], 700)
-        self.assertEqual(info["keyframe_ticks"], [600])
+        self.assertEqual(info["keyframe_ticks"], [150, 300, 450, 600])
         self.assertEqual(info["header"]["players"], 2)
         self.assertIn("700", self.expect(OK, "info", self.folder / "good.lks").stdout)
         self.expect(CORRUPT, "info", self.folder / "damaged.lks")
