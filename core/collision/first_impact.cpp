@@ -21,9 +21,24 @@ struct PieceSweep {
   PieceSweep(const Piece& piece, const Sweep& motion)
       : sweep{{motion.start.position, orientation_of(piece.rotation)},
               motion.translation,
-              motion.rotation},
-        origin(rotate_inverse(piece.rotation,
-                              saturated<Length>(piece.origin - motion.start.position))) {}
+              motion.rotation} {
+    const Vec3<Position> apart = piece.origin - motion.start.position;
+    if (is_near(apart)) {
+      origin = rotate_inverse(piece.rotation, saturated<Length>(apart));
+    } else if (motion.rotation == RotationVector{}) {
+      sweep.start.position = piece.origin;
+    } else {
+      origin = saturated<Length>(rotate_inverse(piece.rotation, apart));
+    }
+  }
+
+ private:
+  // Whether it fits a Length however it is turned. A half-space, which is a box wherever something
+  // comes near it, may begin anywhere.
+  static bool is_near(const Vec3<Position>& apart) {
+    constexpr Position k_near = Position::from_integer(1000);
+    return max(max(abs(apart.x), abs(apart.y)), abs(apart.z)) <= k_near;
+  }
 };
 
 // Thin pieces are stopped nearer to the surface.

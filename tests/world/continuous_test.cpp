@@ -201,6 +201,32 @@ TEST(Continuous, SlidingFastIsNoImpact) {
   EXPECT_NEAR(metres(world.position(box).x), 20, 1e-3);
 }
 
+// A half-space has its body somewhere, but no end. It leans, so that its own axes count.
+TEST(Continuous, AHalfSpaceStopsBulletsFarFromItsBody) {
+  for (const std::int64_t far : {0, 900, 1900, 20'000, 300'000}) {
+    World world = weightless();
+    BodyDef slope;
+    slope.motion = MotionType::static_body;
+    slope.shape = Shape::half_space();
+    slope.orientation = {Unit::from_ratio(3, 5), {}, {}, Unit::from_ratio(4, 5)};
+    test::add(world, slope);
+    const Mat3 axes = to_matrix(slope.orientation);
+    BodyDef ball = test::dynamic_body(Shape::sphere(0.05_m), {}, {}, {});
+    for (int i = 0; i < 3; ++i) {  // 5 m above it, falling at 300 m/s
+      const std::int64_t up = axes.column(1)[i].raw * std::int64_t{4};
+      const std::int64_t along = axes.column(2)[i].raw * std::int64_t{4};
+      ball.position[i].raw = far * along + 5 * up;
+      ball.velocity[i].raw = -300 * up;
+    }
+    const BodyHandle bullet = test::add(world, ball);
+    test::step(world, 10);
+    double height = 0;
+    for (int i = 0; i < 3; ++i)
+      height += metres(world.position(bullet)[i]) * testing::to_double(axes.column(1)[i]);
+    EXPECT_NEAR(height, 0.05, 0.01) << far << " m";
+  }
+}
+
 TEST(Continuous, KeepsBodiesInTheWorldAfterAnImpact) {
   World world = weightless();
   BodyDef def = wall(0.5_m);
