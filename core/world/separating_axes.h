@@ -55,7 +55,7 @@ class SeparatingAxes {
 
   [[nodiscard]] Reader read_from(const Pair& first) const {
     const auto begin = std::ranges::lower_bound(before_, first, {}, &Entry::pair);
-    return Reader({begin, before_.end()});
+    return Reader(std::span(before_).subspan(static_cast<std::size_t>(begin - before_.begin())));
   }
 
   /// Pairs are noted in any order, each by its own index.
