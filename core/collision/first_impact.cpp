@@ -94,6 +94,14 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
 constexpr int k_half_depth = 4;
 constexpr int k_last_depth = 7;
 
+// A triangle's front lets nothing through: what has sunk in beside it, and is nearest to a rim from
+// below, is held by the front as well.
+Vec3<Unit> crossing_from_front(const Piece& b, const Vec3<Unit>& crossing) {
+  if (!b.triangle.is_triangle || crossing == Vec3<Unit>{}) return crossing;
+  const Vec3<Unit> front = rotate(b.rotation, b.polytope->faces.front().normal);
+  return dot(front, crossing).raw > 0 ? -front : crossing;
+}
+
 // Tries every piece of B near the way of one piece of A.
 class PiecesOfB final : public PieceVisitor {
  public:
@@ -112,7 +120,8 @@ class PiecesOfB final : public PieceVisitor {
     const PieceSweep sweep_b(b, motion_b_);
     const Meeting meeting = meet({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
     if (meeting.time == k_never || (best_.hit && meeting.time >= best_.fraction)) return;
-    best_ = {true, meeting.time, a_.part, b.part, meeting.crossing};
+    const Vec3<Unit> crossing = crossing_from_front(b, meeting.crossing);
+    best_ = {true, meeting.time, a_.part, b.part, crossing};
   }
 
  private:

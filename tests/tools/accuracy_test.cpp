@@ -55,6 +55,13 @@ TEST(Accuracy, CoversEveryTryOnce) {
   EXPECT_EQ(seen, std::vector<int>(1000, 1));
 }
 
+// A sliver at 400 m/s and 15,000 rad/s that sinks in beside a rim of the sheet's triangles.
+TEST(Accuracy, OnceTunnelledNoMore) {
+  for (const AccuracyResult& result :
+       measure_tunnels({.seed = 1, .tries = 1, .first = 69'914, .threads = 1}))
+    EXPECT_EQ(result.worst, 0) << result.name;
+}
+
 TEST(Accuracy, OfHullsMeetsTheGoal) {
   for (const AccuracyResult& result : measure_masses({.seed = 7, .tries = 100, .threads = 2})) {
     if (!result.name.starts_with("hulls")) continue;

@@ -107,6 +107,7 @@ void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::IsMember(numbers));
   command->add_option("--tries", options->measure.tries, "Of each row; 0: as many as it asks for");
+  command->add_option("--first", options->measure.first, "Try to begin with, to see one again");
   command->add_option("--seed", options->measure.seed, "Of the tries")->capture_default_str();
   command->add_option("--threads", options->measure.threads, "The result does not depend on them")
       ->check(CLI::Range(1, 1024));

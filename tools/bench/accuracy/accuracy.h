@@ -12,6 +12,7 @@ namespace lockstone::bench {
 struct AccuracyOptions {
   std::uint64_t seed = 1;
   std::uint64_t tries = 0;  ///< 0: what the row asks for
+  std::uint64_t first = 0;  ///< try to begin with
   int threads = 1;
   bool sweep = false;  ///< rows of contact: 1 to 16 substeps instead of 4
 };

@@ -122,19 +122,19 @@ std::vector<AccuracyResult> measure_masses(const AccuracyOptions& options) {
   fuzz::HullPool pool(options.seed);
   std::mutex mutex;
   Errors hulls, compounds;
-  tool::for_blocks(options.tries, 16, options.threads,
-                   [&](std::uint64_t first, std::uint64_t count) {
-                     Errors hull_part, compound_part;
-                     for (std::uint64_t i = first; i < first + count; ++i) {
-                       Dice dice(options.seed, i);
-                       const auto hull = fuzz::random_hull(dice);
-                       hull_part.add(errors_of(*hull->solid(), mass_of_hull(hull->vertices())));
-                       compound_part.add(compound_errors(dice, pool));
-                     }
-                     const std::lock_guard lock(mutex);
-                     hulls.add(hull_part);
-                     compounds.add(compound_part);
-                   });
+  tool::for_blocks(
+      options.tries, 16, options.threads, [&](std::uint64_t first, std::uint64_t count) {
+        Errors hull_part, compound_part;
+        for (std::uint64_t i = options.first + first; i < options.first + first + count; ++i) {
+          Dice dice(options.seed, i);
+          const auto hull = fuzz::random_hull(dice);
+          hull_part.add(errors_of(*hull->solid(), mass_of_hull(hull->vertices())));
+          compound_part.add(compound_errors(dice, pool));
+        }
+        const std::lock_guard lock(mutex);
+        hulls.add(hull_part);
+        compounds.add(compound_part);
+      });
   std::vector<AccuracyResult> results;
   add_results("hulls", hulls, results);
   add_results("compounds", compounds, results);

@@ -61,22 +61,22 @@ std::vector<AccuracyResult> measure_queries(const AccuracyOptions& options) {
   const std::vector<fuzz::Kind> kinds = fuzz::all_kinds();
   std::mutex mutex;
   Figures near{}, far{};
-  tool::for_blocks(options.tries, 1024, options.threads,
-                   [&](std::uint64_t first, std::uint64_t count) {
-                     Figures near_part{}, far_part{};
-                     for (std::uint64_t i = first; i < first + count; ++i) {
-                       const fuzz::Pair pair = make_pair(pool, options.seed, i, kinds);
-                       if (!has_one_truth(pair)) continue;
-                       fuzz::Verdict verdict(i);
-                       check_distance(pair, fuzz::Answers(pair), verdict);
-                       check_cast(pair, verdict);
-                       check_ray(pair, verdict);
-                       add(verdict.figures(), is_near(pair) ? near_part : far_part);
-                     }
-                     const std::lock_guard lock(mutex);
-                     add(near_part, near);
-                     add(far_part, far);
-                   });
+  tool::for_blocks(
+      options.tries, 1024, options.threads, [&](std::uint64_t first, std::uint64_t count) {
+        Figures near_part{}, far_part{};
+        for (std::uint64_t i = options.first + first; i < options.first + first + count; ++i) {
+          const fuzz::Pair pair = make_pair(pool, options.seed, i, kinds);
+          if (!has_one_truth(pair)) continue;
+          fuzz::Verdict verdict(i);
+          check_distance(pair, fuzz::Answers(pair), verdict);
+          check_cast(pair, verdict);
+          check_ray(pair, verdict);
+          add(verdict.figures(), is_near(pair) ? near_part : far_part);
+        }
+        const std::lock_guard lock(mutex);
+        add(near_part, near);
+        add(far_part, far);
+      });
   std::vector<AccuracyResult> results;
   add_results(" within 20 m", near, results);
   add_results(" to 2000 m", far, results);

@@ -216,7 +216,7 @@ AccuracyResult count_tunnels(const Case& c, const Range& range, const AccuracyOp
     wall.motion = MotionType::static_body;
     wall.shape = c.wall;
     (void)world.create_body(wall).value();
-    for (std::uint64_t i = first; i < first + count; ++i) {
+    for (std::uint64_t i = options.first + first; i < options.first + first + count; ++i) {
       Dice dice(options.seed, i);
       if (!passes(world, c.make(dice, range), c.ticks)) continue;
       const std::lock_guard lock(mutex);
