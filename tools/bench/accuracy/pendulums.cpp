@@ -6,6 +6,7 @@
 #include <lockstone/literals.h>
 
 #include "tools/bench/accuracy/joint_scene.h"
+#include "tools/bench/accuracy/reference_pendulum.h"
 #include "tools/fuzz/real.h"
 
 namespace lockstone::bench {
@@ -15,17 +16,6 @@ using namespace literals;
 
 constexpr double k_gravity = 9.81;
 constexpr double k_seconds = 60;
-
-// The complete elliptic integral of the first kind, by the arithmetic-geometric mean.
-double elliptic_k(double modulus) {
-  double a = 1, b = std::sqrt(1 - modulus * modulus);
-  for (int i = 0; i < 8; ++i) {
-    const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return std::acos(-1.0) / (2 * a);
-}
 
 // A pendulum by its shape, let go at 90°: arm to its centre, square of its radius of gyration.
 struct Pendulum {
@@ -86,39 +76,7 @@ std::vector<AccuracyResult> measure(const Pendulum& pendulum, double period_goal
   return results;
 }
 
-using State = std::array<double, 4>;  // θ1, θ2 from straight down, and their rates
-
-// Two bobs of one mass at arms of 1 m, each with a square radius of gyration k.
-State slope(const State& s, double k) {
-  const double delta = s[0] - s[1], c = std::cos(delta), sine = std::sin(delta);
-  const double a = 2 + k, b = c, d = 1 + k;
-  const double p = -sine * s[3] * s[3] - 2 * k_gravity * std::sin(s[0]);
-  const double q = sine * s[2] * s[2] - k_gravity * std::sin(s[1]);
-  const double det = a * d - b * b;
-  return {s[2], s[3], (p * d - b * q) / det, (a * q - b * p) / det};
-}
-
-State moved(const State& s, const State& slope, double h) {
-  State result;
-  for (std::size_t i = 0; i < 4; ++i)
-    result[i] = s[i] + h * slope[i];
-  return result;
-}
-
-// The classic method of Runge and Kutta, a microsecond a step.
-State double_pendulum(double seconds, double k) {
-  constexpr double h = 1e-6;
-  State s{std::acos(0.0), std::acos(0.0), 0, 0};
-  for (int i = 0; i < std::lround(seconds / h); ++i) {
-    const State k1 = slope(s, k), k2 = slope(moved(s, k1, h / 2), k);
-    const State k3 = slope(moved(s, k2, h / 2), k), k4 = slope(moved(s, k3, h), k);
-    for (std::size_t j = 0; j < 4; ++j)
-      s[j] += h / 6 * (k1[j] + 2 * k2[j] + 2 * k3[j] + k4[j]);
-  }
-  return s;
-}
-
-double double_pendulum_error(SceneRun& scene, const State& expected) {
+double double_pendulum_error(SceneRun& scene, const std::array<double, 2>& expected) {
   BodyHandle last = scene.add(fixed_point());
   for (int i = 1; i <= 2; ++i) {
     BodyDef bob;
@@ -179,7 +137,7 @@ std::vector<AccuracyResult> measure_rod_pendulum(const AccuracyOptions&) {
 }
 
 std::vector<AccuracyResult> measure_double_pendulum(const AccuracyOptions&) {
-  const State expected = double_pendulum(5, 0.004);
+  const std::array<double, 2> expected = double_pendulum_angles(5, k_gravity, 0.004);
   return over_substeps([&](const Setting& setting) {
     SceneRun scene(setting, joint_world());
     const double error = double_pendulum_error(scene, expected);

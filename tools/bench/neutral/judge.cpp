@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/bench/accuracy/reference_pendulum.h"
 #include "tools/bench/neutral/references.h"
 
 namespace lockstone::bench {

@@ -35,9 +35,4 @@ struct Spin {
 /// The mean time between every other pass of the lowest point, from samples of every tick.
 [[nodiscard]] double seen_period(const std::vector<std::vector<BodyState>>& samples);
 
-/// Angles from straight down of two bobs at arms of 1 m, let go level; `gyration`: the square of
-/// their radii of gyration. The classic method of Runge and Kutta, a microsecond a step.
-[[nodiscard]] std::array<double, 2> double_pendulum_angles(double seconds, double gravity,
-                                                           double gyration);
-
 }  // namespace lockstone::bench
