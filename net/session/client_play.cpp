@@ -4,6 +4,7 @@
 #include <lockstone/assert.h>
 
 #include "net/session/client_impl.h"
+#include "net/session/parts_judge.h"
 #include "net/wire/record_coder.h"
 #include "net/wire/tick_record.h"
 
@@ -100,11 +101,7 @@ void Client::Impl::step_one() {
 // Called after every step.
 void Client::Impl::note_parts() {
   if (simulation->tick() % k_parts_interval_ticks != 0 || spectates()) return;
-  std::array<PartHash, k_max_state_parts> hashed{};
-  state_parts.ticks = simulation->tick();
-  state_parts.count = static_cast<std::uint8_t>(simulation->part_hashes(hashed));
-  for (std::size_t part = 0; part < state_parts.count; ++part)
-    state_parts.hashes[part] = hashed[part].hash;
+  state_parts = parts_of(*simulation);
 }
 
 // The tick `stepped` has been stepped as it was closed; `hash` is the state after it.

@@ -4,6 +4,16 @@
 
 namespace lockstone::net {
 
+Parts parts_of(const Simulation& simulation) {
+  std::array<PartHash, k_max_state_parts> hashed{};
+  Parts parts;
+  parts.ticks = simulation.tick();
+  parts.count = static_cast<std::uint8_t>(simulation.part_hashes(hashed));
+  for (std::size_t part = 0; part < parts.count; ++part)
+    parts.hashes[part] = hashed[part].hash;
+  return parts;
+}
+
 void PartsJudge::note_own(const Parts& parts) {
   entry_of(parts.ticks) = {parts, k_no_slot};
 }

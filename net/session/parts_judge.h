@@ -10,6 +10,9 @@
 
 namespace lockstone::net {
 
+/// Of the state at hand; without parts where a simulation has none.
+[[nodiscard]] Parts parts_of(const Simulation& simulation);
+
 /// A part whose hashes differ. `reference` is a slot, or k_no_slot for the server.
 struct PartMismatch {
   std::uint64_t ticks = 0;  ///< the state after so many ticks

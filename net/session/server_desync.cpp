@@ -44,13 +44,7 @@ void Server::Impl::judge_parts() {
 
 void Server::Impl::note_own_parts() {
   if (parts.simulation->tick() % k_parts_interval_ticks != 0) return;
-  std::array<PartHash, k_max_state_parts> hashed{};
-  Parts own;
-  own.ticks = parts.simulation->tick();
-  own.count = static_cast<std::uint8_t>(parts.simulation->part_hashes(hashed));
-  for (std::size_t part = 0; part < own.count; ++part)
-    own.hashes[part] = hashed[part].hash;
-  parts_judge.note_own(own);
+  parts_judge.note_own(parts_of(*parts.simulation));
 }
 
 bool Server::Impl::on_parts(const Link& link, ByteView packet) {
