@@ -98,7 +98,7 @@ constexpr std::size_t k_most_substep_loops = 6 + 6 * (k_graph_colors + 1);
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 8;
 
-// Of a point, a tick ago.
+// Of a point, as the record has it.
 std::int64_t mean_impulse(const ContactRecord& record) {
   std::int64_t sum = 0;
   for (const ContactPointRecord& point : record.points)
@@ -432,21 +432,19 @@ std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t 
   record.count = static_cast<std::uint16_t>(manifold.count);
   auto saturations = static_cast<std::uint32_t>(approaches_[block_index].clamped[lane]);
   bool touching = false;
-  std::int64_t fastest = 0, pushed = 0;
+  std::int64_t fastest = 0;
   for (std::size_t i = 0; i < record.count; ++i) {
     const ManifoldBlock::Point& point = block.points[i];
     const std::int32_t impulse = low(point.impulse[lane]), greatest = high(point.impulse[lane]);
     record.points[i] = {manifold.points[i].feature, SolverVelocity::from_raw(impulse)};
     touching = touching || low(point.separation[lane]) <= 0 || greatest > 0;
     saturations += greatest == lanes::k_most_impulse ? 1 : 0;
-    pushed += impulse;
     fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
   }
   record.friction_impulse = across(block, lane, block.friction[lane]);
   record.rolling_impulse = across(block, lane, block.rolling[lane]);
   record.twist_impulse.raw = low(block.twist[lane]);
-  const std::int64_t mean = raw::round_shift(pushed * k_one_over_q28[record.count], 28);
-  follow_load(before, mean, alone, load_shift_, record);
+  follow_load(before, mean_impulse(record), alone, load_shift_, record);
   record.flags = touching ? k_contact_touching : 0;
   approach = SolverVelocity::from_raw(raw::saturate<std::int32_t>(-fastest));
   return saturations;

@@ -103,6 +103,15 @@ struct SoftRow {
 
 /// All points as one row, each by the same share: what is symmetric stays symmetric.
 template <bool soft>
+HWY_INLINE HWY_ATTR Lanes next_impulse(const SoftRow& row, const PointLanes& points, std::size_t i,
+                                       Lanes mass_error, Lanes gap) {
+  if constexpr (soft)
+    return row.impulse(points.impulse[i], mass_error, points.rest[i], gap);
+  else
+    return hard_impulse(points.impulse[i], mass_error);
+}
+
+template <bool soft>
 HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t lane,
                                       const SoftRow& row, PointLanes& points) {
   const Lanes common = load(&block.common[lane]);
@@ -116,10 +125,7 @@ HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t la
   const Lanes gap = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes own = select_equal(points.mass[i], broadcast(0), broadcast(0), mass_error);
-    if constexpr (soft)
-      points.impulse[i] = row.impulse(points.impulse[i], own, points.rest[i], gap);
-    else
-      points.impulse[i] = hard_impulse(points.impulse[i], own);
+    points.impulse[i] = next_impulse<soft>(row, points, i, own, gap);
   }
 }
 
@@ -163,9 +169,7 @@ HWY_INLINE HWY_ATTR void solve_points(const Responses& r, const EachShift& by, c
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes error = add(points.speed[i], points.bias[i]);
     const Lanes mass_error = multiply(points.mass[i], error);
-    Lanes next = hard_impulse(points.impulse[i], mass_error);
-    if constexpr (soft)
-      next = row.impulse(points.impulse[i], mass_error, points.rest[i], points.gap[i]);
+    const Lanes next = next_impulse<soft>(row, points, i, mass_error, points.gap[i]);
     const Lanes moved = subtract(next, points.impulse[i]);
     points.impulse[i] = next;
     for (std::size_t j = i + 1; j < 4; ++j)
