@@ -24,8 +24,9 @@ def main(report, title, failures):
     count = {"passed": 0, "failed": 0, "skipped": 0}
     with open(failures, "a", encoding="utf-8") as said:
         for case in xml.parse(report).iter("testcase"):
-            count[verdict(case)] += 1
-            if verdict(case) == "failed":
+            result = verdict(case)
+            count[result] += 1
+            if result == "failed":
                 output = (case.findtext("system-out") or "").splitlines()[-SHOWN_LINES:]
                 print(f"-- failed in {title}: {case.get('name')}", *output, sep="\n", file=said)
     print(*count.values())
