@@ -101,6 +101,23 @@ void add_triangles(const BodyPair& pair, const Piece& a, TriangleScratch& scratc
   }
 }
 
+// More than pieces reach from the centre of their body, and so little that offsets of pieces stay
+// within their range.
+constexpr Position k_farthest_plane = Position::from_integer(1500);
+
+// `brought_near`, and no farther than that from the plane: nothing touches it from there above, and
+// overlaps have saturated there below.
+PlacedShape met_near(const PlacedShape& placed, const Vec3<Position>& point) {
+  PlacedShape near = brought_near(placed, point);
+  if (placed.shape.kind != ShapeKind::half_space) return near;
+  const Position height = rotate_inverse(placed.rotation, point - near.origin).y;
+  const Position excess = height - clamp(height, -k_farthest_plane, k_farthest_plane);
+  if (excess == Position{}) return near;
+  near.origin += rotate(placed.rotation, Vec3<Position>{{}, excess, {}});
+  near.centre = near.origin;
+  return near;
+}
+
 // Calls `f(piece)` for every piece of A near B.
 template <class F>
 class EachPiece final : public PieceVisitor {
@@ -148,7 +165,7 @@ void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
                     TriangleScratch* scratch, PartContacts& out) {
   out.clear();
   if (b.shape.kind != ShapeKind::half_space) return collide_near({a, b, margin}, scratch, out);
-  const PlacedShape near_b = brought_near(b, a.centre);
+  const PlacedShape near_b = met_near(b, a.centre);
   collide_near({a, near_b, margin}, scratch, out);
 }
 
@@ -159,7 +176,7 @@ bool separated_along(const PlacedShape& a, const PlacedShape& b, Length margin,
 }
 
 bool bodies_overlap(const PlacedShape& a, const PlacedShape& b) {
-  const PlacedShape near_a = brought_near(a, b.centre), near_b = brought_near(b, a.centre);
+  const PlacedShape near_a = met_near(a, b.centre), near_b = met_near(b, a.centre);
   const BodyPair pair{near_a, near_b, {}};
   bool found = false;
   for_each_pair_of_pieces(pair, [&](const Piece& pa, const Piece& pb) {

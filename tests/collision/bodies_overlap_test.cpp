@@ -63,5 +63,23 @@ TEST(BodiesOverlap, HoldsToTheFrontOfTriangles) {
   EXPECT_NE(ball_meets(0.5), ball_meets(-0.5));
 }
 
+// From every side and at every distance, those included that no length holds.
+TEST(BodiesOverlap, AgreesWithContactsFarFromPlanes) {
+  Dice dice;
+  PartContacts contacts;
+  for (const int distance :
+       {-900000, -4096, -2049, -2048, -2047, -1500, -1, 1, 1500, 2048, 900000}) {
+    const Mat3 rotation = distance % 2 == 0 ? to_matrix(Quat{}) : to_matrix(dice.orientation());
+    const PlacedShape plane{Shape::half_space(), nullptr, {}, rotation, {}};
+    const Vec3<Position> at = rotate(rotation, {{}, Position::from_integer(distance), {}});
+    const PlacedShape box{Shape::box(metres(0.5), metres(0.5), metres(0.5)), nullptr, at, rotation,
+                          at};
+    collide_bodies(box, plane, {}, nullptr, contacts);
+    EXPECT_EQ(contacts.count > 0, distance < 0) << distance;
+    EXPECT_EQ(bodies_overlap(box, plane), distance < 0) << distance;
+    EXPECT_EQ(bodies_overlap(plane, box), distance < 0) << distance;
+  }
+}
+
 }  // namespace
 }  // namespace lockstone::test

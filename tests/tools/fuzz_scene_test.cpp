@@ -21,14 +21,20 @@ TEST(FuzzScenes, OfARandomSeedDependOnTheStateAlone) {
                   << failure.tick << ": " << failure.what;
 }
 
-// 104: locks opened for a body whose joint sat too far away for one that turns.
 TEST(FuzzScenes, ThatFailedOnceHold) {
-  SceneFuzzOptions options;
-  options.seed = 20261121;
-  options.count = 1;
-  for (const std::uint64_t index : {std::uint64_t{104}}) {
-    options.first = index;
-    EXPECT_TRUE(fuzz_scenes(options).failures.empty()) << "scene " << index;
+  struct Scene {
+    std::uint64_t seed, index;
+  };
+  constexpr Scene k_scenes[] = {
+      {20261121, 104},  // locks opened for a body whose joint sat too far away for one that turns
+      {20261122, 334},  // a trigger 2,048 m behind a half-space
+  };
+  for (const Scene& scene : k_scenes) {
+    SceneFuzzOptions options;
+    options.seed = scene.seed;
+    options.first = scene.index;
+    options.count = 1;
+    EXPECT_TRUE(fuzz_scenes(options).failures.empty()) << scene.seed << ", scene " << scene.index;
   }
 }
 

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint64_t k_load_every = 7;  // ticks
 
+thread_local std::uint64_t this_threads_scene = 0;
+
 bool is_within(const Vec3<Position>& place) {
   return std::max({abs(place.x), abs(place.y), abs(place.z)}) <= k_world_limit;
 }
@@ -97,6 +99,7 @@ class SceneRun {
 };
 
 void run_scene(const SceneFuzzOptions& options, std::uint64_t index, SceneFuzzReport& report) {
+  this_threads_scene = index;
   const RandomScene scene(options.seed, index);
   SceneRun run(scene);
   ++report.scenes;
@@ -120,6 +123,10 @@ void add(SceneFuzzReport& sum, SceneFuzzReport&& part) {
 }
 
 }  // namespace
+
+std::uint64_t scene_at_hand() {
+  return this_threads_scene;
+}
 
 SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options) {
   SceneFuzzReport sum;

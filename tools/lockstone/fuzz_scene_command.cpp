@@ -1,3 +1,5 @@
+#include <csignal>
+#include <cstdio>
 #include <memory>
 #include <thread>
 
@@ -47,7 +49,14 @@ void print_json(const FuzzSceneOptions& options, const fuzz::SceneFuzzReport& re
   fmt::print("{}\n", document.dump(2));
 }
 
+// A check that fails stops the program: say where it was. What is used here is not promised to
+// work in a handler; the program ends either way.
+void name_scene_at_hand(int /*signal*/) {
+  std::fprintf(stderr, "in scene %llu\n", static_cast<unsigned long long>(fuzz::scene_at_hand()));
+}
+
 int run(const FuzzSceneOptions& options) {
+  std::signal(SIGABRT, name_scene_at_hand);
   const fuzz::SceneFuzzReport report = fuzz::fuzz_scenes(options.run);
   options.json ? print_json(options, report) : print_text(options, report);
   return report.failures.empty() ? k_ok : k_different;
