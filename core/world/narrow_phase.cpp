@@ -133,13 +133,16 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   add_contacts(index, {parts.begin(), parts.end()}, input, before, scratch);
 }
 
-// Centres are read to the lengths that primitives are collided with; frames of assets follow from
-// every bit.
+// Centres are read to the lengths that primitives are collided with; frames of assets, and where a
+// half-space is met, follow from every bit.
 World::Impl::ManifoldInput World::Impl::manifold_input(const Pair& pair, Length margin) const {
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
   Vec3<Position> offset = b.position - a.position;
-  if (body_assets[pair.a] == nullptr && body_assets[pair.b] == nullptr) {
+  const auto is_primitive = [&](std::uint32_t body) {
+    return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
+  };
+  if (is_primitive(pair.a) && is_primitive(pair.b)) {
     offset = rounded<Position>(saturated<Length>(offset));
   }
   return {offset, a.orientation, b.orientation, margin};
