@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/dynamics/motion.h"
 #include "core/math/block_float.h"
@@ -12,6 +13,12 @@ namespace lockstone {
 namespace {
 
 constexpr int k_sweeps = 12;
+
+// Impulses stay below this, m/s: more than any approach asks for where the answer is not absurd.
+constexpr Velocity k_most_impulse = Velocity::from_integer(1 << 20);
+
+// Of restitution, where with it the bodies would gain energy: half, a quarter, none.
+constexpr int k_attempts = 4;
 
 // r / 2^k, 30 bits, at most 2.
 Vec3<Unit> normalized_arm(const Vec3<Length>& r, int scale_exponent) {
@@ -85,6 +92,39 @@ struct Point {
   Velocity impulse{};  // along the normal so far
 };
 
+// What impulses did to the energy, per mass, Q32.
+struct Work {
+  std::int64_t sum = 0;
+  std::int64_t gross = 0;  // of magnitudes
+
+  // By an impulse along a direction in which the relative velocity went from `before` to `after`.
+  void add(Velocity impulse, Velocity before, Velocity after) {
+    const auto half = [&](Velocity v) {
+      return saturate_to_int64(round_shift(multiply_wide(impulse.raw, v.raw), 33));
+    };
+    const std::int64_t first = half(before), last = half(after);
+    sum = raw::saturating_add(sum, raw::saturating_add(first, last));
+    gross = raw::saturating_add(gross, raw::saturating_add(magnitude(first), magnitude(last)));
+  }
+
+  // More than rounding gains, or more than is counted.
+  [[nodiscard]] bool is_gain() const {
+    return gross > k_most || sum > (gross >> 16) + (std::int64_t{1} << 8);
+  }
+
+ private:
+  static constexpr std::int64_t k_most = std::numeric_limits<std::int64_t>::max() / 2;
+
+  [[nodiscard]] static std::int64_t magnitude(std::int64_t x) {
+    return std::max(x, -std::max(x, -std::numeric_limits<std::int64_t>::max()));
+  }
+};
+
+// What an impact changes of a body.
+struct Motion {
+  Vec3<Velocity> velocity, spin;
+};
+
 class ImpactSolver {
  public:
   ImpactSolver(const Side& a, const Side& b, const ImpactContact& contact)
@@ -100,15 +140,45 @@ class ImpactSolver {
     }
   }
 
+  // Restitution says how fast the points part, whatever friction and axis locks make of the way
+  // there, and so may give the bodies more than they had (T. R. Kane, "A dynamics puzzle", 1984).
+  // Without restitution all impulses take energy away.
   Velocity run() {
-    for (int sweep = 0; sweep < k_sweeps; ++sweep) {
-      for (int i = 0; i < contact_.manifold.count; ++i)
-        solve(points_[static_cast<std::size_t>(i)]);
+    const Motion before_a = motion_of(a_), before_b = motion_of(b_);
+    for (int attempt = 0; attempt < k_attempts; ++attempt) {
+      sweep();
+      if (!work_.is_gain()) break;
+      set_motion(a_, before_a);
+      set_motion(b_, before_b);
+      start_again(attempt + 2 == k_attempts);
     }
     return greatest_approach_;
   }
 
  private:
+  static Motion motion_of(const Side& side) {
+    return {side.body.record.velocity, side.body.record.spin};
+  }
+
+  static void set_motion(const Side& side, const Motion& motion) {
+    if (side.share == Unit{}) return;  // others may be reading it
+    side.body.record.velocity = motion.velocity;
+    side.body.record.spin = motion.spin;
+  }
+
+  void start_again(bool without_restitution) {
+    work_ = {};
+    for (Point& point : points_) {
+      point.impulse = {};
+      point.wanted = without_restitution ? Velocity{} : point.wanted / 2;
+    }
+  }
+
+  void sweep() {
+    for (int i = 0; i < k_sweeps * contact_.manifold.count; ++i)
+      solve(points_[static_cast<std::size_t>(i % contact_.manifold.count)]);
+  }
+
   [[nodiscard]] Vec3<Velocity> relative(const Point& point) const {
     return b_.velocity_at(point.arm_b) - a_.velocity_at(point.arm_a);
   }
@@ -127,22 +197,28 @@ class ImpactSolver {
   }
 
   void solve(Point& point) {
-    const Velocity missing = point.wanted - dot(relative(point), normal_);
+    const Velocity speed = dot(relative(point), normal_);
+    const Velocity jump = jump_for(point.wanted - speed, point, normal_);
     const Velocity before = point.impulse;
-    point.impulse = max(before + jump_for(missing, point, normal_), Velocity{});
+    point.impulse = clamp(Velocity::from_raw(raw::saturating_add(before.raw, jump.raw)), Velocity{},
+                          k_most_impulse);
     const Velocity change = point.impulse - before;
+    if (change == Velocity{}) return;
     push(point, times(normal_, change), true);
-    if (change > Velocity{}) slow_sliding(point, times(change, contact_.friction));
+    const Vec3<Velocity> after = relative(point);
+    work_.add(change, speed, dot(after, normal_));
+    if (change > Velocity{}) slow_sliding(point, after, times(change, contact_.friction));
   }
 
   // Friction for this much more normal impulse.
-  void slow_sliding(const Point& point, Velocity limit) {
-    const Vec3<Velocity> v = relative(point);
+  void slow_sliding(const Point& point, const Vec3<Velocity>& v, Velocity limit) {
     const Vec3<Velocity> across = v - times(normal_, dot(v, normal_));
     if (across == Vec3<Velocity>{}) return;
     const Vec3<Unit> direction = direction_of(across);
-    const Velocity stop = jump_for(dot(across, direction), point, direction);
-    push(point, times(direction, -min(stop, limit)), false);
+    const Velocity speed = dot(across, direction);
+    const Velocity jump = -min(jump_for(speed, point, direction), limit);
+    push(point, times(direction, jump), false);
+    work_.add(jump, speed, dot(relative(point), direction));
   }
 
   const Side& a_;
@@ -151,6 +227,7 @@ class ImpactSolver {
   Vec3<Unit> normal_;
   std::array<Point, k_max_manifold_points> points_{};
   Velocity greatest_approach_{};
+  Work work_;
 };
 
 Side side_of(ImpactBody body, ImpactBody other) {

@@ -122,7 +122,8 @@ void JointSolver::set_inertia(const JointRun& run, Body& body, std::int64_t leas
     row.spin[axis] = bounded(spin[i].raw, k_row_bound >> 18) * (1 << 18);
     if (run.before.empty()) continue;
     std::int64_t& before = run.before[body.solver].spin[axis];
-    before = bounded(before + row.spin[axis] - old.spin[axis], k_row_bound);
+    const std::int64_t gain = row.spin[axis] - bounded(old.spin[axis], k_row_bound);
+    before = bounded(bounded(before, k_row_bound) + gain, k_row_bound);
   }
   body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
   run.bodies[body.solver].inverse_inertia = body.inverse_inertia;

@@ -18,6 +18,11 @@ constexpr std::size_t k_most_blocks_per_joint = 6;
 
 constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_matrix_bits - 24);
 
+// x ← x − part. Factors of what is next to singular may be anything.
+void take(std::int64_t& x, std::int64_t part) {
+  x = std::clamp(x - part, -k_product_bound, k_product_bound);
+}
+
 struct Product {
   std::uint32_t rows;
   std::uint32_t columns;
@@ -34,7 +39,7 @@ void subtract_product(std::int64_t* to, const Product& size, const JointFactor::
       ProductSum sum;
       for (std::uint32_t c = 0; c < size.terms; ++c)
         sum.add(entries[r * size.terms + c], factors[s * size.terms + c]);
-      to[r * size.columns + s] -= sum.rounded(k_factor_bits);
+      take(to[r * size.columns + s], sum.rounded(k_factor_bits));
     }
   }
 }
@@ -128,7 +133,7 @@ std::uint32_t JointFactor::factor_diagonal(Column& column) {
     }
     for (std::uint32_t r = c + 1; r < n; ++r) {
       for (std::uint32_t s = c + 1; s <= r; ++s)
-        d[r * n + s] -= product_rounded(d[r * n + c], above[s], k_factor_bits);
+        take(d[r * n + s], product_rounded(d[r * n + c], above[s], k_factor_bits));
     }
   }
   return left_out;
@@ -147,7 +152,7 @@ void JointFactor::eliminate(std::uint32_t first, const Column& column) {
         ProductSum sum;
         for (std::uint32_t s = 0; s < c; ++s)
           sum.add(line[s], d[c * n + s]);
-        if (c > 0) line[c] -= sum.rounded(k_factor_bits);
+        if (c > 0) take(line[c], sum.rounded(k_factor_bits));
       }
     }
   }

@@ -33,7 +33,7 @@ RawVec3 scaled(const RawVec3& direction, std::int64_t amount) {
 
 void gain(const RawVec3& by, std::array<std::int64_t, 3>& to) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    to[axis] = bounded(to[axis] + by[axis], k_row_bound);
+    to[axis] = bounded(bounded(to[axis], k_row_bound) + by[axis], k_row_bound);
 }
 
 std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
