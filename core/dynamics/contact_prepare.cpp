@@ -148,8 +148,8 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
     out.held[static_cast<std::size_t>(axis)] = held_along(in, axis, out.share_b);
 }
 
-Vec3<SolverVelocity> across(const lanes::ManifoldBlock& block, std::size_t lane,
-                            std::int64_t word) {
+void across(const lanes::ManifoldBlock& block, std::size_t lane, std::int64_t word,
+            Vec3<SolverVelocity>& out) {
   const auto low = [](std::int64_t x) { return static_cast<std::int32_t>(x); };
   const auto high = [](std::int64_t x) { return static_cast<std::int32_t>(x >> 32); };
   const std::int64_t along_t = static_cast<std::int32_t>(word),
@@ -157,12 +157,10 @@ Vec3<SolverVelocity> across(const lanes::ManifoldBlock& block, std::size_t lane,
   const std::int64_t axes[3][2] = {{high(block.axes[1][lane]), low(block.axes[3][lane])},
                                    {low(block.axes[2][lane]), high(block.axes[3][lane])},
                                    {high(block.axes[2][lane]), low(block.axes[4][lane])}};
-  Vec3<SolverVelocity> result;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t sum = along_t * axes[i][0] + along_b * axes[i][1];
-    result[i].raw = raw::saturate<std::int32_t>(raw::round_shift(sum, 30));
+    out[i].raw = raw::saturate<std::int32_t>(raw::round_shift(sum, 30));
   }
-  return result;
 }
 
 }  // namespace lockstone

@@ -40,7 +40,7 @@ void fill_source(const ContactInput& input, const ContactSoftness& softness,
                  lanes::ManifoldSource& out);
 
 /// t·low + b·high of a lane's word, in world axes.
-[[nodiscard]] Vec3<SolverVelocity> across(const lanes::ManifoldBlock& block, std::size_t lane,
-                                          std::int64_t word);
+void across(const lanes::ManifoldBlock& block, std::size_t lane, std::int64_t word,
+            Vec3<SolverVelocity>& out);
 
 }  // namespace lockstone

@@ -58,14 +58,23 @@ std::int64_t to_row(Velocity v) {
   return v.raw << k_row_shift;
 }
 
-RowBody limited(const RowBody& row) {
-  const auto within = [](std::int64_t x) { return std::clamp(x, -k_row_limit, k_row_limit); };
-  RowBody result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.velocity[axis] = within(row.velocity[axis]);
-    result.spin[axis] = within(row.spin[axis]);
-  }
-  return result;
+std::int64_t within_limit(std::int64_t x) {
+  return std::clamp(x, -k_row_limit, k_row_limit);
+}
+
+// One component of a body in the first substep. What it was is left in `before`, which holds what
+// the impulses of the tick before give.
+void start_component(std::int64_t gain, std::int64_t& now, std::int64_t& before) {
+  const std::int64_t start = within_limit(now), warm = within_limit(before);
+  now = start + gain * (std::int64_t{1} << k_row_shift) + warm;
+  before = start;
+}
+
+// In later ones it gains what it gained in the substep before.
+void repeat_component(std::int64_t& now, std::int64_t& before) {
+  const std::int64_t start = within_limit(now);
+  now = 2 * start - before;
+  before = start;
 }
 
 // Within eight steps of what rows can read, 7.6 µm/s: what contacts hold trembles by so much, and
@@ -145,6 +154,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
+  pushed_.reserve(most_rows);
   bodies_.reserve(most_rows);
   rows_.reserve(most_rows);
   inertias_.reserve(most_rows);
@@ -172,14 +182,20 @@ std::uint32_t ContactSolver::contacts() const {
 // Bodies enter the solver when a constraint first names them. What no impulse moves enters anew
 // with every constraint, since constraints that are solved side by side write to all their bodies.
 std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t body) {
+  const std::uint32_t known = solver_index_[body];
+  if (known != 0 && pushed_[known] != 0) return known;
   const BodyRecord& record = scene.bodies[body];
   if (!record.moves()) return k_immovable | immovables_++;
-  if (record.is_dynamic() && solver_index_[body] != 0) return solver_index_[body];
   const auto index = static_cast<std::uint32_t>(members_.size());
-  if (solver_index_[body] == 0) solver_index_[body] = index;
+  if (known == 0) solver_index_[body] = index;
   members_.push_back(body);
+  pushed_.push_back(record.is_dynamic() ? 1 : 0);
   graph_.add_body();
   return index;
+}
+
+bool ContactSolver::is_pushed(std::uint32_t index) const {
+  return (index & k_immovable) == 0 && pushed_[index] != 0;
 }
 
 // In the order of the records: bodies, colours and lanes follow from the state alone.
@@ -189,14 +205,14 @@ void ContactSolver::take_up_contacts(const ContactScene& scene) {
   for (const std::uint32_t body : members_)
     solver_index_[body] = 0;
   members_.assign(1, 0);
+  pushed_.assign(1, 0);
   immovables_ = 0;
   for (std::size_t i = 0; i < scene.records.size(); ++i) {
     const ContactRecord& record = scene.records[i];
     if (record.is_trigger() || scene.surfaces[scene.slots[i]].bounces) continue;
     const std::uint32_t a = take_up(scene, record.body_a);
     const std::uint32_t b = take_up(scene, record.body_b);
-    graph_.add(a, scene.bodies[record.body_a].is_dynamic(), b,
-               scene.bodies[record.body_b].is_dynamic());
+    graph_.add(a, is_pushed(a), b, is_pushed(b));
     entries_.push_back({static_cast<std::uint32_t>(i), scene.slots[i], a, b});
   }
   first_without_contacts_ = static_cast<std::uint32_t>(members_.size());
@@ -292,6 +308,7 @@ void ContactSolver::look_ahead(const ContactScene& scene, std::size_t slot) cons
 std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
                                         lanes::ManifoldSources& sources) {
   std::uint32_t points = 0;
+  SolverBody fixed_a, fixed_b;  // of what never moves
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const std::uint32_t slot = slots_[block * k_block_lanes + lane];
     restitution_[block][lane] = 0;
@@ -303,7 +320,6 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     look_ahead(scene, block * k_block_lanes + lane + k_lanes_ahead);
     const Entry& entry = entries_[slot];
     const ContactRecord& record = scene.records[entry.record];
-    SolverBody fixed_a, fixed_b;
     const auto side = [&](std::uint32_t index, std::uint32_t body,
                           SolverBody& fixed) -> const SolverBody& {
       if ((index & k_immovable) == 0) return bodies_[index];
@@ -329,24 +345,18 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
 // did to a body is all that it gained in that substep, gravity included; so it gains that again.
 void ContactSolver::integrate_velocities(bool is_first, std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
-    const RowBody start = limited(rows_[i]);
     RowBody& row = rows_[i];
-    if (is_first) {
-      const RowBody warm = limited(before_[i]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::int64_t gain = bodies_[i].gain[axis] * (std::int64_t{1} << k_row_shift);
-        const std::int64_t spin_gain =
-            bodies_[i].spin_gain[axis] * (std::int64_t{1} << k_row_shift);
-        row.velocity[axis] = start.velocity[axis] + gain + warm.velocity[axis];
-        row.spin[axis] = start.spin[axis] + spin_gain + warm.spin[axis];
-      }
-    } else {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        row.velocity[axis] = 2 * start.velocity[axis] - before_[i].velocity[axis];
-        row.spin[axis] = 2 * start.spin[axis] - before_[i].spin[axis];
+    RowBody& before = before_[i];
+    const SolverBody& body = bodies_[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (is_first) {
+        start_component(body.gain[axis], row.velocity[axis], before.velocity[axis]);
+        start_component(body.spin_gain[axis], row.spin[axis], before.spin[axis]);
+      } else {
+        repeat_component(row.velocity[axis], before.velocity[axis]);
+        repeat_component(row.spin[axis], before.spin[axis]);
       }
     }
-    before_[i] = start;
     hold(i);
   }
 }
@@ -373,12 +383,13 @@ void ContactSolver::hold_blocks(std::size_t first, std::size_t end) {
 void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     if (bodies_[i].is_pushed() && is_still(rows_[i])) continue;
-    const RowBody row = limited(rows_[i]);
+    const RowBody& row = rows_[i];
     RowTravel& travel = travel_[i];
-    const std::array<std::int64_t, 3> surface =
-        surface_velocity(bodies_[i].inverse_inertia, row.spin);
+    const std::array<std::int64_t, 3> spin = {within_limit(row.spin[0]), within_limit(row.spin[1]),
+                                              within_limit(row.spin[2])};
+    const std::array<std::int64_t, 3> surface = surface_velocity(bodies_[i].inverse_inertia, spin);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      travel.velocity[axis] += row.velocity[axis] >> k_row_shift;
+      travel.velocity[axis] += within_limit(row.velocity[axis]) >> k_row_shift;
       travel.surface[axis] += surface[axis];
     }
   }
@@ -407,7 +418,9 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
       const Entry& entry = entries_[slots_[slot]];
       clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[entry.slot],
                                is_alone(entry), records[entry.record], approaches[entry.record]);
-      touches_[slots_[slot]] = {manifolds[entry.slot].normal, records[entry.record].is_touching()};
+      Touch& touch = touches_[slots_[slot]];
+      touch.normal = manifolds[entry.slot].normal;
+      touch.touching = records[entry.record].is_touching();
     }
     saturations.fetch_add(clamped, std::memory_order_relaxed);
   });
@@ -441,8 +454,8 @@ std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t 
     saturations += greatest == lanes::k_most_impulse ? 1 : 0;
     fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
   }
-  record.friction_impulse = across(block, lane, block.friction[lane]);
-  record.rolling_impulse = across(block, lane, block.rolling[lane]);
+  across(block, lane, block.friction[lane], record.friction_impulse);
+  across(block, lane, block.rolling[lane], record.rolling_impulse);
   record.twist_impulse.raw = low(block.twist[lane]);
   follow_load(before, mean_impulse(record), alone, load_shift_, record);
   record.flags = touching ? k_contact_touching : 0;

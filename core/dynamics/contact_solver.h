@@ -142,6 +142,7 @@ class ContactSolver {
   }
   [[nodiscard]] std::uint32_t row_count() const;
   [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const;
+  [[nodiscard]] bool is_pushed(std::uint32_t index) const;
   void lay_out();
   void add_loop(Stage stage, std::uint32_t count, std::uint32_t grain, bool is_serial = false);
   void add_loop_of_each_color(StageKind kind);
@@ -188,6 +189,7 @@ class ContactSolver {
   // By number: bodies that move, from 1; then, in all but the first two, one for each contact of
   // what does not.
   std::vector<std::uint32_t> members_;  // the body
+  std::vector<std::uint8_t> pushed_;    // 1: impulses change it
   std::vector<SolverBody> bodies_;
   std::vector<lanes::SourceBody> inertias_;
   std::vector<lanes::RowBody> rows_;

@@ -264,22 +264,6 @@ SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
   return solver;
 }
 
-std::array<std::int64_t, 3> surface_velocity(const InverseInertia& m,
-                                             const std::array<std::int64_t, 3>& spin_q50) {
-  // |spin| ≤ 2^31 in Q22, so that three products stay below 2^63.
-  const auto read = [](std::int64_t x) {
-    const std::int64_t bound = std::int64_t{1} << 31;
-    return std::clamp(raw::round_shift(x, 28), -bound, bound);
-  };
-  const std::int64_t x = read(spin_q50[0]), y = read(spin_q50[1]), z = read(spin_q50[2]);
-  // Q22 · Q(30 − exponent), to Q32.
-  const int shift = 20 - m.exponent;
-  const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
-    return raw::round_shift(a * x + b * y + c * z, shift);
-  };
-  return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
-}
-
 std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
                            const Vec3<Velocity>& displacement, const Vec3<Velocity>& turned,
                            const TimeStep& step) {

@@ -1,6 +1,7 @@
 // How bodies move within a tick.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -58,8 +59,21 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
                                      const Vec3<Acceleration>& gravity, const TimeStep& step);
 
 /// Surface velocity (m/s, Q32) from spin in Q50, rounded to 2^-22 m/s before it is multiplied.
-[[nodiscard]] std::array<std::int64_t, 3> surface_velocity(
-    const InverseInertia& inertia, const std::array<std::int64_t, 3>& spin_q50);
+[[nodiscard]] inline std::array<std::int64_t, 3> surface_velocity(
+    const InverseInertia& m, const std::array<std::int64_t, 3>& spin_q50) {
+  // |spin| ≤ 2^31 in Q22, so that three products stay below 2^63.
+  const auto read = [](std::int64_t x) {
+    const std::int64_t bound = std::int64_t{1} << 31;
+    return std::clamp(raw::round_shift(x, 28), -bound, bound);
+  };
+  const std::int64_t x = read(spin_q50[0]), y = read(spin_q50[1]), z = read(spin_q50[2]);
+  // Q22 · Q(30 − exponent), to Q32.
+  const int shift = 20 - m.exponent;
+  const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    return raw::round_shift(a * x + b * y + c * z, shift);
+  };
+  return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
+}
 
 /// Moves a body by what it went in a tick, m: its centre, and its surface as of the solver
 /// (rotation vector · 2^scale_exponent), to which geometry stood still. It turns as freely as with

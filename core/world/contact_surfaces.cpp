@@ -26,20 +26,22 @@ bool is_round(const BodyRecord& body) {
 
 }  // namespace
 
-// A part's own surface, or the body's.
-ContactSurface World::Impl::surface_of(const Pair& pair, const PartContact& contact) const {
+// A part's own surface, or the body's. Written in place: what is written by fields and copied at
+// once as a whole waits for all stores before it.
+void World::Impl::find_surface(const Pair& pair, const PartContact& contact,
+                               ContactSurface& both) const {
   const BodyRecord& body_a = bodies[pair.a];
   const BodyRecord& body_b = bodies[pair.b];
   const Surface a = contact.surface_a != nullptr ? *contact.surface_a : body_a.surface();
   const Surface b = contact.surface_b != nullptr ? *contact.surface_b : body_b.surface();
-  ContactSurface both;
+  both = {};
   both.friction = combined_friction(a, b);
   both.restitution = combined_restitution(a, b);
   both.tag_a = a.tag;
   both.tag_b = b.tag;
   if (const Coefficient rolling = combined_rolling(a, b); rolling > Coefficient{})
     both.rolling_arm = rounded<Length>(rolling_radius(pair) * rolling);
-  if (contact.manifold.count == 0) return both;
+  if (contact.manifold.count == 0) return;
   const Manifold& manifold = contact.manifold;
   if (body_a.has_surface_motion()) {
     add_drive(pair.a, centre_of(manifold, &ManifoldPoint::anchor_a), -1, manifold.normal, both);
@@ -47,7 +49,6 @@ ContactSurface World::Impl::surface_of(const Pair& pair, const PartContact& cont
   if (body_b.has_surface_motion()) {
     add_drive(pair.b, centre_of(manifold, &ManifoldPoint::anchor_b), 1, manifold.normal, both);
   }
-  return both;
 }
 
 Length World::Impl::rolling_radius(const Pair& pair) const {

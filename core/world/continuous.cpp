@@ -213,7 +213,8 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
   for (const PartContact& contact : scratch.part_contacts) {
-    const ContactSurface surface = surface_of({body, other}, contact);
+    ContactSurface surface;
+    find_surface({body, other}, contact, surface);
     tag_a = surface.tag_a;
     tag_b = surface.tag_b;
     approach =

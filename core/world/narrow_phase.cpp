@@ -172,7 +172,7 @@ void World::Impl::add_trigger(std::uint32_t index, std::span<const ContactRecord
   const std::uint32_t slot = narrow.take(scratch, 1);
   if (slot == NarrowSlots::k_none) return;
   found_contacts[index] = {slot, 1};
-  origins[slot] = {0, 0, before.empty() ? k_new : index_of(before.front())};
+  origins[slot] = {0, 0, before.empty() ? k_new : index_of(before.front()), true};
   manifolds[slot] = {};
   inputs[slot] = {};
   surfaces[slot] = {};
@@ -193,10 +193,11 @@ void World::Impl::add_contacts(std::uint32_t index, std::span<const PartContact>
     const PartContact& contact = parts[i];
     const ContactKey key{pair.a, pair.b, contact.part_a, contact.part_b};
     const auto old = std::ranges::find(before, key, &ContactRecord::key);
-    origins[first + i] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old)};
+    origins[first + i] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old),
+                          false};
     manifolds[first + i] = contact.manifold;
     inputs[first + i] = input;
-    surfaces[first + i] = surface_of(pair, contact);
+    find_surface(pair, contact, surfaces[first + i]);
   }
 }
 
@@ -231,16 +232,16 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
     const std::uint32_t slot = of_pair.slot + i;
     const ContactOrigin& origin = origins[slot];
     const Pair& both = pairs[pair];
-    ContactRecord record = origin.before == k_new ? ContactRecord{} : contact_store[origin.before];
+    ContactRecord& record = new_contacts[of_pair.index + i];
+    record = origin.before == k_new ? ContactRecord{} : contact_store[origin.before];
     record.body_a = both.a;
     record.body_b = both.b;
     record.part_a = origin.part_a;
     record.part_b = origin.part_b;
-    if (bodies[both.a].is_trigger() || bodies[both.b].is_trigger()) {
+    if (origin.is_trigger) {
       record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
     }
     slots[of_pair.index + i] = slot;
-    new_contacts[of_pair.index + i] = record;
     approach_speeds[of_pair.index + i] = {};
   }
 }

@@ -286,7 +286,7 @@ struct World::Impl {
   void number_contacts_of(std::uint32_t pair);
 
   // What contacts are made of (contact_surfaces.cpp).
-  [[nodiscard]] ContactSurface surface_of(const Pair& pair, const PartContact& contact) const;
+  void find_surface(const Pair& pair, const PartContact& contact, ContactSurface& both) const;
   [[nodiscard]] Length rolling_radius(const Pair& pair) const;
   void add_drive(std::uint32_t body, const Vec3<Length>& arm, std::int32_t sign,
                  const Vec3<Unit>& normal, ContactSurface& surface) const;
@@ -408,6 +408,7 @@ struct World::Impl {
     std::uint32_t part_a = 0;
     std::uint32_t part_b = 0;
     std::uint32_t before = k_new;  // in contact_store
+    bool is_trigger = false;
   };
   std::vector<ContactOrigin> origins;    // by slot
   std::vector<Manifold> manifolds;       // by slot
