@@ -72,7 +72,9 @@ PosedShape posed(const PlacedShape& single) {
 void add_singles(const BodyPair& pair, PartContacts& out) {
   const Vec3<Length> offset = saturated<Length>(pair.b.origin - pair.a.origin);
   PartContact& contact = out.contacts.front();
-  contact = {0, 0, nullptr, nullptr, collide(posed(pair.a), posed(pair.b), offset, pair.margin)};
+  contact.part_a = contact.part_b = 0;
+  contact.surface_a = contact.surface_b = nullptr;
+  collide(posed(pair.a), posed(pair.b), offset, pair.margin, contact.manifold);
   if (contact.manifold.count == 0) {
     out.separating_axis = contact.manifold.normal;
     return;

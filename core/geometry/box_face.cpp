@@ -1,297 +1,315 @@
 #include "core/geometry/box_face.h"
 
-#include <bit>
+#include <algorithm>
 #include <utility>
 
+#include "core/geometry/box_clip.h"
 #include "core/geometry/contact_point.h"
-#include "core/geometry/cut.h"
+#include "core/geometry/manifold_reduction.h"
 #include "core/geometry/normals.h"
-#include "core/geometry/preference.h"
 
 namespace lockstone::geometry {
 namespace {
 
-/// A polygon vertex with the label of the edge that leaves it: 0 … 3 of the incident face,
-/// 4 … 7 the sides +x, −x, +y, −y of the reference face.
-struct ClipVertex {
-  // No initialisers: a polygon holds eight, and mostly uses four.
-  std::array<Fine, 3> at;
-  std::uint32_t edge;
+constexpr std::array<int, 3> k_next = {1, 2, 0};
+constexpr std::array<int, 3> k_after_next = {2, 0, 1};
+
+/// The reference face, and the other box's axes as seen from it.
+struct FaceFrame {
+  const BoxPair& pair;
+  const PosedShape& reference;
+  const PosedShape& incident;
+  int axis;
+  int tangent_x;
+  int tangent_y;
+  int sign;  ///< of the face's outward normal
+  bool of_b;
+  bool flip;  ///< whether the incident box is the manifold's A
+  Fine height;
+  // The lane of the incident box's axis j along the reference's axis i: step_j · j + step_i · i.
+  std::array<std::int64_t, 9> lanes;
+  int step_j, step_i;
+
+  FaceFrame(const BoxPair& boxes, const FaceAxis& face, bool face_of_b, bool flip_pair)
+      : pair(boxes),
+        reference(face_of_b ? boxes.b : boxes.a),
+        incident(face_of_b ? boxes.a : boxes.b),
+        axis(face.axis),
+        tangent_x(k_next[static_cast<std::size_t>(face.axis)]),
+        tangent_y(k_after_next[static_cast<std::size_t>(face.axis)]),
+        sign(face_of_b ? -face.sign : face.sign),
+        of_b(face_of_b),
+        flip(flip_pair != face_of_b),
+        height(fine(reference.shape.size[face.axis])),
+        step_j(face_of_b ? 1 : 3),
+        step_i(face_of_b ? 3 : 1) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3<Unit>& of_b_axis = boxes.b_in_a[j];
+      lanes[3 * j] = of_b_axis.x.raw;
+      lanes[3 * j + 1] = of_b_axis.y.raw;
+      lanes[3 * j + 2] = of_b_axis.z.raw;
+    }
+  }
+
+  [[nodiscard]] std::int64_t lane(int j, int i) const {
+    return lanes[static_cast<std::size_t>(step_j * j + step_i * i)];
+  }
+  [[nodiscard]] RawVec axis_in_frame(int j) const {
+    return {lane(j, tangent_x), lane(j, tangent_y), sign * lane(j, axis)};
+  }
+  /// The centre of the incident box above the reference face.
+  [[nodiscard]] RawVec centre_in_frame() const {
+    const RawVec& c = of_b ? pair.centre_in_b : pair.centre_in_a;
+    const std::int64_t to_incident = of_b ? -1 : 1;
+    return {to_incident * c[tangent_x], to_incident * c[tangent_y],
+            raw::subtract(to_incident * sign * c[axis], height)};
+  }
 };
 
-struct ClipPolygon {
-  std::array<ClipVertex, 8> vertices;
-  int count;
-
-  void add(const ClipVertex& v) {
-    LKS_ASSERT(count < 8);
-    vertices[static_cast<std::size_t>(count++)] = v;
-  }
-  [[nodiscard]] const ClipVertex& operator[](int i) const {
-    return vertices[static_cast<std::size_t>(i)];
-  }
-};
-
-/// One side of the reference face: sign · at[axis] ≤ half.
-struct Side {
-  std::size_t axis = 0;
-  int sign = 1;
-  Fine half = 0;
-  std::uint32_t label = 0;
-
-  [[nodiscard]] Fine excess(const ClipVertex& v) const {
-    return raw::subtract(sign * v.at[axis], half);
-  }
-};
-
-/// The incident face: its axis, the sign of its outward normal, and the tangent axes.
+/// The incident face; the sign is that of its outward normal.
 struct IncidentFace {
   int axis = 0;
   int sign = 1;
-  std::array<std::int64_t, 3> normal{};  ///< in the frame of the face, 30 fraction bits
+  RawVec normal{};  ///< either way, in the frame of the reference face, 30 fraction bits
+  RawVec middle{};
+  RawVec u{}, v{};  ///< half its edges
+
+  explicit IncidentFace(const FaceFrame& frame) {
+    std::int64_t most = -1;
+    for (int j = 0; j < 3; ++j) {  // most opposed to the reference normal, the first of equals
+      const std::int64_t lean = frame.sign * frame.lane(j, frame.axis);
+      if (magnitude_of(lean) <= most) continue;
+      most = magnitude_of(lean);
+      axis = j;
+      sign = lean > 0 ? -1 : 1;
+    }
+    const auto half_axis = [&](const RawVec& direction, int j) {
+      const std::int64_t half = frame.incident.shape.size[j].raw;
+      return RawVec{direction.x * half, direction.y * half, direction.z * half};
+    };
+    const int next = k_next[static_cast<std::size_t>(axis)];
+    const int after = k_after_next[static_cast<std::size_t>(axis)];
+    normal = frame.axis_in_frame(axis);
+    const RawVec out = half_axis(normal, axis);
+    middle = sign < 0 ? frame.centre_in_frame() - out : frame.centre_in_frame() + out;
+    u = half_axis(frame.axis_in_frame(next), next);
+    v = half_axis(frame.axis_in_frame(after), after);
+  }
 
   [[nodiscard]] std::uint32_t index() const {
     return static_cast<std::uint32_t>(axis * 2 + (sign < 0 ? 1 : 0));
   }
+  /// Its corners in order, exact.
+  void fill(ClipPolygon& polygon) const {
+    const RawVec one = middle + u, other = middle - u;
+    const auto corner = [](const RawVec& at, std::uint32_t edge) {
+      return ClipVertex{{at.x, at.y, at.z}, edge};
+    };
+    polygon.vertices[0] = corner(one + v, 0);
+    polygon.vertices[1] = corner(other + v, 1);
+    polygon.vertices[2] = corner(other - v, 2);
+    polygon.vertices[3] = corner(one - v, 3);
+    polygon.count = 4;
+  }
+  /// Whether a slab across a lane holds all corners.
+  template <std::size_t Axis>
+  [[nodiscard]] bool is_within(const Slab<Axis>& slab, Fine RawVec::*lane) const {
+    const Fine reach = magnitude_of(u.*lane) + magnitude_of(v.*lane);
+    return slab.holds(middle.*lane - reach, middle.*lane + reach);
+  }
+  /// Vertices may be taken to be on a side unless the face is steep across it.
+  [[nodiscard]] Fine snap_across(std::int64_t lean) const {
+    return 16 * magnitude_of(lean) <= magnitude_of(normal.z) ? k_snap : 0;
+  }
 };
 
-int tangent_x(const FaceFrame& frame) {
-  return (frame.face.axis + 1) % 3;
-}
-int tangent_y(const FaceFrame& frame) {
-  return (frame.face.axis + 2) % 3;
-}
-
-std::array<std::int64_t, 3> in_frame(const FaceFrame& frame, const RawVec& v) {
-  return {v[tangent_x(frame)], v[tangent_y(frame)], frame.face.sign * v[frame.face.axis]};
-}
-
-RawVec lanes_of(const Vec3<Unit>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
-/// The face most opposed to the reference normal, the first of equals.
-IncidentFace incident_face(const FaceFrame& frame) {
-  IncidentFace result;
-  std::int64_t most = -1;
-  for (int j = 0; j < 3; ++j) {
-    const std::int64_t lean =
-        frame.face.sign * frame.axes[static_cast<std::size_t>(j)][frame.face.axis].raw;
-    if (magnitude_of(lean) <= most) continue;
-    most = magnitude_of(lean);
-    result.axis = j;
-    result.sign = lean > 0 ? -1 : 1;
-  }
-  const RawVec n = lanes_of(frame.axes[static_cast<std::size_t>(result.axis)]);
-  result.normal = in_frame(frame, result.sign < 0 ? -n : n);
-  return result;
-}
-
-/// Half an edge of the incident box along one of its axes, in the frame.
-RawVec half_edge(const FaceFrame& frame, int axis) {
-  const std::array<std::int64_t, 3> edge =
-      in_frame(frame, along(frame.axes[static_cast<std::size_t>(axis)], frame.incident_half[axis]));
-  return {edge[0], edge[1], edge[2]};
-}
-
-void incident_polygon(const FaceFrame& frame, const IncidentFace& face, ClipPolygon& polygon) {
-  const std::array<std::int64_t, 3> centre = in_frame(frame, frame.centre);
-  const auto half = fine(frame.reference.shape.size[frame.face.axis]);
-  const RawVec above{centre[0], centre[1], raw::subtract(centre[2], half)};
-  const RawVec out = half_edge(frame, face.axis);
-  const RawVec u = half_edge(frame, (face.axis + 1) % 3);
-  const RawVec v = half_edge(frame, (face.axis + 2) % 3);
-  const RawVec middle = face.sign < 0 ? above - out : above + out;
-  const RawVec corners[4] = {middle + u + v, middle - u + v, middle - u - v, middle + u - v};
-  polygon.count = 0;
-  for (std::uint32_t i = 0; i < 4; ++i)
-    polygon.add({{corners[i].x, corners[i].y, corners[i].z}, i});
-}
-
-/// Whether vertices may be moved onto the side: not on a steep face, where the height would change
-/// too much.
-bool may_snap(const Side& side, const IncidentFace& face) {
-  return 16 * magnitude_of(face.normal[side.axis]) <= magnitude_of(face.normal[2]);
-}
-
-/// Moves a vertex that is just outside onto the side, within the plane of the incident face.
-void snap(ClipVertex& vertex, Fine excess, const Side& side, const IncidentFace& face) {
-  // n·p stays: the height changes by excess · n_axis / n_z. Both factors fit 31 bits after the
-  // shift by 8, and |n_z| > 1/2.
-  vertex.at[side.axis] -= side.sign * excess;
-  const std::int64_t rise = (excess >> 8) * (side.sign * face.normal[side.axis]);
-  vertex.at[2] += rise / (face.normal[2] >> 8);
-}
-
-/// The point of the side between a vertex inside and one outside, measured from the inside one,
-/// so that the order of the two does not matter.
-ClipVertex intersection(const ClipVertex& inside, Fine inside_excess, const ClipVertex& outside,
-                        Fine outside_excess, const Side& side) {
-  const std::uint64_t share = share_inside(-inside_excess, outside_excess);
-  ClipVertex result;
-  for (std::size_t k = 0; k < 3; ++k)
-    result.at[k] = cut_between(inside.at[k], outside.at[k], share);
-  result.at[side.axis] = side.sign * side.half;
-  return result;
-}
-
-/// How far the vertices of a polygon lie beyond a side, and which are beyond it by so little that
-/// they may be moved onto it: a bit each.
-struct Excesses {
-  std::array<Fine, 8> of;
-  Fine least;
-  std::uint32_t beyond = 0;
-  std::uint32_t near = 0;
-
-  Excesses(const ClipPolygon& polygon, const Side& side) {
-    least = side.excess(polygon[0]);
-    for (int i = 0; i < polygon.count; ++i) {
-      const Fine excess = side.excess(polygon[i]);
-      of[static_cast<std::size_t>(i)] = excess;
-      least = std::min(least, excess);
-      const std::uint32_t is_beyond = excess > 0 ? 1U : 0U;
-      beyond |= is_beyond << i;
-      near |= (excess <= k_snap ? is_beyond : 0U) << i;
-    }
-  }
-  [[nodiscard]] Fine operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
-};
-
-/// The part of the polygon within a side that some of its vertices lie beyond.
-void cut(const ClipPolygon& polygon, const Excesses& excesses, const Side& side,
-         ClipPolygon& result) {
-  result.count = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    const int next = i + 1 < polygon.count ? i + 1 : 0;
-    const ClipVertex& from = polygon[i];
-    const ClipVertex& to = polygon[next];
-    const Fine from_excess = excesses[i];
-    const Fine to_excess = excesses[next];
-    if (from_excess <= 0) result.add(from);
-    if (from_excess <= 0 && to_excess > 0 && from_excess != 0) {
-      result.add(intersection(from, from_excess, to, to_excess, side));
-    }
-    if (from_excess <= 0 && to_excess > 0) {
-      result.vertices[static_cast<std::size_t>(result.count - 1)].edge = side.label;
-    }
-    if (from_excess > 0 && to_excess < 0) {
-      result.add(intersection(to, to_excess, from, from_excess, side));
-      result.vertices[static_cast<std::size_t>(result.count - 1)].edge = from.edge;
-    }
-  }
-}
-
-/// A polygon being clipped, and room for its next form.
+/// Two polygons, one of which holds what is left of the incident face.
 struct Clipping {
-  const IncidentFace& face;
-  ClipPolygon buffers[2];
-  ClipPolygon* polygon = &buffers[0];
-  ClipPolygon* spare = &buffers[1];
+  ClipPolygon polygons[2];
 
-  explicit Clipping(const IncidentFace& incident) : face(incident) {}
-  Clipping(const Clipping&) = delete;
-  Clipping& operator=(const Clipping&) = delete;
-
-  /// Snaps the vertices of a polygon that reaches inside; one wholly outside stays outside. Then
-  /// cuts off what is beyond the side.
-  void clip(const Side& side) {
-    if (polygon->count == 0) return;
-    Excesses excesses(*polygon, side);
-    if (excesses.least < 0 && may_snap(side, face)) {
-      for (std::uint32_t left = excesses.near; left != 0; left &= left - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        snap(polygon->vertices[i], excesses.of[i], side, face);
-        excesses.of[i] = 0;
-      }
-      excesses.beyond &= ~excesses.near;
+  const ClipPolygon& clip(const FaceFrame& frame, const IncidentFace& face) {
+    const Vec3<Length>& half = frame.reference.shape.size;
+    face.fill(polygons[0]);
+    std::size_t used = 0;
+    const Slab<0> across_x{fine(half[frame.tangent_x]), face.snap_across(face.normal.x)};
+    if (!face.is_within(across_x, &RawVec::x)) {
+      across_x.clip(polygons[0], polygons[1]);
+      if (polygons[1].count == 0) return polygons[1];
+      used = 1;
     }
-    if (excesses.beyond == 0) return;
-    cut(*polygon, excesses, side, *spare);
-    std::swap(polygon, spare);
-  }
-
-  /// Both sides across one axis; one that no vertex is beyond has nothing to do. The first cut
-  /// leaves the other end as it is, or nothing.
-  void clip_across(std::size_t axis, Fine half, std::uint32_t label) {
-    Fine least = 0, most = 0;
-    for (int i = 0; i < polygon->count; ++i) {
-      least = std::min(least, (*polygon)[i].at[axis]);
-      most = std::max(most, (*polygon)[i].at[axis]);
+    const Slab<1> across_y{fine(half[frame.tangent_y]), face.snap_across(face.normal.y)};
+    if (!face.is_within(across_y, &RawVec::y)) {
+      across_y.clip(polygons[used], polygons[1 - used]);
+      used = 1 - used;
     }
-    if (most > half) clip({axis, 1, half, label});
-    if (least < -half) clip({axis, -1, half, label + 1});
+    return polygons[used];
   }
 };
 
-/// Names the vertex by the incident face and the polygon edges that meet in it.
-std::uint32_t feature_of(const FaceFrame& frame, const IncidentFace& face, std::uint32_t edge_in,
-                         std::uint32_t edge_out) {
-  const auto reference =
-      static_cast<std::uint32_t>(frame.face.axis * 2 + (frame.face.sign < 0 ? 1 : 0));
-  return frame.feature_bits | reference << 9 | face.index() << 6 | edge_in << 3 | edge_out;
+/// What all vertices' names share: kind, which box, which of its faces, the incident face.
+std::uint32_t common_feature(const FaceFrame& frame, const IncidentFace& face) {
+  const auto reference = static_cast<std::uint32_t>(frame.axis * 2 + (frame.sign < 0 ? 1 : 0));
+  return 1U << 13 | (frame.of_b ? 1U << 12 : 0U) | reference << 9 | face.index() << 6;
+}
+
+/// The vertices that `keeps` admits, each named by the two edges that meet in it.
+struct KeptVertices {
+  static constexpr std::uint32_t k_none = ~std::uint32_t{0};
+
+  std::array<std::uint32_t, ClipPolygon::k_capacity> keys;  ///< edges · 8 + index in the polygon
+  int count = 0;
+
+  KeptVertices(const ClipPolygon& polygon, Length margin) {
+    keys[0] = keys[1] = keys[2] = keys[3] = k_none;
+    if (polygon.count == 0) return;
+    std::uint32_t edge_in = polygon[polygon.count - 1].edge;
+    for (int i = 0; i < polygon.count; ++i) {
+      const ClipVertex& v = polygon[i];
+      keys[static_cast<std::size_t>(count)] =
+          edge_in << 6 | v.edge << 3 | static_cast<std::uint32_t>(i);
+      count += keeps(v.at[2], margin) ? 1 : 0;
+      edge_in = v.edge;
+    }
+    if (count < 4) keys[static_cast<std::size_t>(count)] = k_none;
+  }
+
+  /// Puts them in order, unless they are more than four.
+  void sort() {
+    if (count > 4) return;
+    const auto order = [&](std::size_t i, std::size_t j) {
+      const std::uint32_t low = std::min(keys[i], keys[j]);
+      keys[j] = std::max(keys[i], keys[j]);
+      keys[i] = low;
+    };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+  }
+  /// Of sorted ones: whether two have one name.
+  [[nodiscard]] bool repeats() const {
+    bool found = false;
+    for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(count); ++i)
+      found = found || keys[i] >> 3 == keys[i + 1] >> 3;
+    return found;
+  }
+};
+
+/// Points in the world's axes. Where all sizes and the offset together are below 32 m, coordinates
+/// are rounded to 2^-27 m first, so that their products with units fit 64 bits.
+class FacePoints {
+ public:
+  explicit FacePoints(const FaceFrame& frame)
+      : frame_(frame),
+        up_(signed_axis(frame.reference.rotation.column(frame.axis), frame.sign)),
+        offset_(frame.of_b ? -frame.pair.offset : frame.pair.offset) {
+    const Vec3<Unit>& x = frame.reference.rotation.column(frame.tangent_x);
+    const Vec3<Unit>& y = frame.reference.rotation.column(frame.tangent_y);
+    columns_ = {
+        {x.x.raw, x.y.raw, x.z.raw, y.x.raw, y.y.raw, y.z.raw, up_.x.raw, up_.y.raw, up_.z.raw}};
+    std::int64_t sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      sum += magnitude_of(offset_[i].raw) + frame.reference.shape.size[i].raw +
+             frame.incident.shape.size[i].raw;
+    }
+    is_small_ = sum < Length::from_integer(32).raw;
+  }
+
+  [[nodiscard]] const Vec3<Unit>& up() const { return up_; }
+
+  void add(const ClipVertex& v, std::uint32_t feature, Manifold& out) const {
+    if (!is_small_) return add_large(v, feature, out);
+    ManifoldPoint& point = out.points[static_cast<std::size_t>(out.count++)];
+    point.separation = to_separation(v.at[2]);
+    point.feature = feature;
+    Vec3<Length>& on_reference = frame_.flip ? point.anchor_b : point.anchor_a;
+    Vec3<Length>& on_incident = frame_.flip ? point.anchor_a : point.anchor_b;
+    if (point.separation.raw > 0) {
+      on_reference = placed(v, raw::round_shift(frame_.height, k_shift));
+      on_incident = placed(v, raw::round_shift(frame_.height + v.at[2], k_shift)) - offset_;
+    } else {
+      on_reference = placed(v, raw::round_shift(2 * frame_.height + v.at[2], k_shift + 1));
+      on_incident = on_reference - offset_;
+    }
+  }
+
+ private:
+  static constexpr int k_shift = k_fine_bits - 27;
+
+  [[nodiscard]] Vec3<Length> placed(const ClipVertex& v, std::int64_t height) const {
+    const std::int64_t x = raw::round_shift(v.at[0], k_shift);
+    const std::int64_t y = raw::round_shift(v.at[1], k_shift);
+    const auto lane = [&](std::size_t i) {
+      const std::int64_t sum = columns_[i] * x + columns_[3 + i] * y + columns_[6 + i] * height;
+      return Length::from_raw(static_cast<std::int32_t>(
+          raw::round_shift(sum, Unit::frac_bits + k_fine_per_length - k_shift)));
+    };
+    return {lane(0), lane(1), lane(2)};
+  }
+
+  void add_large(const ClipVertex& v, std::uint32_t feature, Manifold& out) const {
+    const Mat3& rotation = frame_.reference.rotation;
+    const RawVec beside = along(rotation.column(frame_.tangent_x), v.at[0]) +
+                          along(rotation.column(frame_.tangent_y), v.at[1]);
+    const Witnesses witnesses{beside + along(up_, frame_.height),
+                              beside + along(up_, frame_.height + v.at[2])};
+    ManifoldPoint& point = out.points[static_cast<std::size_t>(out.count)];
+    add_point(out, witnesses, offset_, v.at[2], frame_.pair.margin, feature);
+    if (frame_.flip) std::swap(point.anchor_a, point.anchor_b);
+  }
+
+  const FaceFrame& frame_;
+  std::array<std::int64_t, 9> columns_;  ///< along the face, along it, and up
+  Vec3<Unit> up_;
+  Vec3<Length> offset_;  ///< from the reference to the incident box
+  bool is_small_;
+};
+
+/// All vertices when they are no more than four and each has a name of its own, else as reduced.
+void add_points(const ClipPolygon& polygon, const KeptVertices& kept, std::uint32_t common,
+                const FacePoints& points, Manifold& out) {
+  const auto count = static_cast<std::size_t>(kept.count);
+  const auto vertex = [&](std::size_t i) -> const ClipVertex& {
+    return polygon[static_cast<int>(kept.keys[i] & 7)];
+  };
+  const auto feature = [&](std::size_t i) { return common | kept.keys[i] >> 3; };
+  if (count <= 4 && !kept.repeats()) {
+    for (std::size_t i = 0; i < count; ++i)
+      points.add(vertex(i), feature(i), out);
+    return;
+  }
+  std::array<FaceVertex, ClipPolygon::k_capacity> vertices;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<Fine, 3>& at = vertex(i).at;
+    vertices[i] = {at[0], at[1], at[2], feature(i)};
+  }
+  const int left = reduce_to_four(std::span(vertices).first(count), k_fine_per_length);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(left); ++i) {
+    const FaceVertex& v = vertices[i];
+    points.add({{v.x, v.y, v.z}, 0}, v.feature, out);
+  }
 }
 
 }  // namespace
 
-FaceFrame frame_on_a(const BoxPair& pair, const FaceAxis& face) {
-  return {pair.a,           pair.offset, pair.margin,       face,
-          pair.centre_in_a, pair.b_in_a, pair.b.shape.size, 1U << 13};
-}
-
-FaceFrame frame_on_b(const BoxPair& pair, const FaceAxis& face, const Vec3<Length>& back) {
-  FaceFrame frame{pair.b,
-                  back,
-                  pair.margin,
-                  {face.axis, -face.sign, face.separation},
-                  -pair.centre_in_b,
-                  {},
-                  pair.a.shape.size,
-                  1U << 13 | 1U << 12};
-  for (int i = 0; i < 3; ++i) {
-    frame.axes[static_cast<std::size_t>(i)] = {pair.b_in_a[0][i], pair.b_in_a[1][i],
-                                               pair.b_in_a[2][i]};
+void face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool flip, Manifold& out) {
+  const FaceFrame frame(pair, face, of_b, flip);
+  const IncidentFace incident(frame);
+  Clipping clipping;
+  const ClipPolygon& polygon = clipping.clip(frame, incident);
+  KeptVertices kept(polygon, pair.margin);
+  out.count = 0;
+  if (kept.count > 0) {
+    const FacePoints points(frame);
+    const std::uint32_t common = common_feature(frame, incident);
+    out.normal = unit_axis(frame.flip ? -points.up() : points.up());
+    kept.sort();
+    add_points(polygon, kept, common, points, out);
+  } else {
+    out.normal = {};
   }
-  return frame;
-}
-
-FacePolygon clip_incident_face(const FaceFrame& frame) {
-  const IncidentFace face = incident_face(frame);
-  Clipping clipping(face);
-  incident_polygon(frame, face, *clipping.polygon);
-  clipping.clip_across(0, fine(frame.reference.shape.size[tangent_x(frame)]), 4);
-  clipping.clip_across(1, fine(frame.reference.shape.size[tangent_y(frame)]), 6);
-  const ClipPolygon& polygon = *clipping.polygon;
-  FacePolygon result;
-  result.count = polygon.count;
-  for (int i = 0; i < polygon.count; ++i) {
-    const ClipVertex& v = polygon[i];
-    const std::uint32_t edge_in = polygon[i > 0 ? i - 1 : polygon.count - 1].edge;
-    result.vertices[static_cast<std::size_t>(i)] = {v.at[0], v.at[1], v.at[2],
-                                                    feature_of(frame, face, edge_in, v.edge)};
-  }
-  return result;
-}
-
-Manifold face_manifold(const FaceFrame& frame) {
-  FacePolygon polygon = clip_incident_face(frame);
-  polygon.count = drop_far_vertices(polygon.used(), frame.margin);
-  polygon.count = reduce_to_four(polygon.used(), k_fine_per_length);
-  Manifold manifold;
-  if (polygon.count == 0) return manifold;
-  const Mat3& rotation = frame.reference.rotation;
-  const Vec3<Unit>& across_x = rotation.column(tangent_x(frame));
-  const Vec3<Unit>& across_y = rotation.column(tangent_y(frame));
-  const Vec3<Unit> up = signed_axis(rotation.column(frame.face.axis), frame.face.sign);
-  const Fine half = fine(frame.reference.shape.size[frame.face.axis]);
-  const RawVec to_face = along(up, half);
-  manifold.normal = unit_axis(up);
-  for (int i = 0; i < polygon.count; ++i) {
-    const FaceVertex& v = polygon.vertices[static_cast<std::size_t>(i)];
-    const RawVec beside = along(across_x, v.x) + along(across_y, v.y);
-    const Witnesses witnesses{beside + to_face, beside + along(up, half + v.z)};
-    add_point(manifold, witnesses, frame.offset, v.z, frame.margin, v.feature);
-  }
-  return manifold;
+  std::fill(out.points.begin() + out.count, out.points.end(), ManifoldPoint{});
 }
 
 }  // namespace lockstone::geometry

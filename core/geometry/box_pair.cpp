@@ -1,6 +1,8 @@
 // The separating axes of two boxes (Gottschalk, Lin, Manocha, OBBTree, section 5), in integers.
 #include "core/geometry/box_pair.h"
 
+#include <bit>
+
 #include "core/geometry/segment.h"
 #include "core/math/roots.h"
 
@@ -22,14 +24,14 @@ using Lanes = std::array<std::int64_t, 3>;
 constexpr std::array<std::size_t, 3> k_next = {1, 2, 0};
 constexpr std::array<std::size_t, 3> k_after_next = {2, 0, 1};
 
-/// What the bounds of the nine edge axes share.
+/// Bounds of the nine edge axes.
 struct EdgeBounds {
   Lanes centre;                  ///< of B in A's axes, with 20 fraction bits
   Lanes half_a;                  ///< 20 fraction bits
   Lanes half_b;                  ///< 20 fraction bits
   std::array<Lanes, 3> b;        ///< B's axes in A's axes
   std::array<Lanes, 3> b_sizes;  ///< their magnitudes
-  Fine slack;                    ///< see `cannot_exceed`
+  std::array<Fine, 9> rough;     ///< by 3i + j: see `rough_separation`
 
   explicit EdgeBounds(const BoxPair& pair)
       : centre{raw::round_shift(pair.centre_in_a.x, k_fine_per_length),
@@ -37,17 +39,16 @@ struct EdgeBounds {
                raw::round_shift(pair.centre_in_a.z, k_fine_per_length)},
         half_a{pair.a.shape.size.x.raw, pair.a.shape.size.y.raw, pair.a.shape.size.z.raw},
         half_b{pair.b.shape.size.x.raw, pair.b.shape.size.y.raw, pair.b.shape.size.z.raw} {
-    std::int64_t sizes = 0;
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3<Unit>& axis = pair.b_in_a[j];
       b[j] = {axis.x.raw, axis.y.raw, axis.z.raw};
       b_sizes[j] = {magnitude_of(b[j][0]), magnitude_of(b[j][1]), magnitude_of(b[j][2])};
-      sizes += magnitude_of(centre[j]) + half_a[j] + half_b[j];
     }
-    slack = sizes * (Fine{1} << (k_fine_per_length - k_slack_bits));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j)
+        rough[3 * i + j] = rough_separation(i, j);
+    }
   }
-
-  static constexpr int k_slack_bits = 23;
 
   /// The separation on a_i × b_j times the length of that product, up to rounding below 2^-18 m.
   [[nodiscard]] Fine rough_separation(std::size_t i, std::size_t j) const {
@@ -59,21 +60,45 @@ struct EdgeBounds {
     return apart - reach_a - reach_b;
   }
 
-  /// Whether the separation on a_i × b_j is certainly not above the threshold.
-  [[nodiscard]] bool cannot_exceed(Fine threshold, std::size_t i, std::size_t j) const {
-    constexpr Fine wide_slack = Fine{1} << (k_fine_bits - 18);
-    const Fine rough = rough_separation(i, j);
+  /// The axes whose separation may be above the threshold, a bit each.
+  [[nodiscard]] unsigned may_exceed(Fine threshold) const {
     // Dividing by a length ≤ 1 moves a negative value down: below the threshold it stays there.
-    if (rough < -wide_slack && rough + wide_slack <= threshold) return true;
-    // Of nearly parallel edges the product's length is next to nothing, and so is this value: the
-    // threshold times the length must be held against it, or times more than the length where the
-    // threshold is negative. The rotations are orthonormal within 2^-26, the entries of b and the
-    // unit normal round by 2^-30; all these count times a size or the distance of the centres,
-    // together below 2^-23 of their sum. The centre rounds by 2^-21 m, which counts times a
-    // component of b: less than 2^-20 m times the width.
-    const std::int64_t width = b_sizes[j][k_next[i]] + b_sizes[j][k_after_next[i]];
-    const Fine limit = scaled(std::min(threshold, Fine{0}), static_cast<std::int32_t>(width));
-    return rough + slack + width < limit;
+    constexpr Fine wide_slack = Fine{1} << (k_fine_bits - 18);
+    const Fine clear = std::min(-wide_slack - 1, threshold - wide_slack);
+    unsigned open = 0;
+    for (std::size_t k = 0; k < 9; ++k)
+      open |= (rough[k] > clear ? 1U : 0U) << k;
+    return open == 0 ? 0 : open & ~short_of(threshold, open);
+  }
+
+ private:
+  /// Which of the axes are nearly parallel edges' that are still certainly not above the threshold.
+  [[nodiscard]] unsigned short_of(Fine threshold, unsigned open) const {
+    const Fine below = std::min(threshold, Fine{0});
+    const Fine allowance = slack();
+    unsigned result = 0;
+    for (unsigned left = open; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      // Of nearly parallel edges the product's length is next to nothing, and so is `rough`: the
+      // threshold times the length must be held against it, or times more than the length where
+      // the threshold is negative.
+      const std::size_t i = k / 3, j = k % 3;
+      const std::int64_t width = b_sizes[j][k_next[i]] + b_sizes[j][k_after_next[i]];
+      const Fine limit = scaled(below, static_cast<std::int32_t>(width));
+      result |= (rough[k] + allowance + width < limit ? 1U : 0U) << k;
+    }
+    return result;
+  }
+
+  /// The rotations are orthonormal within 2^-26, the entries of b and the unit normal round by
+  /// 2^-30; all these count times a size or the distance of the centres, together below 2^-23 of
+  /// their sum. The centre rounds by 2^-21 m, which counts times a component of b: less than 2^-20
+  /// m times the width.
+  [[nodiscard]] Fine slack() const {
+    std::int64_t sizes = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sizes += magnitude_of(centre[k]) + half_a[k] + half_b[k];
+    return sizes * (Fine{1} << (k_fine_per_length - 23));
   }
 };
 
@@ -140,15 +165,13 @@ FaceAxis best_face_of_b(const BoxPair& pair) {
 EdgeAxis best_edge(const BoxPair& pair, Fine threshold) {
   const EdgeBounds bounds(pair);
   EdgeAxis best;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      if (bounds.cannot_exceed(threshold, static_cast<std::size_t>(i), static_cast<std::size_t>(j)))
-        continue;
-      const EdgeAxis candidate = edge_axis(pair, i, j);
-      if (!candidate.found || candidate.separation <= threshold) continue;
-      best = candidate;
-      threshold = candidate.separation;
-    }
+  for (unsigned left = bounds.may_exceed(threshold); left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    const EdgeAxis candidate = edge_axis(pair, k / 3, k % 3);
+    if (!candidate.found || candidate.separation <= threshold) continue;
+    best = candidate;
+    threshold = candidate.separation;
+    left &= bounds.may_exceed(threshold) | 1U << k;
   }
   return best;
 }

@@ -47,8 +47,7 @@ Manifold collide_primitives(const PosedShape& a, const PosedShape& b, const Vec3
   using namespace geometry;
   if (a.shape.kind == ShapeKind::box) {
     if (b.shape.kind == ShapeKind::sphere) return collide_box_sphere(a, b, offset, margin);
-    if (b.shape.kind == ShapeKind::capsule) return collide_box_capsule(a, b, offset, margin);
-    return collide_boxes(a, b, offset, margin);
+    return collide_box_capsule(a, b, offset, margin);
   }
   if (a.shape.kind == ShapeKind::sphere) return collide_spheres(a, b, offset, margin);
   if (b.shape.kind == ShapeKind::sphere) return collide_capsule_sphere(a, b, offset, margin);
@@ -64,13 +63,41 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
   return a.polytope->kernels->collide(a, b, offset, margin);
 }
 
+/// As `belongs_first`, of two boxes: their sizes are all their rank.
+bool box_belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>& offset) {
+  const Vec3<Length>& size_a = a.shape.size;
+  const Vec3<Length>& size_b = b.shape.size;
+  if (size_a.x != size_b.x) return size_b.x > size_a.x;
+  if (size_a.y != size_b.y) return size_b.y > size_a.y;
+  if (size_a.z != size_b.z) return size_b.z > size_a.z;
+  if (offset == Vec3<Length>{}) return lanes(b.rotation) > lanes(a.rotation);
+  return dominant_sign(offset) < 0;
+}
+
+void collide_two_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                       Length margin, Manifold& out) {
+  if (!box_belongs_first(b, a, offset))
+    return geometry::collide_boxes(a, b, offset, margin, false, out);
+  const Vec3<Length> back = -offset;
+  geometry::collide_boxes(b, a, back, margin, true, out);
+}
+
 }  // namespace
+
+void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
+             Manifold& out) {
+  LKS_ASSERT(margin >= Length{} && margin <= Length::from_integer(64));
+  if (a.shape.kind == ShapeKind::box && b.shape.kind == ShapeKind::box)
+    return collide_two_boxes(a, b, offset, margin, out);
+  out = belongs_first(b, a, offset) ? geometry::flipped(collide_ordered(b, a, -offset, margin))
+                                    : collide_ordered(a, b, offset, margin);
+}
 
 Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                  Length margin) {
-  LKS_ASSERT(margin >= Length{} && margin <= Length::from_integer(64));
-  if (!belongs_first(b, a, offset)) return collide_ordered(a, b, offset, margin);
-  return geometry::flipped(collide_ordered(b, a, -offset, margin));
+  Manifold manifold;
+  collide(a, b, offset, margin, manifold);
+  return manifold;
 }
 
 bool overlaps(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset) {

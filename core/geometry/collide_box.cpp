@@ -21,83 +21,89 @@ struct FaceChoice {
   [[nodiscard]] Fine separation() const { return std::max(a.separation, b.separation); }
 };
 
-Manifold manifold_on_a(const BoxPair& pair, const FaceChoice& faces) {
-  return face_manifold(frame_on_a(pair, faces.a));
-}
+/// Two boxes, the choice between their faces, and which way round the manifold is wanted. What
+/// fills a manifold leaves nothing of what was there.
+struct BoxMeeting {
+  const BoxPair& pair;
+  FaceChoice faces;
+  bool flip;  ///< whether the manifold is that of B and A
 
-Manifold manifold_on_b(const BoxPair& pair, const FaceChoice& faces) {
-  const Vec3<Length> back = -pair.offset;
-  return flipped(face_manifold(frame_on_b(pair, faces.b, back)));
-}
-
-Manifold reference_manifold(const BoxPair& pair, const FaceChoice& faces) {
-  return faces.b_is_reference ? manifold_on_b(pair, faces) : manifold_on_a(pair, faces);
-}
-
-Manifold other_manifold(const BoxPair& pair, const FaceChoice& faces) {
-  return faces.b_is_reference ? manifold_on_a(pair, faces) : manifold_on_b(pair, faces);
-}
+  void on_face_of_a(Manifold& out) const { face_manifold(pair, faces.a, false, flip, out); }
+  void on_face_of_b(Manifold& out) const { face_manifold(pair, faces.b, true, flip, out); }
+  void on_reference(Manifold& out) const {
+    faces.b_is_reference ? on_face_of_b(out) : on_face_of_a(out);
+  }
+  void on_other(Manifold& out) const {
+    faces.b_is_reference ? on_face_of_a(out) : on_face_of_b(out);
+  }
+  void take(const Manifold& found, Manifold& out) const { out = flip ? flipped(found) : found; }
+  void part_by(const Vec3<Unit>& axis, Manifold& out) const { take(separated_by(axis), out); }
+  void take_nearest(Manifold& out) const {
+    take(nearest_manifold(pair.a, pair.b, pair.offset, pair.margin), out);
+  }
+  /// Whether the contact of two edges is there.
+  [[nodiscard]] bool take_edges(const EdgeAxis& edge, Manifold& out) const {
+    const EdgeContact contact = edge_contact(pair, edge);
+    if (contact.crossing) take(contact.manifold, out);
+    return contact.crossing;
+  }
+};
 
 /// No axis separates the boxes, and a face is preferred. Where they overlap only beside the face,
 /// two edges meet after all.
-Manifold collide_overlapping(const BoxPair& pair, const FaceChoice& faces) {
-  const Manifold on_reference = reference_manifold(pair, faces);
-  if (touches(on_reference)) return on_reference;
-  const EdgeAxis edge = best_edge(pair, -k_any_separation);
-  if (edge.found) {
-    const EdgeContact contact = edge_contact(pair, edge);
-    if (contact.crossing) return contact.manifold;
-  }
+void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
+  meeting.on_reference(out);
+  if (touches(out)) return;
+  const EdgeAxis edge = best_edge(meeting.pair, -k_any_separation);
+  if (edge.found && meeting.take_edges(edge, out)) return;
+  const FaceChoice& faces = meeting.faces;
   const Fine other = std::min(faces.a.separation, faces.b.separation);
   if (other >= edge_threshold(faces.separation())) {
-    const Manifold on_other = other_manifold(pair, faces);
-    if (touches(on_other)) return on_other;
+    meeting.on_other(out);
+    if (touches(out)) return;
   }
-  return nearest_manifold(pair.a, pair.b, pair.offset, pair.margin);
+  meeting.take_nearest(out);
 }
 
 /// The boxes are apart: the separation of the first manifold that attains the distance is it.
 /// A face or an edge attains its axis' separation, which no distance is below; what remains
 /// involves a vertex.
-Manifold collide_apart(const BoxPair& pair, const FaceChoice& faces, const EdgeAxis& edge) {
-  const Fine separation = edge.found ? edge.separation : faces.separation();
-  if (!keeps(separation, pair.margin)) return separated_by(edge.normal);
-  const Manifold on_reference = reference_manifold(pair, faces);
-  if (attains(on_reference, separation)) return on_reference;
-  const Manifold on_other = other_manifold(pair, faces);
-  if (attains(on_other, separation)) return on_other;
-  if (edge.found) {
-    const EdgeContact contact = edge_contact(pair, edge);
-    if (contact.crossing) return contact.manifold;
-  }
-  return vertex_manifold(pair);
+void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
+  const Fine separation = edge.found ? edge.separation : meeting.faces.separation();
+  if (!keeps(separation, meeting.pair.margin)) return meeting.part_by(edge.normal, out);
+  meeting.on_reference(out);
+  if (attains(out, separation)) return;
+  meeting.on_other(out);
+  if (attains(out, separation)) return;
+  if (edge.found && meeting.take_edges(edge, out)) return;
+  meeting.take(vertex_manifold(meeting.pair), out);
 }
 
 }  // namespace
 
-Manifold collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
-                       Length margin) {
+void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                   Length margin, bool flip, Manifold& out) {
   const BoxPair pair = make_box_pair(a, b, offset, margin);
-  FaceChoice faces;
+  BoxMeeting meeting{pair, {}, flip};
+  FaceChoice& faces = meeting.faces;
   faces.a = best_face_of_a(pair);
   if (!keeps(faces.a.separation, margin))
-    return separated_by(signed_axis(a.rotation.column(faces.a.axis), faces.a.sign));
+    return meeting.part_by(signed_axis(a.rotation.column(faces.a.axis), faces.a.sign), out);
   faces.b = best_face_of_b(pair);
   if (!keeps(faces.b.separation, margin))
-    return separated_by(signed_axis(b.rotation.column(faces.b.axis), faces.b.sign));
+    return meeting.part_by(signed_axis(b.rotation.column(faces.b.axis), faces.b.sign), out);
   faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
 
   const Fine separation = faces.separation();
   if (separation > 0) {
-    const Manifold on_reference = reference_manifold(pair, faces);
-    if (attains(on_reference, separation)) return on_reference;
-    return collide_apart(pair, faces, best_edge(pair, separation));
+    meeting.on_reference(out);
+    if (attains(out, separation)) return;
+    return collide_apart(meeting, best_edge(pair, separation), out);
   }
   const EdgeAxis edge = best_edge(pair, std::min(edge_threshold(separation), Fine{0}));
-  if (!edge.found) return collide_overlapping(pair, faces);
-  if (edge.separation > 0) return collide_apart(pair, faces, edge);
-  const EdgeContact contact = edge_contact(pair, edge);
-  return contact.crossing ? contact.manifold : nearest_manifold(a, b, offset, margin);
+  if (!edge.found) return collide_overlapping(meeting, out);
+  if (edge.separation > 0) return collide_apart(meeting, edge, out);
+  if (!meeting.take_edges(edge, out)) meeting.take_nearest(out);
 }
 
 }  // namespace lockstone::geometry

@@ -26,9 +26,10 @@ namespace lockstone::geometry {
 [[nodiscard]] Manifold collide_box_capsule(const PosedShape& box, const PosedShape& capsule,
                                            const Vec3<Length>& offset, Length margin);
 
-/// A is preferred as the owner of the reference face.
-[[nodiscard]] Manifold collide_boxes(const PosedShape& a, const PosedShape& b,
-                                     const Vec3<Length>& offset, Length margin);
+/// A is preferred as the owner of the reference face. With `flip` the manifold is that of B and A,
+/// flipped. `out` is filled anew.
+void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                   Length margin, bool flip, Manifold& out);
 
 /// Of the deepest features of B, up to four points: a sphere's pole, the poles of a capsule's ends
 /// (features 0 and 1; of a

@@ -46,8 +46,9 @@ struct PosedShape {
 
 /// Contact points between A and B: those with a separation below `margin` (≥ 0, ≤ 64 m) or not
 /// above zero. `offset` = centre of B − centre of A, in world axes, each component within ±2000 m.
-/// Depends on nothing but its arguments. Points ascend by feature. Without points, its normal may be
-/// that of a plane which separates by the margin and more (see `separated_along`), else it is zero.
+/// Depends on nothing but its arguments. Points ascend by feature. Without points, its normal may
+/// be that of a plane which separates by the margin and more (see `separated_along`), else it is
+/// zero.
 ///
 /// Apart, the least separation is the distance: within 2 µm and 4e-9 of the sizes, for two boxes
 /// within 2^-16 m, and beside a box's rim within 1/2048 of the capsule core's distance.
@@ -71,6 +72,10 @@ struct PosedShape {
 /// separates their centres most.
 [[nodiscard]] Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                                Length margin);
+
+/// As above, in place; nothing is left of what was there.
+void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
+             Manifold& out);
 
 /// True when A and B overlap or touch: for triggers. Agrees with collide(margin 0) having a point
 /// with separation ≤ 0.

@@ -28,12 +28,12 @@ bool is_round(const BodyRecord& body) {
 
 // A part's own surface, or the body's. Written in place: what is written by fields and copied at
 // once as a whole waits for all stores before it.
-void World::Impl::find_surface(const Pair& pair, const PartContact& contact,
-                               ContactSurface& both) const {
+void World::Impl::find_surface(const Pair& pair, const Surface* surface_a, const Surface* surface_b,
+                               const Manifold& manifold, ContactSurface& both) const {
   const BodyRecord& body_a = bodies[pair.a];
   const BodyRecord& body_b = bodies[pair.b];
-  const Surface a = contact.surface_a != nullptr ? *contact.surface_a : body_a.surface();
-  const Surface b = contact.surface_b != nullptr ? *contact.surface_b : body_b.surface();
+  const Surface a = surface_a != nullptr ? *surface_a : body_a.surface();
+  const Surface b = surface_b != nullptr ? *surface_b : body_b.surface();
   both = {};
   both.friction = combined_friction(a, b);
   both.restitution = combined_restitution(a, b);
@@ -41,8 +41,7 @@ void World::Impl::find_surface(const Pair& pair, const PartContact& contact,
   both.tag_b = b.tag;
   if (const Coefficient rolling = combined_rolling(a, b); rolling > Coefficient{})
     both.rolling_arm = rounded<Length>(rolling_radius(pair) * rolling);
-  if (contact.manifold.count == 0) return;
-  const Manifold& manifold = contact.manifold;
+  if (manifold.count == 0) return;
   if (body_a.has_surface_motion()) {
     add_drive(pair.a, centre_of(manifold, &ManifoldPoint::anchor_a), -1, manifold.normal, both);
   }

@@ -214,7 +214,7 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
-    find_surface({body, other}, contact, surface);
+    find_surface({body, other}, contact.surface_a, contact.surface_b, contact.manifold, surface);
     tag_a = surface.tag_a;
     tag_b = surface.tag_b;
     approach =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/separation.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -117,9 +118,10 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   const ManifoldInput input = manifold_input(pair, margin);
   if (const Manifold* known = known_manifold(before, input); known != nullptr) {
     timer.found(1, 1);
-    const PartContact contact{0, 0, nullptr, nullptr, *known};
-    return add_contacts(index, {&contact, 1}, input, before, scratch);
+    return add_known(index, *known, input, before, scratch);
   }
+  if (is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b))
+    return collide_primitives(index, input, before, last_axis, scratch, timer);
   const PlacedShape shape_a = placed(pair.a), shape_b = placed(pair.b);
   if (last_axis != Vec3<Unit>{} && separated_along(shape_a, shape_b, margin, last_axis)) {
     separating_axes.note(index, pair, last_axis);
@@ -133,16 +135,63 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   add_contacts(index, {parts.begin(), parts.end()}, input, before, scratch);
 }
 
+// Of shapes that are complete in themselves the manifold is made where it stays.
+void World::Impl::collide_primitives(std::uint32_t index, const ManifoldInput& input,
+                                     std::span<const ContactRecord> before,
+                                     const Vec3<Unit>& last_axis, PairScratch& scratch,
+                                     PairTimer& timer) {
+  const Pair pair = pairs[index];
+  const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
+  const PosedShape a{shape_a, rotations[pair.a]}, b{shape_b, rotations[pair.b]};
+  const Vec3<Length> offset = saturated<Length>(input.offset);
+  if (last_axis != Vec3<Unit>{} && separated_along(a, b, offset, input.margin, last_axis)) {
+    separating_axes.note(index, pair, last_axis);
+    return timer.found_apart();
+  }
+  const std::uint32_t slot = narrow.take(scratch, 1);
+  Manifold& manifold = slot == NarrowSlots::k_none ? scratch.part_contacts.contacts.front().manifold
+                                                   : manifolds[slot];
+  collide(a, b, offset, input.margin, manifold);
+  timer.found(manifold.count > 0 ? 1 : 0);
+  if (manifold.count == 0) {
+    separating_axes.note(index, pair, manifold.normal);
+    return NarrowSlots::give_back(scratch, slot);
+  }
+  if (slot != NarrowSlots::k_none) fill_single(index, slot, input, before);
+}
+
+void World::Impl::add_known(std::uint32_t index, const Manifold& known, const ManifoldInput& input,
+                            std::span<const ContactRecord> before, PairScratch& scratch) {
+  const std::uint32_t slot = narrow.take(scratch, 1);
+  if (slot == NarrowSlots::k_none) return;
+  manifolds[slot] = known;
+  fill_single(index, slot, input, before);
+}
+
+// The one contact of a pair without parts, whose manifold is in its slot.
+void World::Impl::fill_single(std::uint32_t index, std::uint32_t slot, const ManifoldInput& input,
+                              std::span<const ContactRecord> before) {
+  const Pair pair = pairs[index];
+  const ContactKey key{pair.a, pair.b, 0, 0};
+  const auto old = std::ranges::find(before, key, &ContactRecord::key);
+  found_contacts[index] = {slot, 1};
+  origins[slot] = {0, 0, old == before.end() ? k_new : index_of(*old), false};
+  inputs[slot] = input;
+  find_surface(pair, nullptr, nullptr, manifolds[slot], surfaces[slot]);
+}
+
+// Neither an asset nor without end: its frame is the body's.
+bool World::Impl::is_bounded_primitive(std::uint32_t body) const {
+  return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
+}
+
 // Centres are read to the lengths that primitives are collided with; frames of assets, and where a
 // half-space is met, follow from every bit.
 World::Impl::ManifoldInput World::Impl::manifold_input(const Pair& pair, Length margin) const {
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
   Vec3<Position> offset = b.position - a.position;
-  const auto is_primitive = [&](std::uint32_t body) {
-    return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
-  };
-  if (is_primitive(pair.a) && is_primitive(pair.b)) {
+  if (is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b)) {
     offset = rounded<Position>(saturated<Length>(offset));
   }
   return {offset, a.orientation, b.orientation, margin};
@@ -197,7 +246,7 @@ void World::Impl::add_contacts(std::uint32_t index, std::span<const PartContact>
                           false};
     manifolds[first + i] = contact.manifold;
     inputs[first + i] = input;
-    find_surface(pair, contact, surfaces[first + i]);
+    find_surface(pair, contact.surface_a, contact.surface_b, contact.manifold, surfaces[first + i]);
   }
 }
 

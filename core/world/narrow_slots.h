@@ -29,7 +29,8 @@ class NarrowSlots {
 
   /// Makes room; the only function that allocates.
   void prepare(std::uint32_t contact_capacity, std::uint32_t workers, bool with_triangles) {
-    const std::uint32_t spare = workers > 1 ? contact_capacity / 8 + 2 * k_block * workers : k_block;
+    const std::uint32_t spare =
+        workers > 1 ? contact_capacity / 8 + 2 * k_block * workers : k_block;
     capacity_ = std::max(capacity_, contact_capacity + spare);
     while (scratch_.size() < workers) {
       scratch_.push_back(std::make_unique<PairScratch>());
@@ -66,6 +67,12 @@ class NarrowSlots {
     const std::uint32_t first = scratch.next;
     scratch.next += count;
     return first;
+  }
+
+  /// Takes back the last slot that `take` gave, or the wish for one.
+  static void give_back(PairScratch& scratch, std::uint32_t slot) {
+    --scratch.taken;
+    if (slot != k_none) --scratch.next;
   }
 
   [[nodiscard]] bool is_out_of_slots() const { return out_of_slots_; }

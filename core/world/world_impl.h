@@ -276,6 +276,14 @@ struct World::Impl {
   [[nodiscard]] const Manifold* known_manifold(std::span<const ContactRecord> before,
                                                const ManifoldInput& input) const;
   [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
+  [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
+  void collide_primitives(std::uint32_t index, const ManifoldInput& input,
+                          std::span<const ContactRecord> before, const Vec3<Unit>& last_axis,
+                          PairScratch& scratch, PairTimer& timer);
+  void add_known(std::uint32_t index, const Manifold& known, const ManifoldInput& input,
+                 std::span<const ContactRecord> before, PairScratch& scratch);
+  void fill_single(std::uint32_t index, std::uint32_t slot, const ManifoldInput& input,
+                   std::span<const ContactRecord> before);
   void add_contacts(std::uint32_t index, std::span<const PartContact> parts,
                     const ManifoldInput& input, std::span<const ContactRecord> before,
                     PairScratch& scratch);
@@ -286,7 +294,8 @@ struct World::Impl {
   void number_contacts_of(std::uint32_t pair);
 
   // What contacts are made of (contact_surfaces.cpp).
-  void find_surface(const Pair& pair, const PartContact& contact, ContactSurface& both) const;
+  void find_surface(const Pair& pair, const Surface* surface_a, const Surface* surface_b,
+                    const Manifold& manifold, ContactSurface& both) const;
   [[nodiscard]] Length rolling_radius(const Pair& pair) const;
   void add_drive(std::uint32_t body, const Vec3<Length>& arm, std::int32_t sign,
                  const Vec3<Unit>& normal, ContactSurface& surface) const;
