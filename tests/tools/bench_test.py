@@ -6,6 +6,7 @@ usage: bench_test.py LOCKSTONE
 
 import csv
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -14,14 +15,14 @@ import unittest
 import xml.etree.ElementTree
 
 LOCKSTONE = ""
-OK, CORRUPT, USAGE = 0, 2, 64
+OK, DIFFERENT, CORRUPT, USAGE = 0, 1, 2, 64
 HASH = r"^[0-9a-f]{16}$"
 
 
 class Case(unittest.TestCase):
-    def expect(self, code, *arguments):
+    def expect(self, code, *arguments, **environment):
         done = subprocess.run([LOCKSTONE, "bench", *map(str, arguments)], capture_output=True, text=True,
-                              timeout=240)
+                              timeout=240, env={**os.environ, **environment})
         self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
         return done.stdout
 
@@ -176,6 +177,42 @@ class Front(Case):
         for row in rows:
             self.assertRegex(row["hash"], HASH)
             self.assertLess(float(row["error"]), 1e-2)
+
+    def play_under_node(self, code, change):
+        """The page and the points of a run whose `node` says what ours does, changed."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            run = ("--scenes", "throw", "--settings", "1,4", "--repeats", 1, "--alone")
+            lines = [json.loads(line) for line in self.expect(OK, "scenes", "--run", *run).splitlines()]
+            said = ["no JSON", "{}", '{"engine": 1}', *map(json.dumps, change(lines))]
+            (folder / "said").write_text("\n".join(said) + "\n")
+            node = folder / "node"
+            node.write_text(f"#!/bin/sh\ncat '{folder}/said'\n")
+            node.chmod(0o755)
+            self.expect(code, "accuracy", *run, "--plot", folder / "front", "--node", folder, "--wasm", "player",
+                        PATH=f"{folder}:{os.environ['PATH']}")
+            with (folder / "front" / "front.csv").open() as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            return (folder / "front" / "front.md").read_text(), rows
+
+    def test_reads_what_engines_under_node_print(self):
+        page, rows = self.play_under_node(OK, lambda lines: lines)
+        self.assertIn("lockstone wasm ends 2 of 2 runs in the same state", page)
+        errors = {engine: [row["error"] for row in rows if row["engine"] == engine]
+                  for engine in ("lockstone", "lockstone wasm", "Rapier", "Jolt")}
+        self.assertEqual(len(errors["lockstone"]), 4)
+        for engine, found in errors.items():
+            self.assertEqual(found, errors["lockstone"], engine)
+        self.assertEqual({row["family"] for row in rows if row["engine"] != "lockstone"}, {"node"})
+
+    def test_names_another_state_in_webassembly(self):
+        page, _ = self.play_under_node(DIFFERENT, lambda lines: [{**line, "hash": 1} for line in lines])
+        self.assertIn("lockstone wasm ends 0 of 2 runs in the same state", page)
+
+    def test_an_engine_that_says_nothing_is_absent(self):
+        page, rows = self.play_under_node(OK, lambda lines: [])
+        self.assertIn("Absent: Rapier", page)
+        self.assertEqual({row["engine"] for row in rows}, {"lockstone"})
 
     def test_refuses_unknown_scenes(self):
         self.expect(USAGE, "accuracy", "--plot", "nowhere", "--scenes", "nothing")

@@ -74,7 +74,9 @@ bool is_chosen(const BenchAccuracyOptions& options, int number) {
 
 int plot(const BenchAccuracyOptions& options) {
   const std::string command = fmt::format("lockstone bench accuracy --plot {}", options.plot);
-  return write_front(measure_front(options.front), options.plot, command) ? k_ok : k_unavailable;
+  const MeasuredFront measured = measure_front(options.front);
+  if (!write_front(measured, options.plot, command)) return k_unavailable;
+  return measured.other_states.empty() ? k_ok : k_different;
 }
 
 int run(const BenchAccuracyOptions& options) {

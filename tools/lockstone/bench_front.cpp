@@ -22,8 +22,8 @@ using bench::NeutralMaker;
 using bench::NeutralScene;
 using bench::Played;
 
-constexpr double k_enough_seconds = 2;  // of one point: not repeated any more
-constexpr double k_quick_size = 1100;   // bodies times seconds
+constexpr const char* k_ours_under_node = "lockstone wasm";
+constexpr double k_quick_size = 1100;  // bodies times seconds
 
 std::vector<NeutralScene> scenes_of(const FrontOptions& options) {
   std::vector<NeutralScene> scenes;
@@ -43,10 +43,7 @@ void measure_point(const std::vector<NeutralMaker>& makers, std::vector<EngineRu
     plays.push_back(bench::play(maker, scene, setting));
   for (int repeat = 0; repeat < repeats; ++repeat) {
     for (std::size_t i = 0; i < makers.size(); ++i) {
-      if (!plays[i]) continue;
-      const std::vector<double>& taken = plays[i]->cpu_seconds;
-      const bool enough = !taken.empty() && taken.front() * scene.seconds > k_enough_seconds;
-      if (!enough) bench::time_again(makers[i], scene, *plays[i]);
+      if (plays[i]) bench::time_again(makers[i], scene, *plays[i]);
     }
   }
   for (std::size_t i = 0; i < makers.size(); ++i) {
@@ -119,6 +116,35 @@ void measure_by(const std::string& command, std::string name, std::string knob, 
     measured.engines.push_back(std::move(engine));
 }
 
+const EngineRuns* find_engine(const MeasuredFront& measured, std::string_view name) {
+  const auto found = std::ranges::find(measured.engines, name, &EngineRuns::name);
+  return found == measured.engines.end() ? nullptr : &*found;
+}
+
+// Ours comes to one state, whatever it was compiled for.
+void compare_states(MeasuredFront& measured) {
+  const EngineRuns* here = find_engine(measured, bench::k_ours);
+  const EngineRuns* there = find_engine(measured, k_ours_under_node);
+  if (here == nullptr || there == nullptr) return;
+  for (const Played& played : there->runs) {
+    const auto twin = std::ranges::find_if(here->runs, [&](const Played& other) {
+      return other.scene == played.scene && other.setting == played.setting;
+    });
+    if (twin != here->runs.end() && twin->hash == played.hash)
+      ++measured.same_states;
+    else
+      measured.other_states.push_back(fmt::format("{} at {}", played.scene, played.setting));
+  }
+}
+
+std::string states_text(const MeasuredFront& measured) {
+  const std::size_t all =
+      static_cast<std::size_t>(measured.same_states) + measured.other_states.size();
+  if (all == 0) return {};
+  return fmt::format("{} ends {} of {} runs in the same state, by its hash, as natively",
+                     k_ours_under_node, measured.same_states, all);
+}
+
 void measure_node(const FrontOptions& options, Progress& progress, MeasuredFront& measured) {
   const TemporaryFile file(bench::scenes_to_json(scenes_of(options)));
   if (!file.written()) return;
@@ -129,13 +155,12 @@ void measure_node(const FrontOptions& options, Progress& progress, MeasuredFront
                        arguments);
   };
   if (!options.wasm.empty()) {
-    measure_by(fmt::format("node {} {}", bench::quoted(options.wasm), arguments), "lockstone wasm",
+    measure_by(fmt::format("node {} {}", bench::quoted(options.wasm), arguments), k_ours_under_node,
                "substeps", progress, measured);
   } else {
     measured.absent.push_back(
-        "lockstone wasm, which needs its player in WebAssembly: native times beside peers under "
-        "Node "
-        "are not fair, so these are judged by error alone");
+        "lockstone wasm, which needs Emscripten (tools/bench.sh): native times beside peers under "
+        "Node are not fair, so these are judged by error alone");
   }
   measure_by(runner("rapier"), "Rapier", "solver iterations", progress, measured);
   measure_by(runner("jolt"), "Jolt", "collision steps", progress, measured);
@@ -170,16 +195,15 @@ void add_front_options(CLI::App& command, FrontOptions& options) {
   command.add_option("--repeats", options.repeats, "A time is the median of so many")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 8, once");
+  command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 8");
   command.add_flag("--alone", options.alone, "Without the native peers");
   command.add_option("--node", options.node, "Folder of run.mjs, for peers under Node");
-  command.add_option("--wasm", options.wasm, "lockstone_scene_player.js, ours under Node");
+  command.add_option("--wasm", options.wasm, "lockstone_scene_player, ours under Node");
 }
 
 MeasuredFront measure_front(FrontOptions options) {
   if (options.quick) {
     options.settings = {1, 2, 4, 8};
-    options.repeats = 1;
   }
   MeasuredFront measured;
   Progress progress;
@@ -188,15 +212,20 @@ MeasuredFront measure_front(FrontOptions options) {
     measured.absent.push_back("Rapier and Jolt, which need --node");
   else
     measure_node(options, progress, measured);
+  compare_states(measured);
   return measured;
 }
 
 bool write_front(const MeasuredFront& measured, const std::string& path,
                  const std::string& command) {
   const std::vector<bench::Front> fronts = bench::fronts_of(measured.engines);
-  const bench::PageFacts facts{bench::machine_text(), bench::compiler_text(), bench::commit_text(),
-                               command, measured.absent};
+  const bench::PageFacts facts{bench::machine_text(), bench::compiler_text(),
+                               bench::commit_text(),  command,
+                               measured.absent,       states_text(measured)};
   fmt::print("{}", bench::outcome_table(fronts));
+  if (!facts.states.empty()) fmt::print("{}\n", facts.states);
+  for (const std::string& other : measured.other_states)
+    complain(fmt::format("{}: another state in WebAssembly", other));
   for (const std::string& absent : measured.absent)
     fmt::print("absent: {}\n", absent);
   if (!path.ends_with(".svg")) return write_all(path, fronts, facts);

@@ -16,10 +16,10 @@ struct FrontOptions {
   std::vector<std::string> scenes;  ///< none: all
   std::vector<int> settings{1, 2, 4, 8, 16};
   int repeats = 3;
-  bool quick = false;  ///< small scenes, fewer settings, once
+  bool quick = false;  ///< small scenes, fewer settings
   bool alone = false;  ///< ours alone
   std::string node;    ///< folder of the runner of engines under Node; empty: none
-  std::string wasm;    ///< lockstone_scene_player.js, for Node; empty: none
+  std::string wasm;    ///< lockstone_scene_player, for Node; empty: none
 };
 
 /// --scenes, --settings, --repeats, --quick, --alone, --node, --wasm
@@ -27,7 +27,9 @@ void add_front_options(CLI::App& command, FrontOptions& options);
 
 struct MeasuredFront {
   std::vector<bench::EngineRuns> engines;
-  std::vector<std::string> absent;  ///< with what they need
+  std::vector<std::string> absent;        ///< with what they need
+  int same_states = 0;                    ///< of ours in WebAssembly at the end, as natively
+  std::vector<std::string> other_states;  ///< scenes and settings that ended otherwise
 };
 
 /// Each engine by turns, at each setting; shows how far it is.

@@ -75,6 +75,7 @@ std::string head_of(const PageFacts& facts) {
       "than its best, or at any time. Errors\nbelow 1e-9 count as equal; *lost* is an "
       "error "
       "above 1000, or none that is a number.\n";
+  if (!facts.states.empty()) text += fmt::format("\n{}.\n", facts.states);
   for (const std::string& absent : facts.absent)
     text += fmt::format("\nAbsent: {}.\n", absent);
   return text;

@@ -15,6 +15,7 @@ struct PageFacts {
   std::string commit;
   std::string command;
   std::vector<std::string> absent;  ///< engines, with what they need
+  std::string states;               ///< how many of our final states agree; empty: not compared
 };
 
 /// Markdown. With `charts`, each table has its picture NAME.svg beside it.

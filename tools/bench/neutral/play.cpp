@@ -1,11 +1,14 @@
 #include "tools/bench/neutral/play.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "tools/bench/support/measure.h"
 
 namespace lockstone::bench {
 namespace {
+
+constexpr double k_enough_seconds = 0.5;  // as tools/bench/peers/node/run.mjs
 
 // What the scene orders before a tick.
 void drive(NeutralEngine& engine, const NeutralScene& scene, int tick) {
@@ -43,6 +46,9 @@ std::optional<Played> play(const NeutralMaker& maker, const NeutralScene& scene,
 }
 
 void time_again(const NeutralMaker& maker, const NeutralScene& scene, Played& played) {
+  const std::vector<double>& before = played.cpu_seconds;
+  const double sum = std::accumulate(before.begin(), before.end(), 0.0);
+  if (sum * scene.seconds > k_enough_seconds) return;
   const std::unique_ptr<NeutralEngine> engine = maker.make(scene, played.setting);
   const std::uint64_t begin = thread_nanoseconds();
   for (int tick = 0; tick < scene.ticks(); ++tick) {

@@ -27,7 +27,8 @@ struct Played {
 [[nodiscard]] std::optional<Played> play(const NeutralMaker& maker, const NeutralScene& scene,
                                          int setting);
 
-/// The same again without looking at anything; adds its time.
+/// The same again without looking at anything; adds its time. Nothing once all repeats together took
+/// half a second: long runs need no median.
 void time_again(const NeutralMaker& maker, const NeutralScene& scene, Played& played);
 
 }  // namespace lockstone::bench

@@ -7,6 +7,16 @@
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
+#if defined(__EMSCRIPTEN__)
+#include <emscripten.h>
+
+// Emscripten knows no processor time; Node does, of the whole process, as tools/bench/peers/node
+// asks it too.
+EM_JS(double, process_microseconds, (), {
+  const used = process.cpuUsage();
+  return used.user + used.system;
+})
+#endif
 
 namespace lockstone::bench {
 
@@ -17,10 +27,14 @@ std::uint64_t now_nanoseconds() {
 }
 
 std::uint64_t thread_nanoseconds() {
+#if defined(__EMSCRIPTEN__)
+  return static_cast<std::uint64_t>(process_microseconds() * 1000);
+#else
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000U +
          static_cast<std::uint64_t>(time.tv_nsec);
+#endif
 }
 
 std::uint64_t heap_bytes() {

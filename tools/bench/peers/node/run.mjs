@@ -6,6 +6,7 @@
 import { readFileSync, writeSync } from "node:fs";
 
 const ABSENT = 3;
+const ENOUGH = 0.5; // seconds of one point: not repeated any more
 const [engine_name, scenes_file, repeats, ...settings] = process.argv.slice(2);
 
 async function load(name) {
@@ -76,7 +77,11 @@ for (const scene of file.scenes) {
     const samples = [], cpu_seconds = [];
     play(engine, scene, setting, file.tick_rate,
          (world) => samples.push(scene.watched.map((body) => world.state(body))));
-    for (let i = 0; i < Number(repeats); ++i) cpu_seconds.push(play(engine, scene, setting, file.tick_rate));
+    let taken = 0;
+    for (let i = 0; i < Number(repeats) && taken < ENOUGH; ++i) {
+      cpu_seconds.push(play(engine, scene, setting, file.tick_rate));
+      taken += cpu_seconds[i] * scene.seconds;
+    }
     print(JSON.stringify({ engine: engine.name, scene: scene.name, setting, cpu_seconds, note: engine.version, samples }));
   }
 }
