@@ -3,17 +3,20 @@
 #
 # usage: tools/bench.sh [--quick] [--docs] [BENCHMARK…]
 #
-# Benchmarks: front speed queries rows numerics skip instructions; all but the last by default.
+# Benchmarks: speed queries rows numerics skip front; on demand accuracy stability instructions.
 #
-#   --quick      minutes instead of an hour: fewer scenes, ticks, questions and repeats
+#   --quick      below ten minutes, installing and building included, on four cores: fewer scenes,
+#                ticks, questions and repeats
 #   --docs       write charts, tables and counts into docs/benchmarks, not build/bench/results
 #   --help       print this
 #
 # Missing Debian packages are installed first (as root or through sudo), and engines of the npm
 # registry into build/bench/node. An engine that cannot be installed is reported as absent.
-# LOCKSTONE_JOBS bounds the number of parallel compilers; the benchmarks themselves use one thread,
-# so let nothing else run beside them. Where Emscripten is installed, ours is also built for
-# WebAssembly, to be timed beside the engines under Node; with --quick only when that was done before.
+# LOCKSTONE_JOBS bounds the number of parallel compilers; the benchmarks themselves use one thread
+# unless they compare several, so let nothing else run beside them. Where the engines under Node are
+# there, ours is built for WebAssembly too, by Emscripten, to be timed beside them.
+#
+# What each benchmark prints is kept in a file NAME.txt beside charts and tables.
 
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -26,45 +29,55 @@ for argument in "$@"; do
     --quick) quick=true ;;
     --docs) results=docs/benchmarks ;;
     --help) usage; exit ;;
-    front | speed | queries | rows | numerics | skip | instructions) benchmarks+=("$argument") ;;
+    front | speed | queries | rows | numerics | skip | accuracy | stability | instructions) benchmarks+=("$argument") ;;
     *) usage >&2; exit 2 ;;
   esac
 done
 ((${#benchmarks[@]})) || benchmarks=(speed queries rows numerics skip front)
 
-# wasm_options: what tells `lockstone` of ours under Node; nothing without Emscripten.
-wasm_options() {
+# wasm_player: builds ours for Node and names the file; nothing without Emscripten.
+wasm_player() {
   local folder=build/bench/wasm
-  local player=$folder/tools/bench/player/lockstone_scene_player.js
-  if ! "$quick" && command -v em++ >/dev/null; then
-    cmake --preset wasm -B "$folder" -DLOCKSTONE_SCENE_PLAYER=ON >/dev/null &&
-      cmake --build "$folder" --target lockstone_scene_player --parallel "$jobs" >&2
-  fi
-  [[ ! -e $player ]] || printf '%s\n' --wasm "$player"
+  (require_packages bench-wasm) >&2 || true
+  command -v em++ >/dev/null || return 0
+  # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.
+  export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
+  say "build ours for WebAssembly"
+  cmake --preset wasm -B "$folder" -DLOCKSTONE_SCENE_PLAYER=ON >/dev/null &&
+    cmake --build "$folder" --target lockstone_scene_player --parallel "$jobs" >&2 || return 0
+  echo "$folder/tools/bench/player/lockstone_scene_player"
 }
 
 # node_options: what tells `lockstone` of engines under Node; nothing without them.
 node_options() {
-  local folder=build/bench/node
+  local folder=build/bench/node player
   command -v node >/dev/null && command -v npm >/dev/null || return 0
   mkdir -p "$folder"
   cp tools/bench/peers/node/*.mjs tools/bench/peers/node/package.json "$folder"
   npm install --prefix "$folder" --no-audit --no-fund --silent >&2 || return 0
   printf '%s\n' --node "$folder"
-  wasm_options
+  player=$(wasm_player)
+  [[ -z $player ]] || printf '%s\n' --wasm "$player"
 }
 
 # arguments_of BENCHMARK: of `lockstone bench`, a line each.
 arguments_of() {
   case $1 in
     front) printf '%s\n' accuracy --plot "$results"; node_options ;;
-    speed) printf '%s\n' speed --detail ;;
+    accuracy) printf '%s\n' accuracy --sweep ;;
+    speed)
+      echo speed
+      "$quick" || echo --detail
+      ;;
     instructions) printf '%s\n' speed --instructions "$results/instructions.csv" ;;
     *) echo "$1" ;;
   esac
   "$quick" || return 0
   case $1 in
-    front | speed | queries) echo --quick ;;
+    front | queries) echo --quick ;;
+    speed) printf '%s\n' --quick --threads 1 ;;
+    accuracy) printf '%s\n' --tries 100 ;;
+    stability) printf '%s\n' --seconds 5 ;;
     rows | numerics) printf '%s\n' --repeats 7 ;;
   esac
 }
@@ -77,10 +90,14 @@ mkdir -p "$results"
 
 # A goal that is missed is reported, and the rest still runs.
 code=0
+took=("installing and building: $SECONDS s")
 for benchmark in "${benchmarks[@]}"; do
+  begun=$SECONDS
   mapfile -t arguments < <(arguments_of "$benchmark")
   say "lockstone bench ${arguments[*]}"
-  build/bench/tools/lockstone bench "${arguments[@]}" || code=$?
+  build/bench/tools/lockstone bench "${arguments[@]}" | tee "$results/$benchmark.txt" || code=$?
+  took+=("$benchmark: $((SECONDS - begun)) s")
 done
+say "$(printf '%s; ' "${took[@]}")all: $SECONDS s"
 say "charts, tables and counts: $results"
 exit "$code"
