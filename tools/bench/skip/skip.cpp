@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tools/bench/skip/linked_programs.h"
 #include "tools/bench/speed/city.h"
 #include "tools/bench/speed/speed_scene.h"
 #include "tools/bench/support/measure.h"
@@ -123,16 +124,33 @@ void count_idle_stage(Skips& skips, const std::string& claim, World& world) {
   skips.figures.back().is_time = true;
 }
 
-void measure_absent_features(Skips& skips) {
-  const std::string claim = "no triggers, no continuous bodies";
-  World world = make_speed_world(speed_def(BroadPhaseKind::tree, 512, 8192, 4096));
+// Twenty stacks of five boxes.
+World make_stacks(WorldDef def) {
+  World world = make_speed_world(def);
   scenes::add_ground(world, 50_m);
   for (int i = 0; i < 20; ++i)
     scenes::add_stack(world, {millimetres(3000 * i - 30'000), {}, {}}, 5);
+  return world;
+}
+
+WorldDef stacks_def() {
+  WorldDef def = speed_def(BroadPhaseKind::tree, 512, 8192, 4096);
+  def.sleep_ms = 0;
+  return def;
+}
+
+void measure_absent_features(Skips& skips) {
+  const std::string claim = "no joints, no triggers, no continuous bodies";
+  World world = make_stacks(stacks_def());
   StepReport sum;
   std::size_t triggers = 0;
+  std::int64_t joints = 0;
+  (void)world.hash();
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = world.step();
+    // Every joint of an awake body is hashed anew.
+    joints += std::max(std::int64_t{world.hash().hashed} - report.moving_bodies - report.pairs - 1,
+                       std::int64_t{0});
     sum.continuous_bodies += report.continuous_bodies;
     sum.impacts += report.impacts;
     triggers += static_cast<std::size_t>(
@@ -140,10 +158,81 @@ void measure_absent_features(Skips& skips) {
           return event.kind >= EventKind::trigger_enter && event.kind <= EventKind::trigger_exit;
         }));
   }
+  skips.count(claim, "records hashed beyond bodies, contacts and the header", "",
+              static_cast<double>(joints), 0);
   skips.count(claim, "bodies followed along their way", "", sum.continuous_bodies, 0);
   skips.count(claim, "impacts answered", "", sum.impacts, 0);
   skips.count(claim, "trigger events", "", static_cast<double>(triggers), 0);
   if (skips.options().times) count_idle_stage(skips, claim, world);
+}
+
+// A thousand rays through a world, whose answers nobody looks at.
+void ask(const World& world) {
+  int found = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3<Position> from{millimetres(60 * i - 30'000), 20_m, {}};
+    found += world.cast_ray(from, {{}, -30_m, {}}).body.is_null() ? 0 : 1;
+  }
+  LKS_CHECK(found > 0);
+}
+
+// What queries leave behind for the tick: two worlds, of which one is asked.
+void measure_silence(Skips& skips) {
+  World silent = make_stacks(stacks_def()), asked = make_stacks(stacks_def());
+  for (int tick = 0; tick < 60; ++tick) {
+    (void)silent.step();
+    (void)asked.step();
+  }
+  (void)silent.hash();
+  (void)asked.hash();
+  const std::uint64_t heap = heap_bytes();
+  ask(asked);
+  const std::string claim = "no queries";
+  skips.count(claim, "bytes that 1,000 rays leave in a world", "bytes",
+              static_cast<double>(heap_bytes() - heap), 0);
+  (void)silent.step();
+  (void)asked.step();
+  skips.count(claim, "records that the next tick hashes more for them", "",
+              static_cast<double>(asked.hash().hashed) - silent.hash().hashed, 0);
+}
+
+// A world that may have joints beside one that may not, in turns.
+void time_possible_joints(Skips& skips) {
+  if (!skips.options().times) return;
+  WorldDef def = stacks_def();
+  def.joint_capacity = 0;
+  World without = make_stacks(def);
+  def.joint_capacity = 8192;
+  World with = make_stacks(def);
+  const auto step = [](World& world) {
+    const std::uint64_t begin = thread_nanoseconds();
+    (void)world.step();
+    return static_cast<double>(thread_nanoseconds() - begin);
+  };
+  std::vector<double> ratios;
+  for (int tick = 0; tick < 401; ++tick) {
+    const bool first = tick % 2 == 0;
+    const double a = step(first ? without : with), b = step(first ? with : without);
+    ratios.push_back(first ? b / a : a / b);
+  }
+  skips.count("no joints, no triggers, no continuous bodies",
+              "more time with 8,192 joints possible, none there", "%",
+              100 * (median(std::move(ratios)) - 1), 2);
+  skips.figures.back().is_time = true;
+}
+
+void measure_linked_code(Skips& skips) {
+  const auto programs = linked_programs();
+  if (!programs) return;
+  const std::string claim = "a program that uses spheres and boxes only";
+  skips.count(claim, "functions of hulls, meshes, height fields linked", "",
+              static_cast<double>(programs->primitives.assets), 0);
+  skips.count_at_least(claim, "such functions in one that uses them (the control)", "",
+                       static_cast<double>(programs->assets.assets), 1);
+  skips.count(claim, "code, of the code of one that uses them", "%",
+              100.0 * static_cast<double>(programs->primitives.bytes) /
+                  static_cast<double>(programs->assets.bytes),
+              80);
 }
 
 // Far apart, in the air, spinning.
@@ -175,12 +264,7 @@ std::uint64_t counting_clock() {
 }
 
 void measure_reuse(Skips& skips) {
-  WorldDef def = speed_def(BroadPhaseKind::tree, 512, 8192, 4096);
-  def.sleep_ms = 0;
-  World world = make_speed_world(def);
-  scenes::add_ground(world, 50_m);
-  for (int i = 0; i < 20; ++i)
-    scenes::add_stack(world, {millimetres(3000 * i - 30'000), {}, {}}, 5);
+  World world = make_stacks(stacks_def());
   for (int tick = 0; tick < 300; ++tick)
     (void)world.step();
   world.set_clock(counting_clock, ProfileDetail::pairs);
@@ -286,6 +370,9 @@ std::vector<SkipFigure> measure_skips(const SkipOptions& options) {
   measure_sleep(skips);
   measure_one_awake(skips);
   measure_absent_features(skips);
+  time_possible_joints(skips);
+  measure_silence(skips);
+  measure_linked_code(skips);
   measure_flight(skips);
   measure_reuse(skips);
   measure_hash(skips);
