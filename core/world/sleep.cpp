@@ -114,7 +114,7 @@ void World::Impl::find_active_joints() {
   are_active_joints_current = true;
 }
 
-// The body changes: it wakes, and what sleeps against it.
+// The body changes: it wakes, and what sleeps against it or hangs on it.
 void World::Impl::disturb(std::uint32_t body) {
   if (asleep_count == 0) return;
   if (bodies[body].moves()) {
@@ -124,6 +124,8 @@ void World::Impl::disturb(std::uint32_t body) {
   frozen.for_each_of(body, [&](const ContactRecord& record) {
     list_to_wake(record.body_a == body ? record.body_b : record.body_a);
   });
+  for (const std::uint32_t other : joint_edges.of(body, joint_links))
+    list_to_wake(other);
   wake_listed();
 }
 

@@ -1,51 +1,22 @@
 // Islands fall asleep, cost nothing, and wake as they were.
 
 #include <algorithm>
-#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
-#include "tests/world/world_fixture.h"
+#include "tests/world/sleepers.h"
 
 namespace lockstone {
 namespace {
 
 using namespace literals;
-
-constexpr Shape unit_box() {
-  return Shape::box(0.5_m, 0.5_m, 0.5_m);
-}
-
-std::vector<BodyHandle> add_stack(World& world, Position x, int count) {
-  std::vector<BodyHandle> stack;
-  for (int i = 0; i < count; ++i) {
-    const Position y = Position::from_ratio(2 * i + 1, 2);
-    stack.push_back(test::add(world, test::dynamic_body(unit_box(), x, y, {})));
-  }
-  return stack;
-}
-
-bool asleep(const World& world, BodyHandle body) {
-  return world.body(body).is_asleep;
-}
-
-bool all_asleep(const World& world, const std::vector<BodyHandle>& bodies) {
-  return std::ranges::all_of(bodies, [&](BodyHandle body) { return asleep(world, body); });
-}
-
-// A stack of three that sleeps on the ground.
-struct Sleepers {
-  World world = test::make_world();
-  BodyHandle ground = test::add_ground(world);
-  std::vector<BodyHandle> stack = add_stack(world, {}, 3);
-
-  Sleepers() {
-    test::step(world, 90);
-    EXPECT_TRUE(all_asleep(world, stack));
-  }
-};
+using test::add_stack;
+using test::all_asleep;
+using test::asleep;
+using test::Sleepers;
+using test::unit_box;
 
 TEST(Sleep, ComesAfterTheTimeOfRestAndNotBefore) {
   World world = test::make_world();
@@ -222,141 +193,6 @@ TEST(Sleep, ByCommandTakesTheIslandAtOnce) {
   (void)world.step();
   EXPECT_TRUE(all_asleep(world, stack));
   EXPECT_EQ(world.events().size(), 4U);
-}
-
-// What wakes a stack that sleeps on the ground, each with a word.
-struct Cause {
-  const char* word;
-  std::function<void(Sleepers&)> work;
-  int ticks = 1;  // later it is awake
-};
-
-void apply(Sleepers& scene, const Command& command) {
-  ASSERT_EQ(scene.world.apply(command), Status::ok);
-}
-
-std::vector<Cause> causes() {
-  return {
-      {"wake", [](Sleepers& s) { apply(s, WakeBody{s.stack[2]}); }},
-      {"velocity",
-       [](Sleepers& s) {
-         apply(s, SetVelocity{s.stack[2], {}});
-       }},
-      {"angular velocity",
-       [](Sleepers& s) {
-         apply(s, SetAngularVelocity{s.stack[1], {}});
-       }},
-      {"impulse",
-       [](Sleepers& s) {
-         apply(s, ApplyImpulse{s.stack[2], {{}, Impulse::from_integer(1), {}}});
-       }},
-      {"angular impulse",
-       [](Sleepers& s) {
-         apply(s, ApplyAngularImpulse{s.stack[2], {{}, AngularImpulse::from_integer(1), {}}});
-       }},
-      {"force",
-       [](Sleepers& s) {
-         apply(s, ApplyForce{s.stack[2], {Force::from_integer(9), {}, {}}});
-       }},
-      {"teleport of a member",
-       [](Sleepers& s) {
-         apply(s, Teleport{s.stack[2], {9_m, 9_m, {}}, {}});
-       }},
-      {"end of a member", [](Sleepers& s) { apply(s, DestroyBody{s.stack[2]}); }},
-      {"material of a member",
-       [](Sleepers& s) {
-         apply(s, SetMaterial{s.stack[0], {{}, {}}});
-       }},
-      {"filter of a member",
-       [](Sleepers& s) {
-         apply(s, SetFilter{s.stack[1], {2, 2, 0}});
-       }},
-      {"teleport of the ground",
-       [](Sleepers& s) {
-         apply(s, Teleport{s.ground, {{}, -20_m, {}}, {}});
-       }},
-      {"end of the ground", [](Sleepers& s) { apply(s, DestroyBody{s.ground}); }},
-      {"material of the ground",
-       [](Sleepers& s) {
-         apply(s, SetMaterial{s.ground, {{}, {}}});
-       }},
-      {"filter of the ground",
-       [](Sleepers& s) {
-         apply(s, SetFilter{s.ground, {2, 2, 0}});
-       }},
-      {"gravity",
-       [](Sleepers& s) {
-         apply(s, SetGravity{{{}, 1_mps2, {}}});
-       }},
-      {"a static body in its place",
-       [](Sleepers& s) {
-         BodyDef wall;
-         wall.motion = MotionType::static_body;
-         wall.position = {0.7_m, 2_m, {}};
-         test::add(s.world, wall);
-       }},
-      {"a ball that falls on it",
-       [](Sleepers& s) {
-         test::add(s.world, test::dynamic_body(Shape::sphere(0.3_m), {}, 4_m, {}));
-       },
-       40},
-      {"a kinematic body that comes",
-       [](Sleepers& s) {
-         BodyDef bar;
-         bar.motion = MotionType::kinematic;
-         bar.position = {2_m, 2_m, {}};
-         bar.velocity = {-2_mps, {}, {}};
-         test::add(s.world, bar);
-       },
-       40},
-  };
-}
-
-TEST(Wake, HasManyCauses) {
-  for (const Cause& cause : causes()) {
-    SCOPED_TRACE(cause.word);
-    Sleepers scene;
-    cause.work(scene);
-    test::step(scene.world, cause.ticks);
-    EXPECT_FALSE(asleep(scene.world, scene.stack[0]));
-    EXPECT_FALSE(asleep(scene.world, scene.stack[1]));
-  }
-}
-
-TEST(Wake, IsNotCausedByWhatChangesNothing) {
-  Sleepers scene;
-  const std::vector<BodyHandle> far = add_stack(scene.world, 20_m, 1);
-  apply(scene, SetUserData{scene.stack[0], 7});
-  apply(scene, ApplyForce{scene.stack[0], {}});
-  apply(scene, SetGravity{scene.world.def().gravity});
-  apply(scene, DestroyBody{far[0]});
-  test::step(scene.world, 2);
-  EXPECT_TRUE(all_asleep(scene.world, scene.stack));
-  EXPECT_TRUE(scene.world.events().empty());
-}
-
-TEST(Wake, IsToldByEventsInOrderOfBodies) {
-  Sleepers scene;
-  apply(scene, WakeBody{scene.stack[1]});
-  (void)scene.world.step();
-  ASSERT_EQ(scene.world.events().size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(scene.world.events()[i].kind, EventKind::wake);
-    EXPECT_EQ(scene.world.events()[i].a, scene.stack[i]);
-    EXPECT_TRUE(scene.world.events()[i].b.is_null());
-  }
-}
-
-TEST(Wake, ABulletThatHitsASleeperWakesItsIsland) {
-  Sleepers scene;
-  BodyDef bullet = test::dynamic_body(Shape::sphere(0.05_m), -30_m, 1.5_m, {});
-  bullet.is_bullet = true;
-  bullet.velocity = {400_mps, {}, {}};
-  bullet.material.density = Density::from_integer(20000);
-  test::add(scene.world, bullet);
-  test::step(scene.world, 8);
-  EXPECT_FALSE(asleep(scene.world, scene.stack[0]));
-  EXPECT_GT(scene.world.velocity(scene.stack[1]).x, Velocity(0.1_mps));
 }
 
 TEST(Sleep, OfAKinematicBodyThatStandsEndsWhenItMoves) {
