@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "core/dynamics/contact_solver.h"
+#include "core/dynamics/joint_solver.h"
 #include "core/dynamics/motion.h"
 
 namespace lockstone {
@@ -55,6 +56,8 @@ Vec3<Velocity> ContactSolver::half_step_back(std::size_t index, const BodyRecord
     for (int i = 0; i < 3; ++i)
       gain[i] -= times(along, n[i]);
   }
+  for (int i = 0; i < 3; ++i)
+    if (bodies_[index].is_held(i)) gain[i] = {};
   const auto half = [&](Velocity v) {
     return Velocity::from_raw(raw::round_divide(step_.substep.times(v.raw), 2));
   };
@@ -86,7 +89,7 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
                      from_row(row.velocity[2])};
     body.spin = {from_row(row.spin[0]), from_row(row.spin[1]), from_row(row.spin[2])};
   }
-  if (const JointPose* pose = joints_.find(members_[index]); pose != nullptr) {
+  if (const JointPose* pose = joints_->find(members_[index]); pose != nullptr) {
     body.position = pose->position;
     body.orientation = pose->orientation;
     return 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/dynamics/joint_solver.h"
 #include "core/dynamics/lane_bodies.h"
 #include "core/dynamics/motion.h"
 
@@ -150,7 +151,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
       graph_(body_capacity + contact_capacity, contact_capacity),
       solver_index_(body_capacity),
-      joints_(step, body_capacity, joint_capacity),
+      joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity)),
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
@@ -174,6 +175,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
 }
+
+ContactSolver::~ContactSolver() = default;
 
 std::uint32_t ContactSolver::contacts() const {
   return static_cast<std::uint32_t>(entries_.size());

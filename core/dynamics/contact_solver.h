@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,13 +18,16 @@
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/joint_net.h"
-#include "core/dynamics/joint_solver.h"
+#include "core/dynamics/joint_record.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
 #include "core/math/wide/manifold_block.h"
 
 namespace lockstone {
+
+class JointSolver;
+struct JointRun;
 
 /// What the solver reads of a world. The manifold and the surfaces of record i are in slot
 /// slots[i]; those of triggers are left out.
@@ -44,6 +48,7 @@ class ContactSolver {
   /// No function but this allocates.
   ContactSolver(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity,
                 std::size_t joint_capacity);
+  ~ContactSolver();
 
   /// Takes up the touched bodies and makes the constraints, in the order of the records.
   void prepare(const ContactScene& scene, Parallel& parallel);
@@ -136,7 +141,7 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
-  [[nodiscard]] JointRun joint_run() { return {bodies_, rows_, before_, inertias_, places_}; }
+  [[nodiscard]] JointRun joint_run();
   [[nodiscard]] NetRun net_run() {
     return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};
   }
@@ -198,7 +203,7 @@ class ContactSolver {
   std::vector<PushAxis> axes_;
   std::vector<lanes::BodyPlace> places_;  // of what nets of joints hold
 
-  JointSolver joints_;
+  std::unique_ptr<JointSolver> joints_;
   JointNet net_;
   std::uint32_t first_without_contacts_ = 1;  // by number
 

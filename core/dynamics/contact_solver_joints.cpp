@@ -1,13 +1,18 @@
 // Joints among the contacts of a tick.
 
 #include "core/dynamics/contact_solver.h"
+#include "core/dynamics/joint_solver.h"
 #include "core/dynamics/lane_bodies.h"
 
 namespace lockstone {
 
+JointRun ContactSolver::joint_run() {
+  return {bodies_, rows_, before_, inertias_, places_};
+}
+
 // What never moves is number 0 to joints.
 void ContactSolver::take_up_joints(const ContactScene& scene) {
-  joints_.clear();
+  joints_->clear();
   for (const JointLink& link : scene.joint_links) {
     const auto side = [&](std::uint32_t body) -> JointSolver::Side {
       std::uint32_t index = solver_index_[body];
@@ -15,7 +20,7 @@ void ContactSolver::take_up_joints(const ContactScene& scene) {
       return {body, index, scene.bodies[body], scene.rotations[body]};
     };
     const JointSolver::Side a = side(link.body_a), b = side(link.body_b);
-    joints_.add(scene.joints[link.joint], a, b);
+    joints_->add(scene.joints[link.joint], a, b);
   }
   take_up_net(scene);
 }
@@ -23,7 +28,7 @@ void ContactSolver::take_up_joints(const ContactScene& scene) {
 // Once all bodies have their numbers. What stands still has a row of its own in each joint of a
 // net, as in each contact.
 void ContactSolver::take_up_net(const ContactScene& scene) {
-  const std::span<const std::uint32_t> in_net = joints_.plan();
+  const std::span<const std::uint32_t> in_net = joints_->plan();
   net_.clear(in_net.empty() ? 0 : static_cast<std::uint32_t>(members_.size()));
   for (const std::uint32_t i : in_net) {
     const JointLink& link = scene.joint_links[i];
@@ -39,7 +44,7 @@ void ContactSolver::take_up_net(const ContactScene& scene) {
 }
 
 void ContactSolver::begin_joints() {
-  joints_.begin({bodies_, rows_, {}, {}, {}}, first_without_contacts_);
+  joints_->begin({bodies_, rows_, {}, {}, {}}, first_without_contacts_);
   for (std::size_t i = 1; i < members_.size(); ++i)
     inertias_[i] = source_body(bodies_[i].inverse_inertia);
 }
@@ -47,9 +52,9 @@ void ContactSolver::begin_joints() {
 void ContactSolver::store_joints(std::span<const JointLink> links, std::span<JointRecord> joints,
                                  Parallel& parallel) const {
   constexpr std::uint32_t k_slot_grain = 64;
-  if (joints_.has_own()) {
+  if (joints_->has_own()) {
     for (std::size_t i = 0; i < links.size(); ++i)
-      joints_.store(i, joints[links[i].joint]);
+      joints_->store(i, joints[links[i].joint]);
   }
   parallel.for_each({net_.slot_count(), k_slot_grain},
                     [&](std::size_t first, std::size_t end, std::uint32_t) {

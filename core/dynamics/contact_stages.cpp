@@ -1,6 +1,7 @@
 // The loops of a tick's substeps, and in which order they go.
 
 #include "core/dynamics/contact_solver.h"
+#include "core/dynamics/joint_solver.h"
 
 namespace lockstone {
 namespace {
@@ -11,6 +12,7 @@ using lanes::ManifoldKernels;
 constexpr std::uint32_t k_body_grain = 64;
 constexpr std::uint32_t k_joined_grain = 8;
 constexpr std::uint32_t k_block_grain = 4;
+constexpr std::uint32_t k_cluster_grain = 1;
 
 // Nets converge slowly: sweeps before positions move, and after.
 constexpr int k_net_sweeps = 2;
@@ -24,15 +26,18 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   bounces_ = holds_ = false;
   loops_.clear();
   stages_.clear();
-  const std::uint32_t joints = joints_.empty() ? 0 : 1;
+  const std::uint32_t joints = joints_->empty() ? 0 : 1;
   add_loop({StageKind::velocities}, row_count(), k_body_grain);
   add_loop({StageKind::warm_joints}, joints, 1, true);
-  add_loop({StageKind::move_joined}, net_.empty() ? 0 : joints_.body_count(), k_body_grain);
+  add_loop({StageKind::move_joined}, net_.empty() ? 0 : joints_->body_count(), k_body_grain);
   add_loop_of_each_color(StageKind::solve);
   add_net_loops(StageKind::lift_net);
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { prepare_piece(scene, stages_[loop], first, end); });
-  if (joints_.has_own()) joints_.prepare();
+  parallel.for_each({joints_->cluster_count(), k_cluster_grain},
+                    [&](std::size_t first, std::size_t end, std::uint32_t) {
+                      joints_->prepare(joint_run(), first, end);
+                    });
 }
 
 void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
@@ -43,7 +48,7 @@ void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage,
     case StageKind::warm_joints:
       return begin_joints();
     case StageKind::move_joined:
-      return joints_.place(joint_run(), first, end);
+      return joints_->place(joint_run(), first, end);
     case StageKind::lift_net:
       return net_.fill(net_run(), stage.color, first, end);
     default:
@@ -78,17 +83,17 @@ void ContactSolver::add_net_loops(StageKind kind) {
 // Velocities, contacts that push overlap out, joints such that they hold afterwards; positions;
 // joints and contacts such that they stay.
 void ContactSolver::add_loops_of_substep(bool is_first) {
-  const std::uint32_t joints = joints_.has_own() ? 1 : 0;
+  const std::uint32_t clusters = joints_->cluster_count();
   const auto bodies = static_cast<std::uint32_t>(members_.size());
   add_loop({StageKind::velocities, 0, is_first}, bodies, k_body_grain);
-  add_loop({StageKind::warm_joints}, joints, 1, true);
+  add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
   add_loop_of_each_color(StageKind::solve);
   for (int i = 0; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::lift_net);
-  add_loop({StageKind::solve_joints}, joints, 1, true);
+  add_loop({StageKind::solve_joints}, clusters, k_cluster_grain);
   add_loop({StageKind::positions}, bodies, k_body_grain);
-  add_loop({StageKind::move_joined}, joints_.body_count(), k_joined_grain);
-  add_loop({StageKind::relax_joints}, joints, 1, true);
+  add_loop({StageKind::move_joined}, joints_->body_count(), k_joined_grain);
+  add_loop({StageKind::relax_joints}, clusters, k_cluster_grain);
   add_net_loops(StageKind::follow_net);
   for (int i = 1; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::relax_net);
@@ -97,7 +102,7 @@ void ContactSolver::add_loops_of_substep(bool is_first) {
 
 // All substeps; then colours that bounce.
 void ContactSolver::run(Parallel& parallel) {
-  if (entries_.empty() && joints_.empty()) return;
+  if (entries_.empty() && joints_->empty()) return;
   loops_.clear();
   stages_.clear();
   for (int substep = 0; substep < step_.substeps; ++substep)
@@ -105,7 +110,7 @@ void ContactSolver::run(Parallel& parallel) {
   if (bounces_) add_loop_of_each_color(StageKind::bounce);
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { run_piece(stages_[loop], first, end); });
-  joints_.end(joint_run());
+  joints_->end(joint_run());
 }
 
 void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t end) {
@@ -113,17 +118,17 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
     case StageKind::velocities:
       return integrate_velocities(stage.is_first, first, end);
     case StageKind::warm_joints:
-      return joints_.warm_start(joint_run());
+      return joints_->warm_start(joint_run(), first, end);
     case StageKind::lift_net:
       return net_.lift(net_run(), stage.color, first, end);
     case StageKind::solve_joints:
-      return joints_.solve(joint_run());
+      return joints_->solve(joint_run(), first, end);
     case StageKind::positions:
       return integrate_positions(first, end);
     case StageKind::move_joined:
-      return joints_.move(joint_run(), first, end);
+      return joints_->move(joint_run(), first, end);
     case StageKind::relax_joints:
-      return joints_.relax(joint_run());
+      return joints_->relax(joint_run(), first, end);
     case StageKind::follow_net:
       return net_.follow(net_run(), stage.color, first, end);
     case StageKind::relax_net:

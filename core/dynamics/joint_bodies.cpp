@@ -43,11 +43,12 @@ void JointSolver::add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Len
   sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * scale), k_row_bound);
 }
 
-// Of joints in nets at a tick's beginning only.
-void JointSolver::find_pulls(bool all) {
-  pulls_.assign(bodies_.size(), 0);
-  for (const Joint& joint : joints_) {
-    const auto total = [&](std::size_t i) { return joint.locks[i] + joint.relaxed[i]; };
+// Half of what a substep takes: the other half is that of `relaxed`, or goes before it.
+void JointSolver::add_pulls(std::span<const Joint> joints, bool free) {
+  for (const Joint& joint : joints) {
+    const auto total = [&](std::size_t i) {
+      return free ? (joint.locks[i] + joint.carried[i]) / 2 : joint.locks[i] + joint.relaxed[i];
+    };
     const auto pull =
         static_cast<std::int64_t>(norm(total(0) >> 20, total(1) >> 20, total(2) >> 20));  // Q30
     const auto add = [&](std::uint32_t body, const Share& share, const Vec3<Length>& anchor) {
@@ -57,7 +58,10 @@ void JointSolver::find_pulls(bool all) {
     add(joint.a, joint.share_a, joint.record->anchor_a);
     add(joint.b, joint.share_b, joint.record->anchor_b);
   }
-  if (!all) return;
+}
+
+// At a tick's beginning only.
+void JointSolver::add_net_pulls() {
   for (const std::uint32_t index : in_net_) {
     const Link& link = links_[index];
     const auto part = [&](std::size_t i) {
@@ -77,29 +81,28 @@ void JointSolver::find_pulls(bool all) {
 // where h·ω is large: there links are taken to be heavier to turn. A diagonal form of the geometric
 // stiffness: S. Andrews, M. Teichmann, J. Kövecses, "Geometric Stiffness for Real-time Constrained
 // Multibody Dynamics", 2017.
-void JointSolver::set_inertias(const JointRun& run, bool all) {
-  find_pulls(all);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    if (!body.pushed || !body.record->rotates() || (!all && !body.centred)) continue;
-    // Some of it grows with the number of links that swing against each other.
-    const std::int64_t least = 2 * raw::round_divide(pulls_[i], step_.substep_rate());
-    const auto& own = body.record->inertia;
-    const std::int64_t smallest = min(own.x, min(own.y, own.z)).raw;
-    const std::uint64_t rounded = std::bit_ceil(static_cast<std::uint64_t>(least));
-    set_inertia(run, body,
-                least <= smallest
-                    ? 0
-                    : std::min<std::int64_t>(static_cast<std::int64_t>(rounded), k_most_inertia));
-  }
+void JointSolver::resist_pull(const JointRun& run, std::uint32_t index) {
+  Body& body = bodies_[index];
+  if (!body.pushed || !body.record->rotates()) return;
+  // Some of it grows with the number of links that swing against each other.
+  const std::int64_t least = 2 * raw::round_divide(pulls_[index], step_.substep_rate());
+  const auto& own = body.record->inertia;
+  const std::int64_t smallest = min(own.x, min(own.y, own.z)).raw;
+  const std::uint64_t rounded = std::bit_ceil(static_cast<std::uint64_t>(least));
+  set_inertia(run, body,
+              least <= smallest
+                  ? 0
+                  : std::min<std::int64_t>(static_cast<std::int64_t>(rounded), k_most_inertia));
 }
 
 InverseInertia JointSolver::inverse_inertia_of(const Body& body, const Mat3& rotation) {
   const std::int64_t least = body.least_inertia;
   if (least == 0) return inverse_inertia(*body.record, rotation);
-  if (least <= k_one) return inverse_inertia(with_inertia(*body.record, least), rotation);
-  InverseInertia m;
-  m.xx = m.yy = m.zz = static_cast<std::int32_t>((k_one << 30) / least);
+  InverseInertia m = inverse_inertia(with_inertia(*body.record, least), rotation);
+  const int shift = std::countr_zero(static_cast<std::uint64_t>(least)) - 30;  // a power of two
+  if (shift <= 0) return m;
+  for (std::int32_t* entry : {&m.xx, &m.yy, &m.zz, &m.xy, &m.xz, &m.yz})
+    *entry = static_cast<std::int32_t>(raw::round_shift(*entry, shift));
   return m;
 }
 
@@ -136,19 +139,19 @@ void JointSolver::end(const JointRun& run) {
 }
 
 // Where the body will be after the substep, with the velocity that it has now. Without contacts
-// gravity acts half before and half after.
+// gravity acts half before and half after, unless the drift itself lies half before and half after.
 JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
   body.inertia_ahead = body.inverse_inertia;
   JointPose after = body.pose;
   if (body.solver == 0) return after;
   const lanes::RowBody& row = run.rows[body.solver];
   const SolverBody& solver = run.bodies[body.solver];
-  const std::int64_t rate = step_.substep_rate();
+  const std::int64_t rate = body.rate;
   const auto read = [](std::int64_t x) { return bounded(x, std::int64_t{1000} << 50); };
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     std::int64_t velocity = read(row.velocity[axis]);
-    if (body.centred) velocity -= solver.gain[axis] * (1 << 17);
+    if (body.centred && !body.free) velocity -= solver.gain[axis] * (1 << 17);
     after.position[i].raw += raw::round_shift(raw::round_divide(velocity, rate), 18);
   }
   if (row.spin == std::array<std::int64_t, 3>{} || !body.record->rotates()) return after;
@@ -183,17 +186,19 @@ void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end)
 
 void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
-    Body& body = bodies_[i];
-    if (body.solver == 0) continue;
-    body.pose = pose_after(run, body);
-    if (body.in_net) {
-      run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
-    }
-    if (!body.record->is_dynamic() || body.record->has_spherical_inertia()) continue;
-    body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
-    run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
-    run.inertias[body.solver] = source_body(body.inverse_inertia);
+    if (bodies_[i].solver != 0) move(run, bodies_[i]);
   }
+}
+
+void JointSolver::move(const JointRun& run, Body& body) {
+  body.pose = pose_after(run, body);
+  if (body.in_net) {
+    run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
+  }
+  if (!body.record->is_dynamic() || body.record->has_spherical_inertia()) return;
+  body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
+  run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
+  run.inertias[body.solver] = source_body(body.inverse_inertia);
 }
 
 }  // namespace lockstone

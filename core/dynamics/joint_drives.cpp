@@ -41,7 +41,9 @@ void JointSolver::set_drives(Joint& joint) const {
   }
 }
 
-void JointSolver::solve_drives(const JointRun& run, Joint& joint) {
+// Answers whether anything was pushed.
+bool JointSolver::solve_drives(const JointRun& run, Joint& joint) {
+  bool pushed = false;
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind != RowKind::drive) continue;
@@ -61,13 +63,16 @@ void JointSolver::solve_drives(const JointRun& run, Joint& joint) {
     }
     const std::int64_t bound = drive.bound == 0 ? k_row_bound : drive.bound;
     const std::int64_t after = bounded(total + bounded(change, k_row_bound), bound);
-    push(run, joint, row, after - total);
+    push(run, joint, i, after - total);
+    pushed = pushed || after != total;
     total = after;
   }
+  return pushed;
 }
 
 // A limit that is `error` away may be closed at error / substep; beyond it, it is pushed back.
-void JointSolver::solve_limits(const JointRun& run, Joint& joint, bool positions) {
+bool JointSolver::solve_limits(const JointRun& run, Joint& joint, bool positions) {
+  bool pushed = false;
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind != RowKind::limit) continue;
@@ -80,9 +85,11 @@ void JointSolver::solve_limits(const JointRun& run, Joint& joint, bool positions
     const std::int64_t change = product_rounded(-miss, solved.inverse, solved.shift);
     const std::int64_t after =
         std::clamp(total + bounded(change, k_row_bound), std::int64_t{0}, k_row_bound);
-    push(run, joint, row, after - total);
+    push(run, joint, i, after - total);
+    pushed = pushed || after != total;
     stored = row.flipped ? -after : after;
   }
+  return pushed;
 }
 
 }  // namespace lockstone

@@ -18,6 +18,7 @@ std::span<const std::uint32_t> JointSolver::plan() {
   link_bodies();
   factor_.clear();
   groups_.clear();
+  clusters_.clear();
   order_.clear();
   group_bodies_.clear();
   in_net_.clear();
@@ -27,15 +28,7 @@ std::span<const std::uint32_t> JointSolver::plan() {
     if (bodies_[i].pushed && visited_[i] == 0) find_group(i);
   }
   for (std::uint32_t i = 0; i < links_.size(); ++i) {
-    if (links_[i].joint == k_in_net) {
-      in_net_.push_back(i);
-    } else {
-      make_joint(links_[i]);
-    }
-  }
-  for (const Group& group : groups_) {
-    for (std::uint32_t k = group.first; k < group.first + group.count; ++k)
-      order_[k] = links_[order_[k]].joint;
+    if (links_[i].joint == k_in_net) in_net_.push_back(i);
   }
   return in_net_;
 }
@@ -99,7 +92,28 @@ void JointSolver::find_group(std::uint32_t root) {
   }
   group.count = static_cast<std::uint32_t>(order_.size()) - group.first;
   group.body_count = static_cast<std::uint32_t>(group_bodies_.size()) - group.first_body;
-  if (group.count > 0) plan_group(group);
+  if (group.count == 0) return;
+  const auto first_group = static_cast<std::uint32_t>(groups_.size());
+  plan_group(group);
+  add_cluster(group, first_group);
+}
+
+// Makes the joints that are not in a net, by index.
+void JointSolver::add_cluster(const Group& group, std::uint32_t first_group) {
+  sorted_.clear();
+  for (const std::uint32_t link : joints_of(group)) {
+    if (links_[link].joint != k_in_net) sorted_.push_back(link);
+  }
+  if (sorted_.empty()) return;
+  std::sort(sorted_.begin(), sorted_.end());
+  const auto first_joint = static_cast<std::uint32_t>(joints_.size());
+  for (const std::uint32_t link : sorted_)
+    make_joint(links_[link]);
+  for (std::uint32_t k = group.first; k < group.first + group.count; ++k)
+    order_[k] = links_[order_[k]].joint;
+  clusters_.push_back({first_joint, static_cast<std::uint32_t>(sorted_.size()), first_group,
+                       static_cast<std::uint32_t>(groups_.size()) - first_group, group.first_body,
+                       group.body_count});
 }
 
 void JointSolver::plan_group(Group group) {
@@ -145,7 +159,10 @@ void JointSolver::plan_singles(const Group& group) {
         1, [](std::uint32_t, const auto&) {}, rows);
     LKS_CHECK(planned);
     const auto place = static_cast<std::uint32_t>(single - order_.begin());
-    groups_.push_back({place, 1, 0, 0, factor_.first(), false, false, 0});
+    Group& alone = groups_.emplace_back();
+    alone.first = place;
+    alone.count = 1;
+    alone.column = factor_.first();
   }
 }
 

@@ -24,18 +24,6 @@ void set_inverse(std::int64_t response, std::int64_t& mantissa, int& shift) {
   shift = power - 30;
 }
 
-RawVec3 scaled(const RawVec3& direction, std::int64_t amount) {
-  RawVec3 result{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    result[axis] = product_rounded(direction[axis], amount, 30);
-  return result;
-}
-
-void gain(const RawVec3& by, std::array<std::int64_t, 3>& to) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    to[axis] = bounded(bounded(to[axis], k_row_bound) + by[axis], k_row_bound);
-}
-
 std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -57,13 +45,21 @@ JointPlace JointSolver::place_of(const Joint& joint, const JointPose& a, const J
 }
 
 // Rows and factors where the bodies are now.
-void JointSolver::linearize() {
-  for (Joint& joint : joints_) {
-    fill_rows(place_of(joint, bodies_[joint.a].pose, bodies_[joint.b].pose), joint.rows);
+void JointSolver::linearize(const Cluster& cluster) {
+  for (Joint& joint : joints_of(cluster)) {
+    fill_rows(place_of(joint, bodies_[joint.a].pose, bodies_[joint.b].pose), RowParts::all,
+              joint.rows);
     respond(joint, joint.rows.count, false);
   }
-  for (Group& group : groups_)
+  for (Group& group : groups_of(cluster))
     factor_group(group);
+}
+
+// Along an axis that is locked a body neither moves nor answers.
+void JointSolver::hold(const Body& body, RawVec3& linear) {
+  if (!body.pushed || (body.record->locks & k_lock_moving) == 0) return;
+  for (int axis = 0; axis < 3; ++axis)
+    if (body.record->is_locked(axis)) linear[static_cast<std::size_t>(axis)] = 0;
 }
 
 void JointSolver::respond(Joint& joint, std::size_t rows, bool ahead) const {
@@ -74,6 +70,8 @@ void JointSolver::respond(Joint& joint, std::size_t rows, bool ahead) const {
   for (std::size_t i = 0; i < rows; ++i) {
     JointRow& row = joint.rows.rows[i];
     Solved& solved = joint.solved[i];
+    hold(a, row.linear_a);
+    hold(b, row.linear_b);
     row.response_a = response_of(inertia_a, row.angular_a);
     row.response_b = response_of(inertia_b, row.angular_b);
     std::int64_t response = 0;
@@ -125,10 +123,8 @@ void JointSolver::factor_group(Group& group) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   const std::span<const std::uint32_t> joints = joints_of(group);
   group.exponent = 1000;
-  group.is_plain = true;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints[k]];
-    group.is_plain = group.is_plain && joint.rows.locks == joint.rows.count;
     columns[k].count = static_cast<std::uint32_t>(joint.rows.locks);
     for (std::size_t r = 0; r < joint.rows.locks; ++r)
       group.exponent = std::min(group.exponent, joint.solved[r].exponent);
@@ -166,23 +162,44 @@ std::int64_t JointSolver::speed(const JointRun& run, const Joint& joint,
   return bounded(sum.rounded(30), k_row_bound);
 }
 
+void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t row,
+                       std::int64_t impulse) {
+  if (impulse == 0) return;
+  RowImpulses impulses;
+  impulses[row] = impulse;
+  push(run, joint, row, row + 1, impulses);
+}
+
 // Joint impulses go to the velocities at the substep's beginning as well: the next one must not
 // take them for those of contacts, which start it again.
-void JointSolver::push(const JointRun& run, const Joint& joint, const JointRow& row,
-                       std::int64_t impulse) {
-  const auto push_side = [&](std::uint32_t index, const Share& share, const RawVec3& linear,
-                             const RawVec3& angular) {
+void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t first, std::size_t end,
+                       const RowImpulses& impulses) {
+  const auto push_side = [&](std::uint32_t index, const Share& share, auto linear, auto angular) {
     if (share.mantissa == 0) return;
+    std::array<ProductSum, 3> velocity, spin;
+    for (std::size_t r = first; r < end; ++r) {
+      const JointRow& row = joint.rows.rows[r];
+      const std::int64_t jump = product_rounded(impulses[r], share.mantissa, share.shift);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        velocity[axis].add((row.*linear)[axis], jump);
+        spin[axis].add((row.*angular)[axis], jump);
+      }
+    }
     const std::uint32_t solver = bodies_[index].solver;
-    const std::int64_t jump = product_rounded(impulse, share.mantissa, share.shift);
-    const RawVec3 velocity = scaled(linear, jump), spin = scaled(angular, jump);
-    for (RowBody* body : {&run.rows[solver], &run.before[solver]}) {
-      gain(velocity, body->velocity);
-      gain(spin, body->spin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t v = velocity[axis].rounded(30), w = spin[axis].rounded(30);
+      const auto gain = [&](std::int64_t& x, std::int64_t by) {
+        x = bounded(bounded(x, k_row_bound) + by, k_row_bound);
+      };
+      gain(run.rows[solver].velocity[axis], v);
+      gain(run.rows[solver].spin[axis], w);
+      if (run.before.empty()) continue;
+      gain(run.before[solver].velocity[axis], v);
+      gain(run.before[solver].spin[axis], w);
     }
   };
-  push_side(joint.a, joint.share_a, row.linear_a, row.angular_a);
-  push_side(joint.b, joint.share_b, row.linear_b, row.angular_b);
+  push_side(joint.a, joint.share_a, &JointRow::linear_a, &JointRow::angular_a);
+  push_side(joint.b, joint.share_b, &JointRow::linear_b, &JointRow::angular_b);
 }
 
 }  // namespace lockstone

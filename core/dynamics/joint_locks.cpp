@@ -16,6 +16,9 @@ constexpr int k_position_solves = 3;
 // Locks that are open by less, m, Q32, are closed: 1 µm.
 constexpr std::int64_t k_closed = 1 << 12;
 
+// What rounding leaves of them.
+constexpr std::int64_t k_rounding = 2;
+
 // Joints of groups that are not solved at once close this part of an opening a substep.
 constexpr int k_close_shift = 2;
 
@@ -27,35 +30,45 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
     const std::uint32_t body = group_bodies_[group.first_body + i];
     after_[body] = pose_after(run, bodies_[body]);
   }
+  JointRows ahead;
   for (const std::uint32_t index : joints_of(group)) {
     Joint& joint = joints_[index];
-    fill_rows(place_of(joint, after_[joint.a], after_[joint.b]), scratch_);
-    if (scratch_.locks != joint.rows.locks) continue;
+    fill_rows(place_of(joint, after_[joint.a], after_[joint.b]),
+              turn ? RowParts::locks : RowParts::lock_errors, ahead);
+    if (ahead.locks != joint.rows.locks) continue;
     if (!turn) {
       for (std::size_t r = 0; r < joint.rows.locks; ++r)
-        joint.rows.rows[r].error = scratch_.rows[r].error;
+        joint.rows.rows[r].error = ahead.rows[r].error;
       continue;
     }
-    std::copy_n(scratch_.rows.begin(), scratch_.locks, joint.rows.rows.begin());
+    std::copy_n(ahead.rows.begin(), ahead.locks, joint.rows.rows.begin());
     respond(joint, joint.rows.locks, true);
   }
   if (turn) factor_group(group);
 }
 
-// What is left open after the substep as it stands, per substep.
-void JointSolver::set_position_errors(const Group& group) {
+// What is left open after the substep as it stands, per substep. Answers the
+// widest opening, Q32.
+std::int64_t JointSolver::set_position_errors(const Group& group) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
+  std::int64_t widest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
+      const std::int64_t error = joint.rows.rows[r].error;
+      widest = std::max(widest, std::abs(error));
       factor_.rhs(columns[k].first_row + static_cast<std::uint32_t>(r)) =
-          bounded(closing_speed(joint.rows.rows[r].error, step_.substep_rate()), k_close_speed);
+          bounded(closing_speed(error, group.rate), k_close_speed);
     }
   }
+  return widest;
 }
 
-void JointSolver::set_speed_errors(const JointRun& run, const Group& group, bool positions) {
+// Answers the greatest of them, Q50.
+std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& group,
+                                           bool positions) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
+  std::int64_t greatest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
@@ -65,9 +78,11 @@ void JointSolver::set_speed_errors(const JointRun& run, const Group& group, bool
         error += bounded(closing_speed(row.error, step_.substep_rate(), k_close_shift),
                          k_close_speed / 2);
       }
+      greatest = std::max(greatest, std::abs(error));
       factor_.rhs(columns[k].first_row + static_cast<std::uint32_t>(r)) = error;
     }
   }
+  return greatest;
 }
 
 // Velocities such that locks hold after the substep: impulses along the directions that locks have
@@ -76,30 +91,35 @@ void JointSolver::set_speed_errors(const JointRun& run, const Group& group, bool
 void JointSolver::solve_positions(const JointRun& run, Group& group) {
   if (!is_stiff(group)) {
     save(run, group);
-    for (int i = 0; i < k_position_solves; ++i) {
-      look_ahead(run, group, false);
-      set_position_errors(group);
-      solve_locks(run, group, true);
-    }
-    look_ahead(run, group, false);
-    if (is_closed(group)) return;
+    if (close(run, group)) return;
     restore(run, group);
   }
-  for (int i = 0; i < k_position_solves; ++i) {
-    look_ahead(run, group, true);
-    set_position_errors(group);
-    solve_locks(run, group, true);
-  }
+  for (int i = 0; i < k_position_solves; ++i)
+    approach(run, group, true);
 }
 
-bool JointSolver::is_closed(const Group& group) const {
-  for (const std::uint32_t index : joints_of(group)) {
-    const Joint& joint = joints_[index];
-    for (std::size_t r = 0; r < joint.rows.locks; ++r) {
-      if (std::abs(joint.rows.rows[r].error) > k_closed) return false;
-    }
+// One step of the method. Answers the widest opening before it.
+std::int64_t JointSolver::approach(const JointRun& run, Group& group, bool turn) {
+  look_ahead(run, group, turn);
+  const std::int64_t widest = set_position_errors(group);
+  if (widest > k_rounding) solve_locks(run, group, true);
+  return widest;
+}
+
+// Answers whether all locks hold afterwards. Each step leaves about the same part of an opening:
+// once that is nothing, there is no need to look.
+bool JointSolver::close(const JointRun& run, Group& group) {
+  std::int64_t before = 0;
+  const int solves = group.drifts ? 2 * k_position_solves : k_position_solves;
+  for (int i = 0; i < solves; ++i) {
+    const std::int64_t widest = approach(run, group, false);
+    if (widest <= k_rounding) return true;
+    const bool converges = widest <= before && before <= 16 * k_closed;
+    if (converges && widest * widest <= k_rounding * before) return true;
+    before = widest;
   }
-  return true;
+  look_ahead(run, group, false);
+  return set_position_errors(group) <= k_closed;
 }
 
 bool JointSolver::is_stiff(const Group& group) const {
@@ -113,7 +133,7 @@ void JointSolver::save(const JointRun& run, const Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     Body& body = bodies_[group_bodies_[group.first_body + i]];
     body.saved_row = run.rows[body.solver];
-    body.saved_before = run.before[body.solver];
+    if (!run.before.empty()) body.saved_before = run.before[body.solver];
   }
   for (const std::uint32_t index : joints_of(group))
     joints_[index].saved = joints_[index].locks;
@@ -123,7 +143,7 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     const Body& body = bodies_[group_bodies_[group.first_body + i]];
     run.rows[body.solver] = body.saved_row;
-    run.before[body.solver] = body.saved_before;
+    if (!run.before.empty()) run.before[body.solver] = body.saved_before;
   }
   for (const std::uint32_t index : joints_of(group))
     joints_[index].locks = joints_[index].saved;
@@ -132,28 +152,29 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
 // Solves for the errors that stand on the right-hand side, and pushes.
 void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
-  const auto for_each_row = [&](auto&& f) {
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      Joint& joint = joints_[joints_of(group)[k]];
-      for (std::uint32_t r = 0; r < joint.rows.locks; ++r)
-        f(joint, r, factor_.rhs(columns[k].first_row + r));
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    const Joint& joint = joints_[joints_of(group)[k]];
+    for (std::uint32_t r = 0; r < joint.rows.locks; ++r) {
+      std::int64_t& rhs = factor_.rhs(columns[k].first_row + r);
+      const int shift = 4 + joint.solved[r].exponent - group.exponent;
+      rhs = raw::round_shift(-rhs, std::min(shift, 62));
     }
-  };
-  for_each_row([&](const Joint& joint, std::size_t r, std::int64_t& rhs) {
-    const int shift = 4 + joint.solved[r].exponent - group.exponent;
-    rhs = raw::round_shift(-rhs, std::min(shift, 62));
-  });
+  }
   factor_.solve(group.column, group.count);
-  for_each_row([&](Joint& joint, std::size_t r, std::int64_t& rhs) {
-    const int shift = 4 - joint.solved[r].exponent - group.exponent;
-    const JointRow& row = joint.rows.rows[r];
-    const std::int64_t impulse =
-        bounded(scale_saturating(rhs, joint.inverse_mass, shift), k_row_bound);
-    const bool later = group.exact && !positions;
-    std::int64_t& total = later ? joint.relaxed[row.axis] : joint.locks[row.axis];
-    total = bounded(total + impulse, k_product_bound);
-    push(run, joint, row, impulse);
-  });
+  const bool later = group.exact && !positions;
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    Joint& joint = joints_[joints_of(group)[k]];
+    RowImpulses impulses;
+    for (std::uint32_t r = 0; r < joint.rows.locks; ++r) {
+      const int shift = 4 - joint.solved[r].exponent - group.exponent;
+      const std::int64_t solved = factor_.rhs(columns[k].first_row + r);
+      impulses[r] = bounded(scale_saturating(solved, joint.inverse_mass, shift), k_row_bound);
+      const std::uint8_t axis = joint.rows.rows[r].axis;
+      std::int64_t& total = later ? joint.relaxed[axis] : joint.locks[axis];
+      total = bounded(total + impulses[r], k_product_bound);
+    }
+    push(run, joint, 0, joint.rows.locks, impulses);
+  }
 }
 
 }  // namespace lockstone

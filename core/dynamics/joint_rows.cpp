@@ -65,38 +65,55 @@ RawVec3 divided(const RawVec3& v, std::int64_t divisor_q30) {
 
 class RowFiller {
  public:
-  RowFiller(const JointPlace& place, JointRows& out) : place_(place), out_(out) {
+  RowFiller(const JointPlace& place, RowParts parts, JointRows& out)
+      : place_(place), parts_(parts), out_(out) {
     out_.locks = out_.count = 0;
   }
 
   void fill() {
     const JointRecord& joint = place_.joint;
-    frame_a_ = frame_of(place_.a.rotation, joint.orientation_a);
-    frame_b_ = frame_of(place_.b.rotation, joint.orientation_b);
     arm_a_ = arm_of(place_.a.rotation, joint.anchor_a);
     arm_b_ = arm_of(place_.b.rotation, joint.anchor_b);
     gap_ = (place_.b.position + arm_b_) - (place_.a.position + arm_a_);
     switch (static_cast<JointKind>(joint.kind)) {
       case JointKind::distance:
-        fill_distance();
-        break;
+        return fill_distance();
       case JointKind::pulley:
-        fill_pulley();
-        break;
+        return fill_pulley();
       case JointKind::gear:
-        fill_gear();
-        break;
+        set_frames();
+        return fill_gear();
       case JointKind::rack:
-        fill_rack();
-        break;
+        set_frames();
+        return fill_rack();
       default:
-        fill_linear();
-        fill_angular();
         break;
     }
+    const bool world_axes = has_world_axes(joint);
+    const bool turns = is_wanted(3) || is_wanted(4) || is_wanted(5);
+    if (!world_axes || turns) set_frames();
+    if (world_axes)
+      lock_anchors();
+    else
+      fill_linear();
+    if (turns) fill_angular();
   }
 
  private:
+  void set_frames() {
+    frame_a_ = frame_of(place_.a.rotation, place_.joint.orientation_a);
+    frame_b_ = frame_of(place_.b.rotation, place_.joint.orientation_b);
+  }
+
+  // Whether an axis can have a row of the wanted parts.
+  [[nodiscard]] bool is_wanted(std::size_t axis) const {
+    const JointAxisRecord& settings = place_.joint.axes[axis];
+    if (place_.joint.mode(axis) != AxisMode::free) {
+      return parts_ == RowParts::all || is_rigid(axis) || settings.lower == settings.upper;
+    }
+    return parts_ == RowParts::all && settings.is_driven();
+  }
+
   // A row along n, positive where b goes that way.
   [[nodiscard]] JointRow linear_row(const RawVec3& n, const Vec3<Position>& arm_a) const {
     JointRow row;
@@ -120,6 +137,7 @@ class RowFiller {
   }
 
   void push(JointRow row, std::size_t axis, RowKind kind, std::int64_t error) {
+    if (kind != RowKind::lock && parts_ != RowParts::all) return;
     row.axis = static_cast<std::uint8_t>(axis);
     row.kind = kind;
     row.error = error;
@@ -139,8 +157,9 @@ class RowFiller {
     const bool soft = mode == AxisMode::locked && settings.is_spring();
     if (mode == AxisMode::locked && !soft) return push(row, axis, RowKind::lock, value);
     if (mode == AxisMode::limited && limits) {
-      add_limit(axis, row, value - value_of(axis, settings.lower),
-                value_of(axis, settings.upper) - value);
+      const std::int64_t above = value - value_of(axis, settings.lower);
+      if (settings.lower == settings.upper) return push(row, axis, RowKind::lock, above);
+      add_limit(axis, row, above, value_of(axis, settings.upper) - value);
     }
     if (!settings.is_driven()) return;
     JointRow drive = row;
@@ -149,7 +168,6 @@ class RowFiller {
   }
 
   void add_limit(std::size_t axis, const JointRow& row, std::int64_t above, std::int64_t below) {
-    if (above + below == 0) return push(row, axis, RowKind::lock, above);
     if (above <= below) return push(row, axis, RowKind::limit, above);
     JointRow opposite = row;
     opposite.linear_a = negated(row.linear_a), opposite.linear_b = negated(row.linear_b);
@@ -173,19 +191,40 @@ class RowFiller {
     return shifted(angle, -place_.exponent);
   }
 
+  // Three locks along the axes of the world.
+  void lock_anchors() {
+    const RawVec3 lever_a = scaled_arm(arm_a_, place_.scale_a);
+    const RawVec3 lever_b = scaled_arm(arm_b_, place_.scale_b);
+    for (std::size_t i = 0; i < 3; ++i) {
+      JointRow& row = out_.rows[i];
+      row.axis = static_cast<std::uint8_t>(i);
+      row.kind = RowKind::lock;
+      row.flipped = false;
+      row.error = bounded(gap_[static_cast<int>(i)].raw, k_product_bound);
+      if (parts_ == RowParts::lock_errors) continue;
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      row.linear_a = row.linear_b = {};
+      row.linear_a[i] = -k_one;
+      row.linear_b[i] = k_one;
+      row.angular_a = row.angular_b = {};
+      row.angular_a[j] = -lever_a[k], row.angular_a[k] = lever_a[j];
+      row.angular_b[j] = lever_b[k], row.angular_b[k] = -lever_b[j];
+    }
+    out_.locks = out_.count = 3;
+  }
+
+  // An arm in Q32, as lever(arm, n, exponent) has it for axes of the world.
+  [[nodiscard]] static RawVec3 scaled_arm(const Vec3<Position>& arm, int exponent) {
+    const auto part = [&](Position p) { return product_rounded(p.raw, k_one, 32 + exponent); };
+    return {part(arm.x), part(arm.y), part(arm.z)};
+  }
+
   void fill_linear() {
-    const bool world_axes = has_world_axes(place_.joint);
-    const Vec3<Position> arm_a = world_axes ? arm_a_ : arm_a_ + gap_;
+    const Vec3<Position> arm_a = arm_a_ + gap_;
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
-      if (place_.joint.mode(axis) == AxisMode::free && !place_.joint.axes[axis].is_driven()) {
-        continue;
-      }
-      RawVec3 n = raw_of(frame_a_.column(i));
-      if (world_axes) {
-        n = {};
-        n[axis] = k_one;
-      }
+      if (!is_wanted(axis)) continue;
+      const RawVec3 n = raw_of(frame_a_.column(i));
       add_axis(axis, linear_row(n, arm_a), along(gap_, n));
     }
   }
@@ -197,19 +236,19 @@ class RowFiller {
     return sum.rounded(30);
   }
 
-  [[nodiscard]] bool is_used(std::size_t axis) const {
-    return place_.joint.mode(axis) != AxisMode::free || place_.joint.axes[axis].is_driven();
-  }
   [[nodiscard]] bool is_rigid(std::size_t axis) const {
     return place_.joint.mode(axis) == AxisMode::locked && !place_.joint.axes[axis].is_spring();
   }
 
   void fill_angular() {
-    if (is_used(3)) add_twist();
+    if (is_wanted(3)) add_twist();
     const bool cone = place_.joint.is(JointKind::ball) && place_.joint.mode(4) == AxisMode::limited;
-    if (cone) add_cone();
-    if (is_used(4)) add_swing(4, negated(raw_of(frame_a_.z)), !cone);
-    if (is_used(5)) add_swing(5, raw_of(frame_a_.y), !cone);
+    if (cone && parts_ == RowParts::all) add_cone();
+    const auto swings = [&](std::size_t axis) {
+      return is_wanted(axis) && (!cone || place_.joint.axes[axis].is_driven() || is_rigid(axis));
+    };
+    if (swings(4)) add_swing(4, negated(raw_of(frame_a_.z)), !cone);
+    if (swings(5)) add_swing(5, raw_of(frame_a_.y), !cone);
   }
 
   // The twist's rate is ω·(xA + xB) / (1 + xA·xB).
@@ -259,6 +298,7 @@ class RowFiller {
   }
 
   void fill_distance() {
+    if (!is_wanted(0)) return;
     const Direction d = direction(gap_);
     if (d.length == 0) return;
     const JointRow row = linear_row(raw_of(d.unit), arm_a_);
@@ -329,6 +369,7 @@ class RowFiller {
   }
 
   const JointPlace& place_;
+  const RowParts parts_;
   JointRows& out_;
   Mat3 frame_a_{}, frame_b_{};
   Vec3<Position> arm_a_{}, arm_b_{}, gap_{};
@@ -354,8 +395,8 @@ RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
   return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
 }
 
-void fill_rows(const JointPlace& place, JointRows& out) {
-  RowFiller(place, out).fill();
+void fill_rows(const JointPlace& place, RowParts parts, JointRows& out) {
+  RowFiller(place, parts, out).fill();
 }
 
 }  // namespace lockstone

@@ -58,8 +58,11 @@ struct JointPlace {
   int exponent;  // of angular rows
 };
 
+/// What of a joint's rows is wanted; without Jacobians only errors are.
+enum class RowParts : std::uint8_t { all, locks, lock_errors };
+
 /// Jacobians and errors; responses are left alone.
-void fill_rows(const JointPlace& place, JointRows& out);
+void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
 
 /// Whether the locks of the first three axes are along the axes of the world, not of frame a.
 [[nodiscard]] bool has_world_axes(const JointRecord& joint);

@@ -13,6 +13,9 @@ constexpr int k_velocity_solves = 2;
 // Of sweeps over drives and limits before positions move.
 constexpr int k_sweeps = 2;
 
+// Locks that open more slowly stand still, m/s, Q50: 0.06 nm/s.
+constexpr std::int64_t k_still = std::int64_t{1} << 16;
+
 }  // namespace
 
 JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
@@ -31,6 +34,8 @@ JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
   by_body_.reserve(2 * joint_capacity);
   order_.reserve(joint_capacity);
   seen_.reserve(joint_capacity);
+  sorted_.reserve(joint_capacity);
+  clusters_.reserve(joint_capacity);
   groups_.reserve(joint_capacity);
 }
 
@@ -66,10 +71,7 @@ void JointSolver::add(const JointRecord& record, const Side& a, const Side& b) {
   link.b = take_up(b);
 }
 
-// Where gravity acts half before and half after positions move, so do locks.
-void JointSolver::load_impulses(Joint& joint) const {
-  const auto is_centred = [](const Body& body) { return !body.pushed || body.centred; };
-  const int shift = is_centred(bodies_[joint.a]) && is_centred(bodies_[joint.b]) ? 29 : 30;
+void JointSolver::load_impulses(Joint& joint, int shift) const {
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     joint.locks[i] = std::int64_t{joint.record->axes[i].impulse.raw} * (1 << shift);
     joint.relaxed[i] = 0;
@@ -78,62 +80,113 @@ void JointSolver::load_impulses(Joint& joint) const {
 }
 
 void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contacts) {
-  for (Body& body : bodies_)
+  for (Body& body : bodies_) {
     body.centred = body.pushed && !body.in_net && body.solver >= first_without_contacts;
+    body.rate = step_.substep_rate();
+  }
+  for (Group& group : groups_)
+    group.rate = step_.substep_rate();
+  // Where gravity acts half before and half after positions move, so do locks.
+  const auto is_centred = [](const Body& body) { return !body.pushed || body.centred; };
   for (Joint& joint : joints_)
-    load_impulses(joint);
-  set_inertias(run, true);
-}
-
-void JointSolver::prepare() {
+    load_impulses(joint, is_centred(bodies_[joint.a]) && is_centred(bodies_[joint.b]) ? 29 : 30);
+  pulls_.assign(bodies_.size(), 0);
+  add_pulls(joints_, false);
+  add_net_pulls();
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
+    resist_pull(run, body);
   after_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     after_[i] = bodies_[i].pose;
-  linearize();
-}
-
-void JointSolver::warm_start(const JointRun& run) {
-  for (Joint& joint : joints_) {
-    for (std::size_t i = 0; i < joint.rows.count; ++i) {
-      const JointRow& row = joint.rows.rows[i];
-      if (row.kind == RowKind::drive) {
-        push(run, joint, row, joint.driven[row.axis]);
-        continue;
-      }
-      std::int64_t& impulse = joint.locks[row.axis];
-      joint.relaxed[row.axis] = 0;
-      if (row.kind == RowKind::limit && (row.flipped ? impulse > 0 : impulse < 0)) impulse = 0;
-      push(run, joint, row, row.flipped ? -impulse : impulse);
-    }
+  for (Cluster& cluster : clusters_) {
+    cluster.free = can_drift(cluster);
+    if (cluster.free) groups_of(cluster)[0].drifts = true;
+    for (const std::uint32_t body : bodies_of(cluster))
+      bodies_[body].free = cluster.free;
   }
 }
 
-void JointSolver::solve(const JointRun& run) {
-  for (int i = 0; i < k_sweeps; ++i) {
-    for (Joint& joint : joints_) {
-      solve_drives(run, joint);
-      solve_limits(run, joint, true);
+void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
+    linearize(clusters_[i]);
+    if (clusters_[i].free) drift(run, clusters_[i]);
+  }
+}
+
+void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
+    Cluster& cluster = clusters_[i];
+    const bool is_last = ++cluster.substep == step_.substeps;
+    if (cluster.free) set_rate(cluster, std::int64_t{step_.substep_rate()} * (is_last ? 2 : 1));
+    for (Joint& joint : joints_of(cluster))
+      warm_start(run, joint);
+  }
+}
+
+void JointSolver::warm_start(const JointRun& run, Joint& joint) {
+  RowImpulses impulses;
+  joint.carried = joint.relaxed;
+  for (std::size_t i = 0; i < joint.rows.count; ++i) {
+    const JointRow& row = joint.rows.rows[i];
+    if (row.kind == RowKind::drive) {
+      impulses[i] = joint.driven[row.axis];
+      continue;
     }
-    for (Group& group : groups_) {
+    std::int64_t& impulse = joint.locks[row.axis];
+    joint.relaxed[row.axis] = 0;
+    if (row.kind == RowKind::limit && (row.flipped ? impulse > 0 : impulse < 0)) impulse = 0;
+    impulses[i] = row.flipped ? -impulse : impulse;
+  }
+  push(run, joint, 0, joint.rows.count, impulses);
+}
+
+void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i)
+    solve(run, clusters_[i]);
+}
+
+void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
+  bool exact = false;  // and locked as the last sweep left it
+  for (int i = 0; i < k_sweeps; ++i) {
+    bool pushed = false;
+    for (Joint& joint : joints_of(cluster)) {
+      pushed = solve_drives(run, joint) || pushed;
+      pushed = solve_limits(run, joint, true) || pushed;
+    }
+    if (exact && !pushed) return;
+    for (Group& group : groups_of(cluster)) {
+      exact = group.exact;
       if (!group.exact) {
         set_speed_errors(run, group, true);
         solve_locks(run, group, true);
-      } else if (i == 0 || !group.is_plain) {
+      } else if (pushed && i + 1 < k_sweeps && !is_stiff(group)) {
+        exact = false;
+        approach(run, group, false);
+      } else {
         solve_positions(run, group);
       }
     }
   }
 }
 
-void JointSolver::relax(const JointRun& run) {
-  set_inertias(run, false);
-  linearize();
+void JointSolver::relax(const JointRun& run, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i)
+    relax(run, clusters_[i]);
+}
+
+void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
+  for (const std::uint32_t body : bodies_of(cluster))
+    pulls_[body] = 0;
+  add_pulls(joints_of(cluster), cluster.free);
+  for (const std::uint32_t body : bodies_of(cluster)) {
+    if (bodies_[body].centred && !cluster.free) resist_pull(run, body);
+  }
+  linearize(cluster);
   for (int i = 0; i < k_velocity_solves; ++i) {
-    for (Joint& joint : joints_)
+    for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);
-    for (Group& group : groups_) {
-      set_speed_errors(run, group, false);
-      solve_locks(run, group, false);
+    for (Group& group : groups_of(cluster)) {
+      if (set_speed_errors(run, group, false) > k_still) solve_locks(run, group, false);
     }
   }
 }
@@ -141,6 +194,7 @@ void JointSolver::relax(const JointRun& run) {
 void JointSolver::store(std::size_t added, JointRecord& record) const {
   if (links_[added].joint == k_in_net) return;
   const Joint& joint = joints_[links_[added].joint];
+  const bool free = bodies_[joint.a].free || bodies_[joint.b].free;
   const auto to_record = [](std::int64_t impulse) {
     return SolverVelocity::from_raw(raw::saturate<std::int32_t>(raw::round_shift(impulse, 30)));
   };
@@ -153,8 +207,9 @@ void JointSolver::store(std::size_t added, JointRecord& record) const {
     if (row.kind == RowKind::drive) {
       record.axes[row.axis].drive_impulse = to_record(joint.driven[row.axis]);
     } else {
-      record.axes[row.axis].impulse =
-          to_record(bounded(joint.locks[row.axis] + joint.relaxed[row.axis], k_product_bound));
+      record.axes[row.axis].impulse = to_record(bounded(
+          joint.locks[row.axis] + joint.relaxed[row.axis] + (free ? joint.carried[row.axis] : 0),
+          k_product_bound));
     }
   }
 }

@@ -1,7 +1,7 @@
 // The joints of one tick, inside the substeps of the contact solver.
 //
-// Joints that hang together by pushed bodies form a group. In a group that is a tree, or nearly
-// one, all locks are solved at once (`JointFactor`). Of other groups, balls are left to `JointNet`,
+// Joints that hang together by pushed bodies form a cluster. In one that is a tree, or nearly one,
+// all locks are solved at once (`JointFactor`). Of other clusters, balls are left to `JointNet`,
 // and other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
 // beginning of the substep such that locks hold at its end, and at the end such that they do not
 // open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). What this does
@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -64,14 +65,23 @@ class JointSolver {
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
 
-  /// Then: rows and factors.
-  void prepare();
+  /// What hangs together, without what is left to a net. No two share a body that is pushed: the
+  /// functions below take a range of clusters, and ranges may be worked at side by side.
+  [[nodiscard]] std::uint32_t cluster_count() const {
+    return static_cast<std::uint32_t>(clusters_.size());
+  }
+
+  /// Once contacts are prepared: rows and factors; what drifts freely goes half a substep.
+  void prepare(const JointRun& run, std::size_t first, std::size_t end);
 
   /// At the beginning of a substep, after forces: the impulses of the last one again.
-  void warm_start(const JointRun& run);
+  void warm_start(const JointRun& run, std::size_t first, std::size_t end);
 
   /// Before positions move: drives, limits, and locks such that they hold afterwards.
-  void solve(const JointRun& run);
+  void solve(const JointRun& run, std::size_t first, std::size_t end);
+
+  /// After positions moved: locks and limits such that they do not open.
+  void relax(const JointRun& run, std::size_t first, std::size_t end);
 
   /// Writes where they are to `places`, each by itself.
   void place(const JointRun& run, std::size_t first, std::size_t end) const;
@@ -82,9 +92,6 @@ class JointSolver {
   [[nodiscard]] std::uint32_t body_count() const {
     return static_cast<std::uint32_t>(bodies_.size());
   }
-
-  /// After positions moved: locks and limits such that they do not open.
-  void relax(const JointRun& run);
 
   /// Impulses back to a record, in the order of adding; not of those in a net.
   void store(std::size_t added, JointRecord& joint) const;
@@ -105,7 +112,9 @@ class JointSolver {
     std::uint32_t solver = 0;
     lanes::RowBody saved_row{}, saved_before{};
     bool pushed = false;
-    bool centred = false;  // half kick, drift, half kick
+    bool centred = false;   // half kick, drift, half kick
+    bool free = false;      // half drift, kick, half drift
+    std::int64_t rate = 0;  // 1 / what it drifts for
     bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
@@ -131,6 +140,7 @@ class JointSolver {
     int shift = 1;
     int exponent = 0;  // power of two that scales it in a factor
   };
+  using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
   struct Drive {
     std::int32_t bias_rate = 0;  // 1/s, Q20
     std::int32_t keep = 0;       // Q30: 1 − impulse scale
@@ -144,6 +154,7 @@ class JointSolver {
     std::array<Drive, k_joint_axes> drives{};
     std::array<std::int64_t, k_joint_axes> locks{};    // impulses by axis, Q50; limits too
     std::array<std::int64_t, k_joint_axes> relaxed{};  // of locks, after positions moved
+    std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
     std::uint32_t a = 0, b = 0;  // bodies of this solver
@@ -158,48 +169,84 @@ class JointSolver {
     std::uint32_t body_count = 0;
     std::uint32_t column = 0;
     bool exact = false;
-    bool is_plain = false;  // neither limits nor drives
+    bool drifts = false;
+    std::int64_t rate = 0;  // 1 / what its bodies drift for
     int exponent = 0;       // least of its rows
+  };
+  // Joints that hang together, by index: one exact group, or a group for each joint.
+  struct Cluster {
+    std::uint32_t first_joint = 0;
+    std::uint32_t joint_count = 0;
+    std::uint32_t first_group = 0;
+    std::uint32_t group_count = 0;
+    std::uint32_t first_body = 0;  // in group_bodies_
+    std::uint32_t body_count = 0;
+    std::int32_t substep = 0;
+    bool free = false;
   };
 
   std::uint32_t take_up(const Side& side);
   void link_bodies();
   void find_group(std::uint32_t root);
   void plan_group(Group group);
+  void add_cluster(const Group& group, std::uint32_t first_group);
   void plan_singles(const Group& group);
   [[nodiscard]] bool fits_net(const Link& link) const;
   void add_to_net(Link& link);
   void make_joint(Link& link);
   [[nodiscard]] static std::uint32_t most_locks(const JointRecord& joint);
   void set_drives(Joint& joint) const;
-  void load_impulses(Joint& joint) const;
+  void load_impulses(Joint& joint, int shift) const;
   [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
                                     const JointPose& b) const;
   void add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Length>& anchor);
-  void find_pulls(bool all);
-  void set_inertias(const JointRun& run, bool all);
+  [[nodiscard]] bool can_drift(const Cluster& cluster);
+  [[nodiscard]] bool is_plain(const Joint& joint) const;
+  void set_rate(const Cluster& cluster, std::int64_t rate);
+  void drift(JointRun run, Cluster& cluster);
+  void stay(Cluster& cluster);
+  void move(const JointRun& run, Body& body);
+  void add_pulls(std::span<const Joint> joints, bool free);
+  void add_net_pulls();
+  void resist_pull(const JointRun& run, std::uint32_t body);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
   [[nodiscard]] static InverseInertia inverse_inertia_of(const Body& body, const Mat3& rotation);
-  void linearize();
+  void linearize(const Cluster& cluster);
+  static void hold(const Body& body, RawVec3& linear);
   void respond(Joint& joint, std::size_t rows, bool ahead) const;
   void factor_group(Group& group);
   [[nodiscard]] std::int64_t entry(const Joint& p, std::size_t r, const Joint& q,
                                    std::size_t s) const;
   [[nodiscard]] std::int64_t speed(const JointRun& run, const Joint& joint,
                                    const JointRow& row) const;
-  void push(const JointRun& run, const Joint& joint, const JointRow& row, std::int64_t impulse);
+  void push(const JointRun& run, const Joint& joint, std::size_t row, std::int64_t impulse);
+  void push(const JointRun& run, const Joint& joint, std::size_t first, std::size_t end,
+            const RowImpulses& impulses);
   [[nodiscard]] JointPose pose_after(const JointRun& run, Body& body) const;
-  void solve_drives(const JointRun& run, Joint& joint);
-  void solve_limits(const JointRun& run, Joint& joint, bool positions);
+  void warm_start(const JointRun& run, Joint& joint);
+  void solve(const JointRun& run, const Cluster& cluster);
+  void relax(const JointRun& run, const Cluster& cluster);
+  bool solve_drives(const JointRun& run, Joint& joint);
+  bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);
-  [[nodiscard]] bool is_closed(const Group& group) const;
+  bool close(const JointRun& run, Group& group);
+  std::int64_t approach(const JointRun& run, Group& group, bool turn);
   [[nodiscard]] bool is_stiff(const Group& group) const;
   void save(const JointRun& run, const Group& group);
   void restore(const JointRun& run, const Group& group);
   void look_ahead(const JointRun& run, Group& group, bool turn);
-  void set_position_errors(const Group& group);
-  void set_speed_errors(const JointRun& run, const Group& group, bool positions);
+  std::int64_t set_position_errors(const Group& group);
+  std::int64_t set_speed_errors(const JointRun& run, const Group& group, bool positions);
+  [[nodiscard]] std::span<Joint> joints_of(const Cluster& cluster) {
+    return std::span(joints_).subspan(cluster.first_joint, cluster.joint_count);
+  }
+  [[nodiscard]] std::span<Group> groups_of(const Cluster& cluster) {
+    return std::span(groups_).subspan(cluster.first_group, cluster.group_count);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> bodies_of(const Cluster& cluster) const {
+    return std::span(group_bodies_).subspan(cluster.first_body, cluster.body_count);
+  }
   [[nodiscard]] std::span<const std::uint32_t> joints_of(const Group& group) const {
     return std::span(order_).subspan(group.first, group.count);
   }
@@ -212,19 +259,20 @@ class JointSolver {
   std::vector<std::uint32_t> place_;   // by body of the world: in bodies_, + 1
   std::vector<std::uint32_t> placed_;  // bodies of the world that have a place
   std::vector<Link> links_;
-  std::vector<std::uint32_t> in_net_;  // links
-  std::vector<Joint> joints_;
+  std::vector<std::uint32_t> in_net_;        // links
+  std::vector<Joint> joints_;                // cluster by cluster
   std::vector<std::uint32_t> by_body_;       // links of each pushed body
   std::vector<std::uint32_t> order_;         // joints, group by group, as they are eliminated
   std::vector<std::uint32_t> group_bodies_;  // bodies, group by group
   std::vector<std::uint8_t> seen_;           // by link
   std::vector<std::uint8_t> visited_;        // by body
+  std::vector<std::uint32_t> sorted_;        // links of the cluster at hand, by index
   std::vector<Group> groups_;
+  std::vector<Cluster> clusters_;
   std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale
   std::vector<JointPose> after_;     // by body: where it will be after the substep
   JointFactor factor_;
-  JointRows scratch_;
-  std::uint32_t clamps_ = 0;
+  std::atomic<std::uint32_t> clamps_{0};
 };
 
 }  // namespace lockstone

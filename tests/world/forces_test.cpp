@@ -179,6 +179,81 @@ TEST(AxisLocks, HoldAgainstImpactsWithinATick) {
   EXPECT_LT(to_double(world.velocity(fast).x), 0);
 }
 
+AxisLocks lock_of(int axis) {
+  return {axis == 0, axis == 1, axis == 2, axis == 3, axis == 4, axis == 5};
+}
+
+// How fast a body goes along or about an axis.
+std::int64_t speed_of(const BodyView& body, int axis) {
+  return axis < 3 ? body.velocity[axis].raw : body.angular_velocity[axis - 3].raw;
+}
+
+// Pushed off its centre by a ball on a crooked course, in each axis.
+TEST(AxisLocks, OfEachAxisHoldAgainstContacts) {
+  for (int axis = 0; axis < 6; ++axis) {
+    SCOPED_TRACE(axis);
+    World world = empty_space();
+    BodyDef def = cube();
+    def.locks = lock_of(axis);
+    const BodyHandle held = test::add(world, def);
+    BodyDef ball = test::dynamic_body(Shape::sphere(0.3_m), -1.2_m, -0.9_m, -1.1_m);
+    ball.velocity = {3_mps, 2_mps, 2.5_mps};
+    test::add(world, ball);
+    test::step(world, 60);
+    const BodyView after = world.body(held);
+    EXPECT_EQ(speed_of(after, axis), 0);
+    EXPECT_EQ(axis < 3 ? after.position[axis].raw : 0, 0);
+    EXPECT_NE(after.position, Vec3<Position>{});
+  }
+}
+
+// A heavy pendulum pulls at a held body in all directions: along a locked axis it gives not a bit.
+TEST(AxisLocks, OfEachAxisHoldAgainstJoints) {
+  for (int axis = 0; axis < 6; ++axis) {
+    SCOPED_TRACE(axis);
+    World world = test::make_world();
+    BodyDef def = cube();
+    def.locks = lock_of(axis);
+    def.gravity_scale = {};
+    const BodyHandle held = test::add(world, def);
+    BodyDef bob = test::dynamic_body(Shape::sphere(0.4_m), 2_m, {}, 1_m);
+    bob.material.density = Density::from_integer(5000);
+    const BodyHandle heavy = test::add(world, bob);
+    JointDef joint = JointDef::of(JointKind::ball, held, heavy);
+    joint.frame_a.position = {0.2_m, -0.4_m, 0.3_m};
+    joint.frame_b.position = {-1.8_m, -0.4_m, -0.7_m};
+    ASSERT_TRUE(world.create_joint(joint).ok());
+    for (int i = 0; i < 60; ++i) {
+      test::step(world, 1);
+      const BodyView now = world.body(held);
+      ASSERT_EQ(speed_of(now, axis), 0);
+      ASSERT_EQ(axis < 3 ? now.position[axis].raw : 0, 0);
+    }
+    EXPECT_NE(world.position(held), Vec3<Position>{});
+  }
+}
+
+// What is locked everywhere is as good as static to a joint.
+TEST(AxisLocks, OfAllAxesCarryAPendulumAsAStaticBodyDoes) {
+  const auto swing = [](bool is_static) {
+    World world = test::make_world();
+    BodyDef def = cube();
+    def.locks = {true, true, true, true, true, true};
+    if (is_static) def.motion = MotionType::static_body;
+    const BodyHandle held = test::add(world, def);
+    const BodyHandle bob = test::add(world, test::dynamic_body(Shape::sphere(0.4_m), 2_m, {}, {}));
+    JointDef joint = JointDef::of(JointKind::ball, held, bob);
+    joint.frame_b.position = {-2_m, {}, {}};
+    EXPECT_TRUE(world.create_joint(joint).ok());
+    test::step(world, 90);
+    EXPECT_EQ(world.position(held), Vec3<Position>{});
+    return world.position(bob);
+  };
+  const Vec3<Position> locked = swing(false), fixed = swing(true);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(test::metres(locked[i]), test::metres(fixed[i]), 1e-4);
+}
+
 TEST(AxisLocks, ACommandStopsTheBody) {
   World world = empty_space();
   BodyDef def = cube();
