@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "core/dynamics/mass_share.h"
 #include "core/math/roots.h"
@@ -58,16 +59,7 @@ std::int32_t impulse_before(const ContactRecord& record, std::size_t like, std::
 void fill_points(const ContactInput& in, ManifoldSource& out) {
   const auto count = static_cast<std::size_t>(in.manifold.count);
   for (std::size_t i = 0; i < lanes::k_block_points; ++i) {
-    ManifoldSource::Point& point = out.points[i];
-    if (i >= count) {
-      point = {};
-      continue;
-    }
-    const ManifoldPoint& from = in.manifold.points[i];
-    point = {{from.anchor_a.x.raw, from.anchor_a.y.raw, from.anchor_a.z.raw},
-             {from.anchor_b.x.raw, from.anchor_b.y.raw, from.anchor_b.z.raw},
-             std::clamp(from.separation.raw, -(1 << 30), 1 << 30),
-             impulse_before(in.record, i, from.feature)};
+    out.impulses[i] = i < count ? impulse_before(in.record, i, in.manifold.points[i].feature) : 0;
   }
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];
@@ -84,6 +76,8 @@ int scale_exponent_of(const SolverBody& a, const SolverBody& b) {
 // Rolling is resisted by arm/ℓ of the normal impulse.
 void fill_rolling(const ContactInput& in, int scale_exponent, ManifoldSource& out) {
   out.rolling = {};
+  out.rolling_limit = 0;
+  if (in.surface.rolling_arm == Length{}) return;
   out.rolling_limit = raw::saturate<std::int32_t>(
       raw::scale_binary(std::int64_t{in.surface.rolling_arm.raw}, 8 - scale_exponent));
   if (out.rolling_limit == 0) return;
@@ -99,6 +93,14 @@ std::int32_t held_along(const ContactInput& in, int axis, std::int32_t share_b) 
 }
 
 }  // namespace
+
+const std::int32_t* geometry_of(const Manifold& manifold) {
+  static_assert(sizeof(Manifold) == sizeof(lanes::ManifoldGeometry) &&
+                offsetof(Manifold, points) == 16 && sizeof(ManifoldPoint) == 32 &&
+                offsetof(ManifoldPoint, anchor_b) == 12 &&
+                offsetof(ManifoldPoint, separation) == 24);
+  return &manifold.normal.x.raw;
+}
 
 ContactSoftness ContactSoftness::of(const TimeStep& step) {
   const std::int64_t rate = step.substep_rate();
@@ -120,9 +122,7 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   const auto inverse_scale = [](const SolverBody& body) {
     return body.turns() ? 1 << (11 - body.scale_exponent) : 0;
   };
-  const Vec3<Unit>& normal = in.manifold.normal;
   const Vec3<SolverVelocity>& friction = in.record.friction_impulse;
-  out.normal = {normal.x.raw, normal.y.raw, normal.z.raw};
   out.friction = {friction.x.raw, friction.y.raw, friction.z.raw};
   out.twist = in.record.twist_impulse.raw;
   fill_points(in, out);
@@ -144,6 +144,8 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.drive = {drive.x.raw, drive.y.raw, drive.z.raw};
   out.twist_drive = raw::saturate<std::int32_t>(
       raw::scale_binary(std::int64_t{in.surface.twist_drive.raw}, scale_exponent));
+  out.held = {};
+  if (a.held == 0 && b.held == 0) return;
   for (int axis = 0; axis < 3; ++axis)
     out.held[static_cast<std::size_t>(axis)] = held_along(in, axis, out.share_b);
 }

@@ -35,7 +35,10 @@ struct ContactInput {
   const ContactSurface& surface;
 };
 
-/// What the lanes prepare a constraint from.
+/// The manifold as lanes read it.
+[[nodiscard]] const std::int32_t* geometry_of(const Manifold& manifold);
+
+/// What else the lanes prepare a constraint from.
 void fill_source(const ContactInput& input, const ContactSoftness& softness,
                  lanes::ManifoldSource& out);
 

@@ -33,6 +33,9 @@ constexpr std::int64_t k_one_over_q28[] = {0, 1 << 28, 1 << 27, ((1 << 28) + 1) 
 // From the Q32 of velocities to the Q50 of rows.
 constexpr int k_row_shift = lanes::k_velocity_bits - lanes::k_grid_bits;
 
+// Of lanes without a contact.
+constexpr lanes::ManifoldGeometry k_no_geometry{};
+
 // What a body may do in a substep, an axis: 1000 m/s, Q50. Sums of sixteen substeps can be read.
 constexpr std::int64_t k_row_limit = std::int64_t{1000} << lanes::k_velocity_bits;
 
@@ -106,7 +109,7 @@ constexpr std::uint32_t k_slot_grain = 64;
 constexpr std::size_t k_most_substep_loops = 6 + 6 * (k_graph_colors + 1);
 
 // How many lanes ahead of the one being filled memory is asked for.
-constexpr std::size_t k_lanes_ahead = 8;
+constexpr std::size_t k_lanes_ahead = 12;
 
 // Of a point, as the record has it.
 std::int64_t mean_impulse(const ContactRecord& record) {
@@ -267,13 +270,13 @@ const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) {
 // Blocks of one colour, counted from its first.
 void ContactSolver::fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
                                 std::size_t end) {
-  lanes::ManifoldSources sources;
+  Scratch scratch;
   const ManifoldKernels& kernels = kernels_of(color);
   std::uint32_t points = 0;
   for (std::size_t i = first; i < end; ++i) {
     const std::size_t block = ranges_[color].first + i;
-    points += fill_block(scene, block, sources);
-    kernels.prepare(sources, inertias_.data(), rows_.data(), before_.data(), blocks_[block],
+    points += fill_block(scene, block, scratch);
+    kernels.prepare(scratch.sources, inertias_.data(), rows_.data(), before_.data(), blocks_[block],
                     approaches_[block]);
   }
   points_.fetch_add(points, std::memory_order_relaxed);
@@ -309,15 +312,15 @@ void ContactSolver::look_ahead(const ContactScene& scene, std::size_t slot) cons
 
 // Answers how many points the block has.
 std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
-                                        lanes::ManifoldSources& sources) {
+                                        Scratch& scratch) {
   std::uint32_t points = 0;
-  SolverBody fixed_a, fixed_b;  // of what never moves
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const std::uint32_t slot = slots_[block * k_block_lanes + lane];
     restitution_[block][lane] = 0;
     if (slot == k_no_contact) {
-      sources.lanes[lane] = {};
-      sources.body_a[lane] = sources.body_b[lane] = 0;
+      scratch.sources.lanes[lane] = {};
+      scratch.sources.body_a[lane] = scratch.sources.body_b[lane] = 0;
+      scratch.sources.geometry[lane] = k_no_geometry.data();
       continue;
     }
     look_ahead(scene, block * k_block_lanes + lane + k_lanes_ahead);
@@ -329,10 +332,12 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
       fixed.scale_exponent = scene.bodies[body].scale_exponent;
       return fixed;
     };
-    const SolverBody& a = side(entry.body_a, record.body_a, fixed_a);
-    const SolverBody& b = side(entry.body_b, record.body_b, fixed_b);
+    const SolverBody& a = side(entry.body_a, record.body_a, scratch.fixed_a);
+    const SolverBody& b = side(entry.body_b, record.body_b, scratch.fixed_b);
+    lanes::ManifoldSources& sources = scratch.sources;
     sources.body_a[lane] = lanes::row_body_offset(row_of(entry.body_a));
     sources.body_b[lane] = lanes::row_body_offset(row_of(entry.body_b));
+    sources.geometry[lane] = geometry_of(scene.manifolds[entry.slot]);
     const ContactSurface& surface = scene.surfaces[entry.slot];
     fill_source({a, b, scene.manifolds[entry.slot], record, surface}, softness_,
                 sources.lanes[lane]);

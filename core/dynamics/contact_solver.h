@@ -114,6 +114,11 @@ class ContactSolver {
     std::uint8_t color = 0;
     bool is_first = false;  // of the tick's substeps
   };
+  // What preparation has at hand.
+  struct Scratch {
+    lanes::ManifoldSources sources;
+    SolverBody fixed_a, fixed_b;  // of what never moves
+  };
   // One contact in the solver.
   struct Entry {
     std::uint32_t record;
@@ -161,8 +166,7 @@ class ContactSolver {
   void fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
                    std::size_t end);
   void look_ahead(const ContactScene& scene, std::size_t slot) const;
-  std::uint32_t fill_block(const ContactScene& scene, std::size_t block,
-                           lanes::ManifoldSources& sources);
+  std::uint32_t fill_block(const ContactScene& scene, std::size_t block, Scratch& scratch);
   void prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
                      std::size_t end);
   void run_piece(const Stage& stage, std::size_t first, std::size_t end);

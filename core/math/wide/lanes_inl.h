@@ -179,6 +179,12 @@ HWY_INLINE HWY_ATTR Lanes select_less(Lanes a, Lanes b, Lanes yes, Lanes no) {
 HWY_INLINE HWY_ATTR bool any_less(Lanes a, Lanes b) {
   return !hn::AllFalse(k_words, hn::Lt(a, b));
 }
+/// Bit i: a < b in lane i.
+HWY_INLINE HWY_ATTR std::uint32_t bits_of_less(Lanes a, Lanes b) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(k_words, hn::Lt(a, b), bytes);
+  return bytes[0];
+}
 HWY_INLINE HWY_ATTR Lanes select_equal(Lanes a, Lanes b, Lanes yes, Lanes no) {
   return hn::IfThenElse(hn::Eq(a, b), yes, no);
 }

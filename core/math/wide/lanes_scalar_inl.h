@@ -22,6 +22,7 @@ inline constexpr std::size_t k_lanes = 1;
 
 using scalar::add;
 using scalar::any_less;
+using scalar::bits_of_less;
 using scalar::clamp;
 using scalar::max;
 using scalar::min;

@@ -79,22 +79,21 @@ struct alignas(64) ManifoldBlock {
   friend bool operator==(const ManifoldBlock&, const ManifoldBlock&) = default;
 };
 
-/// One manifold as geometry and bodies give it, in pieces of 16 bytes.
-struct alignas(64) ManifoldSource {
-  std::array<std::int32_t, 3> normal{};    // Q30
-  std::int32_t one_over_count = 0;         // Q30; 0 without a manifold
+/// A manifold as geometry keeps it (core/geometry/manifold.h), read where it is: the normal, Q30,
+/// and a word that is not read; of each point the anchors on A and on B, m, Q20, its separation, m,
+/// Q24, and a word that is not read. Points beyond the count are not read either.
+using ManifoldGeometry = std::array<std::int32_t, 4 + 8 * k_block_points>;
+
+/// What else a manifold is prepared from, in pieces of 16 bytes.
+struct alignas(16) ManifoldSource {
   std::array<std::int32_t, 3> friction{};  // impulse of the tick before in world axes, m/s, Q20
   std::int32_t twist = 0;                  // m/s, Q20
-  struct Point {
-    std::array<std::int32_t, 3> anchor_a{}, anchor_b{};  // m, Q20
-    std::int32_t separation = 0;                         // m, Q24
-    std::int32_t impulse = 0;  // of the tick before, 0 … k_most_impulse, m/s, Q20
-  };
-  std::array<Point, k_block_points> points{};  // zero beyond the count
-  std::int32_t share_b = 1 << 30;              // αB, Q30
-  std::int32_t coefficient = 0;                // of friction, Q30
-  std::int32_t scale_a = 0, scale_b = 0;       // ℓ/s, Q30
-  std::int32_t bias_rate = 0;                  // as in ManifoldBlock::soft
+  // Of points the impulse of the tick before, 0 … k_most_impulse, m/s, Q20; zero beyond the count.
+  std::array<std::int32_t, k_block_points> impulses{};
+  std::int32_t share_b = 1 << 30;         // αB, Q30
+  std::int32_t coefficient = 0;           // of friction, Q30
+  std::int32_t scale_a = 0, scale_b = 0;  // ℓ/s, Q30
+  std::int32_t bias_rate = 0;             // as in ManifoldBlock::soft
   std::int32_t keep = 1 << 30;
   std::int32_t load = 0;                      // m/s, Q20
   std::int32_t count = 0;                     // of points
@@ -102,15 +101,16 @@ struct alignas(64) ManifoldSource {
   std::int32_t inverse_scale_a = 0, inverse_scale_b = 0;  // 2^11/s, 1 … 2^18; 0: cannot turn
   std::int32_t offset_shift = 20;                         // 20 + k: 13 … 31
   std::int32_t shift = 28;
-  std::array<std::int32_t, 2> unused0{};
+  std::int32_t one_over_count = 0;  // Q30; 0 without a manifold
+  std::int32_t unused0 = 0;
   std::array<std::int32_t, 3> rolling{};  // of the tick before in world axes, m/s, Q20
   std::int32_t rolling_limit = 0;         // as in ManifoldBlock::turn; without one `rolling` is 0
   std::array<std::int32_t, 3> drive{};    // as in ManifoldBlock, in world axes
   std::int32_t twist_drive = 0;
   std::array<std::int32_t, 3> held{};  // by world axis: how much of a push axis locks take, Q30
-  std::array<std::int32_t, 13> unused1{};
+  std::int32_t unused1 = 0;
 };
-static_assert(sizeof(ManifoldSource) == 320);
+static_assert(sizeof(ManifoldSource) == 144);
 
 /// What preparation reads of a body: M = entry · 2^-30 · 2^exponent, exponent told by the pair.
 struct alignas(32) SourceBody {
@@ -121,6 +121,7 @@ struct alignas(32) SourceBody {
 /// The manifolds of a block.
 struct ManifoldSources {
   std::array<std::uint32_t, k_block_lanes> body_a{}, body_b{};  // row_body_offset of the index
+  std::array<const std::int32_t*, k_block_lanes> geometry{};    // first words of ManifoldGeometry
   std::array<ManifoldSource, k_block_lanes> lanes{};
 };
 

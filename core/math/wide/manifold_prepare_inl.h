@@ -67,19 +67,33 @@ HWY_INLINE HWY_ATTR Vector normalized_arm(const Vector& r, Lanes inverse_scale, 
           normalized_arm(r.z, inverse_scale, clamped)};
 }
 
+/// The geometry of each lane, from a word on.
+struct GeometryAt {
+  const std::int32_t* const* geometry;
+  std::size_t word;
+
+  HWY_INLINE HWY_ATTR const std::int32_t* operator()(std::size_t lane) const {
+    return geometry[lane] + word;
+  }
+};
+
 /// Points and their centres on both bodies.
-HWY_INLINE HWY_ATTR void load_source_points(const RecordsAt<const std::int32_t>& at,
-                                            SourceLanes& out, Vector& center_a, Vector& center_b) {
+HWY_INLINE HWY_ATTR void load_source_points(const std::int32_t* const* geometry, SourceLanes& out,
+                                            Vector& center_a, Vector& center_b) {
+  constexpr std::int64_t k_farthest = std::int64_t{1} << 30;
   const Lanes none = broadcast(0);
   Vector sum_a = {none, none, none}, sum_b = {none, none, none};
   for (std::size_t i = 0; i < 4; ++i) {
     Lanes word_0, word_1, word_2, word_3;
-    load_operands(at, 8 + 8 * i, word_0, word_1);
-    load_operands(at, 12 + 8 * i, word_2, word_3);
+    load_two(GeometryAt{geometry, 4 + 8 * i}, word_0, word_1);
+    load_two(GeometryAt{geometry, 8 + 8 * i}, word_2, word_3);
+    const Lanes number = broadcast(static_cast<std::int64_t>(i));
+    for (Lanes* word : {&word_0, &word_1, &word_2, &word_3})
+      *word = select_less(number, out.count, *word, none);
     const Vector on_a = {word_0, upper(word_0), word_1};
     out.point[i] = {upper(word_1), word_2, upper(word_2)};
-    out.separation[i] = word_3;
-    out.impulse[i] = upper_part(word_3);
+    out.separation[i] =
+        clamp(multiply(word_3, broadcast(1)), broadcast(-k_farthest), broadcast(k_farthest));
     sum_a = add(sum_a, multiply(on_a, out.one_over_count));
     sum_b = add(sum_b, multiply(out.point[i], out.one_over_count));
   }
@@ -93,43 +107,47 @@ HWY_INLINE HWY_ATTR void load_source_points(const RecordsAt<const std::int32_t>&
 HWY_INLINE HWY_ATTR Lanes load_source(const ManifoldSources& in, std::size_t lane,
                                       const SourceBody* inertias, SourceLanes& out) {
   constexpr std::uint32_t k_index[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  const RecordsAt<const std::int32_t> at{in.lanes[lane].normal.data(), k_index,
+  const RecordsAt<const std::int32_t> at{in.lanes[lane].friction.data(), k_index,
                                          sizeof(ManifoldSource) / sizeof(std::int32_t)};
   Lanes word_0, word_1;
-  load_operands(at, 0, word_0, word_1);
+  load_two(GeometryAt{&in.geometry[lane], 0}, word_0, word_1);
   out.normal = {word_0, upper(word_0), word_1};
   out.normal = multiply(out.normal, broadcast(1));  // as whole words
-  out.one_over_count = upper(word_1);
-  load_operands(at, 4, word_0, word_1);
+  load_operands(at, 0, word_0, word_1);
   out.friction = {word_0, upper(word_0), word_1};
   out.twist = upper(word_1);
-  Vector center_a{}, center_b{};
-  load_source_points(at, out, center_a, center_b);
-  load_operands(at, 40, word_0, word_1);
+  load_operands(at, 4, word_0, word_1);
+  out.impulse[0] = lower_part(word_0);
+  out.impulse[1] = upper_part(word_0);
+  out.impulse[2] = lower_part(word_1);
+  out.impulse[3] = upper_part(word_1);
+  load_operands(at, 8, word_0, word_1);
   out.share_b = word_0;
   out.share_a = subtract(broadcast(k_one), word_0);
   out.coefficient = upper(word_0);
   out.scale_a = word_1;
   out.scale_b = upper(word_1);
-  load_operands(at, 44, out.soft, word_1);
+  load_operands(at, 12, out.soft, word_1);
   out.load = word_1;
   out.count = upper_part(word_1);
-  load_operands(at, 48, word_0, word_1);
+  load_operands(at, 20, word_0, out.one_over_count);
+  out.offset_shift = lower_part(word_0);
+  out.shift = upper_part(word_0);
+  Vector center_a{}, center_b{};
+  load_source_points(&in.geometry[lane], out, center_a, center_b);
+  load_operands(at, 16, word_0, word_1);
   out.inertia_a = load_tensor(inertias, &in.body_a[lane], word_0);
   out.inertia_b = load_tensor(inertias, &in.body_b[lane], upper(word_0));
   Lanes clamped = broadcast(0);
   out.arm_a = normalized_arm(center_a, word_1, clamped);
   out.arm_b = normalized_arm(center_b, upper(word_1), clamped);
-  load_operands(at, 52, word_0, word_1);
-  out.offset_shift = lower_part(word_0);
-  out.shift = upper_part(word_0);
-  load_operands(at, 56, word_0, word_1);
+  load_operands(at, 24, word_0, word_1);
   out.rolling = {word_0, upper(word_0), word_1};
   out.rolling_limit = upper_part(word_1);
-  load_operands(at, 60, word_0, word_1);
+  load_operands(at, 28, word_0, word_1);
   out.drive = {word_0, upper(word_0), word_1};
   out.twist_drive = upper(word_1);
-  load_operands(at, 64, word_0, word_1);
+  load_operands(at, 32, word_0, word_1);
   out.held = {lower_part(word_0), upper_part(word_0), lower_part(word_1)};
   return clamped;
 }

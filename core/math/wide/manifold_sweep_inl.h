@@ -6,6 +6,8 @@
 #define LKS_WIDE_MANIFOLD_SWEEP_INL_H
 #endif
 
+#include <bit>
+
 #include "core/math/wide/friction_limit.h"
 #include "core/math/wide/manifold_block.h"
 #include "core/math/wide/manifold_motion_inl.h"
@@ -278,17 +280,24 @@ struct FrictionLanes {
   Lanes t, b, twist;
 };
 
-/// Brings back onto the sphere what left it. Few do, so that one at a time is fast enough.
+/// Brings back onto the sphere what left it. Few do, so that one at a time is fast enough; but what
+/// has lost its hold altogether.
 HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, FrictionLanes& f) {
+  const Lanes none = broadcast(0);
+  f = {select_equal(limit, none, none, f.t), select_equal(limit, none, none, f.b),
+       select_equal(limit, none, none, f.twist)};
   const Lanes size = multiply_add(multiply_add(multiply(f.t, f.t), f.b, f.b), f.twist, f.twist);
-  if (!any_less(multiply(limit, limit), size)) return;
+  const std::uint32_t beyond = bits_of_less(multiply(limit, limit), size);
+  if (beyond == 0) return;
   std::int64_t limits[k_lanes], along_t[k_lanes], along_b[k_lanes], about_n[k_lanes];
   store(limit, limits);
   store(f.t, along_t);
   store(f.b, along_b);
   store(f.twist, about_n);
-  for (std::size_t lane = 0; lane < k_lanes; ++lane)
+  for (std::uint32_t left = beyond; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     shorten_friction(limits[lane], along_t[lane], along_b[lane], about_n[lane]);
+  }
   f = {load(along_t), load(along_b), load(about_n)};
 }
 

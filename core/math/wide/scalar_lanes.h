@@ -124,6 +124,10 @@ using Lane = std::int64_t;
 [[nodiscard]] constexpr bool any_less(Lane a, Lane b) {
   return a < b;
 }
+/// Bit i: a < b in lane i.
+[[nodiscard]] constexpr std::uint32_t bits_of_less(Lane a, Lane b) {
+  return a < b ? 1U : 0U;
+}
 /// a = b ? yes : no.
 [[nodiscard]] constexpr Lane select_equal(Lane a, Lane b, Lane yes, Lane no) {
   return a == b ? yes : no;

@@ -16,7 +16,8 @@ constexpr std::int32_t k_one = 1 << 30;
 
 // What a tick works on and leaves.
 struct Scene {
-  std::vector<ManifoldSources> sources;
+  std::vector<ManifoldGeometry> geometry;
+  std::vector<ManifoldSources> sources;  // they point into the geometry, of the first copy
   std::vector<SourceBody> inertias;
   std::vector<BlockWord> restitution;
   std::vector<RowBody> bodies, warm;
@@ -66,7 +67,7 @@ struct SceneMaker {
       body.inertia[i] = small(i < 3 ? 1 : -k_one / 4, k_one);
   }
 
-  void fill_normal(ManifoldSource& in) {
+  void fill_normal(ManifoldGeometry& in) {
     constexpr std::int32_t k_units[][3] = {{k_one, 0, 0},
                                            {0, -k_one, 0},
                                            {0, 0, k_one},
@@ -74,20 +75,22 @@ struct SceneMaker {
                                            {-(k_one / 3), k_one / 3 * 2, k_one / 3 * 2}};
     const std::int32_t* unit = k_units[random.next() % 5];
     for (std::size_t i = 0; i < 3; ++i)
-      in.normal[i] = wild ? operand(random) : unit[i];
+      in[i] = wild ? operand(random) : unit[i];
   }
 
-  void fill_points(ManifoldSource& in) {
+  // What is not read holds anything.
+  void fill_points(ManifoldGeometry& geometry, ManifoldSource& in) {
     in.count = fixed(0, 4);
     in.one_over_count = in.count == 0 ? 0 : k_one / in.count;
-    for (std::int32_t i = 0; i < in.count; ++i) {
-      ManifoldSource::Point& point = in.points[static_cast<std::size_t>(i)];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        point.anchor_a[axis] = small(-(1 << 20), 1 << 20);
-        point.anchor_b[axis] = small(-(1 << 20), 1 << 20);
-      }
-      point.separation = small(-(1 << 18), 1 << 18);
-      point.impulse = fixed(0, wild ? k_most_impulse : 1 << 18);
+    geometry[3] = operand(random);
+    for (std::size_t i = 0; i < k_block_points; ++i) {
+      std::int32_t* point = &geometry[4 + 8 * i];
+      for (std::size_t anchor = 0; anchor < 6; ++anchor)
+        point[anchor] = small(-(1 << 20), 1 << 20);
+      point[6] = small(-(1 << 18), 1 << 18);
+      point[7] = operand(random);
+      if (i < static_cast<std::size_t>(in.count))
+        in.impulses[i] = fixed(0, wild ? k_most_impulse : 1 << 18);
     }
   }
 
@@ -107,9 +110,9 @@ struct SceneMaker {
     in.held[random.next() % 3] = fixed_a ? k_one : fixed(0, k_one);
   }
 
-  void fill(ManifoldSource& in) {
-    fill_normal(in);
-    fill_points(in);
+  void fill(ManifoldGeometry& geometry, ManifoldSource& in) {
+    fill_normal(geometry);
+    fill_points(geometry, in);
     const bool fixed_a = random.next() % 4 == 0;
     in.share_b = fixed_a ? k_one : fixed(0, k_one);
     in.coefficient = small(0, k_one);
@@ -135,6 +138,7 @@ struct SceneMaker {
 Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   SceneMaker maker{random, wild};
   Scene scene;
+  scene.geometry.resize(blocks * k_block_lanes);
   scene.sources.resize(blocks);
   scene.restitution.resize(blocks);
   scene.blocks.resize(blocks);
@@ -152,7 +156,8 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   for (std::size_t i = 0; i < blocks * k_block_lanes; ++i, next += 2) {
     ManifoldSources& sources = scene.sources[i / k_block_lanes];
     const std::size_t lane = i % k_block_lanes;
-    maker.fill(sources.lanes[lane]);
+    maker.fill(scene.geometry[i], sources.lanes[lane]);
+    sources.geometry[lane] = scene.geometry[i].data();
     sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : row_body_offset(next);
     sources.body_b[lane] = row_body_offset(next + 1);
     scene.restitution[i / k_block_lanes][lane] = random.next() % 2 == 0 ? 0 : k_one / 2;
