@@ -14,6 +14,11 @@ namespace lockstone::geometry {
 /// keeps its feature, so that boxes stacked flush do not change features as they tremble; not on a
 /// steep face, where the height would change too much. Of more than four points `reduce_to_four`
 /// keeps four.
-void face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool flip, Manifold& out);
+///
+/// Answers whether the boxes are known to overlap by `wanted` along every axis, for they share a
+/// ball of that diameter; at 0 a point will do. False where that takes more than a glance at the
+/// polygon, and for `wanted` < 0.
+bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool flip, Fine wanted,
+                   Manifold& out);
 
 }  // namespace lockstone::geometry

@@ -28,14 +28,11 @@ struct BoxMeeting {
   FaceChoice faces;
   bool flip;  ///< whether the manifold is that of B and A
 
-  void on_face_of_a(Manifold& out) const { face_manifold(pair, faces.a, false, flip, out); }
-  void on_face_of_b(Manifold& out) const { face_manifold(pair, faces.b, true, flip, out); }
-  void on_reference(Manifold& out) const {
-    faces.b_is_reference ? on_face_of_b(out) : on_face_of_a(out);
+  bool on_face_of(bool of_b, Fine wanted, Manifold& out) const {
+    return face_manifold(pair, of_b ? faces.b : faces.a, of_b, flip, wanted, out);
   }
-  void on_other(Manifold& out) const {
-    faces.b_is_reference ? on_face_of_a(out) : on_face_of_b(out);
-  }
+  void on_reference(Manifold& out) const { (void)on_face_of(faces.b_is_reference, -1, out); }
+  void on_other(Manifold& out) const { (void)on_face_of(!faces.b_is_reference, -1, out); }
   void take(const Manifold& found, Manifold& out) const { out = flip ? flipped(found) : found; }
   void part_by(const Vec3<Unit>& axis, Manifold& out) const { take(separated_by(axis), out); }
   void take_nearest(Manifold& out) const {
@@ -49,10 +46,9 @@ struct BoxMeeting {
   }
 };
 
-/// No axis separates the boxes, and a face is preferred. Where they overlap only beside the face,
-/// two edges meet after all.
+/// No axis separates the boxes, and a face is preferred: `out` is the manifold on the reference.
+/// Where they overlap only beside the face, two edges meet after all.
 void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
-  meeting.on_reference(out);
   if (touches(out)) return;
   const EdgeAxis edge = best_edge(meeting.pair, -k_any_separation);
   if (edge.found && meeting.take_edges(edge, out)) return;
@@ -100,8 +96,17 @@ void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
     if (attains(out, separation)) return;
     return collide_apart(meeting, best_edge(pair, separation), out);
   }
-  const EdgeAxis edge = best_edge(pair, std::min(edge_threshold(separation), Fine{0}));
-  if (!edge.found) return collide_overlapping(meeting, out);
+  // Of what lies on a face, the polygon mostly shows that along every axis the boxes overlap by too
+  // much for an edge.
+  const Fine threshold = std::min(edge_threshold(separation), Fine{0});
+  const Fine wanted = threshold < 0 ? -threshold + k_agreement : 0;
+  const bool shallow = -separation <= pair.half_a[faces.a.axis] / 8;
+  if (shallow && meeting.on_face_of(faces.b_is_reference, wanted, out)) return;
+  const EdgeAxis edge = best_edge(pair, threshold);
+  if (!edge.found) {
+    if (!shallow) meeting.on_reference(out);
+    return collide_overlapping(meeting, out);
+  }
   if (edge.separation > 0) return collide_apart(meeting, edge, out);
   if (!meeting.take_edges(edge, out)) meeting.take_nearest(out);
 }

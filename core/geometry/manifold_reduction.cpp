@@ -46,6 +46,9 @@ struct Selection {
   std::array<int, 4> taken{};
   int count = 0;
 
+  Selection(std::span<const FaceVertex> vertices, int flat_shift)
+      : polygon(vertices), shift(flat_shift) {}
+
   [[nodiscard]] int size() const { return static_cast<int>(polygon.size()); }
   [[nodiscard]] Flat at(int i) const {
     const FaceVertex& v = polygon[static_cast<std::size_t>(i)];
@@ -110,8 +113,7 @@ void include_deepest(Selection& selection) {
   selection.taken[static_cast<std::size_t>(nearest)] = deepest;
 }
 
-Selection select_four(std::span<const FaceVertex> polygon, int shift) {
-  Selection selection{polygon, shift};
+void select_four(Selection& selection) {
   take_extreme(selection);
   selection.take_best([&](const Flat& p) { return square(p - selection.chosen(0)); });
   if (selection.count == 2) {
@@ -124,7 +126,6 @@ Selection select_four(std::span<const FaceVertex> polygon, int shift) {
     selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
   include_deepest(selection);
-  return selection;
 }
 
 /// The lowest of repeated features first.
@@ -152,15 +153,17 @@ int drop_far_vertices(std::span<FaceVertex> polygon, Length margin) {
 
 int reduce_to_four(std::span<FaceVertex> polygon, int shift) {
   sort_by_feature(polygon);
-  polygon = without_repeats(polygon);
+  return reduce_sorted_to_four(without_repeats(polygon), shift);
+}
+
+int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift) {
   if (polygon.size() <= 4) return static_cast<int>(polygon.size());
-  const Selection selection = select_four(polygon, shift);
-  std::array<FaceVertex, 4> chosen;
+  Selection selection(polygon, shift);
+  select_four(selection);
+  // By index is by feature, and no vertex moves up past one that is still needed.
+  sort_few(std::span(selection.taken).first(static_cast<std::size_t>(selection.count)));
   for (std::size_t i = 0; i < static_cast<std::size_t>(selection.count); ++i)
-    chosen[i] = polygon[static_cast<std::size_t>(selection.taken[i])];
-  std::copy_n(chosen.begin(), selection.count, polygon.begin());
-  const auto reduced = polygon.first(static_cast<std::size_t>(selection.count));
-  sort_by_feature(reduced);
+    polygon[i] = polygon[static_cast<std::size_t>(selection.taken[i])];
   return selection.count;
 }
 

@@ -1,11 +1,22 @@
 // From a clipped polygon to at most four points.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <utility>
 
 #include "core/geometry/fine.h"
 
 namespace lockstone::geometry {
+
+/// Sorts a handful by insertion.
+template <class T>
+constexpr void sort_few(std::span<T> values) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    for (std::size_t j = i; j > 0 && values[j] < values[j - 1]; --j)
+      std::swap(values[j], values[j - 1]);
+  }
+}
 
 /// A vertex of a clipped polygon in the frame of a reference face: x and y along the face, z the
 /// height above it. Fine.
@@ -28,6 +39,9 @@ struct FaceVertex {
 /// than the four replaces the nearest of them. Areas are measured with x and y shifted right by
 /// `shift`, which brings their differences within 2^30.
 [[nodiscard]] int reduce_to_four(std::span<FaceVertex> polygon, int shift);
+
+/// The same for vertices that ascend by feature and have one each.
+[[nodiscard]] int reduce_sorted_to_four(std::span<FaceVertex> polygon, int shift);
 
 /// 7.6 µm.
 inline constexpr Fine k_deeper = Fine{1} << (k_fine_bits - 17);

@@ -1,8 +1,11 @@
 // Clipping of a box's face to slabs, against exact quotients and against areas in floating point.
 #include "core/geometry/box_clip.h"
 
+#include <cmath>
 #include <set>
 
+#include "core/geometry/box_face.h"
+#include "core/geometry/preference.h"
 #include "core/math/int128.h"
 #include "tests/geometry/scene.h"
 
@@ -142,6 +145,38 @@ TEST(BoxClip, AVertexBarelyBeyondASideStaysWithItsName) {
   ClipPolygon outside;
   Slab<0>{half, geometry::k_snap}.clip(square, outside);
   EXPECT_EQ(outside[0].at[0], over);
+}
+
+// Boxes that lie on each other, more or less.
+TEST(BoxClip, WhereABallIsSharedNoEdgeOverlapsLess) {
+  Dice dice;
+  int shared = 0, open = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Shape a = dice.shape(ShapeKind::box, 0.02, 1), b = dice.shape(ShapeKind::box, 0.02, 1);
+    const double tilt = std::exp(dice.uniform(std::log(1e-6), std::log(0.3)));
+    const double x = dice.uniform(-1, 1) * tilt,
+                 y = dice.uniform(-3, 3) * (dice.chance(2) ? tilt : 1);
+    const Mat3 ra{}, rb = turned(x, 1, dice.uniform(-1, 1) * tilt, y);
+    const double reach = std::ldexp(a.size.x.raw + b.size.x.raw, -Length::frac_bits);
+    const double depth = std::exp(dice.uniform(std::log(1e-6), std::log(0.02)));
+    const Vec3<Length> offset{metres(dice.uniform(-reach, reach)),
+                              a.size.y + b.size.y - metres(depth), metres(dice.uniform(-0.5, 0.5))};
+    const PosedShape posed_a{a, ra}, posed_b{b, rb};
+    const geometry::BoxPair pair = geometry::make_box_pair(posed_a, posed_b, offset, metres(0.05));
+    const bool of_b = dice.chance(2);
+    const geometry::FaceAxis face = of_b ? best_face_of_b(pair) : best_face_of_a(pair);
+    if (face.separation > 0 || -face.separation > pair.half_a[face.axis] / 8) continue;
+    const Fine wanted = dice.between(0, 2 * -face.separation);
+    Manifold manifold;
+    const bool is_shared = geometry::face_manifold(pair, face, of_b, false, wanted, manifold);
+    shared += is_shared ? 1 : 0;
+    open += is_shared ? 0 : 1;
+    if (is_shared) {
+      EXPECT_FALSE(best_edge(pair, -wanted + geometry::k_agreement).found) << wanted;
+    }
+  }
+  EXPECT_GT(shared, 100);
+  EXPECT_GT(open, 100);
 }
 
 }  // namespace
