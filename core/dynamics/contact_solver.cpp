@@ -105,8 +105,9 @@ void prefetch(const T& object) {
 // What a piece of a loop has at least: a microsecond or so of work.
 constexpr std::uint32_t k_slot_grain = 64;
 
-// Loops of a substep: six of bodies and joints; the colours of contacts twice, of nets four times.
-constexpr std::size_t k_most_substep_loops = 6 + 6 * (k_graph_colors + 1);
+// Loops of a substep: eight of bodies, joints and direct contacts; the colours of contacts twice,
+// of nets four times.
+constexpr std::size_t k_most_substep_loops = 8 + 6 * (k_graph_colors + 1);
 
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 12;
@@ -155,7 +156,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       graph_(body_capacity + contact_capacity, contact_capacity),
       solver_index_(body_capacity),
       joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity)),
-      net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity) {
+      net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
+      direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
   pushed_.reserve(most_rows);
@@ -341,6 +343,8 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     const ContactSurface& surface = scene.surfaces[entry.slot];
     fill_source({a, b, scene.manifolds[entry.slot], record, surface}, softness_,
                 sources.lanes[lane]);
+    if (DirectContacts::is_uneven(sources.lanes[lane].share_b))
+      uneven_.store(true, std::memory_order_relaxed);
     restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);

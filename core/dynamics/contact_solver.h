@@ -17,6 +17,7 @@
 #include "core/dynamics/constraint_graph.h"
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
+#include "core/dynamics/direct_contacts.h"
 #include "core/dynamics/joint_net.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/solver_body.h"
@@ -79,6 +80,7 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
+  [[nodiscard]] std::size_t solved_at_once() const { return direct_.contacts(); }
 
   /// Values that were clamped to their range.
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }
@@ -99,6 +101,7 @@ class ContactSolver {
     velocities,
     warm_joints,
     solve,
+    push_direct,
     lift_net,
     solve_joints,
     positions,
@@ -107,6 +110,7 @@ class ContactSolver {
     relax_joints,
     relax_net,
     relax,
+    relax_direct,
     bounce,
   };
   struct Stage {
@@ -146,6 +150,8 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
+  void take_up_direct();
+  [[nodiscard]] DirectRun direct_run();
   [[nodiscard]] JointRun joint_run();
   [[nodiscard]] NetRun net_run() {
     return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};
@@ -209,6 +215,7 @@ class ContactSolver {
 
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
+  DirectContacts direct_;
   std::uint32_t first_without_contacts_ = 1;  // by number
 
   std::vector<Entry> entries_;
@@ -221,6 +228,7 @@ class ContactSolver {
   std::vector<lanes::BlockWord> restitution_;
   std::atomic<bool> bounces_{false};  // any restitution at all
   std::atomic<bool> holds_{false};    // any locked axis of moving
+  std::atomic<bool> uneven_{false};   // any contact of a light body and a heavy one
   std::vector<Loop> loops_;           // of the sequence at hand
   std::vector<Stage> stages_;         // what they are
 };

@@ -23,7 +23,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   take_up_contacts(scene);
   lay_out();
   points_ = saturations_ = 0;
-  bounces_ = holds_ = false;
+  bounces_ = holds_ = uneven_ = false;
   loops_.clear();
   stages_.clear();
   const std::uint32_t joints = joints_->empty() ? 0 : 1;
@@ -38,6 +38,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       joints_->prepare(joint_run(), first, end);
                     });
+  take_up_direct();
 }
 
 void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
@@ -84,10 +85,12 @@ void ContactSolver::add_net_loops(StageKind kind) {
 // joints and contacts such that they stay.
 void ContactSolver::add_loops_of_substep(bool is_first) {
   const std::uint32_t clusters = joints_->cluster_count();
+  const std::uint32_t direct = direct_.empty() ? 0 : 1;
   const auto bodies = static_cast<std::uint32_t>(members_.size());
   add_loop({StageKind::velocities, 0, is_first}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
   add_loop_of_each_color(StageKind::solve);
+  add_loop({StageKind::push_direct}, direct, 1, true);
   for (int i = 0; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::lift_net);
   add_loop({StageKind::solve_joints}, clusters, k_cluster_grain);
@@ -98,6 +101,7 @@ void ContactSolver::add_loops_of_substep(bool is_first) {
   for (int i = 1; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::relax_net);
   add_loop_of_each_color(StageKind::relax);
+  add_loop({StageKind::relax_direct}, direct, 1, true);
 }
 
 // All substeps; then colours that bounce.
@@ -121,6 +125,10 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints_->warm_start(joint_run(), first, end);
     case StageKind::lift_net:
       return net_.lift(net_run(), stage.color, first, end);
+    case StageKind::push_direct:
+      return direct_.solve(direct_run(), true);
+    case StageKind::relax_direct:
+      return direct_.solve(direct_run(), false);
     case StageKind::solve_joints:
       return joints_->solve(joint_run(), first, end);
     case StageKind::positions:

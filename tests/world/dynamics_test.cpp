@@ -72,16 +72,44 @@ TEST(Stack, OfFortyBoxesLosesNoMillimetreInAMinute) {
   expect_stack_stands_for_a_minute(40, 1e-3);
 }
 
-TEST(Stack, CarriesAHundredfoldWeight) {
+/// How far a box of a metre sinks at most in ten seconds on `legs` boxes of which it weighs `ratio`
+/// times one, from `height` above them.
+double sunk_on_light_boxes(int legs, int ratio, Position height) {
   World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
   test::add_ground(world);
-  BodyDef light = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
-  light.material.density = Density::from_integer(10);
-  test::add(world, light);
-  const BodyHandle heavy =
-      test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 1.5_m, {}));
-  test::step(world, 1800);
-  EXPECT_NEAR(metres(world.position(heavy).y), 1.5, 1e-4);
+  for (int i = 0; i < legs; ++i) {
+    const Shape leg = Shape::box(0.5_m, 0.5_m, 0.5_m);
+    const Position x = Position::from_integer(2 * i), z = Position::from_integer(i % 2 * 2);
+    BodyDef light = test::dynamic_body(leg, legs == 1 ? Position{} : x, 0.5_m, z);
+    light.material.density = Density::from_integer(1);
+    test::add(world, light);
+  }
+  const Length half = legs == 1 ? Length(0.5_m) : Length(5_m);
+  const Position x = Position::from_integer(legs - 1), z = legs == 1 ? Position{} : Position(1_m);
+  BodyDef def = test::dynamic_body(Shape::box(half, 0.5_m, half), x, height + Position(1.5_m), z);
+  def.material.density = Density::from_integer(legs == 1 ? ratio : ratio / 100);
+  const BodyHandle heavy = test::add(world, def);
+  double sunk = 0;
+  for (int tick = 0; tick < 600; ++tick) {
+    test::step(world, 1);
+    sunk = std::max(sunk, 1.5 - metres(world.position(heavy).y));
+  }
+  EXPECT_LT(speed_of(world, heavy), 1e-4);
+  return sunk;
+}
+
+TEST(Stack, CarriesTenThousandTimesItsWeight) {
+  for (const int ratio : {10, 100, 1000, 10000})
+    EXPECT_LT(sunk_on_light_boxes(1, ratio, {}), 1e-3) << ratio;
+}
+
+TEST(Stack, OfALightBoxWithstandsAFallOfAHeavyOne) {
+  for (const int ratio : {10, 100, 1000})
+    EXPECT_LT(sunk_on_light_boxes(1, ratio, 0.5_m), 0.005) << ratio;
+}
+
+TEST(Stack, OfLegsCarriesATableOfThousandTimesTheirWeight) {
+  EXPECT_LT(sunk_on_light_boxes(4, 1000, {}), 1e-4);
 }
 
 TEST(Spin, OfABoxOnItsFaceEndsByFriction) {

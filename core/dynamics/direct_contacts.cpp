@@ -1,0 +1,211 @@
+// Which contacts are solved at once.
+
+#include "core/dynamics/direct_contacts.h"
+
+#include <algorithm>
+
+#include "core/dynamics/mass_share.h"
+#include "core/math/product_sum.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::k_block_lanes;
+using lanes::ManifoldBlock;
+
+// What is a tenth of its pair's mass, or less, is light beside the other.
+constexpr std::int32_t k_light_share = (1 << 30) / 10;
+
+// What hangs together with a light body may have so many contacts, a system twice as many.
+constexpr std::size_t k_most_gathered = 32;
+constexpr std::size_t k_most_of_group = 64;
+
+// All systems of a world.
+constexpr std::size_t k_most_contacts = 512;
+
+// The share of the other end's inverse mass is light beside this one's.
+bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
+  const std::int32_t other = link.a == body ? link.share_b : (1 << 30) - link.share_b;
+  return other <= k_light_share;
+}
+
+}  // namespace
+
+DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_capacity)
+    : factor_(std::min(contact_capacity, k_most_contacts)) {
+  const std::size_t most = std::min(contact_capacity, k_most_contacts) + k_most_gathered;
+  links_.reserve(contact_capacity);
+  left_out_.reserve(body_capacity);
+  marks_.reserve(body_capacity + 1);
+  link_marks_.reserve(contact_capacity);
+  first_link_.reserve(body_capacity + 2);
+  by_body_.reserve(2 * contact_capacity);
+  queue_.reserve(body_capacity + 1);
+  chosen_.reserve(contact_capacity);
+  order_.reserve(contact_capacity);
+  place_.reserve(contact_capacity);
+  contacts_.reserve(most);
+  groups_.reserve(most);
+}
+
+void DirectContacts::clear() {
+  links_.clear();
+  left_out_.clear();
+  contacts_.clear();
+  groups_.clear();
+  factor_.clear();
+}
+
+bool DirectContacts::is_uneven(std::int32_t share_b) {
+  const std::int32_t share_a = (1 << 30) - share_b;
+  const std::int32_t least = std::min(share_a, share_b);
+  return least > 0 && least <= k_light_share;
+}
+
+// The links of each body, by index.
+void DirectContacts::link_bodies(std::size_t body_count) {
+  first_link_.assign(body_count + 1, 0);
+  for (const Link& link : links_)
+    for (const std::uint32_t body : {link.a, link.b})
+      first_link_[body] += body == 0 ? 0 : 1;
+  std::uint32_t total = 0;
+  for (std::uint32_t& first : first_link_) {
+    const std::uint32_t count = first;
+    first = total;
+    total += count;
+  }
+  by_body_.assign(total, 0);
+  for (std::uint32_t i = 0; i < links_.size(); ++i)
+    for (const std::uint32_t body : {links_[i].a, links_[i].b})
+      if (body != 0) by_body_[first_link_[body]++] = i;
+  for (std::size_t body = body_count; body > 0; --body)
+    first_link_[body] = first_link_[body - 1];
+  first_link_[0] = 0;
+}
+
+// Whether gravity and forces push the heavy body towards the light one: n·gain, Q32.
+bool DirectContacts::is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const {
+  const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
+  const std::size_t lane = link.slot % k_block_lanes;
+  const std::int64_t n[] = {static_cast<std::int32_t>(block.axes[0][lane]),
+                            block.axes[0][lane] >> 32,
+                            static_cast<std::int32_t>(block.axes[1][lane])};
+  const std::array<std::int64_t, 3>& gain = run.bodies[heavy_is_b ? link.b : link.a].gain;
+  ProductSum sum;
+  std::int64_t most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.add(n[i], heavy_is_b ? -gain[i] : gain[i]);
+    most = std::max({most, gain[i], -gain[i]});
+  }
+  return most > 0 && sum.rounded(30) > most / 4;
+}
+
+void DirectContacts::plan(const DirectRun& run) {
+  marks_.assign(run.bodies.size(), Mark::none);
+  link_marks_.assign(links_.size(), Mark::none);
+  place_.assign(links_.size(), 0);
+  chosen_.clear();
+  link_bodies(run.bodies.size());
+  for (const std::uint32_t body : left_out_)
+    marks_[body] = Mark::dropped;
+  for (const Link& link : links_) {
+    if (!is_uneven(link.share_b)) continue;
+    const bool heavy_is_b = link.share_b <= k_light_share;
+    if (is_pressed(run, link, heavy_is_b)) gather(heavy_is_b ? link.a : link.b);
+  }
+  order_.clear();
+  for (const std::uint32_t index : chosen_)
+    if (link_marks_[index] == Mark::chosen) plan_group(run, index);
+}
+
+// All contacts of a light body, and of what holds it up, as far as that is not heavy beside it.
+void DirectContacts::gather(std::uint32_t light) {
+  if (marks_[light] != Mark::none) return;
+  const std::size_t first = chosen_.size();
+  queue_.assign(1, light);
+  marks_[light] = Mark::chosen;
+  if (gather_all(first)) return;
+  for (const std::uint32_t body : queue_)
+    marks_[body] = Mark::dropped;
+  drop(first);
+}
+
+bool DirectContacts::gather_all(std::size_t first) {
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    if (!gather_body(queue_[i])) return false;
+    if (chosen_.size() - first > k_most_gathered) return false;
+  }
+  return chosen_.size() <= k_most_contacts;
+}
+
+bool DirectContacts::gather_body(std::uint32_t body) {
+  for (const std::uint32_t index : links_at(body)) {
+    const Link& link = links_[index];
+    if (link_marks_[index] == Mark::none) {
+      link_marks_[index] = Mark::chosen;
+      chosen_.push_back(index);
+    }
+    const std::uint32_t other = link.a == body ? link.b : link.a;
+    if (other == 0) continue;
+    if (marks_[other] == Mark::dropped) return false;
+    if (marks_[other] == Mark::chosen || is_heavy_beside(link, body)) continue;
+    marks_[other] = Mark::chosen;
+    queue_.push_back(other);
+  }
+  return true;
+}
+
+void DirectContacts::drop(std::size_t first) {
+  for (std::size_t i = first; i < chosen_.size(); ++i)
+    link_marks_[chosen_[i]] = Mark::none;
+  chosen_.resize(first);
+}
+
+// What hangs together with a contact through chosen ones, breadth first: backwards, each contact of
+// a tree comes after those beyond it, so that elimination fills nothing in.
+void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
+  Group group;
+  group.first = static_cast<std::uint32_t>(contacts_.size());
+  order_.assign(1, root);
+  link_marks_[root] = Mark::dropped;
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    for (const std::uint32_t body : {links_[order_[i]].a, links_[order_[i]].b}) {
+      if (body == 0) continue;
+      for (const std::uint32_t index : links_at(body)) {
+        if (link_marks_[index] != Mark::chosen) continue;
+        link_marks_[index] = Mark::dropped;
+        order_.push_back(index);
+      }
+    }
+  }
+  group.count = static_cast<std::uint32_t>(order_.size());
+  if (group.count > k_most_of_group) return;
+  std::reverse(order_.begin(), order_.end());
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    place_[order_[k]] = k + 1;
+    contacts_.push_back({});
+    contacts_.back().link = links_[order_[k]];
+    fill(run, contacts_.back());
+  }
+  if (!plan_factor(group)) return contacts_.resize(group.first);
+  for (const Contact& contact : contacts_of(group))
+    make_rigid(run, contact);
+  groups_.push_back(group);
+}
+
+bool DirectContacts::plan_factor(Group& group) {
+  const auto neighbours = [&](std::uint32_t k, const auto& emit) {
+    const Link& link = contacts_[group.first + k].link;
+    for (const std::uint32_t body : {link.a, link.b}) {
+      if (body == 0) continue;
+      for (const std::uint32_t other : links_at(body))
+        if (place_[other] != 0) emit(place_[other] - 1);
+    }
+  };
+  const auto rows = [&](std::uint32_t k) { return contacts_[group.first + k].count; };
+  if (!factor_.plan(group.count, neighbours, rows)) return false;
+  group.column = factor_.first();
+  return true;
+}
+
+}  // namespace lockstone

@@ -1,0 +1,151 @@
+// Contacts through which heavy bodies rest on light ones: their normal impulses, solved at once.
+//
+// Sweeps pass a load on from contact to contact, and where a light body carries a heavy one each
+// takes it on by the ratio of their masses only. Here the points that push are the rows of one
+// system, factored as joints are (LDLᵀ) where they share bodies; what would have to pull is let go,
+// and the rest solved again (an active set, as in D. Baraff, "Fast contact force computation for
+// nonpenetrating rigid bodies", 1994). These contacts are rigid: a soft one would give way.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/joint_factor.h"
+#include "core/dynamics/solver_body.h"
+#include "core/math/wide/manifold_block.h"
+
+namespace lockstone {
+
+/// What the contact solver lends them.
+struct DirectRun {
+  std::span<lanes::RowBody> rows;
+  std::span<const SolverBody> bodies;
+  std::span<lanes::ManifoldBlock> blocks;
+  const lanes::SweepRules& rules;
+};
+
+class DirectContacts {
+ public:
+  /// A contact as the solver has it.
+  struct Link {
+    std::uint32_t slot = 0;              // lane of its block
+    std::uint32_t a = 0, b = 0;          // numbers of its bodies; 0: no impulse moves it
+    std::uint32_t row_a = 0, row_b = 0;  // where their velocities stand
+    std::int32_t share_b = 0;            // of B in the pair's inverse mass, Q30
+  };
+
+  /// No function but this allocates.
+  DirectContacts(std::size_t body_capacity, std::size_t contact_capacity);
+
+  void clear();
+
+  /// In the order of the records. All contacts, if any is worth it.
+  void add(const Link& link) { links_.push_back(link); }
+
+  /// A body whose contacts are left to the sweeps.
+  void leave_out(std::uint32_t body) { left_out_.push_back(body); }
+
+  /// Whether a contact shares its bodies' inverse masses so unevenly that it may be worth it.
+  [[nodiscard]] static bool is_uneven(std::int32_t share_b);
+
+  /// Chooses contacts, makes their blocks rigid, and plans the systems.
+  void plan(const DirectRun& run);
+
+  [[nodiscard]] bool empty() const { return groups_.empty(); }
+  [[nodiscard]] std::size_t contacts() const { return contacts_.size(); }
+
+  /// Normal impulses such that no point closes; with `pushes_out`, such that overlap goes.
+  void solve(const DirectRun& run, bool pushes_out);
+
+ private:
+  enum class Mark : std::uint8_t { none, chosen, dropped };
+  using Triple = std::array<std::int64_t, 3>;
+  // A point of a chosen contact. B feels n, angular_b of its impulse, A the opposite of n,
+  // angular_a; responses are the angular parts through the bodies' inertia. Q30.
+  struct Point {
+    std::int64_t x = 0, y = 0;
+    Triple angular_a{}, angular_b{};
+    Triple response_a{}, response_b{};
+    std::int64_t own = 0;      // response to itself, Q30
+    int exponent = 0;          // power of two that scales its row
+    std::int64_t warp = 0;     // share in what four points in a plane cannot tell apart, Q30
+    std::int64_t speed = 0;    // with what is asked for, Q50
+    std::int64_t change = 0;   // of the impulse, as solved, Q20
+    std::int32_t impulse = 0;  // m/s, Q20
+    bool active = false;
+    bool barred = false;  // for the rest of a solve
+  };
+  struct Contact {
+    Link link;
+    std::array<Point, lanes::k_block_points> points{};
+    std::array<std::uint8_t, lanes::k_block_points> order{};  // of active points
+    std::uint32_t count = 0;
+    std::uint32_t active = 0;
+    std::int64_t warp_size = 0;  // Σ warp², Q30; 0: none
+    Triple normal{}, tangent{}, binormal{};
+    BlockFloat inverse_mass{};   // of the pair
+    std::uint32_t factored = 0;  // bit i: point i stands in the factors
+  };
+  struct Group {
+    std::uint32_t first = 0;  // of contacts_
+    std::uint32_t count = 0;
+    std::uint32_t column = 0;
+    int exponent = 0;  // least of its rows
+    bool is_factored = false;
+  };
+
+  // Which: direct_contacts.cpp.
+  void link_bodies(std::size_t body_count);
+  [[nodiscard]] bool is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const;
+  void gather(std::uint32_t light);
+  bool gather_all(std::size_t first);
+  bool gather_body(std::uint32_t body);
+  void drop(std::size_t first);
+  void plan_group(const DirectRun& run, std::uint32_t root);
+  bool plan_factor(Group& group);
+  [[nodiscard]] std::span<const std::uint32_t> links_at(std::uint32_t body) const {
+    return std::span(by_body_).subspan(first_link_[body],
+                                       first_link_[body + 1] - first_link_[body]);
+  }
+
+  // How: direct_rows.cpp.
+  static void fill(const DirectRun& run, Contact& contact);
+  static void fill_point(const lanes::ManifoldBlock& block, std::size_t lane,
+                         const Contact& contact, Point& point);
+  static void find_exponent(const DirectRun& run, const Contact& contact, Point& point);
+  static void find_warp(Contact& contact);
+  static void make_rigid(const DirectRun& run, const Contact& contact);
+  void read(const DirectRun& run, Contact& contact, bool pushes_out) const;
+  static bool choose_active(Contact& contact);
+  static void flatten(Contact& contact);
+  [[nodiscard]] static std::int64_t entry(const DirectRun& run, const Contact& p, const Point& x,
+                                          const Contact& q, const Point& y);
+  void factor(const DirectRun& run, Group& group);
+  void solve_group(const DirectRun& run, Group& group, bool pushes_out);
+  bool try_once(const DirectRun& run, Group& group, bool pushes_out, bool is_last);
+  bool find_changes(Group& group);
+  static void push_all(const DirectRun& run, Contact& contact, bool only_lets_go);
+  static void push(const DirectRun& run, Contact& contact,
+                   const std::array<std::int32_t, lanes::k_block_points>& next);
+  [[nodiscard]] std::span<Contact> contacts_of(const Group& group) {
+    return std::span(contacts_).subspan(group.first, group.count);
+  }
+
+  std::vector<Link> links_;
+  std::vector<std::uint32_t> left_out_;
+  std::vector<Mark> marks_;                // by body
+  std::vector<Mark> link_marks_;           // by link
+  std::vector<std::uint32_t> first_link_;  // by body: in by_body_
+  std::vector<std::uint32_t> by_body_;     // links
+  std::vector<std::uint32_t> queue_;       // bodies
+  std::vector<std::uint32_t> chosen_;      // links
+  std::vector<std::uint32_t> order_;       // links of a group; by link: place in it
+  std::vector<std::uint32_t> place_;
+  std::vector<Contact> contacts_;
+  std::vector<Group> groups_;
+  JointFactor factor_;
+};
+
+}  // namespace lockstone
