@@ -305,11 +305,15 @@ void ContactSolver::lay_out() {
 }
 
 // Contacts of a colour lie far apart in memory.
-void ContactSolver::look_ahead(const ContactScene& scene, std::size_t slot) const {
-  if (slot >= block_count_ * k_block_lanes || slots_[slot] == k_no_contact) return;
+const ContactSolver::Entry* ContactSolver::look_ahead(
+    std::size_t slot, std::span<const Manifold> manifolds,
+    std::span<const ContactRecord> records) const {
+  slot += k_lanes_ahead;
+  if (slot >= block_count_ * k_block_lanes || slots_[slot] == k_no_contact) return nullptr;
   const Entry& entry = entries_[slots_[slot]];
-  prefetch(scene.manifolds[entry.slot]);
-  prefetch(scene.records[entry.record]);
+  prefetch(manifolds[entry.slot]);
+  prefetch(records[entry.record]);
+  return &entry;
 }
 
 // Answers how many points the block has.
@@ -325,7 +329,8 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
       scratch.sources.geometry[lane] = k_no_geometry.data();
       continue;
     }
-    look_ahead(scene, block * k_block_lanes + lane + k_lanes_ahead);
+    const Entry* ahead = look_ahead(block * k_block_lanes + lane, scene.manifolds, scene.records);
+    if (ahead != nullptr) prefetch(scene.surfaces[ahead->slot]);
     const Entry& entry = entries_[slot];
     const ContactRecord& record = scene.records[entry.record];
     const auto side = [&](std::uint32_t index, std::uint32_t body,
@@ -427,6 +432,7 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
     std::uint32_t clamped = 0;
     for (std::size_t slot = first; slot < end; ++slot) {
       if (slots_[slot] == k_no_contact) continue;
+      look_ahead(slot, manifolds, records);
       const Entry& entry = entries_[slots_[slot]];
       clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[entry.slot],
                                is_alone(entry), records[entry.record], approaches[entry.record]);

@@ -171,7 +171,8 @@ class ContactSolver {
   void fill_member(const ContactScene& scene, std::size_t index);
   void fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
                    std::size_t end);
-  void look_ahead(const ContactScene& scene, std::size_t slot) const;
+  const Entry* look_ahead(std::size_t slot, std::span<const Manifold> manifolds,
+                          std::span<const ContactRecord> records) const;
   std::uint32_t fill_block(const ContactScene& scene, std::size_t block, Scratch& scratch);
   void prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
                      std::size_t end);

@@ -11,16 +11,16 @@ using namespace lockstone::literals;
 using scenes::millimetres;
 
 constexpr std::uint32_t k_cells = 224;  // each way
-constexpr int k_cell_mm = 800;
+constexpr int k_cell_mm = 1600;
 constexpr int k_half_mm = static_cast<int>(k_cells) * k_cell_mm / 2;
 
-// Ridges of 8 m in both directions.
+// Ridges of 16 m in both directions.
 int height_mm(std::uint32_t x, std::uint32_t z) {
   const auto ridge = [](std::uint32_t i) {
     const auto at = static_cast<int>(i % 64);
     return at < 32 ? at : 64 - at;
   };
-  return 120 * ridge(x) + 130 * ridge(z + x / 3);
+  return 240 * ridge(x) + 260 * ridge(z + x / 3);
 }
 
 AssetPtr make_mesh() {
@@ -33,7 +33,7 @@ AssetPtr make_mesh() {
     const auto place = [](std::uint32_t n) {
       return arena::millimetres_long(static_cast<int>(n) * k_cell_mm - k_half_mm);
     };
-    const int bump_mm = random.between(0, 150);
+    const int bump_mm = random.between(0, 300);
     vertices.push_back({place(x), arena::millimetres_long(height_mm(x, z) + bump_mm), place(z)});
     if (x == k_cells || z == k_cells) continue;
     triangles.push_back({i, i + k_row, i + 1});
@@ -54,7 +54,7 @@ World make_terrain(BroadPhaseKind broad_phase) {
   for (int i = 0; i < k_side * k_side; ++i) {
     const auto place = [&](int n) { return millimetres((2 * n + 1 - k_side) * k_spacing_mm / 2); };
     const Shape shape = i % 4 == 0 ? rock->shape() : scenes::random_shape(random);
-    BodyDef body = scenes::loose(shape, {place(i % k_side), 10_m, place(i / k_side)});
+    BodyDef body = scenes::loose(shape, {place(i % k_side), 18_m, place(i / k_side)});
     body.orientation = scenes::random_orientation(random);
     scenes::add(world, body);
   }

@@ -23,7 +23,7 @@ double aside(const World& world, BodyHandle body, double x = 0, double z = 0) {
 // Unit boxes; the top one tells.
 StabilityResult stack(int boxes, double seconds, bool sleeps) {
   WorldDef def = contact_world(128);
-  if (!sleeps) def.sleep_ms = 0;
+  if (sleeps) def.sleep_ms = WorldDef{}.sleep_ms;
   SceneRun scene(k_usual_setting, def);
   scene.add(ground());
   BodyHandle top;
@@ -43,6 +43,12 @@ StabilityResult stack_50(double seconds) {
 }
 StabilityResult stack_100(double seconds) {
   return stack(100, seconds, false);
+}
+StabilityResult stack_10_asleep(double seconds) {
+  return stack(10, seconds, true);
+}
+StabilityResult stack_50_asleep(double seconds) {
+  return stack(50, seconds, true);
 }
 StabilityResult stack_100_asleep(double seconds) {
   return stack(100, seconds, true);
@@ -131,10 +137,20 @@ StabilityResult overlap(double seconds) {
                               {"deepest overlap left", "m", deepest_overlap(scene.world()), 0.01}});
 }
 
-// Balls and boxes in a pit, stirred for ever.
+// Balls, boxes and capsules in a pit, stirred for ever.
 StabilityResult mixed(double seconds) {
-  WorldDef def = contact_world(128);
-  SceneRun scene(k_usual_setting, def);
+  SceneRun scene(k_usual_setting, contact_world(128));
+  fill_stirred_pit(scene);
+  const auto [speed, norm] = worst_of(scene, seconds, greatest_speed, worst_norm);
+  return stability_of(scene,
+                      {{"greatest speed", "m/s", speed, 15},
+                       {"quaternion's length off 1", "", norm, 1e-8},
+                       {"deepest centre below the floor", "m", greatest_depth(scene.world()), 0}});
+}
+
+}  // namespace
+
+void fill_stirred_pit(SceneRun& scene) {
   scene.add(ground());
   for (int side = 0; side < 4; ++side) {
     BodyDef wall = ground();
@@ -156,17 +172,16 @@ StabilityResult mixed(double seconds) {
                                      : Shape::box(0.4_m, 0.3_m, 0.35_m);
     scene.add(body_at(shape, x, 2 + i / 16 * 1.2, z));
   }
-  const auto [speed, norm] = worst_of(scene, seconds, greatest_speed, worst_norm);
-  return stability_of(scene,
-                      {{"greatest speed", "m/s", speed, 15},
-                       {"quaternion's length off 1", "", norm, 1e-8},
-                       {"deepest centre below the floor", "m", greatest_depth(scene.world()), 0}});
 }
+
+namespace {
 
 constexpr StabilityRow k_rows[] = {
     {"stack-10", "ten boxes, which never sleep", 600, stack_10},
     {"stack-50", "fifty boxes, which never sleep", 600, stack_50},
     {"stack-100", "a hundred boxes, which never sleep", 600, stack_100},
+    {"stack-10-asleep", "ten boxes, which may sleep", 600, stack_10_asleep},
+    {"stack-50-asleep", "fifty boxes, which may sleep", 600, stack_50_asleep},
     {"stack-100-asleep", "a hundred boxes, which may sleep", 600, stack_100_asleep},
     {"pyramid-100", "a pyramid of 100 rows", 60, pyramid},
     {"mass-ratio", "a box on another one of 1/100,000 of its mass", 600, mass_ratio},

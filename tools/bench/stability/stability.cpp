@@ -7,7 +7,7 @@ namespace lockstone::bench {
 std::span<const StabilityRow> stability_rows() {
   static const std::vector<StabilityRow> rows = [] {
     std::vector<StabilityRow> all;
-    for (const auto& part : {heap_rows(), extreme_rows(), joint_rows()})
+    for (const auto& part : {heap_rows(), extreme_rows(), joint_rows(), limit_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

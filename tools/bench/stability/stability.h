@@ -49,5 +49,6 @@ struct StabilityRow {
 [[nodiscard]] std::span<const StabilityRow> heap_rows();
 [[nodiscard]] std::span<const StabilityRow> extreme_rows();
 [[nodiscard]] std::span<const StabilityRow> joint_rows();
+[[nodiscard]] std::span<const StabilityRow> limit_rows();
 
 }  // namespace lockstone::bench

@@ -52,6 +52,9 @@ void for_bodies(const World& world, Visit&& visit) {
   return depth;
 }
 
+/// Sixty balls, boxes and capsules between four walls, and a paddle that turns among them.
+void fill_stirred_pit(SceneRun& scene);
+
 /// Runs a scene: the worst of each measure, which sees the world after every tick.
 template <class... Measures>
 [[nodiscard]] std::array<double, sizeof...(Measures)> worst_of(SceneRun& scene, double seconds,
