@@ -23,7 +23,7 @@ using bench::NeutralScene;
 using bench::Played;
 
 constexpr const char* k_ours_under_node = "lockstone wasm";
-constexpr double k_quick_size = 1100;  // bodies times seconds
+constexpr double k_quick_size = 1000;  // bodies times seconds
 
 std::vector<NeutralScene> scenes_of(const FrontOptions& options) {
   std::vector<NeutralScene> scenes;
@@ -195,7 +195,7 @@ void add_front_options(CLI::App& command, FrontOptions& options) {
   command.add_option("--repeats", options.repeats, "A time is the median of so many")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 8");
+  command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 16");
   command.add_flag("--alone", options.alone, "Without the native peers");
   command.add_option("--node", options.node, "Folder of run.mjs, for peers under Node");
   command.add_option("--wasm", options.wasm, "lockstone_scene_player, ours under Node");
@@ -203,7 +203,7 @@ void add_front_options(CLI::App& command, FrontOptions& options) {
 
 MeasuredFront measure_front(FrontOptions options) {
   if (options.quick) {
-    options.settings = {1, 2, 4, 8};
+    options.settings = {1, 2, 4, 8, 16};
   }
   MeasuredFront measured;
   Progress progress;

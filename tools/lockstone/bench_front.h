@@ -14,7 +14,7 @@ namespace lockstone::tool {
 
 struct FrontOptions {
   std::vector<std::string> scenes;  ///< none: all
-  std::vector<int> settings{1, 2, 4, 8, 16};
+  std::vector<int> settings{1, 2, 4, 8, 16, 32};
   int repeats = 3;
   bool quick = false;  ///< small scenes, fewer settings
   bool alone = false;  ///< ours alone

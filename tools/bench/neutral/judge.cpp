@@ -90,8 +90,13 @@ double slip_angle(const NeutralScene& scene, const Played& played) {
   const double late = std::cbrt(6 * k_way / jerk);
   const double start = played.samples.at(59)[0].position[0];
   for (std::size_t i = 60; i < played.samples.size(); ++i) {
-    if (played.samples[i][0].position[0] - start < k_way) continue;
-    const double angle = scene.tilt[1].degrees * k_degree + rate * (time_of(scene, i) - 1 - late);
+    const double went = played.samples[i][0].position[0] - start;
+    if (went < k_way) continue;
+    // Between two looks: a tick turns gravity by more than engines differ.
+    const double before = played.samples[i - 1][0].position[0] - start;
+    const double time = time_of(scene, i) - (went - k_way) / (went - before) *
+                                                (time_of(scene, i) - time_of(scene, i - 1));
+    const double angle = scene.tilt[1].degrees * k_degree + rate * (time - 1 - late);
     return std::abs(angle - std::atan(scene.friction)) / k_degree;
   }
   return (scene.tilt[2].degrees - std::atan(scene.friction) / k_degree);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <lockstone/world.h>
 
 #include "tools/bench/neutral/engine.h"
@@ -21,14 +23,22 @@ Triple triple(const Vec3<T>& v) {
   return {r.x, r.y, r.z};
 }
 
-WorldDef world_of(const NeutralScene& scene, int substeps) {
+constexpr int k_most_substeps = 16;  // of one tick of a world
+
+// Beyond what a tick of ours can have, several of them make a tick of the scene.
+int ticks_of(int setting) {
+  return std::max(1, setting / k_most_substeps);
+}
+
+WorldDef world_of(const NeutralScene& scene, int setting) {
   WorldDef def;
+  def.tick_rate = static_cast<std::uint16_t>(k_scene_tick_rate * ticks_of(setting));
   const auto bodies = static_cast<std::uint32_t>(scene.bodies.size());
   def.body_capacity = bodies + 1;
   def.pair_capacity = def.contact_capacity = 32 * bodies + 64;
   def.joint_capacity = static_cast<std::uint32_t>(scene.joints.size()) + 1;
   def.sleep_ms = 0;
-  def.substeps = static_cast<std::uint8_t>(substeps);
+  def.substeps = static_cast<std::uint8_t>(setting / ticks_of(setting));
   def.gravity = fixed<Acceleration>(scene.gravity_at(0));
   return def;
 }
@@ -51,8 +61,9 @@ BodyDef body_of(const NeutralBody& body, const NeutralScene& scene) {
 
 class LockstoneEngine final : public NeutralEngine {
  public:
-  LockstoneEngine(const NeutralScene& scene, int substeps)
-      : world_(std::move(World::create(world_of(scene, substeps)).value())) {
+  LockstoneEngine(const NeutralScene& scene, int setting)
+      : world_(std::move(World::create(world_of(scene, setting)).value())),
+        ticks_(ticks_of(setting)) {
     for (const NeutralBody& body : scene.bodies)
       bodies_.push_back(world_.create_body(body_of(body, scene)).value());
     for (const NeutralJoint& joint : scene.joints) {
@@ -63,7 +74,10 @@ class LockstoneEngine final : public NeutralEngine {
     }
   }
 
-  void step() override { (void)world_.step(); }
+  void step() override {
+    for (int tick = 0; tick < ticks_; ++tick)
+      (void)world_.step();
+  }
   void set_gravity(const Triple& gravity) override {
     (void)world_.apply(SetGravity{fixed<Acceleration>(gravity)});
   }
@@ -86,6 +100,7 @@ class LockstoneEngine final : public NeutralEngine {
   }
 
   World world_;
+  int ticks_;  // for one of the scene
   std::vector<BodyHandle> bodies_;
 };
 

@@ -36,11 +36,14 @@ std::optional<Played> play(const NeutralMaker& maker, const NeutralScene& scene,
   const std::unique_ptr<NeutralEngine> engine = maker.make(scene, setting);
   if (engine == nullptr) return std::nullopt;
   Played played{std::string(maker.name), scene.name, setting, {}, 0, {}, {}};
+  const std::uint64_t begin = thread_nanoseconds();
   for (int tick = 0; tick < scene.ticks(); ++tick) {
     drive(*engine, scene, tick);
     engine->step();
     if ((tick + 1) % scene.record_every == 0) played.samples.push_back(look(*engine, scene));
   }
+  const double taken = static_cast<double>(thread_nanoseconds() - begin) * 1e-9;
+  if (taken > k_enough_seconds) played.cpu_seconds.push_back(taken / scene.seconds);
   played.hash = engine->hash();
   return played;
 }

@@ -23,12 +23,13 @@ struct Played {
   [[nodiscard]] double median_seconds() const;
 };
 
-/// Records what happens; nothing when the engine cannot do the scene.
+/// Records what happens; nothing when the engine cannot do the scene. A run of more than half a
+/// second is its own first repeat: what looking at it takes is little beside that.
 [[nodiscard]] std::optional<Played> play(const NeutralMaker& maker, const NeutralScene& scene,
                                          int setting);
 
-/// The same again without looking at anything; adds its time. Nothing once all repeats together took
-/// half a second: long runs need no median.
+/// The same again without looking at anything; adds its time. Nothing once all repeats together
+/// took half a second: long runs need no median.
 void time_again(const NeutralMaker& maker, const NeutralScene& scene, Played& played);
 
 }  // namespace lockstone::bench
