@@ -89,6 +89,7 @@ void JointSolver::resist_pull(const JointRun& run, std::uint32_t index) {
   const auto& own = body.record->inertia;
   const std::int64_t smallest = min(own.x, min(own.y, own.z)).raw;
   const std::uint64_t rounded = std::bit_ceil(static_cast<std::uint64_t>(least));
+  body.pulled = least > smallest / 8;
   set_inertia(run, body,
               least <= smallest
                   ? 0

@@ -14,21 +14,23 @@
 
 namespace lockstone {
 
-bool JointSolver::is_plain(const Joint& joint) const {
+bool JointSolver::is_plain(const Joint& joint) {
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     const JointAxisRecord& axis = joint.record->axes[i];
     if (axis.is_driven()) return false;
     if (joint.record->mode(i) == AxisMode::limited && axis.lower != axis.upper) return false;
   }
-  const auto stands = [](const Body& body) { return body.pushed || body.solver == 0; };
-  return stands(bodies_[joint.a]) && stands(bodies_[joint.b]);
+  return true;
 }
 
 bool JointSolver::can_drift(const Cluster& cluster) {
-  const std::span<const Group> groups = groups_of(cluster);
-  if (cluster.body_count != 1 || !groups[0].exact || is_stiff(groups[0])) return false;
-  return bodies_[bodies_of(cluster)[0]].centred &&
-         std::ranges::all_of(joints_of(cluster), [&](const Joint& j) { return is_plain(j); });
+  const Group& group = groups_of(cluster)[0];
+  if (cluster.body_count != 1 || !group.exact || !group.is_plain || is_stiff(group)) return false;
+  const auto stands = [&](std::uint32_t body) {
+    return bodies_[body].pushed || bodies_[body].solver == 0;
+  };
+  const auto hangs = [&](const Joint& joint) { return stands(joint.a) && stands(joint.b); };
+  return bodies_[bodies_of(cluster)[0]].centred && std::ranges::all_of(joints_of(cluster), hangs);
 }
 
 void JointSolver::set_rate(const Cluster& cluster, std::int64_t rate) {

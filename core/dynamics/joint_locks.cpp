@@ -12,12 +12,13 @@ namespace {
 
 // Of solves for positions in a substep.
 constexpr int k_position_solves = 3;
+constexpr int k_most_solves = 12;
 
 // Locks that are open by less, m, Q32, are closed: 1 µm.
 constexpr std::int64_t k_closed = 1 << 12;
 
-// What rounding leaves of them.
-constexpr std::int64_t k_rounding = 2;
+// What rounding leaves of them: 4 nm.
+constexpr std::int64_t k_rounding = 16;
 
 // Joints of groups that are not solved at once close this part of an opening a substep.
 constexpr int k_close_shift = 2;
@@ -94,28 +95,33 @@ void JointSolver::solve_positions(const JointRun& run, Group& group) {
     if (close(run, group)) return;
     restore(run, group);
   }
-  for (int i = 0; i < k_position_solves; ++i)
-    approach(run, group, true);
+  for (int i = 0; i < k_most_solves; ++i) {
+    const std::int64_t widest = approach(run, group, 0, true);
+    if (i + 1 >= k_position_solves && widest <= k_closed) return;
+  }
 }
 
-// One step of the method. Answers the widest opening before it.
-std::int64_t JointSolver::approach(const JointRun& run, Group& group, bool turn) {
+// One step of the method, unless no opening is wider than `enough`. Answers the widest before it.
+std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64_t enough,
+                                   bool turn) {
   look_ahead(run, group, turn);
   const std::int64_t widest = set_position_errors(group);
-  if (widest > k_rounding) solve_locks(run, group, true);
+  if (widest > enough) solve_locks(run, group, true);
   return widest;
 }
 
 // Answers whether all locks hold afterwards. Each step leaves about the same part of an opening:
-// once that is nothing, there is no need to look.
+// once that is nothing, there is no need to look. In chains, and where bodies are pulled hard,
+// every step is taken, lest swings that the substep hardly resolves grow unseen.
 bool JointSolver::close(const JointRun& run, Group& group) {
+  const std::int64_t enough = group.is_plain || is_pulled(group) ? 0 : k_rounding;
   std::int64_t before = 0;
   const int solves = group.drifts ? 2 * k_position_solves : k_position_solves;
   for (int i = 0; i < solves; ++i) {
-    const std::int64_t widest = approach(run, group, false);
-    if (widest <= k_rounding) return true;
+    const std::int64_t widest = approach(run, group, enough, false);
+    if (widest <= enough) return true;
     const bool converges = widest <= before && before <= 16 * k_closed;
-    if (converges && widest * widest <= k_rounding * before) return true;
+    if (converges && widest * widest <= enough * before) return true;
     before = widest;
   }
   look_ahead(run, group, false);
@@ -125,6 +131,13 @@ bool JointSolver::close(const JointRun& run, Group& group) {
 bool JointSolver::is_stiff(const Group& group) const {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     if (bodies_[group_bodies_[group.first_body + i]].least_inertia > 0) return true;
+  }
+  return false;
+}
+
+bool JointSolver::is_pulled(const Group& group) const {
+  for (std::uint32_t i = 0; i < group.body_count; ++i) {
+    if (bodies_[group_bodies_[group.first_body + i]].pulled) return true;
   }
   return false;
 }

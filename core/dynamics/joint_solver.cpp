@@ -99,6 +99,8 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     after_[i] = bodies_[i].pose;
   for (Cluster& cluster : clusters_) {
+    for (Group& group : groups_of(cluster))
+      group.is_plain = std::ranges::all_of(joints_of(cluster), is_plain);
     cluster.free = can_drift(cluster);
     if (cluster.free) groups_of(cluster)[0].drifts = true;
     for (const std::uint32_t body : bodies_of(cluster))
@@ -161,7 +163,7 @@ void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
         solve_locks(run, group, true);
       } else if (pushed && i + 1 < k_sweeps && !is_stiff(group)) {
         exact = false;
-        approach(run, group, false);
+        approach(run, group, 0, false);
       } else {
         solve_positions(run, group);
       }
@@ -186,7 +188,8 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
     for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);
     for (Group& group : groups_of(cluster)) {
-      if (set_speed_errors(run, group, false) > k_still) solve_locks(run, group, false);
+      const std::int64_t greatest = set_speed_errors(run, group, false);
+      if (group.is_plain || greatest > k_still) solve_locks(run, group, false);
     }
   }
 }

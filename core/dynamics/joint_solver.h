@@ -112,6 +112,7 @@ class JointSolver {
     std::uint32_t solver = 0;
     lanes::RowBody saved_row{}, saved_before{};
     bool pushed = false;
+    bool pulled = false;    // an eighth as hard as needs more inertia
     bool centred = false;   // half kick, drift, half kick
     bool free = false;      // half drift, kick, half drift
     std::int64_t rate = 0;  // 1 / what it drifts for
@@ -170,6 +171,7 @@ class JointSolver {
     std::uint32_t column = 0;
     bool exact = false;
     bool drifts = false;
+    bool is_plain = false;  // neither limits nor drives
     std::int64_t rate = 0;  // 1 / what its bodies drift for
     int exponent = 0;       // least of its rows
   };
@@ -201,7 +203,7 @@ class JointSolver {
                                     const JointPose& b) const;
   void add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Length>& anchor);
   [[nodiscard]] bool can_drift(const Cluster& cluster);
-  [[nodiscard]] bool is_plain(const Joint& joint) const;
+  [[nodiscard]] static bool is_plain(const Joint& joint);
   void set_rate(const Cluster& cluster, std::int64_t rate);
   void drift(JointRun run, Cluster& cluster);
   void stay(Cluster& cluster);
@@ -231,8 +233,9 @@ class JointSolver {
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);
   bool close(const JointRun& run, Group& group);
-  std::int64_t approach(const JointRun& run, Group& group, bool turn);
+  std::int64_t approach(const JointRun& run, Group& group, std::int64_t enough, bool turn);
   [[nodiscard]] bool is_stiff(const Group& group) const;
+  [[nodiscard]] bool is_pulled(const Group& group) const;
   void save(const JointRun& run, const Group& group);
   void restore(const JointRun& run, const Group& group);
   void look_ahead(const JointRun& run, Group& group, bool turn);
