@@ -215,9 +215,9 @@ class Run {
   [[nodiscard]] bool write_picture() const {
     if (options_.svg.empty()) return true;
     if (frames_.size() == 1) return write_text_file(options_.svg, frames_.front());
-    constexpr int k_columns = 3;
+    const int columns = frames_.size() == 4 ? 2 : 3;
     return write_text_file(options_.svg,
-                           render::strip(frames_, picture_of(options_, *play_), k_columns));
+                           render::strip(frames_, picture_of(options_, *play_), columns));
   }
 
   const RunOptions& options_;

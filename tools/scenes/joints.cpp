@@ -145,11 +145,11 @@ void build_vehicle(World& world, std::uint64_t) {
       joint.angular[1] = {.mode = AxisMode::limited,
                           .lower = -0.5_rad,
                           .upper = 0.5_rad,
-                          .target = 0.15_rad,
+                          .target = 0.01_rad,
                           .hertz = 10_r};
     } else {
-      joint.angular[0].speed = -15_rps;
-      joint.angular[0].max_effort = Torque::from_integer(400);
+      joint.angular[0].speed = -25_rps;
+      joint.angular[0].max_effort = Torque::from_integer(1500);
     }
     join(world, joint);
   }
