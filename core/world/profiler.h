@@ -86,7 +86,10 @@ class PairTimer {
   }
 
   /// By the axis that parted the pair in the tick before.
-  void found_apart() { total_.parted += now_ != nullptr ? 1U : 0U; }
+  /// Without a clock nothing is written: pairs are then collided side by side.
+  void found_apart() {
+    if (now_ != nullptr) ++total_.parted;
+  }
 
  private:
   ProfileClock now_;
