@@ -15,7 +15,7 @@ using lanes::ManifoldBlock;
 using lanes::RowBody;
 using Triple = std::array<std::int64_t, 3>;
 
-// What would pull is let go, and the rest solved again, so many times.
+// What would pull is let go, and the rest solved again, so many times; then it is left to sweeps.
 constexpr int k_most_rounds = 4;
 
 // Of a group in which no point pushes.
@@ -338,8 +338,9 @@ bool DirectContacts::try_once(const DirectRun& run, Group& group, bool pushes_ou
   }
   factor_.solve(group.column, group.count);
   const bool pulls = find_changes(group);
+  if (pulls && is_last) return true;  // what others push would want those that pull
   for (Contact& contact : contacts)
-    push_all(run, contact, pulls && !is_last);
+    push_all(run, contact, pulls);
   return !pulls;
 }
 
