@@ -112,8 +112,10 @@ bool has_valid_points(const ContactRecord& record) {
 
 }  // namespace
 
+// A component may be a few units in the last place beyond 1, as steps leave it; the norm says how
+// many. The bound keeps squares in range.
 bool has_unit_norm(const Quat& q) {
-  constexpr std::int32_t k_bound = 1 << 30;
+  constexpr std::int32_t k_bound = (1 << 30) + (1 << 10);
   for (const Unit c : {q.x, q.y, q.z, q.w}) {
     if (c.raw > k_bound || c.raw < -k_bound) return false;
   }

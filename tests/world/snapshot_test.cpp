@@ -1,7 +1,10 @@
 // State is what is saved is what is hashed.
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -41,6 +44,27 @@ TEST(Snapshot, LoadedGivesTheSameFuture) {
       (void)copy.step();
     }
   }
+}
+
+// Steps leave components of an orientation a unit in the last place beyond 1.
+TEST(Snapshot, TakesAnOrientationAsStepsLeaveIt) {
+  World world = test::make_world();
+  ASSERT_TRUE(world.create_body(BodyDef{}).ok());
+  const std::vector<std::byte> saved = test::save(world, SnapshotKind::native);
+  const std::array<std::int32_t, 4> identity{0, 0, 0, 1 << 30};
+  // The native kind is taken as it is.
+  const auto fault_with = [&](std::int32_t w) {
+    std::vector<std::byte> changed = saved;
+    const std::array<std::int32_t, 4> orientation{0, 0, 0, w};
+    for (std::size_t i = 0; i + sizeof identity <= saved.size(); ++i)
+      if (std::memcmp(saved.data() + i, identity.data(), sizeof identity) == 0)
+        std::memcpy(changed.data() + i, orientation.data(), sizeof orientation);
+    EXPECT_EQ(world.load(SnapshotKind::native, changed), Status::ok);
+    return world.find_fault().what != nullptr;
+  };
+  EXPECT_FALSE(fault_with((1 << 30) + 1));
+  EXPECT_FALSE(fault_with(-(1 << 30) - 1));
+  EXPECT_TRUE(fault_with((1 << 30) + (1 << 12)));
 }
 
 TEST(Snapshot, SavingAndLoadingEveryTickChangesNothing) {
