@@ -45,7 +45,7 @@ std::optional<InstructionCount> count_instructions(std::string_view scene, std::
   InstructionCount count{std::string(scene), ticks, 0, {}};
   const std::string command =
       "valgrind --tool=callgrind --callgrind-out-file=/dev/null "
-      "--toggle-collect='lockstone::World::step*' " +
+      "--toggle-collect='*measured_step*' " +
       quoted(own_program()) + " bench speed --json --repeats 1 --threads 1 --scene " +
       quoted(count.scene) + " --ticks " + std::to_string(ticks) + " 2>&1";
   const int code = for_lines_of(command, [&](std::string&& line) {
