@@ -132,6 +132,10 @@ void flip_each_field(const std::vector<std::byte>& saved, std::size_t offset, Ch
   });
 }
 
+bool is_of_key(std::string_view field) {
+  return field == "body_a" || field == "body_b" || field == "part_a" || field == "part_b";
+}
+
 TEST(Hash, ChangesWithEveryFieldOfState) {
   const World world = busy_world(test::run_seed());
   const std::vector<std::byte> saved = test::save(world, SnapshotKind::native);
@@ -144,7 +148,10 @@ TEST(Hash, ChangesWithEveryFieldOfState) {
     ASSERT_NE(other.hash().total, expected) << field;
     const StateDifference found =
         world.describe_difference(here, test::save(other, SnapshotKind::canonical));
-    ASSERT_EQ(found.field, field);
+    // Another key changes the order of the records: the first that differs may do so elsewhere in
+    // it.
+    ASSERT_TRUE(found.field == field || (is_of_key(field) && is_of_key(found.field)))
+        << found.field << " for " << field;
     ++checked;
   };
   flip_each_field<WorldHeader>(saved, 0, check);
