@@ -74,6 +74,15 @@ Position turned_way(const MovingShape& a, const MovingShape& b, Position radius_
   return min(across, Position::from_raw(raw::multiply_shift(reach.raw, angle_q30, 30) + 1));
 }
 
+// Whether A's middle is where it may come to the surface within a tick: farther above it never
+// does, and so far below it is contacts that push it out.
+bool may_meet(const Piece& half_space, const Vec3<Position>& middle) {
+  constexpr Position k_above = Position::from_integer(1400),
+                     k_below = Position::from_integer(-1000);
+  const Position height = rotate_inverse(half_space.rotation, middle - half_space.origin).y;
+  return height > k_below && height < k_above;
+}
+
 // Everything that A may reach while it moves relative to B.
 OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   const Position radius = rounded<Position>(bounding_radius(a.shape, a.asset));
@@ -115,6 +124,7 @@ class PiecesOfB final : public PieceVisitor {
 
   void visit(const Piece& piece) override {
     const bool unbounded = piece.shape.kind == ShapeKind::half_space;
+    if (unbounded && !may_meet(piece, a_.origin)) return;
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
     if (is_behind(middle_of(a_), b)) return;
     const PieceSweep sweep_b(b, motion_b_);

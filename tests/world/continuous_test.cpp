@@ -227,6 +227,25 @@ TEST(Continuous, AHalfSpaceStopsBulletsFarFromItsBody) {
   }
 }
 
+// Nor does it meet what flies so high above it that their distance fits no length, or is as deep
+// below.
+TEST(Continuous, AHalfSpaceIsNoMatterKilometresAway) {
+  for (const int height : {-300'000, -4000, 1500, 4000, 300'000}) {
+    World world = weightless();
+    BodyDef ground;
+    ground.motion = MotionType::static_body;
+    ground.shape = Shape::half_space();
+    test::add(world, ground);
+    BodyDef ball =
+        test::dynamic_body(Shape::sphere(0.05_m), {}, Position::from_integer(height), {});
+    ball.velocity.x = Velocity::from_integer(300);
+    ball.velocity.y = Velocity::from_integer(height > 0 ? -100 : 100);
+    test::add(world, ball);
+    for (int tick = 0; tick < 10; ++tick)
+      ASSERT_EQ(world.step().impacts, 0U) << height << " m";
+  }
+}
+
 TEST(Continuous, KeepsBodiesInTheWorldAfterAnImpact) {
   World world = weightless();
   BodyDef def = wall(0.5_m);
