@@ -14,10 +14,19 @@ inline constexpr int k_largest_scale_exponent = 10;
 
 inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
 
+/// Of any bits from outside: the least number has no magnitude.
+template <class T>
+[[nodiscard]] constexpr bool is_within(T x, T limit) {
+  return x <= limit && x >= -limit;
+}
+template <class T>
+[[nodiscard]] constexpr bool is_within(const Vec3<T>& v, T limit) {
+  return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
+}
+
 /// At most 1000 m/s² an axis: far above any game, and g·dt stays a small part of the speed limit.
 [[nodiscard]] constexpr bool is_valid_gravity(const Vec3<Acceleration>& g) {
-  constexpr Acceleration limit = Acceleration::from_integer(1000);
-  return abs(g.x) <= limit && abs(g.y) <= limit && abs(g.z) <= limit;
+  return is_within(g, Acceleration::from_integer(1000));
 }
 
 /// A surface's own speed: 500 m/s and 500 rad/s an axis.

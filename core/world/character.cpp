@@ -2,6 +2,7 @@
 
 #include <lockstone/character.h>
 
+#include "core/dynamics/limits.h"
 #include "core/math/block_float.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
@@ -214,8 +215,7 @@ Impulse inelastic(Velocity speed, Mass a, Mass b) {
 CharacterMove move_character(const World& world, const CharacterDef& character,
                              const Vec3<Position>& position, const Vec3<Length>& motion,
                              bool stay_on_ground) {
-  for (int i = 0; i < 3; ++i)
-    LKS_CHECK(abs(motion[i]) <= k_motion_limit);
+  LKS_CHECK(is_within(motion, k_motion_limit));
   LKS_CHECK(character.skin > Length{} && character.skin <= character.radius);
   return Mover(world, character, position).run(motion, stay_on_ground);
 }

@@ -11,13 +11,6 @@
 
 namespace lockstone {
 
-/// Each component within ±limit.
-template <class T>
-[[nodiscard]] constexpr bool within(const Vec3<T>& v, T limit) {
-  const auto inside = [&](T x) { return x <= limit && x >= -limit; };
-  return inside(v.x) && inside(v.y) && inside(v.z);
-}
-
 /// ω·2^exponent in m/s, the speed of the surface; false beyond the speed limit.
 [[nodiscard]] bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent,
                                        Vec3<Velocity>& w);

@@ -18,12 +18,12 @@ namespace {
 bool is_valid(const BodyDef& def) {
   return (def.motion == MotionType::static_body || def.motion == MotionType::kinematic ||
           def.motion == MotionType::dynamic) &&
-         validate(def.shape) == Status::ok && within(def.position, k_world_limit) &&
-         has_direction(def.orientation) && within(def.velocity, k_speed_limit) &&
+         validate(def.shape) == Status::ok && is_within(def.position, k_world_limit) &&
+         has_direction(def.orientation) && is_within(def.velocity, k_speed_limit) &&
          geometry::is_valid(def.material.surface()) && def.material.density > Density{} &&
          is_valid(def.surface_motion.velocity, def.surface_motion.turning) &&
          (def.motion != MotionType::dynamic || def.surface_motion == SurfaceMotion{}) &&
-         abs(def.gravity_scale) <= k_gravity_scale_limit && def.linear_damping >= Rate{} &&
+         is_within(def.gravity_scale, k_gravity_scale_limit) && def.linear_damping >= Rate{} &&
          def.angular_damping >= Rate{} && is_valid(def.speed_limit);
 }
 
@@ -93,7 +93,7 @@ Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
 }
 
 bool has_centre_in_world(const BodyDef& def, const Asset* asset) {
-  return within(body_pose(asset, {def.position, def.orientation}).position, k_world_limit);
+  return is_within(body_pose(asset, {def.position, def.orientation}).position, k_world_limit);
 }
 
 }  // namespace
@@ -173,12 +173,12 @@ Status World::Impl::execute(const DestroyBody& command) {
 Status World::Impl::execute(const Teleport& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (!within(command.position, k_world_limit) || !has_direction(command.orientation)) {
+  if (!is_within(command.position, k_world_limit) || !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
   const Transform pose =
       body_pose(body_assets[command.body.index], {command.position, command.orientation});
-  if (!within(pose.position, k_world_limit)) return Status::invalid_argument;
+  if (!is_within(pose.position, k_world_limit)) return Status::invalid_argument;
   disturb(command.body.index);
   drop_contacts_of(command.body.index);
   record->position = pose.position;
@@ -192,7 +192,7 @@ Status World::Impl::execute(const Teleport& command) {
 Status World::Impl::execute(const SetVelocity& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (!record->moves() || !within(command.velocity, k_speed_limit)) {
+  if (!record->moves() || !is_within(command.velocity, k_speed_limit)) {
     return Status::invalid_argument;
   }
   wake(command.body.index);

@@ -93,7 +93,7 @@ Status World::Impl::gain_of(BodyHandle body, const Push& push, TickGain& gain) c
   }
   const Length radius = properties_of(record->shape(), asset).radius;
   const Length reach = Length::from_raw(raw::saturate<std::int32_t>(std::int64_t{2} * radius.raw));
-  if (!within(point, reach)) return Status::invalid_argument;
+  if (!is_within(point, reach)) return Status::invalid_argument;
   gain.velocity = velocity_gain(*record, impulse);
   gain.spin = turning_gain(*record, point, gain.velocity);
   add_velocity(gain.spin, spin_gain(*record, turn));

@@ -4,6 +4,7 @@
 
 #include "core/collision/cast_placed.h"
 #include "core/collision/segment_probe.h"
+#include "core/dynamics/limits.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -22,8 +23,7 @@ Bounds bounds_of(const WorldBox& box) {
 }
 
 constexpr bool is_in_reach(const Vec3<Length>& translation) {
-  return abs(translation.x) <= k_max_cast && abs(translation.y) <= k_max_cast &&
-         abs(translation.z) <= k_max_cast;
+  return is_within(translation, k_max_cast);
 }
 
 // Keeps the first `out.size()` items in their order, whatever the order they come in.

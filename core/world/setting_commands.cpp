@@ -11,10 +11,10 @@ namespace lockstone {
 
 bool to_surface_velocity(const Vec3<AngularVelocity>& omega, int exponent, Vec3<Velocity>& w) {
   constexpr AngularVelocity k_limit = AngularVelocity::from_integer(1 << 20);
-  if (!within(omega, k_limit)) return false;
+  if (!is_within(omega, k_limit)) return false;
   for (int i = 0; i < 3; ++i)
     w[i].raw = raw::scale_binary(omega[i].raw, exponent);
-  return within(w, k_speed_limit);
+  return is_within(w, k_speed_limit);
 }
 
 std::uint8_t locks_of(const AxisLocks& locks) {
@@ -85,7 +85,7 @@ Status World::Impl::execute(const SetSurfaceMotion& command) {
 Status World::Impl::execute(const SetGravityScale& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (abs(command.scale) > k_gravity_scale_limit) return Status::invalid_argument;
+  if (!is_within(command.scale, k_gravity_scale_limit)) return Status::invalid_argument;
   disturb(command.body.index);
   record->gravity_scale = command.scale;
   return Status::ok;
@@ -128,7 +128,7 @@ Status World::Impl::execute(const SetSpeedLimit& command) {
 Status World::Impl::execute(const MoveKinematic& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (record->is_dynamic() || !record->moves() || !within(command.position, k_world_limit) ||
+  if (record->is_dynamic() || !record->moves() || !is_within(command.position, k_world_limit) ||
       !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
@@ -142,7 +142,7 @@ Status World::Impl::execute(const MoveKinematic& command) {
     velocity[i].raw = std::clamp(way, -k_far, k_far) * def.tick_rate;
     spin[i].raw = raw::scale_binary(turn[i].raw * def.tick_rate, record->scale_exponent);
   }
-  if (!within(velocity, k_speed_limit) || !within(spin, k_speed_limit))
+  if (!is_within(velocity, k_speed_limit) || !is_within(spin, k_speed_limit))
     return Status::invalid_argument;
   wake(command.body.index);
   record->velocity = velocity;

@@ -15,21 +15,10 @@ namespace {
 
 constexpr Unit k_whole = Unit::from_integer(1);
 
-// Of any bits: the least number has no magnitude.
-template <class T>
-bool is_within(T x, T limit) {
-  return x <= limit && x >= -limit;
-}
-
-template <class T>
-bool in_range(const Vec3<T>& v, T limit) {
-  return is_within(v.x, limit) && is_within(v.y, limit) && is_within(v.z, limit);
-}
-
 // The limit plus what its own rounding may leave.
 bool in_range(const Vec3<Velocity>& v) {
   constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
-  return in_range(v, limit);
+  return is_within(v, limit);
 }
 
 bool has_valid_inertia(const Vec3<Unit>& inertia) {
@@ -64,8 +53,8 @@ bool has_valid_notes(const BodyRecord& record) {
   if (!record.is_dynamic()) return !record.is_pushed() && record.note_c == Unit{};
   if (!record.is_pushed()) return true;
   return !record.is_asleep() && record.rest_ticks == 0 &&
-         record.note_c.raw >> k_exponent_bits == 0 && in_range(record.note_a, k_whole) &&
-         in_range(record.note_b, k_whole);
+         record.note_c.raw >> k_exponent_bits == 0 && is_within(record.note_a, k_whole) &&
+         is_within(record.note_b, k_whole);
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
@@ -137,7 +126,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
                           has_valid_mass(record) && has_valid_surface(record) &&
                           has_valid_sleep(record) && has_valid_limits(record) &&
                           has_valid_notes(record);
-  const bool in_world = in_range(record.position, k_world_limit) && in_range(record.velocity) &&
+  const bool in_world = is_within(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation);
   return consistent && in_world ? Status::ok : Status::malformed;
 }

@@ -157,6 +157,21 @@ TEST(SetFilter, LetsBodiesPass) {
   EXPECT_EQ(world.step().contacts, 0U);
 }
 
+// The least number has no magnitude: one that took it would find it small.
+TEST(Commands, RefuseTheLeastNumbers) {
+  World world = test::make_world();
+  const BodyHandle ball = test::add(world, test::dynamic_body(Shape::sphere(0.5_m), {}, 1_m, {}));
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3<Acceleration> gravity;
+    gravity[axis] = Acceleration::min();
+    EXPECT_EQ(world.apply(SetGravity{gravity}), Status::invalid_argument);
+    Vec3<Velocity> velocity;
+    velocity[axis] = Velocity::min();
+    EXPECT_EQ(world.apply(SetVelocity{ball, velocity}), Status::invalid_argument);
+  }
+  EXPECT_EQ(world.apply(SetGravityScale{ball, Number::min()}), Status::invalid_argument);
+}
+
 TEST(WorldDef, IsCheckedAndHashed) {
   EXPECT_EQ(World::create({.body_capacity = 0}).status(), Status::invalid_argument);
   EXPECT_EQ(World::create({.tick_rate = 9}).status(), Status::invalid_argument);
