@@ -220,7 +220,6 @@ void DirectContacts::read(const DirectRun& run, Contact& contact, bool pushes_ou
       bias += product_rounded(std::int64_t{point.impulse} << 30, point.own, 30 + k_give_shift);
     point.speed =
         std::clamp(sum.rounded(30) + std::min(bias, k_speed_bound), -k_speed_bound, k_speed_bound);
-    point.impulse = static_cast<std::int32_t>(low(block.points[i].impulse[lane]));
   }
 }
 
@@ -282,25 +281,13 @@ void DirectContacts::factor(const DirectRun& run, Group& group) {
     for (std::uint32_t r = 0; r < contacts[k].active; ++r)
       group.exponent = std::min(group.exponent, contacts[k].points[contacts[k].order[r]].exponent);
   }
-  const auto value = [&](const Contact& p, std::uint32_t r, const Contact& q, std::uint32_t s) {
-    return entry(run, p, p.points[p.order[r]], q, q.points[q.order[s]]);
-  };
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    const Contact& contact = contacts[k];
-    const std::uint32_t n = contact.active;
-    for (std::uint32_t r = 0; r < n; ++r) {
-      for (std::uint32_t s = 0; s <= r; ++s)
-        factor_.value(columns[k].diagonal + r * n + s) = value(contact, r, contact, s);
-      std::int64_t& own = factor_.value(columns[k].diagonal + r * n + r);
-      own += own >> k_give_shift;
-    }
-    for (const JointFactor::Block& block : factor_.blocks(columns[k])) {
-      const Contact& below = contacts[block.row];
-      for (std::uint32_t r = 0; r < below.active; ++r)
-        for (std::uint32_t s = 0; s < n; ++s)
-          factor_.value(block.values + r * n + s) = value(below, r, contact, s);
-    }
-  }
+  factor_.fill(group.column, group.count,
+               [&](std::uint32_t j, std::uint32_t r, std::uint32_t k, std::uint32_t s) {
+                 const Contact &p = contacts[j], &q = contacts[k];
+                 const std::int64_t value =
+                     entry(run, p, p.points[p.order[r]], q, q.points[q.order[s]]);
+                 return j == k && r == s ? value + (value >> k_give_shift) : value;
+               });
   (void)factor_.factor(group.column, group.count);
   group.is_factored = true;
 }

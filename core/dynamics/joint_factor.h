@@ -61,6 +61,11 @@ class JointFactor {
   /// Right-hand side, then solution: 46 fraction bits.
   [[nodiscard]] std::int64_t& rhs(std::uint32_t row) { return rhs_[row]; }
 
+  /// Sets all entries of the group by its columns' counts: entry(j, r, k, s) is what row r of joint
+  /// j feels of row s of joint k, asked for on and below the diagonal.
+  template <class Entry>
+  void fill(std::uint32_t first, std::uint32_t count, const Entry& entry);
+
   /// Factors the group in place; answers how many pivots were left out.
   std::uint32_t factor(std::uint32_t first, std::uint32_t count);
 
@@ -92,6 +97,24 @@ class JointFactor {
   std::size_t first_block_ = 0;  // of the group being planned
   std::size_t value_capacity_, block_capacity_;
 };
+
+template <class Entry>
+void JointFactor::fill(std::uint32_t first, std::uint32_t count, const Entry& entry) {
+  const std::span<const Column> group = columns(first, count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t n = group[k].count;
+    for (std::uint32_t r = 0; r < n; ++r) {
+      for (std::uint32_t s = 0; s <= r; ++s)
+        values_[group[k].diagonal + r * n + s] = entry(k, r, k, s);
+    }
+    for (const Block& block : blocks(group[k])) {
+      for (std::uint32_t r = 0; r < group[block.row].count; ++r) {
+        for (std::uint32_t s = 0; s < n; ++s)
+          values_[block.values + r * n + s] = entry(block.row, r, k, s);
+      }
+    }
+  }
+}
 
 template <class Neighbours, class Rows>
 bool JointFactor::plan(std::uint32_t count, const Neighbours& neighbours, const Rows& rows) {

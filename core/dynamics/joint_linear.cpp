@@ -129,21 +129,10 @@ void JointSolver::factor_group(Group& group) {
     for (std::size_t r = 0; r < joint.rows.locks; ++r)
       group.exponent = std::min(group.exponent, joint.solved[r].exponent);
   }
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    const Joint& joint = joints_[joints[k]];
-    const std::uint32_t n = columns[k].count;
-    for (std::uint32_t r = 0; r < n; ++r) {
-      for (std::uint32_t s = 0; s <= r; ++s)
-        factor_.value(columns[k].diagonal + r * n + s) = entry(joint, r, joint, s);
-    }
-    for (const JointFactor::Block& block : factor_.blocks(columns[k])) {
-      const Joint& below = joints_[joints[block.row]];
-      for (std::uint32_t r = 0; r < below.rows.locks; ++r) {
-        for (std::uint32_t s = 0; s < n; ++s)
-          factor_.value(block.values + r * n + s) = entry(below, r, joint, s);
-      }
-    }
-  }
+  factor_.fill(group.column, group.count,
+               [&](std::uint32_t j, std::uint32_t r, std::uint32_t k, std::uint32_t s) {
+                 return entry(joints_[joints[j]], r, joints_[joints[k]], s);
+               });
   clamps_ += factor_.factor(group.column, group.count);
 }
 

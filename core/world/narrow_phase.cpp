@@ -172,12 +172,18 @@ void World::Impl::add_known(std::uint32_t index, const Manifold& known, const Ma
 void World::Impl::fill_single(std::uint32_t index, std::uint32_t slot, const ManifoldInput& input,
                               std::span<const ContactRecord> before) {
   const Pair pair = pairs[index];
-  const ContactKey key{pair.a, pair.b, 0, 0};
-  const auto old = std::ranges::find(before, key, &ContactRecord::key);
   found_contacts[index] = {slot, 1};
-  origins[slot] = {0, 0, old == before.end() ? k_new : index_of(*old), false};
+  fill_slot(slot, {pair.a, pair.b, 0, 0}, nullptr, nullptr, input, before);
+}
+
+// All but the manifold, which is there.
+void World::Impl::fill_slot(std::uint32_t slot, const ContactKey& key, const Surface* surface_a,
+                            const Surface* surface_b, const ManifoldInput& input,
+                            std::span<const ContactRecord> before) {
+  const auto old = std::ranges::find(before, key, &ContactRecord::key);
+  origins[slot] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old), false};
   inputs[slot] = input;
-  find_surface(pair, nullptr, nullptr, manifolds[slot], surfaces[slot]);
+  find_surface({key.body_a, key.body_b}, surface_a, surface_b, manifolds[slot], surfaces[slot]);
 }
 
 // Neither an asset nor without end: its frame is the body's.
@@ -240,13 +246,9 @@ void World::Impl::add_contacts(std::uint32_t index, std::span<const PartContact>
   found_contacts[index] = {first, count};
   for (std::uint32_t i = 0; i < count; ++i) {
     const PartContact& contact = parts[i];
-    const ContactKey key{pair.a, pair.b, contact.part_a, contact.part_b};
-    const auto old = std::ranges::find(before, key, &ContactRecord::key);
-    origins[first + i] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old),
-                          false};
     manifolds[first + i] = contact.manifold;
-    inputs[first + i] = input;
-    find_surface(pair, contact.surface_a, contact.surface_b, contact.manifold, surfaces[first + i]);
+    fill_slot(first + i, {pair.a, pair.b, contact.part_a, contact.part_b}, contact.surface_a,
+              contact.surface_b, input, before);
   }
 }
 

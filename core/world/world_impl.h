@@ -284,6 +284,9 @@ struct World::Impl {
                  std::span<const ContactRecord> before, PairScratch& scratch);
   void fill_single(std::uint32_t index, std::uint32_t slot, const ManifoldInput& input,
                    std::span<const ContactRecord> before);
+  void fill_slot(std::uint32_t slot, const ContactKey& key, const Surface* surface_a,
+                 const Surface* surface_b, const ManifoldInput& input,
+                 std::span<const ContactRecord> before);
   void add_contacts(std::uint32_t index, std::span<const PartContact> parts,
                     const ManifoldInput& input, std::span<const ContactRecord> before,
                     PairScratch& scratch);
