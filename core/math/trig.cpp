@@ -218,6 +218,12 @@ WideQuat widened(const Quat& q) {
   return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
 }
 
+// |q|² of 31 fraction bits, rounded down to 60.
+std::uint64_t norm_squared(const WideQuat& q) {
+  const auto square = [](std::int64_t c) { return static_cast<std::uint64_t>(c * c); };
+  return (square(q.x) + square(q.y) + square(q.z) + square(q.w)) >> 2;
+}
+
 }  // namespace
 
 SinCos sin_cos(Angle x) {
@@ -278,7 +284,7 @@ Quat integrate(const Quat& q, const RotationVector& theta, const FineQuat& turn)
   const WideQuat own{turn.v[0], turn.v[1], turn.v[2], turn.w};
   const WideQuat turned = rounded(product(widened(start), own), 30);  // 31 fraction bits
   return corrected(product(rounded(wide_rotation(theta), 1), turned),
-                   unit_correction(norm_squared(start)));
+                   unit_correction(norm_squared(start)) + unit_correction(norm_squared(own)));
 }
 
 }  // namespace lockstone
