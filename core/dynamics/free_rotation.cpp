@@ -24,30 +24,6 @@ constexpr std::uint64_t k_most_pieces = 32;
 // Below this the product of the turns about both axes is small enough for Strang's scheme: 2^-20.
 constexpr UInt128 k_small = {0, std::uint64_t{1} << (64 - 20)};
 
-// The principal axes by inverse moment.
-struct Axes {
-  int nearer = 0;
-  int third = 0;
-  std::int64_t middle_inverse = 0;  // 1/I, 30 bits
-  std::int64_t nearer_excess = 0;   // over it
-  std::int64_t third_excess = 0;
-};
-
-Axes axes_of(const Vec3<Unit>& inertia) {
-  std::array<int, 3> order = {0, 1, 2};
-  const auto sort = [&](std::size_t i, std::size_t j) {
-    if (inertia[order[i]] < inertia[order[j]]) std::swap(order[i], order[j]);
-  };
-  sort(0, 1), sort(1, 2), sort(0, 1);  // 1/I ascends
-  const auto inverse = [&](std::size_t i) {
-    return raw::round_divide(std::int64_t{1} << (2 * k_inverse_bits), inertia[order[i]].raw);
-  };
-  const std::int64_t least = inverse(0), middle = inverse(1), greatest = inverse(2);
-  if (middle - least <= greatest - middle)
-    return {order[0], order[2], middle, least - middle, greatest - middle};
-  return {order[2], order[0], middle, greatest - middle, least - middle};
-}
-
 // The turn for a momentum m is m · mantissa · 2^-shift, 32 bits.
 struct TurnRate {
   std::int64_t mantissa = 0;
@@ -74,6 +50,28 @@ std::int64_t times(std::int64_t x, const TurnTime& time, std::int64_t pieces = 1
 TurnRate turn_rate(std::int64_t step, int exponent) {
   const int beyond = std::max(0, static_cast<int>(std::bit_width(magnitude(step))) - k_rate_bits);
   return {raw::round_shift(step, beyond), k_step_bits - exponent - beyond};
+}
+
+FreeAxes axes_of(const Vec3<Unit>& inertia, const TurnTime& time) {
+  std::array<int, 3> order = {0, 1, 2};
+  const auto sort = [&](std::size_t i, std::size_t j) {
+    if (inertia[order[i]] < inertia[order[j]]) std::swap(order[i], order[j]);
+  };
+  sort(0, 1), sort(1, 2), sort(0, 1);  // 1/I ascends
+  const auto inverse = [&](std::size_t i) {
+    return raw::round_divide(std::int64_t{1} << (2 * k_inverse_bits), inertia[order[i]].raw);
+  };
+  const std::int64_t least = inverse(0), middle = inverse(1), greatest = inverse(2);
+  const bool is_least_nearer = middle - least <= greatest - middle;
+  FreeAxes axes;
+  axes.nearer = is_least_nearer ? order[0] : order[2];
+  axes.third = is_least_nearer ? order[2] : order[0];
+  axes.nearer_excess = is_least_nearer ? least - middle : greatest - middle;
+  axes.third_excess = is_least_nearer ? greatest - middle : least - middle;
+  axes.middle_step = times(middle, time);
+  if (axes.nearer_excess != 0) axes.nearer_step = times(axes.nearer_excess, time);
+  if (axes.third_excess != 0) axes.third_step = times(axes.third_excess, time);
+  return axes;
 }
 
 // A body on its way: what it has turned in its own axes, and its momentum there.
@@ -105,7 +103,7 @@ struct Turning {
 };
 
 struct Split {
-  const Axes& axes;
+  const FreeAxes& axes;
   TurnRate nearer;
   TurnRate third;
 };
@@ -152,17 +150,16 @@ std::int64_t norm_of(const std::array<std::int64_t, 3>& m) {
 }
 
 // The turn in the body's own axes; `exponent` as for `turn_rate`.
-void turn_residual(const Axes& axes, const TurnTime& time, int exponent, Turning& body) {
-  Split split{axes, turn_rate(times(axes.nearer_excess, time), exponent),
-              turn_rate(times(axes.third_excess, time), exponent)};
+void turn_residual(const FreeAxes& axes, const TurnTime& time, int exponent, Turning& body) {
+  if (axes.third_excess == 0) return;
+  Split split{axes, {}, turn_rate(axes.third_step, exponent)};
+  if (axes.nearer_excess == 0) return body.turn(axes.third, split.third);
+  split.nearer = turn_rate(axes.nearer_step, exponent);
   const std::int64_t norm = norm_of(body.momentum);
   const std::uint64_t nearer = magnitude(split.nearer.angle(norm));
   const std::uint64_t third = magnitude(split.third.angle(norm));
   const bool is_top = nearer == 0 || third > k_most_pieces * k_piece;
-  if (is_top) {
-    body.turn(axes.third, split.third);
-    return;
-  }
+  if (is_top) return body.turn(axes.third, split.third);
   if (multiply_wide(nearer, third) <= k_small) {
     turn_by_halves(split, body);
     return;
@@ -176,9 +173,7 @@ void turn_residual(const Axes& axes, const TurnTime& time, int exponent, Turning
 }
 
 // spin / (I_a · scale) · time
-RotationVector about_momentum(const Vec3<Velocity>& spin, std::int64_t inverse,
-                              const TurnTime& time, int scale_exponent) {
-  const std::int64_t step = times(inverse, time);
+RotationVector turn_about(const Vec3<Velocity>& spin, std::int64_t step, int scale_exponent) {
   const auto angle = [&](Velocity v) {
     return RotationComponent::from_raw(
         saturate_to_int64(round_shift(multiply_wide(v.raw, step), k_step_bits + scale_exponent)));
@@ -188,12 +183,18 @@ RotationVector about_momentum(const Vec3<Velocity>& spin, std::int64_t inverse,
 
 }  // namespace
 
-FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
-                     const TurnTime& time) {
+FreeRotor::FreeRotor(const Vec3<Unit>& inertia, int scale_exponent, const TurnTime& time)
+    : axes_(axes_of(inertia, time)), time_(time), scale_exponent_(scale_exponent) {}
+
+RotationVector FreeRotor::about_momentum(const Vec3<Velocity>& spin) const {
+  return turn_about(spin, axes_.middle_step, scale_exponent_);
+}
+
+FreeTurn FreeRotor::turn(const Quat& orientation, const Mat3& rotation,
+                         const Vec3<Velocity>& spin) const {
   const std::uint64_t greatest =
       std::max({magnitude(spin.x.raw), magnitude(spin.y.raw), magnitude(spin.z.raw)});
-  if (greatest == 0) return {body.orientation, 0};
-  const Axes axes = axes_of(body.inertia);
+  if (greatest == 0) return {orientation, 0};
   const int exponent = static_cast<int>(std::bit_width(greatest)) - k_momentum_bits;
   const std::array<std::int64_t, 3> scaled = {raw::scale_binary(spin.x.raw, -exponent),
                                               raw::scale_binary(spin.y.raw, -exponent),
@@ -204,13 +205,18 @@ FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation, const Vec3<Ve
     turning.momentum[static_cast<std::size_t>(i)] = raw::round_shift(
         axis.x.raw * scaled[0] + axis.y.raw * scaled[1] + axis.z.raw * scaled[2], 30);
   }
-  turn_residual(axes, time, exponent - body.scale_exponent, turning);
-  const RotationVector about = about_momentum(spin, axes.middle_inverse, time, body.scale_exponent);
-  return {integrate(body.orientation, about, turning.turned), turning.turns};
+  turn_residual(axes_, time_, exponent - scale_exponent_, turning);
+  return {integrate(orientation, about_momentum(spin), turning.turned), turning.turns};
+}
+
+FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation, const Vec3<Velocity>& spin,
+                     const TurnTime& time) {
+  if (spin == Vec3<Velocity>{}) return {body.orientation, 0};
+  return FreeRotor(body.inertia, body.scale_exponent, time).turn(body.orientation, rotation, spin);
 }
 
 RotationVector turn_about_momentum(const BodyRecord& body, const TurnTime& time) {
-  return about_momentum(body.spin, axes_of(body.inertia).middle_inverse, time, body.scale_exponent);
+  return FreeRotor(body.inertia, body.scale_exponent, time).about_momentum(body.spin);
 }
 
 }  // namespace lockstone

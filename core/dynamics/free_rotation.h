@@ -42,6 +42,35 @@ struct TurnTime {
 [[nodiscard]] FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation,
                                    const Vec3<Velocity>& spin, const TurnTime& time);
 
+/// Principal axes by inverse moment, and what one turn takes of each.
+struct FreeAxes {
+  int nearer = 0;
+  int third = 0;
+  std::int64_t nearer_excess = 0;  // of 1/I over that of the middle axis, 30 bits
+  std::int64_t third_excess = 0;
+  std::int64_t middle_step = 0;  // 1/I times the duration, 50 bits
+  std::int64_t nearer_step = 0;  // of the excess
+  std::int64_t third_step = 0;
+};
+
+/// The same for many turns of one body that take the same time each.
+class FreeRotor {
+ public:
+  /// Moments and scale as in BodyRecord; moments may be up to 2.
+  FreeRotor(const Vec3<Unit>& inertia, int scale_exponent, const TurnTime& time);
+
+  [[nodiscard]] FreeTurn turn(const Quat& orientation, const Mat3& rotation,
+                              const Vec3<Velocity>& spin) const;
+
+  /// Rotation vector of the turn about the angular momentum alone.
+  [[nodiscard]] RotationVector about_momentum(const Vec3<Velocity>& spin) const;
+
+ private:
+  FreeAxes axes_;
+  TurnTime time_;
+  int scale_exponent_;
+};
+
 /// The turn about the angular momentum alone.
 [[nodiscard]] RotationVector turn_about_momentum(const BodyRecord& body, const TurnTime& time);
 
