@@ -170,10 +170,7 @@ void JointSolver::plan_singles(const Group& group) {
 // still, on anchors within what their formats hold.
 bool JointSolver::fits_net(const Link& link) const {
   const JointRecord& joint = *link.record;
-  if (!joint.is(JointKind::ball) || !has_world_axes(joint)) return false;
-  for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
-    if (joint.mode(axis) != AxisMode::free || joint.axes[axis].is_driven()) return false;
-  }
+  if (!is_point(joint)) return false;
   const auto fits = [&](const Body& body, const Vec3<Length>& anchor) {
     if (!body.pushed) return !body.record->moves();
     if ((body.record->locks & k_lock_moving) != 0) return false;

@@ -384,6 +384,14 @@ bool has_world_axes(const JointRecord& joint) {
   return true;
 }
 
+bool is_point(const JointRecord& joint) {
+  if (!joint.is(JointKind::ball) || !has_world_axes(joint)) return false;
+  for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
+    if (joint.mode(axis) != AxisMode::free || joint.axes[axis].is_driven()) return false;
+  }
+  return true;
+}
+
 RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
   const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     ProductSum sum;

@@ -67,6 +67,9 @@ void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
 /// Whether the locks of the first three axes are along the axes of the world, not of frame a.
 [[nodiscard]] bool has_world_axes(const JointRecord& joint);
 
+/// Whether it holds a point and nothing else: a ball without limits and drives.
+[[nodiscard]] bool is_point(const JointRecord& joint);
+
 /// M·j for a Jacobian.
 [[nodiscard]] RawVec3 response_of(const InverseInertia& inertia, const RawVec3& angular);
 

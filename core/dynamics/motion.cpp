@@ -11,18 +11,6 @@
 namespace lockstone {
 namespace {
 
-// gravity · gravity_scale, but along locked axes
-Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& gravity) {
-  if (!body.is_dynamic()) return {};
-  Vec3<Acceleration> g = gravity;
-  for (int i = 0; i < 3; ++i) {
-    if (body.gravity_scale != Number::from_integer(1))
-      g[i] = multiply<Acceleration>(g[i], body.gravity_scale);
-    if (body.is_locked(i)) g[i] = {};
-  }
-  return g;
-}
-
 constexpr Unit k_whole_tick = Unit::from_integer(1);
 
 Velocity times(Velocity v, Unit factor) {
@@ -140,6 +128,17 @@ RotationVector with_whole_turns(const RotationVector& theta, const RotationVecto
 }
 
 }  // namespace
+
+Vec3<Acceleration> gravity_on(const BodyRecord& body, const Vec3<Acceleration>& gravity) {
+  if (!body.is_dynamic()) return {};
+  Vec3<Acceleration> g = gravity;
+  for (int i = 0; i < 3; ++i) {
+    if (body.gravity_scale != Number::from_integer(1))
+      g[i] = multiply<Acceleration>(g[i], body.gravity_scale);
+    if (body.is_locked(i)) g[i] = {};
+  }
+  return g;
+}
 
 void damp_velocity(BodyRecord& body, const TimeStep& step) {
   damp(body.velocity, body.linear_damping, step);

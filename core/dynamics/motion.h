@@ -46,6 +46,10 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
 [[nodiscard]] RotationVector turn_since(const Quat& start, const Mat3& rotation,
                                         const BodyRecord& body, const TimeStep& step, Unit part);
 
+/// gravity · gravity_scale, but along locked axes; nothing on what is not dynamic.
+[[nodiscard]] Vec3<Acceleration> gravity_on(const BodyRecord& body,
+                                            const Vec3<Acceleration>& gravity);
+
 /// What gravity adds to a body's velocity in a fraction of a tick.
 [[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                                           const TimeStep& step, Unit fraction);

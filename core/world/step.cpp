@@ -85,6 +85,7 @@ void World::Impl::find_pairs(StepReport& report) {
 
 void World::Impl::solve_contacts(StepReport& report) {
   find_bounces();
+  find_swings();
   prepare_contacts();
   run_substeps();
   store_impulses();
@@ -102,10 +103,10 @@ void World::Impl::solve_contacts(StepReport& report) {
 
 void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
-  solver.prepare(
-      {std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
-       new_contacts, std::span(joints).first(header.joint_limit), active_joints, header.gravity},
-      parallel);
+  solver.prepare({std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
+                  new_contacts, std::span(joints).first(header.joint_limit), joints_to_solve(),
+                  header.gravity},
+                 parallel);
 }
 
 void World::Impl::run_substeps() {
@@ -117,7 +118,7 @@ void World::Impl::run_substeps() {
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
   solver.store(manifolds, new_contacts, approach_speeds, parallel);
-  solver.store_joints(active_joints, joints, parallel);
+  solver.store_joints(joints_to_solve(), joints, parallel);
 }
 
 // Joints of awake bodies may have changed.
@@ -191,6 +192,10 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
     counts.axis_turns += solver.move(*solved, rotations[body], record);
     if (record.is_dynamic()) damp_velocity(record, time_step);
   } else if (bounced) {
+    damp_velocity(record, time_step);
+    ++counts.free_bodies;
+  } else if (swing_of[body] != 0) {
+    counts.axis_turns += run_swing(swings[swing_of[body] - 1]);
     damp_velocity(record, time_step);
     ++counts.free_bodies;
   } else {

@@ -92,6 +92,9 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   bounce_groups.reserve(definition.contact_capacity);
   has_bounced.resize(definition.body_capacity);
   bounce_marks.resize(definition.body_capacity);
+  swings.reserve(std::min(definition.body_capacity, definition.joint_capacity));
+  swing_of.resize(definition.body_capacity);
+  solved_joints.reserve(definition.joint_capacity);
   new_contacts.reserve(definition.contact_capacity);
   slots.reserve(definition.contact_capacity);
   old_slots.reserve(definition.contact_capacity);

@@ -20,6 +20,7 @@
 #include "core/dynamics/islands.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/rest.h"
+#include "core/dynamics/swing.h"
 #include "core/dynamics/tick_gain.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
@@ -331,6 +332,18 @@ struct World::Impl {
   void run_bounces();
   void run_bounce_group(std::uint32_t index);
 
+  // What swings by itself (swings.cpp).
+  struct Swing {
+    std::uint32_t joint = 0;
+    std::uint32_t body = 0;
+    bool is_first = false;  // of the joint's bodies
+  };
+  void find_swings();
+  void look_for_swing(const JointLink& link);
+  [[nodiscard]] SwingPivot pivot_of(const Swing& swing) const;
+  [[nodiscard]] std::span<const JointLink> joints_to_solve() const;
+  std::uint32_t run_swing(const Swing& swing);
+
   // Continuous collision (continuous.cpp).
   struct NextImpact {
     std::uint32_t body = 0;
@@ -404,6 +417,9 @@ struct World::Impl {
   std::vector<std::uint32_t> bouncing_bodies;
   std::vector<std::uint8_t> has_bounced;   // by body
   std::vector<std::uint8_t> bounce_marks;  // by body
+  std::vector<Swing> swings;
+  std::vector<std::uint32_t> swing_of;   // by body: in `swings`, + 1
+  std::vector<JointLink> solved_joints;  // the others, where there are any swings
   NarrowSlots narrow;
 
   // By pair: the contacts that were found, in slots and in the list of contacts.

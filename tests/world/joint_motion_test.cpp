@@ -73,6 +73,80 @@ TEST(Joints, PendulumKeepsItsEnergy) {
   }
 }
 
+// A ball of 0.1 m on an arm of 1 m, level with a point that stands still.
+struct Pendulum {
+  World world = test::make_world();
+  JointDef def = point();
+  JointHandle joint = join(world, def);
+
+  JointDef point() {
+    JointDef point = JointDef::of(JointKind::ball, add_fixed(world), {});
+    point.body_b = test::add(world, test::dynamic_body(Shape::sphere(0.1_m), 1_m, {}, {}));
+    point.frame_b.position.x = -1_m;
+    return point;
+  }
+  // Whether the solver had nothing to do.
+  bool flies() { return world.step().free_bodies == 1; }
+};
+
+TEST(Joints, APendulumNeedsNoSolver) {
+  Pendulum swings;
+  for (int tick = 0; tick < 60; ++tick) {
+    ASSERT_TRUE(swings.flies());
+    ASSERT_LT(gap(swings.world.joint(swings.joint)), 2e-6);
+  }
+}
+
+TEST(Joints, APendulumThatIsDrivenLimitedOrTiedTwiceIsSolved) {
+  Pendulum driven;
+  (void)driven.world.apply(
+      SetAngularAxis{driven.joint, 0, {.max_effort = Torque::from_integer(1)}});
+  EXPECT_FALSE(driven.flies());
+  Pendulum limited;
+  (void)limited.world.apply(
+      SetAngularAxis{limited.joint, 1, {.mode = AxisMode::limited, .upper = 1_rad}});
+  EXPECT_FALSE(limited.flies());
+  Pendulum twice;
+  join(twice.world, twice.def);
+  EXPECT_FALSE(twice.flies());
+  Pendulum locked;
+  (void)locked.world.apply(SetAxisLocks{locked.def.body_b, {.move_z = true}});
+  EXPECT_FALSE(locked.flies());
+}
+
+TEST(Joints, APendulumHitsWhatIsInItsWay) {
+  Pendulum swings;
+  BodyDef wall;
+  wall.motion = MotionType::static_body;
+  wall.shape = Shape::box(0.1_m, 0.2_m, 0.2_m);
+  wall.position.y = -1_m;
+  test::add(swings.world, wall);
+  bool touched = false;
+  for (int tick = 0; tick < 120; ++tick) {
+    touched = swings.world.step().contacts > 0 || touched;
+    ASSERT_LT(gap(swings.world.joint(swings.joint)), 5e-5);
+    ASSERT_GT(number(swings.world.body(swings.def.body_b).position.x.raw, 32), 0.19);
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST(Joints, APendulumTellsWhatItsJointBears) {
+  for (const bool is_first : {false, true}) {
+    World world = test::make_world();
+    const BodyHandle ceiling = add_fixed(world);
+    const BodyHandle lamp =
+        test::add(world, test::dynamic_body(Shape::sphere(0.1_m), {}, -1_m, {}));
+    JointDef def = is_first ? JointDef::of(JointKind::ball, lamp, ceiling)
+                            : JointDef::of(JointKind::ball, ceiling, lamp);
+    (is_first ? def.frame_a : def.frame_b).position.y = 1_m;
+    const JointHandle joint = join(world, def);
+    EXPECT_EQ(world.step().free_bodies, 1U);
+    const double weight = 9.81 * 1000 * 4 / 3 * 3.14159265 * 0.001;
+    EXPECT_NEAR(number(world.joint(joint).force.y.raw, 20), is_first ? -weight : weight,
+                1e-4 * weight);
+  }
+}
+
 TEST(Joints, ChainWithAHeavyEndStaysTogether) {
   for (const std::int64_t mass : {1, 100}) {
     World world = test::make_world();
