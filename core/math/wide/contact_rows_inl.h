@@ -38,7 +38,8 @@ HWY_INLINE HWY_ATTR void solve_point(const ContactBlock& block, RowPoint& point,
   const Lanes v = round_shift_low(sum, load(&block.shift[lane]), load(&block.half[lane]));
   const Lanes error = add(v, upper(impulse_bias));
   const Lanes kept = multiply(upper(mass_keep), impulse_bias);
-  const Lanes impulse = round_shift_positive<30>(multiply_subtract(kept, mass_keep, error));
+  const Lanes impulse =
+      round_shift_positive<30>(multiply_subtract(kept, mass_keep, error), INT32_MAX);
   const Lanes change = subtract(impulse, impulse_bias);
   store(with_upper_of(impulse, impulse_bias), &point.impulse_bias[lane]);
   for (int i = 0; i < 3; ++i) {

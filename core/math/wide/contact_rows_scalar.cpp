@@ -43,7 +43,7 @@ void solve_point(const ContactBlock& block, RowPoint& point, std::size_t lane, R
   const Lane error = scalar::add(relative_velocity(block, point, lane, a, b), bias);
   const Lane kept = scalar::multiply(scalar::high(mass_keep), impulse_bias);
   const Lane total = scalar::multiply_subtract(kept, mass_keep, error);
-  const Lane impulse = scalar::round_shift_positive(total, 30);
+  const Lane impulse = scalar::round_shift_positive(total, 30, INT32_MAX);
   apply(block, point, lane, scalar::subtract(impulse, impulse_bias), a, b);
   point.impulse_bias[lane] = scalar::pack(impulse, bias);
 }

@@ -32,6 +32,12 @@ inline constexpr std::size_t k_lanes = HWY_LANES(std::int64_t);
 HWY_INLINE HWY_ATTR Lanes load(const std::int64_t* from) {
   return hn::LoadU(k_words, from);
 }
+/// The upper operands of words in memory: read from their middle on, for loads are cheaper than
+/// shuffles. Four bytes behind the last word are read, too.
+HWY_INLINE HWY_ATTR Lanes load_upper(const std::int64_t* from) {
+  const auto* halves = reinterpret_cast<const std::int32_t*>(from);
+  return hn::BitCast(k_words, hn::LoadU(Operands(), halves + 1));
+}
 HWY_INLINE HWY_ATTR void store(Lanes x, std::int64_t* to) {
   hn::StoreU(x, k_words, to);
 }
@@ -136,15 +142,29 @@ HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
   return hn::BitCast(k_words, shift_right_each(moved, hn::BitCast(Bits(), shift)));
 }
 
-template <int shift>
-HWY_INLINE HWY_ATTR Lanes round_shift_positive(Lanes x) {
-  const auto u = hn::BitCast(Bits(), x);
-  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
-  const auto keep = hn::Sub(hn::ShiftRight<63>(u), hn::Set(Bits(), std::uint64_t{1}));
-  const auto rounded = hn::And(hn::ShiftRight<shift>(hn::Add(u, half)), keep);
+HWY_INLINE HWY_ATTR Lanes zero_if_negative(Lanes x) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::Max(x, hn::Zero(k_words));
+#else
+  return hn::AndNot(hn::BroadcastSignBit(x), x);
+#endif
+}
+
+HWY_INLINE HWY_ATTR Lanes at_most(Lanes x, std::int32_t bound) {
   // The bound's upper half is zero, so the result is clean.
-  const auto bound = hn::BitCast(UnsignedOperands(), hn::Set(Bits(), std::uint64_t{0x7fffffff}));
-  return hn::BitCast(k_words, hn::Min(hn::BitCast(UnsignedOperands(), rounded), bound));
+  const auto most = hn::BitCast(UnsignedOperands(), broadcast(bound));
+  return hn::BitCast(k_words, hn::Min(hn::BitCast(UnsignedOperands(), x), most));
+}
+
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift_unsigned(Lanes x) {
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
+  return hn::BitCast(k_words, hn::ShiftRight<shift>(hn::Add(hn::BitCast(Bits(), x), half)));
+}
+
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift_positive(Lanes x, std::int32_t bound) {
+  return at_most(round_shift_unsigned<shift>(zero_if_negative(x)), bound);
 }
 
 template <int bits_dropped>
@@ -154,11 +174,6 @@ HWY_INLINE HWY_ATTR Lanes round_to_multiple(Lanes x) {
   const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
   const auto dropped = hn::Set(Bits(), (std::uint64_t{1} << bits_dropped) - 1);
   return hn::BitCast(k_words, hn::AndNot(dropped, moved));
-}
-
-HWY_INLINE HWY_ATTR Lanes at_most(Lanes x, std::int32_t bound) {
-  const auto most = hn::BitCast(UnsignedOperands(), broadcast(bound));
-  return hn::BitCast(k_words, hn::Min(hn::BitCast(UnsignedOperands(), x), most));
 }
 
 HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) {

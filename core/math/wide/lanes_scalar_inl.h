@@ -40,6 +40,9 @@ using scalar::with_upper_of;
 inline Lanes load(const std::int64_t* from) {
   return *from;
 }
+inline Lanes load_upper(const std::int64_t* from) {
+  return scalar::high(*from);
+}
 inline void store(Lanes x, std::int64_t* to) {
   *to = x;
 }
@@ -67,8 +70,12 @@ inline Lanes round_shift_low(Lanes x, Lanes shift, Lanes) {
   return scalar::round_shift_low(x, static_cast<int>(shift));
 }
 template <int shift>
-Lanes round_shift_positive(Lanes x) {
-  return scalar::round_shift_positive(x, shift);
+Lanes round_shift_unsigned(Lanes x) {
+  return scalar::round_shift_unsigned(x, shift);
+}
+template <int shift>
+Lanes round_shift_positive(Lanes x, std::int32_t bound) {
+  return scalar::round_shift_positive(x, shift, bound);
 }
 template <int bits>
 Lanes round_to_multiple(Lanes x) {

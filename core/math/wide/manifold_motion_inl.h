@@ -52,6 +52,9 @@ HWY_INLINE HWY_ATTR Vector upper(const Vector& a) {
 HWY_INLINE HWY_ATTR Vector load_vector(const BlockWord (&words)[3], std::size_t lane) {
   return {load(&words[0][lane]), load(&words[1][lane]), load(&words[2][lane])};
 }
+HWY_INLINE HWY_ATTR Vector load_upper_vector(const BlockWord (&words)[3], std::size_t lane) {
+  return {load_upper(&words[0][lane]), load_upper(&words[1][lane]), load_upper(&words[2][lane])};
+}
 HWY_INLINE HWY_ATTR Vector pack(const Vector& low, const Vector& high) {
   return {pack(low.x, high.x), pack(low.y, high.y), pack(low.z, high.z)};
 }
@@ -93,13 +96,12 @@ struct Axes {
 };
 
 HWY_INLINE HWY_ATTR Axes load_axes(const ManifoldBlock& block, std::size_t lane) {
-  const Lanes word_0 = load(&block.axes[0][lane]), word_1 = load(&block.axes[1][lane]);
-  const Lanes word_2 = load(&block.axes[2][lane]), word_3 = load(&block.axes[3][lane]);
-  const Lanes word_4 = load(&block.axes[4][lane]);
-  return {{word_0, upper(word_0), word_1},
-          {upper(word_1), word_2, upper(word_2)},
-          {word_3, upper(word_3), word_4},
-          each_shift(upper_part(word_4))};
+  const auto low = [&](std::size_t word) HWY_ATTR { return load(&block.axes[word][lane]); };
+  const auto high = [&](std::size_t word) HWY_ATTR { return load_upper(&block.axes[word][lane]); };
+  return {{low(0), high(0), low(1)},
+          {high(1), low(2), high(2)},
+          {low(3), high(3), low(4)},
+          each_shift(upper_part(low(4)))};
 }
 
 /// The tensors of both bodies, which stand side by side in six words.
@@ -108,11 +110,10 @@ struct TensorPair {
 };
 
 HWY_INLINE HWY_ATTR TensorPair load_tensors(const BlockWord (&words)[6], std::size_t lane) {
-  Lanes m[6];
-  for (std::size_t i = 0; i < 6; ++i)
-    m[i] = load(&words[i][lane]);
-  return {{m[0], m[1], m[2], m[3], m[4], m[5]},
-          {upper(m[0]), upper(m[1]), upper(m[2]), upper(m[3]), upper(m[4]), upper(m[5])}};
+  const auto low = [&](std::size_t word) HWY_ATTR { return load(&words[word][lane]); };
+  const auto high = [&](std::size_t word) HWY_ATTR { return load_upper(&words[word][lane]); };
+  return {{low(0), low(1), low(2), low(3), low(4), low(5)},
+          {high(0), high(1), high(2), high(3), high(4), high(5)}};
 }
 
 /// Both bodies of each manifold or joint.
@@ -164,10 +165,10 @@ struct CenterMotion {
 HWY_INLINE HWY_ATTR CenterMotion motion_of_center(const ManifoldBlock& block, std::size_t lane,
                                                   const Vector& apart, const Vector& surface_a,
                                                   const Vector& surface_b) {
-  const Vector arm = load_vector(block.arm, lane);
-  const Lanes scale = load(&block.scale[lane]);
-  const Vector around = subtract(cross(surface_b, upper(arm)), cross(surface_a, arm));
-  const Vector turned = subtract(multiply(surface_b, upper(scale)), multiply(surface_a, scale));
+  const Vector around = subtract(cross(surface_b, load_upper_vector(block.arm, lane)),
+                                 cross(surface_a, load_vector(block.arm, lane)));
+  const Vector turned = subtract(multiply(surface_b, load_upper(&block.scale[lane])),
+                                 multiply(surface_a, load(&block.scale[lane])));
   return {add(apart, around), round_shift_low<30>(turned)};
 }
 
@@ -193,14 +194,14 @@ HWY_INLINE HWY_ATTR void apply(const ManifoldBlock& block, std::size_t lane, con
       add(add(multiply(axes.n, p.n), multiply(axes.t, p.t)), multiply(axes.b, p.b)));
   const Vector torque = round_shift_low<30>(add(
       add(multiply(axes.n, p.about_n), multiply(axes.t, p.about_t)), multiply(axes.b, p.about_b)));
-  const Vector gain = load_vector(block.gain_arm, lane);
-  const Lanes turn = load(&block.gain_turn[lane]);
   const Vector to_b = round_to_multiple<k_below_grid>(multiply(push, load(&block.share[lane])));
   const Vector to_a = subtract(multiply(push, broadcast(std::int64_t{1} << 30)), to_b);
   const Vector spin_b =
-      round_to_multiple<k_below_grid>(add(cross(upper(gain), push), multiply(torque, upper(turn))));
+      round_to_multiple<k_below_grid>(add(cross(load_upper_vector(block.gain_arm, lane), push),
+                                          multiply(torque, load_upper(&block.gain_turn[lane]))));
   const Vector spin_a =
-      round_to_multiple<k_below_grid>(add(cross(gain, push), multiply(torque, turn)));
+      round_to_multiple<k_below_grid>(add(cross(load_vector(block.gain_arm, lane), push),
+                                          multiply(torque, load(&block.gain_turn[lane]))));
   add_to(bodies.b.velocity, to_b);
   add_to(bodies.b.spin, spin_b);
   take_from(bodies.a.velocity, to_a);

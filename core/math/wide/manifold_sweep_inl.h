@@ -23,6 +23,7 @@ struct PointLanes {
   Lanes speed[4];    // v of each, operand, Q20
   Lanes bias[4];     // the speed to be added to it, operand, Q20
   Lanes gap[4];      // the word of separations: above that of `skin` when apart
+  Lanes widest;      // the greatest of them
   Lanes rest[4];     // (1 − κ)·load, Q50; 0: no point
   Lanes start[4];    // P at the beginning, clean
   Lanes impulse[4];  // P
@@ -46,7 +47,7 @@ HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lan
   const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
   for (std::size_t i = 0; i < 4; ++i) {
     points.x[i] = load(&block.points[i].offset[lane]);
-    points.y[i] = upper(points.x[i]);
+    points.y[i] = load_upper(&block.points[i].offset[lane]);
     points.start[i] = lower_part(load(&block.points[i].impulse[lane]));
     points.impulse[i] = points.start[i];
     points.speed[i] = round_shift_low<30>(
@@ -54,33 +55,38 @@ HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lan
   }
 }
 
+/// Whether any point of any lane is apart.
+HWY_INLINE HWY_ATTR bool find_gaps(const ManifoldBlock& block, std::size_t lane,
+                                   const SweepRules& rules, PointLanes& points) {
+  for (std::size_t i = 0; i < 4; ++i)
+    points.gap[i] = load(&block.points[i].separation[lane]);
+  points.widest = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
+  return any_less(touching_word(rules), points.widest);
+}
+
 /// What separations ask for: apart, no more than closes the gap in a substep; else, when `soft`,
 /// what the spring gives towards its rest, at most the speed of pushing out.
-template <bool soft>
+template <bool soft, bool apart>
 HWY_INLINE HWY_ATTR void load_biases(const ManifoldBlock& block, std::size_t lane,
                                      const SweepRules& rules, PointLanes& points) {
   constexpr std::int64_t k_fastest = std::int64_t{1} << 34;  // 1024 m/s, Q24
-  const Lanes rate = load(&block.soft[lane]), rest = load(&block.rest[lane]);
   for (std::size_t i = 0; i < 4; ++i) {
-    points.gap[i] = load(&block.points[i].separation[lane]);
-    const Lanes now = upper(points.gap[i]);
-    const Lanes closing =
-        round_shift_low<4>(min(multiply(now, broadcast(rules.substep_rate)), broadcast(k_fastest)));
-    Lanes resting = broadcast(0);
+    const Lanes now = load_upper(&block.points[i].separation[lane]);
+    Lanes bias = broadcast(0);
     if constexpr (soft) {
       const std::int64_t most = -(std::int64_t{rules.push_out} << 24);
-      resting = round_shift_low<24>(
-          max(multiply(add(now, broadcast(rules.overlap)), rate), broadcast(most)));
-      points.rest[i] = select_equal(points.mass[i], broadcast(0), broadcast(0), rest);
+      bias = round_shift_low<24>(max(
+          multiply(add(now, broadcast(rules.overlap)), load(&block.soft[lane])), broadcast(most)));
+      points.rest[i] =
+          select_equal(points.mass[i], broadcast(0), broadcast(0), load(&block.rest[lane]));
     }
-    points.bias[i] = select_less(touching_word(rules), points.gap[i], closing, resting);
+    if constexpr (apart) {
+      const Lanes closing = round_shift_unsigned<4>(
+          min(multiply(now, broadcast(rules.substep_rate)), broadcast(k_fastest)));
+      bias = select_less(touching_word(rules), points.gap[i], closing, bias);
+    }
+    points.bias[i] = bias;
   }
-}
-
-/// max(0, P − m·error)
-HWY_INLINE HWY_ATTR Lanes hard_impulse(Lanes impulse, Lanes mass_error) {
-  const Lanes exact = subtract(shift_left<30>(impulse), mass_error);
-  return at_most(round_shift_positive<30>(exact), k_most_impulse);
 }
 
 /// x − y in Q(20 + bits), within ±1024 m/s, in Q20.
@@ -91,43 +97,50 @@ HWY_INLINE HWY_ATTR Lanes limited_difference(Lanes x, Lanes y) {
   return round_shift_low<bits>(clamp(wide, broadcast(-k_most), broadcast(k_most)));
 }
 
-/// max(0, κ·(P − m·error) + (1 − κ)·load), unless the points are apart: what pulls away from a
+/// What an impulse of 32 bits is after rounding.
+HWY_INLINE HWY_ATTR Lanes bounded_impulse(Lanes exact) {
+  return round_shift_positive<30>(exact, k_most_impulse);
+}
+
+/// max(0, P − m·error)
+struct HardRow {
+  HWY_INLINE HWY_ATTR Lanes next(const PointLanes& points, std::size_t i, Lanes mass_error,
+                                 Lanes) const {
+    return bounded_impulse(subtract(shift_left<30>(points.impulse[i]), mass_error));
+  }
+};
+
+/// max(0, κ·(P − m·error) + (1 − κ)·load), unless `apart` and so by its gap: what pulls away from a
 /// point by more than its share of the load is let go.
+template <bool apart>
 struct SoftRow {
   Lanes keep, touching;
 
-  HWY_INLINE HWY_ATTR Lanes impulse(Lanes before, Lanes mass_error, Lanes rest, Lanes gap) const {
-    const Lanes exact = multiply_add(rest, keep, limited_difference<30>(before, mass_error));
-    const Lanes softened = at_most(round_shift_positive<30>(exact), k_most_impulse);
-    return select_less(touching, gap, hard_impulse(before, mass_error), softened);
+  HWY_INLINE HWY_ATTR Lanes next(const PointLanes& points, std::size_t i, Lanes mass_error,
+                                 Lanes gap) const {
+    constexpr std::int64_t k_most = std::int64_t{1} << 60;
+    const Lanes hard = subtract(shift_left<30>(points.impulse[i]), mass_error);
+    const Lanes bounded = round_shift_low<30>(clamp(hard, broadcast(-k_most), broadcast(k_most)));
+    const Lanes soft = multiply_add(points.rest[i], keep, bounded);
+    if constexpr (apart) return bounded_impulse(select_less(touching, gap, hard, soft));
+    return bounded_impulse(soft);
   }
 };
 
 /// All points as one row, each by the same share: what is symmetric stays symmetric.
-template <bool soft>
-HWY_INLINE HWY_ATTR Lanes next_impulse(const SoftRow& row, const PointLanes& points, std::size_t i,
-                                       Lanes mass_error, Lanes gap) {
-  if constexpr (soft)
-    return row.impulse(points.impulse[i], mass_error, points.rest[i], gap);
-  else
-    return hard_impulse(points.impulse[i], mass_error);
-}
-
-template <bool soft>
-HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t lane,
-                                      const SoftRow& row, PointLanes& points) {
-  const Lanes common = load(&block.common[lane]);
-  Lanes mean = broadcast(0);
+template <class Row>
+HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t lane, const Row& row,
+                                      PointLanes& points) {
+  const Lanes none = broadcast(0), share = load_upper(&block.common[lane]);
+  Lanes mean = none;
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes error = add(points.speed[i], points.bias[i]);
-    const Lanes counted = select_equal(points.mass[i], broadcast(0), broadcast(0), error);
-    mean = multiply_add(mean, upper(common), counted);
+    mean = multiply_add(mean, share, select_equal(points.mass[i], none, none, error));
   }
-  const Lanes mass_error = multiply(common, round_shift_low<30>(mean));
-  const Lanes gap = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
+  const Lanes mass_error = multiply(load(&block.common[lane]), round_shift_low<30>(mean));
   for (std::size_t i = 0; i < 4; ++i) {
-    const Lanes own = select_equal(points.mass[i], broadcast(0), broadcast(0), mass_error);
-    points.impulse[i] = next_impulse<soft>(row, points, i, own, gap);
+    const Lanes own = select_equal(points.mass[i], none, none, mass_error);
+    points.impulse[i] = row.next(points, i, own, points.widest);
   }
 }
 
@@ -139,15 +152,15 @@ struct Responses {
 HWY_INLINE HWY_ATTR void load_responses(const ManifoldBlock& block, std::size_t lane,
                                         Responses& r) {
   r.of[0][0] = load(&block.response_00_11[lane]);
-  r.of[1][1] = upper(r.of[0][0]);
+  r.of[1][1] = load_upper(&block.response_00_11[lane]);
   r.of[2][2] = load(&block.response_22_33[lane]);
-  r.of[3][3] = upper(r.of[2][2]);
+  r.of[3][3] = load_upper(&block.response_22_33[lane]);
   r.of[0][1] = r.of[1][0] = load(&block.response_01_23[lane]);
-  r.of[2][3] = r.of[3][2] = upper(r.of[0][1]);
+  r.of[2][3] = r.of[3][2] = load_upper(&block.response_01_23[lane]);
   r.of[0][2] = r.of[2][0] = load(&block.response_02_13[lane]);
-  r.of[1][3] = r.of[3][1] = upper(r.of[0][2]);
+  r.of[1][3] = r.of[3][1] = load_upper(&block.response_02_13[lane]);
   r.of[0][3] = r.of[3][0] = load(&block.response_03_12[lane]);
-  r.of[1][2] = r.of[2][1] = upper(r.of[0][3]);
+  r.of[1][2] = r.of[2][1] = load_upper(&block.response_03_12[lane]);
 }
 
 /// vⱼ += Σ responseⱼᵢ·ΔPᵢ
@@ -165,13 +178,12 @@ HWY_INLINE HWY_ATTR void follow_common(const Responses& r, const EachShift& by,
 }
 
 /// The points in turn; each tells those after it.
-template <bool soft>
-HWY_INLINE HWY_ATTR void solve_points(const Responses& r, const EachShift& by, const SoftRow& row,
+template <class Row>
+HWY_INLINE HWY_ATTR void solve_points(const Responses& r, const EachShift& by, const Row& row,
                                       PointLanes& points) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes error = add(points.speed[i], points.bias[i]);
-    const Lanes mass_error = multiply(points.mass[i], error);
-    const Lanes next = next_impulse<soft>(row, points, i, mass_error, points.gap[i]);
+    const Lanes next = row.next(points, i, multiply(points.mass[i], error), points.gap[i]);
     const Lanes moved = subtract(next, points.impulse[i]);
     points.impulse[i] = next;
     for (std::size_t j = i + 1; j < 4; ++j)
@@ -202,18 +214,40 @@ HWY_INLINE HWY_ATTR void store_points(const PointLanes& points, std::size_t lane
   }
 }
 
+template <class Row>
+HWY_INLINE HWY_ATTR void solve_rows(const ManifoldBlock& block, std::size_t lane,
+                                    const EachShift& by, const Row& row, PointLanes& points) {
+  Responses responses{};
+  load_responses(block, lane, responses);
+  solve_common(block, lane, row, points);
+  follow_common(responses, by, points);
+  solve_points(responses, by, row, points);
+}
+
+/// Most blocks have no point that is apart, and do without what only those ask for.
+template <bool soft, bool apart>
+HWY_INLINE HWY_ATTR void solve_biased(const ManifoldBlock& block, std::size_t lane,
+                                      const EachShift& by, const SweepRules& rules,
+                                      PointLanes& points) {
+  load_biases<soft, apart>(block, lane, rules, points);
+  if constexpr (soft) {
+    const SoftRow<apart> row = {load_upper(&block.soft[lane]), touching_word(rules)};
+    solve_rows(block, lane, by, row, points);
+  } else {
+    solve_rows(block, lane, by, HardRow{}, points);
+  }
+}
+
 template <bool soft>
 HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                           const CenterMotion& motion, const SweepRules& rules,
                                           PointLanes& points) {
   load_points(block, lane, axes, motion, points);
-  load_biases<soft>(block, lane, rules, points);
-  const SoftRow row = {upper(load(&block.soft[lane])), touching_word(rules)};
-  Responses responses{};
-  load_responses(block, lane, responses);
-  solve_common<soft>(block, lane, row, points);
-  follow_common(responses, axes.by, points);
-  solve_points<soft>(responses, axes.by, row, points);
+  if (find_gaps(block, lane, rules, points)) {
+    solve_biased<soft, true>(block, lane, axes.by, rules, points);
+  } else {
+    solve_biased<soft, false>(block, lane, axes.by, rules, points);
+  }
   store_points(points, lane, block);
   return sum_of(points);
 }
@@ -414,7 +448,7 @@ HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, st
     const Lanes came = load(&approach.speed[i][lane]);
     const Lanes wanted = round_shift_low<30>(multiply(elasticity, came));
     const Lanes error = add(points.speed[i], wanted);
-    const Lanes next = hard_impulse(points.impulse[i], multiply(points.mass[i], error));
+    const Lanes next = HardRow{}.next(points, i, multiply(points.mass[i], error), none);
     Lanes bounced = select_less(came, broadcast(-std::int64_t{threshold}), next, points.impulse[i]);
     bounced = select_equal(elasticity, none, points.impulse[i], bounced);
     bounced = select_equal(upper_part(load(&block.points[i].impulse[lane])), none,

@@ -79,12 +79,17 @@ using Lane = std::int64_t;
   return static_cast<Lane>((bits(x) + half - (bits(x) >> 63)) >> shift);
 }
 
-/// max(0, x · 2^-shift to nearest), at most 2^31 − 1. x < 2^(32 + shift) − 2^(shift − 1).
-[[nodiscard]] constexpr Lane round_shift_positive(Lane x, int shift) {
+/// The same of a number without sign.
+[[nodiscard]] constexpr Lane round_shift_unsigned(Lane x, int shift) {
+  return static_cast<Lane>((bits(x) + (std::uint64_t{1} << (shift - 1))) >> shift);
+}
+
+/// max(0, x · 2^-shift to nearest), at most `bound` ≥ 0. x < 2^(32 + shift) − 2^(shift − 1).
+[[nodiscard]] constexpr Lane round_shift_positive(Lane x, int shift, std::int32_t bound) {
   if (x < 0) return 0;
-  const auto rounded =
-      static_cast<std::uint32_t>((bits(x) + (std::uint64_t{1} << (shift - 1))) >> shift);
-  return rounded > 0x7fffffffU ? 0x7fffffff : static_cast<Lane>(rounded);
+  const auto rounded = static_cast<std::uint32_t>(round_shift_unsigned(x, shift));
+  const auto most = static_cast<std::uint32_t>(bound);
+  return Lane{rounded < most ? rounded : most};
 }
 
 /// x to the nearest multiple of 2^bits_dropped, ties away from zero. 1 ≤ bits_dropped ≤ 62.

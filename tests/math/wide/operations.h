@@ -46,8 +46,11 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
   X(round_32, round_shift_low<32>(a), round_shift_low(a, 32), k_all_bits)                         \
   X(round_each, round_shift_low(a, shift, half), round_shift_low(a, static_cast<int>(shift)),     \
     k_all_bits)                                                                                   \
-  X(positive_20, round_shift_positive<20>(a), round_shift_positive(a, 20), k_all_bits)            \
-  X(positive_30, round_shift_positive<30>(a), round_shift_positive(a, 30), k_all_bits)            \
+  X(unsigned_4, round_shift_unsigned<4>(a), round_shift_unsigned(a, 4), k_all_bits)               \
+  X(positive_20, round_shift_positive<20>(a, INT32_MAX),                                          \
+    round_shift_positive(a, 20, INT32_MAX), k_all_bits)                                           \
+  X(positive_30, round_shift_positive<30>(a, 12345678),                                           \
+    round_shift_positive(a, 30, 12345678), k_all_bits)                                            \
   X(dot, round_shift_low<30>(multiply_add(multiply_add(multiply(a, b), b, c), c, a)),             \
     round_shift_low(multiply_add(multiply_add(multiply(a, b), b, c), c, a), 30), k_all_bits)      \
   X(min, min(a, b), min(a, b), k_all_bits)                                                        \
