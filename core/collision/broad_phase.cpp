@@ -6,9 +6,11 @@
 namespace lockstone {
 namespace {
 
-// How far a body may go before its fat box is put anew: an eighth of a metre on every side, and
-// ahead as far as it goes in the next ticks at its present speed, but no farther than it is long.
-constexpr BoundsCoordinate k_fat_margin = BoundsCoordinate::from_ratio(1, 8);
+// How far a body may go before its fat box is put anew: an eighth of its length on every side, but
+// no more than an eighth of a metre, and ahead as far as it goes in the next ticks at its present
+// speed, but no farther than half its length: what is packed closely meets few that it never meets.
+constexpr BoundsCoordinate k_most_margin = BoundsCoordinate::from_ratio(1, 8);
+constexpr int k_margin_shift = 3;
 constexpr std::int64_t k_ticks_ahead = 8;
 
 // Candidates for each pair that the world has room for.
@@ -28,10 +30,18 @@ std::int64_t length(BoundsCoordinate low, BoundsCoordinate high) {
   return std::int64_t{high.raw} - low.raw;
 }
 
+BoundsCoordinate margin_of(const Bounds& bounds) {
+  std::int64_t longest = 0;
+  for (int i = 0; i < 3; ++i)
+    longest = std::max(longest, length(bounds.lower[i], bounds.upper[i]));
+  const std::int64_t margin = std::min<std::int64_t>(longest >> k_margin_shift, k_most_margin.raw);
+  return BoundsCoordinate::from_raw(static_cast<std::int32_t>(margin));
+}
+
 Bounds fattened(const Bounds& before, const Bounds& now) {
-  Bounds fat = inflated(now, k_fat_margin);
+  Bounds fat = inflated(now, margin_of(now));
   for (int i = 0; i < 3; ++i) {
-    const std::int64_t limit = length(now.lower[i], now.upper[i]);
+    const std::int64_t limit = length(now.lower[i], now.upper[i]) / 2;
     const std::int64_t ahead = k_ticks_ahead * length(before.lower[i], now.lower[i]);
     if (ahead > 0) fat.upper[i] = plus(fat.upper[i], std::min(ahead, limit));
     if (ahead < 0) fat.lower[i] = plus(fat.lower[i], std::max(ahead, -limit));
@@ -42,11 +52,12 @@ Bounds fattened(const Bounds& before, const Bounds& now) {
 // A body that was fast and is slow has a fat box that meets too many.
 bool is_too_fat(const Bounds& fat, const Bounds& before, const Bounds& now) {
   bool too_fat = false;
+  const std::int64_t margin = margin_of(now).raw;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t step = length(before.lower[i], now.lower[i]);
     const std::int64_t spare =
         length(fat.lower[i], fat.upper[i]) - length(now.lower[i], now.upper[i]);
-    too_fat |= spare > 4 * k_fat_margin.raw + 2 * k_ticks_ahead * (step < 0 ? -step : step);
+    too_fat |= spare > 4 * margin + 2 * k_ticks_ahead * (step < 0 ? -step : step);
   }
   return too_fat;
 }
@@ -110,7 +121,7 @@ void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits
     return;
   } else {
     bounds_[body] = bounds;
-    proxy = {inflated(bounds, traits.moves ? k_fat_margin : BoundsCoordinate{}), traits, true};
+    proxy = {inflated(bounds, traits.moves ? margin_of(bounds) : BoundsCoordinate{}), traits, true};
     body_limit_ = std::max(body_limit_, body + 1);
   }
   touch(body);

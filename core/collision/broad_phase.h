@@ -59,22 +59,14 @@ class BroadPhase {
   /// `test(bounds)`, in no promised order. What fails for a box must fail for all that it contains.
   template <class Test, class Visit>
   void traverse(std::uint32_t mask, Test&& test, Visit&& visit) const {
-    const auto look = [&](std::uint32_t body) {
-      const Proxy& proxy = proxies_[body];
-      if (proxy.present && (proxy.traits.filter.category & mask) != 0 && test(bounds_[body])) {
-        visit(body);
-      }
-    };
-    if (const auto* trees = std::get_if<TreeSearch>(&search_)) {
-      trees->traverse(mask, test, look);
-      return;
-    }
-    // The sorted list is in order only after a search for pairs, and along one axis a query would
-    // still pass half of it: looking at all costs little more and leaves nothing to keep up.
-    for (std::uint32_t body = 0; body < body_limit_; ++body)
-      look(body);
+    traverse_some(mask, true, test, visit);
   }
 
+  /// The same of every category, but only for bodies that nothing pushes.
+  template <class Test, class Visit>
+  void traverse_immovable(Test&& test, Visit&& visit) const {
+    traverse_some(k_every_category, false, test, visit);
+  }
   /// Counts of the last `find_pairs`, for tests and measurements: bodies searched for anew, and
   /// whether the candidates had no room, so that everything was searched.
   struct Effort {
@@ -86,6 +78,26 @@ class BroadPhase {
   [[nodiscard]] bool is_valid() const;
 
  private:
+  static constexpr std::uint32_t k_every_category = 0xffffffff;
+
+  template <class Test, class Visit>
+  void traverse_some(std::uint32_t mask, bool with_dynamic, Test&& test, Visit&& visit) const {
+    const auto look = [&](std::uint32_t body) {
+      const Proxy& proxy = proxies_[body];
+      const bool asked = proxy.present && (with_dynamic || !proxy.traits.is_dynamic) &&
+                         (proxy.traits.filter.category & mask) != 0;
+      if (asked && test(bounds_[body])) visit(body);
+    };
+    if (const auto* trees = std::get_if<TreeSearch>(&search_)) {
+      trees->traverse(mask, with_dynamic, test, look);
+      return;
+    }
+    // The sorted list is in order only after a search for pairs, and along one axis a query would
+    // still pass half of it: looking at all costs little more and leaves nothing to keep up.
+    for (std::uint32_t body = 0; body < body_limit_; ++body)
+      look(body);
+  }
+
   void touch(std::uint32_t body);
   void touch_all();
   void release_touched();

@@ -5,8 +5,10 @@
 namespace lockstone {
 namespace {
 
-// A tree is built anew when more than this part of its leaves changes at once.
+// A tree is built anew when more than this part of its leaves changes at once, or as many as it has
+// were put in one by one: what is packed closely makes it worse each time.
 constexpr std::uint32_t k_rebuilt_part = 4;
+constexpr std::uint32_t k_least_rebuilt = 8;
 
 }  // namespace
 
@@ -14,6 +16,7 @@ void TreeSearch::clear() {
   for (int i = 0; i < 2; ++i) {
     trees_[i].clear();
     leaves_[i] = 0;
+    inserted_[i] = 0;
   }
   std::fill(places_.begin(), places_.end(), Place{});
   waiting_.clear();
@@ -35,36 +38,40 @@ void TreeSearch::remove(std::uint32_t body) {
 
 void TreeSearch::remove_leaf(Place& place) {
   if (place.leaf == k_null) return;
-  trees_[place.moves ? 1 : 0].remove(place.leaf);
-  --leaves_[place.moves ? 1 : 0];
+  trees_[place.is_dynamic ? 1 : 0].remove(place.leaf);
+  --leaves_[place.is_dynamic ? 1 : 0];
   place.leaf = k_null;
 }
 
 void TreeSearch::insert(std::uint32_t body, const Proxy& proxy) {
   Place& place = places_[body];
   remove_leaf(place);
-  place.moves = proxy.traits.moves;
-  place.leaf = trees_[place.moves ? 1 : 0].insert(proxy.fat, layers_of(proxy.traits.filter), body);
-  ++leaves_[place.moves ? 1 : 0];
+  place.is_dynamic = proxy.traits.is_dynamic;
+  const std::size_t tree = place.is_dynamic ? 1 : 0;
+  place.leaf = trees_[tree].insert(proxy.fat, layers_of(proxy.traits.filter), body);
+  ++leaves_[tree];
+  ++inserted_[tree];
 }
 
 void TreeSearch::refresh(std::span<const Proxy> proxies) {
   std::uint32_t coming[2] = {};
   for (const std::uint32_t body : waiting_) {
-    if (places_[body].waits) ++coming[proxies[body].traits.moves ? 1 : 0];
+    if (places_[body].waits) ++coming[proxies[body].traits.is_dynamic ? 1 : 0];
   }
   bool rebuilt[2];
-  for (int i = 0; i < 2; ++i)
-    rebuilt[i] = coming[i] > 8 && coming[i] > leaves_[i] / k_rebuilt_part;
+  for (int i = 0; i < 2; ++i) {
+    const bool many = coming[i] > leaves_[i] / k_rebuilt_part || inserted_[i] > leaves_[i];
+    rebuilt[i] = coming[i] + inserted_[i] > k_least_rebuilt && many;
+  }
   for (const std::uint32_t body : waiting_) {
     Place& place = places_[body];
     place.listed = false;
     if (!place.waits) continue;
     place.waits = false;
-    const bool moves = proxies[body].traits.moves;
-    if (!rebuilt[moves ? 1 : 0])
+    const bool is_dynamic = proxies[body].traits.is_dynamic;
+    if (!rebuilt[is_dynamic ? 1 : 0])
       insert(body, proxies[body]);
-    else if (place.moves != moves)
+    else if (place.is_dynamic != is_dynamic)
       remove_leaf(place);
   }
   waiting_.clear();
@@ -73,18 +80,20 @@ void TreeSearch::refresh(std::span<const Proxy> proxies) {
   }
 }
 
-void TreeSearch::rebuild(bool moves, std::span<const Proxy> proxies) {
-  BoundingVolumeTree& tree = trees_[moves ? 1 : 0];
+void TreeSearch::rebuild(bool dynamic, std::span<const Proxy> proxies) {
+  const std::size_t index = dynamic ? 1 : 0;
+  BoundingVolumeTree& tree = trees_[index];
   tree.clear();
   items_.clear();
   for (std::uint32_t body = 0; body < proxies.size(); ++body) {
     const Proxy& proxy = proxies[body];
-    if (!proxy.present || proxy.traits.moves != moves) continue;
+    if (!proxy.present || proxy.traits.is_dynamic != dynamic) continue;
     items_.push_back(tree.make_leaf(proxy.fat, layers_of(proxy.traits.filter), body));
     places_[body].leaf = items_.back().leaf;
-    places_[body].moves = moves;
+    places_[body].is_dynamic = dynamic;
   }
-  leaves_[moves ? 1 : 0] = static_cast<std::uint32_t>(items_.size());
+  leaves_[index] = static_cast<std::uint32_t>(items_.size());
+  inserted_[index] = 0;
   tree.build(items_);
 }
 

@@ -1,4 +1,4 @@
-// The broad phase by trees: one for what stands and one for what moves.
+// The broad phase by trees: one for what nothing pushes and one for dynamic bodies.
 #pragma once
 
 #include <cstdint>
@@ -47,16 +47,16 @@ class TreeSearch {
         const bool others = is_touched[other] != 0 && other <= body;
         if (!others) goes_on = goes_on && emit(body, other);
       };
-      trees_[1].traverse(test, visit);
-      if (proxy.traits.moves) trees_[0].traverse(test, visit);
+      for (const BoundingVolumeTree& tree : trees_)
+        tree.traverse(test, visit);
     }
     return goes_on;
   }
 
   /// Calls `visit(body)` for the bodies whose category is in `mask` and whose fat box passes
-  /// `test`.
+  /// `test`: all of them, or perhaps no dynamic ones.
   template <class Test, class Visit>
-  void traverse(std::uint32_t mask, Test&& test, Visit&& visit) const {
+  void traverse(std::uint32_t mask, bool with_dynamic, Test&& test, Visit&& visit) const {
     const auto passes = [&](const Bounds& bounds, const Layers& layers) {
       return (layers.categories & mask) != 0 && test(bounds);
     };
@@ -64,7 +64,7 @@ class TreeSearch {
       if (!places_[body].waits) visit(body);
     };
     trees_[0].traverse(passes, settled);
-    trees_[1].traverse(passes, settled);
+    if (with_dynamic) trees_[1].traverse(passes, settled);
     for (const std::uint32_t body : waiting_)
       if (places_[body].waits) visit(body);
   }
@@ -77,18 +77,19 @@ class TreeSearch {
   // Where a body's leaf is. That of a body that waits, if it has one, is out of date.
   struct Place {
     std::uint32_t leaf = k_null;
-    bool moves = false;
+    bool is_dynamic = false;
     bool waits = false;
     bool listed = false;  // in waiting_, perhaps in vain
   };
 
   void remove_leaf(Place& place);
   void insert(std::uint32_t body, const Proxy& proxy);
-  void rebuild(bool moves, std::span<const Proxy> proxies);
+  void rebuild(bool dynamic, std::span<const Proxy> proxies);
 
-  BoundingVolumeTree trees_[2];  // of what stands; of what moves
+  BoundingVolumeTree trees_[2];  // of what nothing pushes; of dynamic bodies
   std::uint32_t leaves_[2] = {};
-  std::vector<Place> places_;  // by body
+  std::uint32_t inserted_[2] = {};  // one by one, since all were put in at once
+  std::vector<Place> places_;       // by body
   std::vector<std::uint32_t> waiting_;
   std::vector<BoundingVolumeTree::Item> items_;
 };

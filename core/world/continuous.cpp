@@ -189,7 +189,10 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
                        (impact.fraction == next.impact.fraction && other < next.body));
     if (sooner) next = {other, impact};
   };
-  broad_phase.traverse(k_every_category, test, visit);
+  if (record.is_bullet())
+    broad_phase.traverse(k_every_category, test, visit);
+  else
+    broad_phase.traverse_immovable(test, visit);
   return next;
 }
 

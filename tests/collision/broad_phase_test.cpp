@@ -38,6 +38,12 @@ struct Model {
     return found;
   }
 
+  [[nodiscard]] std::vector<std::uint32_t> immovable_seen(const Bounds& area) const {
+    std::vector<std::uint32_t> found = seen(0xffffffff, area);
+    std::erase_if(found, [&](std::uint32_t body) { return traits[body].is_dynamic; });
+    return found;
+  }
+
   std::vector<Bounds> bounds;
   std::vector<ProxyTraits> traits;
   std::vector<bool> present;
@@ -119,6 +125,14 @@ std::vector<std::uint32_t> seen_by(const BroadPhase& broad_phase, std::uint32_t 
   return found;
 }
 
+std::vector<std::uint32_t> immovable_seen_by(const BroadPhase& broad_phase, const Bounds& area) {
+  std::vector<std::uint32_t> found;
+  broad_phase.traverse_immovable([&](const Bounds& b) { return overlap(area, b); },
+                                 [&](std::uint32_t body) { found.push_back(body); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 std::vector<Pair> first(std::vector<Pair> pairs, std::size_t count) {
   pairs.resize(std::min(count, pairs.size()));
   return pairs;
@@ -145,6 +159,7 @@ TEST_P(BothBroadPhases, FindEveryPairOnceAndSortedWhateverHappens) {
     const auto mask = static_cast<std::uint32_t>(random.between(0, 15));
     const Bounds area = random_box(random);
     ASSERT_EQ(seen_by(broad_phase, mask, area), model.seen(mask, area)) << "tick " << tick;
+    ASSERT_EQ(immovable_seen_by(broad_phase, area), model.immovable_seen(area)) << "tick " << tick;
     ASSERT_TRUE(tick % 10 != 0 || broad_phase.is_valid()) << "tick " << tick;
   }
 }
