@@ -5,8 +5,10 @@
 #include <cstdlib>
 
 #include "core/collision/first_impact.h"
+#include "core/collision/relative_way.h"
 #include "core/dynamics/impact_response.h"
 #include "core/dynamics/motion.h"
+#include "core/math/roots.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -43,14 +45,17 @@ Sweep rest_of(const Sweep& motion, Unit fraction) {
   return rest;
 }
 
-// At most the way of any point of a body about its centre, 32 bits: |Δq| is half the angle or more
-// than 2/π of it.
+// At least the way of any point of a body about its centre, 32 bits: |Δq| = d is a turn of
+// 4·asin(d/2), which is at most 65/32 of d up to ½ and below 4·d beyond.
 std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {
-  const auto change = [](Unit a, Unit b) { return std::abs(std::int64_t{a.raw} - b.raw); };
-  const std::int64_t sum =
-      change(from.x, to.x) + change(from.y, to.y) + change(from.z, to.z) + change(from.w, to.w);
-  constexpr int k_times_four = 2;
-  return raw::multiply_shift(sum, radius.raw, Unit::frac_bits - 12 - k_times_four);
+  const auto change = [](Unit a, Unit b) { return std::int64_t{a.raw} - b.raw; };
+  const auto square = [](std::int64_t x) { return static_cast<std::uint64_t>(x * x); };
+  const std::uint64_t sum = square(change(from.x, to.x)) + square(change(from.y, to.y)) +
+                            square(change(from.z, to.z)) + square(change(from.w, to.w));
+  const std::int64_t chord = isqrt(sum) + std::int64_t{1};
+  constexpr std::int64_t k_half = std::int64_t{1} << (Unit::frac_bits - 1);
+  const std::int64_t angle = chord <= k_half ? 2 * chord + chord / 32 : 4 * chord;
+  return raw::multiply_shift(angle, radius.raw, Unit::frac_bits - 12);
 }
 
 // One point, at the centre of A.
@@ -106,7 +111,9 @@ bool World::Impl::went_far(std::uint32_t body) const {
   if (!record.is_dynamic() || record.is_trigger()) return false;
   const Transform& start = starts[body];
   const std::int64_t limit = rounded<Position>(inner_radii[body] / 2).raw;
-  const std::int64_t way = sum_of_magnitudes(record.position - start.position);
+  const Vec3<Position> gone = record.position - start.position;
+  std::int64_t way = sum_of_magnitudes(gone);
+  if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
   if (way > limit) return true;
   if (start.orientation == record.orientation) return false;
   const Length radius = bounding_radius(record.shape(), body_assets[body]);
@@ -171,7 +178,9 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
                                                  Unit done) const {
   const BodyRecord& record = bodies[body];
   const Shape shape = record.shape();
-  const Bounds way = bounds_of_way(motion, bounding_radius(shape, body_assets[body]));
+  const Length inner = inner_radii[body];
+  const Length radius = bounding_radius(shape, body_assets[body]);
+  const Bounds way = bounds_of_way(motion, radius);
   NextImpact next;
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
@@ -182,6 +191,8 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
     if (!considered) return;
     const Shape other_shape = obstacle.shape();
     const Sweep other_motion = motion_of(other, done);
+    const Length turned = radius > inner ? radius : Length{};
+    if (relative_way(motion, other_motion, turned) <= rounded<Position>(inner / 2)) return;
     const Impact impact = first_impact({shape, body_assets[body], motion},
                                        {other_shape, body_assets[other], other_motion});
     const bool sooner =
