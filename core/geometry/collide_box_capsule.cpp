@@ -46,8 +46,8 @@ void add_face_point(Manifold& manifold, const BoxCapsule& pair, int axis, int si
   const Fine height = height_at(pair, axis, sign, s);
   on_face[axis] = sign * pair.local.box_half[axis];
   const RawVec on_capsule = core_point(pair, s) - along(manifold.normal, pair.radius);
-  add_point(manifold, {rotate(pair.box.rotation, on_face), on_capsule}, pair.offset,
-            height - fine(pair.radius), pair.margin, feature);
+  add_round_point(manifold, {rotate(pair.box.rotation, on_face), on_capsule}, pair.offset,
+                  height - fine(pair.radius), pair.margin, feature);
 }
 
 /// The core leans from the face by more than 1/32: its far end is no contact. Below that the normal
@@ -89,8 +89,8 @@ Manifold nearest_point(const BoxCapsule& pair, Fine s, const RawVec& gap) {
   manifold.normal = d.unit;
   const RawVec on_box = rotate(pair.box.rotation, point_at(pair.local, s) - gap);
   const RawVec on_capsule = core_point(pair, s) - along(d.unit, pair.radius);
-  add_point(manifold, {on_box, on_capsule}, pair.offset,
-            static_cast<Fine>(d.length) - fine(pair.radius), pair.margin, 0);
+  add_round_point(manifold, {on_box, on_capsule}, pair.offset,
+                  static_cast<Fine>(d.length) - fine(pair.radius), pair.margin, 0);
   return manifold;
 }
 
@@ -137,8 +137,8 @@ Manifold edge_manifold(const BoxCapsule& pair, const OverlapAxis& overlap) {
   Manifold manifold;
   manifold.normal = direction_of(n.x, n.y, n.z);
   const RawVec on_capsule = point_at(core, at.on_b) - along(manifold.normal, pair.radius);
-  add_point(manifold, {point_at(edge, at.on_a), on_capsule}, pair.offset,
-            overlap.separation - fine(pair.radius), pair.margin, edge_feature(overlap.axis));
+  add_round_point(manifold, {point_at(edge, at.on_a), on_capsule}, pair.offset,
+                  overlap.separation - fine(pair.radius), pair.margin, edge_feature(overlap.axis));
   return manifold;
 }
 

@@ -51,8 +51,8 @@ void add_face_point(Manifold& manifold, const PolytopeCapsule& pair, int face, F
   const Fine height = height_at(pair, face, s);
   const RawVec on_face = pair.local.at(s) - along(pair.face(face).normal, height);
   const RawVec on_capsule = core_point(pair, s) - along(manifold.normal, pair.radius);
-  add_point(manifold, {rotate(pair.polytope.rotation, on_face), on_capsule}, pair.offset,
-            height - fine(pair.radius), pair.margin, feature);
+  add_round_point(manifold, {rotate(pair.polytope.rotation, on_face), on_capsule}, pair.offset,
+                  height - fine(pair.radius), pair.margin, feature);
 }
 
 /// 30 fraction bits.
@@ -84,8 +84,8 @@ Manifold manifold_at(const PolytopeCapsule& pair, const SegmentNearest& nearest)
   Manifold manifold;
   manifold.normal = d.unit;
   const RawVec on_capsule = core_point(pair, nearest.s) - along(d.unit, pair.radius);
-  add_point(manifold, {rotate(pair.polytope.rotation, nearest.point), on_capsule}, pair.offset,
-            static_cast<Fine>(d.length) - fine(pair.radius), pair.margin, 0);
+  add_round_point(manifold, {rotate(pair.polytope.rotation, nearest.point), on_capsule},
+                  pair.offset, static_cast<Fine>(d.length) - fine(pair.radius), pair.margin, 0);
   return manifold.count > 0 ? manifold : Manifold{};
 }
 
@@ -128,8 +128,8 @@ Manifold edge_manifold(const PolytopeCapsule& pair, const SegmentEdge& best) {
   Manifold manifold;
   manifold.normal = unit_axis(lockstone::rotate(pair.polytope.rotation, best.normal));
   const RawVec on_capsule = point_at(core, at.on_b) - along(manifold.normal, pair.radius);
-  add_point(manifold, {point_at(edge, at.on_a), on_capsule}, pair.offset,
-            best.separation - fine(pair.radius), pair.margin, edge_feature(best.edge));
+  add_round_point(manifold, {point_at(edge, at.on_a), on_capsule}, pair.offset,
+                  best.separation - fine(pair.radius), pair.margin, edge_feature(best.edge));
   return manifold;
 }
 

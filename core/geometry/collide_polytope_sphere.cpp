@@ -50,7 +50,7 @@ Manifold collide_polytope_sphere(const PosedShape& polytope, const PosedShape& s
     distance = static_cast<Fine>(d.length);
   }
   const RawVec on_sphere = fine(offset) - along(manifold.normal, radius);
-  add_point(manifold, {on_polytope, on_sphere}, offset, distance - fine(radius), margin, 0);
+  add_round_point(manifold, {on_polytope, on_sphere}, offset, distance - fine(radius), margin, 0);
   return manifold.count > 0 ? manifold : Manifold{};
 }
 

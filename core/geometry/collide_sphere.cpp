@@ -55,8 +55,8 @@ Manifold sphere_inside_box(const PosedShape& box, const RawVec& centre, Length r
   RawVec on_box = centre;
   on_box[face.axis] -= face.sign * face.distance;
   const RawVec on_sphere = fine(offset) - along(manifold.normal, radius);
-  add_point(manifold, {rotate(box.rotation, on_box), on_sphere}, offset,
-            face.distance - fine(radius), margin, 0);
+  add_round_point(manifold, {rotate(box.rotation, on_box), on_sphere}, offset,
+                  face.distance - fine(radius), margin, 0);
   return manifold;
 }
 
@@ -91,9 +91,13 @@ Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,
                        clamp_to(centre.z, half.z)};
   const RawVec gap = centre - closest;
   if (is_negligible(gap)) return sphere_inside_box(box, centre, radius, offset, margin);
-  const RawVec world_gap = rotate(box.rotation, gap);
-  return round_contact(rotate(box.rotation, closest), {}, fine(offset), radius,
-                       gap_of(world_gap, k_concentric_normal), offset, margin);
+  const CoreGap world_gap = gap_of(rotate(box.rotation, gap), k_concentric_normal);
+  Manifold manifold;
+  manifold.normal = world_gap.normal;
+  add_round_point(manifold,
+                  {rotate(box.rotation, closest), fine(offset) - along(world_gap.normal, radius)},
+                  offset, world_gap.distance - fine(radius), margin, 0);
+  return manifold.count > 0 ? manifold : Manifold{};
 }
 
 }  // namespace lockstone::geometry

@@ -21,6 +21,14 @@ Vec3<Length> to_length(const RawVec& fine_vector) {
   return {to_length(fine_vector.x), to_length(fine_vector.y), to_length(fine_vector.z)};
 }
 
+void add_round_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length>& offset,
+                     Fine separation, Length margin, std::uint32_t feature) {
+  const bool apart = to_separation(separation).raw > 0;
+  const RawVec& surface = witnesses.on_b;
+  add_point(manifold, {apart ? witnesses.on_a : surface, surface}, offset, separation, margin,
+            feature);
+}
+
 void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length>& offset,
                Fine separation, Length margin, std::uint32_t feature) {
   const Displacement rounded_separation = to_separation(separation);

@@ -30,6 +30,23 @@ struct Witnesses {
 void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length>& offset,
                Fine separation, Length margin, std::uint32_t feature);
 
+/// Whether `ManifoldPoint` puts the anchors of what touches a flat shape on this one's surface.
+[[nodiscard]] constexpr bool is_round(const Shape& shape) {
+  return shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
+}
+
+/// The same where B is round and A is not.
+void add_round_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length>& offset,
+                     Fine separation, Length margin, std::uint32_t feature);
+
+/// One of the two above, as B asks. A is not round.
+inline void add_point_on(const Shape& b, Manifold& manifold, const Witnesses& witnesses,
+                         const Vec3<Length>& offset, Fine separation, Length margin,
+                         std::uint32_t feature) {
+  const auto add = is_round(b) ? add_round_point : add_point;
+  add(manifold, witnesses, offset, separation, margin, feature);
+}
+
 /// The same contact seen from the other body: normal reversed, anchors exchanged.
 [[nodiscard]] Manifold flipped(const Manifold& manifold);
 

@@ -19,8 +19,9 @@ inline constexpr int k_max_manifold_points = 4;
 
 /// One contact point. Anchors are relative to each body's centre, in world axes.
 /// Apart (separation > 0): each anchor is the witness on its own body's surface, so that both meet
-/// when the gap closes. Touching or overlapping: both are the midpoint between the surfaces, so
-/// that an impulse pair exerts no net torque.
+/// when the gap closes. Touching or overlapping: both are one point, so that an impulse pair exerts
+/// no net torque: where a sphere or a capsule meets what is neither, that on its own surface, so
+/// that it rolls at its radius however deep it has sunk; else the midpoint between the surfaces.
 struct ManifoldPoint {
   Vec3<Length> anchor_a;
   Vec3<Length> anchor_b;

@@ -142,12 +142,14 @@ Manifold turned_to_face(const TriangleContact& contact, const Vec3<Unit>& world_
   turned.normal = world_normal;
   for (int i = 0; i < contact.manifold.count; ++i) {
     const ManifoldPoint& point = contact.manifold.points[static_cast<std::size_t>(i)];
-    const RawVec on_b = witness_on_b(contact.manifold, point, frame.offset) + roll;
+    const RawVec on_b =
+        witness_on_b(contact.manifold, point, frame.shape.shape, frame.offset) + roll;
     const RawVec local = along_columns(frame.rotation, on_b);
     if (!plane.has_beside(local)) continue;
     const Fine height = plane.height(local);
     const RawVec on_a = on_b - along(world_normal, height);
-    add_point(turned, {on_a, on_b}, frame.offset, height, frame.margin, point.feature);
+    add_point_on(frame.shape.shape, turned, {on_a, on_b}, frame.offset, height, frame.margin,
+                 point.feature);
   }
   return turned;
 }
@@ -184,9 +186,9 @@ Length core_radius(const Shape& shape) {
   return round ? shape.size.x : Length{};
 }
 
-RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point,
+RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point, const Shape& b,
                     const Vec3<Length>& offset) {
-  if (point.separation.raw > 0) return fine(point.anchor_b) + fine(offset);
+  if (point.separation.raw > 0 || is_round(b)) return fine(point.anchor_b) + fine(offset);
   const Fine half = Fine{point.separation.raw} * (Fine{1} << (k_fine_per_displacement - 1));
   return fine(point.anchor_a) + along(manifold.normal, half);
 }

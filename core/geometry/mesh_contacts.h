@@ -104,7 +104,7 @@ void merge_planes(std::span<const TriangleContact> contacts, const MeshContactFr
 
 /// B's witness of a point, relative to A's centre, world axes, within 2 µm.
 [[nodiscard]] RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point,
-                                  const Vec3<Length>& offset);
+                                  const Shape& b, const Vec3<Length>& offset);
 
 /// The radius by which B surrounds its core: of spheres and capsules.
 [[nodiscard]] Length core_radius(const Shape& shape);

@@ -59,7 +59,8 @@ std::uint32_t foreign_feature(std::uint32_t part, std::uint32_t feature) {
 std::uint32_t feature_of(const TriangleContact& contact, const ManifoldPoint& point,
                          const MeshContactFrame& frame) {
   const PosedShape& posed = frame.shape;
-  const RawVec on_b = witness_on_b(contact.manifold, point, frame.offset) - fine(frame.offset);
+  const RawVec on_b =
+      witness_on_b(contact.manifold, point, posed.shape, frame.offset) - fine(frame.offset);
   const RawVec core = on_b + along(contact.manifold.normal, core_radius(posed.shape));
   const auto vertex = vertex_of(posed, along_columns(posed.rotation, core));
   return vertex ? *vertex : foreign_feature(contact.part, point.feature);
@@ -234,8 +235,8 @@ class CoreVertices {
       if (!keeps(separation, frame_.margin) || !plane.has_beside(local_[i])) continue;
       const RawVec on_b = rotate(frame_.rotation, local_[i]) - along(normal, radius);
       Manifold one;
-      add_point(one, {on_b - along(normal, separation), on_b}, frame_.offset, separation,
-                frame_.margin, static_cast<std::uint32_t>(i));
+      add_point_on(frame_.shape.shape, one, {on_b - along(normal, separation), on_b}, frame_.offset,
+                   separation, frame_.margin, static_cast<std::uint32_t>(i));
       add(one.points[0]);
     }
   }

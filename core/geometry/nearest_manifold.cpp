@@ -21,14 +21,14 @@ Manifold nearest_manifold(const PosedShape& a, const PosedShape& b, const Vec3<L
   if (!near.overlapping) {
     manifold.normal = near.normal;
     const RawVec on_b = geometry::fine(near.point_b) + geometry::fine(offset);
-    add_point(manifold, {geometry::fine(near.point_a), on_b}, offset, fine(near.distance), margin,
-              k_nearest_feature);
+    add_point_on(b.shape, manifold, {geometry::fine(near.point_a), on_b}, offset,
+                 fine(near.distance), margin, k_nearest_feature);
   } else {
     const Penetration deep = penetration(a, b, offset);
     manifold.normal = deep.normal;
     const RawVec on_b = geometry::fine(deep.point_b) + geometry::fine(offset);
-    add_point(manifold, {geometry::fine(deep.point_a), on_b}, offset, -fine(deep.depth), margin,
-              k_nearest_feature);
+    add_point_on(b.shape, manifold, {geometry::fine(deep.point_a), on_b}, offset, -fine(deep.depth),
+                 margin, k_nearest_feature);
   }
   return manifold;
 }

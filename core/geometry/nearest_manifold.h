@@ -6,8 +6,8 @@
 namespace lockstone::geometry {
 
 /// Where the shapes are nearest, or the least way out of an overlap: one point, as `distance` and
-/// `penetration` find it, on both surfaces. None when they are apart by the margin or more. Its
-/// feature is always the same.
+/// `penetration` find it, on both surfaces (A is not round). None when they are apart by the margin
+/// or more. Its feature is always the same.
 [[nodiscard]] Manifold nearest_manifold(const PosedShape& a, const PosedShape& b,
                                         const Vec3<Length>& offset, Length margin);
 

@@ -106,7 +106,7 @@ Real surface_slack(const Scene& scene, const Placed& shape) {
   return smallest_radius(scene) > 0 ? shape.radius() / 1000 : 0;
 }
 
-TEST(Collide, AnchorsLieOnTheSurfacesOrMidwayBetweenThem) {
+TEST(Collide, AnchorsLieOnTheRoundSurfaceOrMidway) {
   for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     const Placed a = scene.placed_a();
@@ -119,8 +119,9 @@ TEST(Collide, AnchorsLieOnTheSurfacesOrMidwayBetweenThem) {
       RealVec on_b = real(p.anchor_b) + real(scene.offset);
       if (separation <= 0) {
         EXPECT_EQ(p.anchor_b, p.anchor_a - scene.offset);
-        on_a = on_a - real(m.normal) * (separation / 2);
-        on_b = on_b + real(m.normal) * (separation / 2);
+        const Real share = share_of_a(scene.a, scene.b);
+        on_a = on_a - real(m.normal) * (separation * share);
+        on_b = on_b + real(m.normal) * (separation * (1 - share));
       }
       EXPECT_NEAR(static_cast<double>(surface_distance(a, on_a)), 0,
                   static_cast<double>(tolerance(scene) + surface_slack(scene, a)));

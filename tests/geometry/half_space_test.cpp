@@ -93,9 +93,11 @@ TEST(HalfSpace, PointsLieOnBothSurfaces) {
     for (int i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[static_cast<std::size_t>(i)];
       if (real(p.separation) < -127) continue;
-      const Real half = std::min<Real>(real(p.separation), 0) / 2;
-      const RealVec on_plane = real(p.anchor_a) - scene.normal() * half;
-      const RealVec on_body = real(p.anchor_b) + real(scene.offset) + scene.normal() * half;
+      const Real depth = std::min<Real>(real(p.separation), 0);
+      const Real of_plane = body.radius > 0 ? depth : depth / 2;  // else midway
+      const RealVec on_plane = real(p.anchor_a) - scene.normal() * of_plane;
+      const RealVec on_body =
+          real(p.anchor_b) + real(scene.offset) + scene.normal() * (depth - of_plane);
       EXPECT_NEAR(static_cast<double>(dot(on_plane, scene.normal())), 0,
                   static_cast<double>(tolerance));
       EXPECT_LE(static_cast<double>(surface_distance(body, on_body)),

@@ -82,7 +82,7 @@ Manifold collide_sphere_front(const TriangleVertices& vertices, const Pose& pose
   const RealVec outward = distance < 1e-9L ? n * (1 / norm(n)) : gap * (1 / distance);
   manifold.normal = unit_of(outward);
   const Real radius = real(pose.shape.size.x);
-  geometry::add_point(manifold, {fine_of(q), fine_of(centre - outward * radius)}, pose.at,
+  geometry::add_round_point(manifold, {fine_of(q), fine_of(centre - outward * radius)}, pose.at,
                       fine_of({distance - radius, 0, 0}).x, pose.margin, 7);
   return manifold;
 }
@@ -172,7 +172,7 @@ void expect_plane_only(const MeshManifolds& result, const Pose& pose, const Real
     ASSERT_LT(norm(real(manifold.normal) - plane), std::ldexp(1.0L, -20));
     for (int k = 0; k < manifold.count; ++k) {
       const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(k)];
-      const geometry::RawVec on_b = geometry::witness_on_b(manifold, point, pose.at);
+      const geometry::RawVec on_b = geometry::witness_on_b(manifold, point, pose.shape, pose.at);
       const auto lane = [](std::int64_t x) { return std::ldexp(static_cast<Real>(x), -50); };
       const RealVec witness{lane(on_b.x), lane(on_b.y), lane(on_b.z)};
       ASSERT_NEAR(static_cast<double>(micrometres(real(point.separation))),

@@ -79,7 +79,7 @@ TEST(CollidePolytope, NoPointIsDeeperThanTheShapesAlongTheNormal) {
   });
 }
 
-TEST(CollidePolytope, AnchorsLieOnTheSurfacesOrMidwayBetweenThem) {
+TEST(CollidePolytope, AnchorsLieOnTheRoundSurfaceOrMidway) {
   for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
     const Manifold m = scene.collide();
     const RealSolid a = scene.real_a();
@@ -94,8 +94,9 @@ TEST(CollidePolytope, AnchorsLieOnTheSurfacesOrMidwayBetweenThem) {
       RealVec on_b = real(p.anchor_b) + real(scene.offset);
       if (separation <= 0) {
         EXPECT_EQ(p.anchor_b, p.anchor_a - scene.offset);
-        on_a = on_a - real(m.normal) * (separation / 2);
-        on_b = on_b + real(m.normal) * (separation / 2);
+        const Real share = share_of_a(scene.a, scene.b);
+        on_a = on_a - real(m.normal) * (separation * share);
+        on_b = on_b + real(m.normal) * (separation * (1 - share));
       }
       const bool snapped = !scene.has(ShapeKind::sphere) && !scene.has(ShapeKind::capsule);
       const Real slack = tolerance(scene) + (snapped ? 31 * k_micrometre : radius / 1000);
