@@ -42,6 +42,7 @@ struct ContactScene {
   std::span<const JointRecord> joints;
   std::span<const JointLink> joint_links;
   Vec3<Acceleration> gravity;
+  std::uint64_t tick = 0;
 };
 
 class ContactSolver {
@@ -116,7 +117,7 @@ class ContactSolver {
   struct Stage {
     StageKind kind = StageKind::velocities;
     std::uint8_t color = 0;
-    bool is_first = false;  // of the tick's substeps
+    std::uint8_t substep = 0;
   };
   // What preparation has at hand.
   struct Scratch {
@@ -161,9 +162,9 @@ class ContactSolver {
   [[nodiscard]] bool is_pushed(std::uint32_t index) const;
   void lay_out();
   void add_loop(Stage stage, std::uint32_t count, std::uint32_t grain, bool is_serial = false);
-  void add_loop_of_each_color(StageKind kind);
+  void add_loop_of_each_color(StageKind kind, std::uint8_t substep = 0);
   void add_net_loops(StageKind kind);
-  void add_loops_of_substep(bool is_first);
+  void add_loops_of_substep(std::uint8_t substep);
   [[nodiscard]] static const lanes::ManifoldKernels& kernels_of(std::size_t color);
 
   // Pieces of loops.
@@ -192,6 +193,7 @@ class ContactSolver {
   TimeStep step_;
   ContactSoftness softness_;
   lanes::SweepRules rules_;
+  std::uint32_t first_substep_ = 0;  // of the tick, from the world's beginning, modulo 2^32
   int load_shift_;  // a contact's load follows its impulses over 2^this ticks: four to eight
                     // seconds
   ConstraintGraph graph_;

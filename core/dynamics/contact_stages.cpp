@@ -14,6 +14,20 @@ constexpr std::uint32_t k_joined_grain = 8;
 constexpr std::uint32_t k_block_grain = 4;
 constexpr std::uint32_t k_cluster_grain = 1;
 
+// Limits of friction are few steps of their format high: rounded alike in all substeps they would
+// err the same way for as long as something slides. Two sequences that fill the unit interval
+// evenly (van der Corput's, and multiples of the golden ratio) round them in turns instead.
+lanes::SweepRules swayed(lanes::SweepRules rules, std::uint32_t substep) {
+  std::uint32_t reversed = 0;
+  for (std::uint32_t bit = 0; bit < 32; ++bit)
+    reversed |= (substep >> bit & 1) << (31 - bit);
+  constexpr std::uint32_t k_golden = 0x9e3779b9;
+  constexpr std::int32_t k_half = 1 << 29;
+  rules.limit_sway = static_cast<std::int32_t>(reversed >> 2) - k_half;
+  rules.part_sway = static_cast<std::int32_t>((substep * k_golden) >> 2) - k_half;
+  return rules;
+}
+
 // Nets converge slowly: sweeps before positions move, and after.
 constexpr int k_net_sweeps = 2;
 
@@ -23,6 +37,8 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   take_up_contacts(scene);
   lay_out();
   points_ = saturations_ = 0;
+  first_substep_ =
+      static_cast<std::uint32_t>(scene.tick) * static_cast<std::uint32_t>(step_.substeps);
   bounces_ = holds_ = uneven_ = false;
   loops_.clear();
   stages_.clear();
@@ -65,9 +81,9 @@ void ContactSolver::add_loop(Stage stage, std::uint32_t count, std::uint32_t gra
 }
 
 // The overflow is one piece, which is solved one by one.
-void ContactSolver::add_loop_of_each_color(StageKind kind) {
+void ContactSolver::add_loop_of_each_color(StageKind kind, std::uint8_t substep) {
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    add_loop({kind, static_cast<std::uint8_t>(color)},
+    add_loop({kind, static_cast<std::uint8_t>(color), substep},
              static_cast<std::uint32_t>(ranges_[color].count), k_block_grain,
              color == k_overflow_color);
   }
@@ -83,11 +99,11 @@ void ContactSolver::add_net_loops(StageKind kind) {
 
 // Velocities, contacts that push overlap out, joints such that they hold afterwards; positions;
 // joints and contacts such that they stay.
-void ContactSolver::add_loops_of_substep(bool is_first) {
+void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   const std::uint32_t clusters = joints_->cluster_count();
   const std::uint32_t direct = direct_.empty() ? 0 : 1;
   const auto bodies = static_cast<std::uint32_t>(members_.size());
-  add_loop({StageKind::velocities, 0, is_first}, bodies, k_body_grain);
+  add_loop({StageKind::velocities, 0, substep}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
   add_loop_of_each_color(StageKind::solve);
   add_loop({StageKind::push_direct}, direct, 1, true);
@@ -100,7 +116,7 @@ void ContactSolver::add_loops_of_substep(bool is_first) {
   add_net_loops(StageKind::follow_net);
   for (int i = 1; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::relax_net);
-  add_loop_of_each_color(StageKind::relax);
+  add_loop_of_each_color(StageKind::relax, substep);
   add_loop({StageKind::relax_direct}, direct, 1, true);
 }
 
@@ -110,7 +126,7 @@ void ContactSolver::run(Parallel& parallel) {
   loops_.clear();
   stages_.clear();
   for (int substep = 0; substep < step_.substeps; ++substep)
-    add_loops_of_substep(substep == 0);
+    add_loops_of_substep(static_cast<std::uint8_t>(substep));
   if (bounces_) add_loop_of_each_color(StageKind::bounce);
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { run_piece(stages_[loop], first, end); });
@@ -120,7 +136,7 @@ void ContactSolver::run(Parallel& parallel) {
 void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t end) {
   switch (stage.kind) {
     case StageKind::velocities:
-      return integrate_velocities(stage.is_first, first, end);
+      return integrate_velocities(stage.substep == 0, first, end);
     case StageKind::warm_joints:
       return joints_->warm_start(joint_run(), first, end);
     case StageKind::lift_net:
@@ -152,7 +168,8 @@ void ContactSolver::sweep(const Stage& stage, std::size_t first, std::size_t end
   if (stage.kind == StageKind::bounce) {
     bounce(kernels, begin, begin + end - first);
   } else if (stage.kind == StageKind::relax) {
-    kernels.relax(rows_.data(), travel_.data(), &blocks_[begin], end - first, rules_);
+    kernels.relax(rows_.data(), travel_.data(), &blocks_[begin], end - first,
+                  swayed(rules_, first_substep_ + stage.substep));
   } else {
     kernels.solve(rows_.data(), &blocks_[begin], end - first, rules_);
   }

@@ -105,7 +105,7 @@ void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
   solver.prepare({std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
                   new_contacts, std::span(joints).first(header.joint_limit), joints_to_solve(),
-                  header.gravity},
+                  header.gravity, header.tick},
                  parallel);
 }
 

@@ -151,6 +151,10 @@ struct SweepRules {
   std::int32_t overlap = 0;         // where touching points come to rest, m, Q24
   std::int32_t step_mantissa = 0;   // substep = mantissa · 2^-(24 − 17 + step_shift)
   std::int32_t step_shift = 32;     // 1 … 32
+  // Where the limit of friction, and the parts of what is shortened to it, are rounded up, Q30 from
+  // the middle: −½ … ½.
+  std::int32_t limit_sway = 0;
+  std::int32_t part_sway = 0;
 };
 
 /// The sweeps, as one target computes them. No block of a call may name a body twice, nor may two

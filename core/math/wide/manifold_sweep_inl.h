@@ -316,7 +316,7 @@ struct FrictionLanes {
 
 /// Brings back onto the sphere what left it. Few do, so that one at a time is fast enough; but what
 /// has lost its hold altogether.
-HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, FrictionLanes& f) {
+HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, FrictionLanes& f) {
   const Lanes none = broadcast(0);
   f = {select_equal(limit, none, none, f.t), select_equal(limit, none, none, f.b),
        select_equal(limit, none, none, f.twist)};
@@ -330,7 +330,7 @@ HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, FrictionLanes& f) {
   store(f.twist, about_n);
   for (std::uint32_t left = beyond; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    shorten_friction(limits[lane], along_t[lane], along_b[lane], about_n[lane]);
+    shorten_friction(limits[lane], rules.part_sway, along_t[lane], along_b[lane], about_n[lane]);
   }
   f = {load(along_t), load(along_b), load(about_n)};
 }
@@ -338,7 +338,7 @@ HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, FrictionLanes& f) {
 /// The tangents as one row of two, after the twist.
 HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                         const CenterMotion& motion, const PointLanes& points,
-                                        Impulse& p) {
+                                        const SweepRules& rules, Impulse& p) {
   const Lanes x = subtract(broadcast(0), p.about_b);
   const Vector given = {p.n, x, p.about_t};
   const Vector coupling = load_vector(block.coupling, lane);
@@ -370,8 +370,9 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
 
   const Lanes pushed = sum_of_pushes(points);
   const Lanes coefficient = upper(load(&block.share[lane]));
-  limit_friction(
-      round_shift_low<30>(min(multiply(coefficient, pushed), broadcast(std::int64_t{1} << 60))), f);
+  const Lanes most = min(multiply(coefficient, pushed), broadcast(std::int64_t{1} << 60));
+  limit_friction(round_shift_positive<30>(add(most, broadcast(rules.limit_sway)), 1 << 30), rules,
+                 f);
   p.t = subtract(f.t, friction);
   p.b = subtract(f.b, upper(friction));
   p.about_n = round_shift_low<30>(multiply(radius, subtract(f.twist, twist_word)));
@@ -382,7 +383,8 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
 /// Turning about the tangents, against a torque of at most the rolling limit times ΣP. A pass of
 /// its own, for few ask for it.
 HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, const Axes& axes,
-                                        const PointLanes& points, BodyPair& bodies) {
+                                        const PointLanes& points, const SweepRules& rules,
+                                        BodyPair& bodies) {
   const Lanes none = broadcast(0);
   const Lanes factor = upper_part(load(&block.turn[lane]));
   if (!any_less(none, factor)) return;
@@ -398,7 +400,7 @@ HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, 
                                multiply_add(multiply(upper(mass), about_b), mixed, about_t));
   f.twist = none;
   const Lanes limit = multiply(factor, sum_of_pushes(points));
-  limit_friction(round_shift_low<28>(min(limit, broadcast(std::int64_t{1} << 58))), f);
+  limit_friction(round_shift_low<28>(min(limit, broadcast(std::int64_t{1} << 58))), rules, f);
   Impulse p = {none, none, none, none, none, none};
   p.about_t = subtract(f.t, rolling);
   p.about_b = subtract(f.b, upper(rolling));
@@ -415,9 +417,9 @@ HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std
   const CenterMotion motion = read_motion(block, lane, axes, bodies);
   PointLanes points{};
   Impulse p = solve_normals<false>(block, lane, axes, motion, rules, points);
-  solve_friction(block, lane, axes, motion, points, p);
+  solve_friction(block, lane, axes, motion, points, rules, p);
   apply(block, lane, axes, p, bodies);
-  resist_rolling(block, lane, axes, points, bodies);
+  resist_rolling(block, lane, axes, points, rules, bodies);
   bodies.store_to(words, block, lane);
 }
 

@@ -198,7 +198,9 @@ std::string check_manifolds(std::uint64_t seed) {
   std::string report;
   for (int round = 0; round < 1500 && report.empty(); ++round) {
     const auto blocks = static_cast<std::size_t>(random.between(1, 4));
-    const SweepRules rules{240, 3 << 20, 4194, 336, 1145324612, 31};
+    const auto limit_sway = static_cast<std::int32_t>(random.between(-(1 << 29), (1 << 29) - 1));
+    const auto part_sway = static_cast<std::int32_t>(random.between(-(1 << 29), (1 << 29) - 1));
+    const SweepRules rules{240, 3 << 20, 4194, 336, 1145324612, 31, limit_sway, part_sway};
     report += compare(make_scene(blocks, round % 2 == 0, random), rules);
   }
   return report;
