@@ -30,9 +30,10 @@ void ConstraintGraph::add(std::uint32_t body_a, bool pushed_a, std::uint32_t bod
   places_.push_back({color, counts_[color]++});
 }
 
+// A constraint gets the first colour free at both bodies: none below one in use is empty.
 std::uint32_t ConstraintGraph::colors() const {
-  const auto used = [](std::uint32_t count) { return count > 0; };
-  return static_cast<std::uint32_t>(std::count_if(counts_, counts_ + k_graph_colors, used));
+  const std::uint32_t* const end = counts_ + k_graph_colors;
+  return static_cast<std::uint32_t>(std::find(counts_, end, 0U) - counts_);
 }
 
 }  // namespace lockstone

@@ -425,6 +425,7 @@ void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, st
 
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
+  if (is_idle_) return;
   touches_.resize(entries_.size());
   const Loop slots{static_cast<std::uint32_t>(block_count_ * k_block_lanes), k_slot_grain};
   std::atomic<std::uint32_t> saturations{0};

@@ -229,6 +229,7 @@ class ContactSolver {
   std::vector<lanes::ManifoldBlock> blocks_;
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
+  bool is_idle_ = false;              // neither contacts nor joints in this tick
   std::atomic<bool> bounces_{false};  // any restitution at all
   std::atomic<bool> holds_{false};    // any locked axis of moving
   std::atomic<bool> uneven_{false};   // any contact of a light body and a heavy one

@@ -12,6 +12,7 @@ JointRun ContactSolver::joint_run() {
 
 // What never moves is number 0 to joints.
 void ContactSolver::take_up_joints(const ContactScene& scene) {
+  if (scene.joint_links.empty() && joints_->empty()) return;
   joints_->clear();
   for (const JointLink& link : scene.joint_links) {
     const auto side = [&](std::uint32_t body) -> JointSolver::Side {
@@ -51,6 +52,7 @@ void ContactSolver::begin_joints() {
 
 void ContactSolver::store_joints(std::span<const JointLink> links, std::span<JointRecord> joints,
                                  Parallel& parallel) const {
+  if (links.empty()) return;
   constexpr std::uint32_t k_slot_grain = 64;
   if (joints_->has_own()) {
     for (std::size_t i = 0; i < links.size(); ++i)

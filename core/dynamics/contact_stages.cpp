@@ -34,6 +34,9 @@ constexpr int k_net_sweeps = 2;
 }  // namespace
 
 void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
+  const bool was_idle = is_idle_;
+  is_idle_ = scene.records.empty() && scene.joint_links.empty();
+  if (is_idle_ && was_idle) return;
   take_up_contacts(scene);
   lay_out();
   points_ = saturations_ = 0;
@@ -82,11 +85,12 @@ void ContactSolver::add_loop(Stage stage, std::uint32_t count, std::uint32_t gra
 
 // The overflow is one piece, which is solved one by one.
 void ContactSolver::add_loop_of_each_color(StageKind kind, std::uint8_t substep) {
-  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    add_loop({kind, static_cast<std::uint8_t>(color), substep},
-             static_cast<std::uint32_t>(ranges_[color].count), k_block_grain,
-             color == k_overflow_color);
-  }
+  const auto blocks = [&](std::size_t color) {
+    return static_cast<std::uint32_t>(ranges_[color].count);
+  };
+  for (std::size_t color = 0; color < k_graph_colors && blocks(color) != 0; ++color)
+    add_loop({kind, static_cast<std::uint8_t>(color), substep}, blocks(color), k_block_grain);
+  add_loop({kind, k_overflow_color, substep}, blocks(k_overflow_color), k_block_grain, true);
 }
 
 void ContactSolver::add_net_loops(StageKind kind) {

@@ -150,8 +150,9 @@ void damp_spin(BodyRecord& body, const TimeStep& step) {
 
 bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit) {
   const Velocity most = min(world_limit, rounded<Velocity>(body.max_speed));
-  const Velocity most_spin = rounded<Velocity>(body.max_surface_speed);
   const bool too_fast = shorten(body.velocity, body.velocity, most);
+  if (body.spin == Vec3<Velocity>{}) return too_fast;
+  const Velocity most_spin = rounded<Velocity>(body.max_surface_speed);
   const bool spins_too_fast = shorten(body.spin, surface_velocity(inertia, body.spin), most_spin);
   return too_fast || spins_too_fast;
 }
@@ -181,6 +182,7 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   const auto phase = static_cast<std::int64_t>(tick % static_cast<std::uint64_t>(step.tick_rate));
   const auto in_this_tick = [&](std::int64_t per_second, std::int64_t rate) {
+    if (per_second == 0) return std::int64_t{0};
     return raw::round_divide(per_second * (phase + 1), rate) -
            raw::round_divide(per_second * phase, rate);
   };

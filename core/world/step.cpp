@@ -143,9 +143,12 @@ void World::Impl::move_bodies(StepReport& report) {
       move_body(moved[i], counts);
       note_far_mover(moved[i]);
     }
-    free_bodies.fetch_add(counts.free_bodies, std::memory_order_relaxed);
-    axis_turns.fetch_add(counts.axis_turns, std::memory_order_relaxed);
-    saturations.fetch_add(counts.saturations, std::memory_order_relaxed);
+    const auto add = [](std::atomic<std::uint32_t>& sum, std::uint32_t count) {
+      if (count != 0) sum.fetch_add(count, std::memory_order_relaxed);
+    };
+    add(free_bodies, counts.free_bodies);
+    add(axis_turns, counts.axis_turns);
+    add(saturations, counts.saturations);
   });
   report.free_bodies = free_bodies;
   report.axis_turns += axis_turns;
@@ -181,13 +184,18 @@ void World::Impl::refresh_moved() {
   if (!moved.empty()) broad_phase.settle();
 }
 
+// As its spin is limited by. What does not spin needs none.
+InverseInertia World::Impl::inertia_of(std::uint32_t body, const SolverBody* solved) const {
+  if (bodies[body].spin == Vec3<Velocity>{}) return {};
+  return solved != nullptr ? solved->inverse_inertia
+                           : inverse_inertia(bodies[body], rotations[body]);
+}
+
 void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   BodyRecord& record = bodies[body];
   const bool bounced = has_bounced[body] != 0;
   if (!bounced) starts[body] = {record.position, record.orientation};
   const SolverBody* solved = solver.find(body);
-  const InverseInertia inertia =
-      solved != nullptr ? solved->inverse_inertia : inverse_inertia(record, rotations[body]);
   if (solved != nullptr) {
     counts.axis_turns += solver.move(*solved, rotations[body], record);
     if (record.is_dynamic()) damp_velocity(record, time_step);
@@ -204,7 +212,7 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   }
   damp_spin(record, time_step);
   hold_axes(record);
-  counts.saturations += limit_speed(record, inertia, def.speed_limit) ? 1U : 0U;
+  counts.saturations += limit_speed(record, inertia_of(body, solved), def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
   if (record.is_pushed()) end_pushes(record, rest_rules);
 }

@@ -315,6 +315,7 @@ struct World::Impl {
     std::uint32_t saturations = 0;
   };
   void move_body(std::uint32_t body, MoveCounts& counts);
+  [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
   [[nodiscard]] Loop each_moved() const;
   void refresh_moved();
 
