@@ -18,17 +18,23 @@ constexpr Displacement k_overlap = Displacement::from_ratio(-1, 2000);
 
 constexpr std::uint32_t k_group_grain = 8;
 
-// Of `bounce_marks`, by the least body of a group: contacts, and whether any will bounce.
-constexpr std::uint8_t k_contact_count = 0x7f;
+// What overlaps by less, and does not meet, is left as it is: the solver lets contacts rest so.
+constexpr Displacement k_resting_overlap = Displacement::from_ratio(-1, 100000);
+
+// Of `bounce_marks`, by the least body of a group: contacts, whether some are to be pushed out if
+// nothing bounces, and whether any will bounce.
+constexpr std::uint8_t k_contact_count = 0x3f;
+constexpr std::uint8_t k_leans = 0x40;
 constexpr std::uint8_t k_will_bounce = 0x80;
+static_assert(k_most_bounce_contacts < k_contact_count);
 
 bool is_elastic(const Manifold& manifold, const ContactSurface& surface) {
   return surface.restitution > Coefficient{} || manifold.count == 0;
 }
 
-bool overlaps(const Manifold& manifold) {
+bool is_nearer(const Manifold& manifold, Displacement separation) {
   for (int i = 0; i < manifold.count; ++i)
-    if (manifold.points[static_cast<std::size_t>(i)].separation < k_overlap) return true;
+    if (manifold.points[static_cast<std::size_t>(i)].separation < separation) return true;
   return false;
 }
 
@@ -112,7 +118,8 @@ bool World::Impl::may_bounce(const ContactRecord& record) {
   return !islands.is_held(root) && (bounce_marks[root] & k_contact_count) <= k_most_bounce_contacts;
 }
 
-// What will bounce takes its group along; what comes to rest leaves the group to the solver.
+// What will bounce takes its group along; what comes to rest leaves the group to the solver. Where
+// nothing meets, nothing need be solved.
 void World::Impl::look_for_bounce(std::size_t contact) {
   const ContactRecord& record = new_contacts[contact];
   const Manifold& manifold = manifolds[slots[contact]];
@@ -121,9 +128,13 @@ void World::Impl::look_for_bounce(std::size_t contact) {
   const Meeting meeting =
       next_meeting(bounce_pair(contact), header.gravity, time_step, k_two_ticks);
   const bool rests = meeting.meets && meeting.speed <= k_least_bounce;
-  if (rests || overlaps(manifold) || turns_much(record.body_a) || turns_much(record.body_b))
+  if (rests || is_nearer(manifold, k_overlap) || turns_much(record.body_a) ||
+      turns_much(record.body_b))
     return islands.hold(root);
-  if (meeting.meets) bounce_marks[root] |= k_will_bounce;
+  if (meeting.meets)
+    bounce_marks[root] |= k_will_bounce;
+  else if (is_nearer(manifold, k_resting_overlap))
+    bounce_marks[root] |= k_leans;
 }
 
 // Points of what is no ball are where they were at the tick's beginning: it may turn by 2^-4 rad.
@@ -139,7 +150,9 @@ bool World::Impl::turns_much(std::uint32_t body) const {
 // The solver leaves it out; what it carried is forgotten.
 void World::Impl::mark_bounce(std::size_t contact) {
   ContactRecord& record = new_contacts[contact];
-  if (!may_bounce(record) || (bounce_marks[bounce_root(record)] & k_will_bounce) == 0) return;
+  if (!may_bounce(record)) return;
+  const std::uint8_t marks = bounce_marks[bounce_root(record)];
+  if ((marks & k_will_bounce) == 0 && (marks & k_leans) != 0) return;
   ContactRecord fresh;
   fresh.body_a = record.body_a;
   fresh.body_b = record.body_b;
@@ -176,9 +189,10 @@ void World::Impl::run_bounce_group(std::uint32_t index) {
     group.add(bounce_pair(each.contact));
   group.run();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!group.touched(i)) continue;
     const std::uint32_t contact = contacts[i].contact;
-    new_contacts[contact].flags = k_contact_touching;
+    const bool touches = is_nearer(manifolds[slots[contact]], Displacement::from_raw(1));
+    if (group.touched(i) || touches) new_contacts[contact].flags = k_contact_touching;
+    if (!group.touched(i)) continue;
     approach_speeds[contact] = SolverVelocity::from_raw(
         raw::saturate<std::int32_t>(raw::round_shift(group.approach(i).raw, 12)));
   }

@@ -121,6 +121,25 @@ TEST(Bounce, PassesAlongARowOfBallsToTheLast) {
   }
 }
 
+TEST(Bounce, LeavesWhatTouchesAndDoesNotMeetWithoutASolver) {
+  World world = weightless();
+  for (int i = 0; i < 5; ++i)
+    elastic_ball(world, Position(0.5_m) * i, 0_m, 1_mps);
+  for (int tick = 0; tick < 10; ++tick) {
+    const StepReport report = world.step();
+    EXPECT_EQ(report.contacts, 4U);
+    EXPECT_EQ(report.colors, 0U);
+    EXPECT_EQ(world.events().size(), tick == 0 ? 4U : 0U);  // they begin to touch, and go on
+  }
+}
+
+TEST(Bounce, LeavesWhatOverlapsToTheSolver) {
+  World world = weightless();
+  for (int i = 0; i < 2; ++i)
+    elastic_ball(world, Position(0.4999_m) * i, 0_m, {});
+  EXPECT_EQ(world.step().colors, 1U);
+}
+
 // The line of centres turns until they touch: the offset is half of both radii, the angle 30°.
 TEST(Bounce, OfTwoBallsIsAlongTheirCentresWhereTheyTouch) {
   World world = weightless();
