@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/geometry/box_clip.h"
+#include "core/geometry/box_polygon.h"
 #include "core/geometry/contact_point.h"
-#include "core/geometry/manifold_reduction.h"
 #include "core/geometry/normals.h"
 
 namespace lockstone::geometry {
 namespace {
+
+using Lanes = std::array<std::int64_t, 3>;
 
 constexpr std::array<int, 3> k_next = {1, 2, 0};
 constexpr std::array<int, 3> k_after_next = {2, 0, 1};
@@ -61,11 +62,11 @@ struct FaceFrame {
   [[nodiscard]] std::int64_t lane(int j, int i) const {
     return lanes[static_cast<std::size_t>(step_j * j + step_i * i)];
   }
-  [[nodiscard]] RawVec axis_in_frame(int j) const {
+  [[nodiscard]] Lanes axis_in_frame(int j) const {
     return {lane(j, tangent_x), lane(j, tangent_y), sign * lane(j, axis)};
   }
   /// The centre of the incident box above the reference face.
-  [[nodiscard]] RawVec centre_in_frame() const {
+  [[nodiscard]] Lanes centre_in_frame() const {
     const RawVec& c = of_b ? pair.centre_in_b : pair.centre_in_a;
     const std::int64_t to_incident = of_b ? -1 : 1;
     return {to_incident * c[tangent_x], to_incident * c[tangent_y],
@@ -73,182 +74,43 @@ struct FaceFrame {
   }
 };
 
-/// The incident face; the sign is that of its outward normal.
-struct IncidentFace {
-  int axis = 0;
-  int sign = 1;
-  RawVec normal{};  ///< either way, in the frame of the reference face, 30 fraction bits
-  RawVec middle{};
-  RawVec u{}, v{};  ///< half its edges
-
-  explicit IncidentFace(const FaceFrame& frame) {
-    std::int64_t most = -1;
-    for (int j = 0; j < 3; ++j) {  // most opposed to the reference normal, the first of equals
-      const std::int64_t lean = frame.sign * frame.lane(j, frame.axis);
-      if (magnitude_of(lean) <= most) continue;
-      most = magnitude_of(lean);
-      axis = j;
-      sign = lean > 0 ? -1 : 1;
-    }
-    const auto half_axis = [&](const RawVec& direction, int j) {
-      const std::int64_t half = frame.incident.shape.size[j].raw;
-      return RawVec{direction.x * half, direction.y * half, direction.z * half};
-    };
-    const int next = k_next[static_cast<std::size_t>(axis)];
-    const int after = k_after_next[static_cast<std::size_t>(axis)];
-    normal = frame.axis_in_frame(axis);
-    const RawVec out = half_axis(normal, axis);
-    middle = sign < 0 ? frame.centre_in_frame() - out : frame.centre_in_frame() + out;
-    u = half_axis(frame.axis_in_frame(next), next);
-    v = half_axis(frame.axis_in_frame(after), after);
+/// The face of the incident box that is most opposed to the reference face, the first of equals.
+FaceMeeting meeting_of(const FaceFrame& frame) {
+  int axis = 0, sign = 1;
+  std::int64_t most = -1;
+  for (int j = 0; j < 3; ++j) {
+    const std::int64_t lean = frame.sign * frame.lane(j, frame.axis);
+    if (magnitude_of(lean) <= most) continue;
+    most = magnitude_of(lean);
+    axis = j;
+    sign = lean > 0 ? -1 : 1;
   }
-
-  [[nodiscard]] std::uint32_t index() const {
-    return static_cast<std::uint32_t>(axis * 2 + (sign < 0 ? 1 : 0));
-  }
-  /// Its corners in order, exact.
-  void fill(ClipPolygon& polygon) const {
-    const RawVec one = middle + u, other = middle - u;
-    const auto corner = [](const RawVec& at, std::uint32_t edge) {
-      return ClipVertex{{at.x, at.y, at.z}, edge};
-    };
-    polygon.vertices[0] = corner(one + v, 0);
-    polygon.vertices[1] = corner(other + v, 1);
-    polygon.vertices[2] = corner(other - v, 2);
-    polygon.vertices[3] = corner(one - v, 3);
-    polygon.count = 4;
-  }
-  /// Whether a slab across a lane holds all corners.
-  template <std::size_t Axis>
-  [[nodiscard]] bool is_within(const Slab<Axis>& slab, Fine RawVec::*lane) const {
-    const Fine reach = magnitude_of(u.*lane) + magnitude_of(v.*lane);
-    return slab.holds(middle.*lane - reach, middle.*lane + reach);
-  }
-  /// Vertices may be taken to be on a side unless the face is steep across it.
-  [[nodiscard]] Fine snap_across(std::int64_t lean) const {
-    return 16 * magnitude_of(lean) <= magnitude_of(normal.z) ? k_snap : 0;
-  }
-};
-
-/// Two polygons, one of which holds what is left of the incident face.
-struct Clipping {
-  ClipPolygon polygons[2];
-
-  const ClipPolygon& clip(const FaceFrame& frame, const IncidentFace& face) {
-    const Vec3<Length>& half = frame.reference.shape.size;
-    face.fill(polygons[0]);
-    std::size_t used = 0;
-    const Slab<0> across_x{fine(half[frame.tangent_x]), face.snap_across(face.normal.x)};
-    if (!face.is_within(across_x, &RawVec::x)) {
-      across_x.clip(polygons[0], polygons[1]);
-      if (polygons[1].count == 0) return polygons[1];
-      used = 1;
-    }
-    const Slab<1> across_y{fine(half[frame.tangent_y]), face.snap_across(face.normal.y)};
-    if (!face.is_within(across_y, &RawVec::y)) {
-      across_y.clip(polygons[used], polygons[1 - used]);
-      used = 1 - used;
-    }
-    return polygons[used];
-  }
-};
-
-/// Whether a vertex is neither above the face nor beyond its sides; so shallow, it is above the
-/// opposite face.
-bool share_vertex(const ClipPolygon& polygon, const FaceFrame& frame) {
-  const Fine half_x = fine(frame.reference.shape.size[frame.tangent_x]);
-  const Fine half_y = fine(frame.reference.shape.size[frame.tangent_y]);
-  for (int i = 0; i < polygon.count; ++i) {
-    const std::array<Fine, 3>& at = polygon[i].at;
-    if (at[2] <= 0 && magnitude_of(at[0]) <= half_x && magnitude_of(at[1]) <= half_y) return true;
-  }
-  return false;
-}
-
-/// Whether a ball of this diameter fits into both boxes about a point: the mean of the vertices,
-/// raised by half its depth. Sums instead of means, in 2^-24 m; of small boxes only.
-bool share_ball(const ClipPolygon& polygon, const FaceFrame& frame, const IncidentFace& face,
-                Fine diameter) {
-  constexpr int shift = k_fine_bits - 24;
-  const std::int64_t radius = (diameter >> (shift + 1)) + 1;
-  const std::int64_t count = polygon.count;
-  std::int64_t x = 0, y = 0, z = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    x += polygon[i].at[0] >> shift;
-    y += polygon[i].at[1] >> shift;
-    z += polygon[i].at[2] >> shift;
-  }
-  const auto least = [&](Length half) { return count * ((std::int64_t{half.raw} << 4) - radius); };
-  const Vec3<Length>& half = frame.reference.shape.size;
-  const Vec3<Length>& other = frame.incident.shape.size;
-  const std::int64_t rise = -z / 2;
-  if (magnitude_of(x) > least(half[frame.tangent_x])) return false;
-  if (magnitude_of(y) > least(half[frame.tangent_y])) return false;
-  if (rise > least(half[frame.axis]) || rise > least(other[face.axis])) return false;
-  if (((rise * magnitude_of(face.normal.z)) >> Unit::frac_bits) < count * radius) return false;
-  x -= count * (face.middle.x >> shift);
-  y -= count * (face.middle.y >> shift);
-  z += rise - count * (face.middle.z >> shift);
-  const auto is_beside = [&](int axis) {
-    const RawVec n = frame.axis_in_frame(axis);
-    const std::int64_t along = (n.x * x + n.y * y + n.z * z) >> Unit::frac_bits;
-    return magnitude_of(along) > least(other[axis]);
+  const Vec3<Length>& size = frame.incident.shape.size;
+  const int next = k_next[static_cast<std::size_t>(axis)];
+  const int after = k_after_next[static_cast<std::size_t>(axis)];
+  const auto times = [](const Lanes& direction, Length half) {
+    return Lanes{direction[0] * half.raw, direction[1] * half.raw, direction[2] * half.raw};
   };
-  return !is_beside(k_next[static_cast<std::size_t>(face.axis)]) &&
-         !is_beside(k_after_next[static_cast<std::size_t>(face.axis)]);
+  FaceMeeting meeting{};
+  meeting.normal = frame.axis_in_frame(axis);
+  meeting.along_u = frame.axis_in_frame(next);
+  meeting.along_v = frame.axis_in_frame(after);
+  meeting.u = times(meeting.along_u, size[next]);
+  meeting.v = times(meeting.along_v, size[after]);
+  const Lanes out = times(meeting.normal, size[axis]), centre = frame.centre_in_frame();
+  for (std::size_t k = 0; k < 3; ++k)
+    meeting.middle[k] = sign < 0 ? raw::subtract(centre[k], out[k]) : raw::add(centre[k], out[k]);
+  meeting.half_x = fine(frame.reference.shape.size[frame.tangent_x]);
+  meeting.half_y = fine(frame.reference.shape.size[frame.tangent_y]);
+  meeting.height = frame.height;
+  meeting.half_n = size[axis].raw;
+  meeting.half_u = size[next].raw;
+  meeting.half_v = size[after].raw;
+  const int reference = frame.axis * 2 + (frame.sign < 0 ? 1 : 0);
+  const int incident = axis * 2 + (sign < 0 ? 1 : 0);
+  meeting.common = 1 << 13 | (frame.of_b ? 1 << 12 : 0) | reference << 9 | incident << 6;
+  return meeting;
 }
-
-/// What all vertices' names share: kind, which box, which of its faces, the incident face.
-std::uint32_t common_feature(const FaceFrame& frame, const IncidentFace& face) {
-  const auto reference = static_cast<std::uint32_t>(frame.axis * 2 + (frame.sign < 0 ? 1 : 0));
-  return 1U << 13 | (frame.of_b ? 1U << 12 : 0U) | reference << 9 | face.index() << 6;
-}
-
-/// The vertices that `keeps` admits, each named by the two edges that meet in it.
-struct KeptVertices {
-  static constexpr std::uint32_t k_none = ~std::uint32_t{0};
-
-  std::array<std::uint32_t, ClipPolygon::k_capacity> keys;  ///< edges · 8 + index in the polygon
-  int count = 0;
-
-  KeptVertices(const ClipPolygon& polygon, Length margin) {
-    keys[0] = keys[1] = keys[2] = keys[3] = k_none;
-    if (polygon.count == 0) return;
-    std::uint32_t edge_in = polygon[polygon.count - 1].edge;
-    for (int i = 0; i < polygon.count; ++i) {
-      const ClipVertex& v = polygon[i];
-      keys[static_cast<std::size_t>(count)] =
-          edge_in << 6 | v.edge << 3 | static_cast<std::uint32_t>(i);
-      count += keeps(v.at[2], margin) ? 1 : 0;
-      edge_in = v.edge;
-    }
-    if (count < 4) keys[static_cast<std::size_t>(count)] = k_none;
-  }
-
-  void sort() {
-    if (count > 4) return sort_few(std::span(keys).first(static_cast<std::size_t>(count)));
-    const auto order = [&](std::size_t i, std::size_t j) {
-      const std::uint32_t low = std::min(keys[i], keys[j]);
-      keys[j] = std::max(keys[i], keys[j]);
-      keys[i] = low;
-    };
-    order(0, 1);
-    order(2, 3);
-    order(0, 2);
-    order(1, 3);
-    order(1, 2);
-  }
-  [[nodiscard]] const ClipVertex& vertex(const ClipPolygon& polygon, std::size_t i) const {
-    return polygon[static_cast<int>(keys[i] & 7)];
-  }
-  /// Of sorted ones: whether two have one name.
-  [[nodiscard]] bool repeats() const {
-    bool found = false;
-    for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(count); ++i)
-      found = found || keys[i] >> 3 == keys[i + 1] >> 3;
-    return found;
-  }
-};
 
 /// Points in the world's axes. Of small boxes coordinates are rounded to 2^-27 m first, so that
 /// their products with units fit 64 bits.
@@ -325,61 +187,20 @@ class FacePoints {
   Fine height_;
 };
 
-/// The vertices of a manifold: all when they are no more than four and each has a name of its own,
-/// else as reduced.
-struct ChosenVertices {
-  std::array<const ClipVertex*, 4> vertices;
-  std::array<std::uint32_t, 4> edges;  ///< the two that meet, see KeptVertices
-  std::size_t count;
-  std::array<ClipVertex, 4> reduced;
-
-  ChosenVertices(const ClipPolygon& polygon, const KeptVertices& kept)
-      : count(static_cast<std::size_t>(kept.count)) {
-    if (kept.count > 4 || kept.repeats()) {
-      reduce(polygon, kept);
-      return;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      vertices[i] = &kept.vertex(polygon, i);
-      edges[i] = kept.keys[i] >> 3;
-    }
-  }
-  ChosenVertices(const ChosenVertices&) = delete;
-  ChosenVertices& operator=(const ChosenVertices&) = delete;
-
- private:
-  void reduce(const ClipPolygon& polygon, const KeptVertices& kept) {
-    std::array<FaceVertex, ClipPolygon::k_capacity> faces;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::array<Fine, 3>& at = kept.vertex(polygon, i).at;
-      faces[i] = {at[0], at[1], at[2], kept.keys[i] >> 3};
-    }
-    const auto all = std::span(faces).first(count);
-    count =
-        static_cast<std::size_t>(kept.repeats() ? reduce_to_four(all, k_fine_per_length)
-                                                : reduce_sorted_to_four(all, k_fine_per_length));
-    for (std::size_t i = 0; i < count; ++i) {
-      reduced[i] = {{faces[i].x, faces[i].y, faces[i].z}, 0};
-      vertices[i] = &reduced[i];
-      edges[i] = faces[i].feature;
-    }
-  }
-};
-
 }  // namespace
 
 bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool flip, Fine wanted,
                    Manifold& out) {
   const FaceFrame frame(pair, face, of_b, flip);
-  const IncidentFace incident(frame);
+  const FaceMeeting meeting = meeting_of(frame);
   Clipping clipping;
-  const ClipPolygon& polygon = clipping.clip(frame, incident);
+  const ClipPolygon& polygon = clipping.clip(meeting);
   KeptVertices kept(polygon, pair.margin);
   out.count = 0;
   out.normal = {};
   if (kept.count > 0) {
     const FacePoints points(frame);
-    const std::uint32_t common = common_feature(frame, incident);
+    const auto common = static_cast<std::uint32_t>(meeting.common);
     out.normal = unit_axis(frame.flip ? -points.up() : points.up());
     kept.sort();
     const ChosenVertices chosen(polygon, kept);
@@ -388,8 +209,8 @@ bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool fl
   }
   std::fill(out.points.begin() + out.count, out.points.end(), ManifoldPoint{});
   if (kept.count == 0 || wanted < 0) return false;
-  if (wanted == 0) return share_vertex(polygon, frame);
-  return frame.is_small && share_ball(polygon, frame, incident, wanted);
+  if (wanted == 0) return share_vertex(polygon, meeting);
+  return frame.is_small && share_ball(polygon, meeting, wanted);
 }
 
 }  // namespace lockstone::geometry

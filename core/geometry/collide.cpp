@@ -24,7 +24,7 @@ auto rank(const PosedShape& posed) {
   return std::tuple(one_sided, shape.asset.value, shape.size.x, shape.size.y, shape.size.z);
 }
 
-auto lanes(const Mat3& m) {
+auto entries_of(const Mat3& m) {
   return std::tuple(m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z);
 }
 
@@ -38,7 +38,7 @@ bool belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>&
   const auto rank_a = rank(a);
   const auto rank_b = rank(b);
   if (rank_a != rank_b) return rank_b > rank_a;
-  if (offset == Vec3<Length>{}) return lanes(b.rotation) > lanes(a.rotation);
+  if (offset == Vec3<Length>{}) return entries_of(b.rotation) > entries_of(a.rotation);
   return dominant_sign(offset) < 0;
 }
 
@@ -63,20 +63,9 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
   return a.polytope->kernels->collide(a, b, offset, margin);
 }
 
-/// As `belongs_first`, of two boxes: their sizes are all their rank.
-bool box_belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>& offset) {
-  const Vec3<Length>& size_a = a.shape.size;
-  const Vec3<Length>& size_b = b.shape.size;
-  if (size_a.x != size_b.x) return size_b.x > size_a.x;
-  if (size_a.y != size_b.y) return size_b.y > size_a.y;
-  if (size_a.z != size_b.z) return size_b.z > size_a.z;
-  if (offset == Vec3<Length>{}) return lanes(b.rotation) > lanes(a.rotation);
-  return dominant_sign(offset) < 0;
-}
-
 void collide_two_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                        Length margin, Manifold& out) {
-  if (!box_belongs_first(b, a, offset))
+  if (!geometry::box_belongs_first(b, a, offset))
     return geometry::collide_boxes(a, b, offset, margin, false, out);
   const Vec3<Length> back = -offset;
   geometry::collide_boxes(b, a, back, margin, true, out);
@@ -105,4 +94,18 @@ bool overlaps(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offs
   return collide(a, b, offset, {}).count > 0;
 }
 
+namespace geometry {
+
+// As `belongs_first`: their sizes are all their rank.
+bool box_belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>& offset) {
+  const Vec3<Length>& size_a = a.shape.size;
+  const Vec3<Length>& size_b = b.shape.size;
+  if (size_a.x != size_b.x) return size_b.x > size_a.x;
+  if (size_a.y != size_b.y) return size_b.y > size_a.y;
+  if (size_a.z != size_b.z) return size_b.z > size_a.z;
+  if (offset == Vec3<Length>{}) return entries_of(b.rotation) > entries_of(a.rotation);
+  return dominant_sign(offset) < 0;
+}
+
+}  // namespace geometry
 }  // namespace lockstone

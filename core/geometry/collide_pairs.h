@@ -26,6 +26,10 @@ namespace lockstone::geometry {
 [[nodiscard]] Manifold collide_box_capsule(const PosedShape& box, const PosedShape& capsule,
                                            const Vec3<Length>& offset, Length margin);
 
+/// Whether of two boxes B takes the first place: see `collide`.
+[[nodiscard]] bool box_belongs_first(const PosedShape& b, const PosedShape& a,
+                                     const Vec3<Length>& offset);
+
 /// A is preferred as the owner of the reference face. With `flip` the manifold is that of B and A,
 /// flipped. `out` is filled anew.
 void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,

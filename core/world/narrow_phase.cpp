@@ -63,18 +63,18 @@ bool World::Impl::meet(const Pair& pair) {
 
 // Answers whether all found room.
 bool World::Impl::collide_side_by_side() {
-  narrow.begin(parallel.workers());
+  narrow.begin(parallel.workers(), !profiler.times_pairs());
   parallel.for_each(
       {static_cast<std::uint32_t>(pairs.size()), k_pair_grain, profiler.times_pairs()},
       [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
         collide_piece(first, end, narrow.scratch(worker));
       });
-  return parallel.workers() == 1 || !narrow.is_out_of_slots();
+  return !narrow.is_out_of_slots();
 }
 
 // Slots are given out in the order of the pairs, so that the last pairs are those that find none.
 void World::Impl::collide_one_by_one() {
-  narrow.begin(1);
+  narrow.begin(1, false);
   collide_piece(0, static_cast<std::uint32_t>(pairs.size()), narrow.scratch(0));
 }
 
@@ -100,6 +100,7 @@ void World::Impl::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
     collide_pair(i, before.first(known), last_axes.axis_of(pairs[i]), scratch);
     before = before.subspan(known);
   }
+  if (scratch.boxes.batch.size() > 0) collide_waiting(scratch);
 }
 
 // `before`: the records of this pair a tick ago. `last_axis` parted the pair then, unless it is
@@ -148,16 +149,50 @@ void World::Impl::collide_primitives(std::uint32_t index, const ManifoldInput& i
     separating_axes.note(index, pair, last_axis);
     return timer.found_apart();
   }
+  WaitingBoxes& waiting = scratch.boxes;
+  if (waiting.are_admitted && geometry::BoxBatch::takes(shape_a, shape_b, offset)) {
+    waiting.entries[waiting.batch.size()] = {index, input, before};
+    waiting.batch.add(a, b, offset, input.margin);
+    if (waiting.batch.is_full()) collide_waiting(scratch);
+    return;
+  }
+  timer.found(collide_alone(index, input, before, scratch));
+}
+
+// Answers how many manifolds there are.
+int World::Impl::collide_alone(std::uint32_t index, const ManifoldInput& input,
+                               std::span<const ContactRecord> before, PairScratch& scratch) {
+  const Pair pair = pairs[index];
+  const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
   const std::uint32_t slot = narrow.take(scratch, 1);
   Manifold& manifold = slot == NarrowSlots::k_none ? scratch.part_contacts.contacts.front().manifold
                                                    : manifolds[slot];
-  collide(a, b, offset, input.margin, manifold);
-  timer.found(manifold.count > 0 ? 1 : 0);
+  collide({shape_a, rotations[pair.a]}, {shape_b, rotations[pair.b]},
+          saturated<Length>(input.offset), input.margin, manifold);
   if (manifold.count == 0) {
     separating_axes.note(index, pair, manifold.normal);
-    return NarrowSlots::give_back(scratch, slot);
+    NarrowSlots::give_back(scratch, slot);
+    return 0;
   }
   if (slot != NarrowSlots::k_none) fill_single(index, slot, input, before);
+  return 1;
+}
+
+void World::Impl::collide_waiting(PairScratch& scratch) {
+  geometry::BoxBatch& batch = scratch.boxes.batch;
+  batch.collide();
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const WaitingBoxes::Entry& entry = scratch.boxes.entries[i];
+    if (!batch.is_settled(i)) {
+      collide_alone(entry.index, entry.input, entry.before, scratch);
+      continue;
+    }
+    const std::uint32_t slot = narrow.take(scratch, 1);
+    if (slot == NarrowSlots::k_none) continue;
+    batch.write(i, manifolds[slot]);
+    fill_single(entry.index, slot, entry.input, entry.before);
+  }
+  batch.clear();
 }
 
 void World::Impl::add_known(std::uint32_t index, const Manifold& known, const ManifoldInput& input,
@@ -193,7 +228,7 @@ bool World::Impl::is_bounded_primitive(std::uint32_t body) const {
 
 // Centres are read to the lengths that primitives are collided with; frames of assets, and where a
 // half-space is met, follow from every bit.
-World::Impl::ManifoldInput World::Impl::manifold_input(const Pair& pair, Length margin) const {
+ManifoldInput World::Impl::manifold_input(const Pair& pair, Length margin) const {
   const BodyRecord& a = bodies[pair.a];
   const BodyRecord& b = bodies[pair.b];
   Vec3<Position> offset = b.position - a.position;

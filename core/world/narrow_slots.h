@@ -6,18 +6,45 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/collision/collide_bodies.h"
+#include "core/dynamics/contact_record.h"
+#include "core/geometry/box_batch.h"
 
 namespace lockstone {
+
+/// What the manifold of two convex shapes follows from, besides the shapes.
+struct ManifoldInput {
+  Vec3<Position> offset{};
+  Quat orientation_a{{}, {}, {}, {}};
+  Quat orientation_b{};
+  Length margin{};
+
+  friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
+};
+
+/// Box pairs that wait for others to be collided with them.
+struct WaitingBoxes {
+  struct Entry {
+    std::uint32_t index = 0;
+    ManifoldInput input{};
+    std::span<const ContactRecord> before{};
+  };
+
+  geometry::BoxBatch batch;
+  std::array<Entry, geometry::BoxBatch::k_capacity> entries;
+  bool are_admitted = false;  // else each pair is collided by itself, in order
+};
 
 /// What a worker has for itself.
 struct alignas(64) PairScratch {
   PartContacts part_contacts;                  // of the pair at hand
   std::unique_ptr<TriangleScratch> triangles;  // null when no asset has triangles
-  std::uint32_t next = 0, end = 0;             // slots at hand
-  std::uint32_t taken = 0;                     // slots that hold a contact
+  WaitingBoxes boxes;
+  std::uint32_t next = 0, end = 0;  // slots at hand
+  std::uint32_t taken = 0;          // slots that hold a contact
 };
 
 /// One worker gets slots one after the other, until all contacts that a world has room for are
@@ -41,12 +68,15 @@ class NarrowSlots {
   [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
   [[nodiscard]] PairScratch& scratch(std::uint32_t worker) { return *scratch_[worker]; }
 
-  void begin(std::uint32_t workers) {
+  /// `with_batches`: pairs may wait for others, so that slots are not given out in their order.
+  void begin(std::uint32_t workers, bool with_batches) {
     block_ = workers > 1 ? k_block : 1;
     used_ = 0;
     out_of_slots_ = overflowed_ = false;
-    for (const std::unique_ptr<PairScratch>& scratch : scratch_)
+    for (const std::unique_ptr<PairScratch>& scratch : scratch_) {
       scratch->next = scratch->end = scratch->taken = 0;
+      scratch->boxes.are_admitted = with_batches;
+    }
   }
 
   /// The first of `count` slots in a row, or k_none.

@@ -264,15 +264,6 @@ struct World::Impl {
   void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
   void collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
                     const Vec3<Unit>& last_axis, PairScratch& scratch);
-  // What the manifold of two convex shapes follows from, besides the shapes.
-  struct ManifoldInput {
-    Vec3<Position> offset{};
-    Quat orientation_a{{}, {}, {}, {}};
-    Quat orientation_b{};
-    Length margin{};
-
-    friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
-  };
   [[nodiscard]] ManifoldInput manifold_input(const Pair& pair, Length margin) const;
   [[nodiscard]] const Manifold* known_manifold(std::span<const ContactRecord> before,
                                                const ManifoldInput& input) const;
@@ -281,6 +272,9 @@ struct World::Impl {
   void collide_primitives(std::uint32_t index, const ManifoldInput& input,
                           std::span<const ContactRecord> before, const Vec3<Unit>& last_axis,
                           PairScratch& scratch, PairTimer& timer);
+  int collide_alone(std::uint32_t index, const ManifoldInput& input,
+                    std::span<const ContactRecord> before, PairScratch& scratch);
+  void collide_waiting(PairScratch& scratch);
   void add_known(std::uint32_t index, const Manifold& known, const ManifoldInput& input,
                  std::span<const ContactRecord> before, PairScratch& scratch);
   void fill_single(std::uint32_t index, std::uint32_t slot, const ManifoldInput& input,

@@ -12,6 +12,7 @@
 // twins.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "core/math/wide/ball_block_inl.h"
+#include "core/math/wide/box_block_inl.h"
 #include "core/math/wide/contact_rows_inl.h"
 #include "core/math/wide/manifold_prepare_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
@@ -28,7 +29,8 @@ namespace {
                                                  target::solve_manifolds, target::relax_manifolds, \
                                                  target::bounce_manifolds};                        \
   constexpr BallKernels k_balls_##target{target::begin_balls, target::lift_balls,                  \
-                                         target::follow_balls, target::relax_balls};
+                                         target::follow_balls, target::relax_balls};               \
+  constexpr BoxKernels k_boxes_##target{target::meet_boxes, target::place_points};
 
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
@@ -50,22 +52,22 @@ constexpr Kernels k_tables[] = {
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
     {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations, N_SSE4::farthest_point,
-     N_SSE4::heights_above, &k_manifolds_N_SSE4, &k_balls_N_SSE4},
+     N_SSE4::heights_above, &k_manifolds_N_SSE4, &k_balls_N_SSE4, &k_boxes_N_SSE4},
 #endif
 #if HWY_TARGETS & HWY_AVX2
     {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations, N_AVX2::farthest_point,
-     N_AVX2::heights_above, &k_manifolds_N_AVX2, &k_balls_N_AVX2},
+     N_AVX2::heights_above, &k_manifolds_N_AVX2, &k_balls_N_AVX2, &k_boxes_N_AVX2},
 #endif
 #if HWY_TARGETS & HWY_AVX3
     {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations, N_AVX3::farthest_point,
-     N_AVX3::heights_above, &k_manifolds_N_AVX3, &k_balls_N_AVX3},
+     N_AVX3::heights_above, &k_manifolds_N_AVX3, &k_balls_N_AVX3, &k_boxes_N_AVX3},
 #endif
 #elif HWY_TARGETS & HWY_NEON
     {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations, N_NEON::farthest_point,
-     N_NEON::heights_above, &k_manifolds_N_NEON, &k_balls_N_NEON},
+     N_NEON::heights_above, &k_manifolds_N_NEON, &k_balls_N_NEON, &k_boxes_N_NEON},
 #elif HWY_TARGETS & HWY_WASM
     {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations, N_WASM::farthest_point,
-     N_WASM::heights_above, &k_manifolds_N_WASM, &k_balls_N_WASM},
+     N_WASM::heights_above, &k_manifolds_N_WASM, &k_balls_N_WASM, &k_boxes_N_WASM},
 #endif
     {},
 };

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/math/wide/ball_block.h"
+#include "core/math/wide/box_block.h"
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/manifold_block.h"
 #include "core/math/wide/points.h"
@@ -23,6 +24,7 @@ struct Kernels {
                         const Direction32& p, std::int64_t* heights);
   const ManifoldKernels* manifolds;
   const BallKernels* balls;
+  const BoxKernels* boxes;
 };
 
 #if defined(LOCKSTONE_WITH_HIGHWAY)

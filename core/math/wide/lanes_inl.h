@@ -108,6 +108,17 @@ HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x) {
   return hn::BitCast(k_words, hn::ShiftRight<shift>(moved));
 }
 
+/// As above by more than a word's half: the lower half alone, its sign and all.
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift_far(Lanes x) {
+  static_assert(shift > 32);
+  const auto u = hn::BitCast(Bits(), x);
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
+  const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
+  const auto halves = hn::DupOdd(hn::BitCast(Operands(), moved));
+  return hn::BitCast(k_words, hn::ShiftRight<shift - 32>(halves));
+}
+
 /// Every lane by a shift of its own, logically. Highway 1.0 has none for words of 64 bits on
 /// WebAssembly, nor has the processor.
 HWY_INLINE HWY_ATTR hn::Vec<Bits> shift_right_each(hn::Vec<Bits> x, hn::Vec<Bits> shift) {

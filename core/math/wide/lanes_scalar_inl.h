@@ -70,6 +70,10 @@ inline Lanes round_shift_low(Lanes x, Lanes shift, Lanes) {
   return scalar::round_shift_low(x, static_cast<int>(shift));
 }
 template <int shift>
+Lanes round_shift_far(Lanes x) {
+  return scalar::round_shift_far(x, shift);
+}
+template <int shift>
 Lanes round_shift_unsigned(Lanes x) {
   return scalar::round_shift_unsigned(x, shift);
 }
@@ -106,10 +110,19 @@ template <class At>
 void load_two(const At& at, Lanes& first, Lanes& second) {
   load_words(at(0), first, second);
 }
+inline void store_words(Lanes first, Lanes second, std::int64_t* to) {
+  to[0] = first;
+  to[1] = second;
+}
+inline void store_words(Lanes first, Lanes second, std::int32_t* to) {
+  to[0] = scalar::low(first);
+  to[1] = scalar::high(first);
+  to[2] = scalar::low(second);
+  to[3] = scalar::high(second);
+}
 template <class At>
 void store_two(Lanes first, Lanes second, const At& at) {
-  at(0)[0] = first;
-  at(0)[1] = second;
+  store_words(first, second, at(0));
 }
 
 }  // namespace HWY_NAMESPACE

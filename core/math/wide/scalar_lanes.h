@@ -79,6 +79,12 @@ using Lane = std::int64_t;
   return static_cast<Lane>((bits(x) + half - (bits(x) >> 63)) >> shift);
 }
 
+/// The same for 32 < shift < 63, in the lower half; the upper half is dirty.
+[[nodiscard]] constexpr Lane round_shift_far(Lane x, int shift) {
+  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
+  return static_cast<Lane>(bits(x) + half - (bits(x) >> 63)) >> shift;
+}
+
 /// The same of a number without sign.
 [[nodiscard]] constexpr Lane round_shift_unsigned(Lane x, int shift) {
   return static_cast<Lane>((bits(x) + (std::uint64_t{1} << (shift - 1))) >> shift);

@@ -14,7 +14,8 @@ constexpr Kernels k_scalar{"scalar",
                            farthest_point_scalar,
                            heights_above_scalar,
                            &k_scalar_manifolds,
-                           &k_scalar_balls};
+                           &k_scalar_balls,
+                           &k_scalar_boxes};
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -93,6 +94,10 @@ const ManifoldKernels& manifold_kernels() {
 
 const BallKernels& ball_kernels() {
   return *current().balls;
+}
+
+const BoxKernels& box_kernels() {
+  return *current().boxes;
 }
 
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {

@@ -16,6 +16,7 @@ namespace lockstone::lanes::test {
 [[nodiscard]] std::string check_points(std::uint64_t seed);
 [[nodiscard]] std::string check_manifolds(std::uint64_t seed);
 [[nodiscard]] std::string check_balls(std::uint64_t seed);
+[[nodiscard]] std::string check_boxes(std::uint64_t seed);
 
 /// Runs `check` on every target, names those where it finds something, and leaves the best in
 /// force.

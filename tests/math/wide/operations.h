@@ -44,6 +44,7 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
   X(round_20, round_shift_low<20>(a), round_shift_low(a, 20), k_all_bits)                         \
   X(round_30, round_shift_low<30>(a), round_shift_low(a, 30), k_all_bits)                         \
   X(round_32, round_shift_low<32>(a), round_shift_low(a, 32), k_all_bits)                         \
+  X(round_37, round_shift_far<37>(a), round_shift_far(a, 37), 0xffffffffU)                        \
   X(round_each, round_shift_low(a, shift, half), round_shift_low(a, static_cast<int>(shift)),     \
     k_all_bits)                                                                                   \
   X(unsigned_4, round_shift_unsigned<4>(a), round_shift_unsigned(a, 4), k_all_bits)               \

@@ -92,6 +92,10 @@ TEST(WideKernels, SolveBallJointsAsTheScalarTwinDoes) {
   EXPECT_EQ(test::check_balls(run_seed()), "");
 }
 
+TEST(WideKernels, MeetBoxesAsTheScalarTwinDoes) {
+  EXPECT_EQ(test::check_boxes(run_seed()), "");
+}
+
 TEST(WideKernels, MakeTheMatricesOfToMatrix) {
   EXPECT_EQ(test::check_rotations(run_seed()), "");
 }
