@@ -33,7 +33,8 @@ inline constexpr std::int32_t k_most_impulse = 0x3fffffff;
 
 /// Eight manifolds that share no body, save one that nothing moves (zero gains). `pack(low, high)`
 /// holds two operands. `shift` is 16 … 28, and Q(shift) the format of what grows with the inverse
-/// inertia. A lane without a manifold has zero gains.
+/// inertia. Of a lane without a manifold `common` is 0, and the rest
+/// means nothing.
 struct alignas(64) ManifoldBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};

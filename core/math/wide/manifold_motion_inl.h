@@ -13,6 +13,15 @@ HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
 
+/// Whether none of the lanes at hand has a manifold: what does nothing need not be done.
+HWY_INLINE HWY_ATTR bool is_empty(const ManifoldBlock& block, std::size_t lane) {
+  if constexpr (k_lanes == k_block_lanes) return false;
+  std::int64_t used = 0;
+  for (std::size_t i = lane; i < lane + k_lanes; ++i)
+    used |= block.common[i];
+  return used == 0;
+}
+
 struct Vector {
   Lanes x, y, z;
 };

@@ -391,6 +391,21 @@ HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t la
   store(lower_part(q.rolling[2]), &out.rolling_mass[1][lane]);
 }
 
+/// As `is_empty`, before the block is filled.
+HWY_INLINE HWY_ATTR bool is_empty(const ManifoldSources& in, std::size_t lane) {
+  if constexpr (k_lanes == k_block_lanes) return false;
+  std::int32_t used = 0;
+  for (std::size_t i = lane; i < lane + k_lanes; ++i)
+    used |= in.lanes[i].one_over_count;
+  return used == 0;
+}
+
+HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
+                                     ManifoldApproach& approach) {
+  store(broadcast(0), &block.common[lane]);
+  store(broadcast(0), &approach.clamped[lane]);
+}
+
 /// The impulses of the tick before, added up by body; and how fast the points come in.
 HWY_INLINE HWY_ATTR void start_lanes(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                      const std::int64_t* words, std::int64_t* warm,
@@ -422,6 +437,10 @@ HWY_ATTR inline void prepare_manifolds(const ManifoldSources& in, const SourceBo
   block.body_a = in.body_a;
   block.body_b = in.body_b;
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+    if (is_empty(in, lane)) {
+      leave_empty(lane, block, approach);
+      continue;
+    }
     SourceLanes source{};
     store(load_source(in, lane, inertias, source), &approach.clamped[lane]);
     Axes axes{};

@@ -268,8 +268,9 @@ HWY_ATTR inline void solve_manifolds(RowBody* bodies, ManifoldBlock* blocks, std
                                      const SweepRules& rules) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes)
-      solve_lanes(blocks[i], lane, words, rules);
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      if (!is_empty(blocks[i], lane)) solve_lanes(blocks[i], lane, words, rules);
+    }
   }
 }
 
@@ -428,8 +429,10 @@ HWY_ATTR inline void relax_manifolds(RowBody* bodies, const RowTravel* travel,
                                      const SweepRules& rules) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes)
-      relax_lanes(blocks[i], lane, words, travel->velocity.data(), rules);
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      if (!is_empty(blocks[i], lane))
+        relax_lanes(blocks[i], lane, words, travel->velocity.data(), rules);
+    }
   }
 }
 
@@ -469,6 +472,7 @@ HWY_ATTR inline void bounce_manifolds(RowBody* bodies, ManifoldBlock& block,
                                       const ManifoldApproach& approach,
                                       const BlockWord& restitution, std::int32_t threshold) {
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+    if (is_empty(block, lane)) continue;
     bounce_lanes(block, lane, bodies->velocity.data(), approach, restitution, threshold);
   }
 }

@@ -1,5 +1,6 @@
 // Manifold sweeps: every target against the scalar twin.
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include "core/math/wide/manifold_block.h"
@@ -80,8 +81,8 @@ struct SceneMaker {
 
   // What is not read holds anything.
   void fill_points(ManifoldGeometry& geometry, ManifoldSource& in) {
-    in.count = fixed(0, 4);
-    in.one_over_count = in.count == 0 ? 0 : k_one / in.count;
+    in.count = fixed(1, 4);
+    in.one_over_count = k_one / in.count;
     geometry[3] = operand(random);
     for (std::size_t i = 0; i < k_block_points; ++i) {
       std::int32_t* point = &geometry[4 + 8 * i];
@@ -134,6 +135,25 @@ struct SceneMaker {
   }
 };
 
+constexpr ManifoldGeometry k_no_geometry{};
+
+static_assert(offsetof(ManifoldBlock, points) == sizeof(BlockWord) &&
+              sizeof(ManifoldBlock) % sizeof(BlockWord) == 0);
+
+// Of lanes without a manifold blocks say nothing.
+void forget_empty(const ManifoldSources& sources, ManifoldBlock& block,
+                  ManifoldApproach& approach) {
+  for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
+    if (sources.lanes[lane].one_over_count != 0) continue;
+    const std::int64_t none = 0;
+    auto* const bytes = reinterpret_cast<unsigned char*>(&block);
+    for (std::size_t at = sizeof(BlockWord); at < sizeof(block); at += sizeof(BlockWord))
+      std::memcpy(bytes + at + lane * sizeof(none), &none, sizeof(none));
+    for (BlockWord& word : approach.speed)
+      word[lane] = 0;
+  }
+}
+
 // Bodies are named once but for body 0.
 Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   SceneMaker maker{random, wild};
@@ -153,9 +173,15 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
     maker.fill(scene.travel[i]);
   }
   std::uint32_t next = 1;
+  const auto used = static_cast<std::size_t>(
+      random.between(1, static_cast<std::int64_t>(blocks * k_block_lanes)));
   for (std::size_t i = 0; i < blocks * k_block_lanes; ++i, next += 2) {
     ManifoldSources& sources = scene.sources[i / k_block_lanes];
     const std::size_t lane = i % k_block_lanes;
+    if (i >= used) {  // as the solver leaves what has no contact
+      sources.geometry[lane] = k_no_geometry.data();
+      continue;
+    }
     maker.fill(scene.geometry[i], sources.lanes[lane]);
     sources.geometry[lane] = scene.geometry[i].data();
     sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : row_body_offset(next);
@@ -177,6 +203,7 @@ void run(const ManifoldKernels& kernels, const SweepRules& rules, Scene& scene) 
   for (std::size_t i = 0; i < count; ++i) {
     kernels.bounce(scene.bodies.data(), scene.blocks[i], scene.approaches[i], scene.restitution[i],
                    1 << 20);
+    forget_empty(scene.sources[i], scene.blocks[i], scene.approaches[i]);
   }
 }
 
