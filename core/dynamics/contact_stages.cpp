@@ -14,16 +14,22 @@ constexpr std::uint32_t k_joined_grain = 8;
 constexpr std::uint32_t k_block_grain = 4;
 constexpr std::uint32_t k_cluster_grain = 1;
 
+constexpr std::uint32_t reversed(std::uint32_t x) {
+  x = (x >> 1 & 0x55555555U) | (x & 0x55555555U) << 1;
+  x = (x >> 2 & 0x33333333U) | (x & 0x33333333U) << 2;
+  x = (x >> 4 & 0x0f0f0f0fU) | (x & 0x0f0f0f0fU) << 4;
+  x = (x >> 8 & 0x00ff00ffU) | (x & 0x00ff00ffU) << 8;
+  return x >> 16 | x << 16;
+}
+static_assert(reversed(0x80000000U) == 1 && reversed(0x12345678U) == 0x1e6a2c48U);
+
 // Limits of friction are few steps of their format high: rounded alike in all substeps they would
 // err the same way for as long as something slides. Two sequences that fill the unit interval
 // evenly (van der Corput's, and multiples of the golden ratio) round them in turns instead.
 lanes::SweepRules swayed(lanes::SweepRules rules, std::uint32_t substep) {
-  std::uint32_t reversed = 0;
-  for (std::uint32_t bit = 0; bit < 32; ++bit)
-    reversed |= (substep >> bit & 1) << (31 - bit);
   constexpr std::uint32_t k_golden = 0x9e3779b9;
   constexpr std::int32_t k_half = 1 << 29;
-  rules.limit_sway = static_cast<std::int32_t>(reversed >> 2) - k_half;
+  rules.limit_sway = static_cast<std::int32_t>(reversed(substep) >> 2) - k_half;
   rules.part_sway = static_cast<std::int32_t>((substep * k_golden) >> 2) - k_half;
   return rules;
 }
