@@ -1,6 +1,7 @@
 #include "core/collision/placed_shape.h"
 
 #include "core/geometry/parts.h"
+#include "core/geometry/polytope.h"
 #include "core/geometry/shape_properties.h"
 #include "core/geometry/solid.h"
 
@@ -37,6 +38,21 @@ WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& loca
   const Vec3<Position> reach =
       rounded<Position>(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
   return {at - reach, at + reach};
+}
+
+// The least and the greatest of the vertices along each axis, and what rounding them may hide.
+WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytope) {
+  constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
+  constexpr Position k_rounding = Position::from_raw(1 << 13);
+  WorldBox box;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<Unit> axis{placed.rotation.x[i], placed.rotation.y[i], placed.rotation.z[i]};
+    const geometry::Fine above = geometry::support_of(polytope, axis).height;
+    const geometry::Fine below = geometry::support_of(polytope, -axis).height;
+    box.lower[i] = placed.origin[i] - Position::from_raw(below >> k_bits) - k_rounding;
+    box.upper[i] = placed.origin[i] + Position::from_raw(above >> k_bits) + k_rounding;
+  }
+  return box;
 }
 
 }  // namespace
@@ -76,7 +92,11 @@ Transform shape_pose(const Asset* asset, const Transform& body_pose) {
 
 WorldBox world_box(const PlacedShape& placed) {
   if (placed.shape.kind == ShapeKind::half_space) return half_space_box(placed);
-  if (placed.asset != nullptr) return turned_box(placed, placed.asset->bounds());
+  if (placed.asset != nullptr) {
+    const geometry::Polytope* polytope = placed.asset->polytope();
+    return polytope != nullptr ? vertex_box(placed, *polytope)
+                               : turned_box(placed, placed.asset->bounds());
+  }
   const Vec3<Position> reach = rounded<Position>(world_half_extents(placed.shape, placed.rotation));
   return {placed.origin - reach, placed.origin + reach};
 }
