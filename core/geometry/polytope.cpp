@@ -17,20 +17,36 @@ Support support_of(const Polytope& polytope, const Vec3<Unit>& n) {
   return best;
 }
 
-void measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights) {
+int measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights) {
   const lanes::Direction32 narrow{static_cast<std::int32_t>(point.x),
                                   static_cast<std::int32_t>(point.y),
                                   static_cast<std::int32_t>(point.z)};
   const bool fits = RawVec{narrow[0], narrow[1], narrow[2]} == point;
   if (polytope.wide != nullptr && fits) {
-    lanes::heights_above(polytope.wide->normals, polytope.wide->offsets, narrow, heights.data());
-    return;
+    const PolytopeLanes& wide = *polytope.wide;
+    return static_cast<int>(
+        lanes::heights_above(wide.normals, wide.offsets, narrow, heights.data()).index);
   }
+  std::size_t highest = 0;
   for (std::size_t i = 0; i < polytope.faces.size(); ++i) {
     const PolytopeFace& face = polytope.faces[i];
     heights[i] = point.x * face.normal.x.raw + point.y * face.normal.y.raw +
                  point.z * face.normal.z.raw - face.offset;
+    if (heights[i] > heights[highest]) highest = i;
   }
+  return static_cast<int>(highest);
+}
+
+void mark_faces(const Polytope& polytope, const FaceHeights& heights, Fine bound, FaceBits& marks) {
+  marks = {};
+  const std::size_t count = polytope.faces.size();
+  if (polytope.wide == nullptr) {
+    for (std::size_t i = 0; i < count; ++i)
+      marks[i / 64] |= std::uint64_t{heights[i] >= bound} << (i % 64);
+    return;
+  }
+  lanes::mark_at_least(heights.data(), polytope.wide->normals.count, bound, marks.data());
+  if (count % 64 != 0) marks[count / 64] &= (std::uint64_t{1} << (count % 64)) - 1;
 }
 
 int most_opposed_face(const Polytope& polytope, int vertex, const Vec3<Unit>& direction) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -106,9 +107,24 @@ struct Support {
 using FaceHeights = std::array<Fine, 256>;  // room for what fills up the last lanes
 static_assert(k_max_polytope_faces <= 256);
 
-/// How high a point (own frame, 20 fraction bits) is above each face's plane; exact. The places
-/// after the last face mean nothing.
-void measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights);
+/// How high a point (own frame, 20 fraction bits) is above each face's plane; exact. Answers the
+/// face that it is highest above, the first of equals. The places after the last face mean nothing.
+int measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights);
+
+/// A bit for each face.
+using FaceBits = std::array<std::uint64_t, 4>;
+
+/// The faces whose height is at least `bound`.
+void mark_faces(const Polytope& polytope, const FaceHeights& heights, Fine bound, FaceBits& marks);
+
+/// Calls `f(face)` for every face that is marked, in order.
+template <class F>
+void for_each_marked(const FaceBits& marks, F&& f) {
+  for (std::size_t word = 0; word < marks.size(); ++word) {
+    for (std::uint64_t bits = marks[word]; bits != 0; bits &= bits - 1)
+      f(static_cast<int>(word * 64) + std::countr_zero(bits));
+  }
+}
 
 /// Of the faces around `vertex`, the one with the least n · direction, the first of
 /// equals.

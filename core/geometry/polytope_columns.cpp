@@ -8,7 +8,7 @@ std::size_t padded(std::size_t count) {
 }
 
 /// Three columns one after the other. The last places hold the first item once more, which is the
-/// farthest of equals never but itself.
+/// first of equals never but itself.
 template <class Items, class VectorOf>
 lanes::PointColumns fill_columns(std::vector<std::int32_t>& out, const Items& items,
                                  const VectorOf& vector_of) {
@@ -27,7 +27,7 @@ lanes::PointColumns fill_columns(std::vector<std::int32_t>& out, const Items& it
 
 void PolytopeColumns::fill(std::span<const Vec3<Length>> vertices,
                            std::span<const PolytopeFace> faces) {
-  offsets_.assign(padded(faces.size()), 0);
+  offsets_.assign(padded(faces.size()), faces.front().offset);
   for (std::size_t i = 0; i < faces.size(); ++i)
     offsets_[i] = faces[i].offset;
   lanes_ = {fill_columns(

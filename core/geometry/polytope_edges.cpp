@@ -24,13 +24,14 @@ class WitnessedFaces {
   WitnessedFaces(const Polytope& own, const Witness& witness, Fine bound)
       : own_(own), witness_(witness), bound_(bound - k_witness_slack) {
     FaceHeights heights;
-    measure_heights(own, witness.points[0], heights);
-    for (std::size_t i = 0; i < own.faces.size(); ++i)
-      masks_[i] = heights[i] <= bound_ ? k_first : k_unknown;
+    (void)measure_heights(own, witness.points[0], heights);
+    mark_faces(own, heights, bound_ + 1, above_first_);
+    std::fill_n(masks_.begin(), own.faces.size(), k_first);
+    for_each_marked(above_first_, [this](int face) { masks_[static_cast<std::size_t>(face)] = 0; });
   }
 
-  /// Whether the first witness is not above the face.
-  [[nodiscard]] bool is_first_below(std::size_t face) const { return masks_[face] == k_first; }
+  /// The faces that the first witness is above.
+  [[nodiscard]] const FaceBits& above_first() const { return above_first_; }
 
   /// Whether one witness is above neither face.
   [[nodiscard]] bool share(std::size_t face, std::size_t other) {
@@ -39,7 +40,6 @@ class WitnessedFaces {
 
  private:
   static constexpr std::uint8_t k_first = 1;       // and nothing is known of the others
-  static constexpr std::uint8_t k_unknown = 0;     // but not the first
   static constexpr std::uint8_t k_complete = 128;  // bit i: witness i
 
   [[nodiscard]] bool is_below(std::size_t i, std::size_t face) const {
@@ -59,19 +59,19 @@ class WitnessedFaces {
   const Polytope& own_;
   const Witness& witness_;
   Fine bound_;
+  FaceBits above_first_;
   std::array<std::uint8_t, k_max_polytope_faces> masks_;
 };
 
 /// The edges around faces that the first witness is above; each by its first half.
 void mark_edges(const Polytope& own, const WitnessedFaces& faces, EdgeBits& marks) {
-  for (std::size_t i = 0; i < own.faces.size(); ++i) {
-    if (faces.is_first_below(i)) continue;
-    const PolytopeFace& face = own.faces[i];
+  for_each_marked(faces.above_first(), [&](int index) {
+    const PolytopeFace& face = own.faces[static_cast<std::size_t>(index)];
     for (unsigned k = face.first_edge; k < unsigned{face.first_edge} + face.edge_count; ++k) {
       const unsigned first = std::min<unsigned>(k, own.edges[k].twin);
       marks[first / 64] |= std::uint64_t{1} << (first % 64);
     }
-  }
+  });
 }
 
 /// On an axis between the normals of the edge's faces the separation is at most the greater height

@@ -94,30 +94,40 @@ void Witness::add(const RawVec& point) {
   count = std::min(count + 1, static_cast<int>(points.size()));
 }
 
+namespace {
+
+/// Of the faces that are allowed, the one that the point is highest above, the first of equals.
+int highest_allowed(const Polytope& own, const FaceHeights& heights, const Facing& facing) {
+  int first = -1;
+  const int count = static_cast<int>(own.faces.size());
+  for (int face = 0; face < count; ++face) {
+    const auto i = static_cast<std::size_t>(face);
+    if (first >= 0 && heights[i] <= heights[static_cast<std::size_t>(first)]) continue;
+    if (facing.allows(own.faces[i].normal)) first = face;
+  }
+  return first;
+}
+
+}  // namespace
+
 FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enough,
                       Witness& witness) {
   FaceSearch search{view, witness};
-  FaceHeights heights;  // of the other's inside
-  measure_heights(view.own, view.to_own_coarse(view.other.interior), heights);
-  const int count = static_cast<int>(view.own.faces.size());
   // The plane highest below the other's inside is the likeliest to be the best.
-  int first = -1;
-  Fine highest = 0;
-  for (int face = 0; face < count; ++face) {
-    const Fine height = heights[static_cast<std::size_t>(face)];
-    if (first >= 0 && height <= highest) continue;
-    if (!facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) continue;
-    first = face;
-    highest = height;
-  }
+  FaceHeights heights;
+  int first = measure_heights(view.own, view.to_own_coarse(view.other.interior), heights);
+  if (!facing.allows(view.own.faces[static_cast<std::size_t>(first)].normal))
+    first = highest_allowed(view.own, heights, facing);
   if (first < 0) return {};
   search.look_at(first);
-  for (int face = 0; face < count && search.best.separation <= enough; ++face) {
+  FaceBits marks;
+  mark_faces(view.own, heights, search.best.separation - k_witness_slack, marks);
+  for_each_marked(marks, [&](int face) {
     const Fine height = heights[static_cast<std::size_t>(face)];
-    if (face == first || height + k_witness_slack < search.best.separation) continue;
-    if (search.is_worse(face)) continue;
+    if (face == first || search.best.separation > enough) return;
+    if (height + k_witness_slack < search.best.separation || search.is_worse(face)) return;
     if (facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) search.look_at(face);
-  }
+  });
   return search.best;
 }
 

@@ -20,8 +20,10 @@ struct Kernels {
   void (*compute_rotations)(const QuatField& quats, const std::uint32_t* indices, std::size_t count,
                             Mat3* matrices);
   Farthest (*farthest_point)(const PointColumns& points, const Direction32& n);
-  void (*heights_above)(const PointColumns& normals, const std::int64_t* offsets,
-                        const Direction32& p, std::int64_t* heights);
+  Farthest (*heights_above)(const PointColumns& normals, const std::int64_t* offsets,
+                            const Direction32& p, std::int64_t* heights);
+  void (*mark_at_least)(const std::int64_t* heights, std::size_t count, std::int64_t bound,
+                        std::uint64_t* marks);
   const ManifoldKernels* manifolds;
   const BallKernels* balls;
   const BoxKernels* boxes;

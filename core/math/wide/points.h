@@ -31,13 +31,20 @@ struct Farthest {
 /// The point p with the greatest p · n, the first of equals. There is at least one. Sums wrap.
 [[nodiscard]] Farthest farthest_point(const PointColumns& points, const Direction32& n);
 
-/// heights[i] = n_i · p − offsets[i]. Sums wrap.
-void heights_above(const PointColumns& normals, const std::int64_t* offsets, const Direction32& p,
-                   std::int64_t* heights);
+/// heights[i] = n_i · p − offsets[i]; answers the greatest, the first of equals. Sums wrap.
+Farthest heights_above(const PointColumns& normals, const std::int64_t* offsets,
+                       const Direction32& p, std::int64_t* heights);
+
+/// Sets bit i % 64 of marks[i / 64] where heights[i] ≥ bound and clears the others, in as many
+/// words as it takes. The number of heights is a multiple of k_point_step.
+void mark_at_least(const std::int64_t* heights, std::size_t count, std::int64_t bound,
+                   std::uint64_t* marks);
 
 /// The same, one at a time.
 [[nodiscard]] Farthest farthest_point_scalar(const PointColumns& points, const Direction32& n);
-void heights_above_scalar(const PointColumns& normals, const std::int64_t* offsets,
-                          const Direction32& p, std::int64_t* heights);
+Farthest heights_above_scalar(const PointColumns& normals, const std::int64_t* offsets,
+                              const Direction32& p, std::int64_t* heights);
+void mark_at_least_scalar(const std::int64_t* heights, std::size_t count, std::int64_t bound,
+                          std::uint64_t* marks);
 
 }  // namespace lockstone::lanes

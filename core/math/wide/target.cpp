@@ -13,6 +13,7 @@ constexpr Kernels k_scalar{"scalar",
                            compute_rotations_scalar,
                            farthest_point_scalar,
                            heights_above_scalar,
+                           mark_at_least_scalar,
                            &k_scalar_manifolds,
                            &k_scalar_balls,
                            &k_scalar_boxes};
@@ -113,9 +114,14 @@ Farthest farthest_point(const PointColumns& points, const Direction32& n) {
   return current().farthest_point(points, n);
 }
 
-void heights_above(const PointColumns& normals, const std::int64_t* offsets, const Direction32& p,
-                   std::int64_t* heights) {
-  current().heights_above(normals, offsets, p, heights);
+Farthest heights_above(const PointColumns& normals, const std::int64_t* offsets,
+                       const Direction32& p, std::int64_t* heights) {
+  return current().heights_above(normals, offsets, p, heights);
+}
+
+void mark_at_least(const std::int64_t* heights, std::size_t count, std::int64_t bound,
+                   std::uint64_t* marks) {
+  current().mark_at_least(heights, count, bound, marks);
 }
 
 }  // namespace lockstone::lanes

@@ -172,11 +172,19 @@ Cloud random_cloud(std::size_t count, Random& random) {
 std::string compare_points(const Cloud& cloud) {
   const Farthest farthest = farthest_point_scalar(cloud.points(), cloud.direction);
   std::vector<std::int64_t> expected(cloud.count());
-  heights_above_scalar(cloud.points(), cloud.offsets.data(), cloud.direction, expected.data());
+  const Farthest highest =
+      heights_above_scalar(cloud.points(), cloud.offsets.data(), cloud.direction, expected.data());
+  const std::int64_t bound = expected[cloud.count() / 2];
+  std::vector<std::uint64_t> expected_marks((cloud.count() + 63) / 64);
+  mark_at_least_scalar(expected.data(), cloud.count(), bound, expected_marks.data());
   return on_each_target([&] {
     std::vector<std::int64_t> heights(cloud.count());
-    heights_above(cloud.points(), cloud.offsets.data(), cloud.direction, heights.data());
-    const bool same = farthest_point(cloud.points(), cloud.direction) == farthest;
+    std::vector<std::uint64_t> marks(expected_marks.size());
+    const Farthest found =
+        heights_above(cloud.points(), cloud.offsets.data(), cloud.direction, heights.data());
+    mark_at_least(heights.data(), cloud.count(), bound, marks.data());
+    const bool same = farthest_point(cloud.points(), cloud.direction) == farthest &&
+                      found == highest && marks == expected_marks;
     if (same && heights == expected) return std::string();
     return std::to_string(cloud.count()) + " points\n";
   });
