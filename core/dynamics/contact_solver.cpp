@@ -81,15 +81,6 @@ void repeat_component(std::int64_t& now, std::int64_t& before) {
   before = start;
 }
 
-// Within eight steps of what rows can read, 7.6 µm/s: what contacts hold trembles by so much, and
-// does not move.
-bool is_still(const RowBody& row) {
-  constexpr std::int64_t k_least = std::int64_t{8} << (lanes::k_velocity_bits - 20);
-  const auto still = [](std::int64_t x) { return x < k_least && x > -k_least; };
-  return still(row.velocity[0]) && still(row.velocity[1]) && still(row.velocity[2]) &&
-         still(row.spin[0]) && still(row.spin[1]) && still(row.spin[2]);
-}
-
 // A hint, without meaning.
 template <class T>
 void prefetch(const T& object) {
@@ -319,7 +310,8 @@ const ContactSolver::Entry* ContactSolver::look_ahead(
 // Answers how many points the block has.
 std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
                                         Scratch& scratch) {
-  std::uint32_t points = 0;
+  std::uint32_t points = 0, loaded = 0;
+  const bool asks_for_load = few_are_loaded();
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const std::uint32_t slot = slots_[block * k_block_lanes + lane];
     restitution_[block][lane] = 0;
@@ -348,12 +340,14 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     const ContactSurface& surface = scene.surfaces[entry.slot];
     fill_source({a, b, scene.manifolds[entry.slot], record, surface}, softness_,
                 sources.lanes[lane]);
-    if (DirectContacts::is_uneven(sources.lanes[lane].share_b))
-      uneven_.store(true, std::memory_order_relaxed);
+    const lanes::ManifoldSource& source = sources.lanes[lane];
+    if (asks_for_load && is_loaded(scene, entry, source.share_b)) ++loaded;
+    if (DirectContacts::is_uneven(source.share_b)) uneven_.store(true, std::memory_order_relaxed);
     restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);
   }
+  if (loaded != 0) loaded_.fetch_add(loaded, std::memory_order_relaxed);
   return points;
 }
 

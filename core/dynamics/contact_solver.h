@@ -92,6 +92,9 @@ class ContactSolver {
   // Added to the number of a body that never moves.
   static constexpr std::uint32_t k_immovable = 0x80000000;
 
+  // More loaded contacts than these are left to the sweeps; no more are counted.
+  static constexpr std::uint32_t k_most_loaded = 128;
+
   // Blocks of one colour.
   struct Range {
     std::size_t first = 0;
@@ -151,7 +154,12 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
-  void take_up_direct();
+  void take_up_direct(const ContactScene& scene);
+  [[nodiscard]] bool few_are_loaded() const {
+    return loaded_.load(std::memory_order_relaxed) <= k_most_loaded;
+  }
+  [[nodiscard]] bool is_loaded(const ContactScene& scene, const Entry& entry,
+                               std::int64_t share_b) const;
   [[nodiscard]] DirectRun direct_run();
   [[nodiscard]] JointRun joint_run();
   [[nodiscard]] NetRun net_run() {
@@ -229,12 +237,13 @@ class ContactSolver {
   std::vector<lanes::ManifoldBlock> blocks_;
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
-  bool is_idle_ = false;              // neither contacts nor joints in this tick
-  std::atomic<bool> bounces_{false};  // any restitution at all
-  std::atomic<bool> holds_{false};    // any locked axis of moving
-  std::atomic<bool> uneven_{false};   // any contact of a light body and a heavy one
-  std::vector<Loop> loops_;           // of the sequence at hand
-  std::vector<Stage> stages_;         // what they are
+  bool is_idle_ = false;                  // neither contacts nor joints in this tick
+  std::atomic<bool> bounces_{false};      // any restitution at all
+  std::atomic<bool> holds_{false};        // any locked axis of moving
+  std::atomic<bool> uneven_{false};       // any contact of a light body and a heavy one
+  std::atomic<std::uint32_t> loaded_{0};  // contacts at rest under several times a body's weight
+  std::vector<Loop> loops_;               // of the sequence at hand
+  std::vector<Stage> stages_;             // what they are
 };
 
 }  // namespace lockstone

@@ -1,15 +1,64 @@
 // Contacts of uneven masses in the contact solver: which there are, and what is lent to them.
 
+#include <algorithm>
+
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/joint_solver.h"
 
 namespace lockstone {
 
-// Nothing unless a contact is uneven. Bodies with locks or joints are left to the sweeps, which
-// know of both.
-void ContactSolver::take_up_direct() {
+namespace {
+
+// Contacts that carry so many halves of a body's weight are loaded.
+constexpr std::int64_t k_loaded_halves = 5;
+
+// What moves faster is not at rest: 1/4 m/s, Q50.
+constexpr std::int64_t k_resting_speed = std::int64_t{1} << (lanes::k_velocity_bits - 2);
+
+std::int64_t impulse_of(const ContactRecord& record) {
+  std::int64_t sum = 0;
+  for (const ContactPointRecord& point : record.points)
+    sum += point.normal_impulse.raw;
+  return sum;
+}
+
+bool is_touching(const Manifold& manifold, Displacement skin) {
+  for (int i = 0; i < manifold.count; ++i)
+    if (manifold.points[static_cast<std::size_t>(i)].separation <= skin) return true;
+  return false;
+}
+
+}  // namespace
+
+// Whether the lighter body, at rest, gains more from the contact than gravity and forces give it;
+// or has just been put there, so that nobody knows yet.
+bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
+                              std::int64_t share_b) const {
+  const bool b_is_lighter = share_b >= 1 << 29;
+  const std::uint32_t index = b_is_lighter ? entry.body_b : entry.body_a;
+  if ((index & k_immovable) != 0) return false;
+  const std::int64_t impulse = impulse_of(scene.records[entry.record]);
+  const std::int64_t share = b_is_lighter ? share_b : (std::int64_t{1} << 30) - share_b;
+  const std::int64_t jump = raw::round_shift(impulse * (share >> 2), 15);  // Q32 + 1
+  std::int64_t weight = 0;
+  for (const std::int64_t gain : bodies_[index].gain)
+    weight = std::max({weight, gain, -gain});
+  if (weight == 0) return false;
+  if (jump < k_loaded_halves * weight) {
+    if (impulse != 0 || ((entry.body_a | entry.body_b) & k_immovable) != 0) return false;
+    if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin)))
+      return false;
+  }
+  const auto rests = [](std::int64_t v) { return v < k_resting_speed && v > -k_resting_speed; };
+  return std::ranges::all_of(rows_[index].velocity, rests);
+}
+
+// Nothing unless a contact is uneven, or a few are loaded. Bodies with locks or joints are left to
+// the sweeps, which know of both.
+void ContactSolver::take_up_direct(const ContactScene& scene) {
   direct_.clear();
-  if (!uneven_) return;
+  const bool takes_loaded = loaded_ > 0 && few_are_loaded();
+  if (!uneven_ && !takes_loaded) return;
   const std::span<const ConstraintGraph::Place> places = graph_.places();
   const auto number = [&](std::uint32_t index) {
     return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
@@ -17,10 +66,12 @@ void ContactSolver::take_up_direct() {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     const std::size_t slot = ranges_[places[i].color].first * lanes::k_block_lanes + places[i].rank;
-    const std::int64_t share =
-        blocks_[slot / lanes::k_block_lanes].share[slot % lanes::k_block_lanes];
+    const lanes::ManifoldBlock& block = blocks_[slot / lanes::k_block_lanes];
+    const std::size_t lane = slot % lanes::k_block_lanes;
+    const auto share_b = static_cast<std::int32_t>(block.share[lane]);
     direct_.add({static_cast<std::uint32_t>(slot), number(entry.body_a), number(entry.body_b),
-                 row_of(entry.body_a), row_of(entry.body_b), static_cast<std::int32_t>(share)});
+                 row_of(entry.body_a), row_of(entry.body_b), share_b,
+                 takes_loaded && is_loaded(scene, entry, share_b)});
   }
   for (std::uint32_t i = 1; i < members_.size(); ++i)
     if (bodies_[i].held != 0 || joints_->find(members_[i]) != nullptr) direct_.leave_out(i);

@@ -45,7 +45,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   if (is_idle_ && was_idle) return;
   take_up_contacts(scene);
   lay_out();
-  points_ = saturations_ = 0;
+  points_ = saturations_ = loaded_ = 0;
   first_substep_ =
       static_cast<std::uint32_t>(scene.tick) * static_cast<std::uint32_t>(step_.substeps);
   bounces_ = holds_ = uneven_ = false;
@@ -63,7 +63,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       joints_->prepare(joint_run(), first, end);
                     });
-  take_up_direct();
+  take_up_direct(scene);
 }
 
 void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,

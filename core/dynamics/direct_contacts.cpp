@@ -16,9 +16,10 @@ using lanes::ManifoldBlock;
 // What is a tenth of its pair's mass, or less, is light beside the other.
 constexpr std::int32_t k_light_share = (1 << 30) / 10;
 
-// What hangs together with a light body may have so many contacts, a system twice as many.
-constexpr std::size_t k_most_gathered = 32;
-constexpr std::size_t k_most_of_group = 64;
+// What hangs together with a light body may have so many contacts, or with a loaded one; a system.
+constexpr std::size_t k_most_of_light = 32;
+constexpr std::size_t k_most_of_loaded = 128;
+constexpr std::size_t k_most_of_group = 160;
 
 // All systems of a world.
 constexpr std::size_t k_most_contacts = 512;
@@ -33,7 +34,7 @@ bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
 
 DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_capacity)
     : factor_(std::min(contact_capacity, k_most_contacts)) {
-  const std::size_t most = std::min(contact_capacity, k_most_contacts) + k_most_gathered;
+  const std::size_t most = std::min(contact_capacity, k_most_contacts) + k_most_of_loaded;
   links_.reserve(contact_capacity);
   left_out_.reserve(body_capacity);
   marks_.reserve(body_capacity + 1);
@@ -44,6 +45,9 @@ DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_ca
   chosen_.reserve(contact_capacity);
   order_.reserve(contact_capacity);
   place_.reserve(contact_capacity);
+  bodies_.reserve(2 * most);
+  gains_.reserve(2 * most);
+  gain_place_.reserve(body_capacity + 1);
   contacts_.reserve(most);
   groups_.reserve(most);
 }
@@ -52,6 +56,8 @@ void DirectContacts::clear() {
   links_.clear();
   left_out_.clear();
   contacts_.clear();
+  bodies_.clear();
+  gains_.clear();
   groups_.clear();
   factor_.clear();
 }
@@ -104,6 +110,7 @@ void DirectContacts::plan(const DirectRun& run) {
   marks_.assign(run.bodies.size(), Mark::none);
   link_marks_.assign(links_.size(), Mark::none);
   place_.assign(links_.size(), 0);
+  gain_place_.resize(run.bodies.size());
   chosen_.clear();
   link_bodies(run.bodies.size());
   for (const std::uint32_t body : left_out_)
@@ -111,29 +118,31 @@ void DirectContacts::plan(const DirectRun& run) {
   for (const Link& link : links_) {
     if (!is_uneven(link.share_b)) continue;
     const bool heavy_is_b = link.share_b <= k_light_share;
-    if (is_pressed(run, link, heavy_is_b)) gather(heavy_is_b ? link.a : link.b);
+    if (is_pressed(run, link, heavy_is_b)) gather(heavy_is_b ? link.a : link.b, k_most_of_light);
   }
+  for (const Link& link : links_)
+    if (link.is_loaded) gather(link.share_b >= 1 << 29 ? link.b : link.a, k_most_of_loaded);
   order_.clear();
   for (const std::uint32_t index : chosen_)
     if (link_marks_[index] == Mark::chosen) plan_group(run, index);
 }
 
 // All contacts of a light body, and of what holds it up, as far as that is not heavy beside it.
-void DirectContacts::gather(std::uint32_t light) {
+void DirectContacts::gather(std::uint32_t light, std::size_t most) {
   if (marks_[light] != Mark::none) return;
   const std::size_t first = chosen_.size();
   queue_.assign(1, light);
   marks_[light] = Mark::chosen;
-  if (gather_all(first)) return;
+  if (gather_all(first, most)) return;
   for (const std::uint32_t body : queue_)
     marks_[body] = Mark::dropped;
   drop(first);
 }
 
-bool DirectContacts::gather_all(std::size_t first) {
+bool DirectContacts::gather_all(std::size_t first, std::size_t most) {
   for (std::size_t i = 0; i < queue_.size(); ++i) {
     if (!gather_body(queue_[i])) return false;
-    if (chosen_.size() - first > k_most_gathered) return false;
+    if (chosen_.size() - first > most) return false;
   }
   return chosen_.size() <= k_most_contacts;
 }
@@ -185,12 +194,26 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
     place_[order_[k]] = k + 1;
     contacts_.push_back({});
     contacts_.back().link = links_[order_[k]];
-    fill(run, contacts_.back());
   }
   if (!plan_factor(group)) return contacts_.resize(group.first);
-  for (const Contact& contact : contacts_of(group))
-    make_rigid(run, contact);
+  for (Contact& contact : contacts_of(group))
+    take_over(run, contact);
+  list_bodies(group);
   groups_.push_back(group);
+}
+
+void DirectContacts::list_bodies(Group& group) {
+  group.first_body = static_cast<std::uint32_t>(bodies_.size());
+  for (const Contact& contact : contacts_of(group)) {
+    for (const std::uint32_t body : {contact.link.a, contact.link.b}) {
+      if (body == 0 || marks_[body] == Mark::listed) continue;
+      marks_[body] = Mark::listed;
+      gain_place_[body] = static_cast<std::uint32_t>(bodies_.size());
+      bodies_.push_back(body);
+    }
+  }
+  gains_.resize(bodies_.size());
+  group.body_count = static_cast<std::uint32_t>(bodies_.size()) - group.first_body;
 }
 
 bool DirectContacts::plan_factor(Group& group) {
@@ -202,7 +225,7 @@ bool DirectContacts::plan_factor(Group& group) {
         if (place_[other] != 0) emit(place_[other] - 1);
     }
   };
-  const auto rows = [&](std::uint32_t k) { return contacts_[group.first + k].count; };
+  const auto rows = [](std::uint32_t) -> std::uint32_t { return lanes::k_block_points; };
   if (!factor_.plan(group.count, neighbours, rows)) return false;
   group.column = factor_.first();
   return true;

@@ -1,10 +1,12 @@
-// Contacts through which heavy bodies rest on light ones: their normal impulses, solved at once.
+// Contacts through which heavy bodies rest on light ones, and those of small groups that carry
+// several times a body's weight: their normal impulses, solved at once.
 //
-// Sweeps pass a load on from contact to contact, and where a light body carries a heavy one each
-// takes it on by the ratio of their masses only. Here the points that push are the rows of one
+// Sweeps pass a load on from contact to contact, and where a light body carries a heavy one, or one
+// body many, each takes it on by a small part only. Here the points that push are the rows of one
 // system, factored as joints are (LDLᵀ) where they share bodies; what would have to pull is let go,
 // and the rest solved again (an active set, as in D. Baraff, "Fast contact force computation for
-// nonpenetrating rigid bodies", 1994). These contacts are rigid: a soft one would give way.
+// nonpenetrating rigid bodies", 1994). These contacts are rigid: a soft one would give way. The
+// sweeps do their friction, and leave their normal impulses alone.
 #pragma once
 
 #include <array>
@@ -34,6 +36,7 @@ class DirectContacts {
     std::uint32_t a = 0, b = 0;          // numbers of its bodies; 0: no impulse moves it
     std::uint32_t row_a = 0, row_b = 0;  // where their velocities stand
     std::int32_t share_b = 0;            // of B in the pair's inverse mass, Q30
+    bool is_loaded = false;              // carries several times the weight of its lighter body
   };
 
   /// No function but this allocates.
@@ -50,7 +53,7 @@ class DirectContacts {
   /// Whether a contact shares its bodies' inverse masses so unevenly that it may be worth it.
   [[nodiscard]] static bool is_uneven(std::int32_t share_b);
 
-  /// Chooses contacts, makes their blocks rigid, and plans the systems.
+  /// Chooses contacts, takes their normals from the sweeps, and plans the systems.
   void plan(const DirectRun& run);
 
   [[nodiscard]] bool empty() const { return groups_.empty(); }
@@ -60,7 +63,7 @@ class DirectContacts {
   void solve(const DirectRun& run, bool pushes_out);
 
  private:
-  enum class Mark : std::uint8_t { none, chosen, dropped };
+  enum class Mark : std::uint8_t { none, chosen, dropped, listed };
   using Triple = std::array<std::int64_t, 3>;
   // A point of a chosen contact. B feels n, angular_b of its impulse, A the opposite of n,
   // angular_a; responses are the angular parts through the bodies' inertia. Q30.
@@ -72,8 +75,8 @@ class DirectContacts {
     int exponent = 0;          // power of two that scales its row
     std::int64_t warp = 0;     // share in what four points in a plane cannot tell apart, Q30
     std::int64_t speed = 0;    // with what is asked for, Q50
-    std::int64_t change = 0;   // of the impulse, as solved, Q20
-    std::int32_t impulse = 0;  // m/s, Q20
+    std::int64_t change = 0;   // of the impulse, as solved, Q32
+    std::int64_t impulse = 0;  // m/s, Q32
     bool active = false;
     bool barred = false;  // for the rest of a solve
   };
@@ -85,26 +88,33 @@ class DirectContacts {
     std::uint32_t active = 0;
     std::int64_t warp_size = 0;  // Σ warp², Q30; 0: none
     Triple normal{}, tangent{}, binormal{};
-    BlockFloat inverse_mass{};   // of the pair
+    BlockFloat inverse_mass{};                                 // of the pair
+    std::array<std::int64_t, lanes::k_block_points> masses{};  // as in the block
+    std::int64_t common_mass = 0;
     std::uint32_t factored = 0;  // bit i: point i stands in the factors
   };
   struct Group {
     std::uint32_t first = 0;  // of contacts_
     std::uint32_t count = 0;
     std::uint32_t column = 0;
+    std::uint32_t first_body = 0;  // of bodies_
+    std::uint32_t body_count = 0;
     int exponent = 0;  // least of its rows
+    bool is_filled = false;
+    bool is_left = false;  // to the sweeps, for the rest of the tick
     bool is_factored = false;
   };
 
   // Which: direct_contacts.cpp.
   void link_bodies(std::size_t body_count);
   [[nodiscard]] bool is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const;
-  void gather(std::uint32_t light);
-  bool gather_all(std::size_t first);
+  void gather(std::uint32_t light, std::size_t most);
+  bool gather_all(std::size_t first, std::size_t most);
   bool gather_body(std::uint32_t body);
   void drop(std::size_t first);
   void plan_group(const DirectRun& run, std::uint32_t root);
   bool plan_factor(Group& group);
+  void list_bodies(Group& group);
   [[nodiscard]] std::span<const std::uint32_t> links_at(std::uint32_t body) const {
     return std::span(by_body_).subspan(first_link_[body],
                                        first_link_[body + 1] - first_link_[body]);
@@ -116,19 +126,24 @@ class DirectContacts {
                          const Contact& contact, Point& point);
   static void find_exponent(const DirectRun& run, const Contact& contact, Point& point);
   static void find_warp(Contact& contact);
-  static void make_rigid(const DirectRun& run, const Contact& contact);
+  static void take_over(const DirectRun& run, Contact& contact);
+  static void give_back(const DirectRun& run, const Contact& contact);
   void read(const DirectRun& run, Contact& contact, bool pushes_out) const;
   static bool choose_active(Contact& contact);
   static void flatten(Contact& contact);
   [[nodiscard]] static std::int64_t entry(const DirectRun& run, const Contact& p, const Point& x,
                                           const Contact& q, const Point& y);
   void factor(const DirectRun& run, Group& group);
+  [[nodiscard]] bool is_still(const DirectRun& run, const Group& group) const;
   void solve_group(const DirectRun& run, Group& group, bool pushes_out);
+  [[nodiscard]] bool is_solved(const Group& group) const;
+  void leave(const DirectRun& run, Group& group, bool pushes_out);
   bool try_once(const DirectRun& run, Group& group, bool pushes_out, bool is_last);
   bool find_changes(Group& group);
-  static void push_all(const DirectRun& run, Contact& contact, bool only_lets_go);
-  static void push(const DirectRun& run, Contact& contact,
-                   const std::array<std::int32_t, lanes::k_block_points>& next);
+  using Impulses = std::array<std::int64_t, lanes::k_block_points>;
+  void push_all(const DirectRun& run, const Group& group, bool only_lets_go);
+  void push(const DirectRun& run, Contact& contact, const Impulses& next);
+  void gain(const DirectRun& run, const Group& group);
   [[nodiscard]] std::span<Contact> contacts_of(const Group& group) {
     return std::span(contacts_).subspan(group.first, group.count);
   }
@@ -143,6 +158,13 @@ class DirectContacts {
   std::vector<std::uint32_t> chosen_;      // links
   std::vector<std::uint32_t> order_;       // links of a group; by link: place in it
   std::vector<std::uint32_t> place_;
+  // What a body has yet to gain of impulses, m/s, Q32.
+  struct Gain {
+    Triple velocity{}, spin{};
+  };
+  std::vector<std::uint32_t> bodies_;      // of all groups
+  std::vector<Gain> gains_;                // of each of them
+  std::vector<std::uint32_t> gain_place_;  // by body: where it is in both
   std::vector<Contact> contacts_;
   std::vector<Group> groups_;
   JointFactor factor_;

@@ -17,4 +17,13 @@ namespace lockstone {
            both(r.y.y, r.y.z), both(r.z.x, r.z.y), both(r.z.z, {})}};
 }
 
+/// Within eight steps of what rows can read, 7.6 µm/s: what contacts hold trembles by so much, and
+/// does not move.
+[[nodiscard]] inline bool is_still(const lanes::RowBody& row) {
+  constexpr std::int64_t k_least = std::int64_t{8} << (lanes::k_velocity_bits - 20);
+  const auto still = [](std::int64_t x) { return x < k_least && x > -k_least; };
+  return still(row.velocity[0]) && still(row.velocity[1]) && still(row.velocity[2]) &&
+         still(row.spin[0]) && still(row.spin[1]) && still(row.spin[2]);
+}
+
 }  // namespace lockstone

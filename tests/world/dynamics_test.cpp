@@ -1,6 +1,7 @@
 // What the world does with bodies: against closed forms, and in pictures that everybody knows.
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -96,6 +97,24 @@ double sunk_on_light_boxes(int legs, int ratio, Position height) {
   }
   EXPECT_LT(speed_of(world, heavy), 1e-4);
   return sunk;
+}
+
+TEST(Stack, OfFortyBoxesOutOfLineStands) {
+  World world = test::make_world({.body_capacity = 64, .sleep_ms = 0});
+  test::add_ground(world);
+  std::vector<BodyHandle> boxes;
+  for (int i = 0; i < 40; ++i) {
+    const Position x = Position::from_ratio(i * 37 % 41 - 20, 5000);
+    const Position z = Position::from_ratio(i * 23 % 41 - 20, 5000);
+    boxes.push_back(test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), x,
+                                                        Position::from_ratio(2 * i + 1, 2), z)));
+  }
+  const Vec3<Position> start = world.position(boxes.back());
+  test::step(world, 900);
+  const Vec3<Position> end = world.position(boxes.back());
+  EXPECT_NEAR(metres(end.x - start.x), 0.0, 1e-4);
+  EXPECT_NEAR(metres(end.y - start.y), 0.0, 1e-3);
+  EXPECT_NEAR(metres(end.z - start.z), 0.0, 1e-4);
 }
 
 TEST(Stack, CarriesTenThousandTimesItsWeight) {

@@ -1,0 +1,124 @@
+// What was solved at once is given to points and bodies, or left to the sweeps.
+
+#include <algorithm>
+
+#include "core/dynamics/direct_words.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::k_block_lanes;
+using lanes::k_block_points;
+using lanes::ManifoldBlock;
+using lanes::RowBody;
+using Triple = DirectTriple;
+
+constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_direct_bits + 16);
+
+// What a body's velocity and spin are held within, Q50.
+constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
+
+// arm × force + torque·turn, in 30 bits less.
+void add_spin(const Triple& arm, const Triple& force, const Triple& torque, std::int64_t turn,
+              bool is_taken, Triple& spin) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    ProductSum sum;
+    sum.add(arm[j], force[k]);
+    sum.subtract(arm[k], force[j]);
+    sum.add(torque[i], turn);
+    spin[i] += is_taken ? -sum.rounded(30) : sum.rounded(30);
+  }
+}
+
+}  // namespace
+
+// Gives points what was found; or, as long as others pull, only lets those go.
+void DirectContacts::push_all(const DirectRun& run, const Group& group, bool only_lets_go) {
+  for (Contact& contact : contacts_of(group)) {
+    Impulses next{};
+    for (std::size_t i = 0; i < contact.count; ++i) {
+      const Point& point = contact.points[i];
+      const bool stays = !point.active || (only_lets_go && !point.barred);
+      next[i] = point.impulse + (stays ? 0 : point.change);
+    }
+    push(run, contact, next);
+  }
+  gain(run, group);
+}
+
+// As a sweep gives impulses to its bodies, but for `gain`.
+void DirectContacts::push(const DirectRun& run, Contact& contact, const Impulses& next) {
+  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
+  const std::size_t lane = contact.link.slot % k_block_lanes;
+  std::int64_t change = 0;
+  ProductSum about_b, about_t;
+  for (std::size_t i = 0; i < contact.count; ++i) {
+    Point& point = contact.points[i];
+    const std::int64_t now = std::clamp<std::int64_t>(next[i], 0, k_most_impulse);
+    const std::int64_t moved = now - point.impulse;
+    point.impulse = now;
+    const std::int64_t seen =
+        std::min<std::int64_t>(raw::round_shift(now, k_direct_more_bits), lanes::k_most_impulse);
+    std::int64_t& word = block.points[i].impulse[lane];
+    word = std::max<std::int64_t>(high_word(word), seen) * (std::int64_t{1} << 32) + seen;
+    change += moved;
+    about_b.subtract(point.x, moved);
+    about_t.add(point.y, moved);
+  }
+  const Triple force = mixed(contact.normal, change, {}, 0);
+  const Triple torque =
+      mixed(contact.tangent, about_t.rounded(30), contact.binormal, about_b.rounded(30));
+  const std::int64_t turn = block.gain_turn[lane], share = low_word(block.share[lane]);
+  Triple to_b{};
+  for (std::size_t i = 0; i < 3; ++i)
+    to_b[i] = product_rounded(force[i], share, 30);
+  if (contact.link.a != 0) {
+    Gain& a = gains_[gain_place_[contact.link.a]];
+    for (std::size_t i = 0; i < 3; ++i)
+      a.velocity[i] += to_b[i] - force[i];
+    add_spin(low_words(block.gain_arm, lane), force, torque, low_word(turn), true, a.spin);
+  }
+  if (contact.link.b == 0) return;
+  Gain& b = gains_[gain_place_[contact.link.b]];
+  for (std::size_t i = 0; i < 3; ++i)
+    b.velocity[i] += to_b[i];
+  add_spin(high_words(block.gain_arm, lane), force, torque, high_word(turn), false, b.spin);
+}
+
+// What contacts give adds up first: it may leave the range of a velocity on its way.
+void DirectContacts::gain(const DirectRun& run, const Group& group) {
+  constexpr int k_shift = lanes::k_velocity_bits - k_direct_bits;
+  const auto add = [](std::int64_t& to, std::int64_t by) {
+    constexpr std::int64_t k_most = k_body_bound >> k_shift;
+    const std::int64_t limited = std::clamp(by, -k_most, k_most) * (std::int64_t{1} << k_shift);
+    to = std::clamp(to + limited, -k_body_bound, k_body_bound);
+  };
+  for (std::uint32_t k = group.first_body; k < group.first_body + group.body_count; ++k) {
+    RowBody& row = run.rows[bodies_[k]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      add(row.velocity[i], gains_[k].velocity[i]);
+      add(row.spin[i], gains_[k].spin[i]);
+    }
+    gains_[k] = {};
+  }
+}
+
+// What does not come out is left to the sweeps; here is one in place of that which is past.
+void DirectContacts::leave(const DirectRun& run, Group& group, bool pushes_out) {
+  for (Contact& contact : contacts_of(group)) {
+    for (std::size_t i = 0; i < contact.count; ++i) {
+      read(run, contact, pushes_out);
+      Impulses next{};
+      for (std::size_t k = 0; k < contact.count; ++k)
+        next[k] = contact.points[k].impulse;
+      next[i] -= product_rounded(contact.points[i].speed, contact.masses[i], 80 - k_direct_bits);
+      push(run, contact, next);
+      gain(run, group);
+    }
+    give_back(run, contact);
+  }
+  group.is_left = true;
+}
+
+}  // namespace lockstone

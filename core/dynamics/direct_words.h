@@ -1,0 +1,60 @@
+// What the parts of direct contacts share: words of blocks, and formats.
+#pragma once
+
+#include "core/dynamics/direct_contacts.h"
+#include "core/math/product_sum.h"
+
+namespace lockstone {
+
+using DirectTriple = std::array<std::int64_t, 3>;
+
+/// What pushes overlap out gives way to its impulse by this part of a row's own response: where
+/// points say the same, each takes a share.
+inline constexpr int k_give_shift = 17;
+
+/// Within a tick impulses have twelve bits more than blocks and records hold, and a greater range:
+/// up to 65,536 m/s, Q32.
+inline constexpr int k_direct_bits = 32;
+inline constexpr int k_direct_more_bits = k_direct_bits - 20;
+
+[[nodiscard]] inline std::int64_t low_word(std::int64_t word) {
+  return static_cast<std::int32_t>(word);
+}
+[[nodiscard]] inline std::int64_t high_word(std::int64_t word) {
+  return word >> 32;
+}
+[[nodiscard]] inline DirectTriple low_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
+  return {low_word(words[0][lane]), low_word(words[1][lane]), low_word(words[2][lane])};
+}
+[[nodiscard]] inline DirectTriple high_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
+  return {high_word(words[0][lane]), high_word(words[1][lane]), high_word(words[2][lane])};
+}
+
+/// a·x + b·y, in 30 bits less.
+[[nodiscard]] inline DirectTriple mixed(const DirectTriple& a, std::int64_t x,
+                                        const DirectTriple& b, std::int64_t y) {
+  DirectTriple result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ProductSum sum;
+    sum.add(a[i], x);
+    sum.add(b[i], y);
+    result[i] = sum.rounded(30);
+  }
+  return result;
+}
+
+/// n·n + angular·response, Q30.
+[[nodiscard]] inline std::int64_t coupled(const DirectTriple& normal_x,
+                                          const DirectTriple& normal_y,
+                                          const DirectTriple& angular_x,
+                                          const DirectTriple& response_y, bool opposite) {
+  ProductSum sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.add(normal_x[i], normal_y[i]);
+    sum.add(angular_x[i], response_y[i]);
+  }
+  const std::int64_t rounded = sum.rounded(30);
+  return opposite ? -rounded : rounded;
+}
+
+}  // namespace lockstone
