@@ -7,6 +7,7 @@
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
 #include "core/dynamics/lane_bodies.h"
+#include "core/dynamics/mass_share.h"
 #include "core/dynamics/motion.h"
 #include "core/math/product_sum.h"
 #include "core/math/roots.h"
@@ -77,6 +78,36 @@ void JointSolver::add_net_pulls() {
   }
 }
 
+// What a body has to move besides its own inertia when its joints swing against each other: of two
+// points halfway between them, by m·d²; of one its anchor, as far as what it hangs on stands still.
+std::int64_t JointSolver::lever_inertia(std::uint32_t index) const {
+  const Body& body = bodies_[index];
+  if (!body.pushed || body.joint_count < 1 || body.joint_count > 2) return 0;
+  std::array<std::int64_t, 3> sum{};
+  for (const std::uint32_t i : joints_at(body)) {
+    const Link& link = links_[i];
+    if (!has_world_axes(*link.record)) return 0;
+    const Vec3<Length>& anchor = link.a == index ? link.record->anchor_a : link.record->anchor_b;
+    for (int axis = 0; axis < 3; ++axis)
+      sum[static_cast<std::size_t>(axis)] += anchor[axis].raw;
+  }
+  const auto square = [](std::int64_t x) { return x * x; };
+  const std::int64_t whole = square(sum[0]) + square(sum[1]) + square(sum[2]);  // m², Q40
+  const int shift = Length::frac_bits * 2 - 30 + 2 * body.record->scale_exponent;
+  const auto scaled = [&](std::int64_t x, int by) {
+    return by >= 0 ? raw::round_shift(x, by) : std::min(x, k_product_bound >> -by) << -by;
+  };
+  if (body.joint_count == 2) return scaled(whole, shift + 2);
+  const Link& link = links_[joints_at(body)[0]];
+  const bool is_a = link.a == index;
+  const Body& other = bodies_[is_a ? link.b : link.a];
+  if (!other.pushed) return scaled(whole, shift);
+  if ((is_a ? link.record->anchor_b : link.record->anchor_a) != Vec3<Length>{}) return 0;
+  const std::int32_t own =
+      share_of_b(other.record->inverse_mass_value(), body.record->inverse_mass_value());
+  return product_rounded(scaled(whole, shift), own, 30);
+}
+
 // A link that is pulled at both ends by T swings at ω² = ΣT·r / I, which the step does not resolve
 // where h·ω is large: there links are taken to be heavier to turn. A diagonal form of the geometric
 // stiffness: S. Andrews, M. Teichmann, J. Kövecses, "Geometric Stiffness for Real-time Constrained
@@ -89,9 +120,10 @@ void JointSolver::resist_pull(const JointRun& run, std::uint32_t index) {
   const auto& own = body.record->inertia;
   const std::int64_t smallest = min(own.x, min(own.y, own.z)).raw;
   const std::uint64_t rounded = std::bit_ceil(static_cast<std::uint64_t>(least));
-  body.pulled = least > smallest / 8;
+  const std::int64_t swung = smallest + body.lever_inertia;
+  body.pulled = least > swung / 8;
   set_inertia(run, body,
-              least <= smallest
+              least <= swung
                   ? 0
                   : std::min<std::int64_t>(static_cast<std::int64_t>(rounded), k_most_inertia));
 }

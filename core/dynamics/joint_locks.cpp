@@ -12,6 +12,7 @@ namespace {
 
 // Of solves for positions in a substep.
 constexpr int k_position_solves = 3;
+constexpr int k_most_passes = 8;
 constexpr int k_most_solves = 12;
 
 // Locks that are open by less, m, Q32, are closed: 1 µm.
@@ -19,6 +20,12 @@ constexpr std::int64_t k_closed = 1 << 12;
 
 // What rounding leaves of them: 4 nm.
 constexpr std::int64_t k_rounding = 16;
+
+// What ropes and chains may leave: 30 nm, as much as rounding of spin does at a metre's arm.
+constexpr std::int64_t k_noise = 128;
+
+// Openings whose squares fit, 0.25 m.
+constexpr std::int64_t k_far = std::int64_t{1} << 30;
 
 // Joints of groups that are not solved at once close this part of an opening a substep.
 constexpr int k_close_shift = 2;
@@ -111,17 +118,20 @@ std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64
 }
 
 // Answers whether all locks hold afterwards. Each step leaves about the same part of an opening:
-// once that is nothing, there is no need to look. In chains, and where bodies are pulled hard,
-// every step is taken, lest swings that the substep hardly resolves grow unseen.
+// once that is nothing, there is no need to look. Where bodies are pulled hard, every step is
+// taken, lest swings that the substep hardly resolves grow unseen.
 bool JointSolver::close(const JointRun& run, Group& group) {
-  const std::int64_t enough = group.is_plain || is_pulled(group) ? 0 : k_rounding;
+  const bool pulled = is_pulled(group);
+  const std::int64_t enough = pulled ? 0 : k_rounding;
+  const std::int64_t expected = pulled ? 0 : group.is_plain ? k_noise : k_rounding;
+  const int solves = pulled && !group.drifts ? k_position_solves : k_most_passes;
   std::int64_t before = 0;
-  const int solves = group.drifts ? 2 * k_position_solves : k_position_solves;
   for (int i = 0; i < solves; ++i) {
     const std::int64_t widest = approach(run, group, enough, false);
     if (widest <= enough) return true;
-    const bool converges = widest <= before && before <= 16 * k_closed;
-    if (converges && widest * widest <= enough * before) return true;
+    const bool falls = 2 * widest <= before;
+    if (falls && widest <= k_far && widest * widest <= expected * before) return true;
+    if (i + 1 >= k_position_solves && !falls) break;
     before = widest;
   }
   look_ahead(run, group, false);

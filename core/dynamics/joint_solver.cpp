@@ -13,8 +13,8 @@ constexpr int k_velocity_solves = 2;
 // Of sweeps over drives and limits before positions move.
 constexpr int k_sweeps = 2;
 
-// Locks that open more slowly stand still, m/s, Q50: 0.06 nm/s.
-constexpr std::int64_t k_still = std::int64_t{1} << 16;
+// Locks that open more slowly stand still, m/s, Q50: a step of Velocity, 0.23 nm/s.
+constexpr std::int64_t k_still = std::int64_t{1} << 18;
 
 }  // namespace
 
@@ -93,8 +93,10 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
   pulls_.assign(bodies_.size(), 0);
   add_pulls(joints_, false);
   add_net_pulls();
-  for (std::uint32_t body = 0; body < bodies_.size(); ++body)
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+    bodies_[body].lever_inertia = lever_inertia(body);
     resist_pull(run, body);
+  }
   after_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     after_[i] = bodies_[i].pose;
@@ -189,7 +191,8 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
       solve_limits(run, joint, false);
     for (Group& group : groups_of(cluster)) {
       const std::int64_t greatest = set_speed_errors(run, group, false);
-      if (group.is_plain || greatest > k_still) solve_locks(run, group, false);
+      if (greatest > k_still || (group.is_plain && is_pulled(group)))
+        solve_locks(run, group, false);
     }
   }
 }

@@ -112,10 +112,11 @@ class JointSolver {
     std::uint32_t solver = 0;
     lanes::RowBody saved_row{}, saved_before{};
     bool pushed = false;
-    bool pulled = false;    // an eighth as hard as needs more inertia
-    bool centred = false;   // half kick, drift, half kick
-    bool free = false;      // half drift, kick, half drift
-    std::int64_t rate = 0;  // 1 / what it drifts for
+    std::int64_t lever_inertia = 0;  // Q30, besides its own
+    bool pulled = false;             // an eighth as hard as needs more inertia
+    bool centred = false;            // half kick, drift, half kick
+    bool free = false;               // half drift, kick, half drift
+    std::int64_t rate = 0;           // 1 / what it drifts for
     bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
@@ -210,6 +211,7 @@ class JointSolver {
   void move(const JointRun& run, Body& body);
   void add_pulls(std::span<const Joint> joints, bool free);
   void add_net_pulls();
+  [[nodiscard]] std::int64_t lever_inertia(std::uint32_t body) const;
   void resist_pull(const JointRun& run, std::uint32_t body);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
   [[nodiscard]] static InverseInertia inverse_inertia_of(const Body& body, const Mat3& rotation);

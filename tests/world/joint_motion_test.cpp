@@ -147,6 +147,36 @@ TEST(Joints, APendulumTellsWhatItsJointBears) {
   }
 }
 
+// Where the second of two balls, each on an arm of 1 m, is after a second from the horizontal.
+Vec3<Position> end_of_double_pendulum(std::uint8_t substeps) {
+  World world = test::make_world({.body_capacity = 8,
+                                  .pair_capacity = 64,
+                                  .contact_capacity = 64,
+                                  .joint_capacity = 4,
+                                  .substeps = substeps});
+  BodyHandle before = add_fixed(world);
+  for (int i = 1; i <= 2; ++i) {
+    JointDef joint = JointDef::of(JointKind::ball, before, {});
+    joint.body_b = before = test::add(
+        world, test::dynamic_body(Shape::sphere(0.1_m), Position::from_integer(i), {}, {}));
+    joint.frame_b.position.x = -1_m;
+    join(world, joint);
+  }
+  test::step(world, 60);
+  return world.position(before);
+}
+
+TEST(Joints, ADoublePendulumIsOfSecondOrderAtCoarseSteps) {
+  const Vec3<Position> exact = end_of_double_pendulum(16);
+  const auto error = [&](std::uint8_t substeps) {
+    const Vec3<Position> off = end_of_double_pendulum(substeps) - exact;
+    return std::hypot(number(off.x.raw, 32), number(off.y.raw, 32), number(off.z.raw, 32));
+  };
+  const double coarse = error(1);
+  EXPECT_LT(coarse, 5e-3);
+  EXPECT_LT(error(2), coarse / 3);
+}
+
 TEST(Joints, ChainWithAHeavyEndStaysTogether) {
   for (const std::int64_t mass : {1, 100}) {
     World world = test::make_world();
