@@ -11,8 +11,9 @@ namespace {
 
 /// A vertex seen from above: products of two differences fit 62 bits.
 struct Flat {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
+  // No initialisers: an array of these is long, and little of it is used.
+  std::int64_t x;
+  std::int64_t y;
 };
 
 Flat operator-(const Flat& a, const Flat& b) {
@@ -26,38 +27,45 @@ std::int64_t square(const Flat& a) {
   return a.x * a.x + a.y * a.y;
 }
 
-struct Triangle {
-  Flat a;
-  Flat b;
-  Flat c;
+/// A triangle, either way round.
+class Triangle {
+ public:
+  Triangle(const Flat& a, const Flat& b, const Flat& c)
+      : corners_{a, b, c},
+        sides_{b - a, c - b, a - c},
+        winding_(sign_of(cross(sides_[0], c - a))) {}
 
   /// Twice the area beyond the side that `p` lies outside of most; not positive inside.
   [[nodiscard]] std::int64_t area_added_by(const Flat& p) const {
-    const int winding = sign_of(cross(b - a, c - a));
-    return std::max({winding * cross(p - a, b - a), winding * cross(p - b, c - b),
-                     winding * cross(p - c, a - c)});
+    const auto beyond = [&](std::size_t i) { return winding_ * cross(p - corners_[i], sides_[i]); };
+    return std::max(std::max(beyond(0), beyond(1)), beyond(2));
   }
+
+ private:
+  std::array<Flat, 3> corners_;
+  std::array<Flat, 3> sides_;
+  int winding_;
 };
 
 /// Vertices by index, and which of them are taken.
 struct Selection {
   std::span<const FaceVertex> polygon;
-  int shift;
-  std::array<int, 4> taken{};
+  std::array<Flat, k_most_reduced> flat;
+  std::array<int, 4> taken{-1, -1, -1, -1};
   int count = 0;
 
-  Selection(std::span<const FaceVertex> vertices, int flat_shift)
-      : polygon(vertices), shift(flat_shift) {}
+  Selection(std::span<const FaceVertex> vertices, int shift) : polygon(vertices) {
+    LKS_ASSERT(vertices.size() <= flat.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      flat[i] = {raw::round_shift(vertices[i].x, shift), raw::round_shift(vertices[i].y, shift)};
+  }
 
   [[nodiscard]] int size() const { return static_cast<int>(polygon.size()); }
-  [[nodiscard]] Flat at(int i) const {
-    const FaceVertex& v = polygon[static_cast<std::size_t>(i)];
-    return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift)};
-  }
-  [[nodiscard]] Flat chosen(int i) const { return at(taken[static_cast<std::size_t>(i)]); }
+  [[nodiscard]] const Flat& at(int i) const { return flat[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Flat& chosen(int i) const { return at(taken[static_cast<std::size_t>(i)]); }
   [[nodiscard]] Fine height(int i) const { return polygon[static_cast<std::size_t>(i)].z; }
   [[nodiscard]] bool has(int i) const {
-    return std::find(taken.begin(), taken.begin() + count, i) != taken.begin() + count;
+    return i == taken[0] || i == taken[1] || i == taken[2] || i == taken[3];
   }
   void take(int i) { taken[static_cast<std::size_t>(count++)] = i; }
 
@@ -67,9 +75,8 @@ struct Selection {
     int best = -1;
     std::int64_t best_score = 0;
     for (int i = 0; i < size(); ++i) {
-      if (has(i)) continue;
       const std::int64_t candidate = score(at(i));
-      if (candidate <= best_score + best_score / 16) continue;
+      if (candidate <= best_score + (best_score >> 4) || has(i)) continue;
       best = i;
       best_score = candidate;
     }
@@ -115,14 +122,14 @@ void include_deepest(Selection& selection) {
 
 void select_four(Selection& selection) {
   take_extreme(selection);
-  selection.take_best([&](const Flat& p) { return square(p - selection.chosen(0)); });
+  const Flat first = selection.chosen(0);
+  selection.take_best([&](const Flat& p) { return square(p - first); });
   if (selection.count == 2) {
-    const Flat origin = selection.chosen(0);
-    const Flat line = selection.chosen(1) - origin;
-    selection.take_best([&](const Flat& p) { return magnitude_of(cross(line, p - origin)); });
+    const Flat line = selection.chosen(1) - first;
+    selection.take_best([&](const Flat& p) { return magnitude_of(cross(line, p - first)); });
   }
   if (selection.count == 3) {
-    const Triangle triangle{selection.chosen(0), selection.chosen(1), selection.chosen(2)};
+    const Triangle triangle{first, selection.chosen(1), selection.chosen(2)};
     selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
   include_deepest(selection);

@@ -32,6 +32,9 @@ struct FaceVertex {
 /// first; answers how many.
 [[nodiscard]] int drop_far_vertices(std::span<FaceVertex> polygon, Length margin);
 
+/// More than any polygon has.
+inline constexpr std::size_t k_most_reduced = 272;
+
 /// Brings at most four vertices to the front, ascending by feature, each once, and answers how
 /// many: the one farthest in a fixed direction, the one farthest from it, the one that spans the
 /// largest triangle with both, and the one that adds most area to that. Each later candidate must

@@ -27,6 +27,7 @@ static_assert(k_reference_label + k_max_polytope_edges <= k_bounds_label);
 
 /// Each side adds at most one vertex to a convex polygon; rounding may cost a few more.
 constexpr int k_capacity = 2 * k_max_polytope_face_edges + 16;
+static_assert(k_capacity <= k_most_reduced);
 
 /// How far snapping moved a vertex along the face, 2^-42 m.
 struct Shift {
