@@ -8,9 +8,15 @@
 
 namespace lockstone {
 
-/// From the centre of mass to an anchor, in world axes.
+/// From the centre of mass to an anchor within 1024 m along each axis, in world axes.
 [[nodiscard]] inline Vec3<Position> arm_of(const Mat3& rotation, const Vec3<Length>& anchor) {
-  return rotate(rotation, rounded<Position>(anchor));
+  constexpr int k_shift = Unit::frac_bits + Length::frac_bits - Position::frac_bits;
+  const std::int64_t x = anchor.x.raw, y = anchor.y.raw, z = anchor.z.raw;
+  const auto row = [&](Unit a, Unit b, Unit c) {
+    return Position::from_raw(raw::round_shift(a.raw * x + b.raw * y + c.raw * z, k_shift));
+  };
+  const auto& [cx, cy, cz] = rotation;
+  return {row(cx.x, cy.x, cz.x), row(cx.y, cy.y, cz.y), row(cx.z, cy.z, cz.z)};
 }
 
 /// The frame of a joint on a body, in world axes.

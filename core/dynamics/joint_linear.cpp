@@ -166,12 +166,27 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t firs
   const auto push_side = [&](std::uint32_t index, const Share& share, auto linear, auto angular) {
     if (share.mantissa == 0) return;
     std::array<ProductSum, 3> velocity, spin;
-    for (std::size_t r = first; r < end; ++r) {
+    const auto jump = [&](std::size_t r) {
+      return product_rounded(impulses[r], share.mantissa, share.shift);
+    };
+    std::size_t r = first;
+    if (joint.rows.is_point && first == 0 && end >= 3) {  // row i along axis i, its levers across
+      const auto& rows = joint.rows.rows;
+      const RawVec3 jumps = {jump(0), jump(1), jump(2)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        velocity[i].add((rows[i].*linear)[i], jumps[i]);
+        spin[i].add((rows[j].*angular)[i], jumps[j]);
+        spin[i].add((rows[k].*angular)[i], jumps[k]);
+      }
+      r = 3;
+    }
+    for (; r < end; ++r) {
       const JointRow& row = joint.rows.rows[r];
-      const std::int64_t jump = product_rounded(impulses[r], share.mantissa, share.shift);
+      const std::int64_t each = jump(r);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        velocity[axis].add((row.*linear)[axis], jump);
-        spin[axis].add((row.*angular)[axis], jump);
+        velocity[axis].add((row.*linear)[axis], each);
+        spin[axis].add((row.*angular)[axis], each);
       }
     }
     const std::uint32_t solver = bodies_[index].solver;

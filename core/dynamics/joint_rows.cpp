@@ -68,6 +68,7 @@ class RowFiller {
   RowFiller(const JointPlace& place, RowParts parts, JointRows& out)
       : place_(place), parts_(parts), out_(out) {
     out_.locks = out_.count = 0;
+    out_.is_point = false;
   }
 
   void fill() {
@@ -211,6 +212,7 @@ class RowFiller {
       row.angular_b[j] = lever_b[k], row.angular_b[k] = -lever_b[j];
     }
     out_.locks = out_.count = 3;
+    out_.is_point = true;
   }
 
   // An arm in Q32, as lever(arm, n, exponent) has it for axes of the world.

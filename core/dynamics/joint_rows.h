@@ -46,6 +46,7 @@ struct JointRows {
   std::array<JointRow, k_max_joint_rows> rows{};
   std::size_t locks = 0;  // these come first
   std::size_t count = 0;
+  bool is_point = false;  // the first three lock the axes of the world
 };
 
 /// What places a joint's rows.
