@@ -5,8 +5,9 @@
 namespace lockstone {
 namespace {
 
-// A worker's part of a loop is taken in so many pieces, so that others can help.
-constexpr std::uint32_t k_pieces = 4;
+// A piece is this part of what is left of a worker's part of a loop: large at first, small in the
+// end, so that others can help and nobody waits long for the last piece.
+constexpr std::uint32_t k_share_of_rest = 3;
 
 constexpr std::uint64_t cursor(std::size_t loop, std::uint32_t item) {
   return (static_cast<std::uint64_t>(loop) << 32) | item;
@@ -80,15 +81,13 @@ void Parallel::work_on(std::size_t loop, std::uint32_t worker) {
 bool Parallel::take(std::size_t loop, std::uint32_t part, std::uint32_t& first,
                     std::uint32_t& end) {
   std::atomic<std::uint64_t>& value = cursors_[part].value;
-  const std::uint32_t begin = begin_of(loops_[loop], part);
-  const std::uint32_t stop = begin_of(loops_[loop], part + 1);
-  const std::uint32_t piece =
-      std::max(grain_of(loops_[loop]), (stop - begin + k_pieces - 1) / k_pieces);
+  const std::uint32_t stop = begin_of(loops_[loop], part + 1), grain = grain_of(loops_[loop]);
   std::uint64_t seen = value.load(std::memory_order_acquire);
   do {
     first = static_cast<std::uint32_t>(seen);
     if (seen >> 32 != loop || first >= stop) return false;
-    end = std::min(first + piece, stop);
+    const std::uint32_t grains = (stop - first) / grain / k_share_of_rest;
+    end = std::min(first + std::max(grains, 1U) * grain, stop);
   } while (!value.compare_exchange_weak(seen, cursor(loop, end), std::memory_order_acq_rel));
   return true;
 }
