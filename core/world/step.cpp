@@ -12,7 +12,6 @@ namespace lockstone {
 namespace {
 
 constexpr std::uint32_t k_body_grain = 32;
-constexpr std::uint32_t k_copy_grain = 512;
 
 // How far a body goes in one tick, along one axis.
 Position travel(Velocity v, const TimeStep& step) {
@@ -215,78 +214,6 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   counts.saturations += limit_speed(record, inertia_of(body, solved), def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
   if (record.is_pushed()) end_pushes(record, rest_rules);
-}
-
-// Begin, stay or end of what a pair of bodies did before and does now.
-void World::Impl::add_event(const PairState& before, const PairState& now) {
-  const bool was = before.touching, is = now.touching;
-  const bool trigger = before.trigger || now.trigger;
-  if (!trigger && was == is) return;
-  const Pair pair = now.exists ? now.bodies : before.bodies;
-  const EventKind kind = trigger ? (!is   ? EventKind::trigger_exit
-                                    : was ? EventKind::trigger_stay
-                                          : EventKind::trigger_enter)
-                                 : (is ? EventKind::contact_begin : EventKind::contact_end);
-  const Velocity approach =
-      kind == EventKind::contact_begin ? rounded<Velocity>(now.approach) : Velocity{};
-  const bool ended = !now.exists;
-  events.push_back({kind,
-                    {pair.a, bodies[pair.a].generation},
-                    {pair.b, bodies[pair.b].generation},
-                    approach,
-                    ended ? bodies[pair.a].tag : now.tag_a,
-                    ended ? bodies[pair.b].tag : now.tag_b});
-}
-
-// What the records of the first pair of bodies say together; they are taken from the list. The
-// approach speed is the greatest of its contacts.
-World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& records,
-                                              std::span<const SolverVelocity> approaches) const {
-  PairState state;
-  state.exists = true;
-  state.bodies = {records.front().body_a, records.front().body_b};
-  while (!records.empty() && Pair{records.front().body_a, records.front().body_b} == state.bodies) {
-    const ContactRecord& record = records.front();
-    state.trigger = state.trigger || record.is_trigger();
-    state.touching = state.touching || record.is_touching() || record.is_trigger();
-    if (!approaches.empty()) {
-      const std::size_t index = approaches.size() - records.size();
-      const bool first = state.contacts++ == 0;
-      if (first || approaches[index] > state.approach) {
-        state.approach = approaches[index];
-        const ContactSurface& surface = surfaces[slots[index]];
-        state.tag_a = surface.tag_a;
-        state.tag_b = surface.tag_b;
-      }
-    }
-    records = records.subspan(1);
-  }
-  return state;
-}
-
-// Merges the old and the new contacts, both sorted by pair, and makes the new ones the state.
-void World::Impl::find_events() {
-  const StageTimer timer(profiler, StepStage::events);
-  events.clear();
-  std::span<const ContactRecord> before = contacts(), now = new_contacts;
-  while (!before.empty() || !now.empty()) {
-    const auto bodies_of = [](const ContactRecord& r) { return Pair{r.body_a, r.body_b}; };
-    const bool take_old =
-        now.empty() || (!before.empty() && bodies_of(before.front()) <= bodies_of(now.front()));
-    const bool take_new =
-        before.empty() || (!now.empty() && bodies_of(now.front()) <= bodies_of(before.front()));
-    const PairState was = take_old ? take_pair(before, {}) : PairState{};
-    const PairState is = take_new ? take_pair(now, approach_speeds) : PairState{};
-    add_event(was, is);
-  }
-  events.insert(events.end(), impacts.begin(), impacts.end());
-  active_contacts = static_cast<std::uint32_t>(new_contacts.size());
-  parallel.for_each({active_contacts, k_copy_grain},
-                    [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                      std::copy(new_contacts.begin() + first, new_contacts.begin() + end,
-                                contact_store.begin() + first);
-                    });
-  header.contact_count = active_contacts + frozen.count();
 }
 
 }  // namespace lockstone

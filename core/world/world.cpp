@@ -96,6 +96,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   swing_of.resize(definition.body_capacity);
   solved_joints.reserve(definition.joint_capacity);
   new_contacts.reserve(definition.contact_capacity);
+  event_ends.reserve(definition.contact_capacity / k_event_piece + 1);
   slots.reserve(definition.contact_capacity);
   old_slots.reserve(definition.contact_capacity);
   make_scratch();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -377,16 +378,17 @@ struct World::Impl {
   // The contacts of a pair of bodies taken together.
   struct PairState {
     Pair bodies;
-    bool exists = false;
-    bool trigger = false;
-    bool touching = false;  // of a trigger: overlapping
+    bool exists = false, trigger = false, touching = false;  // touching of a trigger: overlapping
     SolverVelocity approach{};
-    std::uint32_t contacts = 0;
-    std::uint32_t tag_a = 0, tag_b = 0;  // of the contact that came in fastest
+    std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of what came in fastest
   };
   PairState take_pair(std::span<const ContactRecord>& records,
                       std::span<const SolverVelocity> approaches) const;
-  void add_event(const PairState& before, const PairState& now);
+  std::optional<ContactEvent> event_of(const PairState& before, const PairState& now) const;
+  template <class Emit>
+  void merge_events(std::span<const ContactRecord> before, std::span<const ContactRecord> now,
+                    Emit&& emit) const;
+  void merge_pieces(std::uint32_t first, std::uint32_t end, bool writes);
 
   // Scratch of sleep.
   Islands islands;
@@ -448,7 +450,9 @@ struct World::Impl {
   bool remembers_manifolds = false;
   SeparatingAxes separating_axes;
   ContactSolver solver;
-  std::vector<SolverVelocity> approach_speeds;  // by new contact
+  std::vector<SolverVelocity> approach_speeds;        // by new contact
+  static constexpr std::uint32_t k_event_piece = 64;  // contacts of a piece of the lists
+  std::vector<std::uint32_t> event_ends;              // by piece
 };
 
 /// ok, or what makes a stored record impossible. For bytes from outside.
