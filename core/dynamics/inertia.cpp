@@ -87,6 +87,8 @@ InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
 
 Vec3<Velocity> surface_velocity(const InverseInertia& m, const Vec3<Velocity>& spin) {
   const int shift = 30 - m.exponent;
+  if ((m.xy | m.xz | m.yz) == 0)
+    return {times(spin.x, m.xx, shift), times(spin.y, m.yy, shift), times(spin.z, m.zz, shift)};
   const auto row = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
     return times(spin.x, a, shift) + times(spin.y, b, shift) + times(spin.z, c, shift);
   };

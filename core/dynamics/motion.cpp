@@ -63,6 +63,12 @@ bool shorten(Vec3<Velocity>& v, const Vec3<Velocity>& w, Velocity most) {
   return true;
 }
 
+// Surely, from entries of M that are at most 2^exponent.
+bool spins_slowly(const InverseInertia& inertia, const Vec3<Velocity>& spin, Velocity most) {
+  const Velocity sum = abs(spin.x) + abs(spin.y) + abs(spin.z);
+  return sum.raw <= most.raw >> (2 + inertia.exponent);
+}
+
 // Whether it turns evenly about one axis as long as nothing pushes it. With one of two free axes
 // locked that is so to first order.
 bool turns_evenly(const BodyRecord& body) {
@@ -151,8 +157,8 @@ void damp_spin(BodyRecord& body, const TimeStep& step) {
 bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit) {
   const Velocity most = min(world_limit, rounded<Velocity>(body.max_speed));
   const bool too_fast = shorten(body.velocity, body.velocity, most);
-  if (body.spin == Vec3<Velocity>{}) return too_fast;
   const Velocity most_spin = rounded<Velocity>(body.max_surface_speed);
+  if (spins_slowly(inertia, body.spin, most_spin)) return too_fast;
   const bool spins_too_fast = shorten(body.spin, surface_velocity(inertia, body.spin), most_spin);
   return too_fast || spins_too_fast;
 }

@@ -116,10 +116,15 @@ bool World::Impl::went_far(std::uint32_t body) const {
   if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
   if (way > limit) return true;
   if (start.orientation == record.orientation) return false;
+  const auto goes_far = [&](Length radius) {
+    return way + turned_way(start.orientation, record.orientation, radius) > limit ||
+           may_turn_by_half(record, rotations[body], time_step);
+  };
+  // Most go nowhere near as far, and need no root.
+  const Length reach{raw::saturate<std::int32_t>(sum_of_magnitudes(record.size))};
+  if (body_assets[body] == nullptr && !goes_far(reach)) return false;
   const Length radius = bounding_radius(record.shape(), body_assets[body]);
-  if (radius <= inner_radii[body]) return false;
-  return way + turned_way(start.orientation, record.orientation, radius) > limit ||
-         may_turn_by_half(record, rotations[body], time_step);
+  return radius > inner_radii[body] && goes_far(radius);
 }
 
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
