@@ -19,14 +19,10 @@ Velocity from_row(std::int64_t row) {
 
 }  // namespace
 
-// In the order of the records.
-void ContactSolver::find_axes() {
-  axes_.assign(members_.size(), PushAxis{});
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (!touches_[i].touching) continue;
-    for (const std::uint32_t index : {entries_[i].body_a, entries_[i].body_b})
-      if ((index & k_immovable) == 0) axes_[index].add(touches_[i].normal);
-  }
+// In the order of colours.
+void ContactSolver::add_axes(const Entry& entry, const Vec3<Unit>& normal) {
+  for (const std::uint32_t index : {entry.body_a, entry.body_b})
+    if ((index & k_immovable) == 0) axes_[index].add(normal);
 }
 
 // Normals that lean by less than 2^-10 are one.

@@ -39,10 +39,6 @@ constexpr lanes::ManifoldGeometry k_no_geometry{};
 // What a body may do in a substep, an axis: 1000 m/s, Q50. Sums of sixteen substeps can be read.
 constexpr std::int64_t k_row_limit = std::int64_t{1000} << lanes::k_velocity_bits;
 
-constexpr std::size_t blocks_for(std::size_t contacts) {
-  return (contacts + k_block_lanes - 1) / k_block_lanes;
-}
-
 // step = 1/rate = mantissa · 2^-(7 + shift)
 lanes::SweepRules rules_of(const TimeStep& step) {
   const std::int64_t rate = step.substep_rate();
@@ -92,9 +88,6 @@ void prefetch(const T& object) {
   (void)object;
 #endif
 }
-
-// What a piece of a loop has at least: a microsecond or so of work.
-constexpr std::uint32_t k_slot_grain = 64;
 
 // Loops of a substep: eight of bodies, joints and direct contacts; the colours of contacts twice,
 // of nets four times.
@@ -151,7 +144,6 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
-  pushed_.reserve(most_rows);
   bodies_.reserve(most_rows);
   rows_.reserve(most_rows);
   inertias_.reserve(most_rows);
@@ -159,8 +151,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   travel_.reserve(most_rows);
   axes_.reserve(most_rows);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
+  sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);
-  touches_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
       std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
@@ -176,63 +168,6 @@ ContactSolver::~ContactSolver() = default;
 
 std::uint32_t ContactSolver::contacts() const {
   return static_cast<std::uint32_t>(entries_.size());
-}
-
-// Bodies enter the solver when a constraint first names them. What no impulse moves enters anew
-// with every constraint, since constraints that are solved side by side write to all their bodies.
-std::uint32_t ContactSolver::take_up(const ContactScene& scene, std::uint32_t body) {
-  const std::uint32_t known = solver_index_[body];
-  if (known != 0 && pushed_[known] != 0) return known;
-  const BodyRecord& record = scene.bodies[body];
-  if (!record.moves()) return k_immovable | immovables_++;
-  const auto index = static_cast<std::uint32_t>(members_.size());
-  if (known == 0) solver_index_[body] = index;
-  members_.push_back(body);
-  pushed_.push_back(record.is_dynamic() ? 1 : 0);
-  graph_.add_body();
-  return index;
-}
-
-bool ContactSolver::is_pushed(std::uint32_t index) const {
-  return (index & k_immovable) == 0 && pushed_[index] != 0;
-}
-
-// In the order of the records: bodies, colours and lanes follow from the state alone.
-void ContactSolver::take_up_contacts(const ContactScene& scene) {
-  graph_.clear();
-  entries_.clear();
-  for (const std::uint32_t body : members_)
-    solver_index_[body] = 0;
-  members_.assign(1, 0);
-  pushed_.assign(1, 0);
-  immovables_ = 0;
-  for (std::size_t i = 0; i < scene.records.size(); ++i) {
-    const ContactRecord& record = scene.records[i];
-    if (record.is_trigger() || scene.surfaces[scene.slots[i]].bounces) continue;
-    const std::uint32_t a = take_up(scene, record.body_a);
-    const std::uint32_t b = take_up(scene, record.body_b);
-    graph_.add(a, is_pushed(a), b, is_pushed(b));
-    entries_.push_back({static_cast<std::uint32_t>(i), scene.slots[i], a, b});
-  }
-  first_without_contacts_ = static_cast<std::uint32_t>(members_.size());
-  take_up_joints(scene);
-  if (!net_.empty() && places_.size() < row_count()) places_.resize(row_count());
-  if (bodies_.size() < members_.size()) bodies_.resize(members_.size());
-  if (rows_.size() >= row_count()) return;  // they only grow, within what is reserved
-  inertias_.resize(row_count());
-  rows_.resize(row_count());
-  before_.resize(row_count());
-  travel_.resize(row_count());
-}
-
-std::uint32_t ContactSolver::row_count() const {
-  return static_cast<std::uint32_t>(members_.size()) + immovables_;
-}
-
-// Immovable bodies come after the members.
-std::uint32_t ContactSolver::row_of(std::uint32_t index) const {
-  if ((index & k_immovable) == 0) return index;
-  return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
 }
 
 void ContactSolver::fill_bodies(const ContactScene& scene, std::size_t first, std::size_t end) {
@@ -275,32 +210,14 @@ void ContactSolver::fill_blocks(const ContactScene& scene, std::size_t color, st
   points_.fetch_add(points, std::memory_order_relaxed);
 }
 
-// Gives each colour its blocks and each contact its lane.
-void ContactSolver::lay_out() {
-  block_count_ = 0;
-  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
-    ranges_[color] = {block_count_, blocks_for(graph_.count(color))};
-    block_count_ += ranges_[color].count;
-  }
-  slots_.assign(block_count_ * k_block_lanes, k_no_contact);
-  if (blocks_.size() < block_count_) {  // they only grow, within what is reserved
-    blocks_.resize(block_count_);
-    approaches_.resize(block_count_);
-    restitution_.resize(block_count_);
-  }
-  const std::span<const ConstraintGraph::Place> places = graph_.places();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank] =
-        static_cast<std::uint32_t>(i);
-  }
-}
-
 // Contacts of a colour lie far apart in memory.
 const ContactSolver::Entry* ContactSolver::look_ahead(
     std::size_t slot, std::span<const Manifold> manifolds,
     std::span<const ContactRecord> records) const {
+  const std::size_t end = block_count_ * k_block_lanes, far = slot + 2 * k_lanes_ahead;
+  if (far < end && slots_[far] != k_no_contact) prefetch(entries_[slots_[far]]);
   slot += k_lanes_ahead;
-  if (slot >= block_count_ * k_block_lanes || slots_[slot] == k_no_contact) return nullptr;
+  if (slot >= end || slots_[slot] == k_no_contact) return nullptr;
   const Entry& entry = entries_[slots_[slot]];
   prefetch(manifolds[entry.slot]);
   prefetch(records[entry.record]);
@@ -322,7 +239,11 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
       continue;
     }
     const Entry* ahead = look_ahead(block * k_block_lanes + lane, scene.manifolds, scene.records);
-    if (ahead != nullptr) prefetch(scene.surfaces[ahead->slot]);
+    if (ahead != nullptr) {
+      prefetch(scene.surfaces[ahead->slot]);
+      for (const std::uint32_t index : {ahead->body_a, ahead->body_b})
+        if ((index & k_immovable) == 0) prefetch(bodies_[index]);
+    }
     const Entry& entry = entries_[slot];
     const ContactRecord& record = scene.records[entry.record];
     const auto side = [&](std::uint32_t index, std::uint32_t body,
@@ -420,25 +341,37 @@ void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, st
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (is_idle_) return;
-  touches_.resize(entries_.size());
-  const Loop slots{static_cast<std::uint32_t>(block_count_ * k_block_lanes), k_slot_grain};
+  axes_.assign(members_.size(), PushAxis{});
+  loops_.clear();
+  stages_.clear();
+  add_loop_of_each_color(StageKind::store);
+  const StoreTarget target{manifolds, records, approaches};
   std::atomic<std::uint32_t> saturations{0};
-  parallel.for_each(slots, [&](std::size_t first, std::size_t end, std::uint32_t) {
-    std::uint32_t clamped = 0;
-    for (std::size_t slot = first; slot < end; ++slot) {
-      if (slots_[slot] == k_no_contact) continue;
-      look_ahead(slot, manifolds, records);
-      const Entry& entry = entries_[slots_[slot]];
-      clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifolds[entry.slot],
-                               is_alone(entry), records[entry.record], approaches[entry.record]);
-      Touch& touch = touches_[slots_[slot]];
-      touch.normal = manifolds[entry.slot].normal;
-      touch.touching = records[entry.record].is_touching();
-    }
-    saturations.fetch_add(clamped, std::memory_order_relaxed);
-  });
+  parallel.run_all(loops_,
+                   [&](std::size_t loop, std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                     saturations.fetch_add(store_blocks(stages_[loop], first, end, target),
+                                           std::memory_order_relaxed);
+                   });
   saturations_ = saturations;
-  find_axes();
+}
+
+// Blocks of one colour, counted from its first. Answers how many values were clamped.
+std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first, std::size_t end,
+                                          const StoreTarget& target) {
+  const std::size_t begin = ranges_[stage.color].first;
+  std::uint32_t clamped = 0;
+  for (std::size_t slot = (begin + first) * k_block_lanes; slot < (begin + end) * k_block_lanes;
+       ++slot) {
+    if (slots_[slot] == k_no_contact) continue;
+    look_ahead(slot, target.manifolds, target.records);
+    const Entry& entry = entries_[slots_[slot]];
+    const Manifold& manifold = target.manifolds[entry.slot];
+    ContactRecord& record = target.records[entry.record];
+    clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifold, is_alone(entry),
+                             record, target.approaches[entry.record]);
+    if (record.is_touching()) add_axes(entry, manifold.normal);
+  }
+  return clamped;
 }
 
 // Between what nothing moves and a body that touches nothing else.
@@ -468,7 +401,8 @@ std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t 
     fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
   }
   across(block, lane, block.friction[lane], record.friction_impulse);
-  across(block, lane, block.rolling[lane], record.rolling_impulse);
+  record.rolling_impulse = {};
+  if (block.rolling[lane] != 0) across(block, lane, block.rolling[lane], record.rolling_impulse);
   record.twist_impulse.raw = low(block.twist[lane]);
   follow_load(before, mean_impulse(record), alone, load_shift_, record);
   record.flags = touching ? k_contact_touching : 0;

@@ -116,6 +116,7 @@ class ContactSolver {
     relax,
     relax_direct,
     bounce,
+    store,
   };
   struct Stage {
     StageKind kind = StageKind::velocities;
@@ -135,10 +136,19 @@ class ContactSolver {
     std::uint32_t body_b;
   };
 
-  // How an entry ended the tick.
-  struct Touch {
-    Vec3<Unit> normal{};
-    bool touching = false;
+  // A record's bodies, and what of them decides who enters the solver.
+  struct Sides {
+    static constexpr std::uint32_t k_left_out = 0xffffffff;  // as A
+
+    std::uint32_t body_a, body_b;
+    MotionType motion_a, motion_b;
+  };
+
+  // What `store` reads and writes of a world.
+  struct StoreTarget {
+    std::span<const Manifold> manifolds;
+    std::span<ContactRecord> records;
+    std::span<SolverVelocity> approaches;
   };
   // Along which axis contacts pushed a body in this tick; `mixed` when along several.
   struct PushAxis {
@@ -149,8 +159,13 @@ class ContactSolver {
     void add(const Vec3<Unit>& n);
   };
 
-  std::uint32_t take_up(const ContactScene& scene, std::uint32_t body);
-  void take_up_contacts(const ContactScene& scene);
+  std::uint32_t take_up(std::uint32_t body, MotionType motion);
+  void find_sides(const ContactScene& scene, std::size_t first, std::size_t end);
+  void take_up_contacts(const ContactScene& scene, Parallel& parallel);
+  void reserve_rows();
+  [[nodiscard]] static constexpr std::size_t blocks_for(std::size_t contacts) {
+    return (contacts + lanes::k_block_lanes - 1) / lanes::k_block_lanes;
+  }
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
@@ -166,9 +181,12 @@ class ContactSolver {
     return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};
   }
   [[nodiscard]] std::uint32_t row_count() const;
-  [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const;
-  [[nodiscard]] bool is_pushed(std::uint32_t index) const;
-  void lay_out();
+  // Immovable bodies come after the members.
+  [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const {
+    if ((index & k_immovable) == 0) return index;
+    return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
+  }
+  void lay_out(Parallel& parallel);
   void add_loop(Stage stage, std::uint32_t count, std::uint32_t grain, bool is_serial = false);
   void add_loop_of_each_color(StageKind kind, std::uint8_t substep = 0);
   void add_net_loops(StageKind kind);
@@ -193,8 +211,10 @@ class ContactSolver {
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
   [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
-  void find_axes();
+  void add_axes(const Entry& entry, const Vec3<Unit>& normal);
   [[nodiscard]] bool is_alone(const Entry& entry) const;
+  std::uint32_t store_blocks(const Stage& stage, std::size_t first, std::size_t end,
+                             const StoreTarget& target);
   std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
                               bool alone, ContactRecord& record, SolverVelocity& approach);
 
@@ -215,7 +235,6 @@ class ContactSolver {
   // By number: bodies that move, from 1; then, in all but the first two, one for each contact of
   // what does not.
   std::vector<std::uint32_t> members_;  // the body
-  std::vector<std::uint8_t> pushed_;    // 1: impulses change it
   std::vector<SolverBody> bodies_;
   std::vector<lanes::SourceBody> inertias_;
   std::vector<lanes::RowBody> rows_;
@@ -229,8 +248,8 @@ class ContactSolver {
   DirectContacts direct_;
   std::uint32_t first_without_contacts_ = 1;  // by number
 
+  std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
-  std::vector<Touch> touches_;  // of each
   Range ranges_[k_graph_colors + 1];
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact
   std::size_t block_count_ = 0;

@@ -17,7 +17,8 @@ void ContactSolver::take_up_joints(const ContactScene& scene) {
   for (const JointLink& link : scene.joint_links) {
     const auto side = [&](std::uint32_t body) -> JointSolver::Side {
       std::uint32_t index = solver_index_[body];
-      if (index == 0 && scene.bodies[body].moves()) index = take_up(scene, body);
+      if (index == 0 && scene.bodies[body].moves())
+        index = take_up(body, static_cast<MotionType>(scene.bodies[body].motion));
       return {body, index, scene.bodies[body], scene.rotations[body]};
     };
     const JointSolver::Side a = side(link.body_a), b = side(link.body_b);

@@ -43,8 +43,8 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   const bool was_idle = is_idle_;
   is_idle_ = scene.records.empty() && scene.joint_links.empty();
   if (is_idle_ && was_idle) return;
-  take_up_contacts(scene);
-  lay_out();
+  take_up_contacts(scene, parallel);
+  lay_out(parallel);
   points_ = saturations_ = loaded_ = 0;
   first_substep_ =
       static_cast<std::uint32_t>(scene.tick) * static_cast<std::uint32_t>(step_.substeps);
