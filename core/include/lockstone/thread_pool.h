@@ -9,7 +9,7 @@
 namespace lockstone {
 
 /// Threads that wait for work: the one that calls `run`, and the pool's own. Between two calls they
-/// look for the next one for about 50 µs, then sleep. One thread at a time may call `run`.
+/// look for the next one for about 300 µs, then sleep. One thread at a time may call `run`.
 class ThreadPool final : public TaskRunner {
  public:
   /// 1 … k_max_workers, the calling thread included; 0 takes as many as the machine runs at once.
