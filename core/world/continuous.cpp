@@ -127,8 +127,14 @@ bool World::Impl::went_far(std::uint32_t body) const {
   return radius > inner_radii[body] && goes_far(radius);
 }
 
+// How it turned is of interest only where something is in its way.
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
+  const Transform& start = starts[body];
+  bool is_free = true;
+  visit_obstacles(body, {start, record.position - start.position, {}},
+                  [&](std::uint32_t) { is_free = false; });
+  if (is_free) return;
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = rotations[body];
   Unit done{};  // of the tick
@@ -179,22 +185,33 @@ Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
   return rest_of(motion_in_tick(body), done);
 }
 
-World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion,
-                                                 Unit done) const {
+// What a body may stop at on its way.
+template <class F>
+void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
   const BodyRecord& record = bodies[body];
-  const Shape shape = record.shape();
-  const Length inner = inner_radii[body];
-  const Length radius = bounding_radius(shape, body_assets[body]);
-  const Bounds way = bounds_of_way(motion, radius);
-  NextImpact next;
+  const Bounds way = bounds_of_way(motion, bounding_radius(record.shape(), body_assets[body]));
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
     const BodyRecord& obstacle = bodies[other];
     const bool considered =
         other != body && !obstacle.is_trigger() && (record.is_bullet() || !obstacle.is_dynamic()) &&
         should_collide(record.filter(), obstacle.filter()) && !are_joined(body, other);
-    if (!considered) return;
-    const Shape other_shape = obstacle.shape();
+    if (considered) f(other);
+  };
+  if (record.is_bullet())
+    broad_phase.traverse(k_every_category, test, visit);
+  else
+    broad_phase.traverse_immovable(test, visit);
+}
+
+World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion,
+                                                 Unit done) const {
+  const Shape shape = bodies[body].shape();
+  const Length inner = inner_radii[body];
+  const Length radius = bounding_radius(shape, body_assets[body]);
+  NextImpact next;
+  visit_obstacles(body, motion, [&](std::uint32_t other) {
+    const Shape other_shape = bodies[other].shape();
     const Sweep other_motion = motion_of(other, done);
     const Length turned = radius > inner ? radius : Length{};
     if (relative_way(motion, other_motion, turned) <= rounded<Position>(inner / 2)) return;
@@ -204,11 +221,7 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
                        (impact.fraction == next.impact.fraction && other < next.body));
     if (sooner) next = {other, impact};
-  };
-  if (record.is_bullet())
-    broad_phase.traverse(k_every_category, test, visit);
-  else
-    broad_phase.traverse_immovable(test, visit);
+  });
   return next;
 }
 

@@ -349,6 +349,8 @@ struct World::Impl {
   void note_far_mover(std::uint32_t body);
   [[nodiscard]] bool went_far(std::uint32_t body) const;
   void follow(std::uint32_t body, StepReport& report);
+  template <class F>
+  void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
   void answer(std::uint32_t body, const NextImpact& next, Unit done);
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
