@@ -24,6 +24,11 @@ constexpr std::size_t k_most_of_group = 160;
 // All systems of a world.
 constexpr std::size_t k_most_contacts = 512;
 
+std::array<std::int64_t, 3> normal_of(const ManifoldBlock& block, std::size_t lane) {
+  return {static_cast<std::int32_t>(block.axes[0][lane]), block.axes[0][lane] >> 32,
+          static_cast<std::int32_t>(block.axes[1][lane])};
+}
+
 // The share of the other end's inverse mass is light beside this one's.
 bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
   const std::int32_t other = link.a == body ? link.share_b : (1 << 30) - link.share_b;
@@ -45,6 +50,7 @@ DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_ca
   chosen_.reserve(contact_capacity);
   order_.reserve(contact_capacity);
   place_.reserve(contact_capacity);
+  holds_.reserve(std::min(contact_capacity, k_most_of_group));
   bodies_.reserve(2 * most);
   gains_.reserve(2 * most);
   gain_place_.reserve(body_capacity + 1);
@@ -93,9 +99,7 @@ void DirectContacts::link_bodies(std::size_t body_count) {
 bool DirectContacts::is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const {
   const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
   const std::size_t lane = link.slot % k_block_lanes;
-  const std::int64_t n[] = {static_cast<std::int32_t>(block.axes[0][lane]),
-                            block.axes[0][lane] >> 32,
-                            static_cast<std::int32_t>(block.axes[1][lane])};
+  const Triple n = normal_of(block, lane);
   const std::array<std::int64_t, 3>& gain = run.bodies[heavy_is_b ? link.b : link.a].gain;
   ProductSum sum;
   std::int64_t most = 0;
@@ -170,6 +174,29 @@ void DirectContacts::drop(std::size_t first) {
   chosen_.resize(first);
 }
 
+// Whether two of those in `order_` push against each other from what nothing moves: rigid contacts
+// would do so without end.
+bool DirectContacts::is_squeezed(const DirectRun& run) {
+  constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of -1/8, Q60
+  holds_.clear();
+  for (const std::uint32_t index : order_) {
+    const Link& link = links_[index];
+    if (link.a != 0 && link.b != 0) continue;
+    const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
+    const std::size_t lane = link.slot % k_block_lanes;
+    const bool pushes = std::ranges::any_of(block.points, [lane](const ManifoldBlock::Point& p) {
+      return static_cast<std::int32_t>(p.impulse[lane]) != 0;
+    });
+    if (!pushes) continue;
+    Triple hold = normal_of(block, lane);
+    if (link.b == 0) hold = {-hold[0], -hold[1], -hold[2]};
+    for (const Triple& other : holds_)
+      if (hold[0] * other[0] + hold[1] * other[1] + hold[2] * other[2] < k_against) return true;
+    holds_.push_back(hold);
+  }
+  return false;
+}
+
 // What hangs together with a contact through chosen ones, breadth first: backwards, each contact of
 // a tree comes after those beyond it, so that elimination fills nothing in.
 void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
@@ -188,7 +215,7 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
     }
   }
   group.count = static_cast<std::uint32_t>(order_.size());
-  if (group.count > k_most_of_group) return;
+  if (group.count > k_most_of_group || is_squeezed(run)) return;
   std::reverse(order_.begin(), order_.end());
   for (std::uint32_t k = 0; k < group.count; ++k) {
     place_[order_[k]] = k + 1;
@@ -198,21 +225,30 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
   if (!plan_factor(group)) return contacts_.resize(group.first);
   for (Contact& contact : contacts_of(group))
     take_over(run, contact);
-  list_bodies(group);
+  list_bodies(run, group);
   groups_.push_back(group);
 }
 
-void DirectContacts::list_bodies(Group& group) {
+// Its bodies, and what impulses are believed: bodies at rest that are alike cannot ask for more.
+void DirectContacts::list_bodies(const DirectRun& run, Group& group) {
+  constexpr std::int64_t k_most_of_uneven = std::int64_t{1} << 44;  // 4096 m/s, Q32
+  std::int64_t fastest = 0;
+  bool is_alike = true;
   group.first_body = static_cast<std::uint32_t>(bodies_.size());
   for (const Contact& contact : contacts_of(group)) {
+    if (is_uneven(contact.link.share_b)) is_alike = false;
     for (const std::uint32_t body : {contact.link.a, contact.link.b}) {
       if (body == 0 || marks_[body] == Mark::listed) continue;
       marks_[body] = Mark::listed;
       gain_place_[body] = static_cast<std::uint32_t>(bodies_.size());
       bodies_.push_back(body);
+      for (const std::int64_t gain : run.bodies[body].gain)
+        fastest = std::max({fastest, gain, -gain});
     }
   }
   gains_.resize(bodies_.size());
+  const std::int64_t each = 8 * std::min(fastest, std::int64_t{1} << 38) + (std::int64_t{1} << 30);
+  group.most = is_alike ? group.count * each + (std::int64_t{1} << 33) : k_most_of_uneven;
   group.body_count = static_cast<std::uint32_t>(bodies_.size()) - group.first_body;
 }
 

@@ -99,7 +99,8 @@ class DirectContacts {
     std::uint32_t column = 0;
     std::uint32_t first_body = 0;  // of bodies_
     std::uint32_t body_count = 0;
-    int exponent = 0;  // least of its rows
+    std::int64_t most = 0;  // impulse of a point that is believed, m/s, Q32
+    int exponent = 0;       // least of its rows
     bool is_filled = false;
     bool is_left = false;  // to the sweeps, for the rest of the tick
     bool is_factored = false;
@@ -112,9 +113,10 @@ class DirectContacts {
   bool gather_all(std::size_t first, std::size_t most);
   bool gather_body(std::uint32_t body);
   void drop(std::size_t first);
+  [[nodiscard]] bool is_squeezed(const DirectRun& run);
   void plan_group(const DirectRun& run, std::uint32_t root);
   bool plan_factor(Group& group);
-  void list_bodies(Group& group);
+  void list_bodies(const DirectRun& run, Group& group);
   [[nodiscard]] std::span<const std::uint32_t> links_at(std::uint32_t body) const {
     return std::span(by_body_).subspan(first_link_[body],
                                        first_link_[body + 1] - first_link_[body]);
@@ -158,6 +160,7 @@ class DirectContacts {
   std::vector<std::uint32_t> chosen_;      // links
   std::vector<std::uint32_t> order_;       // links of a group; by link: place in it
   std::vector<std::uint32_t> place_;
+  std::vector<Triple> holds_;  // where what nothing moves pushes a group, Q30
   // What a body has yet to gain of impulses, m/s, Q32.
   struct Gain {
     Triple velocity{}, spin{};

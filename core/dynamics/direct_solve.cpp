@@ -151,7 +151,7 @@ void DirectContacts::solve_group(const DirectRun& run, Group& group, bool pushes
   for (Contact& contact : contacts_of(group))
     for (Point& point : contact.points)
       point.barred = false;
-  for (int round = 1; round <= k_most_rounds; ++round)
+  for (int round = 1; round <= k_most_rounds && !group.is_left; ++round)
     if (try_once(run, group, pushes_out, round == k_most_rounds)) return;
   leave(run, group, pushes_out);
 }
@@ -189,11 +189,12 @@ bool DirectContacts::try_once(const DirectRun& run, Group& group, bool pushes_ou
   }
   factor_.solve(group.column, group.count);
   const bool pulls = find_changes(group);
+  if (group.is_left) return false;
   push_all(run, group, pulls);
   return !pulls && (idle == 0 || is_last);
 }
 
-// Answers whether any point would pull.
+// Answers whether any point would pull. What pushes without end is not believed.
 bool DirectContacts::find_changes(Group& group) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   bool pulls = false;
@@ -206,6 +207,7 @@ bool DirectContacts::find_changes(Group& group) {
       point.change = std::clamp<std::int64_t>(scale_saturating(solved, contact.inverse_mass, shift),
                                               -k_speed_bound, k_speed_bound);
       point.barred = point.impulse + point.change < 0;
+      if (point.impulse + point.change > group.most) group.is_left = true;
       pulls = pulls || point.barred;
     }
   }
