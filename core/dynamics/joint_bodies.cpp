@@ -91,7 +91,10 @@ std::int64_t JointSolver::lever_inertia(std::uint32_t index) const {
     for (int axis = 0; axis < 3; ++axis)
       sum[static_cast<std::size_t>(axis)] += anchor[axis].raw;
   }
-  const auto square = [](std::int64_t x) { return x * x; };
+  const auto square = [](std::int64_t x) {  // of at most 1024 m
+    const std::int64_t within = bounded(x, std::int64_t{1} << 30);
+    return within * within;
+  };
   const std::int64_t whole = square(sum[0]) + square(sum[1]) + square(sum[2]);  // m², Q40
   const int shift = Length::frac_bits * 2 - 30 + 2 * body.record->scale_exponent;
   const auto scaled = [&](std::int64_t x, int by) {
