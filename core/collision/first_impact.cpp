@@ -126,8 +126,7 @@ class PiecesOfB final : public PieceVisitor {
     const bool unbounded = piece.shape.kind == ShapeKind::half_space;
     if (unbounded && !may_meet(piece, a_.origin)) return;
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
-    const Length sunk = a_.polytope != nullptr ? geometry::k_front_depth : Length{};
-    if (is_behind(middle_of(a_), b, sunk)) return;
+    if (is_behind(middle_of(a_), b)) return;
     const PieceSweep sweep_b(b, motion_b_);
     const Meeting meeting = meet({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
     if (meeting.time == k_never || (best_.hit && meeting.time >= best_.fraction)) return;

@@ -79,12 +79,12 @@ Vec3<Position> middle_of(const Piece& piece) {
   return piece.origin + rounded<Position>(rotate(piece.rotation, piece.polytope->interior));
 }
 
-bool is_behind(const Vec3<Position>& point, const Piece& piece, Length depth) {
+bool is_behind(const Vec3<Position>& point, const Piece& piece) {
   if (!piece.triangle.is_triangle) return false;
   const geometry::PolytopeFace& front = piece.polytope->faces.front();
   const Vec3<Length> local =
       rotate_inverse(piece.rotation, saturated<Length>(point - piece.origin));
-  return dot(front.normal, local).raw < front.offset - geometry::fine(depth);
+  return dot(front.normal, local).raw < front.offset;
 }
 
 PlacedShape brought_near(const PlacedShape& placed, const Vec3<Position>& point) {

@@ -58,8 +58,8 @@ struct OrientedBox {
 [[nodiscard]] Vec3<Position> middle_of(const Piece& piece);
 
 /// Whether the piece is a triangle of a mesh and the point lies behind it: triangles are met from
-/// the front only. By more than `depth`.
-[[nodiscard]] bool is_behind(const Vec3<Position>& point, const Piece& piece, Length depth = {});
+/// the front only.
+[[nodiscard]] bool is_behind(const Vec3<Position>& point, const Piece& piece);
 
 /// A box that holds the piece or the shape; a half-space has none.
 [[nodiscard]] OrientedBox oriented_box(const Piece& piece);

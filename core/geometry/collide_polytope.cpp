@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "core/geometry/contact_choice.h"
-#include "core/geometry/gjk.h"
 #include "core/geometry/nearest_manifold.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/polytope_box.h"
@@ -257,30 +256,13 @@ Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePa
   return collide_meeting(meeting);
 }
 
-/// Whether B is no farther from the front than what sinks through it.
-bool is_within_reach(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset) {
-  const ClosestPoints near = lockstone::distance(a, b, offset);
-  return near.overlapping || near.distance <= rounded<Position>(k_front_depth);
-}
-
-/// What has sunk through the front of one-sided A with its centre is pushed out along the front.
-Manifold push_to_front(const PolytopePair& pair) {
-  const PolytopeView& view = pair.from_a;
-  const PolytopeFace& front = view.own.faces[0];
-  const Support deepest = support_of(view.other, -view.to_other(front.normal));
-  const Fine separation = dot(view.origin, front.normal) - front.offset - deepest.height;
-  return face_manifold({view, pair.offset, pair.margin, {0, deepest.vertex, separation}, false});
-}
-
 /// Of one-sided A. What points backward through it does not push. Shapes that touch are as near
 /// along many directions: where one that leans back was found, GJK decides.
 Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
   const PolytopeView& view = pair.from_a;
   const PolytopeFace& front = view.own.faces[0];
   const RawVec centre = view.to_own(view.other.interior);
-  const Fine height = height_above(front, split(centre));
-  if (height < -fine(k_front_depth)) return {};
-  if (height < 0) return is_within_reach(a, b, pair.offset) ? push_to_front(pair) : Manifold{};
+  if (height_above(front, split(centre)) < 0) return {};
   const Vec3<Unit> n = front.normal;
   const Manifold manifold =
       collide_pair(a, b, pair, {n, -k_backward}, {view.to_other(n), -k_backward});

@@ -62,8 +62,8 @@ struct PosedShape {
 ///
 /// What has a polytope keeps to the same bounds as boxes; where more than four points were reduced,
 /// the deepest may be 7.6 µm deeper than those kept. A one-sided polytope (a triangle of a mesh)
-/// meets nothing whose centre (of a hull: the interior point, 8 mm) is behind its front, and its
-/// normals lean backward by at most 2^-10. A half-space meets everything but its like.
+/// meets nothing whose centre (of a hull: the interior point) is behind its front, and its normals
+/// lean backward by at most 2^-10. A half-space meets everything but its like.
 ///
 /// collide(b, a, −offset) gives the same manifold flipped, bit for bit (of two spheres, the anchors
 /// within one step; equal shapes with one centre and one rotation have no order). Mirror images

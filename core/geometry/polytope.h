@@ -41,10 +41,6 @@ struct PolytopeLanes {
   const Fine* offsets = nullptr;
 };
 
-/// How far behind the front of a one-sided polytope a centre may sink and still be met: what is
-/// thin sinks as far where it lands.
-inline constexpr Length k_front_depth = Length::from_ratio(1, 128);
-
 /// A view; what it names must outlive it. All in the shape's own frame.
 struct Polytope {
   std::span<const Vec3<Length>> vertices;
@@ -53,7 +49,7 @@ struct Polytope {
   Vec3<Length> interior{};  ///< a point inside, or on a flat one
   const PolytopeKernels* kernels = nullptr;
   /// Of a flat one that is the skin of a solid: only face 0 pushes, and what has its centre behind
-  /// that face by more than k_front_depth is not met at all.
+  /// that face is not met at all.
   bool one_sided = false;
   Fine unevenness = 0;                  ///< how far a vertex may lie below a face that it is around
   const PolytopeLanes* wide = nullptr;  ///< null: few enough to be read one by one
