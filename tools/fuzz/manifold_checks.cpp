@@ -52,14 +52,22 @@ double surface_slack(const Pair& pair) {
   return tolerance(pair) + snap + share + uneven_slack(pair);
 }
 
+// How far the common anchor of what overlaps is from A's surface, as a share of the overlap.
+double share_of_a(const Pair& pair) {
+  const bool round_a = pair.a.radius > 0, round_b = pair.b.radius > 0;
+  if (round_a == round_b) return 0.5;
+  return round_a ? 0 : 1;
+}
+
 void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, const Real3& out,
                  Verdict& verdict) {
   const double separation = real(p.separation);
   Real3 on_a = real(p.anchor_a), on_b = real(p.anchor_b);
   if (separation <= 0) {
     verdict.require(Check::manifold, p.anchor_b == p.anchor_a - pair.offset);
-    on_a = on_a - real(m.normal) * (separation / 2);
-    on_b = on_b + real(m.normal) * (separation / 2);
+    const double share = share_of_a(pair);
+    on_a = on_a - real(m.normal) * (separation * share);
+    on_b = on_b + real(m.normal) * (separation * (1 - share));
   }
   if (separation < k_deepest || has_core_inside(pair, separation)) return;
   if (separation <= 0 && leans_back(pair, out)) return;  // the front may be pushed beside itself
