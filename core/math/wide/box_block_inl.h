@@ -128,12 +128,12 @@ struct MeetingLanes {
 /// The two faces in the frame of the first. `rows[j]`: axis j of the other box along the axes of
 /// this one.
 struct FacePair {
-  BoxVector rows[3], centre, half, half_other;
+  BoxVector rows[3]{}, centre{}, half{}, half_other{};
   Lanes axis, sign;
 
   HWY_INLINE HWY_ATTR void fill(MeetingLanes& out, Lanes& opposed) const {
     const Lanes one = broadcast(1), length = broadcast(std::int64_t{1} << 30);
-    BoxVector seen[3];  // the other's axes
+    BoxVector seen[3]{};  // the other's axes
     for (std::size_t j = 0; j < 3; ++j) {
       const BoxVector t = turned_to(axis, rows[j]);
       seen[j] = {{multiply(t.at[0], one), multiply(t.at[1], one), multiply(t.at[2], sign)}};
@@ -152,7 +152,7 @@ struct FacePair {
     const Lanes faces_up = select_less(broadcast(0), lean, broadcast(1), broadcast(0));
     opposed = add(add(other_axis, other_axis), faces_up);
 
-    BoxVector u, v, n;
+    BoxVector u{}, v{}, n{};
     for (std::size_t k = 0; k < 3; ++k) {
       const BoxVector t =
           turned_to(other_axis, BoxVector{{seen[0].at[k], seen[1].at[k], seen[2].at[k]}});
@@ -183,7 +183,7 @@ struct FacePair {
 /// The reference's axes in the world, and the way to the other box, two operands a word.
 HWY_INLINE HWY_ATTR void fill_axes(const BoxVector (&world)[3], const BoxVector& offset,
                                    const FacePair& pair, MeetingLanes& out) {
-  BoxVector x, y, z;
+  BoxVector x{}, y{}, z{};
   for (std::size_t k = 0; k < 3; ++k) {
     const BoxVector t =
         turned_to(pair.axis, BoxVector{{world[0].at[k], world[1].at[k], world[2].at[k]}});
@@ -201,9 +201,9 @@ HWY_INLINE HWY_ATTR void fill_axes(const BoxVector (&world)[3], const BoxVector&
 
 HWY_INLINE HWY_ATTR void meet_lanes(const BoxLanes& in, MeetingLanes& out) {
   const Lanes zero = broadcast(0), one = broadcast(1);
-  BoxVector centre_a, centre_b;
-  BoxVector b_in_a[3], a_in_b[3];  // the axes of one along those of the other
-  BoxVector b_in_a_size[3], a_in_b_size[3];
+  BoxVector centre_a{}, centre_b{};
+  BoxVector b_in_a[3]{}, a_in_b[3]{};  // the axes of one along those of the other
+  BoxVector b_in_a_size[3]{}, a_in_b_size[3]{};
   for (std::size_t i = 0; i < 3; ++i) {
     centre_a.at[i] = dot(in.axes_a[i], in.offset);
     centre_b.at[i] = dot(in.axes_b[i], in.offset);
@@ -227,7 +227,7 @@ HWY_INLINE HWY_ATTR void meet_lanes(const BoxLanes& in, MeetingLanes& out) {
       subtract(subtract(b.separation, a.separation), broadcast(std::int64_t{1} << 38));
   const Lanes of_b = select_less(size_of(a.separation), shift_left<5>(gain), one, zero);
 
-  FacePair pair;
+  FacePair pair{};
   for (std::size_t j = 0; j < 3; ++j)
     pair.rows[j] = choose(of_b, a_in_b[j], b_in_a[j]);
   for (std::size_t i = 0; i < 3; ++i)
@@ -246,7 +246,7 @@ HWY_INLINE HWY_ATTR void meet_lanes(const BoxLanes& in, MeetingLanes& out) {
   out.words[27] = add(add(shift_left<12>(add(of_b, broadcast(2))), shift_left<9>(face)),
                       shift_left<6>(opposed));
 
-  BoxVector world[3], way;
+  BoxVector world[3]{}, way{};
   for (std::size_t i = 0; i < 3; ++i) {
     world[i] = choose(of_b, in.axes_b[i], in.axes_a[i]);
     way.at[i] = choose(of_b, subtract(zero, in.offset.at[i]), in.offset.at[i]);
@@ -258,9 +258,9 @@ HWY_ATTR void meet_boxes(const BoxSource* sources, FaceMeeting* meetings) {
   constexpr std::size_t stride = sizeof(FaceMeeting) / sizeof(std::int64_t);
   constexpr std::uint32_t in_order[] = {0, 1, 2, 3, 4, 5, 6, 7};
   for (std::size_t first = 0; first < k_box_pairs; first += k_lanes) {
-    BoxLanes in;
+    BoxLanes in{};
     load_source(sources + first, in);
-    MeetingLanes out;
+    MeetingLanes out{};
     meet_lanes(in, out);
     std::int64_t* const words = meetings[first].middle.data();
     for (std::size_t i = 0; i < stride; i += 2)
@@ -271,7 +271,7 @@ HWY_ATTR void meet_boxes(const BoxSource* sources, FaceMeeting* meetings) {
 
 /// What points of a pair have in common.
 struct BoxPlaceLanes {
-  BoxVector x, y, z, offset;
+  BoxVector x{}, y{}, z{}, offset{};
   Lanes twice_height, swapped;
 };
 
@@ -325,7 +325,7 @@ HWY_ATTR void place_points(const FaceMeeting* meetings, const FourPoints* points
   constexpr std::size_t k_to = sizeof(FourPlaced) / sizeof(std::int32_t);
   constexpr std::uint32_t in_order[] = {0, 1, 2, 3, 4, 5, 6, 7};
   for (std::size_t first = 0; first < k_box_pairs; first += k_lanes) {
-    BoxPlaceLanes in;
+    BoxPlaceLanes in{};
     load_place(meetings + first, in);
     in.swapped = load(swapped + first);
     for (std::size_t i = 0; i < 4; ++i) {
