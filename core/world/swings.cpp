@@ -1,8 +1,6 @@
 // Which bodies swing by themselves, on one point of what stands still (swing.h). Their joints are
 // left out of the solver.
 
-#include <algorithm>
-
 #include "core/dynamics/joint_geometry.h"
 #include "core/dynamics/joint_rows.h"
 #include "core/dynamics/swing.h"
@@ -28,10 +26,9 @@ void World::Impl::find_swings() {
   for (std::size_t i = 0; i < swings.size(); ++i)
     swing_of[swings[i].body] = static_cast<std::uint32_t>(i + 1);
   solved_joints.clear();
-  std::ranges::copy_if(active_joints, std::back_inserter(solved_joints),
-                       [&](const JointLink& link) {
-                         return swing_of[link.body_a] == 0 && swing_of[link.body_b] == 0;
-                       });
+  for (const JointLink& link : active_joints) {
+    if (swing_of[link.body_a] == 0 && swing_of[link.body_b] == 0) solved_joints.push_back(link);
+  }
 }
 
 void World::Impl::look_for_swing(const JointLink& link) {
