@@ -1,11 +1,9 @@
 // Which contacts are solved at once.
 
-#include "core/dynamics/direct_contacts.h"
-
 #include <algorithm>
 
+#include "core/dynamics/direct_words.h"
 #include "core/dynamics/mass_share.h"
-#include "core/math/product_sum.h"
 
 namespace lockstone {
 namespace {
@@ -23,11 +21,6 @@ constexpr std::size_t k_most_of_group = 160;
 
 // All systems of a world.
 constexpr std::size_t k_most_contacts = 512;
-
-std::array<std::int64_t, 3> normal_of(const ManifoldBlock& block, std::size_t lane) {
-  return {static_cast<std::int32_t>(block.axes[0][lane]), block.axes[0][lane] >> 32,
-          static_cast<std::int32_t>(block.axes[1][lane])};
-}
 
 // The share of the other end's inverse mass is light beside this one's.
 bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
@@ -99,7 +92,7 @@ void DirectContacts::link_bodies(std::size_t body_count) {
 bool DirectContacts::is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const {
   const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
   const std::size_t lane = link.slot % k_block_lanes;
-  const Triple n = normal_of(block, lane);
+  const RawVec3 n = normal_of(block, lane);
   const std::array<std::int64_t, 3>& gain = run.bodies[heavy_is_b ? link.b : link.a].gain;
   ProductSum sum;
   std::int64_t most = 0;
@@ -185,12 +178,12 @@ bool DirectContacts::is_squeezed(const DirectRun& run) {
     const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
     const std::size_t lane = link.slot % k_block_lanes;
     const bool pushes = std::ranges::any_of(block.points, [lane](const ManifoldBlock::Point& p) {
-      return static_cast<std::int32_t>(p.impulse[lane]) != 0;
+      return low_word(p.impulse[lane]) != 0;
     });
     if (!pushes) continue;
-    Triple hold = normal_of(block, lane);
-    if (link.b == 0) hold = {-hold[0], -hold[1], -hold[2]};
-    for (const Triple& other : holds_)
+    RawVec3 hold = normal_of(block, lane);
+    if (link.b == 0) hold = negated(hold);
+    for (const RawVec3& other : holds_)
       if (hold[0] * other[0] + hold[1] * other[1] + hold[2] * other[2] < k_against) return true;
     holds_.push_back(hold);
   }

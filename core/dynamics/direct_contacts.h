@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/dynamics/joint_factor.h"
+#include "core/dynamics/raw_vec3.h"
 #include "core/dynamics/solver_body.h"
 #include "core/math/wide/manifold_block.h"
 
@@ -64,13 +65,12 @@ class DirectContacts {
 
  private:
   enum class Mark : std::uint8_t { none, chosen, dropped, listed };
-  using Triple = std::array<std::int64_t, 3>;
   // A point of a chosen contact. B feels n, angular_b of its impulse, A the opposite of n,
   // angular_a; responses are the angular parts through the bodies' inertia. Q30.
   struct Point {
     std::int64_t x = 0, y = 0;
-    Triple angular_a{}, angular_b{};
-    Triple response_a{}, response_b{};
+    RawVec3 angular_a{}, angular_b{};
+    RawVec3 response_a{}, response_b{};
     std::int64_t own = 0;      // response to itself, Q30
     int exponent = 0;          // power of two that scales its row
     std::int64_t warp = 0;     // share in what four points in a plane cannot tell apart, Q30
@@ -87,7 +87,7 @@ class DirectContacts {
     std::uint32_t count = 0;
     std::uint32_t active = 0;
     std::int64_t warp_size = 0;  // Σ warp², Q30; 0: none
-    Triple normal{}, tangent{}, binormal{};
+    RawVec3 normal{}, tangent{}, binormal{};
     BlockFloat inverse_mass{};                                 // of the pair
     std::array<std::int64_t, lanes::k_block_points> masses{};  // as in the block
     std::int64_t common_mass = 0;
@@ -160,10 +160,10 @@ class DirectContacts {
   std::vector<std::uint32_t> chosen_;      // links
   std::vector<std::uint32_t> order_;       // links of a group; by link: place in it
   std::vector<std::uint32_t> place_;
-  std::vector<Triple> holds_;  // where what nothing moves pushes a group, Q30
+  std::vector<RawVec3> holds_;  // where what nothing moves pushes a group, Q30
   // What a body has yet to gain of impulses, m/s, Q32.
   struct Gain {
-    Triple velocity{}, spin{};
+    RawVec3 velocity{}, spin{};
   };
   std::vector<std::uint32_t> bodies_;      // of all groups
   std::vector<Gain> gains_;                // of each of them

@@ -11,7 +11,6 @@ using lanes::k_block_lanes;
 using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
-using Triple = DirectTriple;
 
 constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_direct_bits + 16);
 
@@ -19,8 +18,8 @@ constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_direct_bits + 16);
 constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
 
 // arm × force + torque·turn, in 30 bits less.
-void add_spin(const Triple& arm, const Triple& force, const Triple& torque, std::int64_t turn,
-              bool is_taken, Triple& spin) {
+void add_spin(const RawVec3& arm, const RawVec3& force, const RawVec3& torque, std::int64_t turn,
+              bool is_taken, RawVec3& spin) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     ProductSum sum;
@@ -66,11 +65,11 @@ void DirectContacts::push(const DirectRun& run, Contact& contact, const Impulses
     about_b.subtract(point.x, moved);
     about_t.add(point.y, moved);
   }
-  const Triple force = mixed(contact.normal, change, {}, 0);
-  const Triple torque =
+  const RawVec3 force = mixed(contact.normal, change, {}, 0);
+  const RawVec3 torque =
       mixed(contact.tangent, about_t.rounded(30), contact.binormal, about_b.rounded(30));
   const std::int64_t turn = block.gain_turn[lane], share = low_word(block.share[lane]);
-  Triple to_b{};
+  RawVec3 to_b{};
   for (std::size_t i = 0; i < 3; ++i)
     to_b[i] = product_rounded(force[i], share, 30);
   if (contact.link.a != 0) {

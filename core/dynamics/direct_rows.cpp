@@ -11,24 +11,20 @@ namespace {
 using lanes::k_block_lanes;
 using lanes::k_block_points;
 using lanes::ManifoldBlock;
-using Triple = DirectTriple;
-
-Triple cross(const Triple& a, const Triple& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // r̄ × n + scale·turn, Q30.
-Triple angular(const Triple& arm, const Triple& normal, std::int64_t scale, const Triple& turn) {
-  Triple result = cross(arm, normal);
+RawVec3 angular(const RawVec3& arm, const RawVec3& normal, std::int64_t scale,
+                const RawVec3& turn) {
+  RawVec3 result = cross(arm, normal);
   for (std::size_t i = 0; i < 3; ++i)
     result[i] = raw::round_shift(result[i] + scale * turn[i], 30);
   return result;
 }
 
 // M·v, M in Q(shift): xx, yy, zz, xy, xz, yz.
-Triple through(const std::array<std::int64_t, 6>& m, int shift, const Triple& v) {
+RawVec3 through(const std::array<std::int64_t, 6>& m, int shift, const RawVec3& v) {
   constexpr std::size_t k_entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-  Triple result{};
+  RawVec3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     ProductSum sum;
     for (std::size_t j = 0; j < 3; ++j)
@@ -50,7 +46,7 @@ void DirectContacts::fill(const DirectRun& run, Contact& contact) {
   const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
   const std::size_t lane = contact.link.slot % k_block_lanes;
   const auto& axes = block.axes;
-  contact.normal = {low_word(axes[0][lane]), high_word(axes[0][lane]), low_word(axes[1][lane])};
+  contact.normal = normal_of(block, lane);
   contact.tangent = {high_word(axes[1][lane]), low_word(axes[2][lane]), high_word(axes[2][lane])};
   contact.binormal = {low_word(axes[3][lane]), high_word(axes[3][lane]), low_word(axes[4][lane])};
   contact.inverse_mass = lockstone::add(run.bodies[contact.link.a].inverse_mass,
@@ -71,7 +67,7 @@ void DirectContacts::fill(const DirectRun& run, Contact& contact) {
 
 void DirectContacts::fill_point(const ManifoldBlock& block, std::size_t lane,
                                 const Contact& contact, Point& point) {
-  const Triple turn = mixed(contact.tangent, point.y, contact.binormal, -point.x);
+  const RawVec3 turn = mixed(contact.tangent, point.y, contact.binormal, -point.x);
   const int shift = static_cast<int>(high_word(block.axes[4][lane]));
   std::array<std::int64_t, 6> inertia_a{}, inertia_b{};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -88,7 +84,7 @@ void DirectContacts::fill_point(const ManifoldBlock& block, std::size_t lane,
 // Such that the row's response to itself lies in (2^-4, 1] when it is scaled twice.
 void DirectContacts::find_exponent(const DirectRun& run, const Contact& contact, Point& point) {
   int most = -1000;
-  const auto add_side = [&](std::uint32_t body, const Triple& turn, const Triple& response) {
+  const auto add_side = [&](std::uint32_t body, const RawVec3& turn, const RawVec3& response) {
     if (body == 0) return;
     const std::int64_t self = coupled(contact.normal, contact.normal, turn, response, false);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));

@@ -6,8 +6,6 @@
 
 namespace lockstone {
 
-using DirectTriple = std::array<std::int64_t, 3>;
-
 /// What pushes overlap out gives way to its impulse by this part of a row's own response: where
 /// points say the same, each takes a share.
 inline constexpr int k_give_shift = 17;
@@ -23,17 +21,21 @@ inline constexpr int k_direct_more_bits = k_direct_bits - 20;
 [[nodiscard]] inline std::int64_t high_word(std::int64_t word) {
   return word >> 32;
 }
-[[nodiscard]] inline DirectTriple low_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
+[[nodiscard]] inline RawVec3 low_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
   return {low_word(words[0][lane]), low_word(words[1][lane]), low_word(words[2][lane])};
 }
-[[nodiscard]] inline DirectTriple high_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
+[[nodiscard]] inline RawVec3 high_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
   return {high_word(words[0][lane]), high_word(words[1][lane]), high_word(words[2][lane])};
+}
+[[nodiscard]] inline RawVec3 normal_of(const lanes::ManifoldBlock& block, std::size_t lane) {
+  return {low_word(block.axes[0][lane]), high_word(block.axes[0][lane]),
+          low_word(block.axes[1][lane])};
 }
 
 /// a·x + b·y, in 30 bits less.
-[[nodiscard]] inline DirectTriple mixed(const DirectTriple& a, std::int64_t x,
-                                        const DirectTriple& b, std::int64_t y) {
-  DirectTriple result{};
+[[nodiscard]] inline RawVec3 mixed(const RawVec3& a, std::int64_t x, const RawVec3& b,
+                                   std::int64_t y) {
+  RawVec3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     ProductSum sum;
     sum.add(a[i], x);
@@ -44,10 +46,9 @@ inline constexpr int k_direct_more_bits = k_direct_bits - 20;
 }
 
 /// n·n + angular·response, Q30.
-[[nodiscard]] inline std::int64_t coupled(const DirectTriple& normal_x,
-                                          const DirectTriple& normal_y,
-                                          const DirectTriple& angular_x,
-                                          const DirectTriple& response_y, bool opposite) {
+[[nodiscard]] inline std::int64_t coupled(const RawVec3& normal_x, const RawVec3& normal_y,
+                                          const RawVec3& angular_x, const RawVec3& response_y,
+                                          bool opposite) {
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
     sum.add(normal_x[i], normal_y[i]);

@@ -18,9 +18,6 @@ constexpr int k_most_lever = 12;
 RawVec3 raw_of(const Vec3<Unit>& v) {
   return {v.x.raw, v.y.raw, v.z.raw};
 }
-RawVec3 negated(const RawVec3& v) {
-  return {-v[0], -v[1], -v[2]};
-}
 
 // x · 2^-shift for either sign of `shift`, within ±2^44.
 std::int64_t shifted(std::int64_t x, int shift) {

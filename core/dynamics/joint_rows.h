@@ -11,11 +11,10 @@
 
 #include "core/dynamics/inertia.h"
 #include "core/dynamics/joint_record.h"
+#include "core/dynamics/raw_vec3.h"
 #include "core/dynamics/time_step.h"
 
 namespace lockstone {
-
-using RawVec3 = std::array<std::int64_t, 3>;
 
 /// Where a body is within a tick.
 struct JointPose {

@@ -30,9 +30,6 @@ constexpr int k_inverse_bits = 18;
 constexpr int k_turning_bits = 26;
 constexpr std::int64_t k_turning_bound = std::int64_t{1} << 30;
 
-RawVec3 cross(const RawVec3& a, const RawVec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 RawVec3 cross_q30(const RawVec3& a, const RawVec3& b) {
   const RawVec3 c = cross(a, b);
   return {raw::round_shift(c[0], 30), raw::round_shift(c[1], 30), raw::round_shift(c[2], 30)};
@@ -239,8 +236,6 @@ class Swing {
   }
 
  private:
-  static RawVec3 negated(const RawVec3& v) { return {-v[0], -v[1], -v[2]}; }
-
   std::uint32_t turn(const FreeRotor& rotor) {
     const FreeTurn turn = rotor.turn(orientation_, rotation_, spin_);
     orientation_ = turn.orientation;

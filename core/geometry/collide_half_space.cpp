@@ -24,21 +24,15 @@ struct PlaneMeeting {
 /// `point` relative to A's centre, `height` above the plane.
 void add_below(Manifold& manifold, const PlaneMeeting& plane, const RawVec& point, Fine height,
                std::uint32_t feature) {
-  add_point(manifold, {point - along(plane.normal, height), point}, plane.offset, height,
-            plane.margin, feature);
-}
-
-void add_round_below(Manifold& manifold, const PlaneMeeting& plane, const RawVec& pole, Fine height,
-                     std::uint32_t feature) {
-  add_round_point(manifold, {pole - along(plane.normal, height), pole}, plane.offset, height,
-                  plane.margin, feature);
+  add_point_on(plane.b.shape, manifold, {point - along(plane.normal, height), point}, plane.offset,
+               height, plane.margin, feature);
 }
 
 Manifold below_sphere(const PlaneMeeting& plane) {
   const Length radius = plane.b.shape.size.x;
   Manifold manifold;
   manifold.normal = plane.normal;
-  add_round_below(manifold, plane, fine(plane.offset) - along(plane.normal, radius),
+  add_below(manifold, plane, fine(plane.offset) - along(plane.normal, radius),
             plane.centre_height - fine(radius), 0);
   return manifold;
 }
@@ -55,7 +49,7 @@ Manifold below_capsule(const PlaneMeeting& plane) {
     if (steep && sign == sign_of(lean)) continue;
     const RawVec end = along(axis, half * sign);
     const RawVec pole = fine(plane.offset) + end - along(plane.normal, radius);
-    add_round_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),
+    add_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),
               sign < 0 ? 0 : 1);
   }
   return manifold;

@@ -182,8 +182,7 @@ Displacement least_separation(const Manifold& manifold) {
 }
 
 Length core_radius(const Shape& shape) {
-  const bool round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
-  return round ? shape.size.x : Length{};
+  return is_round(shape) ? shape.size.x : Length{};
 }
 
 RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point, const Shape& b,
