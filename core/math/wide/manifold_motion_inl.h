@@ -170,21 +170,37 @@ struct CenterMotion {
   Vector turning;
 };
 
+/// What a manifold's motion and impulses ask of its two bodies, read from a block where it is used.
+struct BlockSides {
+  const ManifoldBlock& block;
+  std::size_t lane;
+
+  HWY_INLINE HWY_ATTR Vector arm_a() const { return load_vector(block.arm, lane); }
+  HWY_INLINE HWY_ATTR Vector arm_b() const { return load_upper_vector(block.arm, lane); }
+  HWY_INLINE HWY_ATTR Lanes scale_a() const { return load(&block.scale[lane]); }
+  HWY_INLINE HWY_ATTR Lanes scale_b() const { return load_upper(&block.scale[lane]); }
+  HWY_INLINE HWY_ATTR Vector gain_arm_a() const { return load_vector(block.gain_arm, lane); }
+  HWY_INLINE HWY_ATTR Vector gain_arm_b() const { return load_upper_vector(block.gain_arm, lane); }
+  HWY_INLINE HWY_ATTR Lanes gain_turn_a() const { return load(&block.gain_turn[lane]); }
+  HWY_INLINE HWY_ATTR Lanes gain_turn_b() const { return load_upper(&block.gain_turn[lane]); }
+  HWY_INLINE HWY_ATTR Lanes share_b() const { return load(&block.share[lane]); }
+};
+
 /// u = vB − vA + wB × r̄B − wA × r̄A, Ω = wB·ℓ/sB − wA·ℓ/sA, from w in Q(n), v in Q(n + 30).
-HWY_INLINE HWY_ATTR CenterMotion motion_of_center(const ManifoldBlock& block, std::size_t lane,
-                                                  const Vector& apart, const Vector& surface_a,
+template <class Sides>
+HWY_INLINE HWY_ATTR CenterMotion motion_of_center(const Sides& sides, const Vector& apart,
+                                                  const Vector& surface_a,
                                                   const Vector& surface_b) {
-  const Vector around = subtract(cross(surface_b, load_upper_vector(block.arm, lane)),
-                                 cross(surface_a, load_vector(block.arm, lane)));
-  const Vector turned = subtract(multiply(surface_b, load_upper(&block.scale[lane])),
-                                 multiply(surface_a, load(&block.scale[lane])));
+  const Vector around = subtract(cross(surface_b, sides.arm_b()), cross(surface_a, sides.arm_a()));
+  const Vector turned =
+      subtract(multiply(surface_b, sides.scale_b()), multiply(surface_a, sides.scale_a()));
   return {add(apart, around), round_shift_low<30>(turned)};
 }
 
 HWY_INLINE HWY_ATTR CenterMotion read_motion(const ManifoldBlock& block, std::size_t lane,
                                              const Axes& axes, const BodyPair& bodies) {
   const TensorPair inertia = load_tensors(block.inertia, lane);
-  return motion_of_center(block, lane, bodies.apart(),
+  return motion_of_center(BlockSides{block, lane}, bodies.apart(),
                           axes.by.round(inertia.a.times(spin_of(bodies.a))),
                           axes.by.round(inertia.b.times(spin_of(bodies.b))));
 }
@@ -196,21 +212,20 @@ struct Impulse {
 };
 
 /// vB += αB·J, vA += αB·J − J, LB += (αB r̄B) × J + αB(ℓ/sB)·T, LA −= the same of A.
-HWY_INLINE HWY_ATTR void apply(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
-                               const Impulse& p, BodyPair& bodies) {
+template <class Sides>
+HWY_INLINE HWY_ATTR void apply(const Sides& sides, const Axes& axes, const Impulse& p,
+                               BodyPair& bodies) {
   constexpr int k_below_grid = k_velocity_bits - k_grid_bits;
   const Vector push = round_shift_low<30>(
       add(add(multiply(axes.n, p.n), multiply(axes.t, p.t)), multiply(axes.b, p.b)));
   const Vector torque = round_shift_low<30>(add(
       add(multiply(axes.n, p.about_n), multiply(axes.t, p.about_t)), multiply(axes.b, p.about_b)));
-  const Vector to_b = round_to_multiple<k_below_grid>(multiply(push, load(&block.share[lane])));
+  const Vector to_b = round_to_multiple<k_below_grid>(multiply(push, sides.share_b()));
   const Vector to_a = subtract(multiply(push, broadcast(std::int64_t{1} << 30)), to_b);
-  const Vector spin_b =
-      round_to_multiple<k_below_grid>(add(cross(load_upper_vector(block.gain_arm, lane), push),
-                                          multiply(torque, load_upper(&block.gain_turn[lane]))));
-  const Vector spin_a =
-      round_to_multiple<k_below_grid>(add(cross(load_vector(block.gain_arm, lane), push),
-                                          multiply(torque, load(&block.gain_turn[lane]))));
+  const Vector spin_b = round_to_multiple<k_below_grid>(
+      add(cross(sides.gain_arm_b(), push), multiply(torque, sides.gain_turn_b())));
+  const Vector spin_a = round_to_multiple<k_below_grid>(
+      add(cross(sides.gain_arm_a(), push), multiply(torque, sides.gain_turn_a())));
   add_to(bodies.b.velocity, to_b);
   add_to(bodies.b.spin, spin_b);
   take_from(bodies.a.velocity, to_a);

@@ -18,19 +18,26 @@ namespace HWY_NAMESPACE {
 
 inline constexpr std::int64_t k_one = std::int64_t{1} << 30;  // Q30
 
-/// The sources of as many manifolds as there are lanes.
+/// Points of as many manifolds as there are lanes.
+struct SourcePoints {
+  Vector from_center[4];  // on B, m, Q20
+  Lanes separation[4];    // m, Q24
+  Vector center_a, center_b;
+};
+
+/// The sources of as many manifolds.
 struct SourceLanes {
   Vector normal, friction;
   Lanes twist, load, coefficient, soft;
   Lanes one_over_count, count;
-  Vector point[4];  // from the centre, on B, m, Q20
-  Lanes separation[4], impulse[4];
+  Lanes impulse[4];
   Tensor inertia_a, inertia_b;  // Q(shift)
   Vector arm_a, arm_b;          // r̄ of the centre, Q30
   Lanes share_a, share_b, scale_a, scale_b;
   Lanes offset_shift, shift;
   Vector rolling, drive, held;
   Lanes rolling_limit, twist_drive;
+  Lanes clamped;  // how many arms were
 };
 
 /// Words 0 and 1 of each lane's record, from `word` operands on: four operands.
@@ -77,79 +84,100 @@ struct GeometryAt {
   }
 };
 
-/// Points and their centres on both bodies.
-HWY_INLINE HWY_ATTR void load_source_points(const std::int32_t* const* geometry, SourceLanes& out,
-                                            Vector& center_a, Vector& center_b) {
+/// A point on both bodies; of a lane that has no such point all zero.
+struct SourcePoint {
+  Vector on_a, on_b;
+  Lanes separation;
+};
+
+HWY_INLINE HWY_ATTR SourcePoint load_point(const std::int32_t* const* geometry, std::size_t i,
+                                           Lanes count) {
   constexpr std::int64_t k_farthest = std::int64_t{1} << 30;
-  const Lanes none = broadcast(0);
-  Vector sum_a = {none, none, none}, sum_b = {none, none, none};
-  for (std::size_t i = 0; i < 4; ++i) {
-    Lanes word_0, word_1, word_2, word_3;
-    load_two(GeometryAt{geometry, 4 + 8 * i}, word_0, word_1);
-    load_two(GeometryAt{geometry, 8 + 8 * i}, word_2, word_3);
-    const Lanes number = broadcast(static_cast<std::int64_t>(i));
-    for (Lanes* word : {&word_0, &word_1, &word_2, &word_3})
-      *word = select_less(number, out.count, *word, none);
-    const Vector on_a = {word_0, upper(word_0), word_1};
-    out.point[i] = {upper(word_1), word_2, upper(word_2)};
-    out.separation[i] =
-        clamp(multiply(word_3, broadcast(1)), broadcast(-k_farthest), broadcast(k_farthest));
-    sum_a = add(sum_a, multiply(on_a, out.one_over_count));
-    sum_b = add(sum_b, multiply(out.point[i], out.one_over_count));
-  }
-  center_a = round_shift_low<30>(sum_a);
-  center_b = round_shift_low<30>(sum_b);
-  for (Vector& point : out.point)
-    point = subtract(point, center_b);
+  Lanes word_0, word_1, word_2, word_3;
+  load_two(GeometryAt{geometry, 4 + 8 * i}, word_0, word_1);
+  load_two(GeometryAt{geometry, 8 + 8 * i}, word_2, word_3);
+  const Lanes number = broadcast(static_cast<std::int64_t>(i)), none = broadcast(0);
+  word_0 = select_less(number, count, word_0, none);
+  word_1 = select_less(number, count, word_1, none);
+  word_2 = select_less(number, count, word_2, none);
+  word_3 = select_less(number, count, word_3, none);
+  return {{word_0, upper(word_0), word_1},
+          {upper(word_1), word_2, upper(word_2)},
+          clamp(multiply(word_3, broadcast(1)), broadcast(-k_farthest), broadcast(k_farthest))};
 }
 
-/// Answers how many arms were clamped.
-HWY_INLINE HWY_ATTR Lanes load_source(const ManifoldSources& in, std::size_t lane,
-                                      const SourceBody* inertias, SourceLanes& out) {
-  constexpr std::uint32_t k_index[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  const RecordsAt<const std::int32_t> at{in.lanes[lane].friction.data(), k_index,
-                                         sizeof(ManifoldSource) / sizeof(std::int32_t)};
-  Lanes word_0, word_1;
-  load_two(GeometryAt{&in.geometry[lane], 0}, word_0, word_1);
-  out.normal = {word_0, upper(word_0), word_1};
-  out.normal = multiply(out.normal, broadcast(1));  // as whole words
-  load_operands(at, 0, word_0, word_1);
-  out.friction = {word_0, upper(word_0), word_1};
-  out.twist = upper(word_1);
-  load_operands(at, 4, word_0, word_1);
-  out.impulse[0] = lower_part(word_0);
-  out.impulse[1] = upper_part(word_0);
-  out.impulse[2] = lower_part(word_1);
-  out.impulse[3] = upper_part(word_1);
-  load_operands(at, 8, word_0, word_1);
-  out.share_b = word_0;
-  out.share_a = subtract(broadcast(k_one), word_0);
-  out.coefficient = upper(word_0);
-  out.scale_a = word_1;
-  out.scale_b = upper(word_1);
-  load_operands(at, 12, out.soft, word_1);
-  out.load = word_1;
-  out.count = upper_part(word_1);
-  load_operands(at, 20, word_0, out.one_over_count);
-  out.offset_shift = lower_part(word_0);
-  out.shift = upper_part(word_0);
-  Vector center_a{}, center_b{};
-  load_source_points(&in.geometry[lane], out, center_a, center_b);
-  load_operands(at, 16, word_0, word_1);
-  out.inertia_a = load_tensor(inertias, &in.body_a[lane], word_0);
-  out.inertia_b = load_tensor(inertias, &in.body_b[lane], upper(word_0));
+/// The mean of the points that there are.
+HWY_INLINE HWY_ATTR Vector mean_of(const Vector& a, const Vector& b, const Vector& c,
+                                   const Vector& d, Lanes one_over_count) {
+  return round_shift_low<30>(add(add(multiply(a, one_over_count), multiply(b, one_over_count)),
+                                 add(multiply(c, one_over_count), multiply(d, one_over_count))));
+}
+
+HWY_INLINE HWY_ATTR SourcePoints load_source_points(const std::int32_t* const* geometry,
+                                                    Lanes count, Lanes one_over_count) {
+  const SourcePoint p = load_point(geometry, 0, count), q = load_point(geometry, 1, count);
+  const SourcePoint r = load_point(geometry, 2, count), s = load_point(geometry, 3, count);
+  const Vector center_a = mean_of(p.on_a, q.on_a, r.on_a, s.on_a, one_over_count);
+  const Vector center_b = mean_of(p.on_b, q.on_b, r.on_b, s.on_b, one_over_count);
+  return {{subtract(p.on_b, center_b), subtract(q.on_b, center_b), subtract(r.on_b, center_b),
+           subtract(s.on_b, center_b)},
+          {p.separation, q.separation, r.separation, s.separation},
+          center_a,
+          center_b};
+}
+
+/// Where the records of sources lie from a piece on.
+HWY_INLINE HWY_ATTR RecordsAt<const std::int32_t> pieces_of(const ManifoldSource* in) {
+  static constexpr std::uint32_t k_index[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return {in->friction.data(), k_index, sizeof(ManifoldSource) / sizeof(std::int32_t)};
+}
+
+HWY_INLINE HWY_ATTR SourceLanes load_source(const ManifoldSources& in, std::size_t lane,
+                                            const SourceBody* inertias, Lanes count,
+                                            Lanes one_over_count, const SourcePoints& points) {
+  const RecordsAt<const std::int32_t> at = pieces_of(&in.lanes[lane]);
+  Lanes normal_0, normal_1, friction_0, friction_1, impulses_0, impulses_1, share, scale, soft,
+      load_word, inertia, inverse_scale, shifts, unused, rolling_0, rolling_1, drive_0, drive_1,
+      held_0, held_1;
+  load_two(GeometryAt{&in.geometry[lane], 0}, normal_0, normal_1);
+  load_operands(at, 0, friction_0, friction_1);
+  load_operands(at, 4, impulses_0, impulses_1);
+  load_operands(at, 8, share, scale);
+  load_operands(at, 12, soft, load_word);
+  load_operands(at, 16, inertia, inverse_scale);
+  load_operands(at, 20, shifts, unused);
+  load_operands(at, 24, rolling_0, rolling_1);
+  load_operands(at, 28, drive_0, drive_1);
+  load_operands(at, 32, held_0, held_1);
   Lanes clamped = broadcast(0);
-  out.arm_a = normalized_arm(center_a, word_1, clamped);
-  out.arm_b = normalized_arm(center_b, upper(word_1), clamped);
-  load_operands(at, 24, word_0, word_1);
-  out.rolling = {word_0, upper(word_0), word_1};
-  out.rolling_limit = upper_part(word_1);
-  load_operands(at, 28, word_0, word_1);
-  out.drive = {word_0, upper(word_0), word_1};
-  out.twist_drive = upper(word_1);
-  load_operands(at, 32, word_0, word_1);
-  out.held = {lower_part(word_0), upper_part(word_0), lower_part(word_1)};
-  return clamped;
+  const Vector arm_a = normalized_arm(points.center_a, inverse_scale, clamped);
+  const Vector arm_b = normalized_arm(points.center_b, upper(inverse_scale), clamped);
+  return {multiply(Vector{normal_0, upper(normal_0), normal_1}, broadcast(1)),  // as whole words
+          {friction_0, upper(friction_0), friction_1},
+          upper(friction_1),
+          load_word,
+          upper(share),
+          soft,
+          one_over_count,
+          count,
+          {lower_part(impulses_0), upper_part(impulses_0), lower_part(impulses_1),
+           upper_part(impulses_1)},
+          load_tensor(inertias, &in.body_a[lane], inertia),
+          load_tensor(inertias, &in.body_b[lane], upper(inertia)),
+          arm_a,
+          arm_b,
+          subtract(broadcast(k_one), share),
+          share,
+          scale,
+          upper(scale),
+          lower_part(shifts),
+          upper_part(shifts),
+          {rolling_0, upper(rolling_0), rolling_1},
+          {drive_0, upper(drive_0), drive_1},
+          {lower_part(held_0), upper_part(held_0), lower_part(held_1)},
+          upper_part(rolling_1),
+          upper(drive_1),
+          clamped};
 }
 
 HWY_INLINE HWY_ATTR Lanes magnitude(Lanes x) {
@@ -203,9 +231,34 @@ HWY_INLINE HWY_ATTR CenterResponse center_response(const SourceLanes& in, const 
   return k;
 }
 
+/// What the impulses to start from ask of the bodies, at hand already: reading back what was just
+/// written to a block would wait for the writes.
+struct SourceSides {
+  const SourceLanes& in;
+  Vector gain_a, gain_b;
+  Lanes turn_a, turn_b;
+
+  HWY_INLINE HWY_ATTR Vector arm_a() const { return in.arm_a; }
+  HWY_INLINE HWY_ATTR Vector arm_b() const { return in.arm_b; }
+  HWY_INLINE HWY_ATTR Lanes scale_a() const { return in.scale_a; }
+  HWY_INLINE HWY_ATTR Lanes scale_b() const { return in.scale_b; }
+  HWY_INLINE HWY_ATTR Vector gain_arm_a() const { return gain_a; }
+  HWY_INLINE HWY_ATTR Vector gain_arm_b() const { return gain_b; }
+  HWY_INLINE HWY_ATTR Lanes gain_turn_a() const { return turn_a; }
+  HWY_INLINE HWY_ATTR Lanes gain_turn_b() const { return turn_b; }
+  HWY_INLINE HWY_ATTR Lanes share_b() const { return in.share_b; }
+};
+
+HWY_INLINE HWY_ATTR SourceSides sides_of(const SourceLanes& in) {
+  return {in, round_shift_low<30>(multiply(in.arm_a, in.share_a)),
+          round_shift_low<30>(multiply(in.arm_b, in.share_b)),
+          round_shift_low<30>(multiply(in.share_a, in.scale_a)),
+          round_shift_low<30>(multiply(in.share_b, in.scale_b))};
+}
+
 /// What both bodies bring along, unchanged or times their shares.
-HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, std::size_t lane, const Axes& axes,
-                                         ManifoldBlock& out) {
+HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSides& sides,
+                                         std::size_t lane, const Axes& axes, ManifoldBlock& out) {
   const Tensor& a = in.inertia_a;
   const Tensor& b = in.inertia_b;
   store(pack(a.xx, b.xx), &out.inertia[0][lane]);
@@ -215,13 +268,9 @@ HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, std::size_t lane
   store(pack(a.xz, b.xz), &out.inertia[4][lane]);
   store(pack(a.yz, b.yz), &out.inertia[5][lane]);
   store_vector(pack(in.arm_a, in.arm_b), out.arm, lane);
-  store_vector(pack(round_shift_low<30>(multiply(in.arm_a, in.share_a)),
-                    round_shift_low<30>(multiply(in.arm_b, in.share_b))),
-               out.gain_arm, lane);
+  store_vector(pack(sides.gain_a, sides.gain_b), out.gain_arm, lane);
   store(pack(in.scale_a, in.scale_b), &out.scale[lane]);
-  store(pack(round_shift_low<30>(multiply(in.share_a, in.scale_a)),
-             round_shift_low<30>(multiply(in.share_b, in.scale_b))),
-        &out.gain_turn[lane]);
+  store(pack(sides.turn_a, sides.turn_b), &out.gain_turn[lane]);
   store(pack(in.share_b, in.coefficient), &out.share[lane]);
   store(in.soft, &out.soft[lane]);
   store(multiply(subtract(broadcast(k_one), upper(in.soft)), in.load), &out.rest[lane]);
@@ -244,14 +293,15 @@ HWY_INLINE HWY_ATTR Lanes offset_along(const Vector& axis, const Vector& point, 
   return by.round(clamp(dot(axis, point), subtract(broadcast(0), bound), bound));
 }
 
-HWY_INLINE HWY_ATTR void find_offsets(const SourceLanes& in, const Axes& axes, Offsets& offsets) {
+HWY_INLINE HWY_ATTR void find_offsets(const SourceLanes& in, const SourcePoints& points,
+                                      const Axes& axes, Offsets& offsets) {
   // Q20 · Q30 / ℓ, to Q30.
   const Lanes shift = in.offset_shift;
   const EachShift by = each_shift(shift);
   offsets.square = broadcast(0);
   for (std::size_t i = 0; i < 4; ++i) {
-    offsets.x[i] = offset_along(axes.t, in.point[i], shift, by);
-    offsets.y[i] = offset_along(axes.b, in.point[i], shift, by);
+    offsets.x[i] = offset_along(axes.t, points.from_center[i], shift, by);
+    offsets.y[i] = offset_along(axes.b, points.from_center[i], shift, by);
     const Lanes square =
         multiply_add(multiply(offsets.x[i], offsets.x[i]), offsets.y[i], offsets.y[i]);
     const Lanes share = select_less(broadcast(static_cast<std::int64_t>(i)), in.count,
@@ -341,13 +391,13 @@ HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, const Eac
   return q;
 }
 
-HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, std::size_t lane, const Offsets& at,
-                                         const Quotients& q, const Lanes (&of)[4][4],
-                                         ManifoldBlock& out) {
+HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, const SourcePoints& points,
+                                         std::size_t lane, const Offsets& at, const Quotients& q,
+                                         const Lanes (&of)[4][4], ManifoldBlock& out) {
   for (std::size_t i = 0; i < 4; ++i) {
     store(pack(at.x[i], at.y[i]), &out.points[i].offset[lane]);
     store(in.impulse[i], &out.points[i].impulse[lane]);
-    store(pack(in.separation[i], in.separation[i]), &out.points[i].separation[lane]);
+    store(pack(points.separation[i], points.separation[i]), &out.points[i].separation[lane]);
   }
   store(pack(q.point[0], q.point[1]), &out.mass_01[lane]);
   store(pack(q.point[2], q.point[3]), &out.mass_23[lane]);
@@ -361,9 +411,21 @@ HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, std::size_t lane
   store(pack(round_shift_low<30>(multiply(q.all, share)), share), &out.common[lane]);
 }
 
+/// Impulses along t and b, and torques about them.
+struct TangentImpulses {
+  Lanes t, b, about_t, about_b;
+};
+
+HWY_INLINE HWY_ATTR TangentImpulses along_tangents(const SourceLanes& in, const Axes& axes) {
+  return {
+      round_shift_low<30>(dot(axes.t, in.friction)), round_shift_low<30>(dot(axes.b, in.friction)),
+      round_shift_low<30>(dot(axes.t, in.rolling)), round_shift_low<30>(dot(axes.b, in.rolling))};
+}
+
 HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t lane,
-                                           const Axes& axes, const CenterResponse& k,
-                                           const Quotients& q, ManifoldBlock& out) {
+                                           const Axes& axes, const TangentImpulses& tangents,
+                                           const CenterResponse& k, const Quotients& q,
+                                           ManifoldBlock& out) {
   const EachShift& by = axes.by;
   store_vector(pack(Vector{k.tn, k.tx, k.ty}, Vector{k.bn, k.bx, k.by}), out.coupling, lane);
   store(pack(by.round(multiply(k.bb, q.determinant)), by.round(multiply(k.tt, q.determinant))),
@@ -376,17 +438,13 @@ HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t la
   store(pack(twist.x, twist.y), &out.twist_row[0][lane]);
   store(pack(twist.z, q.twist), &out.twist_row[1][lane]);
   store(pack(to_t, to_b), &out.twist_response[lane]);
-  store(pack(round_shift_low<30>(dot(axes.t, in.friction)),
-             round_shift_low<30>(dot(axes.b, in.friction))),
-        &out.friction[lane]);
+  store(pack(tangents.t, tangents.b), &out.friction[lane]);
   store(pack(in.twist, q.radius), &out.twist[lane]);
   store(
       pack(round_shift_low<30>(dot(axes.t, in.drive)), round_shift_low<30>(dot(axes.b, in.drive))),
       &out.drive[lane]);
   store(pack(in.twist_drive, in.rolling_limit), &out.turn[lane]);
-  store(pack(round_shift_low<30>(dot(axes.t, in.rolling)),
-             round_shift_low<30>(dot(axes.b, in.rolling))),
-        &out.rolling[lane]);
+  store(pack(tangents.about_t, tangents.about_b), &out.rolling[lane]);
   store(pack(q.rolling[0], q.rolling[1]), &out.rolling_mass[0][lane]);
   store(lower_part(q.rolling[2]), &out.rolling_mass[1][lane]);
 }
@@ -406,29 +464,69 @@ HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
   store(broadcast(0), &approach.clamped[lane]);
 }
 
-/// The impulses of the tick before, added up by body; and how fast the points come in.
-HWY_INLINE HWY_ATTR void start_lanes(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
-                                     const std::int64_t* words, std::int64_t* warm,
-                                     ManifoldApproach& approach) {
-  BodyPair bodies{};
-  bodies.load_from(words, block, lane);
-  PointLanes points{};
-  load_points(block, lane, axes, read_motion(block, lane, axes, bodies), points);
-  for (std::size_t i = 0; i < 4; ++i) {
+/// How fast the points come in.
+HWY_INLINE HWY_ATTR void find_approach(const SourceLanes& in, const SourceSides& sides,
+                                       const Axes& axes, const BodyPair& bodies, PointLanes& points,
+                                       std::size_t lane, ManifoldApproach& approach) {
+  find_speeds(
+      axes,
+      motion_of_center(sides, bodies.apart(), axes.by.round(in.inertia_a.times(spin_of(bodies.a))),
+                       axes.by.round(in.inertia_b.times(spin_of(bodies.b)))),
+      points);
+  for (std::size_t i = 0; i < 4; ++i)
     store(multiply(points.speed[i], broadcast(1)), &approach.speed[i][lane]);
+}
+
+/// The impulses of the tick before, added up by body.
+HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides& sides,
+                                     const Axes& axes, const TangentImpulses& tangents,
+                                     Lanes radius, const PointLanes& points, BodyPair& bodies) {
+  Impulse p = sum_of(points);
+  p.t = tangents.t;
+  p.b = tangents.b;
+  p.about_n = round_shift_low<30>(multiply(in.twist, radius));
+  p.about_t = add(p.about_t, tangents.about_t);
+  p.about_b = add(p.about_b, tangents.about_b);
+  apply(sides, axes, p, bodies);
+}
+
+HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t lane,
+                                       const SourceBody* inertias, const std::int64_t* words,
+                                       std::int64_t* warm, ManifoldBlock& block,
+                                       ManifoldApproach& approach) {
+  Lanes load_word, one_over_count;
+  load_operands(pieces_of(&in.lanes[lane]), 12, one_over_count, load_word);
+  const Lanes count = upper_part(load_word);
+  load_operands(pieces_of(&in.lanes[lane]), 20, load_word, one_over_count);
+  const SourcePoints source_points = load_source_points(&in.geometry[lane], count, one_over_count);
+  const SourceLanes source = load_source(in, lane, inertias, count, one_over_count, source_points);
+  store(source.clamped, &approach.clamped[lane]);
+  Axes axes{};
+  make_axes(source.normal, source.shift, axes);
+  Offsets offsets{};
+  find_offsets(source, source_points, axes, offsets);
+  const CenterResponse response = center_response(source, axes);
+  Lanes of[4][4];
+  point_responses(response, offsets, axes.by.shift, of);
+  const Quotients quotients = find_quotients(&in.lanes[lane], axes.by, response, offsets, of);
+  const TangentImpulses tangents = along_tangents(source, axes);
+  const SourceSides sides = sides_of(source);
+  PointLanes points{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    points.x[i] = offsets.x[i];
+    points.y[i] = offsets.y[i];
+    points.impulse[i] = source.impulse[i];
     points.start[i] = broadcast(0);
   }
-  Impulse p = sum_of(points);
-  const Lanes friction = load(&block.friction[lane]), twist = load(&block.twist[lane]);
-  p.t = friction;
-  p.b = upper(friction);
-  p.about_n = round_shift_low<30>(multiply(twist, upper(twist)));
-  const Lanes rolling = load(&block.rolling[lane]);
-  p.about_t = add(p.about_t, rolling);
-  p.about_b = add(p.about_b, upper(rolling));
-  bodies.load_from(warm, block, lane);
-  apply(block, lane, axes, p, bodies);
-  bodies.store_to(warm, block, lane);
+  BodyPair bodies{};
+  bodies.load_from(words, in, lane);
+  find_approach(source, sides, axes, bodies, points, lane, approach);
+  bodies.load_from(warm, in, lane);
+  start_lanes(source, sides, axes, tangents, quotients.radius, points, bodies);
+  bodies.store_to(warm, in, lane);
+  store_bodies_of(source, sides, lane, axes, block);
+  store_points_of(source, source_points, lane, offsets, quotients, of, block);
+  store_friction_of(source, lane, axes, tangents, response, quotients, block);
 }
 
 HWY_ATTR inline void prepare_manifolds(const ManifoldSources& in, const SourceBody* inertias,
@@ -439,22 +537,10 @@ HWY_ATTR inline void prepare_manifolds(const ManifoldSources& in, const SourceBo
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
     if (is_empty(in, lane)) {
       leave_empty(lane, block, approach);
-      continue;
+    } else {
+      prepare_lanes(in, lane, inertias, bodies->velocity.data(), warm->velocity.data(), block,
+                    approach);
     }
-    SourceLanes source{};
-    store(load_source(in, lane, inertias, source), &approach.clamped[lane]);
-    Axes axes{};
-    make_axes(source.normal, source.shift, axes);
-    Offsets offsets{};
-    find_offsets(source, axes, offsets);
-    const CenterResponse response = center_response(source, axes);
-    Lanes of[4][4];
-    point_responses(response, offsets, axes.by.shift, of);
-    const Quotients quotients = find_quotients(&in.lanes[lane], axes.by, response, offsets, of);
-    store_bodies_of(source, lane, axes, block);
-    store_points_of(source, lane, offsets, quotients, of, block);
-    store_friction_of(source, lane, axes, response, quotients, block);
-    start_lanes(block, lane, axes, bodies->velocity.data(), warm->velocity.data(), approach);
   }
 }
 

@@ -34,6 +34,17 @@ HWY_INLINE HWY_ATTR Lanes touching_word(const SweepRules& rules) {
   return broadcast((std::int64_t{rules.skin} << 32) | 0xffffffff);
 }
 
+/// How fast points go apart at their offsets.
+HWY_INLINE HWY_ATTR void find_speeds(const Axes& axes, const CenterMotion& motion,
+                                     PointLanes& points) {
+  const Lanes along = dot(axes.n, round_shift_low<30>(motion.velocity));
+  const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
+  const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
+  for (std::size_t i = 0; i < 4; ++i)
+    points.speed[i] = round_shift_low<30>(
+        multiply_subtract(multiply_add(along, points.y[i], about_t), points.x[i], about_b));
+}
+
 HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                      const CenterMotion& motion, PointLanes& points) {
   const Lanes mass_01 = load(&block.mass_01[lane]), mass_23 = load(&block.mass_23[lane]);
@@ -41,18 +52,13 @@ HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lan
   points.mass[1] = upper_part(mass_01);
   points.mass[2] = lower_part(mass_23);
   points.mass[3] = upper_part(mass_23);
-  const Vector u = round_shift_low<30>(motion.velocity);
-  const Lanes along = dot(axes.n, u);
-  const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
-  const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
   for (std::size_t i = 0; i < 4; ++i) {
     points.x[i] = load(&block.points[i].offset[lane]);
     points.y[i] = load_upper(&block.points[i].offset[lane]);
     points.start[i] = lower_part(load(&block.points[i].impulse[lane]));
     points.impulse[i] = points.start[i];
-    points.speed[i] = round_shift_low<30>(
-        multiply_subtract(multiply_add(along, points.y[i], about_t), points.x[i], about_b));
   }
+  find_speeds(axes, motion, points);
 }
 
 /// Whether any point of any lane is apart.
@@ -260,7 +266,7 @@ HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std
   const CenterMotion motion = read_motion(block, lane, axes, bodies);
   PointLanes points{};
   const Impulse p = solve_normals<true>(block, lane, axes, motion, rules, points);
-  apply(block, lane, axes, p, bodies);
+  apply(BlockSides{block, lane}, axes, p, bodies);
   bodies.store_to(words, block, lane);
 }
 
@@ -287,7 +293,7 @@ HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane
   const Vector apart = {subtract(went.b.velocity[0], went.a.velocity[0]),
                         subtract(went.b.velocity[1], went.a.velocity[1]),
                         subtract(went.b.velocity[2], went.a.velocity[2])};
-  const CenterMotion motion = motion_of_center(block, lane, shift_left<15>(apart),
+  const CenterMotion motion = motion_of_center(BlockSides{block, lane}, shift_left<15>(apart),
                                                surface_travel(went.a), surface_travel(went.b));
   const Lanes along = dot(axes.n, round_shift_low<30>(motion.velocity));
   const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
@@ -406,7 +412,7 @@ HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, 
   p.about_t = subtract(f.t, rolling);
   p.about_b = subtract(f.b, upper(rolling));
   store(pack(f.t, f.b), &block.rolling[lane]);
-  apply(block, lane, axes, p, bodies);
+  apply(BlockSides{block, lane}, axes, p, bodies);
 }
 
 HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
@@ -419,7 +425,7 @@ HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std
   PointLanes points{};
   Impulse p = solve_normals<false>(block, lane, axes, motion, rules, points);
   solve_friction(block, lane, axes, motion, points, rules, p);
-  apply(block, lane, axes, p, bodies);
+  apply(BlockSides{block, lane}, axes, p, bodies);
   resist_rolling(block, lane, axes, points, rules, bodies);
   bodies.store_to(words, block, lane);
 }
@@ -464,7 +470,7 @@ HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, st
       points.speed[j] = add(points.speed[j], axes.by.round(multiply(responses.of[j][i], moved)));
   }
   store_points(points, lane, block);
-  apply(block, lane, axes, sum_of(points), bodies);
+  apply(BlockSides{block, lane}, axes, sum_of(points), bodies);
   bodies.store_to(words, block, lane);
 }
 
