@@ -144,6 +144,9 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.drive = {drive.x.raw, drive.y.raw, drive.z.raw};
   out.twist_drive = raw::saturate<std::int32_t>(
       raw::scale_binary(std::int64_t{in.surface.twist_drive.raw}, scale_exponent));
+  const bool is_driven = (out.drive[0] | out.drive[1] | out.drive[2] | out.twist_drive) != 0;
+  const bool is_plain = a.is_plain && b.is_plain && !is_driven && out.rolling_limit == 0;
+  out.kind = is_plain ? 0 : lanes::k_special_lane;
   out.held = {};
   if (a.held == 0 && b.held == 0) return;
   for (int axis = 0; axis < 3; ++axis)

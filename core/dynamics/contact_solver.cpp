@@ -402,7 +402,8 @@ std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t 
   }
   across(block, lane, block.friction[lane], record.friction_impulse);
   record.rolling_impulse = {};
-  if (block.rolling[lane] != 0) across(block, lane, block.rolling[lane], record.rolling_impulse);
+  if (!block.is_plain(lane) && block.rolling[lane] != 0)
+    across(block, lane, block.rolling[lane], record.rolling_impulse);
   record.twist_impulse.raw = low(block.twist[lane]);
   follow_load(before, mean_impulse(record), alone, load_shift_, record);
   record.flags = touching ? k_contact_touching : 0;

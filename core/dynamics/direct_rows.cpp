@@ -68,11 +68,13 @@ void DirectContacts::fill(const DirectRun& run, Contact& contact) {
 void DirectContacts::fill_point(const ManifoldBlock& block, std::size_t lane,
                                 const Contact& contact, Point& point) {
   const RawVec3 turn = mixed(contact.tangent, point.y, contact.binormal, -point.x);
-  const int shift = static_cast<int>(high_word(block.axes[4][lane]));
+  const int shift = block.shift(lane);
   std::array<std::int64_t, 6> inertia_a{}, inertia_b{};
   for (std::size_t i = 0; i < 6; ++i) {
-    inertia_a[i] = low_word(block.inertia[i][lane]);
-    inertia_b[i] = high_word(block.inertia[i][lane]);
+    if (block.is_plain(lane) && i >= 3) break;
+    const std::int64_t word = block.inertia[block.is_plain(lane) ? 0 : i][lane];
+    inertia_a[i] = low_word(word);
+    inertia_b[i] = high_word(word);
   }
   const std::int64_t scale = block.scale[lane];
   point.angular_a = angular(low_words(block.arm, lane), contact.normal, low_word(scale), turn);

@@ -21,6 +21,11 @@ struct InverseInertia {
   int exponent = 0;
 };
 
+/// Whether M is a number times the unit matrix.
+[[nodiscard]] constexpr bool turns_alike(const InverseInertia& m) {
+  return m.xx == m.yy && m.yy == m.zz && (m.xy | m.xz | m.yz) == 0;
+}
+
 /// About locked axes a body does not turn. For one that does not rotate: zero. For a kinematic one,
 /// whose spin is its surface speed: one.
 [[nodiscard]] InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation);

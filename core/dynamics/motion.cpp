@@ -268,6 +268,7 @@ SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
   solver.inverse_inertia = inverse_inertia(body, rotation);
   solver.inverse_mass = body.inverse_mass_value();
   solver.scale_exponent = body.scale_exponent;
+  solver.is_plain = solver.held == 0 && turns_alike(solver.inverse_inertia);
   return solver;
 }
 

@@ -17,6 +17,7 @@ struct SolverBody {
   BlockFloat inverse_mass{};
   std::int32_t scale_exponent = 0;
   std::uint8_t held = 0;  // bit i: axis i of moving is locked
+  bool is_plain = true;   // nothing is held, and it turns alike about all axes
 
   /// Whether impulses change it.
   [[nodiscard]] bool is_pushed() const { return inverse_mass.mantissa != 0; }

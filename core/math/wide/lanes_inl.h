@@ -77,6 +77,10 @@ HWY_INLINE HWY_ATTR Lanes upper_part(Lanes x) {
   return hn::BitCast(k_words, hn::ShiftRight<32>(hn::BitCast(Bits(), x)));
 }
 
+HWY_INLINE HWY_ATTR Lanes low_byte(Lanes x) {
+  return hn::And(x, broadcast(0xff));
+}
+
 template <int shift>
 HWY_INLINE HWY_ATTR Lanes shift_left(Lanes x) {
   return hn::ShiftLeft<shift>(x);

@@ -58,6 +58,9 @@ inline Lanes lower_part(Lanes x) {
 inline Lanes upper_part(Lanes x) {
   return scalar::high_part(x);
 }
+inline Lanes low_byte(Lanes x) {
+  return scalar::low_byte(x);
+}
 template <int shift>
 Lanes shift_left(Lanes x) {
   return scalar::shift_left(x, shift);

@@ -31,6 +31,11 @@ inline constexpr int k_grid_bits = 32;
 /// The greatest impulse of a point: 2^30 − 1 in Q20, 1024 m/s. Two of them make an operand.
 inline constexpr std::int32_t k_most_impulse = 0x3fffffff;
 
+/// What stands above the shift of a lane that is not plain. Plain is a manifold whose bodies both
+/// turn alike about all axes, M = m·1, whose surfaces neither move nor resist rolling, and which no
+/// lock takes a push from: most are, and their sweeps read and compute less.
+inline constexpr std::int32_t k_special_lane = 1 << 8;
+
 /// Eight manifolds that share no body, save one that nothing moves (zero gains). `pack(low, high)`
 /// holds two operands. `shift` is 16 … 28, and Q(shift) the format of what grows with the inverse
 /// inertia. Of a lane without a manifold `common` is 0, and the rest
@@ -39,7 +44,18 @@ struct alignas(64) ManifoldBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
 
+  // Read by sweeps with friction. Rows t, b and the twist about n at the radius ρ.
+  BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
+  BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
+  BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
+  BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)
+  BlockWord friction{};         // low: impulse along t, high: along b; m/s, Q20
+  BlockWord twist{};            // low: twist impulse, m/s, Q20; high: ρ/ℓ, Q30
+
   // Read and written by every sweep.
+  BlockWord axes[5]{};  // (n.x, n.y) (n.z, t.x) (t.y, t.z) (b.x, b.y), Q30; (b.z, shift | kind)
+  BlockWord arm[3]{};   // low: r̄A, high: r̄B of the centre, Q30
+  BlockWord scale{};    // low: ℓ/sA, high: ℓ/sB, at most 1, Q30
   struct Point {
     BlockWord impulse{};     // low: P ≥ 0, high: the greatest P so far; m/s, Q20
     BlockWord separation{};  // low: at the tick's beginning, high: now; m, Q24
@@ -53,29 +69,28 @@ struct alignas(64) ManifoldBlock {
   // Responses: what a unit impulse at one point adds to the speed at another, Q(shift).
   BlockWord response_00_11{}, response_22_33{};
   BlockWord response_01_23{}, response_02_13{}, response_03_12{};
-  BlockWord soft{};     // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
-  BlockWord rest{};     // (1 − κ)·load, what a soft row adds; m/s, Q50
-  BlockWord axes[5]{};  // (n.x, n.y) (n.z, t.x) (t.y, t.z) (b.x, b.y), Q30; (b.z, shift)
-  BlockWord inertia[6]{};   // low: M of A, high: of B; xx, yy, zz, xy, xz, yz, Q(shift)
-  BlockWord arm[3]{};       // low: r̄A, high: r̄B of the centre, Q30
-  BlockWord gain_arm[3]{};  // the same times α
-  BlockWord scale{};        // low: ℓ/sA, high: ℓ/sB, at most 1, Q30
-  BlockWord gain_turn{};    // the same times α
+  BlockWord gain_arm[3]{};  // the arms times α
+  BlockWord gain_turn{};    // the scales times α
   BlockWord share{};        // low: αB, Q30, high: coefficient of friction, Q30
 
-  // Read by sweeps with friction. Rows t, b and the twist about n at the radius ρ.
-  BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
-  BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
-  BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
-  BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)
-  BlockWord friction{};         // low: impulse along t, high: along b; m/s, Q20
-  BlockWord twist{};            // low: twist impulse, m/s, Q20; high: ρ/ℓ, Q30
-  BlockWord drive{};            // what moving surfaces add to the speed: low: along t, high: b; Q20
-  BlockWord turn{};             // low: the same about n, as ℓ·ω; high: rolling limit / ΣP, Q28
+  // Read by sweeps without friction.
+  BlockWord soft{};  // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
+  BlockWord rest{};  // (1 − κ)·load, what a soft row adds; m/s, Q50
 
+  BlockWord inertia[6]{};  // low: M of A, high: of B; xx, yy, zz, xy, xz, yz, Q(shift)
+  // From `inertia[1]` on: neither written nor read where all of a vector's lanes are plain.
+  BlockWord drive{};  // what moving surfaces add to the speed: low: along t, high: b; Q20
+  BlockWord turn{};   // low: the same about n, as ℓ·ω; high: rolling limit / ΣP, Q28
   // Read where the rolling limit is not 0: torques about t and b, divided by ℓ.
   BlockWord rolling{};          // low: impulse about t, high: about b; m/s, Q20
   BlockWord rolling_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of their response, Q24
+
+  [[nodiscard]] int shift(std::size_t lane) const {
+    return static_cast<int>(axes[4][lane] >> 32 & (k_special_lane - 1));
+  }
+  [[nodiscard]] bool is_plain(std::size_t lane) const {
+    return (axes[4][lane] >> 32 & k_special_lane) == 0;
+  }
 
   friend bool operator==(const ManifoldBlock&, const ManifoldBlock&) = default;
 };
@@ -102,14 +117,14 @@ struct alignas(16) ManifoldSource {
   std::int32_t inverse_scale_a = 0, inverse_scale_b = 0;  // 2^11/s, 1 … 2^18; 0: cannot turn
   std::int32_t offset_shift = 20;                         // 20 + k: 13 … 31
   std::int32_t shift = 28;
-  std::int32_t one_over_count = 0;  // Q30; 0 without a manifold
-  std::int32_t unused0 = 0;
+  std::int32_t one_over_count = 0;        // Q30; 0 without a manifold
+  std::int32_t kind = 0;                  // k_special_lane unless plain
   std::array<std::int32_t, 3> rolling{};  // of the tick before in world axes, m/s, Q20
   std::int32_t rolling_limit = 0;         // as in ManifoldBlock::turn; without one `rolling` is 0
   std::array<std::int32_t, 3> drive{};    // as in ManifoldBlock, in world axes
   std::int32_t twist_drive = 0;
   std::array<std::int32_t, 3> held{};  // by world axis: how much of a push axis locks take, Q30
-  std::int32_t unused1 = 0;
+  std::int32_t unused = 0;
 };
 static_assert(sizeof(ManifoldSource) == 144);
 

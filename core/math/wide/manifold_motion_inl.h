@@ -22,6 +22,11 @@ HWY_INLINE HWY_ATTR bool is_empty(const ManifoldBlock& block, std::size_t lane) 
   return used == 0;
 }
 
+/// Whether all lanes at hand are plain.
+HWY_INLINE HWY_ATTR bool are_plain(const ManifoldBlock& block, std::size_t lane) {
+  return !any_less(broadcast(k_special_lane - 1), upper_part(load(&block.axes[4][lane])));
+}
+
 struct Vector {
   Lanes x, y, z;
 };
@@ -110,7 +115,7 @@ HWY_INLINE HWY_ATTR Axes load_axes(const ManifoldBlock& block, std::size_t lane)
   return {{low(0), high(0), low(1)},
           {high(1), low(2), high(2)},
           {low(3), high(3), low(4)},
-          each_shift(upper_part(low(4)))};
+          each_shift(low_byte(upper_part(low(4))))};
 }
 
 /// The tensors of both bodies, which stand side by side in six words.
@@ -171,9 +176,20 @@ struct CenterMotion {
 };
 
 /// What a manifold's motion and impulses ask of its two bodies, read from a block where it is used.
+template <bool plain>
 struct BlockSides {
   const ManifoldBlock& block;
   std::size_t lane;
+
+  /// M·spin of each body, before rounding.
+  HWY_INLINE HWY_ATTR Vector turned_a(const Vector& spin) const {
+    if constexpr (plain) return multiply(spin, load(&block.inertia[0][lane]));
+    return load_tensors(block.inertia, lane).a.times(spin);
+  }
+  HWY_INLINE HWY_ATTR Vector turned_b(const Vector& spin) const {
+    if constexpr (plain) return multiply(spin, load_upper(&block.inertia[0][lane]));
+    return load_tensors(block.inertia, lane).b.times(spin);
+  }
 
   HWY_INLINE HWY_ATTR Vector arm_a() const { return load_vector(block.arm, lane); }
   HWY_INLINE HWY_ATTR Vector arm_b() const { return load_upper_vector(block.arm, lane); }
@@ -197,12 +213,11 @@ HWY_INLINE HWY_ATTR CenterMotion motion_of_center(const Sides& sides, const Vect
   return {add(apart, around), round_shift_low<30>(turned)};
 }
 
-HWY_INLINE HWY_ATTR CenterMotion read_motion(const ManifoldBlock& block, std::size_t lane,
-                                             const Axes& axes, const BodyPair& bodies) {
-  const TensorPair inertia = load_tensors(block.inertia, lane);
-  return motion_of_center(BlockSides{block, lane}, bodies.apart(),
-                          axes.by.round(inertia.a.times(spin_of(bodies.a))),
-                          axes.by.round(inertia.b.times(spin_of(bodies.b))));
+template <class Sides>
+HWY_INLINE HWY_ATTR CenterMotion read_motion(const Sides& sides, const Axes& axes,
+                                             const BodyPair& bodies) {
+  return motion_of_center(sides, bodies.apart(), axes.by.round(sides.turned_a(spin_of(bodies.a))),
+                          axes.by.round(sides.turned_b(spin_of(bodies.b))));
 }
 
 /// Six changes of impulse, operands in Q20: along n, t, b, and ℓ⁻¹ times the torques about them.

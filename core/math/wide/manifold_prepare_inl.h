@@ -10,175 +10,12 @@
 #include "core/math/wide/manifold_motion_inl.h"
 #include "core/math/wide/manifold_quotients.h"
 #include "core/math/wide/manifold_response_inl.h"
+#include "core/math/wide/manifold_source_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
-
-inline constexpr std::int64_t k_one = std::int64_t{1} << 30;  // Q30
-
-/// Points of as many manifolds as there are lanes.
-struct SourcePoints {
-  Vector from_center[4];  // on B, m, Q20
-  Lanes separation[4];    // m, Q24
-  Vector center_a, center_b;
-};
-
-/// The sources of as many manifolds.
-struct SourceLanes {
-  Vector normal, friction;
-  Lanes twist, load, coefficient, soft;
-  Lanes one_over_count, count;
-  Lanes impulse[4];
-  Tensor inertia_a, inertia_b;  // Q(shift)
-  Vector arm_a, arm_b;          // r̄ of the centre, Q30
-  Lanes share_a, share_b, scale_a, scale_b;
-  Lanes offset_shift, shift;
-  Vector rolling, drive, held;
-  Lanes rolling_limit, twist_drive;
-  Lanes clamped;  // how many arms were
-};
-
-/// Words 0 and 1 of each lane's record, from `word` operands on: four operands.
-HWY_INLINE HWY_ATTR void load_operands(const RecordsAt<const std::int32_t>& at, std::size_t word,
-                                       Lanes& first, Lanes& second) {
-  load_two(RecordsAt<const std::int32_t>{at.base + word, at.index, at.stride}, first, second);
-}
-
-/// The part that the operands of one body contribute: M in the pair's format.
-HWY_INLINE HWY_ATTR Tensor load_tensor(const SourceBody* inertias, const std::uint32_t* index,
-                                       Lanes factor) {
-  // Offsets of bodies count words of RowBody; a SourceBody has as many operands.
-  static_assert(sizeof(SourceBody) == 8 * sizeof(std::int32_t) && row_body_offset(1) == 8);
-  const RecordsAt<const std::int32_t> at{inertias->inertia.data(), index, 1};
-  Lanes xx_yy, zz_xy, xz_yz, none;
-  load_operands(at, 0, xx_yy, zz_xy);
-  load_operands(at, 4, xz_yz, none);
-  const Vector diagonal = round_shift_low<14>(multiply(Vector{xx_yy, upper(xx_yy), zz_xy}, factor));
-  const Vector mixed =
-      round_shift_low<14>(multiply(Vector{upper(zz_xy), xz_yz, upper(xz_yz)}, factor));
-  return {diagonal.x, diagonal.y, diagonal.z, mixed.x, mixed.y, mixed.z};
-}
-
-/// r̄ = r/s in Q30 from r in Q20; beyond ±2 it is clamped, and counted.
-HWY_INLINE HWY_ATTR Lanes normalized_arm(Lanes r, Lanes inverse_scale, Lanes& clamped) {
-  constexpr std::int64_t k_bound = (std::int64_t{1} << 32) - 2;
-  const Lanes wide = multiply(r, inverse_scale);
-  const Lanes kept = clamp(wide, broadcast(-k_bound), broadcast(k_bound));
-  clamped = add(clamped, select_equal(wide, kept, broadcast(0), broadcast(1)));
-  return round_shift_low<1>(kept);
-}
-HWY_INLINE HWY_ATTR Vector normalized_arm(const Vector& r, Lanes inverse_scale, Lanes& clamped) {
-  return {normalized_arm(r.x, inverse_scale, clamped), normalized_arm(r.y, inverse_scale, clamped),
-          normalized_arm(r.z, inverse_scale, clamped)};
-}
-
-/// The geometry of each lane, from a word on.
-struct GeometryAt {
-  const std::int32_t* const* geometry;
-  std::size_t word;
-
-  HWY_INLINE HWY_ATTR const std::int32_t* operator()(std::size_t lane) const {
-    return geometry[lane] + word;
-  }
-};
-
-/// A point on both bodies; of a lane that has no such point all zero.
-struct SourcePoint {
-  Vector on_a, on_b;
-  Lanes separation;
-};
-
-HWY_INLINE HWY_ATTR SourcePoint load_point(const std::int32_t* const* geometry, std::size_t i,
-                                           Lanes count) {
-  constexpr std::int64_t k_farthest = std::int64_t{1} << 30;
-  Lanes word_0, word_1, word_2, word_3;
-  load_two(GeometryAt{geometry, 4 + 8 * i}, word_0, word_1);
-  load_two(GeometryAt{geometry, 8 + 8 * i}, word_2, word_3);
-  const Lanes number = broadcast(static_cast<std::int64_t>(i)), none = broadcast(0);
-  word_0 = select_less(number, count, word_0, none);
-  word_1 = select_less(number, count, word_1, none);
-  word_2 = select_less(number, count, word_2, none);
-  word_3 = select_less(number, count, word_3, none);
-  return {{word_0, upper(word_0), word_1},
-          {upper(word_1), word_2, upper(word_2)},
-          clamp(multiply(word_3, broadcast(1)), broadcast(-k_farthest), broadcast(k_farthest))};
-}
-
-/// The mean of the points that there are.
-HWY_INLINE HWY_ATTR Vector mean_of(const Vector& a, const Vector& b, const Vector& c,
-                                   const Vector& d, Lanes one_over_count) {
-  return round_shift_low<30>(add(add(multiply(a, one_over_count), multiply(b, one_over_count)),
-                                 add(multiply(c, one_over_count), multiply(d, one_over_count))));
-}
-
-HWY_INLINE HWY_ATTR SourcePoints load_source_points(const std::int32_t* const* geometry,
-                                                    Lanes count, Lanes one_over_count) {
-  const SourcePoint p = load_point(geometry, 0, count), q = load_point(geometry, 1, count);
-  const SourcePoint r = load_point(geometry, 2, count), s = load_point(geometry, 3, count);
-  const Vector center_a = mean_of(p.on_a, q.on_a, r.on_a, s.on_a, one_over_count);
-  const Vector center_b = mean_of(p.on_b, q.on_b, r.on_b, s.on_b, one_over_count);
-  return {{subtract(p.on_b, center_b), subtract(q.on_b, center_b), subtract(r.on_b, center_b),
-           subtract(s.on_b, center_b)},
-          {p.separation, q.separation, r.separation, s.separation},
-          center_a,
-          center_b};
-}
-
-/// Where the records of sources lie from a piece on.
-HWY_INLINE HWY_ATTR RecordsAt<const std::int32_t> pieces_of(const ManifoldSource* in) {
-  static constexpr std::uint32_t k_index[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  return {in->friction.data(), k_index, sizeof(ManifoldSource) / sizeof(std::int32_t)};
-}
-
-HWY_INLINE HWY_ATTR SourceLanes load_source(const ManifoldSources& in, std::size_t lane,
-                                            const SourceBody* inertias, Lanes count,
-                                            Lanes one_over_count, const SourcePoints& points) {
-  const RecordsAt<const std::int32_t> at = pieces_of(&in.lanes[lane]);
-  Lanes normal_0, normal_1, friction_0, friction_1, impulses_0, impulses_1, share, scale, soft,
-      load_word, inertia, inverse_scale, shifts, unused, rolling_0, rolling_1, drive_0, drive_1,
-      held_0, held_1;
-  load_two(GeometryAt{&in.geometry[lane], 0}, normal_0, normal_1);
-  load_operands(at, 0, friction_0, friction_1);
-  load_operands(at, 4, impulses_0, impulses_1);
-  load_operands(at, 8, share, scale);
-  load_operands(at, 12, soft, load_word);
-  load_operands(at, 16, inertia, inverse_scale);
-  load_operands(at, 20, shifts, unused);
-  load_operands(at, 24, rolling_0, rolling_1);
-  load_operands(at, 28, drive_0, drive_1);
-  load_operands(at, 32, held_0, held_1);
-  Lanes clamped = broadcast(0);
-  const Vector arm_a = normalized_arm(points.center_a, inverse_scale, clamped);
-  const Vector arm_b = normalized_arm(points.center_b, upper(inverse_scale), clamped);
-  return {multiply(Vector{normal_0, upper(normal_0), normal_1}, broadcast(1)),  // as whole words
-          {friction_0, upper(friction_0), friction_1},
-          upper(friction_1),
-          load_word,
-          upper(share),
-          soft,
-          one_over_count,
-          count,
-          {lower_part(impulses_0), upper_part(impulses_0), lower_part(impulses_1),
-           upper_part(impulses_1)},
-          load_tensor(inertias, &in.body_a[lane], inertia),
-          load_tensor(inertias, &in.body_b[lane], upper(inertia)),
-          arm_a,
-          arm_b,
-          subtract(broadcast(k_one), share),
-          share,
-          scale,
-          upper(scale),
-          lower_part(shifts),
-          upper_part(shifts),
-          {rolling_0, upper(rolling_0), rolling_1},
-          {drive_0, upper(drive_0), drive_1},
-          {lower_part(held_0), upper_part(held_0), lower_part(held_1)},
-          upper_part(rolling_1),
-          upper(drive_1),
-          clamped};
-}
 
 HWY_INLINE HWY_ATTR Lanes magnitude(Lanes x) {
   return max(x, subtract(broadcast(0), x));
@@ -220,24 +57,32 @@ HWY_INLINE HWY_ATTR void make_axes(const Vector& n, Lanes shift, Axes& axes) {
   axes.by = each_shift(shift);
 }
 
+template <bool plain>
 HWY_INLINE HWY_ATTR CenterResponse center_response(const SourceLanes& in, const Axes& axes) {
   CenterResponse k{};
   k.nn = k.tt = k.bb = k.tb = k.nx = k.ny = k.nw = k.tn = k.tx = k.ty = k.tw = k.bn = k.bx = k.by =
       k.bw = k.xx = k.yy = k.xy = k.xw = k.yw = k.ww = broadcast(0);
-  add_response(in_axes(axes, in.inertia_a, in.arm_a, in.share_a, in.scale_a), k);
-  add_response(in_axes(axes, in.inertia_b, in.arm_b, in.share_b, in.scale_b), k);
+  add_response(in_axes<plain>(axes, in.inertia_a, in.arm_a, in.share_a, in.scale_a), k);
+  add_response(in_axes<plain>(axes, in.inertia_b, in.arm_b, in.share_b, in.scale_b), k);
   finish(axes.by.shift, k);
-  hold_axes(in.held, axes, k);
+  if constexpr (!plain) hold_axes(in.held, axes, k);
   return k;
 }
 
 /// What the impulses to start from ask of the bodies, at hand already: reading back what was just
 /// written to a block would wait for the writes.
+template <bool plain>
 struct SourceSides {
   const SourceLanes& in;
   Vector gain_a, gain_b;
   Lanes turn_a, turn_b;
 
+  HWY_INLINE HWY_ATTR Vector turned_a(const Vector& spin) const {
+    return turned<plain>(in.inertia_a, spin);
+  }
+  HWY_INLINE HWY_ATTR Vector turned_b(const Vector& spin) const {
+    return turned<plain>(in.inertia_b, spin);
+  }
   HWY_INLINE HWY_ATTR Vector arm_a() const { return in.arm_a; }
   HWY_INLINE HWY_ATTR Vector arm_b() const { return in.arm_b; }
   HWY_INLINE HWY_ATTR Lanes scale_a() const { return in.scale_a; }
@@ -249,7 +94,8 @@ struct SourceSides {
   HWY_INLINE HWY_ATTR Lanes share_b() const { return in.share_b; }
 };
 
-HWY_INLINE HWY_ATTR SourceSides sides_of(const SourceLanes& in) {
+template <bool plain>
+HWY_INLINE HWY_ATTR SourceSides<plain> sides_of(const SourceLanes& in) {
   return {in, round_shift_low<30>(multiply(in.arm_a, in.share_a)),
           round_shift_low<30>(multiply(in.arm_b, in.share_b)),
           round_shift_low<30>(multiply(in.share_a, in.scale_a)),
@@ -257,16 +103,9 @@ HWY_INLINE HWY_ATTR SourceSides sides_of(const SourceLanes& in) {
 }
 
 /// What both bodies bring along, unchanged or times their shares.
-HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSides& sides,
+template <bool plain>
+HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSides<plain>& sides,
                                          std::size_t lane, const Axes& axes, ManifoldBlock& out) {
-  const Tensor& a = in.inertia_a;
-  const Tensor& b = in.inertia_b;
-  store(pack(a.xx, b.xx), &out.inertia[0][lane]);
-  store(pack(a.yy, b.yy), &out.inertia[1][lane]);
-  store(pack(a.zz, b.zz), &out.inertia[2][lane]);
-  store(pack(a.xy, b.xy), &out.inertia[3][lane]);
-  store(pack(a.xz, b.xz), &out.inertia[4][lane]);
-  store(pack(a.yz, b.yz), &out.inertia[5][lane]);
   store_vector(pack(in.arm_a, in.arm_b), out.arm, lane);
   store_vector(pack(sides.gain_a, sides.gain_b), out.gain_arm, lane);
   store(pack(in.scale_a, in.scale_b), &out.scale[lane]);
@@ -278,7 +117,16 @@ HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSide
   store(pack(axes.n.z, axes.t.x), &out.axes[1][lane]);
   store(pack(axes.t.y, axes.t.z), &out.axes[2][lane]);
   store(pack(axes.b.x, axes.b.y), &out.axes[3][lane]);
-  store(pack(axes.b.z, axes.by.shift), &out.axes[4][lane]);
+  store(pack(axes.b.z, add(axes.by.shift, in.kind)), &out.axes[4][lane]);
+  const Tensor& a = in.inertia_a;
+  const Tensor& b = in.inertia_b;
+  store(pack(a.xx, b.xx), &out.inertia[0][lane]);
+  if constexpr (plain) return;
+  store(pack(a.yy, b.yy), &out.inertia[1][lane]);
+  store(pack(a.zz, b.zz), &out.inertia[2][lane]);
+  store(pack(a.xy, b.xy), &out.inertia[3][lane]);
+  store(pack(a.xz, b.xz), &out.inertia[4][lane]);
+  store(pack(a.yz, b.yz), &out.inertia[5][lane]);
 }
 
 /// Offsets of the points, and the mean of their squares (Q28).
@@ -359,6 +207,7 @@ HWY_INLINE HWY_ATTR void find_rolling_mass(const ManifoldSource* in, const Cente
 }
 
 /// All lanes of all quotients one by one: words go to memory once and come back once.
+template <bool plain>
 HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, const EachShift& by,
                                              const CenterResponse& k, const Offsets& at,
                                              const Lanes (&of)[4][4]) {
@@ -387,7 +236,7 @@ HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, const Eac
               load(words[6]),
               load(words[7]),
               {}};
-  find_rolling_mass(in, k, q.rolling);
+  if constexpr (!plain) find_rolling_mass(in, k, q.rolling);
   return q;
 }
 
@@ -416,12 +265,16 @@ struct TangentImpulses {
   Lanes t, b, about_t, about_b;
 };
 
+template <bool plain>
 HWY_INLINE HWY_ATTR TangentImpulses along_tangents(const SourceLanes& in, const Axes& axes) {
-  return {
-      round_shift_low<30>(dot(axes.t, in.friction)), round_shift_low<30>(dot(axes.b, in.friction)),
-      round_shift_low<30>(dot(axes.t, in.rolling)), round_shift_low<30>(dot(axes.b, in.rolling))};
+  const Lanes t = round_shift_low<30>(dot(axes.t, in.friction));
+  const Lanes b = round_shift_low<30>(dot(axes.b, in.friction));
+  if constexpr (plain) return {t, b, broadcast(0), broadcast(0)};
+  return {t, b, round_shift_low<30>(dot(axes.t, in.rolling)),
+          round_shift_low<30>(dot(axes.b, in.rolling))};
 }
 
+template <bool plain>
 HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t lane,
                                            const Axes& axes, const TangentImpulses& tangents,
                                            const CenterResponse& k, const Quotients& q,
@@ -440,6 +293,7 @@ HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t la
   store(pack(to_t, to_b), &out.twist_response[lane]);
   store(pack(tangents.t, tangents.b), &out.friction[lane]);
   store(pack(in.twist, q.radius), &out.twist[lane]);
+  if constexpr (plain) return;
   store(
       pack(round_shift_low<30>(dot(axes.t, in.drive)), round_shift_low<30>(dot(axes.b, in.drive))),
       &out.drive[lane]);
@@ -458,6 +312,13 @@ HWY_INLINE HWY_ATTR bool is_empty(const ManifoldSources& in, std::size_t lane) {
   return used == 0;
 }
 
+HWY_INLINE HWY_ATTR bool are_plain(const ManifoldSources& in, std::size_t lane) {
+  std::int32_t kinds = 0;
+  for (std::size_t i = lane; i < lane + k_lanes; ++i)
+    kinds |= in.lanes[i].kind;
+  return kinds == 0;
+}
+
 HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
                                      ManifoldApproach& approach) {
   store(broadcast(0), &block.common[lane]);
@@ -465,20 +326,18 @@ HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
 }
 
 /// How fast the points come in.
-HWY_INLINE HWY_ATTR void find_approach(const SourceLanes& in, const SourceSides& sides,
-                                       const Axes& axes, const BodyPair& bodies, PointLanes& points,
-                                       std::size_t lane, ManifoldApproach& approach) {
-  find_speeds(
-      axes,
-      motion_of_center(sides, bodies.apart(), axes.by.round(in.inertia_a.times(spin_of(bodies.a))),
-                       axes.by.round(in.inertia_b.times(spin_of(bodies.b)))),
-      points);
+template <bool plain>
+HWY_INLINE HWY_ATTR void find_approach(const SourceSides<plain>& sides, const Axes& axes,
+                                       const BodyPair& bodies, PointLanes& points, std::size_t lane,
+                                       ManifoldApproach& approach) {
+  find_speeds(axes, read_motion(sides, axes, bodies), points);
   for (std::size_t i = 0; i < 4; ++i)
     store(multiply(points.speed[i], broadcast(1)), &approach.speed[i][lane]);
 }
 
 /// The impulses of the tick before, added up by body.
-HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides& sides,
+template <bool plain>
+HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides<plain>& sides,
                                      const Axes& axes, const TangentImpulses& tangents,
                                      Lanes radius, const PointLanes& points, BodyPair& bodies) {
   Impulse p = sum_of(points);
@@ -490,6 +349,7 @@ HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides& s
   apply(sides, axes, p, bodies);
 }
 
+template <bool plain>
 HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t lane,
                                        const SourceBody* inertias, const std::int64_t* words,
                                        std::int64_t* warm, ManifoldBlock& block,
@@ -499,18 +359,20 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t la
   const Lanes count = upper_part(load_word);
   load_operands(pieces_of(&in.lanes[lane]), 20, load_word, one_over_count);
   const SourcePoints source_points = load_source_points(&in.geometry[lane], count, one_over_count);
-  const SourceLanes source = load_source(in, lane, inertias, count, one_over_count, source_points);
+  const SourceLanes source =
+      load_source<plain>(in, lane, inertias, count, one_over_count, source_points);
   store(source.clamped, &approach.clamped[lane]);
   Axes axes{};
   make_axes(source.normal, source.shift, axes);
   Offsets offsets{};
   find_offsets(source, source_points, axes, offsets);
-  const CenterResponse response = center_response(source, axes);
+  const CenterResponse response = center_response<plain>(source, axes);
   Lanes of[4][4];
   point_responses(response, offsets, axes.by.shift, of);
-  const Quotients quotients = find_quotients(&in.lanes[lane], axes.by, response, offsets, of);
-  const TangentImpulses tangents = along_tangents(source, axes);
-  const SourceSides sides = sides_of(source);
+  const Quotients quotients =
+      find_quotients<plain>(&in.lanes[lane], axes.by, response, offsets, of);
+  const TangentImpulses tangents = along_tangents<plain>(source, axes);
+  const SourceSides<plain> sides = sides_of<plain>(source);
   PointLanes points{};
   for (std::size_t i = 0; i < 4; ++i) {
     points.x[i] = offsets.x[i];
@@ -520,13 +382,13 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t la
   }
   BodyPair bodies{};
   bodies.load_from(words, in, lane);
-  find_approach(source, sides, axes, bodies, points, lane, approach);
+  find_approach(sides, axes, bodies, points, lane, approach);
   bodies.load_from(warm, in, lane);
   start_lanes(source, sides, axes, tangents, quotients.radius, points, bodies);
   bodies.store_to(warm, in, lane);
   store_bodies_of(source, sides, lane, axes, block);
   store_points_of(source, source_points, lane, offsets, quotients, of, block);
-  store_friction_of(source, lane, axes, tangents, response, quotients, block);
+  store_friction_of<plain>(source, lane, axes, tangents, response, quotients, block);
 }
 
 HWY_ATTR inline void prepare_manifolds(const ManifoldSources& in, const SourceBody* inertias,
@@ -537,9 +399,12 @@ HWY_ATTR inline void prepare_manifolds(const ManifoldSources& in, const SourceBo
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
     if (is_empty(in, lane)) {
       leave_empty(lane, block, approach);
+    } else if (are_plain(in, lane)) {
+      prepare_lanes<true>(in, lane, inertias, bodies->velocity.data(), warm->velocity.data(), block,
+                          approach);
     } else {
-      prepare_lanes(in, lane, inertias, bodies->velocity.data(), warm->velocity.data(), block,
-                    approach);
+      prepare_lanes<false>(in, lane, inertias, bodies->velocity.data(), warm->velocity.data(),
+                           block, approach);
     }
   }
 }

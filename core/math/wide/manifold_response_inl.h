@@ -29,11 +29,18 @@ struct BodyResponse {
   Lanes share, turn, turn_scale;
 };
 
+template <bool plain>
+HWY_INLINE HWY_ATTR Vector turned(const Tensor& m, const Vector& v) {
+  if constexpr (plain) return multiply(v, m.xx);
+  return m.times(v);
+}
+
+template <bool plain>
 HWY_INLINE HWY_ATTR BodyResponse in_axes(const Axes& axes, const Tensor& m, const Vector& arm,
                                          Lanes share, Lanes scale) {
-  const Vector n = round_shift_low<30>(m.times(axes.n));
-  const Vector t = round_shift_low<30>(m.times(axes.t));
-  const Vector b = round_shift_low<30>(m.times(axes.b));
+  const Vector n = round_shift_low<30>(turned<plain>(m, axes.n));
+  const Vector t = round_shift_low<30>(turned<plain>(m, axes.t));
+  const Vector b = round_shift_low<30>(turned<plain>(m, axes.b));
   const Lanes turn = round_shift_low<30>(multiply(share, scale));
   const Vector along = {dot(axes.n, arm), dot(axes.t, arm), dot(axes.b, arm)};
   const Vector diagonal =

@@ -1,5 +1,6 @@
 // The kernels of manifold_block.h on lanes of one word: the scalar twin.
 #define LKS_SCALAR_TWIN
+#include "core/math/wide/manifold_bounce_inl.h"
 #include "core/math/wide/manifold_prepare_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
 

@@ -258,15 +258,16 @@ HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane
   return sum_of(points);
 }
 
+template <bool plain>
 HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
                                      const SweepRules& rules) {
   BodyPair bodies{};
   bodies.load_from(words, block, lane);
   const Axes axes = load_axes(block, lane);
-  const CenterMotion motion = read_motion(block, lane, axes, bodies);
+  const CenterMotion motion = read_motion(BlockSides<plain>{block, lane}, axes, bodies);
   PointLanes points{};
   const Impulse p = solve_normals<true>(block, lane, axes, motion, rules, points);
-  apply(BlockSides{block, lane}, axes, p, bodies);
+  apply(BlockSides<plain>{block, lane}, axes, p, bodies);
   bodies.store_to(words, block, lane);
 }
 
@@ -275,7 +276,12 @@ HWY_ATTR inline void solve_manifolds(RowBody* bodies, ManifoldBlock* blocks, std
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      if (!is_empty(blocks[i], lane)) solve_lanes(blocks[i], lane, words, rules);
+      if (is_empty(blocks[i], lane)) continue;
+      if (are_plain(blocks[i], lane)) {
+        solve_lanes<true>(blocks[i], lane, words, rules);
+      } else {
+        solve_lanes<false>(blocks[i], lane, words, rules);
+      }
     }
   }
 }
@@ -293,7 +299,7 @@ HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane
   const Vector apart = {subtract(went.b.velocity[0], went.a.velocity[0]),
                         subtract(went.b.velocity[1], went.a.velocity[1]),
                         subtract(went.b.velocity[2], went.a.velocity[2])};
-  const CenterMotion motion = motion_of_center(BlockSides{block, lane}, shift_left<15>(apart),
+  const CenterMotion motion = motion_of_center(BlockSides<true>{block, lane}, shift_left<15>(apart),
                                                surface_travel(went.a), surface_travel(went.b));
   const Lanes along = dot(axes.n, round_shift_low<30>(motion.velocity));
   const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
@@ -343,6 +349,7 @@ HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, Fr
 }
 
 /// The tangents as one row of two, after the twist.
+template <bool plain>
 HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                         const CenterMotion& motion, const PointLanes& points,
                                         const SweepRules& rules, Impulse& p) {
@@ -354,8 +361,12 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
   const Lanes radius = upper(twist_word);
   const Vector u = round_shift_low<30>(motion.velocity);
 
-  const Lanes drive = load(&block.drive[lane]);
-  const Lanes spin = add(round_shift_low<30>(dot(axes.n, motion.turning)), load(&block.turn[lane]));
+  Lanes drive = broadcast(0);
+  Lanes spin = round_shift_low<30>(dot(axes.n, motion.turning));
+  if constexpr (!plain) {
+    drive = load(&block.drive[lane]);
+    spin = add(spin, load(&block.turn[lane]));
+  }
   const Lanes twist_speed = add(round_shift_low<30>(multiply(radius, spin)),
                                 axes.by.round(dot({row_0, upper(row_0), row_1}, given)));
   FrictionLanes f{};
@@ -395,7 +406,7 @@ HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, 
   const Lanes none = broadcast(0);
   const Lanes factor = upper_part(load(&block.turn[lane]));
   if (!any_less(none, factor)) return;
-  const Vector turning = read_motion(block, lane, axes, bodies).turning;
+  const Vector turning = read_motion(BlockSides<false>{block, lane}, axes, bodies).turning;
   const Lanes about_t = round_shift_low<30>(dot(axes.t, turning));
   const Lanes about_b = round_shift_low<30>(dot(axes.b, turning));
   const Lanes mass = load(&block.rolling_mass[0][lane]);
@@ -412,21 +423,22 @@ HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, 
   p.about_t = subtract(f.t, rolling);
   p.about_b = subtract(f.b, upper(rolling));
   store(pack(f.t, f.b), &block.rolling[lane]);
-  apply(BlockSides{block, lane}, axes, p, bodies);
+  apply(BlockSides<false>{block, lane}, axes, p, bodies);
 }
 
+template <bool plain>
 HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
                                      const std::int64_t* travel, const SweepRules& rules) {
   BodyPair bodies{};
   bodies.load_from(words, block, lane);
   const Axes axes = load_axes(block, lane);
   move_separations(block, lane, axes, travel, rules);
-  const CenterMotion motion = read_motion(block, lane, axes, bodies);
+  const CenterMotion motion = read_motion(BlockSides<plain>{block, lane}, axes, bodies);
   PointLanes points{};
   Impulse p = solve_normals<false>(block, lane, axes, motion, rules, points);
-  solve_friction(block, lane, axes, motion, points, rules, p);
-  apply(BlockSides{block, lane}, axes, p, bodies);
-  resist_rolling(block, lane, axes, points, rules, bodies);
+  solve_friction<plain>(block, lane, axes, motion, points, rules, p);
+  apply(BlockSides<plain>{block, lane}, axes, p, bodies);
+  if constexpr (!plain) resist_rolling(block, lane, axes, points, rules, bodies);
   bodies.store_to(words, block, lane);
 }
 
@@ -436,50 +448,13 @@ HWY_ATTR inline void relax_manifolds(RowBody* bodies, const RowTravel* travel,
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-      if (!is_empty(blocks[i], lane))
-        relax_lanes(blocks[i], lane, words, travel->velocity.data(), rules);
+      if (is_empty(blocks[i], lane)) continue;
+      if (are_plain(blocks[i], lane)) {
+        relax_lanes<true>(blocks[i], lane, words, travel->velocity.data(), rules);
+      } else {
+        relax_lanes<false>(blocks[i], lane, words, travel->velocity.data(), rules);
+      }
     }
-  }
-}
-
-/// P ← max(0, P − m·(v + e·approach)) for the points that came in fast and were pushed.
-HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
-                                      const ManifoldApproach& approach,
-                                      const BlockWord& restitution, std::int32_t threshold) {
-  BodyPair bodies{};
-  bodies.load_from(words, block, lane);
-  const Axes axes = load_axes(block, lane);
-  const CenterMotion motion = read_motion(block, lane, axes, bodies);
-  PointLanes points{};
-  load_points(block, lane, axes, motion, points);
-  Responses responses{};
-  load_responses(block, lane, responses);
-  const Lanes none = broadcast(0), elasticity = load(&restitution[lane]);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Lanes came = load(&approach.speed[i][lane]);
-    const Lanes wanted = round_shift_low<30>(multiply(elasticity, came));
-    const Lanes error = add(points.speed[i], wanted);
-    const Lanes next = HardRow{}.next(points, i, multiply(points.mass[i], error), none);
-    Lanes bounced = select_less(came, broadcast(-std::int64_t{threshold}), next, points.impulse[i]);
-    bounced = select_equal(elasticity, none, points.impulse[i], bounced);
-    bounced = select_equal(upper_part(load(&block.points[i].impulse[lane])), none,
-                           points.impulse[i], bounced);
-    const Lanes moved = subtract(bounced, points.impulse[i]);
-    points.impulse[i] = bounced;
-    for (std::size_t j = i + 1; j < 4; ++j)
-      points.speed[j] = add(points.speed[j], axes.by.round(multiply(responses.of[j][i], moved)));
-  }
-  store_points(points, lane, block);
-  apply(BlockSides{block, lane}, axes, sum_of(points), bodies);
-  bodies.store_to(words, block, lane);
-}
-
-HWY_ATTR inline void bounce_manifolds(RowBody* bodies, ManifoldBlock& block,
-                                      const ManifoldApproach& approach,
-                                      const BlockWord& restitution, std::int32_t threshold) {
-  for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
-    if (is_empty(block, lane)) continue;
-    bounce_lanes(block, lane, bodies->velocity.data(), approach, restitution, threshold);
   }
 }
 

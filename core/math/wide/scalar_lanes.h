@@ -50,6 +50,11 @@ using Lane = std::int64_t;
   return static_cast<Lane>(bits(x) >> 32);
 }
 
+/// The lowest eight bits.
+[[nodiscard]] constexpr Lane low_byte(Lane x) {
+  return static_cast<Lane>(bits(x) & 0xffU);
+}
+
 /// x · 2^shift, 0 ≤ shift ≤ 63; what leaves the word is lost.
 [[nodiscard]] constexpr Lane shift_left(Lane x, int shift) {
   return static_cast<Lane>(bits(x) << shift);

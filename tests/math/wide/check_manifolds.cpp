@@ -63,9 +63,11 @@ struct SceneMaker {
     return static_cast<std::int32_t>(random.between(low, high));
   }
 
-  void fill(SourceBody& body) {
+  // Of bodies named by plain manifolds M is a number.
+  void fill(SourceBody& body, bool plain) {
     for (std::size_t i = 0; i < 6; ++i)
       body.inertia[i] = small(i < 3 ? 1 : -k_one / 4, k_one);
+    if (plain) body.inertia = {body.inertia[0], body.inertia[0], body.inertia[0], 0, 0, 0};
   }
 
   void fill_normal(ManifoldGeometry& in) {
@@ -111,7 +113,7 @@ struct SceneMaker {
     in.held[random.next() % 3] = fixed_a ? k_one : fixed(0, k_one);
   }
 
-  void fill(ManifoldGeometry& geometry, ManifoldSource& in) {
+  void fill(ManifoldGeometry& geometry, ManifoldSource& in, bool plain) {
     fill_normal(geometry);
     fill_points(geometry, in);
     const bool fixed_a = random.next() % 4 == 0;
@@ -131,27 +133,43 @@ struct SceneMaker {
     for (std::int32_t& x : in.friction)
       x = small(-(1 << 18), 1 << 18);
     in.twist = small(-(1 << 18), 1 << 18);
-    fill_extras(in, fixed_a);
+    in.kind = plain ? 0 : k_special_lane;
+    if (!plain) fill_extras(in, fixed_a);
   }
 };
 
 constexpr ManifoldGeometry k_no_geometry{};
 
-static_assert(offsetof(ManifoldBlock, points) == sizeof(BlockWord) &&
+static_assert(offsetof(ManifoldBlock, coupling) == sizeof(BlockWord) &&
               sizeof(ManifoldBlock) % sizeof(BlockWord) == 0);
 
-// Of lanes without a manifold blocks say nothing.
+// Of lanes without a manifold blocks say nothing, of plain ones not all.
 void forget_empty(const ManifoldSources& sources, ManifoldBlock& block,
                   ManifoldApproach& approach) {
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
-    if (sources.lanes[lane].one_over_count != 0) continue;
+    const bool is_empty = sources.lanes[lane].one_over_count == 0;
+    if (!is_empty && sources.lanes[lane].kind != 0) continue;
     const std::int64_t none = 0;
     auto* const bytes = reinterpret_cast<unsigned char*>(&block);
-    for (std::size_t at = sizeof(BlockWord); at < sizeof(block); at += sizeof(BlockWord))
+    const std::size_t first =
+        is_empty ? sizeof(BlockWord) : offsetof(ManifoldBlock, inertia) + sizeof(BlockWord);
+    for (std::size_t at = first; at < sizeof(block); at += sizeof(BlockWord))
       std::memcpy(bytes + at + lane * sizeof(none), &none, sizeof(none));
+    if (!is_empty) continue;
     for (BlockWord& word : approach.speed)
       word[lane] = 0;
   }
+}
+
+// Which manifolds are plain: of a block all, some or none.
+std::vector<bool> choose_plain(std::size_t blocks, Random& random) {
+  std::vector<bool> plain;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const std::uint64_t how = random.next() % 3;
+    for (std::size_t lane = 0; lane < k_block_lanes; ++lane)
+      plain.push_back(how == 0 || (how == 1 && random.next() % 2 == 0));
+  }
+  return plain;
 }
 
 // Bodies are named once but for body 0.
@@ -167,9 +185,10 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   scene.warm.resize(scene.bodies.size());
   scene.inertias.resize(scene.bodies.size());
   scene.travel.resize(scene.bodies.size());
+  const std::vector<bool> plain = choose_plain(blocks, random);
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     maker.fill(scene.bodies[i]);
-    maker.fill(scene.inertias[i]);
+    maker.fill(scene.inertias[i], plain[(i - 1) / 2]);
     maker.fill(scene.travel[i]);
   }
   std::uint32_t next = 1;
@@ -182,7 +201,7 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
       sources.geometry[lane] = k_no_geometry.data();
       continue;
     }
-    maker.fill(scene.geometry[i], sources.lanes[lane]);
+    maker.fill(scene.geometry[i], sources.lanes[lane], plain[i]);
     sources.geometry[lane] = scene.geometry[i].data();
     sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : row_body_offset(next);
     sources.body_b[lane] = row_body_offset(next + 1);

@@ -32,6 +32,7 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
   X(with_upper_of, with_upper_of(a, b), pack(a, high(b)), k_all_bits)                             \
   X(lower_part, lower_part(a), low_part(a), k_all_bits)                                           \
   X(upper_part, upper_part(a), high_part(a), k_all_bits)                                          \
+  X(low_byte, low_byte(a), low_byte(a), k_all_bits)                                               \
   X(left_15, shift_left<15>(a), shift_left(a, 15), k_all_bits)                                    \
   X(power_of_two, power_of_two(shift), power_of_two(shift), k_all_bits)       \
   X(multiple_18, round_to_multiple<18>(a), round_to_multiple(a, 18), k_all_bits)                  \
