@@ -222,12 +222,18 @@ void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end)
 
 void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
-    if (bodies_[i].solver != 0) move(run, bodies_[i]);
+    if (bodies_[i].solver != 0) move(run, static_cast<std::uint32_t>(i));
   }
 }
 
-void JointSolver::move(const JointRun& run, Body& body) {
-  body.pose = pose_after(run, body);
+// To where it was last seen, if nothing has pushed it since.
+void JointSolver::move(const JointRun& run, std::uint32_t index) {
+  Body& body = bodies_[index];
+  const lanes::RowBody& row = run.rows[body.solver];
+  const bool is_known =
+      body.has_looked && body.looked.velocity == row.velocity && body.looked.spin == row.spin;
+  body.pose = is_known ? after_[index] : pose_after(run, body);
+  body.has_looked = false;
   if (body.in_net) {
     run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
   }

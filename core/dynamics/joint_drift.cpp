@@ -35,7 +35,7 @@ bool JointSolver::can_drift(const Cluster& cluster) {
 
 void JointSolver::set_rate(const Cluster& cluster, std::int64_t rate) {
   for (const std::uint32_t body : bodies_of(cluster))
-    bodies_[body].rate = rate;
+    bodies_[body].rate = rate, bodies_[body].has_looked = false;
   for (Group& group : groups_of(cluster))
     group.rate = rate;
 }
@@ -63,7 +63,7 @@ void JointSolver::drift(JointRun run, Cluster& cluster) {
     return stay(cluster);
   }
   for (const std::uint32_t body : bodies_of(cluster))
-    move(run, bodies_[body]);
+    move(run, body);
   relax(run, cluster);
   for (Joint& joint : joints_of(cluster)) {
     const std::array<std::int64_t, k_joint_axes> locks = joint.locks, relaxed = joint.relaxed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <type_traits>
 
 #include "core/math/product_sum.h"
 
@@ -23,16 +24,21 @@ void take(std::int64_t& x, std::int64_t part) {
   x = std::clamp(x - part, -k_product_bound, k_product_bound);
 }
 
+// Points have three rows: a number that is known while compiling.
+using Three = std::integral_constant<std::uint32_t, 3>;
+
+template <class Rows, class Columns, class Terms>
 struct Product {
-  std::uint32_t rows;
-  std::uint32_t columns;
-  std::uint32_t terms;
+  Rows rows;
+  Columns columns;
+  Terms terms;
   bool is_lower;  // only what is not above the diagonal
 };
 
 // to ← to − entries·factorsᵀ
-void subtract_product(std::int64_t* to, const Product& size, const JointFactor::Entries& entries,
-                      const std::int64_t* factors) {
+template <class Rows, class Columns, class Terms>
+void subtract_product(std::int64_t* to, const Product<Rows, Columns, Terms>& size,
+                      const std::int64_t* entries, const std::int64_t* factors) {
   for (std::uint32_t r = 0; r < size.rows; ++r) {
     const std::uint32_t end = size.is_lower ? r + 1 : size.columns;
     for (std::uint32_t s = 0; s < end; ++s) {
@@ -42,6 +48,18 @@ void subtract_product(std::int64_t* to, const Product& size, const JointFactor::
       take(to[r * size.columns + s], sum.rounded(k_factor_bits));
     }
   }
+}
+
+ProductSum dot_product(const std::int64_t* x, const std::int64_t* y, std::uint32_t terms) {
+  ProductSum sum;
+  if (terms == 3) {
+    for (std::uint32_t c = 0; c < 3; ++c)
+      sum.add(x[c], y[c]);
+    return sum;
+  }
+  for (std::uint32_t c = 0; c < terms; ++c)
+    sum.add(x[c], y[c]);
+  return sum;
 }
 
 }  // namespace
@@ -139,35 +157,45 @@ std::uint32_t JointFactor::factor_diagonal(Column& column) {
   return left_out;
 }
 
-// The blocks below: B ← B·L⁻ᵀ·D⁻¹.
-void JointFactor::eliminate(std::uint32_t first, const Column& column) {
+// B ← B·L⁻ᵀ
+template <class Size>
+void JointFactor::eliminate_block(const Column& column, std::int64_t* b, std::uint32_t rows,
+                                  Size n) const {
   const std::int64_t* d = values_.data() + column.diagonal;
-  const std::uint32_t n = column.count;
-  for (const Block& block : blocks(column)) {
-    std::int64_t* b = values_.data() + block.values;
-    const std::uint32_t rows = columns_[first + block.row].count;
-    for (std::uint32_t r = 0; r < rows; ++r) {
-      std::int64_t* line = b + r * n;
-      for (std::uint32_t c = 0; c < n; ++c) {
-        ProductSum sum;
-        for (std::uint32_t s = 0; s < c; ++s)
-          sum.add(line[s], d[c * n + s]);
-        if (c > 0) take(line[c], sum.rounded(k_factor_bits));
-      }
+  for (std::uint32_t r = 0; r < rows; ++r) {
+    std::int64_t* line = b + r * n;
+    for (std::uint32_t c = 1; c < n; ++c) {
+      ProductSum sum;
+      for (std::uint32_t s = 0; s < c; ++s)
+        sum.add(line[s], d[c * n + s]);
+      take(line[c], sum.rounded(k_factor_bits));
     }
   }
 }
 
+// The blocks below.
+void JointFactor::eliminate(std::uint32_t first, const Column& column) {
+  for (const Block& block : blocks(column)) {
+    std::int64_t* b = values_.data() + block.values;
+    const std::uint32_t rows = columns_[first + block.row].count;
+    if (column.count == 3)
+      eliminate_block(column, b, rows, Three{});
+    else
+      eliminate_block(column, b, rows, column.count);
+  }
+}
+
 // In place: from entries to factors, b ← b·D⁻¹. Keeps the entries.
-void JointFactor::divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows,
+template <class Size>
+void JointFactor::divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows, Size n,
                               Entries& entries) const {
-  const std::uint32_t n = column.count;
-  for (std::uint32_t at = 0; at < rows * n; ++at) {
-    const Reciprocal& inverse = reciprocals_[column.first_row + at % n];
-    entries[at] = b[at];
-    b[at] = inverse.mantissa == 0 ? 0
-                                  : product_rounded(b[at], inverse.mantissa,
-                                                    inverse.shift + k_matrix_bits - k_factor_bits);
+  for (std::uint32_t c = 0; c < n; ++c) {
+    const Reciprocal& inverse = reciprocals_[column.first_row + c];
+    const int shift = inverse.shift + k_matrix_bits - k_factor_bits;
+    for (std::uint32_t at = c; at < rows * n; at += n) {
+      entries[at] = b[at];
+      b[at] = inverse.mantissa == 0 ? 0 : product_rounded(b[at], inverse.mantissa, shift);
+    }
   }
 }
 
@@ -175,17 +203,26 @@ void JointFactor::divide_rows(const Column& column, std::int64_t* b, std::uint32
 void JointFactor::update(std::uint32_t first, const Column& column) {
   const std::uint32_t n = column.count;
   const std::span<const Block> below = blocks(column);
-  Entries entries{};
+  Entries entries;
   for (std::size_t j = 0; j < below.size(); ++j) {
     const Column& target = columns_[first + below[j].row];
-    divide_rows(column, values_.data() + below[j].values, target.count, entries);
+    std::int64_t* const b = values_.data() + below[j].values;
+    if (n == 3)
+      divide_rows(column, b, target.count, Three{}, entries);
+    else
+      divide_rows(column, b, target.count, n, entries);
     for (std::size_t i = 0; i <= j; ++i) {
       // Block (j, i) stands in the column of i; the blocks up to j hold factors already.
       const Column& column_i = columns_[first + below[i].row];
       std::int64_t* to =
           i == j ? values_.data() + target.diagonal : find_block(column_i, below[j].row);
-      subtract_product(to, {target.count, column_i.count, n, i == j}, entries,
-                       values_.data() + below[i].values);
+      const std::int64_t* factors = values_.data() + below[i].values;
+      if (n == 3 && target.count == 3 && column_i.count == 3) {
+        subtract_product(to, Product{Three{}, Three{}, Three{}, i == j}, entries.data(), factors);
+      } else {
+        subtract_product(to, Product{target.count, column_i.count, n, i == j}, entries.data(),
+                         factors);
+      }
     }
   }
 }
@@ -208,10 +245,7 @@ void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
     std::int64_t* y = rhs_.data() + column.first_row;
     const std::int64_t* d = values_.data() + column.diagonal;
     const auto reduce = [&](std::int64_t& x, const std::int64_t* line, std::uint32_t terms) {
-      ProductSum sum;
-      for (std::uint32_t c = 0; c < terms; ++c)
-        sum.add(line[c], y[c]);
-      x = std::clamp(x - sum.rounded(k_factor_bits), -k_product_bound, k_product_bound);
+      take(x, dot_product(line, y, terms).rounded(k_factor_bits));
     };
     for (std::uint32_t r = 1; r < n; ++r)
       reduce(y[r], d + r * n, r);

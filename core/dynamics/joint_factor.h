@@ -61,8 +61,12 @@ class JointFactor {
   /// Right-hand side, then solution: 46 fraction bits.
   [[nodiscard]] std::int64_t& rhs(std::uint32_t row) { return rhs_[row]; }
 
-  /// Sets all entries of the group by its columns' counts: entry(j, r, k, s) is what row r of joint
-  /// j feels of row s of joint k, asked for on and below the diagonal.
+  /// Sets all entries of the group by its columns' counts: block(j, k, to) writes what the rows of
+  /// joint j feel of those of joint k, row by row, for j = k (as far as the diagonal) and below.
+  template <class Fill>
+  void fill_blocks(std::uint32_t first, std::uint32_t count, const Fill& block);
+
+  /// The same entry by entry: entry(j, r, k, s) is what row r of joint j feels of row s of joint k.
   template <class Entry>
   void fill(std::uint32_t first, std::uint32_t count, const Entry& entry);
 
@@ -80,7 +84,10 @@ class JointFactor {
   bool plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows);
   std::uint32_t factor_diagonal(Column& column);
   void eliminate(std::uint32_t first, const Column& column);
-  void divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows,
+  template <class Size>
+  void eliminate_block(const Column& column, std::int64_t* b, std::uint32_t rows, Size n) const;
+  template <class Size>
+  void divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows, Size n,
                    Entries& entries) const;
   void update(std::uint32_t first, const Column& column);
   [[nodiscard]] std::int64_t* find_block(const Column& column, std::uint32_t row);
@@ -98,22 +105,27 @@ class JointFactor {
   std::size_t value_capacity_, block_capacity_;
 };
 
+template <class Fill>
+void JointFactor::fill_blocks(std::uint32_t first, std::uint32_t count, const Fill& block) {
+  const std::span<const Column> group = columns(first, count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    block(k, k, values_.data() + group[k].diagonal);
+    for (const Block& below : blocks(group[k]))
+      block(below.row, k, values_.data() + below.values);
+  }
+}
+
 template <class Entry>
 void JointFactor::fill(std::uint32_t first, std::uint32_t count, const Entry& entry) {
   const std::span<const Column> group = columns(first, count);
-  for (std::uint32_t k = 0; k < count; ++k) {
+  fill_blocks(first, count, [&](std::uint32_t j, std::uint32_t k, std::int64_t* to) {
     const std::uint32_t n = group[k].count;
-    for (std::uint32_t r = 0; r < n; ++r) {
-      for (std::uint32_t s = 0; s <= r; ++s)
-        values_[group[k].diagonal + r * n + s] = entry(k, r, k, s);
+    for (std::uint32_t r = 0; r < group[j].count; ++r) {
+      const std::uint32_t end = j == k ? r + 1 : n;
+      for (std::uint32_t s = 0; s < end; ++s)
+        to[r * n + s] = entry(j, r, k, s);
     }
-    for (const Block& block : blocks(group[k])) {
-      for (std::uint32_t r = 0; r < group[block.row].count; ++r) {
-        for (std::uint32_t s = 0; s < n; ++s)
-          values_[block.values + r * n + s] = entry(block.row, r, k, s);
-      }
-    }
-  }
+  });
 }
 
 template <class Neighbours, class Rows>

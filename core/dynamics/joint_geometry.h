@@ -25,6 +25,9 @@ namespace lockstone {
   return multiply(rotation, to_matrix(orientation));
 }
 
+/// The twist of frame b against frame a, as below.
+[[nodiscard]] Angle twist_of(const Mat3& a, const Mat3& b);
+
 /// Twist and swing of frame b against frame a, each in (−π, π]: the turn about the x axes by which
 /// b differs from a carried over along the shortest arc, and the tilts of b's x axis about y and z.
 [[nodiscard]] Vec3<Angle> swing_twist(const Mat3& a, const Mat3& b);

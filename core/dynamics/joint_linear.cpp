@@ -24,6 +24,23 @@ void set_inverse(std::int64_t response, std::int64_t& mantissa, int& shift) {
   shift = power - 30;
 }
 
+// response · inverse mass · 2^-shift, at most 2^-1
+std::int64_t scaled_response(std::int64_t response, const BodyRecord& body, int shift) {
+  if (shift >= 2 && shift <= 62 && magnitude(response) >> 32 == 0)
+    return raw::round_shift_any(response * body.inverse_mass, shift);
+  return product_rounded(response, body.inverse_mass, std::max(shift, 1));
+}
+
+void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
+  const auto gain = [](std::int64_t& x, std::int64_t by) {
+    x = bounded(bounded(x, k_row_bound) + by, k_row_bound);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    gain(body.velocity[axis], velocity[axis]);
+    gain(body.spin[axis], spin[axis]);
+  }
+}
+
 std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -52,7 +69,7 @@ void JointSolver::linearize(const Cluster& cluster) {
     respond(joint, joint.rows.count, false);
   }
   for (Group& group : groups_of(cluster))
-    factor_group(group);
+    group.is_factored = false;
 }
 
 // Along an axis that is locked a body neither moves nor answers.
@@ -78,45 +95,74 @@ void JointSolver::respond(Joint& joint, std::size_t rows, bool ahead) const {
     int most = -1000;
     const auto add_side = [&](const Body& body, const Share& share, std::int64_t self) {
       if (!body.pushed) return;
-      response += product_rounded(self, share.mantissa, share.shift);
       const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));
       most = std::max(most, width + 1 + body.record->inverse_mass_exponent);
+      if (row.kind == RowKind::lock) return;
+      response += product_rounded(self, share.mantissa, share.shift);
     };
     add_side(a, joint.share_a, self_response(row.linear_a, row.angular_a, row.response_a));
     add_side(b, joint.share_b, self_response(row.linear_b, row.angular_b, row.response_b));
-    set_inverse(std::min(response, k_product_bound), solved.inverse, solved.shift);
     solved.exponent = (most + 2) >> 1;
+    if (row.kind == RowKind::lock) continue;  // solved by the factor
+    set_inverse(std::min(response, k_product_bound), solved.inverse, solved.shift);
   }
 }
 
-// What row r of p feels of an impulse on row s of q, through the bodies that both hold.
-std::int64_t JointSolver::entry(const Joint& p, std::size_t r, const Joint& q,
-                                std::size_t s) const {
-  const JointRow& x = p.rows.rows[r];
-  const JointRow& y = q.rows.rows[s];
-  const int exponent = p.solved[r].exponent + q.solved[s].exponent;
-  std::int64_t total = 0;
-  const auto through = [&](std::uint32_t body, bool a_of_p, bool a_of_q) {
-    const Body& shared = bodies_[body];
-    if (!shared.pushed) return;
-    const RawVec3& linear_x = a_of_p ? x.linear_a : x.linear_b;
-    const RawVec3& linear_y = a_of_q ? y.linear_a : y.linear_b;
-    const RawVec3& angular_x = a_of_p ? x.angular_a : x.angular_b;
-    const RawVec3& response_y = a_of_q ? y.response_a : y.response_b;
-    ProductSum sum;
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum.add(linear_x[i], linear_y[i]);
-      sum.add(angular_x[i], response_y[i]);
-    }
-    const int shift = exponent - shared.record->inverse_mass_exponent + 30 - k_matrix_bits;
+// What the locks of p feel of impulses on those of q, through the bodies that both hold.
+void JointSolver::fill_block(const Joint& p, const Joint& q, std::int64_t* block) const {
+  std::fill_n(block, p.rows.locks * q.rows.locks, 0);
+  if (p.a == q.a) add_shared(p, true, q, true, block);
+  if (p.a == q.b) add_shared(p, true, q, false, block);
+  if (p.b == q.a) add_shared(p, false, q, true, block);
+  if (p.b == q.b) add_shared(p, false, q, false, block);
+  for (std::size_t i = 0; i < p.rows.locks * q.rows.locks; ++i)
+    block[i] = bounded(block[i], std::int64_t{1} << k_matrix_bits);
+}
+
+void JointSolver::add_shared(const Joint& p, bool a_of_p, const Joint& q, bool a_of_q,
+                             std::int64_t* block) const {
+  const Body& shared = bodies_[a_of_p ? p.a : p.b];
+  if (!shared.pushed) return;
+  const auto linear_x = a_of_p ? &JointRow::linear_a : &JointRow::linear_b;
+  const auto linear_y = a_of_q ? &JointRow::linear_a : &JointRow::linear_b;
+  const auto angular_x = a_of_p ? &JointRow::angular_a : &JointRow::angular_b;
+  const auto response_y = a_of_q ? &JointRow::response_a : &JointRow::response_b;
+  const std::size_t columns = q.rows.locks;
+  const int excess = 30 - k_matrix_bits - shared.record->inverse_mass_exponent;
+  const auto add = [&](std::size_t r, std::size_t s, const ProductSum& sum) {
+    const int shift = p.solved[r].exponent + q.solved[s].exponent + excess;
     if (shift > 120) return;
-    total += product_rounded(sum.rounded(30), shared.record->inverse_mass, std::max(shift, 1));
+    block[r * columns + s] += scaled_response(sum.rounded(30), *shared.record, shift);
   };
-  if (p.a == q.a) through(p.a, true, true);
-  if (p.a == q.b) through(p.a, true, false);
-  if (p.b == q.a) through(p.b, false, true);
-  if (p.b == q.b) through(p.b, false, false);
-  return bounded(total, std::int64_t{1} << k_matrix_bits);
+  const bool is_diagonal = &p == &q;
+  const bool are_points = p.rows.is_point && q.rows.is_point;
+  if (are_points && p.rows.locks == 3 && columns == 3) {  // row i along axis i, its lever across
+    for (std::size_t r = 0; r < 3; ++r) {
+      const RawVec3& lever = p.rows.rows[r].*angular_x;
+      const std::size_t j = (r + 1) % 3, k = (r + 2) % 3;
+      for (std::size_t s = 0; s < (is_diagonal ? r + 1 : 3); ++s) {
+        const RawVec3& response = q.rows.rows[s].*response_y;
+        ProductSum sum;
+        sum.add(lever[j], response[j]);
+        sum.add(lever[k], response[k]);
+        if (r == s) sum.add((p.rows.rows[r].*linear_x)[r], (q.rows.rows[r].*linear_y)[r]);
+        add(r, s, sum);
+      }
+    }
+    return;
+  }
+  for (std::size_t r = 0; r < p.rows.locks; ++r) {
+    const JointRow& x = p.rows.rows[r];
+    for (std::size_t s = 0; s < (is_diagonal ? r + 1 : columns); ++s) {
+      const JointRow& y = q.rows.rows[s];
+      ProductSum sum;
+      for (std::size_t i = 0; i < 3; ++i) {
+        sum.add((x.*linear_x)[i], (y.*linear_y)[i]);
+        sum.add((x.*angular_x)[i], (y.*response_y)[i]);
+      }
+      add(r, s, sum);
+    }
+  }
 }
 
 void JointSolver::factor_group(Group& group) {
@@ -129,11 +175,12 @@ void JointSolver::factor_group(Group& group) {
     for (std::size_t r = 0; r < joint.rows.locks; ++r)
       group.exponent = std::min(group.exponent, joint.solved[r].exponent);
   }
-  factor_.fill(group.column, group.count,
-               [&](std::uint32_t j, std::uint32_t r, std::uint32_t k, std::uint32_t s) {
-                 return entry(joints_[joints[j]], r, joints_[joints[k]], s);
-               });
+  factor_.fill_blocks(group.column, group.count,
+                      [&](std::uint32_t j, std::uint32_t k, std::int64_t* block) {
+                        fill_block(joints_[joints[j]], joints_[joints[k]], block);
+                      });
   clamps_ += factor_.factor(group.column, group.count);
+  group.is_factored = true;
 }
 
 // The relative velocity that a row sees, Q50.
@@ -143,10 +190,17 @@ std::int64_t JointSolver::speed(const JointRun& run, const Joint& joint,
   const RowBody& b = run.rows[bodies_[joint.b].solver];
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
-    sum.add(row.linear_a[i], a.velocity[i]);
     sum.add(row.response_a[i], a.spin[i]);
-    sum.add(row.linear_b[i], b.velocity[i]);
     sum.add(row.response_b[i], b.spin[i]);
+  }
+  if (joint.rows.is_point && row.axis < 3) {
+    sum.add(row.linear_a[row.axis], a.velocity[row.axis]);
+    sum.add(row.linear_b[row.axis], b.velocity[row.axis]);
+  } else if (row.axis < 3) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum.add(row.linear_a[i], a.velocity[i]);
+      sum.add(row.linear_b[i], b.velocity[i]);
+    }
   }
   return bounded(sum.rounded(30), k_row_bound);
 }
@@ -182,25 +236,22 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t firs
       r = 3;
     }
     for (; r < end; ++r) {
+      if (impulses[r] == 0) continue;
       const JointRow& row = joint.rows.rows[r];
       const std::int64_t each = jump(r);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        velocity[axis].add((row.*linear)[axis], each);
+        if (row.axis < 3) velocity[axis].add((row.*linear)[axis], each);
         spin[axis].add((row.*angular)[axis], each);
       }
     }
     const std::uint32_t solver = bodies_[index].solver;
+    RawVec3 v, w;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int64_t v = velocity[axis].rounded(30), w = spin[axis].rounded(30);
-      const auto gain = [&](std::int64_t& x, std::int64_t by) {
-        x = bounded(bounded(x, k_row_bound) + by, k_row_bound);
-      };
-      gain(run.rows[solver].velocity[axis], v);
-      gain(run.rows[solver].spin[axis], w);
-      if (run.before.empty()) continue;
-      gain(run.before[solver].velocity[axis], v);
-      gain(run.before[solver].spin[axis], w);
+      v[axis] = velocity[axis].rounded(30);
+      w[axis] = spin[axis].rounded(30);
     }
+    add_velocity(run.rows[solver], v, w);
+    if (!run.before.empty()) add_velocity(run.before[solver], v, w);
   };
   push_side(joint.a, joint.share_a, &JointRow::linear_a, &JointRow::angular_a);
   push_side(joint.b, joint.share_b, &JointRow::linear_b, &JointRow::angular_b);

@@ -37,12 +37,21 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     const std::uint32_t body = group_bodies_[group.first_body + i];
     after_[body] = pose_after(run, bodies_[body]);
+    if (bodies_[body].solver == 0) continue;
+    bodies_[body].looked = run.rows[bodies_[body].solver];
+    bodies_[body].has_looked = true;
   }
   JointRows ahead;
   for (const std::uint32_t index : joints_of(group)) {
     Joint& joint = joints_[index];
-    fill_rows(place_of(joint, after_[joint.a], after_[joint.b]),
-              turn ? RowParts::locks : RowParts::lock_errors, ahead);
+    const JointPlace place = place_of(joint, after_[joint.a], after_[joint.b]);
+    if (!turn && joint.rows.is_point && joint.rows.locks == 3) {
+      const RawVec3 gap = point_gap(place);
+      for (std::size_t r = 0; r < 3; ++r)
+        joint.rows.rows[r].error = gap[r];
+      continue;
+    }
+    fill_rows(place, turn ? RowParts::locks : RowParts::lock_errors, ahead);
     if (ahead.locks != joint.rows.locks) continue;
     if (!turn) {
       for (std::size_t r = 0; r < joint.rows.locks; ++r)
@@ -174,6 +183,7 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
 
 // Solves for the errors that stand on the right-hand side, and pushes.
 void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions) {
+  if (!group.is_factored) factor_group(group);
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];

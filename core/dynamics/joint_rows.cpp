@@ -263,7 +263,7 @@ class RowFiller {
       const std::int64_t sine = cosine(frame_a_.z, frame_b_.y) - cosine(frame_a_.y, frame_b_.z);
       return add_axis(3, row, arc(sine * 2));  // half of it, from Q30 to Q32
     }
-    add_axis(3, row, arc(std::int64_t{swing_twist(frame_a_, frame_b_).x.raw} << 5));
+    add_axis(3, row, arc(std::int64_t{twist_of(frame_a_, frame_b_).raw} << 5));
   }
 
   // The tilt atan2(t·xB, xA·xB), t = yA or −zA, turns at ω·(xB × (a·t − b·xA)) / (a² + b²) with
@@ -391,7 +391,21 @@ bool is_point(const JointRecord& joint) {
   return true;
 }
 
+RawVec3 point_gap(const JointPlace& place) {
+  const Vec3<Position> gap = (place.b.position + arm_of(place.b.rotation, place.joint.anchor_b)) -
+                             (place.a.position + arm_of(place.a.rotation, place.joint.anchor_a));
+  const auto part = [](Position x) { return bounded(x.raw, k_product_bound); };
+  return {part(gap.x), part(gap.y), part(gap.z)};
+}
+
 RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
+  // With |entries| ≤ 2^30 and levers below 2^31 the sums stay below 3·2^61.
+  if (((magnitude(j[0]) | magnitude(j[1]) | magnitude(j[2])) >> 31) == 0) {
+    const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+      return raw::round_shift(a * j[0] + b * j[1] + c * j[2], 30 - m.exponent);
+    };
+    return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
+  }
   const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     ProductSum sum;
     sum.add(a, j[0]);

@@ -64,6 +64,9 @@ enum class RowParts : std::uint8_t { all, locks, lock_errors };
 /// Jacobians and errors; responses are left alone.
 void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
 
+/// The opening of a joint that locks the axes of the world, as errors of its first three rows.
+[[nodiscard]] RawVec3 point_gap(const JointPlace& place);
+
 /// Whether the locks of the first three axes are along the axes of the world, not of frame a.
 [[nodiscard]] bool has_world_axes(const JointRecord& joint);
 

@@ -141,7 +141,10 @@ void JointSolver::warm_start(const JointRun& run, Joint& joint) {
     if (row.kind == RowKind::limit && (row.flipped ? impulse > 0 : impulse < 0)) impulse = 0;
     impulses[i] = row.flipped ? -impulse : impulse;
   }
-  push(run, joint, 0, joint.rows.count, impulses);
+  std::size_t end = joint.rows.count;
+  while (end > 0 && impulses[end - 1] == 0)
+    --end;
+  if (end > 0) push(run, joint, 0, std::max(end, joint.rows.locks), impulses);
 }
 
 void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end) {

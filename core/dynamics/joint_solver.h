@@ -111,6 +111,8 @@ class JointSolver {
     InverseInertia inertia_ahead{};  // half a substep on, as far as is known
     std::uint32_t solver = 0;
     lanes::RowBody saved_row{}, saved_before{};
+    lanes::RowBody looked{};  // with what velocity it goes where `after_` says
+    bool has_looked = false;
     bool pushed = false;
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
@@ -173,6 +175,7 @@ class JointSolver {
     bool exact = false;
     bool drifts = false;
     bool is_plain = false;  // neither limits nor drives
+    bool is_factored = false;
     std::int64_t rate = 0;  // 1 / what its bodies drift for
     int exponent = 0;       // least of its rows
   };
@@ -208,7 +211,7 @@ class JointSolver {
   void set_rate(const Cluster& cluster, std::int64_t rate);
   void drift(JointRun run, Cluster& cluster);
   void stay(Cluster& cluster);
-  void move(const JointRun& run, Body& body);
+  void move(const JointRun& run, std::uint32_t body);
   void add_pulls(std::span<const Joint> joints, bool free);
   void add_net_pulls();
   [[nodiscard]] std::int64_t lever_inertia(std::uint32_t body) const;
@@ -219,8 +222,9 @@ class JointSolver {
   static void hold(const Body& body, RawVec3& linear);
   void respond(Joint& joint, std::size_t rows, bool ahead) const;
   void factor_group(Group& group);
-  [[nodiscard]] std::int64_t entry(const Joint& p, std::size_t r, const Joint& q,
-                                   std::size_t s) const;
+  void fill_block(const Joint& p, const Joint& q, std::int64_t* block) const;
+  void add_shared(const Joint& p, bool a_of_p, const Joint& q, bool a_of_q,
+                  std::int64_t* block) const;
   [[nodiscard]] std::int64_t speed(const JointRun& run, const Joint& joint,
                                    const JointRow& row) const;
   void push(const JointRun& run, const Joint& joint, std::size_t row, std::int64_t impulse);
