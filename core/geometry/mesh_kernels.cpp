@@ -1,5 +1,6 @@
 #include "core/geometry/mesh_kernels.h"
 
+#include "core/geometry/front_crossing_search.h"
 #include "core/geometry/polytope_kernels.h"
 
 namespace lockstone::geometry {
@@ -31,7 +32,7 @@ void collide_triangles(const Asset& asset, const MeshContactFrame& frame, const 
 }  // namespace
 
 const MeshKernels& mesh_kernels() {
-  static constexpr MeshKernels k_kernels{collide_triangles};
+  static constexpr MeshKernels k_kernels{collide_triangles, first_front_crossing};
   return k_kernels;
 }
 

@@ -4,6 +4,7 @@
 
 #include <lockstone/asset.h>
 
+#include "core/geometry/front_crossing.h"
 #include "core/geometry/mesh_contacts.h"
 
 namespace lockstone::geometry {
@@ -13,6 +14,9 @@ struct MeshKernels {
   /// `region`, in the asset's frame, holds all that can come within the margin.
   void (*collide)(const Asset& asset, const MeshContactFrame& frame, const LocalBounds& region,
                   TriangleContacts& scratch, MeshManifolds& out);
+
+  /// See first_front_crossing.
+  FrontCrossing (*first_crossing)(const Asset& asset, const PointWay& way);
 };
 
 /// The one table.

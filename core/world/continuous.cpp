@@ -98,6 +98,7 @@ void World::Impl::stop_at_impacts(StepReport& report) {
     ++report.continuous_bodies;
     follow(body, report);
   }
+  hold_before_fronts();
 }
 
 // Anew when an impact changes how a body turns before its own way is looked at.

@@ -356,6 +356,8 @@ struct World::Impl {
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
+  void hold_before_fronts();  // what is thin (fronts.cpp)
+  void hold_before_fronts(std::uint32_t body);
 
   void refresh_bounds(std::uint32_t body);
   [[nodiscard]] Bounds bounds_of(std::uint32_t body) const;
