@@ -29,6 +29,7 @@ static_assert(!FitsInto<Velocity, [] { return 1_mps2; }>);
 
 static_assert(Length(1.5_m).raw == 3 << 19);
 static_assert(Acceleration(-9.81_mps2).raw == -42133629174);     // 9.81 · 2^32 = 42133629173.76
+static_assert(Torque(5_Nm).raw == 5 << 20 && AngularImpulse(-0.5_Nms).raw == -(1 << 23));
 static_assert(Position(1'000'000.5_m).raw == 4294969443483648);  // 1000000.5 · 2^32
 
 template <class T>

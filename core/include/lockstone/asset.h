@@ -49,8 +49,8 @@ class Asset {
   /// hash. What can be derived is not in it: the builder derives it anew.
   [[nodiscard]] virtual std::vector<std::byte> canonical_bytes() const = 0;
 
-  // What the engine asks; internal types
-  // -----------------------------------------------------------
+  // What the engine asks, in types that are no part of the interface
+  // -----------------------------------------------------------------------------------------------
 
   [[nodiscard]] virtual const geometry::LocalBounds& bounds() const = 0;
 

@@ -36,7 +36,7 @@ enum class CompoundFault : std::uint8_t {
   missing_asset,            ///< a hull without its asset, or with another one
   invalid_orientation,      ///< too near to zero
   invalid_density,          ///< outside 1/1024 … 1024
-  invalid_surface,          ///< friction or restitution outside their ranges
+  invalid_surface,          ///< a property or rule outside the ranges of Surface
   coordinate_out_of_range,  ///< a child reaches beyond k_max_asset_coordinate
 };
 

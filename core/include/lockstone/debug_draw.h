@@ -24,8 +24,8 @@ enum class DebugState : std::uint8_t {
   trigger,
 };
 
-/// A body's shape where it is. Hulls, meshes, height fields and compounds name their asset;
-/// `Asset::visit_parts` takes it apart.
+/// A body's shape where it is. Hulls, meshes, height fields and compounds name their asset, whose
+/// geometry `Hull::vertices` and `Compound::children` tell, or `Asset::canonical_bytes` of any.
 struct DebugShape {
   BodyHandle body{};
   DebugState state{};

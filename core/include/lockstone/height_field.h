@@ -48,7 +48,7 @@ enum class HeightFieldFault : std::uint8_t {
   size_mismatch,  ///< columns, rows, or as many heights, holes or surfaces as they ask for
   coordinate_out_of_range,  ///< a sample beyond k_max_asset_coordinate
   surface_out_of_range,     ///< a cell names no surface, or too many surfaces
-  invalid_surface,          ///< friction beyond 0 … 1.99 or restitution beyond 0 … 1
+  invalid_surface,          ///< a property or rule outside the ranges of Surface
   invalid_option,           ///< cell_x, cell_z or flat_angle out of range
 };
 
@@ -63,6 +63,7 @@ struct [[nodiscard]] HeightFieldResult {
   std::uint32_t index = 0;  ///< of the offending sample, cell or surface
 
   [[nodiscard]] bool ok() const { return height_field != nullptr; }
+  [[nodiscard]] explicit operator bool() const { return ok(); }
 };
 
 /// Each cell is two triangles that face up, split from sample (i, j) to (i + 1, j + 1). With the

@@ -49,7 +49,9 @@ template <char... T> constexpr Literal<MetrePerSecond, T...> operator""_mps() { 
 template <char... T> constexpr Literal<MetrePerSecond2, T...> operator""_mps2() { return {}; }
 template <char... T> constexpr Literal<PerSecond, T...> operator""_rps() { return {}; }
 template <char... T> constexpr Literal<NewtonSecond, T...> operator""_Ns() { return {}; }
+template <char... T> constexpr Literal<NewtonMetreSecond, T...> operator""_Nms() { return {}; }
 template <char... T> constexpr Literal<Newton, T...> operator""_N() { return {}; }
+template <char... T> constexpr Literal<NewtonMetre, T...> operator""_Nm() { return {}; }
 template <char... T> constexpr Literal<KilogramPerMetre3, T...> operator""_kgpm3() { return {}; }
 // clang-format on
 

@@ -51,7 +51,7 @@ enum class MeshFault : std::uint8_t {
   index_out_of_range,       ///< a triangle names no vertex
   coordinate_out_of_range,  ///< a vertex beyond k_max_asset_coordinate
   surface_out_of_range,     ///< a triangle names no surface, or not one index for each triangle
-  invalid_surface,          ///< friction beyond 0 … 1.99 or restitution beyond 0 … 1
+  invalid_surface,          ///< a property or rule outside the ranges of Surface
   invalid_option,           ///< weld_tolerance or flat_angle out of range
 };
 
@@ -71,6 +71,7 @@ struct [[nodiscard]] MeshResult {
   std::uint32_t duplicate_triangles = 0;   ///< the same three vertices, turned the same way
 
   [[nodiscard]] bool ok() const { return mesh != nullptr; }
+  [[nodiscard]] explicit operator bool() const { return ok(); }
 };
 
 /// The order of vertices and triangles in the definition does not matter: parts are numbered by

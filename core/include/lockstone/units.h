@@ -56,11 +56,11 @@ using AngularVelocity = Fixed<PerSecond, std::int64_t, 32>;
 using Rate = Fixed<PerSecond, std::int32_t, 20>;
 
 using Acceleration = Fixed<MetrePerSecond2, std::int64_t, 32>;
-using Density = Fixed<KilogramPerMetre3, std::int32_t, 8>;  ///< up to 8.3e6 kg/m³
-using Mass = Fixed<Kilogram, std::int64_t, 32>;             ///< up to 2.1e9 kg
-using Impulse = Fixed<NewtonSecond, std::int64_t, 24>;      ///< up to 5e11 N·s
-using AngularImpulse = Fixed<NewtonMetreSecond, std::int64_t, 24>;
-using Force = Fixed<Newton, std::int64_t, 20>;  ///< up to 8e12 N
-using Torque = Fixed<NewtonMetre, std::int64_t, 20>;
+using Density = Fixed<KilogramPerMetre3, std::int32_t, 8>;          ///< up to 8.3e6 kg/m³
+using Mass = Fixed<Kilogram, std::int64_t, 32>;                     ///< up to 2.1e9 kg
+using Impulse = Fixed<NewtonSecond, std::int64_t, 24>;              ///< up to 5e11 N·s
+using AngularImpulse = Fixed<NewtonMetreSecond, std::int64_t, 24>;  ///< up to 5e11 N·m·s
+using Force = Fixed<Newton, std::int64_t, 20>;                      ///< up to 8e12 N
+using Torque = Fixed<NewtonMetre, std::int64_t, 20>;                ///< up to 8e12 N·m
 
 }  // namespace lockstone

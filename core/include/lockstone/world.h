@@ -1,8 +1,8 @@
 // The world: all bodies and contacts, stepped one tick at a time.
 //
 // A result depends only on state, commands and tick. Everything that can change the future is saved
-// and hashed; all else (trees, bounds, scratch) may be dropped at any time. No function below but
-// `create` and `describe_difference` allocates.
+// and hashed; all else (trees, bounds, scratch) may be dropped at any time. Of a world's functions
+// `create`, `set_task_runner` and `describe_difference` alone allocate.
 #pragma once
 
 #include <cstdint>
@@ -108,8 +108,8 @@ enum class StateStore : std::uint8_t { bodies, contacts, joints };
 
 class World {
  public:
-  /// invalid_argument when a value of `def` is outside its range. The only allocation. Bodies may
-  /// use the assets of the set; worlds may share one.
+  /// invalid_argument when a value of `def` is outside its range. Takes all memory that steps need,
+  /// by the capacities. Bodies may use the assets of the set; worlds may share one.
   static Result<World> create(const WorldDef& def,
                               std::shared_ptr<const AssetSet> assets = nullptr);
 
