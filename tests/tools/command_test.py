@@ -86,6 +86,9 @@ class Run(Case):
         self.expect(USAGE, "run", "--scene", "stack")
         self.expect(USAGE, "run", "--scene", "stack", "--ticks", "many")
         self.expect(USAGE, "run", "--scene", "stack", "--ticks", 0)
+        self.expect(USAGE, "run", "--scene", "stack", "--ticks", 9, "--simd", "nothing")
+        self.expect(USAGE, "run", "--scene", "stack", "--ticks", 9, "--broad-phase", "nothing")
+        self.expect(USAGE, "run", "--scene", "stack", "--ticks", 9, "--overlay")
 
 
 class State(Case):
@@ -113,8 +116,11 @@ class State(Case):
             two.write_text(json.dumps(hashes))
             self.assertIn("stack: differs by tick 40",
                           self.expect(DIFFERENT, "compare-hashes", one, two).stdout)
-            two.write_text("{}")
-            self.expect(CORRUPT, "compare-hashes", one, two)
+            for nothing in ({}, {"scenes": {}}):
+                two.write_text(json.dumps(nothing))
+                self.expect(CORRUPT, "compare-hashes", one, two)
+            self.expect(CORRUPT, "compare-hashes", one, pathlib.Path(folder) / "missing.json")
+            self.expect(USAGE, "compare-hashes", one)
 
     def test_rollback_is_measured(self):
         figures = json.loads(self.expect(OK, "bench", "rollback", "--bodies", 60, "--settle", 30,
@@ -127,6 +133,9 @@ class Usage(Case):
     def test_is_explained(self):
         self.assertIn("Exit codes", self.expect(OK, "--help").stdout)
         self.assertIn("Exit codes", self.expect(OK, "verify", "--help").stdout)
+        for command in ("run", "serve", "lossy", "simnet", "bench speed", "bench skip"):
+            text = self.expect(OK, *command.split(), "--help").stdout
+            self.assertTrue(text.replace("\n", "").isprintable(), f"{command}: {text!r}")
         self.expect(OK, "--version")
 
     def test_errors_have_their_own_code(self):

@@ -242,6 +242,12 @@ class Network(unittest.TestCase):
         self.expect(64, self.start("serve", "--players", 1))
         self.expect(64, self.start("join", "--port", 9))
 
+    def test_a_key_or_token_that_cannot_be_read_is_bad_input(self):
+        made = self.start("token", "key", "backend.key")
+        code = 2 if made.wait() == 0 else 69  # built without libsodium
+        self.expect(code, self.start("serve", "--key", "missing", "--match", 1))
+        self.expect(code, self.start("join", "--token", "missing"))
+
 
 if __name__ == "__main__":
     LOCKSTONE = str(pathlib.Path(sys.argv[1]).resolve())

@@ -54,7 +54,8 @@ void add_bench_skip_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<BenchSkipOptions>();
   CLI::App* command =
       bench.add_subcommand("skip", "What a scene does not use, it does not pay for");
-  command->add_flag("!--no-times", options->measure.times, "Counters and sizes alone");
+  command->add_flag_callback(
+      "--no-times", [options] { options->measure.times = false; }, "Counters and sizes alone");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

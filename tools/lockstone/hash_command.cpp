@@ -13,6 +13,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/log_commands.h"
+#include "tools/lockstone/options.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -23,7 +24,6 @@ using nlohmann::ordered_json;
 struct HashOptions {
   std::string suite = "golden";
   std::string name;
-  std::string simd;
 };
 
 std::string compiler_text() {
@@ -70,10 +70,6 @@ ordered_json chain_of(const scenes::SceneSummary& scene) {
 }
 
 int hash(const HashOptions& options) {
-  if (!options.simd.empty() && lanes::set_target(options.simd) != Status::ok) {
-    complain(fmt::format("no vectors of the name {}", options.simd));
-    return k_usage;
-  }
   ordered_json json{{"format", 1},
                     {"suite", options.suite},
                     {"name", options.name.empty() ? processor_text() : options.name},
@@ -103,11 +99,13 @@ std::vector<HashFile> read_files(const std::vector<std::string>& paths, bool& re
   for (const std::string& path : paths) {
     const std::optional<std::string> text = read_file(path);
     ordered_json json = ordered_json::parse(text.value_or(""), nullptr, false);
-    if (json.is_object() && json.contains("scenes") && json["scenes"].is_object()) {
+    if (json.is_object() && json.contains("scenes") && json["scenes"].is_object() &&
+        !json["scenes"].empty()) {
       files.push_back({path, std::move(json)});
       continue;
     }
-    complain(fmt::format("{}: not what `lockstone hash` prints", path));
+    complain(
+        fmt::format("{}: {}", path, text ? "not what `lockstone hash` prints" : "cannot be read"));
     readable = false;
   }
   return files;
@@ -144,6 +142,9 @@ std::size_t compare(const HashFile& first, const HashFile& file) {
     const std::ptrdiff_t place = first_difference(chain, file.json["scenes"][scene]);
     if (place >= 0) differs(fmt::format("{}: differs by tick {}", scene, 10 * (place + 1)));
   }
+  if (file.json["scenes"].size() > first.json["scenes"].size()) {
+    differs(fmt::format("has scenes that {} lacks", first.path));
+  }
   return complaints;
 }
 
@@ -174,7 +175,7 @@ void add_hash_command(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::IsMember({"golden"}));
   command->add_option("--name", options->name, "Of the machine, for the table");
-  command->add_option("--simd", options->simd, "Vectors to use: scalar, sse4, avx2, avx512");
+  add_simd_option(*command);
   command->callback([options, &exit_code] { exit_code = hash(*options); });
 }
 
@@ -182,7 +183,7 @@ void add_compare_hashes_command(CLI::App& app, int& exit_code) {
   auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
       app.add_subcommand("compare-hashes", "Compare what several machines' `hash` printed");
-  command->add_option("files", *paths, "JSON files")->required();
+  command->add_option("files", *paths, "JSON files, two or more")->required()->expected(2, -1);
   command->callback([paths, &exit_code] { exit_code = compare_hashes(*paths); });
 }
 

@@ -278,30 +278,31 @@ class Play {
   double tried_seconds_ = -1;  ///< to call, the last time
 };
 
-// Reads the token and takes the server from it where none is given. False, with a complaint.
-bool set_security(JoinOptions& options, std::optional<net::ConnectToken>& token) {
+// Reads the token and takes the server from it where none is given. Not k_ok, with a complaint.
+int set_security(JoinOptions& options, std::optional<net::ConnectToken>& token) {
   if (options.insecure == !options.token.empty()) {
     complain("give --token FILE, or say --insecure");
-    return false;
+    return k_usage;
   }
   if (!options.insecure) {
-    if (!require_security()) return false;
+    if (!require_security()) return k_unavailable;
     token = read_token(options.token);
-    if (!token) return false;
+    if (!token) return k_corrupt;
   }
   if (options.port == 0 && token && token->grant.servers.count > 0) {
     const std::string address = token->grant.servers.entries[0].to_text();
     options.host = address.substr(0, address.rfind(':'));
     options.port = token->grant.servers.entries[0].port;
   }
-  if (options.port == 0) complain("--port is not given, and no token names a server");
-  return options.port != 0;
+  if (options.port != 0) return k_ok;
+  complain("--port is not given, and no token names a server");
+  return k_usage;
 }
 
 int join(JoinOptions options) {
   catch_interrupts();
   std::optional<net::ConnectToken> token;
-  if (!set_security(options, token)) return k_usage;
+  if (const int code = set_security(options, token); code != k_ok) return code;
   const std::unique_ptr<Caller> caller = call(options.host, options.port, token);
   if (caller == nullptr) return k_unavailable;
   BotInputs inputs(options.bot_seed);

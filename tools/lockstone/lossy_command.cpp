@@ -31,7 +31,7 @@ struct LossyOptions {
   double match = 0;
   double pause = 0;
   unsigned players = 4;
-  std::uint8_t input_delay = 4;
+  unsigned input_delay = 4;
 };
 
 std::uint32_t ppm(double percent) {
@@ -118,7 +118,7 @@ int play_match(const LossyOptions& options) {
   trial.players = options.players;
   trial.seed = options.seed;
   trial.ticks = static_cast<std::uint64_t>(options.match * 60);
-  trial.input_delay = options.input_delay;
+  trial.input_delay = static_cast<std::uint8_t>(options.input_delay);
   trial.faults = faults_of(options);
   const auto match = relay::TrialMatch::create(trial);
   if (match == nullptr) {
@@ -173,9 +173,12 @@ void add_lossy_command(CLI::App& app, int& exit_code) {
   CLI::Option* match =
       command->add_option("--match", options->match, "Play for so many seconds, and measure")
           ->check(CLI::Range(1.0, 3600.0));
-  command->add_option("--players", options->players, "Of that match")->check(CLI::Range(1U, 16U));
+  command->add_option("--players", options->players, "Of that match")
+      ->check(CLI::Range(1U, 16U))
+      ->capture_default_str();
   command->add_option("--input-delay", options->input_delay, "Of that match, ticks")
-      ->check(CLI::Range(0, 60));
+      ->check(CLI::Range(0, 60))
+      ->capture_default_str();
   command->add_option("--pause", options->pause, "Stop its last player for so many seconds");
   match->excludes(to);
   command->callback([options, &exit_code] {

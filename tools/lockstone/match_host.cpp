@@ -47,7 +47,7 @@ net::ServerConfig server_config(const MatchOptions& options, std::vector<std::by
   config.insecure = options.insecure;
   config.match_config = std::move(match_config);
   config.tick_count = options.ticks;
-  config.input_delay_ticks = options.input_delay;
+  config.input_delay_ticks = static_cast<std::uint8_t>(options.input_delay);
   config.late_policy = options.strict ? net::LatePolicy::strict : net::LatePolicy::deadline;
   config.pacing = options.fast ? net::Pacing::fast : net::Pacing::real_time;
   config.timeouts.drop_us = static_cast<std::int64_t>(options.drop_after_s * 1e6);

@@ -26,7 +26,7 @@ struct MatchOptions {
   std::uint16_t bodies = 216;  ///< loose bodies of the arena
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: the system chooses
-  std::uint8_t input_delay = 4;
+  unsigned input_delay = 4;
   double drop_after_s = 5;  ///< of silence
   bool strict = false;
   bool fast = false;

@@ -11,7 +11,8 @@ inline void add_match_options(CLI::App& command, MatchOptions& options) {
   command.add_option("--players", options.players, "Player slots")
       ->check(CLI::Range(1U, 16U))
       ->capture_default_str();
-  command.add_option("--ticks", options.ticks, "Ticks to play")->capture_default_str();
+  command.add_option("--ticks", options.ticks, "Ticks to play; 0: until interrupted")
+      ->capture_default_str();
   command.add_option("--seed", options.seed, "Of the level and of chance in the rules")
       ->capture_default_str();
   command.add_option("--bodies", options.bodies, "Crates, balls and barrels in the arena")

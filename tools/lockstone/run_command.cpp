@@ -8,12 +8,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <lockstone/thread_pool.h>
 
-#include "core/math/wide/target.h"
 #include "tools/lockstone/canonical_fields.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
@@ -30,7 +28,6 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::uint64_t hash_every = 10;
   std::string svg;
-  std::string simd;
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
   std::uint32_t threads = 1;
   int frames = 1;
@@ -230,11 +227,6 @@ class Run {
 };
 
 int run(RunOptions options) {
-  if (!options.simd.empty() && lanes::set_target(options.simd) != Status::ok) {
-    complain(fmt::format("no vectors of the name {}; here are: {}", options.simd,
-                         fmt::join(lanes::supported_targets(), ", ")));
-    return k_usage;
-  }
   Result<std::unique_ptr<scenes::ScenePlay>> play =
       scenes::make_play(options.scene, options.seed, options.broad_phase);
   if (!play) {
@@ -257,22 +249,24 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--hash-every", options->hash_every, "Ticks between hashes; 0: only the last")
       ->capture_default_str();
-  command->add_option("--simd", options->simd, "Vectors to use: scalar, sse4, avx2, avx512");
+  add_simd_option(*command);
   add_broad_phase_option(*command, options->broad_phase);
   add_threads_option(*command, options->threads);
-  command->add_option("--svg", options->svg, "Draw the end into this file");
+  CLI::Option* svg = command->add_option("--svg", options->svg, "Draw the end into this file");
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
-      ->check(CLI::Range(1, 60));
-  command->add_flag("--overlay", options->overlay,
-                    "Draw bounds, centres of mass, contacts and joints too");
+      ->check(CLI::Range(1, 60))
+      ->needs(svg);
+  command
+      ->add_flag("--overlay", options->overlay,
+                 "Draw bounds, centres of mass, contacts and joints too")
+      ->needs(svg);
   command->add_flag("--validate", options->validate,
                     "Check the whole world after each tick, and stop at a fault");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--heavy", options->heavy,
                     "Each tick, also step a copy loaded from the saved state, and compare");
-  command->add_option(
-      "--forget", options->forget,
-      "With --heavy, as if `save` left out this field (body.spin.x): it must differ");
+  command->add_option("--forget", options->forget,
+                      "As --heavy, as if `save` left out this field (body.spin.x): it must differ");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

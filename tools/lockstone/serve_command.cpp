@@ -26,22 +26,22 @@ struct ServeOptions {
   std::vector<std::string> addresses;
 };
 
-// False, with a complaint, unless the match is either for tokens or insecure by name.
-bool set_security(ServeOptions& options) {
+// Not k_ok, with a complaint, unless the match is either for tokens or insecure by name.
+int set_security(ServeOptions& options) {
   if (options.match.insecure == !options.key.empty()) {
     complain("give --key FILE and --match N, or say --insecure");
-    return false;
+    return k_usage;
   }
-  if (options.match.insecure) return true;
-  if (!require_security()) return false;
+  if (options.match.insecure) return k_ok;
+  if (!require_security()) return k_unavailable;
   options.match.key = read_key(options.key);
   for (const std::string& text : options.addresses) {
     const Result<net::ServerAddress> address = net::ServerAddress::from_text(text);
     if (address && options.match.addresses.add(address.value())) continue;
     complain(fmt::format("{}: not an address like 1.2.3.4:7777, or too many", text));
-    return false;
+    return k_usage;
   }
-  return options.match.key.has_value();
+  return options.match.key ? k_ok : k_corrupt;
 }
 
 void print_players(const MatchSummary& summary) {
@@ -89,7 +89,7 @@ int serve(ServeOptions options) {
   options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
                                 : options.on_desync == "resync" ? net::DesyncPolicy::resync
                                                                 : net::DesyncPolicy::end_match;
-  if (!set_security(options)) return k_usage;
+  if (const int code = set_security(options); code != k_ok) return code;
   catch_interrupts();
   std::vector<std::unique_ptr<MatchHost>> hosts;
   for (unsigned i = 0; i < options.matches; ++i) {

@@ -160,7 +160,9 @@ void add_simnet_command(CLI::App& app, int& exit_code) {
       ->add_option("--control", options->control,
                    "What must be caught (toy): flip, one bit of one state; unsaved, a field")
       ->check(CLI::IsMember({"flip", "unsaved"}));
-  command->add_flag("!--no-shrink", batch.shrink, "Print failing schedules as they are");
+  command->add_flag_callback(
+      "--no-shrink", [options] { options->batch.shrink = false; },
+      "Print failing schedules as they are");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->callback([options, &exit_code] { exit_code = simulate(*options); });
 }
