@@ -96,6 +96,11 @@ TEST_P(FuzzTest, SurvivesItsCorpus) {
     run_both(GetParam(), bytes);
 }
 
+TEST(FuzzCorpus, IsThereForWhatStrangersSend) {
+  for (const char* name : {"log", "secure", "token", "wire"})
+    EXPECT_FALSE(read_corpus(name).empty()) << name;
+}
+
 TEST_P(FuzzTest, SurvivesMutations) {
   const Target& target = GetParam();
   std::vector<Bytes> pool = target.seeds();

@@ -121,6 +121,7 @@ TEST(Mesh, LeavesNoTwoVerticesWithinTheTolerance) {
   std::vector<Vec3<Length>> vertices;
   for (const SeenPart& part : all_parts(*mesh))
     vertices.insert(vertices.end(), part.vertices.begin(), part.vertices.end());
+  ASSERT_FALSE(vertices.empty());
   for (const Vec3<Length>& a : vertices) {
     for (const Vec3<Length>& b : vertices) {
       const Vec3<Length> d = a - b;

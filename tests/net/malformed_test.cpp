@@ -79,7 +79,7 @@ TEST(Malformed, RandomPacketsNeverCrashTheServer) {
       std::vector<std::byte> bytes(1 + random.below(60));
       for (std::byte& byte : bytes)
         byte = static_cast<std::byte>(random.below(256));
-      bytes[0] = static_cast<std::byte>(random.below(16));
+      bytes[0] = static_cast<std::byte>(random.below(24));
       static_cast<void>(match.players[0].transport->send(k_to_server, Channel::reliable, bytes));
       match.step();
     }
@@ -90,6 +90,7 @@ TEST(Malformed, RandomPacketsNeverCrashTheServer) {
 }
 
 TEST(Malformed, CorruptedDatagramsNeverCrashEitherSide) {
+  std::uint64_t refused = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     MatchOptions options = endless_match();
     options.seed = seed;
@@ -98,7 +99,12 @@ TEST(Malformed, CorruptedDatagramsNeverCrashEitherSide) {
     options.faults.truncate_ppm = 20'000;
     Match match(options);
     match.run_for(5 * k_second_us);
+    for (std::uint8_t slot = 0; slot < 2; ++slot) {
+      refused += match.server->stats(slot).malformed_packets;
+      refused += match.players[slot].client->stats().malformed_packets;
+    }
   }
+  EXPECT_GT(refused, 0U);
 }
 
 }  // namespace

@@ -57,25 +57,31 @@ TEST(Accuracy, CoversEveryTryOnce) {
 
 // A sliver at 400 m/s and 15,000 rad/s that sinks in beside a rim of the sheet's triangles.
 TEST(Accuracy, OnceTunnelledNoMore) {
-  for (const AccuracyResult& result :
-       measure_tunnels({.seed = 1, .tries = 1, .first = 69'914, .threads = 1}))
+  const auto results = measure_tunnels({.seed = 1, .tries = 1, .first = 69'914, .threads = 1});
+  EXPECT_FALSE(results.empty());
+  for (const AccuracyResult& result : results)
     EXPECT_EQ(result.worst, 0) << result.name;
 }
 
 TEST(Accuracy, OfHullsMeetsTheGoal) {
+  int rows = 0;
   for (const AccuracyResult& result : measure_masses({.seed = 7, .tries = 100, .threads = 2})) {
     if (!result.name.starts_with("hulls")) continue;
     EXPECT_TRUE(result.met()) << result.name << " " << result.worst;
+    ++rows;
   }
+  EXPECT_GT(rows, 0);
 }
 
 TEST(Accuracy, OfQueriesMeetsTheGoalNearby) {
+  int rows = 0;
   for (const AccuracyResult& result : measure_queries({.seed = 7, .tries = 5000, .threads = 2})) {
     EXPECT_GT(result.tries, 500U);
-    if (result.name.ends_with("within 20 m")) {
-      EXPECT_TRUE(result.met()) << result.name << " " << result.worst;
-    }
+    if (!result.name.ends_with("within 20 m")) continue;
+    EXPECT_TRUE(result.met()) << result.name << " " << result.worst;
+    ++rows;
   }
+  EXPECT_GT(rows, 0);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ TEST(Simnet, OneFlippedBitIsReportedAtItsTickBodyAndField) {
   const BatchTotals totals = play(options, Defect::flipped_bit);
   for (const BatchFailure& failure : totals.failures)
     ADD_FAILURE() << "seed " << failure.seed << ": " << failure.what;
+  EXPECT_EQ(totals.matches, options.seeds);
 }
 
 TEST(Simnet, AFieldLeftOutOfSaveIsCaughtInEveryMatch) {
