@@ -5,6 +5,8 @@
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
 
+#include "replay/utf8.h"
+
 namespace lockstone::replay {
 namespace {
 
@@ -23,12 +25,6 @@ constexpr std::size_t k_max_input_payload_bytes = 2U << 20;
 
 std::size_t build_bytes(const LogHeader& header) {
   return std::min(header.match.build.size(), k_max_build_bytes);
-}
-
-bool is_printable(ByteView text) {
-  return std::all_of(text.begin(), text.end(), [](std::byte byte) {
-    return byte >= std::byte{0x20} && byte != std::byte{0x7f};
-  });
 }
 
 DecodeFault check_ranges(const LogHeader& header) {
@@ -96,7 +92,7 @@ std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> o
   writer.put(header.match.seed);
   writer.put(header.match.start_tick);
   writer.put(static_cast<std::uint16_t>(build_bytes(header)));
-  writer.put_bytes(std::as_bytes(std::span(header.match.build)).first(build_bytes(header)));
+  put_as_text(writer, std::string_view(header.match.build).substr(0, build_bytes(header)));
   LKS_CHECK(writer.ok() && writer.size() == total_bytes - k_checksum_bytes);
   return seal_file_header(out.first(total_bytes));
 }
@@ -143,7 +139,9 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   const ByteView build = reader.get_bytes(length);
   if (!reader.ok()) return malformed(72, "build string longer than the header");
   if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the build string");
-  if (!is_printable(build)) return malformed(k_file_fixed_bytes, "control byte in build string");
+  if (!is_text(build)) {
+    return malformed(k_file_fixed_bytes, "control byte in build string, or no UTF-8");
+  }
   header.match.build.assign(reinterpret_cast<const char*>(build.data()), build.size());
   return check_ranges(header);
 }

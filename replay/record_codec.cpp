@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
+#include "replay/utf8.h"
+
 namespace lockstone::replay {
 namespace {
-
-bool is_control(std::byte byte) {
-  return byte < std::byte{0x20} || byte == std::byte{0x7f};
-}
 
 DecodeFault get_text(ByteReader& reader, std::string& text) {
   const std::size_t start = reader.position();
@@ -15,9 +13,7 @@ DecodeFault get_text(ByteReader& reader, std::string& text) {
   if (length > k_max_text_bytes) return malformed(start, "text too long");
   const ByteView bytes = reader.get_bytes(length);
   if (!reader.ok()) return malformed(start, "record ends early");
-  if (std::any_of(bytes.begin(), bytes.end(), is_control)) {
-    return malformed(start, "control byte in text");
-  }
+  if (!is_text(bytes)) return malformed(start, "control byte in text, or no UTF-8");
   text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   return {};
 }
@@ -39,10 +35,9 @@ DecodeFault decode_event(ByteReader& reader, std::size_t player_count, LogEvent&
 }  // namespace
 
 void put_text(ByteWriter& writer, std::string_view text) {
-  const ByteView bytes = std::as_bytes(std::span(text.substr(0, k_max_text_bytes)));
-  writer.put(static_cast<std::uint16_t>(bytes.size()));
-  for (std::byte byte : bytes)
-    writer.put(is_control(byte) ? std::byte{'?'} : byte);
+  const std::string_view kept = text.substr(0, k_max_text_bytes);
+  writer.put(static_cast<std::uint16_t>(kept.size()));
+  put_as_text(writer, kept);
 }
 
 std::size_t event_bytes(std::string_view text) {

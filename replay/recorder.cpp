@@ -37,15 +37,6 @@ std::uint32_t keyframe_interval(const RecorderOptions& options, std::uint64_t ag
   return std::min(options.keyframe_interval_ticks, early);
 }
 
-std::string printable(std::string_view text) {
-  std::string result(text.substr(0, k_max_build_bytes));
-  for (char& letter : result) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (code < 0x20 || code == 0x7f) letter = '?';
-  }
-  return result;
-}
-
 }  // namespace
 
 // Everything that is written is composed here. `group` holds INPUT, HASH and EVENT chunks one after
@@ -82,9 +73,7 @@ Status Recorder::begin(const SimulationInfo& info, ByteView config, const MatchM
   start_tick_ = next_tick_ = last_keyframe_tick_ = match.start_tick;
   allocate(config);
   state_ = State::recording;
-  LogHeader header{info, match};
-  header.match.build = printable(match.build);
-  const Status status = write_beginning(header, config);
+  const Status status = write_beginning({info, match}, config);
   start_chunk();
   return status;
 }

@@ -206,6 +206,7 @@ TEST(LogReader, RefusesWrongContentUnderRightChecksums) {
   EXPECT_TRUE(rejected(ChunkType::event, 10, 11)) << "text beyond the record";
   EXPECT_TRUE(rejected(ChunkType::event, 11, 2)) << "text beyond its limit";
   EXPECT_TRUE(rejected(ChunkType::event, 12, 27)) << "control byte";
+  EXPECT_TRUE(rejected(ChunkType::event, 12, 0xff)) << "no UTF-8";
   EXPECT_TRUE(rejected(ChunkType::keyframe, 0, 1)) << "not the hash of the tick before";
   EXPECT_TRUE(rejected(ChunkType::end, 0, 1)) << "final tick";
   EXPECT_TRUE(rejected(ChunkType::end, 16, 1)) << "ticks";

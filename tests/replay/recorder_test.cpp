@@ -230,8 +230,9 @@ TEST(Recorder, CutsAndCleansText) {
   EXPECT_EQ(fixture.recorder.event(0, EventKind::note, 2, "x"), Status::invalid_argument);
   EXPECT_EQ(fixture.recorder.event(0, EventKind{0}, 0, "x"), Status::invalid_argument);
   EXPECT_EQ(fixture.recorder.event(0, EventKind::note, 1, "a\n\x1b[31m\x7f"), Status::ok);
-  EXPECT_EQ(fixture.recorder.event(0, EventKind::leave, k_no_slot, std::string(999, 'z')),
-            Status::ok);
+  EXPECT_EQ(
+      fixture.recorder.event(0, EventKind::leave, k_no_slot, std::string(255, 'z') + "\u00e9"),
+      Status::ok);
   EXPECT_EQ(fixture.recorder.finish(std::string(999, 'r')), Status::ok);
   MemorySource source(fixture.sink.bytes());
   LogReader reader(source);
@@ -240,8 +241,8 @@ TEST(Recorder, CutsAndCleansText) {
   ASSERT_EQ(reader.next(), LogItem::events);
   ASSERT_EQ(reader.events().size(), 2U);
   EXPECT_EQ(reader.events()[0].text, "a??[31m?");
-  EXPECT_EQ(reader.events()[1].text.size(), k_max_text_bytes);
-  ASSERT_EQ(reader.next(), LogItem::skipped);  // the index
+  EXPECT_EQ(reader.events()[1].text, std::string(255, 'z') + '?');  // half a character was left
+  ASSERT_EQ(reader.next(), LogItem::skipped);                       // the index
   ASSERT_EQ(reader.next(), LogItem::end);
   EXPECT_EQ(reader.end().reason.size(), k_max_text_bytes);
 }

@@ -88,7 +88,8 @@ class Recorder {
   /// The same from a canonical snapshot; `hash` is that of its state.
   Status keyframe(std::uint64_t tick, std::uint64_t hash, ByteView snapshot);
 
-  /// Notes something for people. `text` is cut to k_max_text_bytes, control bytes become '?'.
+  /// Notes something for people. `text` is cut to k_max_text_bytes; control bytes, and
+  /// bytes of no whole UTF-8 character, become '?'.
   /// invalid_argument for a slot that does not exist or a kind 0.
   Status event(std::uint64_t tick, EventKind kind, std::uint8_t slot, std::string_view text);
 
