@@ -34,7 +34,7 @@ namespace lockstone::net {
     return SetupError::history_out_of_range;
   }
   for (std::int64_t span_us : {timeouts.handshake_us, timeouts.silence_warning_us, timeouts.drop_us,
-                               timeouts.dump_us, timeouts.finish_us}) {
+                               timeouts.dump_us, timeouts.finish_us, timeouts.rejoin_us}) {
     if (span_us <= 0) return SetupError::timeouts_out_of_range;
   }
   return SetupError::none;

@@ -258,6 +258,14 @@ TEST(Setup, RefusesValuesOutOfRange) {
   config.input_delay_ticks = 0;
   config.history_ticks = 1000;
   EXPECT_EQ(Server::create(config, parts).error, SetupError::history_out_of_range);
+  config.history_ticks = 1024;
+  for (std::int64_t Timeouts::*span :
+       {&Timeouts::handshake_us, &Timeouts::silence_warning_us, &Timeouts::drop_us,
+        &Timeouts::dump_us, &Timeouts::finish_us, &Timeouts::rejoin_us}) {
+    config.timeouts = {};
+    config.timeouts.*span = 0;
+    EXPECT_EQ(Server::create(config, parts).error, SetupError::timeouts_out_of_range);
+  }
 }
 
 }  // namespace

@@ -115,6 +115,13 @@ std::unique_ptr<MetricsPort> MetricsPort::open(std::uint16_t port) {
   return nullptr;
 }
 
+std::uint16_t MetricsPort::port() const {
+  sockaddr_in address{};
+  socklen_t bytes = sizeof address;
+  ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &bytes);
+  return ntohs(address.sin_port);
+}
+
 MetricsPort::~MetricsPort() {
   close_socket(client_);
   close_socket(socket_);
@@ -122,12 +129,13 @@ MetricsPort::~MetricsPort() {
 
 void MetricsPort::serve(const std::function<MatchMetrics()>& metrics) {
   constexpr std::size_t k_longest_request = 4096;
-  if (client_ < 0) {
-    client_ = ::accept(socket_, nullptr, nullptr);
-    if (client_ < 0) return;
+  if (const int next = ::accept(socket_, nullptr, nullptr); next >= 0) {
+    close_socket(client_);  // has been silent until now: the next in line shall not wait for it
+    client_ = next;
     ::fcntl(client_, F_SETFL, O_NONBLOCK);
     request_.clear();
   }
+  if (client_ < 0) return;
   std::array<char, 1024> bytes{};
   const ssize_t count = ::recv(client_, bytes.data(), bytes.size(), 0);
   if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;

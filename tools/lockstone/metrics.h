@@ -30,9 +30,11 @@ struct MatchMetrics {
 /// else with a text. Never blocks.
 class MetricsPort {
  public:
-  /// Null, with a complaint, when the system refuses.
+  /// Null, with a complaint, when the system refuses. 0: the system chooses.
   [[nodiscard]] static std::unique_ptr<MetricsPort> open(std::uint16_t port);
   ~MetricsPort();
+  [[nodiscard]] std::uint16_t port() const;
+
   MetricsPort(const MetricsPort&) = delete;
   MetricsPort& operator=(const MetricsPort&) = delete;
 

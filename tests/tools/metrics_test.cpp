@@ -1,0 +1,85 @@
+#include "tools/lockstone/metrics.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "tests/support/await.h"
+
+namespace lockstone::tool {
+namespace {
+
+MatchMetrics some_metrics() {
+  MatchMetrics metrics{
+      .port = 7777, .ticks = 60, .spectators = 1, .present_mask = 0b10, .players = {}};
+  metrics.players.resize(2);
+  metrics.players[1].late_inputs = 3;
+  return metrics;
+}
+
+/// Somebody who asks.
+class Caller {
+ public:
+  explicit Caller(const MetricsPort& port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port.port());
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    ::fcntl(socket_, F_SETFL, O_NONBLOCK);
+  }
+  ~Caller() { ::close(socket_); }
+  Caller(const Caller&) = delete;
+  Caller& operator=(const Caller&) = delete;
+
+  std::string ask(MetricsPort& port, const std::string& path) const {
+    const std::string request = "GET " + path + " HTTP/1.0\r\n\r\n";
+    EXPECT_EQ(::send(socket_, request.data(), request.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(request.size()));
+    std::string answer;
+    test::await([&] {
+      port.serve(some_metrics);
+      std::array<char, 4096> bytes{};
+      const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
+      if (count > 0) answer.append(bytes.data(), static_cast<std::size_t>(count));
+      return count == 0;
+    });
+    return answer;
+  }
+
+ private:
+  int socket_;
+};
+
+bool has(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Metrics, AreAnsweredInTheFormatOfEachPath) {
+  const auto port = MetricsPort::open(0);
+  ASSERT_NE(port, nullptr);
+  const std::string prometheus = Caller(*port).ask(*port, "/metrics");
+  EXPECT_TRUE(has(prometheus, "200 OK")) << prometheus;
+  EXPECT_TRUE(has(prometheus, "lockstone_ticks{match=\"7777\"} 60")) << prometheus;
+  EXPECT_TRUE(has(prometheus, "lockstone_player_late_inputs{match=\"7777\",player=\"1\"} 3"));
+  EXPECT_TRUE(has(Caller(*port).ask(*port, "/stats.json"), "\"late_inputs\": 3"));
+  EXPECT_TRUE(has(Caller(*port).ask(*port, "/"), "player 1 (here):"));
+}
+
+TEST(Metrics, DoNotWaitForWhoSaysNothing) {
+  const auto port = MetricsPort::open(0);
+  ASSERT_NE(port, nullptr);
+  const Caller silent(*port);
+  port->serve(some_metrics);
+  EXPECT_TRUE(has(Caller(*port).ask(*port, "/metrics"), "200 OK"));
+}
+
+}  // namespace
+}  // namespace lockstone::tool
