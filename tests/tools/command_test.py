@@ -4,6 +4,7 @@ usage: command_test.py LOCKSTONE SAMPLE_LOGS
 """
 
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -249,6 +250,12 @@ class Logs(Case):
         for name in ("empty.lks", "text.lks", "missing.lks"):
             self.expect(CORRUPT, "verify", self.folder / name)
             self.expect(CORRUPT, "info", self.folder / name)
+
+    def test_whose_name_is_no_utf_8_makes_json_all_the_same(self):
+        odd = pathlib.Path(os.fsdecode(os.fsencode(self.folder) + b"/\xff.lks"))
+        odd.write_bytes((self.folder / "good.lks").read_bytes())
+        (report,) = json.loads(self.expect(OK, "verify", "--json", odd).stdout)
+        self.assertTrue(report["file"].endswith("\ufffd.lks"))
 
     def test_the_worst_of_several_decides(self):
         self.expect(CORRUPT, "verify", *(self.folder / name for name in

@@ -13,6 +13,7 @@
 #include "tools/lockstone/asset_info.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -129,7 +130,7 @@ int write(const BuildOptions& options, const Imported& imported) {
     if (!options.json)
       fmt::print("{}: {} {}\n", path, kind_name(asset->kind()), hash_text(asset->id().value));
   }
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) write_json(json);
   return k_ok;
 }
 

@@ -9,6 +9,7 @@
 
 #include "tools/lockstone/asset_info.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_file.h"
 
 namespace lockstone::tool {
@@ -66,7 +67,7 @@ int info(const InfoOptions& options) {
     json.push_back({{"file", file}, {"error", reason_of(status)}});
     fmt::print(stderr, "{}: {}\n", file, reason_of(status));
   }
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) write_json(json);
   return worst;
 }
 

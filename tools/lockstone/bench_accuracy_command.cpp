@@ -10,6 +10,7 @@
 #include "tools/lockstone/bench_front.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -92,7 +93,7 @@ int run(const BenchAccuracyOptions& options) {
     else
       print(measured);
   }
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) write_json(json);
   return met ? k_ok : k_different;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/numerics/bench.h"
 
 namespace lockstone::tool {
@@ -26,7 +27,7 @@ void print_json(const std::vector<numerics::BenchRow>& rows) {
     }
     json["functions"].push_back(std::move(entry));
   }
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_table(const std::vector<numerics::BenchRow>& rows) {

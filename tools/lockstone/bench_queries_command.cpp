@@ -10,6 +10,7 @@
 #include "tools/lockstone/bench_names.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/options.h"
 
 namespace lockstone::tool {
@@ -103,7 +104,7 @@ void print_json(const bench::QueryBench& bench) {
       row["engines"].push_back(engine_of(engine, median_of(result.engines.front())));
     json["rows"].push_back(std::move(row));
   }
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 int run(BenchQueriesOptions options) {

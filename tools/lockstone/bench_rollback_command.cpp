@@ -13,6 +13,7 @@
 #include "tools/bench/speed/speed_scene.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -214,7 +215,7 @@ nlohmann::ordered_json to_json(const RollbackOptions& options, const Figures& f)
 
 void print(const RollbackOptions& options, const Figures& f) {
   if (options.json) {
-    fmt::print("{}\n", to_json(options, f).dump(2));
+    write_json(to_json(options, f));
     return;
   }
   fmt::print("{} bodies, {} touching pairs, medians of {}\n", f.bodies, f.contacts,

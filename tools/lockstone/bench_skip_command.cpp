@@ -7,6 +7,7 @@
 
 #include "tools/bench/skip/skip.h"
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -41,7 +42,7 @@ int run(const BenchSkipOptions& options) {
     Json json = Json::array();
     for (const bench::SkipFigure& figure : figures)
       json.push_back(json_of(figure));
-    fmt::print("{}\n", json.dump(2));
+    write_json(json);
   } else {
     print(figures);
   }

@@ -1,10 +1,10 @@
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/math/wide/target.h"
 #include "tools/lockstone/bench_names.h"
 #include "tools/lockstone/bench_speed_print.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -69,7 +69,7 @@ void print_speed_json(const SpeedReport& report) {
             {"scenes", Json::array()}};
   for (const bench::SpeedResult& result : report.results)
     json["scenes"].push_back(scene_of(report, result));
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 }  // namespace lockstone::tool

@@ -8,6 +8,7 @@
 #include "tools/bench/stability/stability.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -58,7 +59,7 @@ int run(const BenchStabilityOptions& options) {
     else
       print_text(row, result);
   }
-  if (options.json) fmt::print("{}\n", rows.dump(2));
+  if (options.json) write_json(rows);
   return met ? k_ok : k_different;
 }
 

@@ -7,6 +7,7 @@
 #include "tools/lockstone/bisect.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_commands.h"
 
 namespace lockstone::tool {
@@ -29,7 +30,7 @@ int bisect(const BisectOptions& options) {
                                   : bisect_logs(options.here, options.there);
   if (report.exit_code != k_ok && !report.found) return report.exit_code;
   if (options.json) {
-    fmt::print("{}\n", report.to_json().dump(2));
+    write_json(report.to_json());
   } else {
     fmt::print("{}\n", report.to_line());
     if (!report.note.empty()) fmt::print("{}\n", report.note);

@@ -9,6 +9,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/lockstone/log_file.h"
 
@@ -44,7 +45,7 @@ void print_json(const LogComparison& comparison) {
   }
   if (comparison.input) json["input"] = input_text(*comparison.input);
   if (comparison.hash) json["hash"] = hash_line(*comparison.hash);
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_text(const LogComparison& comparison) {

@@ -14,6 +14,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/flipping_simulation.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/scenes/play.h"
 
@@ -133,7 +134,7 @@ void print(const FlipOptions& options, const Tally& tally) {
                                 {"refused", tally.refused}};
     for (const auto& [store, count] : tally.stores)
       json["stores"][store] = count;
-    fmt::print("{}\n", json.dump(2));
+    write_json(json);
     return;
   }
   fmt::print("{} flips in {} ticks of {}: {} gave another hash at that tick,\n", tally.flips,

@@ -10,6 +10,7 @@
 #include "tools/fuzz/pair_checks.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -104,7 +105,7 @@ void print_json(const FuzzPairsOptions& options, const fuzz::FuzzReport& report)
     json["failures"].push_back({{"checks", failed_checks(failure.verdict)},
                                 {"reproducer", reproducer(options, failure.index)}});
   }
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 int run_one(const FuzzPairsOptions& options) {

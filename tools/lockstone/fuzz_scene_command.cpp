@@ -9,6 +9,7 @@
 #include "tools/fuzz/random_scene.h"
 #include "tools/fuzz/scene_fuzz.h"
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/json_text.h"
 
 namespace lockstone::tool {
 namespace {
@@ -46,7 +47,7 @@ void print_json(const FuzzSceneOptions& options, const fuzz::SceneFuzzReport& re
                                     {"tick", failure.tick},
                                     {"what", failure.what},
                                     {"reproducer", reproducer(options, failure)}});
-  fmt::print("{}\n", document.dump(2));
+  write_json(document);
 }
 
 // A check that fails stops the program: say where it was. What is used here is not promised to

@@ -12,6 +12,7 @@
 #include "core/math/wide/target.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/lockstone/options.h"
 #include "tools/scenes/play.h"
@@ -85,7 +86,7 @@ int hash(const HashOptions& options) {
     json["scenes"][std::string(list[i].name)] = chain_of(list[i]);
   }
   progress.clear();
-  fmt::print("{}\n", json.dump(1));
+  write_json(json, 1);
   return k_ok;
 }
 

@@ -13,6 +13,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_file.h"
 
 namespace lockstone::tool {
@@ -90,7 +91,7 @@ void print_json(const LogInfo& info, const Extras& extras) {
                        {"covers_end", extras.signature.covers_end},
                        {"key", extras.signature.key.to_text()}};
   if (info.damage) json["damage"] = damage_json(*info.damage);
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_header(const replay::LogHeader& header) {

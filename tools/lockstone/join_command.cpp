@@ -20,6 +20,7 @@
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/flipping_simulation.h"
 #include "tools/lockstone/interrupt.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/secrets.h"
 #include "tools/relay/stall_watch.h"
 #include "tools/scenes/play.h"
@@ -148,7 +149,7 @@ void print_json(const net::Client& client, const JoinObserver& observer) {
       {"longest_between_ticks_ms", observer.stalls.longest_us() / 1000},
       {"seconds_to_active", observer.active_seconds},
       {"desync", observer.desync}};
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 int conclude(const JoinOptions& options, const net::Client& client, const JoinObserver& observer) {

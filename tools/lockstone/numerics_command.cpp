@@ -8,6 +8,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/numerics/vectors.h"
 
 namespace lockstone::tool {
@@ -28,7 +29,7 @@ void print_json(const numerics::CheckResult& result) {
     json["first_difference"] = {
         {"line", result.first_line}, {"file", result.expected}, {"here", result.found}};
   }
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_text(const numerics::CheckResult& result) {

@@ -15,6 +15,7 @@
 #include "tools/lockstone/canonical_fields.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/options.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
@@ -137,7 +138,7 @@ void print_json(const RunOptions& options, const std::vector<ChainEntry>& chain,
   }
   json["chain"] = std::move(entries);
   json["final_hash"] = hash_text(final_hash);
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_text(const std::vector<ChainEntry>& chain, std::uint64_t final_hash) {

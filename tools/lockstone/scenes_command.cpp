@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -18,7 +19,7 @@ void print_json(const std::vector<scenes::SceneSummary>& list) {
                     {"golden_ticks", scene.golden_ticks},
                     {"bodies", scene.bodies}});
   }
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_table(const std::vector<scenes::SceneSummary>& list) {

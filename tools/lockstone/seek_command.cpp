@@ -11,6 +11,7 @@
 #include "tools/lockstone/canonical_bytes.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/lockstone/log_file.h"
 #include "tools/render/svg.h"
@@ -52,7 +53,7 @@ void print(const SeekOptions& options, const replay::SeekResult& found) {
                                 {"loaded_tick", found.loaded_tick},
                                 {"diverged", found.diverged}};
     if (found.diverged) json["diverged_tick"] = found.diverged_tick;
-    fmt::print("{}\n", json.dump(2));
+    write_json(json);
     return;
   }
   fmt::print("tick {}, hash {}, from tick {}\n", options.tick, hash_text(hash), found.loaded_tick);

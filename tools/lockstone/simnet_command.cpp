@@ -9,6 +9,7 @@
 #include "tools/arena/config.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/scenes/play.h"
 #include "tools/simnet/batch.h"
 #include "tools/simnet/toy_game.h"
@@ -81,7 +82,7 @@ void print_json(const SimnetOptions& options, const simnet::BatchTotals& totals,
                                     {"hash", hash_text(totals.hash)},
                                     {"seconds", seconds},
                                     {"failures", failures}};
-  fmt::print("{}\n", json.dump(2));
+  write_json(json);
 }
 
 void print_text(const SimnetOptions& options, const simnet::BatchTotals& totals, double seconds) {

@@ -3,13 +3,13 @@
 #include <optional>
 #include <string>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <lockstone/replay/seek.h>
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/lockstone/log_file.h"
 #include "tools/lockstone/trace.h"
@@ -24,7 +24,7 @@ void print_hashes(const Trace& trace) {
   for (const std::uint64_t hash : trace.hashes)
     hashes.push_back(hash_text(hash));
   json["hashes"] = std::move(hashes);
-  fmt::print("{}\n", json.dump(1));
+  write_json(json, 1);
 }
 
 // What the stages of one tick leave behind.
@@ -34,7 +34,7 @@ int print_stages(replay::Source& source, std::uint64_t tick) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const StageDigest& stage : *stages)
     json.push_back({{"stage", stage.name}, {"digest", hash_text(stage.digest)}});
-  fmt::print("{}\n", json.dump(1));
+  write_json(json, 1);
   return k_ok;
 }
 

@@ -15,6 +15,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/json_text.h"
 #include "tools/lockstone/log_file.h"
 #include "tools/scenes/play.h"
 
@@ -114,7 +115,7 @@ int verify(const VerifyOptions& options) {
       fmt::print("{}: {}{}{}\n", file, reports[i].to_line(), fault.empty() ? "" : "; ", fault);
     }
   }
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) write_json(json);
   return worst;
 }
 

@@ -1,0 +1,15 @@
+// JSON for machines, on the standard output stream.
+#pragma once
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace lockstone::tool {
+
+/// What is no UTF-8, as a file's name may be, has U+FFFD in its place.
+template <class Json>
+void write_json(const Json& json, int indent = 2) {
+  fmt::print("{}\n", json.dump(indent, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace lockstone::tool
