@@ -56,13 +56,23 @@ std::int32_t impulse_before(const ContactRecord& record, std::size_t like, std::
   return 0;
 }
 
-void fill_points(const ContactInput& in, ManifoldSource& out) {
+// Answers whether the record has them already, in their places.
+bool fill_points(const ContactInput& in, ManifoldSource& out) {
   const auto count = static_cast<std::size_t>(in.manifold.count);
+  bool kept = in.record.count == count;
   for (std::size_t i = 0; i < lanes::k_block_points; ++i) {
-    out.impulses[i] = i < count ? impulse_before(in.record, i, in.manifold.points[i].feature) : 0;
+    if (i >= count) {
+      out.impulses[i] = 0;
+      kept = kept && in.record.points[i] == ContactPointRecord{};
+      continue;
+    }
+    const std::uint32_t feature = in.manifold.points[i].feature;
+    out.impulses[i] = impulse_before(in.record, i, feature);
+    kept = kept && in.record.points[i].feature == feature;
   }
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];
+  return kept;
 }
 
 // The scale of the smaller of the bodies that turn.
@@ -108,7 +118,7 @@ ContactSoftness ContactSoftness::of(const TimeStep& step) {
   return {make_softness(hertz, rate), make_softness(2 * hertz, rate)};
 }
 
-void fill_source(const ContactInput& in, const ContactSoftness& softness, ManifoldSource& out) {
+bool fill_source(const ContactInput& in, const ContactSoftness& softness, ManifoldSource& out) {
   const SolverBody& a = in.body_a;
   const SolverBody& b = in.body_b;
   const int pair_exponent = std::max(a.inverse_inertia.exponent, b.inverse_inertia.exponent);
@@ -125,7 +135,7 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   const Vec3<SolverVelocity>& friction = in.record.friction_impulse;
   out.friction = {friction.x.raw, friction.y.raw, friction.z.raw};
   out.twist = in.record.twist_impulse.raw;
-  fill_points(in, out);
+  const bool kept = fill_points(in, out);
   out.share_b = share_of_b(a.inverse_mass, b.inverse_mass);
   out.coefficient = in.surface.friction.raw;
   out.scale_a = scale(a);
@@ -148,9 +158,11 @@ void fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   const bool is_plain = a.is_plain && b.is_plain && !is_driven && out.rolling_limit == 0;
   out.kind = is_plain ? 0 : lanes::k_special_lane;
   out.held = {};
-  if (a.held == 0 && b.held == 0) return;
+  out.is_elastic = in.surface.restitution.raw != 0 ? 1 : 0;
+  if (a.held == 0 && b.held == 0) return kept;
   for (int axis = 0; axis < 3; ++axis)
     out.held[static_cast<std::size_t>(axis)] = held_along(in, axis, out.share_b);
+  return kept;
 }
 
 void across(const lanes::ManifoldBlock& block, std::size_t lane, std::int64_t word,

@@ -38,8 +38,9 @@ struct ContactInput {
 /// The manifold as lanes read it.
 [[nodiscard]] const std::int32_t* geometry_of(const Manifold& manifold);
 
-/// What else the lanes prepare a constraint from.
-void fill_source(const ContactInput& input, const ContactSoftness& softness,
+/// What else the lanes prepare a constraint from. Answers whether the record has the manifold's
+/// points already, in their places.
+bool fill_source(const ContactInput& input, const ContactSoftness& softness,
                  lanes::ManifoldSource& out);
 
 /// t·low + b·high of a lane's word, in world axes.

@@ -122,11 +122,24 @@ void follow_load(std::int64_t before, std::int64_t now, bool alone, int shift,
   record.load.raw = static_cast<std::int32_t>(load + gained);
 }
 
+// The points of a contact that are not those of the tick before.
+void name_points(const Manifold& manifold, ContactRecord& record) {
+  record.points = {};
+  record.count = static_cast<std::uint16_t>(manifold.count);
+  for (std::size_t i = 0; i < record.count; ++i)
+    record.points[i].feature = manifold.points[i].feature;
+}
+
 std::int32_t low(std::int64_t word) {
   return static_cast<std::int32_t>(word);
 }
 std::int32_t high(std::int64_t word) {
   return static_cast<std::int32_t>(word >> 32);
+}
+
+Vec3<Unit> normal_of(const ManifoldBlock& block, std::size_t lane) {
+  return {Unit::from_raw(low(block.axes[0][lane])), Unit::from_raw(high(block.axes[0][lane])),
+          Unit::from_raw(low(block.axes[1][lane]))};
 }
 
 }  // namespace
@@ -160,6 +173,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   approaches_.reserve(most);
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
+  kept_.reserve(most * k_block_lanes);
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
 }
@@ -212,14 +226,12 @@ void ContactSolver::fill_blocks(const ContactScene& scene, std::size_t color, st
 
 // Contacts of a colour lie far apart in memory.
 const ContactSolver::Entry* ContactSolver::look_ahead(
-    std::size_t slot, std::span<const Manifold> manifolds,
-    std::span<const ContactRecord> records) const {
+    std::size_t slot, std::span<const ContactRecord> records) const {
   const std::size_t end = block_count_ * k_block_lanes, far = slot + 2 * k_lanes_ahead;
   if (far < end && slots_[far] != k_no_contact) prefetch(entries_[slots_[far]]);
   slot += k_lanes_ahead;
   if (slot >= end || slots_[slot] == k_no_contact) return nullptr;
   const Entry& entry = entries_[slots_[slot]];
-  prefetch(manifolds[entry.slot]);
   prefetch(records[entry.record]);
   return &entry;
 }
@@ -238,11 +250,12 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
       scratch.sources.geometry[lane] = k_no_geometry.data();
       continue;
     }
-    const Entry* ahead = look_ahead(block * k_block_lanes + lane, scene.manifolds, scene.records);
+    const Entry* ahead = look_ahead(block * k_block_lanes + lane, scene.records);
     if (ahead != nullptr) {
+      prefetch(scene.manifolds[ahead->slot]);
       prefetch(scene.surfaces[ahead->slot]);
       for (const std::uint32_t index : {ahead->body_a, ahead->body_b})
-        if ((index & k_immovable) == 0) prefetch(bodies_[index]);
+        if ((index & k_immovable) == 0) prefetch(bodies_[index].inverse_inertia);
     }
     const Entry& entry = entries_[slot];
     const ContactRecord& record = scene.records[entry.record];
@@ -259,8 +272,9 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     sources.body_b[lane] = lanes::row_body_offset(row_of(entry.body_b));
     sources.geometry[lane] = geometry_of(scene.manifolds[entry.slot]);
     const ContactSurface& surface = scene.surfaces[entry.slot];
-    fill_source({a, b, scene.manifolds[entry.slot], record, surface}, softness_,
-                sources.lanes[lane]);
+    const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface};
+    kept_[block * k_block_lanes + lane] =
+        fill_source(input, softness_, sources.lanes[lane]) ? 1 : 0;
     const lanes::ManifoldSource& source = sources.lanes[lane];
     if (asks_for_load && is_loaded(scene, entry, source.share_b)) ++loaded;
     if (DirectContacts::is_uneven(source.share_b)) uneven_.store(true, std::memory_order_relaxed);
@@ -363,13 +377,18 @@ std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first,
   for (std::size_t slot = (begin + first) * k_block_lanes; slot < (begin + end) * k_block_lanes;
        ++slot) {
     if (slots_[slot] == k_no_contact) continue;
-    look_ahead(slot, target.manifolds, target.records);
+    const Entry* ahead = look_ahead(slot, target.records);
+    if (ahead != nullptr && kept_[slot + k_lanes_ahead] == 0)
+      prefetch(target.manifolds[ahead->slot]);
     const Entry& entry = entries_[slots_[slot]];
-    const Manifold& manifold = target.manifolds[entry.slot];
     ContactRecord& record = target.records[entry.record];
-    clamped += store_contact(slot / k_block_lanes, slot % k_block_lanes, manifold, is_alone(entry),
-                             record, target.approaches[entry.record]);
-    if (record.is_touching()) add_axes(entry, manifold.normal);
+    const std::size_t block = slot / k_block_lanes, lane = slot % k_block_lanes;
+    const std::int64_t before = mean_impulse(record);
+    if (kept_[slot] == 0) name_points(target.manifolds[entry.slot], record);
+    clamped += store_contact(block, lane, record);
+    follow_load(before, mean_impulse(record), is_alone(entry), load_shift_, record);
+    target.approaches[entry.record].raw = approaches_[block].fastest(lane);
+    if (record.is_touching()) add_axes(entry, normal_of(blocks_[block], lane));
   }
   return clamped;
 }
@@ -381,33 +400,26 @@ bool ContactSolver::is_alone(const Entry& entry) const {
   return a_moves != b_moves && graph_.degree(a_moves ? entry.body_a : entry.body_b) == 1;
 }
 
-// Answers how many values were clamped.
+// Writes what the sweeps left of a contact; its points stand named. Answers how many values were
+// clamped.
 std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
-                                           const Manifold& manifold, bool alone,
-                                           ContactRecord& record, SolverVelocity& approach) {
+                                           ContactRecord& record) const {
   const ManifoldBlock& block = blocks_[block_index];
-  const std::int64_t before = mean_impulse(record);
-  record.points = {};
-  record.count = static_cast<std::uint16_t>(manifold.count);
-  auto saturations = static_cast<std::uint32_t>(approaches_[block_index].clamped[lane]);
-  bool touching = false;
-  std::int64_t fastest = 0;
+  std::uint32_t saturations = approaches_[block_index].clamped(lane);
+  bool touching = approaches_[block_index].touches(lane);
   for (std::size_t i = 0; i < record.count; ++i) {
-    const ManifoldBlock::Point& point = block.points[i];
-    const std::int32_t impulse = low(point.impulse[lane]), greatest = high(point.impulse[lane]);
-    record.points[i] = {manifold.points[i].feature, SolverVelocity::from_raw(impulse)};
-    touching = touching || low(point.separation[lane]) <= 0 || greatest > 0;
+    const std::int64_t word = block.points[i].impulse[lane];
+    const std::int32_t impulse = low(word), greatest = high(word);
+    record.points[i].normal_impulse.raw = impulse;
+    touching = touching || greatest > 0;
     saturations += greatest == lanes::k_most_impulse ? 1 : 0;
-    fastest = std::min(fastest, approaches_[block_index].speed[i][lane]);
   }
   across(block, lane, block.friction[lane], record.friction_impulse);
   record.rolling_impulse = {};
   if (!block.is_plain(lane) && block.rolling[lane] != 0)
     across(block, lane, block.rolling[lane], record.rolling_impulse);
   record.twist_impulse.raw = low(block.twist[lane]);
-  follow_load(before, mean_impulse(record), alone, load_shift_, record);
   record.flags = touching ? k_contact_touching : 0;
-  approach = SolverVelocity::from_raw(raw::saturate<std::int32_t>(-fastest));
   return saturations;
 }
 

@@ -198,8 +198,7 @@ class ContactSolver {
   void fill_member(const ContactScene& scene, std::size_t index);
   void fill_blocks(const ContactScene& scene, std::size_t color, std::size_t first,
                    std::size_t end);
-  const Entry* look_ahead(std::size_t slot, std::span<const Manifold> manifolds,
-                          std::span<const ContactRecord> records) const;
+  const Entry* look_ahead(std::size_t slot, std::span<const ContactRecord> records) const;
   std::uint32_t fill_block(const ContactScene& scene, std::size_t block, Scratch& scratch);
   void prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,
                      std::size_t end);
@@ -215,8 +214,8 @@ class ContactSolver {
   [[nodiscard]] bool is_alone(const Entry& entry) const;
   std::uint32_t store_blocks(const Stage& stage, std::size_t first, std::size_t end,
                              const StoreTarget& target);
-  std::uint32_t store_contact(std::size_t block, std::size_t lane, const Manifold& manifold,
-                              bool alone, ContactRecord& record, SolverVelocity& approach);
+  std::uint32_t store_contact(std::size_t block_index, std::size_t lane,
+                              ContactRecord& record) const;
 
   TimeStep step_;
   ContactSoftness softness_;
@@ -252,6 +251,7 @@ class ContactSolver {
   std::vector<Entry> entries_;
   Range ranges_[k_graph_colors + 1];
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact
+  std::vector<std::uint8_t> kept_;    // by lane: whether the record has the manifold's points
   std::size_t block_count_ = 0;
   std::vector<lanes::ManifoldBlock> blocks_;
   std::vector<lanes::ManifoldApproach> approaches_;

@@ -90,6 +90,7 @@ void ContactSolver::lay_out(Parallel& parallel) {
   if (blocks_.size() < block_count_) {  // they only grow, within what is reserved
     blocks_.resize(block_count_);
     approaches_.resize(block_count_);
+    kept_.resize(block_count_ * k_block_lanes);
     restitution_.resize(block_count_);
   }
   const std::span<const ConstraintGraph::Place> places = graph_.places();

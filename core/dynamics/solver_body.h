@@ -10,14 +10,16 @@
 namespace lockstone {
 
 /// Constants of a body in the solver.
-struct SolverBody {
+struct alignas(64) SolverBody {
+  // What contacts are made from stands in the first 64 bytes.
   InverseInertia inverse_inertia{};
-  std::array<std::int64_t, 3> gain{};       // of velocity in a substep, by gravity and forces; Q32
-  std::array<std::int64_t, 3> spin_gain{};  // of spin, by torques
   BlockFloat inverse_mass{};
   std::int32_t scale_exponent = 0;
   std::uint8_t held = 0;  // bit i: axis i of moving is locked
   bool is_plain = true;   // nothing is held, and it turns alike about all axes
+  alignas(64) std::array<std::int64_t, 3> gain{};  // of velocity in a substep, by gravity and
+                                                   // forces; Q32
+  std::array<std::int64_t, 3> spin_gain{};  // of spin, by torques
 
   /// Whether impulses change it.
   [[nodiscard]] bool is_pushed() const { return inverse_mass.mantissa != 0; }

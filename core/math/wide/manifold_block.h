@@ -36,6 +36,9 @@ inline constexpr std::int32_t k_most_impulse = 0x3fffffff;
 /// lock takes a push from: most are, and their sweeps read and compute less.
 inline constexpr std::int32_t k_special_lane = 1 << 8;
 
+/// What stands above the number of clamped arms where surfaces meet at the tick's beginning.
+inline constexpr std::int32_t k_touching_lane = 1 << 8;
+
 /// Eight manifolds that share no body, save one that nothing moves (zero gains). `pack(low, high)`
 /// holds two operands. `shift` is 16 … 28, and Q(shift) the format of what grows with the inverse
 /// inertia. Of a lane without a manifold `common` is 0, and the rest
@@ -124,7 +127,7 @@ struct alignas(16) ManifoldSource {
   std::array<std::int32_t, 3> drive{};    // as in ManifoldBlock, in world axes
   std::int32_t twist_drive = 0;
   std::array<std::int32_t, 3> held{};  // by world axis: how much of a push axis locks take, Q30
-  std::int32_t unused = 0;
+  std::int32_t is_elastic = 0;         // 1 with restitution
 };
 static_assert(sizeof(ManifoldSource) == 144);
 
@@ -141,10 +144,24 @@ struct ManifoldSources {
   std::array<ManifoldSource, k_block_lanes> lanes{};
 };
 
-/// Of each point, the relative normal velocity before the solver, m/s, Q20.
+/// How a manifold's points come in: relative normal velocities before the solver, m/s, Q20.
 struct alignas(64) ManifoldApproach {
+  // low: the greatest speed of a point that comes in, or 0; high: lever arms that were clamped, and
+  // k_touching_lane where a point touches.
+  BlockWord summary{};
+  // Of each point, positive when it leaves. Not written where all of a vector's lanes are without
+  // restitution.
   BlockWord speed[k_block_points]{};
-  BlockWord clamped{};  // lever arms that were clamped
+
+  [[nodiscard]] std::int32_t fastest(std::size_t lane) const {
+    return static_cast<std::int32_t>(summary[lane]);
+  }
+  [[nodiscard]] std::uint32_t clamped(std::size_t lane) const {
+    return static_cast<std::uint32_t>(summary[lane] >> 32 & (k_touching_lane - 1));
+  }
+  [[nodiscard]] bool touches(std::size_t lane) const {
+    return (summary[lane] >> 32 & k_touching_lane) != 0;
+  }
 
   friend bool operator==(const ManifoldApproach&, const ManifoldApproach&) = default;
 };

@@ -322,17 +322,32 @@ HWY_INLINE HWY_ATTR bool are_plain(const ManifoldSources& in, std::size_t lane) 
 HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
                                      ManifoldApproach& approach) {
   store(broadcast(0), &block.common[lane]);
-  store(broadcast(0), &approach.clamped[lane]);
+  store(broadcast(0), &approach.summary[lane]);
 }
 
-/// How fast the points come in.
-template <bool plain>
-HWY_INLINE HWY_ATTR void find_approach(const SourceSides<plain>& sides, const Axes& axes,
-                                       const BodyPair& bodies, PointLanes& points, std::size_t lane,
-                                       ManifoldApproach& approach) {
-  find_speeds(axes, read_motion(sides, axes, bodies), points);
-  for (std::size_t i = 0; i < 4; ++i)
-    store(multiply(points.speed[i], broadcast(1)), &approach.speed[i][lane]);
+HWY_INLINE HWY_ATTR bool are_elastic(const ManifoldSources& in, std::size_t lane) {
+  std::int32_t elastic = 0;
+  for (std::size_t i = lane; i < lane + k_lanes; ++i)
+    elastic |= in.lanes[i].is_elastic;
+  return elastic != 0;
+}
+
+/// How fast the points come in, and whether they touch.
+HWY_INLINE HWY_ATTR void store_approach(const SourceLanes& in, const SourcePoints& source,
+                                        const PointLanes& points, bool elastic, std::size_t lane,
+                                        ManifoldApproach& approach) {
+  const Lanes none = broadcast(0), one = broadcast(1);
+  Lanes least = none, nearest = one;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Lanes number = broadcast(static_cast<std::int64_t>(i));
+    const Lanes speed = multiply(points.speed[i], one);
+    if (elastic) store(speed, &approach.speed[i][lane]);
+    least = min(least, select_less(number, in.count, speed, none));
+    nearest = min(nearest, select_less(number, in.count, source.separation[i], one));
+  }
+  const Lanes fastest = min(subtract(none, least), broadcast(INT32_MAX));
+  const Lanes touching = select_less(nearest, one, broadcast(k_touching_lane), none);
+  store(pack(fastest, add(in.clamped, touching)), &approach.summary[lane]);
 }
 
 /// The impulses of the tick before, added up by body.
@@ -361,7 +376,6 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t la
   const SourcePoints source_points = load_source_points(&in.geometry[lane], count, one_over_count);
   const SourceLanes source =
       load_source<plain>(in, lane, inertias, count, one_over_count, source_points);
-  store(source.clamped, &approach.clamped[lane]);
   Axes axes{};
   make_axes(source.normal, source.shift, axes);
   Offsets offsets{};
@@ -382,7 +396,8 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t la
   }
   BodyPair bodies{};
   bodies.load_from(words, in, lane);
-  find_approach(sides, axes, bodies, points, lane, approach);
+  find_speeds(axes, read_motion(sides, axes, bodies), points);
+  store_approach(source, source_points, points, are_elastic(in, lane), lane, approach);
   bodies.load_from(warm, in, lane);
   start_lanes(source, sides, axes, tangents, quotients.radius, points, bodies);
   bodies.store_to(warm, in, lane);

@@ -147,29 +147,29 @@ static_assert(offsetof(ManifoldBlock, coupling) == sizeof(BlockWord) &&
 void forget_empty(const ManifoldSources& sources, ManifoldBlock& block,
                   ManifoldApproach& approach) {
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
-    const bool is_empty = sources.lanes[lane].one_over_count == 0;
-    if (!is_empty && sources.lanes[lane].kind != 0) continue;
-    const std::int64_t none = 0;
-    auto* const bytes = reinterpret_cast<unsigned char*>(&block);
+    const ManifoldSource& source = sources.lanes[lane];
+    const bool is_empty = source.one_over_count == 0;
     const std::size_t first =
         is_empty ? sizeof(BlockWord) : offsetof(ManifoldBlock, inertia) + sizeof(BlockWord);
+    const std::int64_t none = 0;
+    auto* const bytes = reinterpret_cast<unsigned char*>(&block);
     for (std::size_t at = first; at < sizeof(block); at += sizeof(BlockWord))
-      std::memcpy(bytes + at + lane * sizeof(none), &none, sizeof(none));
-    if (!is_empty) continue;
+      if (source.kind == 0) std::memcpy(bytes + at + lane * sizeof(none), &none, sizeof(none));
     for (BlockWord& word : approach.speed)
-      word[lane] = 0;
+      if (source.is_elastic == 0) word[lane] = 0;
+    if (is_empty) approach.summary[lane] = 0;
   }
 }
 
-// Which manifolds are plain: of a block all, some or none.
-std::vector<bool> choose_plain(std::size_t blocks, Random& random) {
-  std::vector<bool> plain;
+// Of a block all manifolds, some or none.
+std::vector<bool> choose(std::size_t blocks, Random& random) {
+  std::vector<bool> chosen;
   for (std::size_t i = 0; i < blocks; ++i) {
     const std::uint64_t how = random.next() % 3;
     for (std::size_t lane = 0; lane < k_block_lanes; ++lane)
-      plain.push_back(how == 0 || (how == 1 && random.next() % 2 == 0));
+      chosen.push_back(how == 0 || (how == 1 && random.next() % 2 == 0));
   }
-  return plain;
+  return chosen;
 }
 
 // Bodies are named once but for body 0.
@@ -185,7 +185,7 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   scene.warm.resize(scene.bodies.size());
   scene.inertias.resize(scene.bodies.size());
   scene.travel.resize(scene.bodies.size());
-  const std::vector<bool> plain = choose_plain(blocks, random);
+  const std::vector<bool> plain = choose(blocks, random), elastic = choose(blocks, random);
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     maker.fill(scene.bodies[i]);
     maker.fill(scene.inertias[i], plain[(i - 1) / 2]);
@@ -205,7 +205,8 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
     sources.geometry[lane] = scene.geometry[i].data();
     sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : row_body_offset(next);
     sources.body_b[lane] = row_body_offset(next + 1);
-    scene.restitution[i / k_block_lanes][lane] = random.next() % 2 == 0 ? 0 : k_one / 2;
+    sources.lanes[lane].is_elastic = elastic[i] ? 1 : 0;
+    scene.restitution[i / k_block_lanes][lane] = elastic[i] ? k_one / 2 : 0;
   }
   return scene;
 }
