@@ -116,13 +116,22 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
     return;
   }
   const Length margin = margin_of(pair);
-  const ManifoldInput input = manifold_input(pair, margin);
+  const bool are_primitives = is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b);
+  // Where it stays if the pair is to wait.
+  ManifoldInput& input = scratch.boxes.entries[scratch.boxes.batch.size()].input;
+  const Vec3<Position> apart = b.position - a.position;
+  // Centres are read to the lengths that primitives are collided with; frames of assets, and where
+  // a half-space is met, follow from every bit.
+  const Vec3<Length> offset = saturated<Length>(apart);
+  input.offset = are_primitives ? rounded<Position>(offset) : apart;
+  input.orientation_a = a.orientation;
+  input.orientation_b = b.orientation;
+  input.margin = margin;
   if (const Manifold* known = known_manifold(before, input); known != nullptr) {
     timer.found(1, 1);
     return add_known(index, *known, input, before, scratch);
   }
-  if (is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b))
-    return collide_primitives(index, input, before, last_axis, scratch, timer);
+  if (are_primitives) return collide_primitives(index, offset, before, last_axis, scratch, timer);
   const PlacedShape shape_a = placed(pair.a), shape_b = placed(pair.b);
   if (last_axis != Vec3<Unit>{} && separated_along(shape_a, shape_b, margin, last_axis)) {
     separating_axes.note(index, pair, last_axis);
@@ -136,27 +145,29 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   add_contacts(index, {parts.begin(), parts.end()}, input, before, scratch);
 }
 
-// Of shapes that are complete in themselves the manifold is made where it stays.
-void World::Impl::collide_primitives(std::uint32_t index, const ManifoldInput& input,
+// Of shapes that are complete in themselves the manifold is made where it stays. What it follows
+// from stands in the next of the entries that wait.
+void World::Impl::collide_primitives(std::uint32_t index, const Vec3<Length>& offset,
                                      std::span<const ContactRecord> before,
                                      const Vec3<Unit>& last_axis, PairScratch& scratch,
                                      PairTimer& timer) {
   const Pair pair = pairs[index];
+  WaitingBoxes& waiting = scratch.boxes;
+  WaitingBoxes::Entry& entry = waiting.entries[waiting.batch.size()];
   const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
   const PosedShape a{shape_a, rotations[pair.a]}, b{shape_b, rotations[pair.b]};
-  const Vec3<Length> offset = saturated<Length>(input.offset);
-  if (last_axis != Vec3<Unit>{} && separated_along(a, b, offset, input.margin, last_axis)) {
+  if (last_axis != Vec3<Unit>{} && separated_along(a, b, offset, entry.input.margin, last_axis)) {
     separating_axes.note(index, pair, last_axis);
     return timer.found_apart();
   }
-  WaitingBoxes& waiting = scratch.boxes;
   if (waiting.are_admitted && geometry::BoxBatch::takes(shape_a, shape_b, offset)) {
-    waiting.entries[waiting.batch.size()] = {index, input, before};
-    waiting.batch.add(a, b, offset, input.margin);
+    entry.index = index;
+    entry.before = before;
+    waiting.batch.add(a, b, offset, entry.input.margin);
     if (waiting.batch.is_full()) collide_waiting(scratch);
     return;
   }
-  timer.found(collide_alone(index, input, before, scratch));
+  timer.found(collide_alone(index, entry.input, before, scratch));
 }
 
 // Answers how many manifolds there are.
@@ -224,18 +235,6 @@ void World::Impl::fill_slot(std::uint32_t slot, const ContactKey& key, const Sur
 // Neither an asset nor without end: its frame is the body's.
 bool World::Impl::is_bounded_primitive(std::uint32_t body) const {
   return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
-}
-
-// Centres are read to the lengths that primitives are collided with; frames of assets, and where a
-// half-space is met, follow from every bit.
-ManifoldInput World::Impl::manifold_input(const Pair& pair, Length margin) const {
-  const BodyRecord& a = bodies[pair.a];
-  const BodyRecord& b = bodies[pair.b];
-  Vec3<Position> offset = b.position - a.position;
-  if (is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b)) {
-    offset = rounded<Position>(saturated<Length>(offset));
-  }
-  return {offset, a.orientation, b.orientation, margin};
 }
 
 // The manifold of a tick ago when it would come out the same: only of pairs with a single contact,
@@ -319,7 +318,10 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
     const ContactOrigin& origin = origins[slot];
     const Pair& both = pairs[pair];
     ContactRecord& record = new_contacts[of_pair.index + i];
-    record = origin.before == k_new ? ContactRecord{} : contact_store[origin.before];
+    if (origin.before == k_new)
+      record = {};
+    else
+      record = contact_store[origin.before];
     record.body_a = both.a;
     record.body_b = both.b;
     record.part_a = origin.part_a;

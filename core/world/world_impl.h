@@ -265,12 +265,11 @@ struct World::Impl {
   void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
   void collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
                     const Vec3<Unit>& last_axis, PairScratch& scratch);
-  [[nodiscard]] ManifoldInput manifold_input(const Pair& pair, Length margin) const;
   [[nodiscard]] const Manifold* known_manifold(std::span<const ContactRecord> before,
                                                const ManifoldInput& input) const;
   [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
   [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
-  void collide_primitives(std::uint32_t index, const ManifoldInput& input,
+  void collide_primitives(std::uint32_t index, const Vec3<Length>& offset,
                           std::span<const ContactRecord> before, const Vec3<Unit>& last_axis,
                           PairScratch& scratch, PairTimer& timer);
   int collide_alone(std::uint32_t index, const ManifoldInput& input,
