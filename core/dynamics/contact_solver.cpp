@@ -355,6 +355,7 @@ void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, st
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (is_idle_) return;
+  if (!direct_.empty()) direct_.store(direct_run());
   axes_.assign(members_.size(), PushAxis{});
   loops_.clear();
   stages_.clear();

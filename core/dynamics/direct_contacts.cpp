@@ -22,6 +22,9 @@ constexpr std::size_t k_most_of_group = 160;
 // All systems of a world.
 constexpr std::size_t k_most_contacts = 512;
 
+// Where friction carries, what is farther apart is left to the sweeps, Q24: 1 mm.
+constexpr std::int64_t k_near = (std::int64_t{1} << 24) / 1000;
+
 // The share of the other end's inverse mass is light beside this one's.
 bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
   const std::int32_t other = link.a == body ? link.share_b : (1 << 30) - link.share_b;
@@ -48,6 +51,7 @@ DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_ca
   gains_.reserve(2 * most);
   gain_place_.reserve(body_capacity + 1);
   contacts_.reserve(most);
+  ties_.reserve(most);
   groups_.reserve(most);
 }
 
@@ -57,6 +61,7 @@ void DirectContacts::clear() {
   contacts_.clear();
   bodies_.clear();
   gains_.clear();
+  ties_.clear();
   groups_.clear();
   factor_.clear();
 }
@@ -207,8 +212,15 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
       }
     }
   }
+  group.leans = leans(run);
+  if (group.leans) {
+    std::erase_if(order_,
+                  [&](std::uint32_t index) { return is_apart(run, links_[index], k_near); });
+    group.is_new = std::ranges::none_of(
+        order_, [&](std::uint32_t index) { return push_of(run, links_[index]) != 0; });
+  }
   group.count = static_cast<std::uint32_t>(order_.size());
-  if (group.count > k_most_of_group || is_squeezed(run)) return;
+  if (group.count == 0 || group.count > k_most_of_group || is_squeezed(run)) return;
   std::reverse(order_.begin(), order_.end());
   for (std::uint32_t k = 0; k < group.count; ++k) {
     place_[order_[k]] = k + 1;
@@ -254,10 +266,19 @@ bool DirectContacts::plan_factor(Group& group) {
         if (place_[other] != 0) emit(place_[other] - 1);
     }
   };
-  const auto rows = [](std::uint32_t) -> std::uint32_t { return lanes::k_block_points; };
-  if (!factor_.plan(group.count, neighbours, rows)) return false;
+  const auto rows = [&](std::uint32_t) -> std::uint32_t {
+    return group.leans ? k_factor_rows : lanes::k_block_points;
+  };
+  const auto plan = [&] {
+    return factor_.plan(group.count, neighbours, rows, group.leans ? k_factor_rows : k_joint_axes);
+  };
+  bool fits = plan();
+  if (!fits && group.leans) {
+    group.leans = false;
+    fits = plan();
+  }
   group.column = factor_.first();
-  return true;
+  return fits;
 }
 
 }  // namespace lockstone

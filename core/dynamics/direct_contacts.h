@@ -6,7 +6,8 @@
 // system, factored as joints are (LDLᵀ) where they share bodies; what would have to pull is let go,
 // and the rest solved again (an active set, as in D. Baraff, "Fast contact force computation for
 // nonpenetrating rigid bodies", 1994). These contacts are rigid: a soft one would give way. The
-// sweeps do their friction, and leave their normal impulses alone.
+// sweeps leave their normal impulses alone, and do their friction; unless it carries: then it has
+// rows of its own, and what would slip is given back to the sweeps.
 #pragma once
 
 #include <array>
@@ -63,22 +64,38 @@ class DirectContacts {
   /// Normal impulses such that no point closes; with `pushes_out`, such that overlap goes.
   void solve(const DirectRun& run, bool pushes_out);
 
+  /// Blocks get the friction that was solved here. After the last substep.
+  void store(const DirectRun& run) const;
+
  private:
   enum class Mark : std::uint8_t { none, chosen, dropped, listed };
-  // A point of a chosen contact. B feels n, angular_b of its impulse, A the opposite of n,
+  // A row of the system. B feels `linear`, angular_b of its impulse, A the opposite of `linear`,
   // angular_a; responses are the angular parts through the bodies' inertia. Q30.
-  struct Point {
-    std::int64_t x = 0, y = 0;
+  struct Row {
+    RawVec3 linear{};
     RawVec3 angular_a{}, angular_b{};
     RawVec3 response_a{}, response_b{};
-    std::int64_t own = 0;      // response to itself, Q30
     int exponent = 0;          // power of two that scales its row
-    std::int64_t warp = 0;     // share in what four points in a plane cannot tell apart, Q30
     std::int64_t speed = 0;    // with what is asked for, Q50
     std::int64_t change = 0;   // of the impulse, as solved, Q32
     std::int64_t impulse = 0;  // m/s, Q32
+  };
+  // A point of a chosen contact.
+  struct Point : Row {
+    std::int64_t x = 0, y = 0;
+    std::int64_t own = 0;   // response to itself, Q30
+    std::int64_t warp = 0;  // share in what four points in a plane cannot tell apart, Q30
     bool active = false;
     bool barred = false;  // for the rest of a solve
+  };
+  // Friction that is solved along: two tangents and the twist, at the contact's centre.
+  struct Tie {
+    std::array<Row, 3> rows{};
+    std::uint32_t count = 0;
+    std::int64_t radius = 0;  // of the twist, ρ/ℓ, Q30
+    std::int64_t coefficient = 0;
+    std::array<std::int64_t, 3> words{};  // of the block: masses, which are 0 meanwhile
+    bool holds = false;
   };
   struct Contact {
     Link link;
@@ -92,6 +109,7 @@ class DirectContacts {
     std::array<std::int64_t, lanes::k_block_points> masses{};  // as in the block
     std::int64_t common_mass = 0;
     std::uint32_t factored = 0;  // bit i: point i stands in the factors
+    std::uint32_t tie = 0;       // in ties_, + 1; 0: its friction is left to the sweeps
   };
   struct Group {
     std::uint32_t first = 0;  // of contacts_
@@ -101,6 +119,9 @@ class DirectContacts {
     std::uint32_t body_count = 0;
     std::int64_t most = 0;  // impulse of a point that is believed, m/s, Q32
     int exponent = 0;       // least of its rows
+    bool leans = false;     // on friction
+    bool is_new = false;    // nothing in it has pushed yet
+    bool holds = false;     // friction stands in the factors
     bool is_filled = false;
     bool is_left = false;  // to the sweeps, for the rest of the tick
     bool is_factored = false;
@@ -126,15 +147,29 @@ class DirectContacts {
   static void fill(const DirectRun& run, Contact& contact);
   static void fill_point(const lanes::ManifoldBlock& block, std::size_t lane,
                          const Contact& contact, Point& point);
-  static void find_exponent(const DirectRun& run, const Contact& contact, Point& point);
+  static void find_responses(const DirectRun& run, const Contact& contact, Row& row);
+  static void find_exponent(const DirectRun& run, const Contact& contact, Row& row);
   static void find_warp(Contact& contact);
   static void take_over(const DirectRun& run, Contact& contact);
   static void give_back(const DirectRun& run, const Contact& contact);
   void read(const DirectRun& run, Contact& contact, bool pushes_out) const;
   static bool choose_active(Contact& contact);
   static void flatten(Contact& contact);
-  [[nodiscard]] static std::int64_t entry(const DirectRun& run, const Contact& p, const Point& x,
-                                          const Contact& q, const Point& y);
+  [[nodiscard]] static std::int64_t read_row(const DirectRun& run, const Contact& contact,
+                                             const Row& row);
+  [[nodiscard]] static std::int64_t entry(const DirectRun& run, const Contact& p, const Row& x,
+                                          const Contact& q, const Row& y);
+  [[nodiscard]] const Row& row_of(const Contact& contact, std::uint32_t r) const {
+    if (r < contact.active) return contact.points[contact.order[r]];
+    return ties_[contact.tie - 1].rows[r - contact.active];
+  }
+  // Whether its friction is solved in the pass at hand.
+  [[nodiscard]] bool is_tied(const Contact& contact) const {
+    return contact.tie != 0 && contact.active != 0 && ties_[contact.tie - 1].holds;
+  }
+  [[nodiscard]] std::uint32_t rows_of(const Contact& contact) const {
+    return contact.active + (is_tied(contact) ? ties_[contact.tie - 1].count : 0);
+  }
   void factor(const DirectRun& run, Group& group);
   [[nodiscard]] bool is_still(const DirectRun& run, const Group& group) const;
   void solve_group(const DirectRun& run, Group& group, bool pushes_out);
@@ -142,10 +177,30 @@ class DirectContacts {
   void leave(const DirectRun& run, Group& group, bool pushes_out);
   bool try_once(const DirectRun& run, Group& group, bool pushes_out, bool is_last);
   bool find_changes(Group& group);
+  void find_change(const Group& group, const Contact& contact, std::uint32_t rhs, Row& row);
+
   using Impulses = std::array<std::int64_t, lanes::k_block_points>;
   void push_all(const DirectRun& run, const Group& group, bool only_lets_go);
   void push(const DirectRun& run, Contact& contact, const Impulses& next);
+  void push_tie(const DirectRun& run, const Contact& contact);
+  void give(const DirectRun& run, const Contact& contact, const RawVec3& force,
+            const RawVec3& torque);
   void gain(const DirectRun& run, const Group& group);
+
+  // Friction: direct_friction.cpp.
+  [[nodiscard]] static std::int64_t push_of(const DirectRun& run, const Link& link);
+  [[nodiscard]] static bool is_apart(const DirectRun& run, const Link& link, std::int64_t near);
+  [[nodiscard]] bool leans(const DirectRun& run) const;
+  static void fill_tie(const DirectRun& run, const Contact& contact, Tie& tie);
+  void tie(const DirectRun& run, Contact& contact);
+  void release(const DirectRun& run, Contact& contact);
+  static void store_tie(const DirectRun& run, const Contact& contact, const Tie& tie);
+  void hold_ties(Group& group, bool holds);
+  [[nodiscard]] bool read_tie(const DirectRun& run, const Contact& contact);
+  [[nodiscard]] bool is_stuck(const Contact& contact) const;
+  [[nodiscard]] static bool slips(const Contact& contact, const Tie& tie);
+  bool release_slipping(const DirectRun& run, Group& group);
+
   [[nodiscard]] std::span<Contact> contacts_of(const Group& group) {
     return std::span(contacts_).subspan(group.first, group.count);
   }
@@ -169,6 +224,7 @@ class DirectContacts {
   std::vector<Gain> gains_;                // of each of them
   std::vector<std::uint32_t> gain_place_;  // by body: where it is in both
   std::vector<Contact> contacts_;
+  std::vector<Tie> ties_;
   std::vector<Group> groups_;
   JointFactor factor_;
 };

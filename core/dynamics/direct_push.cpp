@@ -42,6 +42,7 @@ void DirectContacts::push_all(const DirectRun& run, const Group& group, bool onl
       next[i] = point.impulse + (stays ? 0 : point.change);
     }
     push(run, contact, next);
+    if (is_tied(contact) && !only_lets_go) push_tie(run, contact);
   }
   gain(run, group);
 }
@@ -68,6 +69,14 @@ void DirectContacts::push(const DirectRun& run, Contact& contact, const Impulses
   const RawVec3 force = mixed(contact.normal, change, {}, 0);
   const RawVec3 torque =
       mixed(contact.tangent, about_t.rounded(30), contact.binormal, about_b.rounded(30));
+  give(run, contact, force, torque);
+}
+
+// An impulse and a torque, at the centre.
+void DirectContacts::give(const DirectRun& run, const Contact& contact, const RawVec3& force,
+                          const RawVec3& torque) {
+  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
+  const std::size_t lane = contact.link.slot % k_block_lanes;
   const std::int64_t turn = block.gain_turn[lane], share = low_word(block.share[lane]);
   RawVec3 to_b{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -83,6 +92,20 @@ void DirectContacts::push(const DirectRun& run, Contact& contact, const Impulses
   for (std::size_t i = 0; i < 3; ++i)
     b.velocity[i] += to_b[i];
   add_spin(high_words(block.gain_arm, lane), force, torque, high_word(turn), false, b.spin);
+}
+
+void DirectContacts::push_tie(const DirectRun& run, const Contact& contact) {
+  Tie& tie = ties_[contact.tie - 1];
+  std::array<std::int64_t, 3> moved{};
+  for (std::size_t i = 0; i < tie.count; ++i) {
+    Row& row = tie.rows[i];
+    const std::int64_t now = std::clamp(row.impulse + row.change, -k_most_impulse, k_most_impulse);
+    moved[i] = now - row.impulse;
+    row.impulse = now;
+  }
+  const std::int64_t turn = product_rounded(moved[2], tie.radius, 30);
+  give(run, contact, mixed(contact.tangent, moved[0], contact.binormal, moved[1]),
+       mixed(contact.normal, turn, {}, 0));
 }
 
 // What contacts give adds up first: it may leave the range of a velocity on its way.
@@ -116,6 +139,7 @@ void DirectContacts::leave(const DirectRun& run, Group& group, bool pushes_out) 
       gain(run, group);
     }
     give_back(run, contact);
+    release(run, contact);
   }
   group.is_left = true;
 }

@@ -12,15 +12,6 @@ using lanes::k_block_lanes;
 using lanes::k_block_points;
 using lanes::ManifoldBlock;
 
-// r̄ × n + scale·turn, Q30.
-RawVec3 angular(const RawVec3& arm, const RawVec3& normal, std::int64_t scale,
-                const RawVec3& turn) {
-  RawVec3 result = cross(arm, normal);
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = raw::round_shift(result[i] + scale * turn[i], 30);
-  return result;
-}
-
 // M·v, M in Q(shift): xx, yy, zz, xy, xz, yz.
 RawVec3 through(const std::array<std::int64_t, 6>& m, int shift, const RawVec3& v) {
   constexpr std::size_t k_entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
@@ -60,14 +51,15 @@ void DirectContacts::fill(const DirectRun& run, Contact& contact) {
     point.impulse =
         low_word(block.points[i].impulse[lane]) * (std::int64_t{1} << k_direct_more_bits);
     fill_point(block, lane, contact, point);
-    find_exponent(run, contact, point);
+    find_responses(run, contact, point);
   }
   find_warp(contact);
 }
 
-void DirectContacts::fill_point(const ManifoldBlock& block, std::size_t lane,
-                                const Contact& contact, Point& point) {
-  const RawVec3 turn = mixed(contact.tangent, point.y, contact.binormal, -point.x);
+// What both bodies do of the row's angular parts.
+void DirectContacts::find_responses(const DirectRun& run, const Contact& contact, Row& row) {
+  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
+  const std::size_t lane = contact.link.slot % k_block_lanes;
   const int shift = block.shift(lane);
   std::array<std::int64_t, 6> inertia_a{}, inertia_b{};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -76,25 +68,32 @@ void DirectContacts::fill_point(const ManifoldBlock& block, std::size_t lane,
     inertia_a[i] = low_word(word);
     inertia_b[i] = high_word(word);
   }
+  row.response_a = through(inertia_a, shift, row.angular_a);
+  row.response_b = through(inertia_b, shift, row.angular_b);
+  find_exponent(run, contact, row);
+}
+
+void DirectContacts::fill_point(const ManifoldBlock& block, std::size_t lane,
+                                const Contact& contact, Point& point) {
+  const RawVec3 turn = mixed(contact.tangent, point.y, contact.binormal, -point.x);
   const std::int64_t scale = block.scale[lane];
-  point.angular_a = angular(low_words(block.arm, lane), contact.normal, low_word(scale), turn);
-  point.angular_b = angular(high_words(block.arm, lane), contact.normal, high_word(scale), turn);
-  point.response_a = through(inertia_a, shift, point.angular_a);
-  point.response_b = through(inertia_b, shift, point.angular_b);
+  point.linear = contact.normal;
+  point.angular_a = turned(low_words(block.arm, lane), contact.normal, low_word(scale), turn);
+  point.angular_b = turned(high_words(block.arm, lane), contact.normal, high_word(scale), turn);
 }
 
 // Such that the row's response to itself lies in (2^-4, 1] when it is scaled twice.
-void DirectContacts::find_exponent(const DirectRun& run, const Contact& contact, Point& point) {
+void DirectContacts::find_exponent(const DirectRun& run, const Contact& contact, Row& row) {
   int most = -1000;
   const auto add_side = [&](std::uint32_t body, const RawVec3& turn, const RawVec3& response) {
     if (body == 0) return;
-    const std::int64_t self = coupled(contact.normal, contact.normal, turn, response, false);
+    const std::int64_t self = coupled(row.linear, row.linear, turn, response, false);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));
     most = std::max(most, width + 1 + run.bodies[body].inverse_mass.exponent);
   };
-  add_side(contact.link.a, point.angular_a, point.response_a);
-  add_side(contact.link.b, point.angular_b, point.response_b);
-  point.exponent = (most + 2) >> 1;
+  add_side(contact.link.a, row.angular_a, row.response_a);
+  add_side(contact.link.b, row.angular_b, row.response_b);
+  row.exponent = (most + 2) >> 1;
 }
 
 // Impulses (warp₀, warp₁, …) of four points in a plane add up to nothing.

@@ -15,32 +15,36 @@ using lanes::RowBody;
 // What would pull is let go, and the rest solved again, so many times; then it is left to sweeps.
 constexpr int k_most_rounds = 6;
 
+// Where friction carries, what has just been put there begins to close one after another.
+constexpr int k_most_leaning_rounds = 24;
+
 // Of a group in which no point pushes.
 constexpr int k_no_exponent = 1000;
 
-// What a point's speed and what is asked of it are held within, Q50.
-constexpr std::int64_t k_speed_bound = std::int64_t{1} << 60;
-
-// No solving for what is slower, Q50: 3.8 µm/s.
-constexpr std::int64_t k_slow = std::int64_t{1} << 32;
-
 }  // namespace
 
-// Speeds, with what separations ask for, and impulses.
+// How fast B goes along a row against A, Q50.
+std::int64_t DirectContacts::read_row(const DirectRun& run, const Contact& contact,
+                                      const Row& row) {
+  const RowBody& a = run.rows[contact.link.row_a];
+  const RowBody& b = run.rows[contact.link.row_b];
+  ProductSum sum;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sum.add(row.linear[axis], b.velocity[axis]);
+    sum.subtract(row.linear[axis], a.velocity[axis]);
+    sum.add(row.response_b[axis], b.spin[axis]);
+    sum.subtract(row.response_a[axis], a.spin[axis]);
+  }
+  return sum.rounded(30);
+}
+
+// Speeds of points, with what separations ask for.
 void DirectContacts::read(const DirectRun& run, Contact& contact, bool pushes_out) const {
   const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
   const std::size_t lane = contact.link.slot % k_block_lanes;
-  const RowBody& a = run.rows[contact.link.row_a];
-  const RowBody& b = run.rows[contact.link.row_b];
   for (std::size_t i = 0; i < contact.count; ++i) {
     Point& point = contact.points[i];
-    ProductSum sum;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sum.add(contact.normal[axis], b.velocity[axis]);
-      sum.subtract(contact.normal[axis], a.velocity[axis]);
-      sum.add(point.response_b[axis], b.spin[axis]);
-      sum.subtract(point.response_a[axis], a.spin[axis]);
-    }
+    point.change = 0;
     const std::int64_t now = high_word(block.points[i].separation[lane]);
     std::int64_t bias = 0;
     if (now > run.rules.skin) {
@@ -50,8 +54,8 @@ void DirectContacts::read(const DirectRun& run, Contact& contact, bool pushes_ou
       bias = std::max(bias, -(std::int64_t{run.rules.push_out} << 30));
     }
     if (pushes_out) bias += product_rounded(point.impulse, point.own, 12 + k_give_shift);
-    point.speed =
-        std::clamp(sum.rounded(30) + std::min(bias, k_speed_bound), -k_speed_bound, k_speed_bound);
+    point.speed = std::clamp(read_row(run, contact, point) + std::min(bias, k_direct_bound),
+                             -k_direct_bound, k_direct_bound);
   }
 }
 
@@ -78,21 +82,21 @@ void DirectContacts::flatten(Contact& contact) {
   ProductSum sum;
   for (const Point& point : contact.points)
     sum.add(point.warp, point.speed);
-  const std::int64_t warped = std::clamp(sum.rounded(30), -k_speed_bound / 2, k_speed_bound / 2);
+  const std::int64_t warped = std::clamp(sum.rounded(30), -k_direct_bound / 2, k_direct_bound / 2);
   for (Point& point : contact.points)
     point.speed =
         std::clamp(point.speed - round_divide(multiply_wide(warped, point.warp), contact.warp_size),
-                   -k_speed_bound, k_speed_bound);
+                   -k_direct_bound, k_direct_bound);
 }
 
-// What point x of p feels of an impulse at y of q, through the bodies that both hold; Q56.
-std::int64_t DirectContacts::entry(const DirectRun& run, const Contact& p, const Point& x,
-                                   const Contact& q, const Point& y) {
+// What row x of p feels of an impulse along y of q, through the bodies that both hold; Q56.
+std::int64_t DirectContacts::entry(const DirectRun& run, const Contact& p, const Row& x,
+                                   const Contact& q, const Row& y) {
   constexpr std::int64_t k_most = std::int64_t{1} << k_matrix_bits;
   std::int64_t total = 0;
   const auto add_body = [&](std::uint32_t body, bool a_of_p, bool a_of_q) {
     const BlockFloat& inverse_mass = run.bodies[body].inverse_mass;
-    const std::int64_t sum = coupled(p.normal, q.normal, a_of_p ? x.angular_a : x.angular_b,
+    const std::int64_t sum = coupled(x.linear, y.linear, a_of_p ? x.angular_a : x.angular_b,
                                      a_of_q ? y.response_a : y.response_b, a_of_p != a_of_q);
     const int shift = x.exponent + y.exponent - inverse_mass.exponent + 30 - k_matrix_bits;
     if (shift <= 120) total += product_rounded(sum, inverse_mass.mantissa, std::max(shift, 1));
@@ -109,15 +113,14 @@ void DirectContacts::factor(const DirectRun& run, Group& group) {
   const std::span<Contact> contacts = contacts_of(group);
   group.exponent = k_no_exponent;
   for (std::uint32_t k = 0; k < group.count; ++k) {
-    columns[k].count = contacts[k].active;
-    for (std::uint32_t r = 0; r < contacts[k].active; ++r)
-      group.exponent = std::min(group.exponent, contacts[k].points[contacts[k].order[r]].exponent);
+    columns[k].count = rows_of(contacts[k]);
+    for (std::uint32_t r = 0; r < columns[k].count; ++r)
+      group.exponent = std::min(group.exponent, row_of(contacts[k], r).exponent);
   }
   factor_.fill(group.column, group.count,
                [&](std::uint32_t j, std::uint32_t r, std::uint32_t k, std::uint32_t s) {
                  const Contact &p = contacts[j], &q = contacts[k];
-                 const std::int64_t value =
-                     entry(run, p, p.points[p.order[r]], q, q.points[q.order[s]]);
+                 const std::int64_t value = entry(run, p, row_of(p, r), q, row_of(q, s));
                  return j == k && r == s ? value + (value >> k_give_shift) : value;
                });
   (void)factor_.factor(group.column, group.count);
@@ -131,7 +134,7 @@ void DirectContacts::solve(const DirectRun& run, bool pushes_out) {
 
 // Whether no body of the group moves by more than what need not be solved.
 bool DirectContacts::is_still(const DirectRun& run, const Group& group) const {
-  const auto slow = [](std::int64_t v) { return v >= -k_slow && v <= k_slow; };
+  const auto slow = [](std::int64_t v) { return v >= -k_direct_slow && v <= k_direct_slow; };
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     const RowBody& row = run.rows[bodies_[group.first_body + i]];
     if (!std::ranges::all_of(row.velocity, slow) || !std::ranges::all_of(row.spin, slow))
@@ -144,25 +147,32 @@ void DirectContacts::solve_group(const DirectRun& run, Group& group, bool pushes
   const bool is_first = !group.is_filled;
   if (group.is_left || (!is_first && is_still(run, group))) return;
   if (is_first) {
-    for (Contact& contact : contacts_of(group))
+    for (Contact& contact : contacts_of(group)) {
       fill(run, contact);
+      if (group.leans) tie(run, contact);
+    }
     group.is_filled = true;
   }
   for (Contact& contact : contacts_of(group))
     for (Point& point : contact.points)
       point.barred = false;
-  for (int round = 1; round <= k_most_rounds && !group.is_left; ++round)
-    if (try_once(run, group, pushes_out, round == k_most_rounds)) return;
+  // What cannot give way, for friction holds it, is not pushed out; but what has just been put
+  // there would slide away.
+  if (group.leans) hold_ties(group, !pushes_out || (is_first && group.is_new));
+  const int most = group.leans ? k_most_leaning_rounds : k_most_rounds;
+  for (int round = 1; round <= most && !group.is_left; ++round)
+    if (try_once(run, group, pushes_out, round == most)) return;
   leave(run, group, pushes_out);
 }
 
 // Whether no point that pushes moves, and no other closes, by more than what need not be solved.
 bool DirectContacts::is_solved(const Group& group) const {
   const auto point_is = [](const Point& p) {
-    return p.barred || (p.speed >= -k_slow && (p.speed <= k_slow || !p.active));
+    return p.barred || (p.speed >= -k_direct_slow && (p.speed <= k_direct_slow || !p.active));
   };
   const auto contact_is = [&](const Contact& contact) {
-    return std::ranges::all_of(std::span(contact.points).first(contact.count), point_is);
+    return std::ranges::all_of(std::span(contact.points).first(contact.count), point_is) &&
+           is_stuck(contact);
   };
   return std::ranges::all_of(std::span(contacts_).subspan(group.first, group.count), contact_is);
 }
@@ -175,21 +185,23 @@ bool DirectContacts::try_once(const DirectRun& run, Group& group, bool pushes_ou
   for (Contact& contact : contacts) {
     read(run, contact, pushes_out);
     if (choose_active(contact)) group.is_factored = false;
+    if (contact.tie != 0 && !read_tie(run, contact)) release(run, contact);
     idle += contact.count - contact.active;
   }
-  if (is_solved(group)) return true;
+  if (is_solved(group)) return !group.leans || !release_slipping(run, group);
   if (!group.is_factored) factor(run, group);
   if (group.exponent == k_no_exponent) return true;  // no point pushes
   for (std::uint32_t k = 0; k < group.count; ++k) {
-    for (std::uint32_t r = 0; r < contacts[k].active; ++r) {
-      const Point& point = contacts[k].points[contacts[k].order[r]];
-      const int shift = std::min(4 + point.exponent - group.exponent, 62);
-      factor_.rhs(columns[k].first_row + r) = raw::round_shift(-point.speed, shift);
+    for (std::uint32_t r = 0; r < columns[k].count; ++r) {
+      const Row& row = row_of(contacts[k], r);
+      const int shift = std::min(4 + row.exponent - group.exponent, 62);
+      factor_.rhs(columns[k].first_row + r) = raw::round_shift(-row.speed, shift);
     }
   }
   factor_.solve(group.column, group.count);
   const bool pulls = find_changes(group);
   if (group.is_left) return false;
+  if (!pulls && group.leans && release_slipping(run, group)) return false;
   push_all(run, group, pulls);
   return !pulls && (idle == 0 || is_last);
 }
@@ -202,16 +214,24 @@ bool DirectContacts::find_changes(Group& group) {
     Contact& contact = contacts_of(group)[k];
     for (std::uint32_t r = 0; r < contact.active; ++r) {
       Point& point = contact.points[contact.order[r]];
-      const int shift = k_direct_bits - 46 - point.exponent - group.exponent;
-      const std::int64_t solved = factor_.rhs(columns[k].first_row + r);
-      point.change = std::clamp<std::int64_t>(scale_saturating(solved, contact.inverse_mass, shift),
-                                              -k_speed_bound, k_speed_bound);
+      find_change(group, contact, columns[k].first_row + r, point);
       point.barred = point.impulse + point.change < 0;
       if (point.impulse + point.change > group.most) group.is_left = true;
       pulls = pulls || point.barred;
     }
+    for (std::uint32_t r = contact.active; r < columns[k].count; ++r)
+      find_change(group, contact, columns[k].first_row + r,
+                  ties_[contact.tie - 1].rows[r - contact.active]);
   }
   return pulls;
+}
+
+void DirectContacts::find_change(const Group& group, const Contact& contact, std::uint32_t rhs,
+                                 Row& row) {
+  const int shift = k_direct_bits - 46 - row.exponent - group.exponent;
+  row.change =
+      std::clamp<std::int64_t>(scale_saturating(factor_.rhs(rhs), contact.inverse_mass, shift),
+                               -k_direct_bound, k_direct_bound);
 }
 
 }  // namespace lockstone

@@ -15,6 +15,12 @@ inline constexpr int k_give_shift = 17;
 inline constexpr int k_direct_bits = 32;
 inline constexpr int k_direct_more_bits = k_direct_bits - 20;
 
+/// What a row's speed and what is asked of it are held within, Q50.
+inline constexpr std::int64_t k_direct_bound = std::int64_t{1} << 60;
+
+/// No solving for what is slower, Q50: 3.8 µm/s.
+inline constexpr std::int64_t k_direct_slow = std::int64_t{1} << 32;
+
 [[nodiscard]] inline std::int64_t low_word(std::int64_t word) {
   return static_cast<std::int32_t>(word);
 }
@@ -32,6 +38,15 @@ inline constexpr int k_direct_more_bits = k_direct_bits - 20;
           low_word(block.axes[1][lane])};
 }
 
+/// r̄ × u + scale·turn, Q30.
+[[nodiscard]] inline RawVec3 turned(const RawVec3& arm, const RawVec3& direction,
+                                    std::int64_t scale, const RawVec3& turn) {
+  RawVec3 result = cross(arm, direction);
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = raw::round_shift(result[i] + scale * turn[i], 30);
+  return result;
+}
+
 /// a·x + b·y, in 30 bits less.
 [[nodiscard]] inline RawVec3 mixed(const RawVec3& a, std::int64_t x, const RawVec3& b,
                                    std::int64_t y) {
@@ -45,13 +60,13 @@ inline constexpr int k_direct_more_bits = k_direct_bits - 20;
   return result;
 }
 
-/// n·n + angular·response, Q30.
-[[nodiscard]] inline std::int64_t coupled(const RawVec3& normal_x, const RawVec3& normal_y,
+/// u·v + angular·response, Q30.
+[[nodiscard]] inline std::int64_t coupled(const RawVec3& linear_x, const RawVec3& linear_y,
                                           const RawVec3& angular_x, const RawVec3& response_y,
                                           bool opposite) {
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
-    sum.add(normal_x[i], normal_y[i]);
+    sum.add(linear_x[i], linear_y[i]);
     sum.add(angular_x[i], response_y[i]);
   }
   const std::int64_t rounded = sum.rounded(30);

@@ -70,8 +70,8 @@ JointFactor::JointFactor(std::size_t joint_capacity)
   columns_.reserve(joint_capacity);
   blocks_.reserve(block_capacity_);
   values_.reserve(value_capacity_);
-  rhs_.reserve(joint_capacity * k_joint_axes);
-  reciprocals_.reserve(joint_capacity * k_joint_axes);
+  rhs_.reserve(joint_capacity * k_factor_rows);
+  reciprocals_.reserve(joint_capacity * k_factor_rows);
   marks_.reserve(joint_capacity);
   found_.reserve(joint_capacity);
   head_.reserve(joint_capacity);
@@ -87,7 +87,8 @@ void JointFactor::clear() {
 }
 
 // The column of joint k from `found_`.
-bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows) {
+bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows,
+                              std::size_t most_rows) {
   std::sort(found_.begin(), found_.end());
   Column column;
   column.rows = rows;
@@ -103,7 +104,7 @@ bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_
   }
   for (const std::uint32_t row : found_) {
     blocks_.push_back({row, static_cast<std::uint32_t>(values)});
-    values += std::size_t{k_joint_axes} * rows;
+    values += most_rows * rows;
   }
   if (values > value_capacity_) return false;
   values_.resize(values);
@@ -141,7 +142,7 @@ std::uint32_t JointFactor::factor_diagonal(Column& column) {
       inverse = {static_cast<std::int64_t>(round_divide(one, static_cast<std::uint64_t>(pivot))),
                  power - k_matrix_bits};
     }
-    std::array<std::int64_t, k_joint_axes> above{};
+    std::array<std::int64_t, k_factor_rows> above{};
     for (std::uint32_t r = c + 1; r < n; ++r) {
       above[r] = d[r * n + c];
       d[r * n + c] = inverse.mantissa == 0

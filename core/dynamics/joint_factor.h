@@ -18,10 +18,13 @@ namespace lockstone {
 inline constexpr int k_matrix_bits = 56;
 inline constexpr int k_factor_bits = 40;
 
+/// Rows of what makes a column: a joint has up to six, a contact with its friction seven.
+inline constexpr std::size_t k_factor_rows = 7;
+
 class JointFactor {
  public:
   /// A block of the most rows and columns there are.
-  using Entries = std::array<std::int64_t, k_joint_axes * k_joint_axes>;
+  using Entries = std::array<std::int64_t, k_factor_rows * k_factor_rows>;
 
   /// No function but this allocates.
   explicit JointFactor(std::size_t joint_capacity);
@@ -30,10 +33,11 @@ class JointFactor {
 
   /// Plans the columns of `count` joints in the order of elimination. `neighbours(k, emit)` calls
   /// emit(i) for each later joint i that shares a pushed body with k; `rows(k)` is the most rows
-  /// that joint k can have. False when the pools are full or it would fill in too much; then
-  /// nothing has been planned.
+  /// that joint k can have, of the group at most `most_rows`. False when the pools are full or it
+  /// would fill in too much; then nothing has been planned.
   template <class Neighbours, class Rows>
-  bool plan(std::uint32_t count, const Neighbours& neighbours, const Rows& rows);
+  bool plan(std::uint32_t count, const Neighbours& neighbours, const Rows& rows,
+            std::size_t most_rows = k_joint_axes);
 
   /// Where the group planned last begins; its columns follow one another.
   [[nodiscard]] std::uint32_t first() const { return first_; }
@@ -81,7 +85,7 @@ class JointFactor {
     std::int64_t mantissa = 0;
     int shift = 0;  // of a product with an entry, to give one with as many bits
   };
-  bool plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows);
+  bool plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows, std::size_t most_rows);
   std::uint32_t factor_diagonal(Column& column);
   void eliminate(std::uint32_t first, const Column& column);
   template <class Size>
@@ -129,7 +133,8 @@ void JointFactor::fill(std::uint32_t first, std::uint32_t count, const Entry& en
 }
 
 template <class Neighbours, class Rows>
-bool JointFactor::plan(std::uint32_t count, const Neighbours& neighbours, const Rows& rows) {
+bool JointFactor::plan(std::uint32_t count, const Neighbours& neighbours, const Rows& rows,
+                       std::size_t most_rows) {
   first_ = static_cast<std::uint32_t>(columns_.size());
   first_block_ = blocks_.size();
   const std::size_t blocks = blocks_.size(), values = values_.size(), sides = rhs_.size();
@@ -149,7 +154,7 @@ bool JointFactor::plan(std::uint32_t count, const Neighbours& neighbours, const 
       for (const Block& block : this->blocks(columns_[first_ + child - 1]))
         emit(block.row);
     }
-    fits = plan_column(k, count, rows(k));
+    fits = plan_column(k, count, rows(k), most_rows);
   }
   if (fits) return true;
   columns_.resize(first_);
