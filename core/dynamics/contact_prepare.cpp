@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 
 #include "core/dynamics/mass_share.h"
@@ -42,34 +43,51 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
-// The impulse that a point of the same feature ended with a tick ago.
-std::int32_t impulse_before(const ContactRecord& record, std::size_t like, std::uint32_t feature) {
-  const auto bounded = [](const ContactPointRecord& point) {
-    return std::clamp(point.normal_impulse.raw, 0, lanes::k_most_impulse);
-  };
-  if (like < record.count && record.points[like].feature == feature) {
-    return bounded(record.points[like]);
-  }
-  for (std::size_t i = 0; i < record.count; ++i) {
-    if (record.points[i].feature == feature) return bounded(record.points[i]);
-  }
-  return 0;
+std::int32_t bounded(const ContactPointRecord& point) {
+  return std::clamp(point.normal_impulse.raw, 0, lanes::k_most_impulse);
 }
 
-// Answers whether the record has them already, in their places.
+// The record's point of that feature; its count where there is none.
+std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint32_t feature) {
+  if (like < record.count && record.points[like].feature == feature) return like;
+  std::size_t place = 0;
+  while (place < record.count && record.points[place].feature != feature)
+    ++place;
+  return place;
+}
+
+// What points that are no more ended with is shared by those that are new, as far as it is what the
+// contact carries: a blow is not handed on.
+void hand_on(std::int64_t left, std::uint32_t fresh, std::int64_t load, ManifoldSource& out) {
+  const std::int64_t each = std::min(left / std::popcount(fresh), load);
+  for (std::size_t i = 0; i < lanes::k_block_points; ++i)
+    if ((fresh >> i & 1) != 0) out.impulses[i] = static_cast<std::int32_t>(each);
+}
+
+// The impulses that points of the same features ended with a tick ago. Answers whether the record
+// has them already, in their places.
 bool fill_points(const ContactInput& in, ManifoldSource& out) {
   const auto count = static_cast<std::size_t>(in.manifold.count);
   bool kept = in.record.count == count;
-  for (std::size_t i = 0; i < lanes::k_block_points; ++i) {
-    if (i >= count) {
-      out.impulses[i] = 0;
-      kept = kept && in.record.points[i] == ContactPointRecord{};
+  std::int64_t left = 0;
+  std::uint32_t fresh = 0;
+  for (std::size_t i = 0; i < in.record.count; ++i)
+    left += bounded(in.record.points[i]);
+  out.impulses = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t place = find_point(in.record, i, in.manifold.points[i].feature);
+    kept = kept && place == i;
+    if (place == in.record.count) {
+      fresh |= 1U << i;
       continue;
     }
-    const std::uint32_t feature = in.manifold.points[i].feature;
-    out.impulses[i] = impulse_before(in.record, i, feature);
-    kept = kept && in.record.points[i].feature == feature;
+    out.impulses[i] = bounded(in.record.points[place]);
+    left -= out.impulses[i];
   }
+  for (std::size_t i = count; i < lanes::k_block_points; ++i)
+    kept = kept && in.record.points[i] == ContactPointRecord{};
+  out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
+  if (fresh != 0 && left > 0) hand_on(left, fresh, out.load, out);
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];
   return kept;
@@ -142,7 +160,6 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.scale_b = scale(b);
   out.bias_rate = soft.bias_rate;
   out.keep = soft.mass_scale;
-  out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
   out.inertia_a = 1 << (12 - pair_exponent + a.inverse_inertia.exponent);
   out.inertia_b = 1 << (12 - pair_exponent + b.inverse_inertia.exponent);
   out.inverse_scale_a = inverse_scale(a);

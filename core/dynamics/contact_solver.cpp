@@ -154,7 +154,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       solver_index_(body_capacity),
       joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity)),
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
-      direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity) {
+      direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
+      first_loads_(body_capacity + contact_capacity + joint_capacity, contact_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
   bodies_.reserve(most_rows);
@@ -356,6 +357,8 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (is_idle_) return;
   if (!direct_.empty()) direct_.store(direct_run());
+  for (const FirstLoads::Load& first : first_loads_.loads())
+    records[first.record].load.raw = first.load;
   axes_.assign(members_.size(), PushAxis{});
   loops_.clear();
   stages_.clear();

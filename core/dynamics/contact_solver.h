@@ -18,6 +18,7 @@
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/direct_contacts.h"
+#include "core/dynamics/first_loads.h"
 #include "core/dynamics/joint_net.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/solver_body.h"
@@ -170,6 +171,7 @@ class ContactSolver {
   void begin_joints();
   void take_up_net(const ContactScene& scene);
   void take_up_direct(const ContactScene& scene);
+  void find_first_loads(const ContactScene& scene);
   [[nodiscard]] bool few_are_loaded() const {
     return loaded_.load(std::memory_order_relaxed) <= k_most_loaded;
   }
@@ -245,6 +247,7 @@ class ContactSolver {
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
   DirectContacts direct_;
+  FirstLoads first_loads_;
   std::uint32_t first_without_contacts_ = 1;  // by number
 
   std::vector<Sides> sides_;  // by record
@@ -261,6 +264,7 @@ class ContactSolver {
   std::atomic<bool> holds_{false};        // any locked axis of moving
   std::atomic<bool> uneven_{false};       // any contact of a light body and a heavy one
   std::atomic<std::uint32_t> loaded_{0};  // contacts at rest under several times a body's weight
+  std::atomic<std::uint32_t> new_{0};     // contacts of this tick between what moves
   std::vector<Loop> loops_;               // of the sequence at hand
   std::vector<Stage> stages_;             // what they are
 };

@@ -78,6 +78,25 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
   direct_.plan(direct_run());
 }
 
+// Where more contacts are loaded than are solved at once, and a good part of all is new: what was
+// just put there stands on impulses that nobody knows yet.
+void ContactSolver::find_first_loads(const ContactScene& scene) {
+  first_loads_.clear();
+  if (few_are_loaded() || new_ <= k_most_loaded || new_ < entries_.size() / 4) return;
+  const std::span<const ConstraintGraph::Place> places = graph_.places();
+  const auto number = [&](std::uint32_t index) {
+    return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
+  };
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin))) continue;
+    const std::size_t slot = ranges_[places[i].color].first * lanes::k_block_lanes + places[i].rank;
+    first_loads_.add({static_cast<std::uint32_t>(slot), number(entry.body_a), number(entry.body_b),
+                      entry.record, scene.records[entry.record].count == 0});
+  }
+  first_loads_.find(direct_run(), before_);
+}
+
 DirectRun ContactSolver::direct_run() {
   return {rows_, std::span(bodies_).first(members_.size()), blocks_, rules_};
 }

@@ -29,6 +29,7 @@ std::uint32_t ContactSolver::take_up(std::uint32_t body, MotionType motion) {
 
 // What taking up reads of large records, side by side.
 void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std::size_t end) {
+  std::uint32_t fresh = 0;
   for (std::size_t i = first; i < end; ++i) {
     const ContactRecord& record = scene.records[i];
     const bool left_out = record.is_trigger() || scene.surfaces[scene.slots[i]].bounces;
@@ -37,12 +38,17 @@ void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std
     };
     sides_[i] = {left_out ? Sides::k_left_out : record.body_a, record.body_b,
                  motion_of(record.body_a), motion_of(record.body_b)};
+    const bool both_move =
+        sides_[i].motion_a == MotionType::dynamic && sides_[i].motion_b == MotionType::dynamic;
+    if (record.count == 0 && both_move && !left_out) ++fresh;
   }
+  if (fresh != 0) new_.fetch_add(fresh, std::memory_order_relaxed);
 }
 
 // In the order of the records: bodies, colours and lanes follow from the state alone.
 void ContactSolver::take_up_contacts(const ContactScene& scene, Parallel& parallel) {
   sides_.resize(scene.records.size());
+  new_ = 0;
   parallel.for_each(
       {static_cast<std::uint32_t>(sides_.size()), k_side_grain},
       [&](std::size_t first, std::size_t end, std::uint32_t) { find_sides(scene, first, end); });

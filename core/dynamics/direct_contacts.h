@@ -68,6 +68,7 @@ class DirectContacts {
   void store(const DirectRun& run) const;
 
  private:
+  friend class FirstLoads;  // fills contacts as they are filled here
   enum class Mark : std::uint8_t { none, chosen, dropped, listed };
   // A row of the system. B feels `linear`, angular_b of its impulse, A the opposite of `linear`,
   // angular_a; responses are the angular parts through the bodies' inertia. Q30.
@@ -150,6 +151,7 @@ class DirectContacts {
   static void find_responses(const DirectRun& run, const Contact& contact, Row& row);
   static void find_exponent(const DirectRun& run, const Contact& contact, Row& row);
   static void find_warp(Contact& contact);
+  static void find_masses(const lanes::ManifoldBlock& block, std::size_t lane, Contact& contact);
   static void take_over(const DirectRun& run, Contact& contact);
   static void give_back(const DirectRun& run, const Contact& contact);
   void read(const DirectRun& run, Contact& contact, bool pushes_out) const;

@@ -119,15 +119,20 @@ void DirectContacts::find_warp(Contact& contact) {
   contact.warp_size = size.rounded(30);
 }
 
-// From here on the sweeps leave its normal impulses alone: they only do its friction.
-void DirectContacts::take_over(const DirectRun& run, Contact& contact) {
-  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+// Of the points that the contact has.
+void DirectContacts::find_masses(const ManifoldBlock& block, std::size_t lane, Contact& contact) {
   contact.masses = {low_word(block.mass_01[lane]), high_word(block.mass_01[lane]),
                     low_word(block.mass_23[lane]), high_word(block.mass_23[lane])};
   contact.common_mass = low_word(block.common[lane]);
   while (contact.count < k_block_points && contact.masses[contact.count] != 0)
     ++contact.count;
+}
+
+// From here on the sweeps leave its normal impulses alone: they only do its friction.
+void DirectContacts::take_over(const DirectRun& run, Contact& contact) {
+  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
+  const std::size_t lane = contact.link.slot % k_block_lanes;
+  find_masses(block, lane, contact);
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
   block.rest[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;

@@ -23,6 +23,16 @@ void build_pyramid(World& world, std::uint64_t) {
   }
 }
 
+// Nothing is known yet of what its contacts carry.
+void build_wall(World& world, std::uint64_t) {
+  constexpr int k_rows = 22;
+  add_ground(world, 30_m);
+  for (int row = 0; row < k_rows; ++row)
+    for (int i = 0; i < k_rows - row; ++i)
+      add(world, loose(Shape::box(0.5_m, 0.5_m, 0.5_m),
+                       {millimetres(1000 * i + 500 * row), millimetres(500 + row * 1000), {}}));
+}
+
 // Half a million metres from the origin, a stack stands as it does at the origin.
 void build_far(World& world, std::uint64_t) {
   const Vec3<Position> place{500000_m, {}, -500000_m};
@@ -59,6 +69,8 @@ void build_pile(World& world, std::uint64_t seed) {
 constinit const Scene k_stack{"stack", "ten boxes on top of each other", 240, small_world,
                               build_stack};
 constinit const Scene k_pyramid{"pyramid", "55 boxes in ten rows", 180, small_world, build_pyramid};
+constinit const Scene k_wall{"wall", "253 boxes in 22 rows, put on each other", 60, small_world,
+                             build_wall};
 constinit const Scene k_far{"far", "ten boxes stand 700 km from the origin", 240, small_world,
                             build_far};
 constinit const Scene k_pile{"pile", "96 spheres, capsules and boxes drop into a pit", 200,

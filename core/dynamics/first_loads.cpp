@@ -1,0 +1,293 @@
+// What contacts carry where bodies were just put on each other.
+#include "core/dynamics/first_loads.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/dynamics/direct_words.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::k_block_lanes;
+using lanes::k_block_points;
+using lanes::ManifoldBlock;
+using lanes::RowBody;
+
+// Supports of one body; more are left out.
+constexpr std::size_t k_most_supports = 32;
+
+// Rounds over the supports of one body, of each kind, and what need not be pushed, Q32: 0.1 µm/s.
+constexpr int k_most_rounds = 16;
+constexpr std::int64_t k_settled = std::int64_t{1} << 9;
+
+// What moves faster is not at rest: 1/4 m/s, Q50.
+constexpr std::int64_t k_resting_speed = std::int64_t{1} << (lanes::k_velocity_bits - 2);
+
+// From the Q32 of gains and impulses to the Q50 of rows.
+constexpr int k_row_shift = lanes::k_velocity_bits - k_direct_bits;
+constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
+
+bool is_at_rest(const RowBody& row) {
+  return std::ranges::all_of(
+      row.velocity, [](std::int64_t v) { return v < k_resting_speed && v > -k_resting_speed; });
+}
+
+// n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
+// of the normal points more than an eighth against it.
+int against(const RawVec3& normal, const std::array<std::int64_t, 3>& gain) {
+  ProductSum sum;
+  std::int64_t most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.add(normal[i], gain[i]);
+    most = std::max({most, gain[i], -gain[i]});
+  }
+  const std::int64_t along = sum.rounded(30);
+  if (along < -most / 8) return -1;
+  return along > most / 8 ? 1 : 0;
+}
+
+// Along the normal, towards the body that rests: of a point or of all points at once, Q50.
+std::int64_t speed_of(const RawVec3& normal, const RawVec3& response, bool is_b,
+                      const RowBody& body) {
+  ProductSum sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.add(normal[i], body.velocity[i]);
+    sum.add(response[i], body.spin[i]);
+  }
+  const std::int64_t speed = sum.rounded(30);
+  return is_b ? speed : -speed;
+}
+
+// The impulse that stops it, Q32.
+std::int64_t stopping(std::int64_t speed, std::int64_t response) {
+  constexpr std::int64_t k_most = std::int64_t{1} << 60;
+  return raw::round_divide(-std::clamp(speed, -k_most, k_most) * 4,
+                           std::max<std::int64_t>(response >> 10, 1));
+}
+
+// direction · by, Q30 · Q32, to the Q50 of rows in steps of 2^-32; added or taken.
+void add_scaled(const RawVec3& direction, std::int64_t by, bool is_taken,
+                std::array<std::int64_t, 3>& to) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t change = product_rounded(direction[i], by, 30) * k_to_row;
+    to[i] += is_taken ? -change : change;
+  }
+}
+
+}  // namespace
+
+FirstLoads::FirstLoads(std::size_t body_capacity, std::size_t contact_capacity)
+    : by_body_(body_capacity, contact_capacity) {
+  links_.reserve(contact_capacity);
+  upper_.reserve(contact_capacity);
+  is_held_.reserve(body_capacity + 1);
+  carried_.reserve(body_capacity + 1);
+  queue_.reserve(body_capacity + 1);
+  supports_.reserve(k_most_supports);
+  loads_.reserve(contact_capacity);
+}
+
+void FirstLoads::clear() {
+  links_.clear();
+  loads_.clear();
+}
+
+void FirstLoads::find(const DirectRun& run, std::span<RowBody> warm) {
+  by_body_.assign(std::span<const Link>(links_), run.bodies.size());
+  find_uppers(run);
+  find_held(run);
+  find_order();
+  for (const std::uint32_t body : queue_)
+    hold_up(run, warm, body);
+}
+
+std::uint32_t FirstLoads::lower_of(std::uint32_t link) const {
+  return upper_[link] == links_[link].b ? links_[link].a : links_[link].b;
+}
+
+void FirstLoads::find_uppers(const DirectRun& run) {
+  upper_.assign(links_.size(), 0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    const RawVec3 normal =
+        normal_of(run.blocks[link.slot / k_block_lanes], link.slot % k_block_lanes);
+    if (link.b != 0 && against(normal, run.bodies[link.b].gain) < 0)
+      upper_[i] = link.b;
+    else if (link.a != 0 && against(normal, run.bodies[link.a].gain) > 0)
+      upper_[i] = link.a;
+  }
+}
+
+// Upwards from what no impulse moves.
+void FirstLoads::find_held(const DirectRun& run) {
+  is_held_.assign(run.bodies.size(), 0);
+  queue_.clear();
+  const auto hold = [&](std::uint32_t link, std::uint32_t lower) {
+    const std::uint32_t body = upper_[link];
+    if (body == 0 || lower_of(link) != lower || is_held_[body] != 0) return;
+    if (!is_at_rest(run.rows[body])) return;
+    is_held_[body] = 1;
+    queue_.push_back(body);
+  };
+  for (std::uint32_t i = 0; i < links_.size(); ++i)
+    hold(i, 0);
+  for (std::size_t i = 0; i < queue_.size(); ++i)
+    for (const std::uint32_t link : by_body_.at(queue_[i]))
+      hold(link, queue_[i]);
+}
+
+// Downwards from what carries nothing. Bodies that carry each other in a ring are left out.
+void FirstLoads::find_order() {
+  carried_.assign(is_held_.size(), 0);
+  for (std::uint32_t i = 0; i < links_.size(); ++i)
+    if (rests(i)) ++carried_[lower_of(i)];
+  queue_.clear();
+  for (std::uint32_t body = 1; body < is_held_.size(); ++body)
+    if (is_held_[body] != 0 && carried_[body] == 0) queue_.push_back(body);
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    for (const std::uint32_t link : by_body_.at(queue_[i])) {
+      if (upper_[link] != queue_[i]) continue;
+      const std::uint32_t lower = lower_of(link);
+      if (lower != 0 && --carried_[lower] == 0 && is_held_[lower] != 0) queue_.push_back(lower);
+    }
+  }
+}
+
+// All points of a support push alike as far as that will do: pressure in the middle is what sweeps
+// keep best.
+void FirstLoads::hold_up(const DirectRun& run, std::span<RowBody> warm, std::uint32_t body) {
+  gather(run, body);
+  RowBody row = warm[body];
+  for (std::size_t i = 0; i < 3; ++i) {
+    row.velocity[i] += run.bodies[body].gain[i] * k_to_row;
+    row.spin[i] += run.bodies[body].spin_gain[i] * k_to_row;
+  }
+  const auto settle = [&](const auto& push_support) {
+    std::int64_t most = k_settled;
+    for (int round = 0; round < k_most_rounds && most >= k_settled; ++round) {
+      most = 0;
+      for (Support& support : supports_)
+        most = std::max(most, push_support(support));
+    }
+  };
+  settle([&](Support& support) { return push_together(support, row); });
+  settle([&](Support& support) { return push_points(support, row); });
+  for (const Support& support : supports_)
+    hand_down(run, warm, support);
+}
+
+void FirstLoads::gather(const DirectRun& run, std::uint32_t body) {
+  supports_.clear();
+  for (const std::uint32_t index : by_body_.at(body)) {
+    if (upper_[index] != body || supports_.size() == k_most_supports) continue;
+    const Link& link = links_[index];
+    Support& support = supports_.emplace_back();
+    support.contact.link = {link.slot, link.a, link.b, 0, 0, 0, false};
+    support.record = link.record;
+    support.is_new = link.is_new;
+    support.is_b = link.b == body;
+    fill(run, support);
+  }
+}
+
+void FirstLoads::fill(const DirectRun& run, Support& support) {
+  DirectContacts::Contact& contact = support.contact;
+  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
+  const std::size_t lane = contact.link.slot % k_block_lanes;
+  DirectContacts::find_masses(block, lane, contact);
+  DirectContacts::fill(run, contact);
+  const std::int64_t share_b = low_word(block.share[lane]);
+  support.share = support.is_b ? share_b : (std::int64_t{1} << 30) - share_b;
+  const auto own = [&](const RawVec3& turn, const RawVec3& response) {
+    return product_rounded(coupled(contact.normal, contact.normal, turn, response, false),
+                           support.share, 30);
+  };
+  if (contact.count == 0) return;
+  for (std::size_t i = 0; i < contact.count; ++i) {
+    const DirectContacts::Point& point = contact.points[i];
+    const RawVec3& turn = support.is_b ? point.angular_b : point.angular_a;
+    const RawVec3& response = support.is_b ? point.response_b : point.response_a;
+    support.impulse[i] = point.impulse;
+    support.own[i] = own(turn, response);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      support.turn[axis] += turn[axis];
+      support.response[axis] += response[axis];
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    support.turn[axis] = raw::round_divide(support.turn[axis], contact.count);
+    support.response[axis] = raw::round_divide(support.response[axis], contact.count);
+  }
+  support.common = own(support.turn, support.response);
+}
+
+// Answers by how much, Q32.
+std::int64_t FirstLoads::push_together(Support& support, RowBody& body) const {
+  const DirectContacts::Contact& contact = support.contact;
+  if (contact.count == 0) return 0;
+  const std::int64_t least =
+      *std::ranges::min_element(std::span(support.impulse).first(contact.count));
+  const std::int64_t all =
+      stopping(speed_of(contact.normal, support.response, support.is_b, body), support.common);
+  const std::int64_t each = std::max(raw::round_divide(all, contact.count), -least);
+  for (std::size_t i = 0; i < contact.count; ++i)
+    support.impulse[i] += each;
+  const std::int64_t by = product_rounded(each * contact.count, support.share, 30);
+  add_scaled(contact.normal, by, !support.is_b, body.velocity);
+  add_scaled(support.turn, by, !support.is_b, body.spin);
+  return std::abs(each);
+}
+
+std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
+  const DirectContacts::Contact& contact = support.contact;
+  std::int64_t most = 0;
+  for (std::size_t i = 0; i < contact.count; ++i) {
+    const DirectContacts::Point& point = contact.points[i];
+    const RawVec3& turn = support.is_b ? point.angular_b : point.angular_a;
+    const RawVec3& response = support.is_b ? point.response_b : point.response_a;
+    const std::int64_t asked =
+        stopping(speed_of(contact.normal, response, support.is_b, body), support.own[i]);
+    const std::int64_t change = std::max(asked, -support.impulse[i]);
+    support.impulse[i] += change;
+    const std::int64_t by = product_rounded(change, support.share, 30);
+    add_scaled(contact.normal, by, !support.is_b, body.velocity);
+    add_scaled(turn, by, !support.is_b, body.spin);
+    most = std::max(most, std::abs(change));
+  }
+  return most;
+}
+
+// To the block in its own steps, and to both bodies; a new contact is at rest under what it got.
+void FirstLoads::hand_down(const DirectRun& run, std::span<RowBody> warm, const Support& support) {
+  const DirectContacts::Contact& contact = support.contact;
+  const Link link{contact.link.slot, contact.link.a, contact.link.b};
+  ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
+  const std::size_t lane = link.slot % k_block_lanes;
+  const std::int64_t share_b = low_word(block.share[lane]);
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < contact.count; ++i) {
+    const DirectContacts::Point& point = contact.points[i];
+    const std::int64_t now = std::clamp<std::int64_t>(
+        raw::round_shift(support.impulse[i], k_direct_more_bits), 0, lanes::k_most_impulse);
+    sum += now;
+    std::int64_t& word = block.points[i].impulse[lane];
+    word = std::max<std::int64_t>(high_word(word), now) * (std::int64_t{1} << 32) + now;
+    const std::int64_t change = now * (std::int64_t{1} << k_direct_more_bits) - point.impulse;
+    const std::int64_t to_b = product_rounded(change, share_b, 30), to_a = change - to_b;
+    if (link.a != 0) {
+      add_scaled(contact.normal, to_a, true, warm[link.a].velocity);
+      add_scaled(point.angular_a, to_a, true, warm[link.a].spin);
+    }
+    if (link.b != 0) {
+      add_scaled(contact.normal, to_b, false, warm[link.b].velocity);
+      add_scaled(point.angular_b, to_b, false, warm[link.b].spin);
+    }
+  }
+  if (!support.is_new || contact.count == 0) return;
+  const std::int64_t load = raw::round_divide(sum, contact.count);
+  block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
+  loads_.push_back({support.record, static_cast<std::int32_t>(load)});
+}
+
+}  // namespace lockstone

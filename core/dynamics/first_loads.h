@@ -1,0 +1,90 @@
+// What contacts carry where bodies were just put on each other: impulses to start from.
+//
+// A contact starts with what it pushed a tick ago. Where nothing pushed yet, sweeps hand a load on
+// by about a contact each, and a wall of a hundred rows has sunk by metres before its lowest row
+// knows what it carries. Here bodies hand it down instead, each once all that rests on it has: its
+// supports, as if they stood still, take what it gains by gravity, forces and what lies on it; what
+// they take, they hand on in turn. Levels of a contact graph as in E. Guendelman, R. Bridson,
+// R. Fedkiw, "Nonconvex rigid bodies with stacking", 2003; but downwards, and both sides of a
+// contact feel it, so that momentum is kept.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/body_links.h"
+#include "core/dynamics/direct_contacts.h"
+
+namespace lockstone {
+
+class FirstLoads {
+ public:
+  /// A contact that touches.
+  struct Link {
+    std::uint32_t slot = 0;      // lane of its block
+    std::uint32_t a = 0, b = 0;  // numbers of its bodies; 0: no impulse moves it
+    std::uint32_t record = 0;
+    bool is_new = false;
+  };
+  /// What the record of a new contact has to know.
+  struct Load {
+    std::uint32_t record = 0;
+    std::int32_t load = 0;  // impulse of a point, mean of all, m/s, Q20
+  };
+
+  /// No function but this allocates.
+  FirstLoads(std::size_t body_capacity, std::size_t contact_capacity);
+
+  void clear();
+
+  /// In the order of the records.
+  void add(const Link& link) { links_.push_back(link); }
+
+  /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
+  /// given to the blocks, and what they do to bodies, added to `warm`. Bodies faster than 1/4 m/s
+  /// are left out.
+  void find(const DirectRun& run, std::span<lanes::RowBody> warm);
+
+  [[nodiscard]] std::span<const Load> loads() const { return loads_; }
+
+ private:
+  // A contact on which a body rests.
+  struct Support {
+    DirectContacts::Contact contact;
+    std::uint32_t record = 0;
+    bool is_new = false;
+    bool is_b = false;  // the body that rests
+    std::int64_t share = 0;
+    std::array<std::int64_t, lanes::k_block_points> own{};      // response of the body, Q30
+    std::array<std::int64_t, lanes::k_block_points> impulse{};  // m/s, Q32
+    RawVec3 turn{}, response{};                                 // of all points at once
+    std::int64_t common = 0;                                    // response to them, Q30
+  };
+
+  void find_uppers(const DirectRun& run);
+  void find_held(const DirectRun& run);
+  void find_order();
+  [[nodiscard]] std::uint32_t lower_of(std::uint32_t link) const;
+  [[nodiscard]] bool rests(std::uint32_t link) const {
+    return upper_[link] != 0 && is_held_[upper_[link]] != 0;
+  }
+  void hold_up(const DirectRun& run, std::span<lanes::RowBody> warm, std::uint32_t body);
+  void gather(const DirectRun& run, std::uint32_t body);
+  static void fill(const DirectRun& run, Support& support);
+  [[nodiscard]] std::int64_t push_together(Support& support, lanes::RowBody& body) const;
+  [[nodiscard]] std::int64_t push_points(Support& support, lanes::RowBody& body) const;
+  void hand_down(const DirectRun& run, std::span<lanes::RowBody> warm, const Support& support);
+
+  std::vector<Link> links_;
+  BodyLinks by_body_;
+  std::vector<std::uint32_t> upper_;    // by link: the body that rests on the other; 0: none
+  std::vector<std::uint8_t> is_held_;   // by body: stands, over others, on something immovable
+  std::vector<std::uint32_t> carried_;  // by body: contacts that others rest on it by
+  std::vector<std::uint32_t> queue_;    // bodies
+  std::vector<Support> supports_;       // of one body
+  std::vector<Load> loads_;
+};
+
+}  // namespace lockstone
