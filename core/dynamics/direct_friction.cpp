@@ -24,7 +24,7 @@ std::int64_t packed(std::int64_t low, std::int64_t high) {
 bool leans_on_friction(const ManifoldBlock& block, std::size_t lane, std::int64_t push) {
   const std::int64_t t = low_word(block.friction[lane]), b = high_word(block.friction[lane]);
   const std::uint64_t size = static_cast<std::uint64_t>(t * t) + static_cast<std::uint64_t>(b * b);
-  return UInt128{0, size} << (2 * k_leaning_shift) >
+  return (UInt128{0, size} << (2 * k_leaning_shift)) >
          multiply_wide(static_cast<std::uint64_t>(push), static_cast<std::uint64_t>(push));
 }
 
