@@ -43,6 +43,25 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
+// What overlaps by more than this is squeezed; by twice as much, it keeps no more than half of its
+// impulse from sweep to sweep.
+constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
+constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
+
+// The share of its impulse that a soft row keeps. Between what closes in without end, a heavily
+// damped spring pushes with all that it takes, until something slips out and is thrown away: what
+// is squeezed gives way instead. Nothing that lies or falls of itself overlaps as far.
+std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
+  Displacement least = manifold.points[0].separation;
+  for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
+    least = min(least, manifold.points[i].separation);
+  const Displacement beyond = -least - k_squeezed;
+  if (beyond.raw <= 0) return keep;
+  const std::int64_t most = keep - std::min(keep, k_kept_of_squeezed);
+  const std::int64_t lost = most * min(beyond, k_squeezed).raw;
+  return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_squeezed.raw));
+}
+
 std::int32_t bounded(const ContactPointRecord& point) {
   return std::clamp(point.normal_impulse.raw, 0, lanes::k_most_impulse);
 }
@@ -159,7 +178,7 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.scale_a = scale(a);
   out.scale_b = scale(b);
   out.bias_rate = soft.bias_rate;
-  out.keep = soft.mass_scale;
+  out.keep = kept_share(soft.mass_scale, in.manifold);
   out.inertia_a = 1 << (12 - pair_exponent + a.inverse_inertia.exponent);
   out.inertia_b = 1 << (12 - pair_exponent + b.inverse_inertia.exponent);
   out.inverse_scale_a = inverse_scale(a);
