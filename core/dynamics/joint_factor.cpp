@@ -35,6 +35,10 @@ struct Product {
   bool is_lower;  // only what is not above the diagonal
 };
 
+// Clang 14 finds none for an aggregate by itself.
+template <class Rows, class Columns, class Terms>
+Product(Rows, Columns, Terms, bool) -> Product<Rows, Columns, Terms>;
+
 // to ← to − entries·factorsᵀ
 template <class Rows, class Columns, class Terms>
 void subtract_product(std::int64_t* to, const Product<Rows, Columns, Terms>& size,
