@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/dynamics/principal_inverse.h"
+
 namespace lockstone {
 namespace {
 
@@ -52,21 +54,29 @@ InverseInertia locked(const BodyRecord& body, InverseInertia m) {
 InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
   if (!body.rotates() || body.is_static()) return {};
   if (!body.is_dynamic()) return isotropic(std::int64_t{1} << 30);
-  const std::array<std::int64_t, 3> inverse = {
-      reciprocal(body.inertia.x), reciprocal(body.inertia.y), reciprocal(body.inertia.z)};
-  if (body.has_spherical_inertia()) return locked(body, isotropic(inverse[0]));
+  if (body.has_spherical_inertia()) return locked(body, isotropic(reciprocal(body.inertia.x)));
+  return locked(body, inverse_inertia(principal_inverse(body.inertia), rotation));
+}
 
-  InverseInertia m;
+PrincipalInverse principal_inverse(const Vec3<Unit>& moments) {
+  const std::array<std::int64_t, 3> inverse = {reciprocal(moments.x), reciprocal(moments.y),
+                                               reciprocal(moments.z)};
+  PrincipalInverse result;
   const std::int64_t largest = std::max({inverse[0], inverse[1], inverse[2]});
-  while ((largest >> m.exponent) > (std::int64_t{1} << 30))
-    ++m.exponent;
+  while ((largest >> result.exponent) > (std::int64_t{1} << 30))
+    ++result.exponent;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.raw[k] = static_cast<std::int32_t>(raw::round_shift(inverse[k], result.exponent));
+  }
+  return result;
+}
 
-  // M = R·diag(1/I)·Rᵀ: column k of R scaled by 1/I_k, times column k again, summed over k.
+// Column k of R scaled by 1/I_k, times column k again, summed over k.
+InverseInertia inverse_inertia(const PrincipalInverse& inverse, const Mat3& rotation) {
   std::int64_t sum[6] = {};
   for (int k = 0; k < 3; ++k) {
     const Vec3<Unit>& axis = rotation.column(k);
-    const auto scale = static_cast<std::int32_t>(
-        raw::round_shift(inverse[static_cast<std::size_t>(k)], m.exponent));
+    const std::int32_t scale = inverse.raw[static_cast<std::size_t>(k)];
     const std::int32_t x = product_q30(axis.x.raw, scale);
     const std::int32_t y = product_q30(axis.y.raw, scale);
     const std::int32_t z = product_q30(axis.z.raw, scale);
@@ -80,9 +90,11 @@ InverseInertia inverse_inertia(const BodyRecord& body, const Mat3& rotation) {
   const auto entry = [](std::int64_t q60) {
     return static_cast<std::int32_t>(raw::round_shift(q60, 30));
   };
+  InverseInertia m;
+  m.exponent = inverse.exponent;
   m.xx = entry(sum[0]), m.yy = entry(sum[1]), m.zz = entry(sum[2]);
   m.xy = entry(sum[3]), m.xz = entry(sum[4]), m.yz = entry(sum[5]);
-  return locked(body, m);
+  return m;
 }
 
 Vec3<Velocity> surface_velocity(const InverseInertia& m, const Vec3<Velocity>& spin) {

@@ -20,11 +20,15 @@ namespace {
 constexpr std::int64_t k_most_inertia = k_one << 8;
 
 // The moments of a body, none of them below `least`.
+Vec3<Unit> moments_of(const BodyRecord& record, std::int64_t least) {
+  const Unit bound = Unit::from_raw(static_cast<std::int32_t>(std::min(least, k_one)));
+  const auto& [x, y, z] = record.inertia;
+  return {max(x, bound), max(y, bound), max(z, bound)};
+}
+
 BodyRecord with_inertia(const BodyRecord& record, std::int64_t least) {
   BodyRecord heavier = record;
-  const Unit bound = Unit::from_raw(static_cast<std::int32_t>(std::min(least, k_one)));
-  for (int i = 0; i < 3; ++i)
-    heavier.inertia[i] = max(record.inertia[i], bound);
+  heavier.inertia = moments_of(record, least);
   return heavier;
 }
 
@@ -131,12 +135,24 @@ void JointSolver::resist_pull(const JointRun& run, std::uint32_t index) {
                   : std::min<std::int64_t>(static_cast<std::int64_t>(rounded), k_most_inertia));
 }
 
+// What turns about all axes, and not about all alike, has a tensor that turns with it.
+void JointSolver::set_principal(Body& body) {
+  const BodyRecord& record = *body.record;
+  const Vec3<Unit> moments = moments_of(record, body.least_inertia);
+  body.has_principal = record.is_dynamic() && record.rotates() &&
+                       (record.locks & k_lock_turning) == 0 &&
+                       !(moments.x == moments.y && moments.y == moments.z);
+  if (body.has_principal) body.principal = principal_inverse(moments);
+}
+
 InverseInertia JointSolver::inverse_inertia_of(const Body& body, const Mat3& rotation) {
   const std::int64_t least = body.least_inertia;
-  if (least == 0) return inverse_inertia(*body.record, rotation);
-  InverseInertia m = inverse_inertia(with_inertia(*body.record, least), rotation);
+  if (least == 0 && !body.has_principal) return inverse_inertia(*body.record, rotation);
+  InverseInertia m = body.has_principal
+                         ? inverse_inertia(body.principal, rotation)
+                         : inverse_inertia(with_inertia(*body.record, least), rotation);
+  if (least <= k_one) return m;
   const int shift = std::countr_zero(static_cast<std::uint64_t>(least)) - 30;  // a power of two
-  if (shift <= 0) return m;
   for (std::int32_t* entry : {&m.xx, &m.yy, &m.zz, &m.xy, &m.xz, &m.yz})
     *entry = static_cast<std::int32_t>(raw::round_shift(*entry, shift));
   return m;
@@ -151,6 +167,7 @@ void JointSolver::set_inertia(const JointRun& run, Body& body, std::int64_t leas
   const Vec3<Velocity> w = surface_velocity(
       body.inverse_inertia, {velocity(row.spin[0]), velocity(row.spin[1]), velocity(row.spin[2])});
   body.least_inertia = least;
+  set_principal(body);
   Vec3<Velocity> spin = spin_of(with_inertia(*body.record, least), body.pose.rotation, w);
   if (least > k_one) {
     for (int i = 0; i < 3; ++i)

@@ -246,42 +246,60 @@ std::uint32_t JointFactor::factor(std::uint32_t first, std::uint32_t count) {
 void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
   for (std::uint32_t k = 0; k < count; ++k) {
     const Column& column = columns_[first + k];
-    const std::uint32_t n = column.count;
-    std::int64_t* y = rhs_.data() + column.first_row;
-    const std::int64_t* d = values_.data() + column.diagonal;
-    const auto reduce = [&](std::int64_t& x, const std::int64_t* line, std::uint32_t terms) {
-      take(x, dot_product(line, y, terms).rounded(k_factor_bits));
-    };
-    for (std::uint32_t r = 1; r < n; ++r)
-      reduce(y[r], d + r * n, r);
-    for (const Block& block : blocks(column)) {
-      const Column& target = columns_[first + block.row];
-      for (std::uint32_t r = 0; r < target.count; ++r)
-        reduce(rhs_[target.first_row + r], values_.data() + block.values + r * n, n);
-    }
+    if (column.count == 3)
+      substitute(first, column, Three{});
+    else
+      substitute(first, column, column.count);
   }
   for (std::uint32_t k = count; k-- > 0;) {
     const Column& column = columns_[first + k];
-    const std::uint32_t n = column.count;
-    std::int64_t* y = rhs_.data() + column.first_row;
-    const std::int64_t* d = values_.data() + column.diagonal;
-    for (std::uint32_t c = n; c-- > 0;) {
-      const Reciprocal& inverse = reciprocals_[column.first_row + c];
-      if (inverse.mantissa == 0) {
-        y[c] = 0;
-        continue;
-      }
-      ProductSum sum;
-      for (std::uint32_t r = c + 1; r < n; ++r)
-        sum.add(d[r * n + c], y[r]);
-      for (const Block& block : blocks(column)) {
-        const Column& target = columns_[first + block.row];
-        for (std::uint32_t r = 0; r < target.count; ++r)
-          sum.add(values_[block.values + r * n + c], rhs_[target.first_row + r]);
-      }
-      const std::int64_t scaled = product_rounded(y[c], inverse.mantissa, inverse.shift);
-      y[c] = std::clamp(scaled - sum.rounded(k_factor_bits), -k_product_bound, k_product_bound);
+    if (column.count == 3)
+      substitute_back(first, column, Three{});
+    else
+      substitute_back(first, column, column.count);
+  }
+}
+
+// What the rows of one joint take from their own and from those below.
+template <class Size>
+void JointFactor::substitute(std::uint32_t first, const Column& column, Size n) {
+  std::int64_t* y = rhs_.data() + column.first_row;
+  const std::int64_t* d = values_.data() + column.diagonal;
+  for (std::uint32_t r = 1; r < n; ++r)
+    take(y[r], dot_product(d + r * n, y, r).rounded(k_factor_bits));
+  for (const Block& block : blocks(column)) {
+    const Column& target = columns_[first + block.row];
+    const std::int64_t* line = values_.data() + block.values;
+    std::int64_t* x = rhs_.data() + target.first_row;
+    for (std::uint32_t r = 0; r < target.count; ++r, line += n)
+      take(x[r], dot_product(line, y, n).rounded(k_factor_bits));
+  }
+}
+
+template <class Size>
+void JointFactor::substitute_back(std::uint32_t first, const Column& column, Size n) {
+  std::int64_t* y = rhs_.data() + column.first_row;
+  const std::int64_t* d = values_.data() + column.diagonal;
+  std::array<ProductSum, k_factor_rows> sums;
+  for (const Block& block : blocks(column)) {
+    const Column& target = columns_[first + block.row];
+    const std::int64_t* line = values_.data() + block.values;
+    const std::int64_t* x = rhs_.data() + target.first_row;
+    for (std::uint32_t r = 0; r < target.count; ++r, line += n) {
+      for (std::uint32_t c = 0; c < n; ++c)
+        sums[c].add(line[c], x[r]);
     }
+  }
+  for (std::uint32_t c = n; c-- > 0;) {
+    const Reciprocal& inverse = reciprocals_[column.first_row + c];
+    if (inverse.mantissa == 0) {
+      y[c] = 0;
+      continue;
+    }
+    for (std::uint32_t r = c + 1; r < n; ++r)
+      sums[c].add(d[r * n + c], y[r]);
+    y[c] = product_rounded(y[c], inverse.mantissa, inverse.shift);
+    take(y[c], sums[c].rounded(k_factor_bits));
   }
 }
 

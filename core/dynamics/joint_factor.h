@@ -94,6 +94,10 @@ class JointFactor {
   void divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows, Size n,
                    Entries& entries) const;
   void update(std::uint32_t first, const Column& column);
+  template <class Size>
+  void substitute(std::uint32_t first, const Column& column, Size n);
+  template <class Size>
+  void substitute_back(std::uint32_t first, const Column& column, Size n);
   [[nodiscard]] std::int64_t* find_block(const Column& column, std::uint32_t row);
 
   std::vector<Column> columns_;

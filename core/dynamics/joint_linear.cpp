@@ -32,13 +32,30 @@ std::int64_t scaled_response(std::int64_t response, const BodyRecord& body, int 
 }
 
 void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
-  const auto gain = [](std::int64_t& x, std::int64_t by) {
-    x = bounded(bounded(x, k_row_bound) + by, k_row_bound);
+  const auto gained = [](std::int64_t x, std::int64_t by) {
+    return bounded(bounded(x, k_row_bound) + by, k_row_bound);
+  };
+  // Bits 62 and 63 of what is out of bounds, offset by the bound.
+  const auto excess = [](std::int64_t x) {
+    return static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(k_row_bound);
+  };
+  RowBody next = body;
+  std::uint64_t beyond = 0;
+  const auto sum = [](std::int64_t x, std::int64_t by) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(x) +
+                                     static_cast<std::uint64_t>(by));
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    gain(body.velocity[axis], velocity[axis]);
-    gain(body.spin[axis], spin[axis]);
+    next.velocity[axis] = sum(body.velocity[axis], velocity[axis]);
+    next.spin[axis] = sum(body.spin[axis], spin[axis]);
+    beyond |= excess(body.velocity[axis]) | excess(next.velocity[axis]);
+    beyond |= excess(body.spin[axis]) | excess(next.spin[axis]);
   }
+  for (std::size_t axis = 0; axis < 3 && beyond >> 62 != 0; ++axis) {
+    next.velocity[axis] = gained(body.velocity[axis], velocity[axis]);
+    next.spin[axis] = gained(body.spin[axis], spin[axis]);
+  }
+  body = next;
 }
 
 std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
@@ -220,16 +237,18 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t firs
   const auto push_side = [&](std::uint32_t index, const Share& share, auto linear, auto angular) {
     if (share.mantissa == 0) return;
     std::array<ProductSum, 3> velocity, spin;
+    RawVec3 jumps{}, v{}, w{};
     const auto jump = [&](std::size_t r) {
       return product_rounded(impulses[r], share.mantissa, share.shift);
     };
     std::size_t r = first;
     if (joint.rows.is_point && first == 0 && end >= 3) {  // row i along axis i, its levers across
       const auto& rows = joint.rows.rows;
-      const RawVec3 jumps = {jump(0), jump(1), jump(2)};
+      jumps = {jump(0), jump(1), jump(2)};
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        velocity[i].add((rows[i].*linear)[i], jumps[i]);
+        const std::int64_t along = (rows[i].*linear)[i];  // 1, −1 or held
+        v[i] = along == 0 ? 0 : along < 0 ? -jumps[i] : jumps[i];
         spin[i].add((rows[j].*angular)[i], jumps[j]);
         spin[i].add((rows[k].*angular)[i], jumps[k]);
       }
@@ -245,9 +264,8 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t firs
       }
     }
     const std::uint32_t solver = bodies_[index].solver;
-    RawVec3 v, w;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      v[axis] = velocity[axis].rounded(30);
+      if (!joint.rows.is_point) v[axis] = velocity[axis].rounded(30);
       w[axis] = spin[axis].rounded(30);
     }
     add_velocity(run.rows[solver], v, w);

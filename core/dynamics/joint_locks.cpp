@@ -30,6 +30,13 @@ constexpr std::int64_t k_far = std::int64_t{1} << 30;
 // Joints of groups that are not solved at once close this part of an opening a substep.
 constexpr int k_close_shift = 2;
 
+// x · mass · 2^shift within ±k_row_bound
+std::int64_t times_mass(std::int64_t x, BlockFloat mass, int shift) {
+  const int right = -shift - mass.exponent;
+  if (right >= 1 && right <= 125) return product_rounded(x, mass.mantissa, right);
+  return bounded(scale_saturating(x, mass, shift), k_row_bound);
+}
+
 }  // namespace
 
 // Locks as they will be after the substep as it stands: Newton's step needs their directions there.
@@ -201,7 +208,7 @@ void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions)
     for (std::uint32_t r = 0; r < joint.rows.locks; ++r) {
       const int shift = 4 - joint.solved[r].exponent - group.exponent;
       const std::int64_t solved = factor_.rhs(columns[k].first_row + r);
-      impulses[r] = bounded(scale_saturating(solved, joint.inverse_mass, shift), k_row_bound);
+      impulses[r] = times_mass(solved, joint.inverse_mass, shift);
       const std::uint8_t axis = joint.rows.rows[r].axis;
       std::int64_t& total = later ? joint.relaxed[axis] : joint.locks[axis];
       total = bounded(total + impulses[r], k_product_bound);

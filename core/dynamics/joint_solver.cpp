@@ -57,7 +57,8 @@ std::uint32_t JointSolver::take_up(const Side& side) {
   Body body;
   body.record = &side.record;
   body.pose = {side.record.position, side.record.orientation, side.rotation};
-  body.inverse_inertia = inverse_inertia(side.record, side.rotation);
+  set_principal(body);
+  body.inverse_inertia = inverse_inertia_of(body, side.rotation);
   body.solver = side.solver;
   body.pushed = side.solver != 0 && side.record.is_dynamic();
   bodies_.push_back(body);

@@ -18,6 +18,7 @@
 #include "core/dynamics/joint_factor.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/joint_rows.h"
+#include "core/dynamics/principal_inverse.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
 #include "core/math/wide/ball_block.h"
@@ -107,6 +108,8 @@ class JointSolver {
     JointPose pose;
     const BodyRecord* record = nullptr;
     std::int64_t least_inertia = 0;  // Q30: moments are taken to be at least this
+    PrincipalInverse principal{};    // if it has such
+    bool has_principal = false;
     InverseInertia inverse_inertia{};
     InverseInertia inertia_ahead{};  // half a substep on, as far as is known
     std::uint32_t solver = 0;
@@ -217,6 +220,7 @@ class JointSolver {
   [[nodiscard]] std::int64_t lever_inertia(std::uint32_t body) const;
   void resist_pull(const JointRun& run, std::uint32_t body);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
+  static void set_principal(Body& body);
   [[nodiscard]] static InverseInertia inverse_inertia_of(const Body& body, const Mat3& rotation);
   void linearize(const Cluster& cluster);
   static void hold(const Body& body, RawVec3& linear);
