@@ -4,6 +4,7 @@
 
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/joint_solver.h"
+#include "core/dynamics/lane_bodies.h"
 
 namespace lockstone {
 
@@ -11,9 +12,6 @@ namespace {
 
 // Contacts that carry so many halves of a body's weight are loaded.
 constexpr std::int64_t k_loaded_halves = 5;
-
-// What moves faster is not at rest: 1/4 m/s, Q50.
-constexpr std::int64_t k_resting_speed = std::int64_t{1} << (lanes::k_velocity_bits - 2);
 
 std::int64_t impulse_of(const ContactRecord& record) {
   std::int64_t sum = 0;
@@ -49,8 +47,7 @@ bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
     if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin)))
       return false;
   }
-  const auto rests = [](std::int64_t v) { return v < k_resting_speed && v > -k_resting_speed; };
-  return std::ranges::all_of(rows_[index].velocity, rests);
+  return is_at_rest(rows_[index]);
 }
 
 // Nothing unless a contact is uneven, or a few are loaded. Bodies with locks or joints are left to

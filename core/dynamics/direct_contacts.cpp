@@ -34,14 +34,13 @@ bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
 }  // namespace
 
 DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_capacity)
-    : factor_(std::min(contact_capacity, k_most_contacts)) {
+    : by_body_(body_capacity, contact_capacity),
+      factor_(std::min(contact_capacity, k_most_contacts)) {
   const std::size_t most = std::min(contact_capacity, k_most_contacts) + k_most_of_loaded;
   links_.reserve(contact_capacity);
   left_out_.reserve(body_capacity);
   marks_.reserve(body_capacity + 1);
   link_marks_.reserve(contact_capacity);
-  first_link_.reserve(body_capacity + 2);
-  by_body_.reserve(2 * contact_capacity);
   queue_.reserve(body_capacity + 1);
   chosen_.reserve(contact_capacity);
   order_.reserve(contact_capacity);
@@ -72,27 +71,6 @@ bool DirectContacts::is_uneven(std::int32_t share_b) {
   return least > 0 && least <= k_light_share;
 }
 
-// The links of each body, by index.
-void DirectContacts::link_bodies(std::size_t body_count) {
-  first_link_.assign(body_count + 1, 0);
-  for (const Link& link : links_)
-    for (const std::uint32_t body : {link.a, link.b})
-      first_link_[body] += body == 0 ? 0 : 1;
-  std::uint32_t total = 0;
-  for (std::uint32_t& first : first_link_) {
-    const std::uint32_t count = first;
-    first = total;
-    total += count;
-  }
-  by_body_.assign(total, 0);
-  for (std::uint32_t i = 0; i < links_.size(); ++i)
-    for (const std::uint32_t body : {links_[i].a, links_[i].b})
-      if (body != 0) by_body_[first_link_[body]++] = i;
-  for (std::size_t body = body_count; body > 0; --body)
-    first_link_[body] = first_link_[body - 1];
-  first_link_[0] = 0;
-}
-
 // Whether gravity and forces push the heavy body towards the light one: n·gain, Q32.
 bool DirectContacts::is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const {
   const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
@@ -114,7 +92,7 @@ void DirectContacts::plan(const DirectRun& run) {
   place_.assign(links_.size(), 0);
   gain_place_.resize(run.bodies.size());
   chosen_.clear();
-  link_bodies(run.bodies.size());
+  by_body_.assign(std::span<const Link>(links_), run.bodies.size());
   for (const std::uint32_t body : left_out_)
     marks_[body] = Mark::dropped;
   for (const Link& link : links_) {
@@ -150,7 +128,7 @@ bool DirectContacts::gather_all(std::size_t first, std::size_t most) {
 }
 
 bool DirectContacts::gather_body(std::uint32_t body) {
-  for (const std::uint32_t index : links_at(body)) {
+  for (const std::uint32_t index : by_body_.at(body)) {
     const Link& link = links_[index];
     if (link_marks_[index] == Mark::none) {
       link_marks_[index] = Mark::chosen;
@@ -205,7 +183,7 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
   for (std::size_t i = 0; i < order_.size(); ++i) {
     for (const std::uint32_t body : {links_[order_[i]].a, links_[order_[i]].b}) {
       if (body == 0) continue;
-      for (const std::uint32_t index : links_at(body)) {
+      for (const std::uint32_t index : by_body_.at(body)) {
         if (link_marks_[index] != Mark::chosen) continue;
         link_marks_[index] = Mark::dropped;
         order_.push_back(index);
@@ -262,7 +240,7 @@ bool DirectContacts::plan_factor(Group& group) {
     const Link& link = contacts_[group.first + k].link;
     for (const std::uint32_t body : {link.a, link.b}) {
       if (body == 0) continue;
-      for (const std::uint32_t other : links_at(body))
+      for (const std::uint32_t other : by_body_.at(body))
         if (place_[other] != 0) emit(place_[other] - 1);
     }
   };

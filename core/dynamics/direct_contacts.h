@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "core/dynamics/body_links.h"
 #include "core/dynamics/joint_factor.h"
 #include "core/dynamics/raw_vec3.h"
 #include "core/dynamics/solver_body.h"
@@ -129,7 +130,6 @@ class DirectContacts {
   };
 
   // Which: direct_contacts.cpp.
-  void link_bodies(std::size_t body_count);
   [[nodiscard]] bool is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const;
   void gather(std::uint32_t light, std::size_t most);
   bool gather_all(std::size_t first, std::size_t most);
@@ -139,11 +139,6 @@ class DirectContacts {
   void plan_group(const DirectRun& run, std::uint32_t root);
   bool plan_factor(Group& group);
   void list_bodies(const DirectRun& run, Group& group);
-  [[nodiscard]] std::span<const std::uint32_t> links_at(std::uint32_t body) const {
-    return std::span(by_body_).subspan(first_link_[body],
-                                       first_link_[body + 1] - first_link_[body]);
-  }
-
   // How: direct_rows.cpp.
   static void fill(const DirectRun& run, Contact& contact);
   static void fill_point(const lanes::ManifoldBlock& block, std::size_t lane,
@@ -209,13 +204,12 @@ class DirectContacts {
 
   std::vector<Link> links_;
   std::vector<std::uint32_t> left_out_;
-  std::vector<Mark> marks_;                // by body
-  std::vector<Mark> link_marks_;           // by link
-  std::vector<std::uint32_t> first_link_;  // by body: in by_body_
-  std::vector<std::uint32_t> by_body_;     // links
-  std::vector<std::uint32_t> queue_;       // bodies
-  std::vector<std::uint32_t> chosen_;      // links
-  std::vector<std::uint32_t> order_;       // links of a group; by link: place in it
+  std::vector<Mark> marks_;       // by body
+  std::vector<Mark> link_marks_;  // by link
+  BodyLinks by_body_;
+  std::vector<std::uint32_t> queue_;   // bodies
+  std::vector<std::uint32_t> chosen_;  // links
+  std::vector<std::uint32_t> order_;   // links of a group; by link: place in it
   std::vector<std::uint32_t> place_;
   std::vector<RawVec3> holds_;  // where what nothing moves pushes a group, Q30
   // What a body has yet to gain of impulses, m/s, Q32.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/dynamics/direct_words.h"
+#include "core/dynamics/lane_bodies.h"
 
 namespace lockstone {
 namespace {
@@ -21,17 +22,9 @@ constexpr std::size_t k_most_supports = 32;
 constexpr int k_most_rounds = 16;
 constexpr std::int64_t k_settled = std::int64_t{1} << 9;
 
-// What moves faster is not at rest: 1/4 m/s, Q50.
-constexpr std::int64_t k_resting_speed = std::int64_t{1} << (lanes::k_velocity_bits - 2);
-
 // From the Q32 of gains and impulses to the Q50 of rows.
 constexpr int k_row_shift = lanes::k_velocity_bits - k_direct_bits;
 constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
-
-bool is_at_rest(const RowBody& row) {
-  return std::ranges::all_of(
-      row.velocity, [](std::int64_t v) { return v < k_resting_speed && v > -k_resting_speed; });
-}
 
 // n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
 // of the normal points more than an eighth against it.

@@ -26,4 +26,11 @@ namespace lockstone {
          still(row.spin[0]) && still(row.spin[1]) && still(row.spin[2]);
 }
 
+/// Slower than 1/4 m/s along each axis: what contacts carry may be taken for weight.
+[[nodiscard]] inline bool is_at_rest(const lanes::RowBody& row) {
+  constexpr std::int64_t k_most = std::int64_t{1} << (lanes::k_velocity_bits - 2);
+  const auto slow = [](std::int64_t v) { return v < k_most && v > -k_most; };
+  return slow(row.velocity[0]) && slow(row.velocity[1]) && slow(row.velocity[2]);
+}
+
 }  // namespace lockstone

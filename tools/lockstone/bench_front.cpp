@@ -171,12 +171,14 @@ bool write_all(const std::filesystem::path& folder, const std::vector<bench::Fro
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   bool written = true;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    if (!write_text_file((folder / name).string(), text)) written = false;
+  };
   for (const bench::Front& front : fronts)
-    written &= write_text_file((folder / fmt::format("{}.svg", front.error->name)).string(),
-                               bench::svg_of(bench::chart_of(front)));
-  return written &
-         write_text_file((folder / "front.md").string(), bench::front_page(fronts, facts, true)) &
-         write_text_file((folder / "front.csv").string(), bench::front_csv(fronts, facts));
+    write(fmt::format("{}.svg", front.error->name), bench::svg_of(bench::chart_of(front)));
+  write("front.md", bench::front_page(fronts, facts, true));
+  write("front.csv", bench::front_csv(fronts, facts));
+  return written;
 }
 
 }  // namespace

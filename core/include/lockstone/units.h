@@ -19,7 +19,6 @@ using NewtonSecond = Dimension<1, 1, -1>;
 using NewtonMetre = Dimension<2, 1, -2>;
 using NewtonMetreSecond = Dimension<2, 1, -1>;
 using Newton = Dimension<1, 1, -2>;
-using NewtonMetre = Dimension<2, 1, -2>;
 using KilogramPerMetre3 = Dimension<-3, 1, 0>;
 
 /// World position, one axis. ±2^31 m representable, world limit ±2^20 m; resolution 0.23 nm.
