@@ -55,10 +55,10 @@ std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
     least = min(least, manifold.points[i].separation);
-  const Displacement beyond = -least - k_squeezed;
-  if (beyond.raw <= 0) return keep;
+  const std::int64_t beyond = -std::int64_t{least.raw} - k_squeezed.raw;
+  if (beyond <= 0) return keep;
   const std::int64_t most = keep - std::min(keep, k_kept_of_squeezed);
-  const std::int64_t lost = most * min(beyond, k_squeezed).raw;
+  const std::int64_t lost = most * std::min<std::int64_t>(beyond, k_squeezed.raw);
   return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_squeezed.raw));
 }
 

@@ -10,10 +10,11 @@ class ContactPrepare : public ::testing::Test {
  protected:
   ContactPrepare() { body_.inverse_mass.mantissa = 1 << 30; }
 
-  // Of a contact of two points, one of them on the surface.
+  // Of a contact of two points, one of them as far as can be.
   [[nodiscard]] std::int32_t kept_at(Displacement separation) const {
     Manifold manifold;
     manifold.count = 2;
+    manifold.points[0].separation = Displacement::max();
     manifold.points[1].separation = separation;
     const ContactRecord record;
     const ContactSurface surface;
@@ -31,7 +32,7 @@ class ContactPrepare : public ::testing::Test {
 };
 
 TEST_F(ContactPrepare, KeepsItsShareUpToThreeMillimetres) {
-  for (const Displacement separation : {mm(20), mm(0), -mm(1), -mm(3)})
+  for (const Displacement separation : {Displacement::max(), mm(20), mm(0), -mm(1), -mm(3)})
     EXPECT_EQ(kept_at(separation), softness_.between_moving.mass_scale) << separation.raw;
 }
 
