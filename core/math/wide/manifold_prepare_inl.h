@@ -313,6 +313,7 @@ HWY_INLINE HWY_ATTR bool is_empty(const ManifoldSources& in, std::size_t lane) {
 }
 
 HWY_INLINE HWY_ATTR bool are_plain(const ManifoldSources& in, std::size_t lane) {
+  if constexpr (!k_tells_plain) return false;
   std::int32_t kinds = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
     kinds |= in.lanes[i].kind;
