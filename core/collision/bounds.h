@@ -48,6 +48,18 @@ struct Bounds {
           {max(a.upper.x, b.upper.x), max(a.upper.y, b.upper.y), max(a.upper.z, b.upper.z)}};
 }
 
+/// What a ball passes on a straight way.
+[[nodiscard]] constexpr Bounds bounds_of_way(const Vec3<Position>& from, const Vec3<Position>& to,
+                                             Length radius) {
+  const Position reach = rounded<Position>(radius);
+  Bounds bounds;
+  for (int i = 0; i < 3; ++i) {
+    bounds.lower[i] = round_down(min(from[i], to[i]) - reach);
+    bounds.upper[i] = round_up(max(from[i], to[i]) + reach);
+  }
+  return bounds;
+}
+
 /// Grown by `margin` on every side, saturating.
 [[nodiscard]] constexpr Bounds inflated(const Bounds& b, BoundsCoordinate margin) {
   const auto shift = [](BoundsCoordinate x, std::int64_t by) {

@@ -188,7 +188,17 @@ class ContactSolver {
     if ((index & k_immovable) == 0) return index;
     return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
   }
+  // As the direct contacts know a body; 0: what no impulse moves.
+  [[nodiscard]] std::uint32_t pushed_number(std::uint32_t index) const {
+    return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
+  }
   void lay_out(Parallel& parallel);
+  // The lane of an entry's contact, counted over all blocks.
+  [[nodiscard]] std::uint32_t slot_of(std::size_t entry) const {
+    const ConstraintGraph::Place place = graph_.places()[entry];
+    return static_cast<std::uint32_t>(ranges_[place.color].first * lanes::k_block_lanes) +
+           place.rank;
+  }
   void add_loop(Stage stage, std::uint32_t count, std::uint32_t grain, bool is_serial = false);
   void add_loop_of_each_color(StageKind kind, std::uint8_t substep = 0);
   void add_net_loops(StageKind kind);

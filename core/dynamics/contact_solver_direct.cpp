@@ -56,17 +56,13 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
   direct_.clear();
   const bool takes_loaded = loaded_ > 0 && few_are_loaded();
   if (!uneven_ && !takes_loaded) return;
-  const std::span<const ConstraintGraph::Place> places = graph_.places();
-  const auto number = [&](std::uint32_t index) {
-    return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
-  };
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
-    const std::size_t slot = ranges_[places[i].color].first * lanes::k_block_lanes + places[i].rank;
+    const std::uint32_t slot = slot_of(i);
     const lanes::ManifoldBlock& block = blocks_[slot / lanes::k_block_lanes];
     const std::size_t lane = slot % lanes::k_block_lanes;
     const auto share_b = static_cast<std::int32_t>(block.share[lane]);
-    direct_.add({static_cast<std::uint32_t>(slot), number(entry.body_a), number(entry.body_b),
+    direct_.add({slot, pushed_number(entry.body_a), pushed_number(entry.body_b),
                  row_of(entry.body_a), row_of(entry.body_b), share_b,
                  takes_loaded && is_loaded(scene, entry, share_b)});
   }
@@ -80,16 +76,12 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
 void ContactSolver::find_first_loads(const ContactScene& scene) {
   first_loads_.clear();
   if (few_are_loaded() || new_ <= k_most_loaded || new_ < entries_.size() / 4) return;
-  const std::span<const ConstraintGraph::Place> places = graph_.places();
-  const auto number = [&](std::uint32_t index) {
-    return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
-  };
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin))) continue;
-    const std::size_t slot = ranges_[places[i].color].first * lanes::k_block_lanes + places[i].rank;
-    first_loads_.add({static_cast<std::uint32_t>(slot), number(entry.body_a), number(entry.body_b),
-                      entry.record, scene.records[entry.record].count == 0});
+    const std::uint32_t slot = slot_of(i);
+    first_loads_.add({slot, pushed_number(entry.body_a), pushed_number(entry.body_b), entry.record,
+                      scene.records[entry.record].count == 0});
   }
   first_loads_.find(direct_run(), before_);
 }

@@ -99,11 +99,10 @@ void ContactSolver::lay_out(Parallel& parallel) {
     kept_.resize(block_count_ * k_block_lanes);
     restitution_.resize(block_count_);
   }
-  const std::span<const ConstraintGraph::Place> places = graph_.places();
-  parallel.for_each({static_cast<std::uint32_t>(places.size()), k_side_grain},
+  parallel.for_each({static_cast<std::uint32_t>(entries_.size()), k_side_grain},
                     [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
                       for (std::uint32_t i = first; i < end; ++i)
-                        slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank] = i;
+                        slots_[slot_of(i)] = i;
                     });
 }
 

@@ -254,7 +254,7 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
 // To the block in its own steps, and to both bodies; a new contact is at rest under what it got.
 void FirstLoads::hand_down(const DirectRun& run, std::span<RowBody> warm, const Support& support) {
   const DirectContacts::Contact& contact = support.contact;
-  const Link link{contact.link.slot, contact.link.a, contact.link.b};
+  const DirectContacts::Link& link = contact.link;
   ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
   const std::size_t lane = link.slot % k_block_lanes;
   const std::int64_t share_b = low_word(block.share[lane]);

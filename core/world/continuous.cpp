@@ -77,17 +77,6 @@ bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeSt
   return sum_of_magnitudes(surface_velocity(inverse_inertia(body, rotation), body.spin)) > limit;
 }
 
-Bounds bounds_of_way(const Sweep& motion, Length radius) {
-  const Position reach = rounded<Position>(radius);
-  Bounds bounds;
-  for (int i = 0; i < 3; ++i) {
-    const Position start = motion.start.position[i], end = start + motion.translation[i];
-    bounds.lower[i] = round_down(min(start, end) - reach);
-    bounds.upper[i] = round_up(max(start, end) + reach);
-  }
-  return bounds;
-}
-
 }  // namespace
 
 void World::Impl::stop_at_impacts(StepReport& report) {
@@ -186,18 +175,23 @@ Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
   return rest_of(motion_in_tick(body), done);
 }
 
+bool World::Impl::is_obstacle(std::uint32_t body, std::uint32_t other) const {
+  const BodyRecord& obstacle = bodies[other];
+  return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
+         !are_joined(body, other);
+}
+
 // What a body may stop at on its way.
 template <class F>
 void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
   const BodyRecord& record = bodies[body];
-  const Bounds way = bounds_of_way(motion, bounding_radius(record.shape(), body_assets[body]));
+  const Vec3<Position>& from = motion.start.position;
+  const Bounds way = bounds_of_way(from, from + motion.translation,
+                                   bounding_radius(record.shape(), body_assets[body]));
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
-    const BodyRecord& obstacle = bodies[other];
-    const bool considered =
-        other != body && !obstacle.is_trigger() && (record.is_bullet() || !obstacle.is_dynamic()) &&
-        should_collide(record.filter(), obstacle.filter()) && !are_joined(body, other);
-    if (considered) f(other);
+    const bool considered = other != body && (record.is_bullet() || !bodies[other].is_dynamic());
+    if (considered && is_obstacle(body, other)) f(other);
   };
   if (record.is_bullet())
     broad_phase.traverse(k_every_category, test, visit);

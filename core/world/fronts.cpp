@@ -10,17 +10,6 @@ namespace {
 // Fronts that a body is held by one after the other: a corner has three.
 constexpr int k_most_fronts = 4;
 
-// Two poses of one ball.
-Bounds bounds_of_both(const Vec3<Position>& start, const Vec3<Position>& end, Length radius) {
-  const Position reach = rounded<Position>(radius);
-  Bounds bounds;
-  for (int i = 0; i < 3; ++i) {
-    bounds.lower[i] = round_down(min(start[i], end[i]) - reach);
-    bounds.upper[i] = round_up(max(start[i], end[i]) + reach);
-  }
-  return bounds;
-}
-
 PlacedShape moved_by(PlacedShape placed, const Vec3<Position>& way) {
   placed.origin += way;
   placed.centre += way;
@@ -33,16 +22,13 @@ template <class Impl>  // World::Impl, which nothing outside may name
 FrontPush find_front(const Impl& world, std::uint32_t body, const Vec3<Position>& start) {
   const BodyRecord& record = world.bodies[body];
   const Asset* asset = world.body_assets[body];
-  const Bounds way = bounds_of_both(start, record.position, bounding_radius(record.shape(), asset));
+  const Bounds way = bounds_of_way(start, record.position, bounding_radius(record.shape(), asset));
   FrontPush first;
   std::uint32_t body_of_first = 0;
   const auto look_at = [&](std::uint32_t other) {
     const Asset* mesh = world.body_assets[other];
-    const BodyRecord& obstacle = world.bodies[other];
-    const bool considered =
-        mesh != nullptr && mesh->mesh_kernels() != nullptr && !obstacle.is_trigger() &&
-        should_collide(record.filter(), obstacle.filter()) && !world.are_joined(body, other);
-    if (!considered) return;
+    if (mesh == nullptr || mesh->mesh_kernels() == nullptr || !world.is_obstacle(body, other))
+      return;
     const PlacedWay gone{
         moved_by(world.placed(body), start - record.position),
         place(record.shape(), asset, record.position, to_matrix(record.orientation))};

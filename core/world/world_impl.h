@@ -128,6 +128,8 @@ struct World::Impl {
   [[nodiscard]] Pair joined_pair(const JointRecord& joint) const;
   /// By a joint whose bodies do not collide.
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
+  /// What a body's way may end at, as far as filters and joints say.
+  [[nodiscard]] bool is_obstacle(std::uint32_t body, std::uint32_t other) const;
   [[nodiscard]] bool set_total_length(JointRecord& joint) const;
 
   // Sleep (sleep.cpp).
