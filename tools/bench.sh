@@ -64,7 +64,8 @@ node_options() {
 arguments_of() {
   case $1 in
     front) printf '%s\n' accuracy --plot "$results"; node_options ;;
-    accuracy) printf '%s\n' accuracy --sweep ;;
+    accuracy) printf '%s\n' accuracy --sweep --page "$results/accuracy.md" ;;
+    stability) printf '%s\n' stability --page "$results/stability.md" ;;
     speed)
       echo speed
       "$quick" || echo --detail

@@ -15,7 +15,7 @@ import unittest
 import xml.etree.ElementTree
 
 LOCKSTONE = ""
-OK, DIFFERENT, CORRUPT, USAGE = 0, 1, 2, 64
+OK, DIFFERENT, CORRUPT, USAGE, UNAVAILABLE = 0, 1, 2, 64, 69
 HASH = r"^[0-9a-f]{16}$"
 
 
@@ -134,6 +134,41 @@ class Queries(Case):
 
     def test_refuse_wrong_usage(self):
         self.expect(USAGE, "queries", "--bodies", 0)
+
+
+class Pages(Case):
+    def page_of(self, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "page.md"
+            self.expect(OK, *arguments, "--page", page)
+            lines = page.read_text().splitlines()
+        return lines[0], [line.strip("| ").split(" | ") for line in lines if line.startswith("| ")]
+
+    def test_figures_at_several_settings_share_a_line(self):
+        title, lines = self.page_of("accuracy", "--rows", "3,6,38", "--sweep")
+        self.assertEqual(title, "# Errors against exact references")
+        sweep, rates, one = [i for i, line in enumerate(lines) if line[0] == "row"]
+        self.assertEqual(lines[sweep][3:8], [f"60 Hz x {substeps}" for substeps in (1, 2, 4, 8, 16)])
+        self.assertEqual(lines[rates][3:7], [f"{rate} Hz x 4" for rate in (30, 60, 120, 240)])
+        self.assertEqual(lines[one][3], "worst")
+        damping, = [line for line in lines if line[0] == "3"]
+        self.assertEqual(len(damping), len(lines[sweep]))
+        self.assertTrue(all(0 < float(error) < 1e-5 for error in damping[3:8]))
+        self.assertEqual(damping[9], "met")
+        self.assertRegex(damping[10], HASH)
+
+    def test_each_figure_of_stability_has_its_verdict(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "page.md"
+            run = ("stability", "--rows", "stack-10", "--seconds", 1, "--page", page)
+            self.expect(OK, *run)
+            figures = [line for line in page.read_text().splitlines() if line.startswith("| ten boxes")]
+        self.assertGreaterEqual(len(figures), 2)
+        for figure in figures:
+            self.assertIn("| met |", figure)
+
+    def test_a_page_that_cannot_be_written_is_a_failure(self):
+        self.expect(UNAVAILABLE, "accuracy", "--rows", 3, "--page", "/nowhere/page.md")
 
 
 class Front(Case):

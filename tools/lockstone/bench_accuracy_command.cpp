@@ -8,6 +8,7 @@
 
 #include "tools/bench/accuracy/accuracy.h"
 #include "tools/lockstone/bench_front.h"
+#include "tools/lockstone/bench_pages.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
@@ -21,42 +22,40 @@ struct BenchAccuracyOptions {
   bench::AccuracyOptions measure;
   std::vector<int> rows;  // empty: all
   bool json = false;
+  std::string page;  // empty: none
   std::string plot;  // empty: rows instead of charts
   FrontOptions front;
 };
 
-struct MeasuredRow {
-  const bench::AccuracyRow* row;
-  std::vector<bench::AccuracyResult> results;
-  double seconds;
-};
-
-MeasuredRow measure(const bench::AccuracyRow& row, bench::AccuracyOptions options) {
+MeasuredAccuracy measure(const bench::AccuracyRow& row, bench::AccuracyOptions options) {
   const Stopwatch watch;
   if (options.tries == 0) options.tries = row.tries;
   std::vector<bench::AccuracyResult> results = row.run(options);
   return {&row, std::move(results), watch.seconds()};
 }
 
-void print(const MeasuredRow& measured) {
+void print(const MeasuredAccuracy& measured) {
   fmt::print("row {}: {} ({:.1f} s)\n", measured.row->number, measured.row->name, measured.seconds);
   for (const bench::AccuracyResult& result : measured.results) {
     const char* verdict = !result.judged ? "" : result.met() ? "met" : "MISSED";
-    fmt::print("  {:<28} {:>9} tries  worst {:>10.3g} {:<8} goal {:>9.3g}  {:<6} {}", result.name,
-               result.tries, result.worst, result.unit, result.goal, verdict, result.note);
+    const char* comma = result.setting.empty() ? "" : ", ";
+    fmt::print("  {:<38} {:>9} tries  worst {:>10.3g} {:<8} goal {:>9.3g}  {:<6} {}",
+               result.name + comma + result.setting, result.tries, result.worst, result.unit,
+               result.goal, verdict, result.note);
     if (result.tick_seconds > 0)
       fmt::print(" {:.2f} us a tick, hash {:016x}", result.tick_seconds * 1e6, result.hash);
     fmt::print("\n");
   }
 }
 
-Json json_of(const MeasuredRow& measured) {
+Json json_of(const MeasuredAccuracy& measured) {
   Json json{{"row", measured.row->number},
             {"name", measured.row->name},
             {"seconds", measured.seconds},
             {"results", Json::array()}};
   for (const bench::AccuracyResult& result : measured.results)
     json["results"].push_back({{"name", result.name},
+                               {"setting", result.setting},
                                {"tries", result.tries},
                                {"worst", result.worst},
                                {"unit", result.unit},
@@ -67,6 +66,13 @@ Json json_of(const MeasuredRow& measured) {
                                {"hash", fmt::format("{:016x}", result.hash)},
                                {"note", result.note}});
   return json;
+}
+
+void print_json(const std::vector<MeasuredAccuracy>& all) {
+  Json json = Json::array();
+  for (const MeasuredAccuracy& measured : all)
+    json.push_back(json_of(measured));
+  write_json(json);
 }
 
 bool is_chosen(const BenchAccuracyOptions& options, int number) {
@@ -82,18 +88,19 @@ int plot(const BenchAccuracyOptions& options) {
 
 int run(const BenchAccuracyOptions& options) {
   if (!options.plot.empty()) return plot(options);
-  Json json = Json::array();
+  std::vector<MeasuredAccuracy> all;
   bool met = true;
   for (const bench::AccuracyRow& row : bench::accuracy_rows()) {
     if (!is_chosen(options, row.number)) continue;
-    const MeasuredRow measured = measure(row, options.measure);
+    const MeasuredAccuracy& measured = all.emplace_back(measure(row, options.measure));
     met = met && std::ranges::all_of(measured.results, &bench::AccuracyResult::met);
-    if (options.json)
-      json.push_back(json_of(measured));
-    else
-      print(measured);
+    if (!options.json) print(measured);
   }
-  if (options.json) write_json(json);
+  if (options.json) print_json(all);
+  if (!options.page.empty()) {
+    const std::string command = fmt::format("lockstone bench accuracy --page {}", options.page);
+    if (!write_text_file(options.page, accuracy_page(all, command))) return k_unavailable;
+  }
   return met ? k_ok : k_different;
 }
 
@@ -117,6 +124,8 @@ void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
   command->add_flag("--sweep", options->measure.sweep,
                     "Rows of contact at 1, 2, 4, 8 and 16 substeps");
   command->add_flag("--json", options->json, "Print JSON");
+  command->add_option("--page", options->page,
+                      "Also write the figures as tables, into a file *.md");
   command->add_option("--plot", options->plot,
                       "Instead: time against error of all engines as charts, into a folder or one "
                       "file *.svg");

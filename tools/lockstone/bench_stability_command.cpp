@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/stability/stability.h"
+#include "tools/lockstone/bench_pages.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
@@ -17,10 +18,12 @@ struct BenchStabilityOptions {
   bench::StabilityOptions measure;
   std::vector<std::string> rows;
   bool json = false;
+  std::string page;  // empty: none
 };
 
-void print_text(const bench::StabilityRow& row, const bench::StabilityResult& result) {
-  fmt::print("{}: {} ({} ticks, {:.3f} ms a tick, hash {})\n", row.name, row.text, result.ticks,
+void print_text(const MeasuredStability& measured) {
+  const auto& [row, result] = measured;
+  fmt::print("{}: {} ({} ticks, {:.3f} ms a tick, hash {})\n", row->name, row->text, result.ticks,
              1e3 * result.tick_seconds, hash_text(result.hash));
   for (const bench::StabilityFigure& figure : result.figures)
     fmt::print("  {:<34} {:>10.3g} {:<4} bound {:>8.3g}  {}\n", figure.name, figure.value,
@@ -28,9 +31,9 @@ void print_text(const bench::StabilityRow& row, const bench::StabilityResult& re
   std::fflush(stdout);
 }
 
-nlohmann::ordered_json json_of(const bench::StabilityRow& row,
-                               const bench::StabilityResult& result) {
-  nlohmann::ordered_json document{{"row", row.name},
+nlohmann::ordered_json json_of(const MeasuredStability& measured) {
+  const auto& [row, result] = measured;
+  nlohmann::ordered_json document{{"row", row->name},
                                   {"ticks", result.ticks},
                                   {"tick_ms", 1e3 * result.tick_seconds},
                                   {"hash", hash_text(result.hash)},
@@ -44,22 +47,31 @@ nlohmann::ordered_json json_of(const bench::StabilityRow& row,
   return document;
 }
 
+void print_json(const std::vector<MeasuredStability>& all) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const MeasuredStability& measured : all)
+    rows.push_back(json_of(measured));
+  write_json(rows);
+}
+
 int run(const BenchStabilityOptions& options) {
   bool met = true;
-  auto rows = nlohmann::ordered_json::array();
+  std::vector<MeasuredStability> all;
   for (const bench::StabilityRow& row : bench::stability_rows()) {
     const bool wanted = options.rows.empty() || std::find(options.rows.begin(), options.rows.end(),
                                                           row.name) != options.rows.end();
     if (!wanted) continue;
-    const bench::StabilityResult result = run_stability_row(row, options.measure);
-    for (const bench::StabilityFigure& figure : result.figures)
+    const MeasuredStability& measured =
+        all.emplace_back(MeasuredStability{&row, run_stability_row(row, options.measure)});
+    for (const bench::StabilityFigure& figure : measured.result.figures)
       met = met && figure.met();
-    if (options.json)
-      rows.push_back(json_of(row, result));
-    else
-      print_text(row, result);
+    if (!options.json) print_text(measured);
   }
-  if (options.json) write_json(rows);
+  if (options.json) print_json(all);
+  if (!options.page.empty()) {
+    const std::string command = fmt::format("lockstone bench stability --page {}", options.page);
+    if (!write_text_file(options.page, stability_page(all, command))) return k_unavailable;
+  }
   return met ? k_ok : k_different;
 }
 
@@ -78,6 +90,8 @@ void add_bench_stability_command(CLI::App& bench, int& exit_code) {
   command->add_option("--seconds", options->measure.seconds,
                       "Of the worlds' time; as long as each row asks for when left out");
   command->add_flag("--json", options->json, "Print JSON");
+  command->add_option("--page", options->page,
+                      "Also write the figures as a table, into a file *.md");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -27,6 +27,7 @@ struct AccuracyResult {
   std::string note;         ///< which tries were wrong, say
   double tick_seconds = 0;  ///< processor time of a tick, where a scene was stepped
   std::uint64_t hash = 0;   ///< of the scene's last state
+  std::string setting{};    ///< ticks a second and substeps, where a row can do with others
   bool judged = true;       ///< false: another setting, shown beside the one with the goal
 
   [[nodiscard]] bool met() const { return !judged || worst <= goal; }

@@ -43,11 +43,11 @@ void SceneRun::run(double seconds) {
 
 AccuracyResult SceneRun::result(std::string name, std::string unit, double worst,
                                 double goal) const {
-  AccuracyResult result{
-      std::move(name) + ", " + setting_.name(), std::move(unit), 1, worst, goal, {}};
+  AccuracyResult result{std::move(name), std::move(unit), 1, worst, goal, {}};
   result.tick_seconds =
       ticks_ == 0 ? 0 : static_cast<double>(nanoseconds_) * 1e-9 / static_cast<double>(ticks_);
   result.hash = world_.hash().total;
+  result.setting = setting_.name();
   result.judged = setting_ == k_usual_setting;
   return result;
 }

@@ -54,8 +54,8 @@ AccuracyResult penalty(const Setting& setting, double share, const char* name) {
     stack.step(h);
   const auto taken = static_cast<double>(thread_nanoseconds() - begin);
   const double lost = std::abs(stack.y.back() - (k_boxes - 0.5));
-  AccuracyResult result{
-      std::string(name) + ", " + setting.name(), "m", 1, lost < k_lost ? lost : k_lost, 0, {}};
+  AccuracyResult result{name, "m", 1, lost < k_lost ? lost : k_lost, 0, {}};
+  result.setting = setting.name();
   result.judged = false;
   result.tick_seconds = taken * 1e-9 / (k_seconds * setting.tick_rate);
   if (!(lost < k_boxes / 2.0)) result.note = "fell or flew apart";
