@@ -1,6 +1,7 @@
 // Springs, motors and limits of joints: one by one.
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
@@ -11,6 +12,11 @@ namespace {
 
 // 2π in Q28, from the digits 6.28318530717958647692.
 constexpr std::int64_t k_two_pi_q28 = 1686629713;
+
+// A limit is far from what gets no nearer than this within a tick, at this many times its speed
+// now: m, Q32, of an angle in radians.
+constexpr std::int64_t k_near = std::int64_t{1} << 29;
+constexpr int k_haste = 4;
 
 }  // namespace
 
@@ -39,6 +45,30 @@ void JointSolver::set_drives(Joint& joint) const {
     drive.bias_rate = raw::saturate<std::int32_t>(
         raw::round_divide(product_rounded(turn, rate << 20, 1) * 2, std::max<std::int64_t>(a1, 1)));
   }
+}
+
+bool JointSolver::is_far(const JointRun& run, const Joint& joint, const JointRow& row) const {
+  const std::int64_t near = row.axis < 3 ? k_near : raw::scale_binary(k_near, joint.exponent);
+  if (row.kind != RowKind::limit || row.error <= near) return false;
+  const std::int64_t allowed = closing_speed(row.error - near, step_.substep_rate());
+  return std::abs(speed(run, joint, row)) <= allowed / (k_haste * step_.substeps);
+}
+
+// At a tick's beginning: limits that cannot be reached in it push nothing and need no rows.
+void JointSolver::leave_out_far(const JointRun& run, Joint& joint) const {
+  JointRows& rows = joint.rows;
+  std::size_t kept = rows.locks;
+  for (std::size_t i = rows.locks; i < rows.count; ++i) {
+    const JointRow& row = rows.rows[i];
+    if (is_far(run, joint, row)) {
+      joint.far = static_cast<std::uint8_t>(joint.far | 1U << row.axis);
+      joint.locks[row.axis] = 0;
+      continue;
+    }
+    if (kept != i) rows.rows[kept] = row, joint.solved[kept] = joint.solved[i];
+    ++kept;
+  }
+  rows.count = kept;
 }
 
 // Answers whether anything was pushed.

@@ -75,7 +75,8 @@ JointPlace JointSolver::place_of(const Joint& joint, const JointPose& a, const J
           b,
           bodies_[joint.a].record->scale_exponent,
           bodies_[joint.b].record->scale_exponent,
-          joint.exponent};
+          joint.exponent,
+          joint.far};
 }
 
 // Rows and factors where the bodies are now.

@@ -103,10 +103,12 @@ class RowFiller {
     frame_b_ = frame_of(place_.b.rotation, place_.joint.orientation_b);
   }
 
+  [[nodiscard]] bool is_far(std::size_t axis) const { return (place_.far >> axis & 1) != 0; }
+
   // Whether an axis can have a row of the wanted parts.
   [[nodiscard]] bool is_wanted(std::size_t axis) const {
     const JointAxisRecord& settings = place_.joint.axes[axis];
-    if (place_.joint.mode(axis) != AxisMode::free) {
+    if (place_.joint.mode(axis) != AxisMode::free && !is_far(axis)) {
       return parts_ == RowParts::all || is_rigid(axis) || settings.lower == settings.upper;
     }
     return parts_ == RowParts::all && settings.is_driven();
@@ -154,7 +156,7 @@ class RowFiller {
     const AxisMode mode = place_.joint.mode(axis);
     const bool soft = mode == AxisMode::locked && settings.is_spring();
     if (mode == AxisMode::locked && !soft) return push(row, axis, RowKind::lock, value);
-    if (mode == AxisMode::limited && limits) {
+    if (mode == AxisMode::limited && limits && !is_far(axis)) {
       const std::int64_t above = value - value_of(axis, settings.lower);
       if (settings.lower == settings.upper) return push(row, axis, RowKind::lock, above);
       add_limit(axis, row, above, value_of(axis, settings.upper) - value);
@@ -242,7 +244,7 @@ class RowFiller {
   void fill_angular() {
     if (is_wanted(3)) add_twist();
     const bool cone = place_.joint.is(JointKind::ball) && place_.joint.mode(4) == AxisMode::limited;
-    if (cone && parts_ == RowParts::all) add_cone();
+    if (cone && parts_ == RowParts::all && !is_far(4)) add_cone();
     const auto swings = [&](std::size_t axis) {
       return is_wanted(axis) && (!cone || place_.joint.axes[axis].is_driven() || is_rigid(axis));
     };

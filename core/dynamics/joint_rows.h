@@ -55,7 +55,8 @@ struct JointPlace {
   const JointPose& b;
   int scale_a;  // exponents of the bodies
   int scale_b;
-  int exponent;  // of angular rows
+  int exponent;          // of angular rows
+  std::uint8_t far = 0;  // axes, a bit each, whose limits get no rows
 };
 
 /// What of a joint's rows is wanted; without Jacobians only errors are.

@@ -114,6 +114,8 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
 void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     linearize(clusters_[i]);
+    for (Joint& joint : joints_of(clusters_[i]))
+      leave_out_far(run, joint);
     if (clusters_[i].free) drift(run, clusters_[i]);
   }
 }

@@ -168,6 +168,7 @@ class JointSolver {
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
     int exponent = 0;
+    std::uint8_t far = 0;  // axes whose limits have no rows in this tick, a bit each
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -238,6 +239,8 @@ class JointSolver {
   void warm_start(const JointRun& run, Joint& joint);
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);
+  void leave_out_far(const JointRun& run, Joint& joint) const;
+  [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
   bool solve_drives(const JointRun& run, Joint& joint);
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
