@@ -177,7 +177,7 @@ class ContactSolver {
   }
   [[nodiscard]] bool is_loaded(const ContactScene& scene, const Entry& entry,
                                std::int64_t share_b) const;
-  [[nodiscard]] DirectRun direct_run();
+  [[nodiscard]] ContactRun direct_run();
   [[nodiscard]] JointRun joint_run();
   [[nodiscard]] NetRun net_run() {
     return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};

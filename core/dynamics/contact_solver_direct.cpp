@@ -62,8 +62,11 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
     const lanes::ManifoldBlock& block = blocks_[slot / lanes::k_block_lanes];
     const std::size_t lane = slot % lanes::k_block_lanes;
     const auto share_b = static_cast<std::int32_t>(block.share[lane]);
-    direct_.add({slot, pushed_number(entry.body_a), pushed_number(entry.body_b),
-                 row_of(entry.body_a), row_of(entry.body_b), share_b,
+    const ContactPair pair{slot, pushed_number(entry.body_a), pushed_number(entry.body_b)};
+    direct_.add({{pair},
+                 row_of(entry.body_a),
+                 row_of(entry.body_b),
+                 share_b,
                  takes_loaded && is_loaded(scene, entry, share_b)});
   }
   for (std::uint32_t i = 1; i < members_.size(); ++i)
@@ -79,14 +82,13 @@ void ContactSolver::find_first_loads(const ContactScene& scene) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin))) continue;
-    const std::uint32_t slot = slot_of(i);
-    first_loads_.add({slot, pushed_number(entry.body_a), pushed_number(entry.body_b), entry.record,
-                      scene.records[entry.record].count == 0});
+    const ContactPair pair{slot_of(i), pushed_number(entry.body_a), pushed_number(entry.body_b)};
+    first_loads_.add({{pair}, entry.record, scene.records[entry.record].count == 0});
   }
   first_loads_.find(direct_run(), before_);
 }
 
-DirectRun ContactSolver::direct_run() {
+ContactRun ContactSolver::direct_run() {
   return {rows_, std::span(bodies_).first(members_.size()), blocks_, rules_};
 }
 

@@ -72,9 +72,9 @@ bool DirectContacts::is_uneven(std::int32_t share_b) {
 }
 
 // Whether gravity and forces push the heavy body towards the light one: n·gain, Q32.
-bool DirectContacts::is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const {
-  const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
-  const std::size_t lane = link.slot % k_block_lanes;
+bool DirectContacts::is_pressed(const ContactRun& run, const Link& link, bool heavy_is_b) const {
+  const ManifoldBlock& block = run.blocks[link.block()];
+  const std::size_t lane = link.lane();
   const RawVec3 n = normal_of(block, lane);
   const std::array<std::int64_t, 3>& gain = run.bodies[heavy_is_b ? link.b : link.a].gain;
   ProductSum sum;
@@ -86,7 +86,7 @@ bool DirectContacts::is_pressed(const DirectRun& run, const Link& link, bool hea
   return most > 0 && sum.rounded(30) > most / 4;
 }
 
-void DirectContacts::plan(const DirectRun& run) {
+void DirectContacts::plan(const ContactRun& run) {
   marks_.assign(run.bodies.size(), Mark::none);
   link_marks_.assign(links_.size(), Mark::none);
   place_.assign(links_.size(), 0);
@@ -152,14 +152,14 @@ void DirectContacts::drop(std::size_t first) {
 
 // Whether two of those in `order_` push against each other from what nothing moves: rigid contacts
 // would do so without end.
-bool DirectContacts::is_squeezed(const DirectRun& run) {
+bool DirectContacts::is_squeezed(const ContactRun& run) {
   constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of -1/8, Q60
   holds_.clear();
   for (const std::uint32_t index : order_) {
     const Link& link = links_[index];
     if (link.a != 0 && link.b != 0) continue;
-    const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
-    const std::size_t lane = link.slot % k_block_lanes;
+    const ManifoldBlock& block = run.blocks[link.block()];
+    const std::size_t lane = link.lane();
     const bool pushes = std::ranges::any_of(block.points, [lane](const ManifoldBlock::Point& p) {
       return low_word(p.impulse[lane]) != 0;
     });
@@ -175,7 +175,7 @@ bool DirectContacts::is_squeezed(const DirectRun& run) {
 
 // What hangs together with a contact through chosen ones, breadth first: backwards, each contact of
 // a tree comes after those beyond it, so that elimination fills nothing in.
-void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
+void DirectContacts::plan_group(const ContactRun& run, std::uint32_t root) {
   Group group;
   group.first = static_cast<std::uint32_t>(contacts_.size());
   order_.assign(1, root);
@@ -202,8 +202,8 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
   std::reverse(order_.begin(), order_.end());
   for (std::uint32_t k = 0; k < group.count; ++k) {
     place_[order_[k]] = k + 1;
-    contacts_.push_back({});
-    contacts_.back().link = links_[order_[k]];
+    const Link& link = links_[order_[k]];
+    contacts_.push_back({{link}, link.row_a, link.row_b});
   }
   if (!plan_factor(group)) return contacts_.resize(group.first);
   for (Contact& contact : contacts_of(group))
@@ -212,15 +212,26 @@ void DirectContacts::plan_group(const DirectRun& run, std::uint32_t root) {
   groups_.push_back(group);
 }
 
+// From here on the sweeps leave its normal impulses alone: they only do its friction.
+void DirectContacts::take_over(const ContactRun& run, Contact& contact) {
+  find_masses(run, contact);
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
+  block.rest[lane] = 0;
+  block.mass_01[lane] = block.mass_23[lane] = 0;
+  block.common[lane] -= contact.common_mass;
+}
+
 // Its bodies, and what impulses are believed: bodies at rest that are alike cannot ask for more.
-void DirectContacts::list_bodies(const DirectRun& run, Group& group) {
+void DirectContacts::list_bodies(const ContactRun& run, Group& group) {
   constexpr std::int64_t k_most_of_uneven = std::int64_t{1} << 44;  // 4096 m/s, Q32
   std::int64_t fastest = 0;
-  bool is_alike = true;
+  const bool is_alike = std::ranges::none_of(
+      order_, [&](std::uint32_t index) { return is_uneven(links_[index].share_b); });
   group.first_body = static_cast<std::uint32_t>(bodies_.size());
   for (const Contact& contact : contacts_of(group)) {
-    if (is_uneven(contact.link.share_b)) is_alike = false;
-    for (const std::uint32_t body : {contact.link.a, contact.link.b}) {
+    for (const std::uint32_t body : {contact.a, contact.b}) {
       if (body == 0 || marks_[body] == Mark::listed) continue;
       marks_[body] = Mark::listed;
       gain_place_[body] = static_cast<std::uint32_t>(bodies_.size());
@@ -237,8 +248,8 @@ void DirectContacts::list_bodies(const DirectRun& run, Group& group) {
 
 bool DirectContacts::plan_factor(Group& group) {
   const auto neighbours = [&](std::uint32_t k, const auto& emit) {
-    const Link& link = contacts_[group.first + k].link;
-    for (const std::uint32_t body : {link.a, link.b}) {
+    const Contact& contact = contacts_[group.first + k];
+    for (const std::uint32_t body : {contact.a, contact.b}) {
       if (body == 0) continue;
       for (const std::uint32_t other : by_body_.at(body))
         if (place_[other] != 0) emit(place_[other] - 1);

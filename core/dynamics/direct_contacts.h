@@ -17,26 +17,14 @@
 
 #include "core/dynamics/body_links.h"
 #include "core/dynamics/joint_factor.h"
-#include "core/dynamics/raw_vec3.h"
-#include "core/dynamics/solver_body.h"
-#include "core/math/wide/manifold_block.h"
+#include "core/dynamics/row_geometry.h"
 
 namespace lockstone {
-
-/// What the contact solver lends them.
-struct DirectRun {
-  std::span<lanes::RowBody> rows;
-  std::span<const SolverBody> bodies;
-  std::span<lanes::ManifoldBlock> blocks;
-  const lanes::SweepRules& rules;
-};
 
 class DirectContacts {
  public:
   /// A contact as the solver has it.
-  struct Link {
-    std::uint32_t slot = 0;              // lane of its block
-    std::uint32_t a = 0, b = 0;          // numbers of its bodies; 0: no impulse moves it
+  struct Link : ContactPair {
     std::uint32_t row_a = 0, row_b = 0;  // where their velocities stand
     std::int32_t share_b = 0;            // of B in the pair's inverse mass, Q30
     bool is_loaded = false;              // carries several times the weight of its lighter body
@@ -57,61 +45,38 @@ class DirectContacts {
   [[nodiscard]] static bool is_uneven(std::int32_t share_b);
 
   /// Chooses contacts, takes their normals from the sweeps, and plans the systems.
-  void plan(const DirectRun& run);
+  void plan(const ContactRun& run);
 
   [[nodiscard]] bool empty() const { return groups_.empty(); }
   [[nodiscard]] std::size_t contacts() const { return contacts_.size(); }
 
   /// Normal impulses such that no point closes; with `pushes_out`, such that overlap goes.
-  void solve(const DirectRun& run, bool pushes_out);
+  void solve(const ContactRun& run, bool pushes_out);
 
   /// Blocks get the friction that was solved here. After the last substep.
-  void store(const DirectRun& run) const;
+  void store(const ContactRun& run) const;
 
  private:
-  friend class FirstLoads;  // fills contacts as they are filled here
   enum class Mark : std::uint8_t { none, chosen, dropped, listed };
-  // A row of the system. B feels `linear`, angular_b of its impulse, A the opposite of `linear`,
-  // angular_a; responses are the angular parts through the bodies' inertia. Q30.
-  struct Row {
-    RawVec3 linear{};
-    RawVec3 angular_a{}, angular_b{};
-    RawVec3 response_a{}, response_b{};
-    int exponent = 0;          // power of two that scales its row
-    std::int64_t speed = 0;    // with what is asked for, Q50
-    std::int64_t change = 0;   // of the impulse, as solved, Q32
-    std::int64_t impulse = 0;  // m/s, Q32
-  };
-  // A point of a chosen contact.
-  struct Point : Row {
-    std::int64_t x = 0, y = 0;
-    std::int64_t own = 0;   // response to itself, Q30
-    std::int64_t warp = 0;  // share in what four points in a plane cannot tell apart, Q30
-    bool active = false;
-    bool barred = false;  // for the rest of a solve
-  };
   // Friction that is solved along: two tangents and the twist, at the contact's centre.
   struct Tie {
-    std::array<Row, 3> rows{};
+    std::array<ContactRow, 3> rows{};
     std::uint32_t count = 0;
     std::int64_t radius = 0;  // of the twist, ρ/ℓ, Q30
     std::int64_t coefficient = 0;
     std::array<std::int64_t, 3> words{};  // of the block: masses, which are 0 meanwhile
     bool holds = false;
   };
-  struct Contact {
-    Link link;
-    std::array<Point, lanes::k_block_points> points{};
+  struct Contact : ContactRows {
+    std::uint32_t row_a = 0, row_b = 0;
     std::array<std::uint8_t, lanes::k_block_points> order{};  // of active points
-    std::uint32_t count = 0;
     std::uint32_t active = 0;
-    std::int64_t warp_size = 0;  // Σ warp², Q30; 0: none
-    RawVec3 normal{}, tangent{}, binormal{};
-    BlockFloat inverse_mass{};                                 // of the pair
-    std::array<std::int64_t, lanes::k_block_points> masses{};  // as in the block
-    std::int64_t common_mass = 0;
-    std::uint32_t factored = 0;  // bit i: point i stands in the factors
-    std::uint32_t tie = 0;       // in ties_, + 1; 0: its friction is left to the sweeps
+    std::uint32_t active_bits = 0;  // bit i: point i stands in the factors
+    std::uint32_t barred_bits = 0;  // for the rest of a solve
+    std::uint32_t tie = 0;          // in ties_, + 1; 0: its friction is left to the sweeps
+
+    [[nodiscard]] bool is_active(std::size_t i) const { return (active_bits >> i & 1) != 0; }
+    [[nodiscard]] bool is_barred(std::size_t i) const { return (barred_bits >> i & 1) != 0; }
   };
   struct Group {
     std::uint32_t first = 0;  // of contacts_
@@ -130,33 +95,27 @@ class DirectContacts {
   };
 
   // Which: direct_contacts.cpp.
-  [[nodiscard]] bool is_pressed(const DirectRun& run, const Link& link, bool heavy_is_b) const;
+  [[nodiscard]] bool is_pressed(const ContactRun& run, const Link& link, bool heavy_is_b) const;
   void gather(std::uint32_t light, std::size_t most);
   bool gather_all(std::size_t first, std::size_t most);
   bool gather_body(std::uint32_t body);
   void drop(std::size_t first);
-  [[nodiscard]] bool is_squeezed(const DirectRun& run);
-  void plan_group(const DirectRun& run, std::uint32_t root);
+  [[nodiscard]] bool is_squeezed(const ContactRun& run);
+  void plan_group(const ContactRun& run, std::uint32_t root);
   bool plan_factor(Group& group);
-  void list_bodies(const DirectRun& run, Group& group);
-  // How: direct_rows.cpp.
-  static void fill(const DirectRun& run, Contact& contact);
-  static void fill_point(const lanes::ManifoldBlock& block, std::size_t lane,
-                         const Contact& contact, Point& point);
-  static void find_responses(const DirectRun& run, const Contact& contact, Row& row);
-  static void find_exponent(const DirectRun& run, const Contact& contact, Row& row);
-  static void find_warp(Contact& contact);
-  static void find_masses(const lanes::ManifoldBlock& block, std::size_t lane, Contact& contact);
-  static void take_over(const DirectRun& run, Contact& contact);
-  static void give_back(const DirectRun& run, const Contact& contact);
-  void read(const DirectRun& run, Contact& contact, bool pushes_out) const;
+  void list_bodies(const ContactRun& run, Group& group);
+  static void take_over(const ContactRun& run, Contact& contact);
+  // How: direct_solve.cpp, direct_push.cpp.
+  static void give_back(const ContactRun& run, const Contact& contact);
+  void read(const ContactRun& run, Contact& contact, bool pushes_out) const;
   static bool choose_active(Contact& contact);
   static void flatten(Contact& contact);
-  [[nodiscard]] static std::int64_t read_row(const DirectRun& run, const Contact& contact,
-                                             const Row& row);
-  [[nodiscard]] static std::int64_t entry(const DirectRun& run, const Contact& p, const Row& x,
-                                          const Contact& q, const Row& y);
-  [[nodiscard]] const Row& row_of(const Contact& contact, std::uint32_t r) const {
+  [[nodiscard]] static std::int64_t read_row(const ContactRun& run, const Contact& contact,
+                                             const ContactRow& row);
+  [[nodiscard]] static std::int64_t entry(const ContactRun& run, const Contact& p,
+                                          const ContactRow& x, const Contact& q,
+                                          const ContactRow& y);
+  [[nodiscard]] const ContactRow& row_of(const Contact& contact, std::uint32_t r) const {
     if (r < contact.active) return contact.points[contact.order[r]];
     return ties_[contact.tie - 1].rows[r - contact.active];
   }
@@ -167,36 +126,36 @@ class DirectContacts {
   [[nodiscard]] std::uint32_t rows_of(const Contact& contact) const {
     return contact.active + (is_tied(contact) ? ties_[contact.tie - 1].count : 0);
   }
-  void factor(const DirectRun& run, Group& group);
-  [[nodiscard]] bool is_still(const DirectRun& run, const Group& group) const;
-  void solve_group(const DirectRun& run, Group& group, bool pushes_out);
+  void factor(const ContactRun& run, Group& group);
+  [[nodiscard]] bool is_still(const ContactRun& run, const Group& group) const;
+  void solve_group(const ContactRun& run, Group& group, bool pushes_out);
   [[nodiscard]] bool is_solved(const Group& group) const;
-  void leave(const DirectRun& run, Group& group, bool pushes_out);
-  bool try_once(const DirectRun& run, Group& group, bool pushes_out, bool is_last);
+  void leave(const ContactRun& run, Group& group, bool pushes_out);
+  bool try_once(const ContactRun& run, Group& group, bool pushes_out, bool is_last);
   bool find_changes(Group& group);
-  void find_change(const Group& group, const Contact& contact, std::uint32_t rhs, Row& row);
+  void find_change(const Group& group, const Contact& contact, std::uint32_t rhs, ContactRow& row);
 
   using Impulses = std::array<std::int64_t, lanes::k_block_points>;
-  void push_all(const DirectRun& run, const Group& group, bool only_lets_go);
-  void push(const DirectRun& run, Contact& contact, const Impulses& next);
-  void push_tie(const DirectRun& run, const Contact& contact);
-  void give(const DirectRun& run, const Contact& contact, const RawVec3& force,
+  void push_all(const ContactRun& run, const Group& group, bool only_lets_go);
+  void push(const ContactRun& run, Contact& contact, const Impulses& next);
+  void push_tie(const ContactRun& run, const Contact& contact);
+  void give(const ContactRun& run, const Contact& contact, const RawVec3& force,
             const RawVec3& torque);
-  void gain(const DirectRun& run, const Group& group);
+  void gain(const ContactRun& run, const Group& group);
 
   // Friction: direct_friction.cpp.
-  [[nodiscard]] static std::int64_t push_of(const DirectRun& run, const Link& link);
-  [[nodiscard]] static bool is_apart(const DirectRun& run, const Link& link, std::int64_t near);
-  [[nodiscard]] bool leans(const DirectRun& run) const;
-  static void fill_tie(const DirectRun& run, const Contact& contact, Tie& tie);
-  void tie(const DirectRun& run, Contact& contact);
-  void release(const DirectRun& run, Contact& contact);
-  static void store_tie(const DirectRun& run, const Contact& contact, const Tie& tie);
+  [[nodiscard]] static std::int64_t push_of(const ContactRun& run, const Link& link);
+  [[nodiscard]] static bool is_apart(const ContactRun& run, const Link& link, std::int64_t near);
+  [[nodiscard]] bool leans(const ContactRun& run) const;
+  static void fill_tie(const ContactRun& run, const Contact& contact, Tie& tie);
+  void tie(const ContactRun& run, Contact& contact);
+  void release(const ContactRun& run, Contact& contact);
+  static void store_tie(const ContactRun& run, const Contact& contact, const Tie& tie);
   void hold_ties(Group& group, bool holds);
-  [[nodiscard]] bool read_tie(const DirectRun& run, const Contact& contact);
+  [[nodiscard]] bool read_tie(const ContactRun& run, const Contact& contact);
   [[nodiscard]] bool is_stuck(const Contact& contact) const;
   [[nodiscard]] static bool slips(const Contact& contact, const Tie& tie);
-  bool release_slipping(const DirectRun& run, Group& group);
+  bool release_slipping(const ContactRun& run, Group& group);
 
   [[nodiscard]] std::span<Contact> contacts_of(const Group& group) {
     return std::span(contacts_).subspan(group.first, group.count);

@@ -49,17 +49,17 @@ bool is_tilted(const ManifoldBlock& block, std::size_t lane,
 }  // namespace
 
 // Σ of its points, as the tick began.
-std::int64_t DirectContacts::push_of(const DirectRun& run, const Link& link) {
+std::int64_t DirectContacts::push_of(const ContactRun& run, const Link& link) {
   std::int64_t push = 0;
-  for (const ManifoldBlock::Point& point : run.blocks[link.slot / k_block_lanes].points)
-    push += low_word(point.impulse[link.slot % k_block_lanes]);
+  for (const ManifoldBlock::Point& point : run.blocks[link.block()].points)
+    push += low_word(point.impulse[link.lane()]);
   return push;
 }
 
 // Neither pushes nor has a point nearer than this, Q24.
-bool DirectContacts::is_apart(const DirectRun& run, const Link& link, std::int64_t near) {
-  const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
-  const std::size_t lane = link.slot % k_block_lanes;
+bool DirectContacts::is_apart(const ContactRun& run, const Link& link, std::int64_t near) {
+  const ManifoldBlock& block = run.blocks[link.block()];
+  const std::size_t lane = link.lane();
   const std::array<std::int64_t, 4> masses = {
       low_word(block.mass_01[lane]), high_word(block.mass_01[lane]), low_word(block.mass_23[lane]),
       high_word(block.mass_23[lane])};
@@ -69,11 +69,11 @@ bool DirectContacts::is_apart(const DirectRun& run, const Link& link, std::int64
 }
 
 // Whether a contact in `order_` leans on friction, or is new, and so steep that it will.
-bool DirectContacts::leans(const DirectRun& run) const {
+bool DirectContacts::leans(const ContactRun& run) const {
   return std::ranges::any_of(order_, [&](std::uint32_t index) {
     const Link& link = links_[index];
-    const ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
-    const std::size_t lane = link.slot % k_block_lanes;
+    const ManifoldBlock& block = run.blocks[link.block()];
+    const std::size_t lane = link.lane();
     const std::int64_t push = push_of(run, link);
     if (push != 0) return leans_on_friction(block, lane, push);
     return !is_apart(run, link, run.rules.skin) &&
@@ -82,9 +82,9 @@ bool DirectContacts::leans(const DirectRun& run) const {
 }
 
 // Rows of two tangents, and of the twist where the points have any radius.
-void DirectContacts::fill_tie(const DirectRun& run, const Contact& contact, Tie& tie) {
-  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+void DirectContacts::fill_tie(const ContactRun& run, const Contact& contact, Tie& tie) {
+  const ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   tie.coefficient = high_word(block.share[lane]);
   tie.radius = high_word(block.twist[lane]);
   tie.count = tie.radius == 0 ? 2 : 3;
@@ -101,19 +101,19 @@ void DirectContacts::fill_tie(const DirectRun& run, const Contact& contact, Tie&
   const std::int64_t impulses[] = {low_word(block.friction[lane]), high_word(block.friction[lane]),
                                    low_word(block.twist[lane])};
   for (std::size_t i = 0; i < 3; ++i) {
-    tie.rows[i].impulse = impulses[i] * (std::int64_t{1} << k_direct_more_bits);
+    tie.rows[i].impulse = impulses[i] * (std::int64_t{1} << k_row_more_bits);
     find_responses(run, contact, tie.rows[i]);
   }
 }
 
 // From here on the sweeps leave its friction alone; but for moving surfaces, and for what slides.
-void DirectContacts::tie(const DirectRun& run, Contact& contact) {
-  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+void DirectContacts::tie(const ContactRun& run, Contact& contact) {
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   if (!block.is_plain(lane) && (block.drive[lane] != 0 || low_word(block.turn[lane]) != 0)) return;
   Tie tie;
   fill_tie(run, contact, tie);
-  const auto slides = [&](const Row& row) {
+  const auto slides = [&](const ContactRow& row) {
     const std::int64_t speed = read_row(run, contact, row);
     return speed > k_sliding_speed || speed < -k_sliding_speed;
   };
@@ -129,30 +129,30 @@ void DirectContacts::tie(const DirectRun& run, Contact& contact) {
 }
 
 // Its friction is the sweeps' again.
-void DirectContacts::release(const DirectRun& run, Contact& contact) {
+void DirectContacts::release(const ContactRun& run, Contact& contact) {
   if (contact.tie == 0) return;
   const Tie& tie = ties_[contact.tie - 1];
   store_tie(run, contact, tie);
-  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   block.tangent_mass[0][lane] = tie.words[0];
   block.tangent_mass[1][lane] = tie.words[1];
   block.twist_row[1][lane] = packed(block.twist_row[1][lane], tie.words[2]);
   contact.tie = 0;
 }
 
-void DirectContacts::store_tie(const DirectRun& run, const Contact& contact, const Tie& tie) {
-  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+void DirectContacts::store_tie(const ContactRun& run, const Contact& contact, const Tie& tie) {
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   std::array<std::int64_t, 3> seen{};
   for (std::size_t i = 0; i < 3; ++i)
-    seen[i] = std::clamp<std::int64_t>(raw::round_shift(tie.rows[i].impulse, k_direct_more_bits),
+    seen[i] = std::clamp<std::int64_t>(raw::round_shift(tie.rows[i].impulse, k_row_more_bits),
                                        -lanes::k_most_impulse, lanes::k_most_impulse);
   block.friction[lane] = packed(seen[0], seen[1]);
   block.twist[lane] = packed(seen[2], high_word(block.twist[lane]));
 }
 
-void DirectContacts::store(const DirectRun& run) const {
+void DirectContacts::store(const ContactRun& run) const {
   for (const Contact& contact : contacts_)
     if (contact.tie != 0) store_tie(run, contact, ties_[contact.tie - 1]);
 }
@@ -166,7 +166,7 @@ void DirectContacts::hold_ties(Group& group, bool holds) {
 }
 
 // False where no point pushes, so that nothing can hold.
-bool DirectContacts::read_tie(const DirectRun& run, const Contact& contact) {
+bool DirectContacts::read_tie(const ContactRun& run, const Contact& contact) {
   Tie& tie = ties_[contact.tie - 1];
   for (std::size_t i = 0; i < tie.count; ++i) {
     tie.rows[i].change = 0;
@@ -174,13 +174,13 @@ bool DirectContacts::read_tie(const DirectRun& run, const Contact& contact) {
         std::clamp(read_row(run, contact, tie.rows[i]), -k_direct_bound, k_direct_bound);
   }
   return contact.active != 0 ||
-         std::ranges::all_of(tie.rows, [](const Row& row) { return row.impulse == 0; });
+         std::ranges::all_of(tie.rows, [](const ContactRow& row) { return row.impulse == 0; });
 }
 
 bool DirectContacts::is_stuck(const Contact& contact) const {
   if (!is_tied(contact)) return true;
   const Tie& tie = ties_[contact.tie - 1];
-  const auto is_slow = [](const Row& row) {
+  const auto is_slow = [](const ContactRow& row) {
     return row.speed >= -k_direct_slow && row.speed <= k_direct_slow;
   };
   return std::ranges::all_of(std::span(tie.rows).first(tie.count), is_slow);
@@ -202,7 +202,7 @@ bool DirectContacts::slips(const Contact& contact, const Tie& tie) {
 }
 
 // Answers whether any slipped: the sweeps hold these at their limit, and the rest is solved again.
-bool DirectContacts::release_slipping(const DirectRun& run, Group& group) {
+bool DirectContacts::release_slipping(const ContactRun& run, Group& group) {
   bool any = false;
   for (Contact& contact : contacts_of(group)) {
     if (!is_tied(contact) || !slips(contact, ties_[contact.tie - 1])) continue;

@@ -12,7 +12,7 @@ using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_direct_bits + 16);
+constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_row_impulse_bits + 16);
 
 // What a body's velocity and spin are held within, Q50.
 constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
@@ -33,12 +33,12 @@ void add_spin(const RawVec3& arm, const RawVec3& force, const RawVec3& torque, s
 }  // namespace
 
 // Gives points what was found; or, as long as others pull, only lets those go.
-void DirectContacts::push_all(const DirectRun& run, const Group& group, bool only_lets_go) {
+void DirectContacts::push_all(const ContactRun& run, const Group& group, bool only_lets_go) {
   for (Contact& contact : contacts_of(group)) {
     Impulses next{};
     for (std::size_t i = 0; i < contact.count; ++i) {
-      const Point& point = contact.points[i];
-      const bool stays = !point.active || (only_lets_go && !point.barred);
+      const PointRow& point = contact.points[i];
+      const bool stays = !contact.is_active(i) || (only_lets_go && !contact.is_barred(i));
       next[i] = point.impulse + (stays ? 0 : point.change);
     }
     push(run, contact, next);
@@ -48,18 +48,18 @@ void DirectContacts::push_all(const DirectRun& run, const Group& group, bool onl
 }
 
 // As a sweep gives impulses to its bodies, but for `gain`.
-void DirectContacts::push(const DirectRun& run, Contact& contact, const Impulses& next) {
-  ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+void DirectContacts::push(const ContactRun& run, Contact& contact, const Impulses& next) {
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   std::int64_t change = 0;
   ProductSum about_b, about_t;
   for (std::size_t i = 0; i < contact.count; ++i) {
-    Point& point = contact.points[i];
+    PointRow& point = contact.points[i];
     const std::int64_t now = std::clamp<std::int64_t>(next[i], 0, k_most_impulse);
     const std::int64_t moved = now - point.impulse;
     point.impulse = now;
     const std::int64_t seen =
-        std::min<std::int64_t>(raw::round_shift(now, k_direct_more_bits), lanes::k_most_impulse);
+        std::min<std::int64_t>(raw::round_shift(now, k_row_more_bits), lanes::k_most_impulse);
     std::int64_t& word = block.points[i].impulse[lane];
     word = std::max<std::int64_t>(high_word(word), seen) * (std::int64_t{1} << 32) + seen;
     change += moved;
@@ -73,32 +73,32 @@ void DirectContacts::push(const DirectRun& run, Contact& contact, const Impulses
 }
 
 // An impulse and a torque, at the centre.
-void DirectContacts::give(const DirectRun& run, const Contact& contact, const RawVec3& force,
+void DirectContacts::give(const ContactRun& run, const Contact& contact, const RawVec3& force,
                           const RawVec3& torque) {
-  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+  const ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   const std::int64_t turn = block.gain_turn[lane], share = low_word(block.share[lane]);
   RawVec3 to_b{};
   for (std::size_t i = 0; i < 3; ++i)
     to_b[i] = product_rounded(force[i], share, 30);
-  if (contact.link.a != 0) {
-    Gain& a = gains_[gain_place_[contact.link.a]];
+  if (contact.a != 0) {
+    Gain& a = gains_[gain_place_[contact.a]];
     for (std::size_t i = 0; i < 3; ++i)
       a.velocity[i] += to_b[i] - force[i];
     add_spin(low_words(block.gain_arm, lane), force, torque, low_word(turn), true, a.spin);
   }
-  if (contact.link.b == 0) return;
-  Gain& b = gains_[gain_place_[contact.link.b]];
+  if (contact.b == 0) return;
+  Gain& b = gains_[gain_place_[contact.b]];
   for (std::size_t i = 0; i < 3; ++i)
     b.velocity[i] += to_b[i];
   add_spin(high_words(block.gain_arm, lane), force, torque, high_word(turn), false, b.spin);
 }
 
-void DirectContacts::push_tie(const DirectRun& run, const Contact& contact) {
+void DirectContacts::push_tie(const ContactRun& run, const Contact& contact) {
   Tie& tie = ties_[contact.tie - 1];
   std::array<std::int64_t, 3> moved{};
   for (std::size_t i = 0; i < tie.count; ++i) {
-    Row& row = tie.rows[i];
+    ContactRow& row = tie.rows[i];
     const std::int64_t now = std::clamp(row.impulse + row.change, -k_most_impulse, k_most_impulse);
     moved[i] = now - row.impulse;
     row.impulse = now;
@@ -109,8 +109,8 @@ void DirectContacts::push_tie(const DirectRun& run, const Contact& contact) {
 }
 
 // What contacts give adds up first: it may leave the range of a velocity on its way.
-void DirectContacts::gain(const DirectRun& run, const Group& group) {
-  constexpr int k_shift = lanes::k_velocity_bits - k_direct_bits;
+void DirectContacts::gain(const ContactRun& run, const Group& group) {
+  constexpr int k_shift = lanes::k_velocity_bits - k_row_impulse_bits;
   const auto add = [](std::int64_t& to, std::int64_t by) {
     constexpr std::int64_t k_most = k_body_bound >> k_shift;
     const std::int64_t limited = std::clamp(by, -k_most, k_most) * (std::int64_t{1} << k_shift);
@@ -126,15 +126,28 @@ void DirectContacts::gain(const DirectRun& run, const Group& group) {
   }
 }
 
+// The sweeps do its normals as well.
+void DirectContacts::give_back(const ContactRun& run, const Contact& contact) {
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  const auto pack = [](std::int64_t low, std::int64_t high) {
+    return high * (std::int64_t{1} << 32) + low;
+  };
+  block.mass_01[lane] = pack(contact.masses[0], contact.masses[1]);
+  block.mass_23[lane] = pack(contact.masses[2], contact.masses[3]);
+  block.common[lane] += contact.common_mass;
+}
+
 // What does not come out is left to the sweeps; here is one in place of that which is past.
-void DirectContacts::leave(const DirectRun& run, Group& group, bool pushes_out) {
+void DirectContacts::leave(const ContactRun& run, Group& group, bool pushes_out) {
   for (Contact& contact : contacts_of(group)) {
     for (std::size_t i = 0; i < contact.count; ++i) {
       read(run, contact, pushes_out);
       Impulses next{};
       for (std::size_t k = 0; k < contact.count; ++k)
         next[k] = contact.points[k].impulse;
-      next[i] -= product_rounded(contact.points[i].speed, contact.masses[i], 80 - k_direct_bits);
+      next[i] -=
+          product_rounded(contact.points[i].speed, contact.masses[i], 80 - k_row_impulse_bits);
       push(run, contact, next);
       gain(run, group);
     }

@@ -24,10 +24,10 @@ constexpr int k_no_exponent = 1000;
 }  // namespace
 
 // How fast B goes along a row against A, Q50.
-std::int64_t DirectContacts::read_row(const DirectRun& run, const Contact& contact,
-                                      const Row& row) {
-  const RowBody& a = run.rows[contact.link.row_a];
-  const RowBody& b = run.rows[contact.link.row_b];
+std::int64_t DirectContacts::read_row(const ContactRun& run, const Contact& contact,
+                                      const ContactRow& row) {
+  const RowBody& a = run.rows[contact.row_a];
+  const RowBody& b = run.rows[contact.row_b];
   ProductSum sum;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     sum.add(row.linear[axis], b.velocity[axis]);
@@ -39,11 +39,11 @@ std::int64_t DirectContacts::read_row(const DirectRun& run, const Contact& conta
 }
 
 // Speeds of points, with what separations ask for.
-void DirectContacts::read(const DirectRun& run, Contact& contact, bool pushes_out) const {
-  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
+void DirectContacts::read(const ContactRun& run, Contact& contact, bool pushes_out) const {
+  const ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   for (std::size_t i = 0; i < contact.count; ++i) {
-    Point& point = contact.points[i];
+    PointRow& point = contact.points[i];
     point.change = 0;
     const std::int64_t now = high_word(block.points[i].separation[lane]);
     std::int64_t bias = 0;
@@ -64,14 +64,13 @@ bool DirectContacts::choose_active(Contact& contact) {
   std::uint32_t bits = 0;
   contact.active = 0;
   for (std::uint32_t i = 0; i < contact.count; ++i) {
-    Point& point = contact.points[i];
-    point.active = !point.barred && (point.impulse > 0 || point.speed < 0);
-    if (!point.active) continue;
+    const PointRow& point = contact.points[i];
+    if (contact.is_barred(i) || (point.impulse <= 0 && point.speed >= 0)) continue;
     bits |= 1U << i;
     contact.order[contact.active++] = static_cast<std::uint8_t>(i);
   }
-  const bool changed = bits != contact.factored;
-  contact.factored = bits;
+  const bool changed = bits != contact.active_bits;
+  contact.active_bits = bits;
   if (contact.active == k_block_points) flatten(contact);
   return changed;
 }
@@ -80,18 +79,18 @@ bool DirectContacts::choose_active(Contact& contact) {
 void DirectContacts::flatten(Contact& contact) {
   if (contact.warp_size == 0) return;
   ProductSum sum;
-  for (const Point& point : contact.points)
+  for (const PointRow& point : contact.points)
     sum.add(point.warp, point.speed);
   const std::int64_t warped = std::clamp(sum.rounded(30), -k_direct_bound / 2, k_direct_bound / 2);
-  for (Point& point : contact.points)
+  for (PointRow& point : contact.points)
     point.speed =
         std::clamp(point.speed - round_divide(multiply_wide(warped, point.warp), contact.warp_size),
                    -k_direct_bound, k_direct_bound);
 }
 
 // What row x of p feels of an impulse along y of q, through the bodies that both hold; Q56.
-std::int64_t DirectContacts::entry(const DirectRun& run, const Contact& p, const Row& x,
-                                   const Contact& q, const Row& y) {
+std::int64_t DirectContacts::entry(const ContactRun& run, const Contact& p, const ContactRow& x,
+                                   const Contact& q, const ContactRow& y) {
   constexpr std::int64_t k_most = std::int64_t{1} << k_matrix_bits;
   std::int64_t total = 0;
   const auto add_body = [&](std::uint32_t body, bool a_of_p, bool a_of_q) {
@@ -101,14 +100,14 @@ std::int64_t DirectContacts::entry(const DirectRun& run, const Contact& p, const
     const int shift = x.exponent + y.exponent - inverse_mass.exponent + 30 - k_matrix_bits;
     if (shift <= 120) total += product_rounded(sum, inverse_mass.mantissa, std::max(shift, 1));
   };
-  if (p.link.a != 0 && p.link.a == q.link.a) add_body(p.link.a, true, true);
-  if (p.link.a != 0 && p.link.a == q.link.b) add_body(p.link.a, true, false);
-  if (p.link.b != 0 && p.link.b == q.link.a) add_body(p.link.b, false, true);
-  if (p.link.b != 0 && p.link.b == q.link.b) add_body(p.link.b, false, false);
+  if (p.a != 0 && p.a == q.a) add_body(p.a, true, true);
+  if (p.a != 0 && p.a == q.b) add_body(p.a, true, false);
+  if (p.b != 0 && p.b == q.a) add_body(p.b, false, true);
+  if (p.b != 0 && p.b == q.b) add_body(p.b, false, false);
   return std::clamp(total, -k_most, k_most);
 }
 
-void DirectContacts::factor(const DirectRun& run, Group& group) {
+void DirectContacts::factor(const ContactRun& run, Group& group) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   const std::span<Contact> contacts = contacts_of(group);
   group.exponent = k_no_exponent;
@@ -127,13 +126,13 @@ void DirectContacts::factor(const DirectRun& run, Group& group) {
   group.is_factored = true;
 }
 
-void DirectContacts::solve(const DirectRun& run, bool pushes_out) {
+void DirectContacts::solve(const ContactRun& run, bool pushes_out) {
   for (Group& group : groups_)
     solve_group(run, group, pushes_out);
 }
 
 // Whether no body of the group moves by more than what need not be solved.
-bool DirectContacts::is_still(const DirectRun& run, const Group& group) const {
+bool DirectContacts::is_still(const ContactRun& run, const Group& group) const {
   const auto slow = [](std::int64_t v) { return v >= -k_direct_slow && v <= k_direct_slow; };
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     const RowBody& row = run.rows[bodies_[group.first_body + i]];
@@ -143,19 +142,18 @@ bool DirectContacts::is_still(const DirectRun& run, const Group& group) const {
   return true;
 }
 
-void DirectContacts::solve_group(const DirectRun& run, Group& group, bool pushes_out) {
+void DirectContacts::solve_group(const ContactRun& run, Group& group, bool pushes_out) {
   const bool is_first = !group.is_filled;
   if (group.is_left || (!is_first && is_still(run, group))) return;
   if (is_first) {
     for (Contact& contact : contacts_of(group)) {
-      fill(run, contact);
+      find_rows(run, contact);
       if (group.leans) tie(run, contact);
     }
     group.is_filled = true;
   }
   for (Contact& contact : contacts_of(group))
-    for (Point& point : contact.points)
-      point.barred = false;
+    contact.barred_bits = 0;
   // What cannot give way, for friction holds it, is not pushed out; but what has just been put
   // there would slide away.
   if (group.leans) hold_ties(group, !pushes_out || (is_first && group.is_new));
@@ -167,18 +165,19 @@ void DirectContacts::solve_group(const DirectRun& run, Group& group, bool pushes
 
 // Whether no point that pushes moves, and no other closes, by more than what need not be solved.
 bool DirectContacts::is_solved(const Group& group) const {
-  const auto point_is = [](const Point& p) {
-    return p.barred || (p.speed >= -k_direct_slow && (p.speed <= k_direct_slow || !p.active));
-  };
   const auto contact_is = [&](const Contact& contact) {
-    return std::ranges::all_of(std::span(contact.points).first(contact.count), point_is) &&
-           is_stuck(contact);
+    for (std::size_t i = 0; i < contact.count; ++i) {
+      const std::int64_t speed = contact.points[i].speed;
+      if (contact.is_barred(i)) continue;
+      if (speed < -k_direct_slow || (speed > k_direct_slow && contact.is_active(i))) return false;
+    }
+    return is_stuck(contact);
   };
   return std::ranges::all_of(std::span(contacts_).subspan(group.first, group.count), contact_is);
 }
 
 // False when points had to be let go, or others may have begun to close.
-bool DirectContacts::try_once(const DirectRun& run, Group& group, bool pushes_out, bool is_last) {
+bool DirectContacts::try_once(const ContactRun& run, Group& group, bool pushes_out, bool is_last) {
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   const std::span<Contact> contacts = contacts_of(group);
   std::uint32_t idle = 0;
@@ -193,7 +192,7 @@ bool DirectContacts::try_once(const DirectRun& run, Group& group, bool pushes_ou
   if (group.exponent == k_no_exponent) return true;  // no point pushes
   for (std::uint32_t k = 0; k < group.count; ++k) {
     for (std::uint32_t r = 0; r < columns[k].count; ++r) {
-      const Row& row = row_of(contacts[k], r);
+      const ContactRow& row = row_of(contacts[k], r);
       const int shift = std::min(4 + row.exponent - group.exponent, 62);
       factor_.rhs(columns[k].first_row + r) = raw::round_shift(-row.speed, shift);
     }
@@ -213,11 +212,13 @@ bool DirectContacts::find_changes(Group& group) {
   for (std::uint32_t k = 0; k < group.count; ++k) {
     Contact& contact = contacts_of(group)[k];
     for (std::uint32_t r = 0; r < contact.active; ++r) {
-      Point& point = contact.points[contact.order[r]];
+      PointRow& point = contact.points[contact.order[r]];
       find_change(group, contact, columns[k].first_row + r, point);
-      point.barred = point.impulse + point.change < 0;
+      if (point.impulse + point.change < 0) {
+        contact.barred_bits |= 1U << contact.order[r];
+        pulls = true;
+      }
       if (point.impulse + point.change > group.most) group.is_left = true;
-      pulls = pulls || point.barred;
     }
     for (std::uint32_t r = contact.active; r < columns[k].count; ++r)
       find_change(group, contact, columns[k].first_row + r,
@@ -227,8 +228,8 @@ bool DirectContacts::find_changes(Group& group) {
 }
 
 void DirectContacts::find_change(const Group& group, const Contact& contact, std::uint32_t rhs,
-                                 Row& row) {
-  const int shift = k_direct_bits - 46 - row.exponent - group.exponent;
+                                 ContactRow& row) {
+  const int shift = k_row_impulse_bits - 46 - row.exponent - group.exponent;
   row.change =
       std::clamp<std::int64_t>(scale_saturating(factor_.rhs(rhs), contact.inverse_mass, shift),
                                -k_direct_bound, k_direct_bound);

@@ -1,8 +1,8 @@
-// What the parts of direct contacts share: words of blocks, and formats.
+// What the parts of direct contacts share: formats and bounds.
 #pragma once
 
+#include "core/dynamics/block_words.h"
 #include "core/dynamics/direct_contacts.h"
-#include "core/math/product_sum.h"
 
 namespace lockstone {
 
@@ -10,67 +10,10 @@ namespace lockstone {
 /// points say the same, each takes a share.
 inline constexpr int k_give_shift = 17;
 
-/// Within a tick impulses have twelve bits more than blocks and records hold, and a greater range:
-/// up to 65,536 m/s, Q32.
-inline constexpr int k_direct_bits = 32;
-inline constexpr int k_direct_more_bits = k_direct_bits - 20;
-
 /// What a row's speed and what is asked of it are held within, Q50.
 inline constexpr std::int64_t k_direct_bound = std::int64_t{1} << 60;
 
 /// No solving for what is slower, Q50: 3.8 µm/s.
 inline constexpr std::int64_t k_direct_slow = std::int64_t{1} << 32;
-
-[[nodiscard]] inline std::int64_t low_word(std::int64_t word) {
-  return static_cast<std::int32_t>(word);
-}
-[[nodiscard]] inline std::int64_t high_word(std::int64_t word) {
-  return word >> 32;
-}
-[[nodiscard]] inline RawVec3 low_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
-  return {low_word(words[0][lane]), low_word(words[1][lane]), low_word(words[2][lane])};
-}
-[[nodiscard]] inline RawVec3 high_words(const lanes::BlockWord (&words)[3], std::size_t lane) {
-  return {high_word(words[0][lane]), high_word(words[1][lane]), high_word(words[2][lane])};
-}
-[[nodiscard]] inline RawVec3 normal_of(const lanes::ManifoldBlock& block, std::size_t lane) {
-  return {low_word(block.axes[0][lane]), high_word(block.axes[0][lane]),
-          low_word(block.axes[1][lane])};
-}
-
-/// r̄ × u + scale·turn, Q30.
-[[nodiscard]] inline RawVec3 turned(const RawVec3& arm, const RawVec3& direction,
-                                    std::int64_t scale, const RawVec3& turn) {
-  RawVec3 result = cross(arm, direction);
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = raw::round_shift(result[i] + scale * turn[i], 30);
-  return result;
-}
-
-/// a·x + b·y, in 30 bits less.
-[[nodiscard]] inline RawVec3 mixed(const RawVec3& a, std::int64_t x, const RawVec3& b,
-                                   std::int64_t y) {
-  RawVec3 result{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    ProductSum sum;
-    sum.add(a[i], x);
-    sum.add(b[i], y);
-    result[i] = sum.rounded(30);
-  }
-  return result;
-}
-
-/// u·v + angular·response, Q30.
-[[nodiscard]] inline std::int64_t coupled(const RawVec3& linear_x, const RawVec3& linear_y,
-                                          const RawVec3& angular_x, const RawVec3& response_y,
-                                          bool opposite) {
-  ProductSum sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sum.add(linear_x[i], linear_y[i]);
-    sum.add(angular_x[i], response_y[i]);
-  }
-  const std::int64_t rounded = sum.rounded(30);
-  return opposite ? -rounded : rounded;
-}
 
 }  // namespace lockstone

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/dynamics/direct_words.h"
+#include "core/dynamics/block_words.h"
 #include "core/dynamics/lane_bodies.h"
 
 namespace lockstone {
@@ -23,7 +23,7 @@ constexpr int k_most_rounds = 16;
 constexpr std::int64_t k_settled = std::int64_t{1} << 9;
 
 // From the Q32 of gains and impulses to the Q50 of rows.
-constexpr int k_row_shift = lanes::k_velocity_bits - k_direct_bits;
+constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
 constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 
 // n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
@@ -86,7 +86,7 @@ void FirstLoads::clear() {
   loads_.clear();
 }
 
-void FirstLoads::find(const DirectRun& run, std::span<RowBody> warm) {
+void FirstLoads::find(const ContactRun& run, std::span<RowBody> warm) {
   by_body_.assign(std::span<const Link>(links_), run.bodies.size());
   find_uppers(run);
   find_held(run);
@@ -99,12 +99,11 @@ std::uint32_t FirstLoads::lower_of(std::uint32_t link) const {
   return upper_[link] == links_[link].b ? links_[link].a : links_[link].b;
 }
 
-void FirstLoads::find_uppers(const DirectRun& run) {
+void FirstLoads::find_uppers(const ContactRun& run) {
   upper_.assign(links_.size(), 0);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    const RawVec3 normal =
-        normal_of(run.blocks[link.slot / k_block_lanes], link.slot % k_block_lanes);
+    const RawVec3 normal = normal_of(run.blocks[link.block()], link.lane());
     if (link.b != 0 && against(normal, run.bodies[link.b].gain) < 0)
       upper_[i] = link.b;
     else if (link.a != 0 && against(normal, run.bodies[link.a].gain) > 0)
@@ -113,7 +112,7 @@ void FirstLoads::find_uppers(const DirectRun& run) {
 }
 
 // Upwards from what no impulse moves.
-void FirstLoads::find_held(const DirectRun& run) {
+void FirstLoads::find_held(const ContactRun& run) {
   is_held_.assign(run.bodies.size(), 0);
   queue_.clear();
   const auto hold = [&](std::uint32_t link, std::uint32_t lower) {
@@ -149,7 +148,7 @@ void FirstLoads::find_order() {
 
 // All points of a support push alike as far as that will do: pressure in the middle is what sweeps
 // keep best.
-void FirstLoads::hold_up(const DirectRun& run, std::span<RowBody> warm, std::uint32_t body) {
+void FirstLoads::hold_up(const ContactRun& run, std::span<RowBody> warm, std::uint32_t body) {
   gather(run, body);
   RowBody row = warm[body];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -170,13 +169,13 @@ void FirstLoads::hold_up(const DirectRun& run, std::span<RowBody> warm, std::uin
     hand_down(run, warm, support);
 }
 
-void FirstLoads::gather(const DirectRun& run, std::uint32_t body) {
+void FirstLoads::gather(const ContactRun& run, std::uint32_t body) {
   supports_.clear();
   for (const std::uint32_t index : by_body_.at(body)) {
     if (upper_[index] != body || supports_.size() == k_most_supports) continue;
     const Link& link = links_[index];
     Support& support = supports_.emplace_back();
-    support.contact.link = {link.slot, link.a, link.b, 0, 0, 0, false};
+    support.contact = {link};
     support.record = link.record;
     support.is_new = link.is_new;
     support.is_b = link.b == body;
@@ -184,12 +183,12 @@ void FirstLoads::gather(const DirectRun& run, std::uint32_t body) {
   }
 }
 
-void FirstLoads::fill(const DirectRun& run, Support& support) {
-  DirectContacts::Contact& contact = support.contact;
-  const ManifoldBlock& block = run.blocks[contact.link.slot / k_block_lanes];
-  const std::size_t lane = contact.link.slot % k_block_lanes;
-  DirectContacts::find_masses(block, lane, contact);
-  DirectContacts::fill(run, contact);
+void FirstLoads::fill(const ContactRun& run, Support& support) {
+  ContactRows& contact = support.contact;
+  const ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  find_masses(run, contact);
+  find_rows(run, contact);
   const std::int64_t share_b = low_word(block.share[lane]);
   support.share = support.is_b ? share_b : (std::int64_t{1} << 30) - share_b;
   const auto own = [&](const RawVec3& turn, const RawVec3& response) {
@@ -198,7 +197,7 @@ void FirstLoads::fill(const DirectRun& run, Support& support) {
   };
   if (contact.count == 0) return;
   for (std::size_t i = 0; i < contact.count; ++i) {
-    const DirectContacts::Point& point = contact.points[i];
+    const PointRow& point = contact.points[i];
     const RawVec3& turn = support.is_b ? point.angular_b : point.angular_a;
     const RawVec3& response = support.is_b ? point.response_b : point.response_a;
     support.impulse[i] = point.impulse;
@@ -217,7 +216,7 @@ void FirstLoads::fill(const DirectRun& run, Support& support) {
 
 // Answers by how much, Q32.
 std::int64_t FirstLoads::push_together(Support& support, RowBody& body) const {
-  const DirectContacts::Contact& contact = support.contact;
+  const ContactRows& contact = support.contact;
   if (contact.count == 0) return 0;
   const std::int64_t least =
       *std::ranges::min_element(std::span(support.impulse).first(contact.count));
@@ -233,10 +232,10 @@ std::int64_t FirstLoads::push_together(Support& support, RowBody& body) const {
 }
 
 std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
-  const DirectContacts::Contact& contact = support.contact;
+  const ContactRows& contact = support.contact;
   std::int64_t most = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
-    const DirectContacts::Point& point = contact.points[i];
+    const PointRow& point = contact.points[i];
     const RawVec3& turn = support.is_b ? point.angular_b : point.angular_a;
     const RawVec3& response = support.is_b ? point.response_b : point.response_a;
     const std::int64_t asked =
@@ -252,29 +251,28 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
 }
 
 // To the block in its own steps, and to both bodies; a new contact is at rest under what it got.
-void FirstLoads::hand_down(const DirectRun& run, std::span<RowBody> warm, const Support& support) {
-  const DirectContacts::Contact& contact = support.contact;
-  const DirectContacts::Link& link = contact.link;
-  ManifoldBlock& block = run.blocks[link.slot / k_block_lanes];
-  const std::size_t lane = link.slot % k_block_lanes;
+void FirstLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const Support& support) {
+  const ContactRows& contact = support.contact;
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
   const std::int64_t share_b = low_word(block.share[lane]);
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
-    const DirectContacts::Point& point = contact.points[i];
+    const PointRow& point = contact.points[i];
     const std::int64_t now = std::clamp<std::int64_t>(
-        raw::round_shift(support.impulse[i], k_direct_more_bits), 0, lanes::k_most_impulse);
+        raw::round_shift(support.impulse[i], k_row_more_bits), 0, lanes::k_most_impulse);
     sum += now;
     std::int64_t& word = block.points[i].impulse[lane];
     word = std::max<std::int64_t>(high_word(word), now) * (std::int64_t{1} << 32) + now;
-    const std::int64_t change = now * (std::int64_t{1} << k_direct_more_bits) - point.impulse;
+    const std::int64_t change = now * (std::int64_t{1} << k_row_more_bits) - point.impulse;
     const std::int64_t to_b = product_rounded(change, share_b, 30), to_a = change - to_b;
-    if (link.a != 0) {
-      add_scaled(contact.normal, to_a, true, warm[link.a].velocity);
-      add_scaled(point.angular_a, to_a, true, warm[link.a].spin);
+    if (contact.a != 0) {
+      add_scaled(contact.normal, to_a, true, warm[contact.a].velocity);
+      add_scaled(point.angular_a, to_a, true, warm[contact.a].spin);
     }
-    if (link.b != 0) {
-      add_scaled(contact.normal, to_b, false, warm[link.b].velocity);
-      add_scaled(point.angular_b, to_b, false, warm[link.b].spin);
+    if (contact.b != 0) {
+      add_scaled(contact.normal, to_b, false, warm[contact.b].velocity);
+      add_scaled(point.angular_b, to_b, false, warm[contact.b].spin);
     }
   }
   if (!support.is_new || contact.count == 0) return;

@@ -15,16 +15,14 @@
 #include <vector>
 
 #include "core/dynamics/body_links.h"
-#include "core/dynamics/direct_contacts.h"
+#include "core/dynamics/row_geometry.h"
 
 namespace lockstone {
 
 class FirstLoads {
  public:
   /// A contact that touches.
-  struct Link {
-    std::uint32_t slot = 0;      // lane of its block
-    std::uint32_t a = 0, b = 0;  // numbers of its bodies; 0: no impulse moves it
+  struct Link : ContactPair {
     std::uint32_t record = 0;
     bool is_new = false;
   };
@@ -45,14 +43,14 @@ class FirstLoads {
   /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
   /// given to the blocks, and what they do to bodies, added to `warm`. Bodies faster than 1/4 m/s
   /// are left out.
-  void find(const DirectRun& run, std::span<lanes::RowBody> warm);
+  void find(const ContactRun& run, std::span<lanes::RowBody> warm);
 
   [[nodiscard]] std::span<const Load> loads() const { return loads_; }
 
  private:
   // A contact on which a body rests.
   struct Support {
-    DirectContacts::Contact contact;
+    ContactRows contact;
     std::uint32_t record = 0;
     bool is_new = false;
     bool is_b = false;  // the body that rests
@@ -63,19 +61,19 @@ class FirstLoads {
     std::int64_t common = 0;                                    // response to them, Q30
   };
 
-  void find_uppers(const DirectRun& run);
-  void find_held(const DirectRun& run);
+  void find_uppers(const ContactRun& run);
+  void find_held(const ContactRun& run);
   void find_order();
   [[nodiscard]] std::uint32_t lower_of(std::uint32_t link) const;
   [[nodiscard]] bool rests(std::uint32_t link) const {
     return upper_[link] != 0 && is_held_[upper_[link]] != 0;
   }
-  void hold_up(const DirectRun& run, std::span<lanes::RowBody> warm, std::uint32_t body);
-  void gather(const DirectRun& run, std::uint32_t body);
-  static void fill(const DirectRun& run, Support& support);
+  void hold_up(const ContactRun& run, std::span<lanes::RowBody> warm, std::uint32_t body);
+  void gather(const ContactRun& run, std::uint32_t body);
+  static void fill(const ContactRun& run, Support& support);
   [[nodiscard]] std::int64_t push_together(Support& support, lanes::RowBody& body) const;
   [[nodiscard]] std::int64_t push_points(Support& support, lanes::RowBody& body) const;
-  void hand_down(const DirectRun& run, std::span<lanes::RowBody> warm, const Support& support);
+  void hand_down(const ContactRun& run, std::span<lanes::RowBody> warm, const Support& support);
 
   std::vector<Link> links_;
   BodyLinks by_body_;
