@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,15 +30,25 @@ class ConstraintGraph {
   /// Bodies are named 0, 1, 2, … in the order of adding.
   void add_body() { taken_.push_back(0); }
 
-  /// A body that is not `pushed` conflicts with nothing: constraints may share it.
-  void add(std::uint32_t body_a, bool pushed_a, std::uint32_t body_b, bool pushed_b);
+  /// A body that is not `pushed` conflicts with nothing: constraints may share it. No more are
+  /// added than there is room for.
+  void add(std::uint32_t body_a, bool pushed_a, std::uint32_t body_b, bool pushed_b) {
+    const std::uint32_t taken = (pushed_a ? taken_[body_a] : 0U) | (pushed_b ? taken_[body_b] : 0U);
+    const auto color = static_cast<std::uint32_t>(std::countr_one(taken));
+    if (color < k_graph_colors) {
+      const std::uint32_t bit = 1U << color;
+      if (pushed_a) taken_[body_a] |= bit;
+      if (pushed_b) taken_[body_b] |= bit;
+    }
+    places_[size_++] = {color, counts_[color]++};
+  }
 
   /// Where a constraint stands: the how-manieth of its colour, in the order of adding.
   struct Place {
     std::uint32_t color;
     std::uint32_t rank;
   };
-  [[nodiscard]] std::span<const Place> places() const { return places_; }
+  [[nodiscard]] std::span<const Place> places() const { return {places_.get(), size_}; }
 
   /// Constraints of a body, as many as there are colours at most.
   [[nodiscard]] int degree(std::uint32_t body) const { return std::popcount(taken_[body]); }
@@ -50,7 +61,8 @@ class ConstraintGraph {
 
  private:
   std::vector<std::uint32_t> taken_;  // by body: a bit a colour
-  std::vector<Place> places_;
+  std::unique_ptr<Place[]> places_;   // the first size_, in the order of adding
+  std::size_t size_ = 0;
   std::uint32_t counts_[k_graph_colors + 1] = {};
 };
 

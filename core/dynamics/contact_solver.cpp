@@ -198,6 +198,7 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
   const std::uint32_t body = members_[index];
   const BodyRecord& record = scene.bodies[body];
   bodies_[index] = solver_body(record, scene.rotations[body], scene.gravity, step_);
+  axes_[index] = {};
   if (bodies_[index].held != 0) holds_.store(true, std::memory_order_relaxed);
   inertias_[index] = source_body(bodies_[index].inverse_inertia);
   for (int i = 0; i < 3; ++i) {
@@ -359,7 +360,6 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
   if (!direct_.empty()) direct_.store(direct_run());
   for (const FirstLoads::Load& first : first_loads_.loads())
     records[first.record].load.raw = first.load;
-  axes_.assign(members_.size(), PushAxis{});
   loops_.clear();
   stages_.clear();
   add_loop_of_each_color(StageKind::store);

@@ -137,12 +137,26 @@ class ContactSolver {
     std::uint32_t body_b;
   };
 
-  // A record's bodies, and what of them decides who enters the solver.
-  struct Sides {
-    static constexpr std::uint32_t k_left_out = 0xffffffff;  // as A
+  // A record's bodies, and what of them decides who enters the solver: the motion in the upper two
+  // bits, none of a record that is left out.
+  struct Side {
+    static constexpr int k_motion_bit = 30;
 
-    std::uint32_t body_a, body_b;
-    MotionType motion_a, motion_b;
+    std::uint32_t word = 0;
+
+    Side() = default;
+    Side(std::uint32_t body, MotionType motion)
+        : word(body | static_cast<std::uint32_t>(motion) << k_motion_bit) {}
+
+    [[nodiscard]] std::uint32_t body() const { return word & ((1U << k_motion_bit) - 1); }
+    [[nodiscard]] MotionType motion() const {
+      return static_cast<MotionType>(word >> k_motion_bit);
+    }
+    [[nodiscard]] bool is_left_out() const { return word == 0; }
+    [[nodiscard]] bool is_dynamic() const { return motion() == MotionType::dynamic; }
+  };
+  struct Sides {
+    Side a, b;
   };
 
   // What `store` reads and writes of a world.
@@ -160,7 +174,11 @@ class ContactSolver {
     void add(const Vec3<Unit>& n);
   };
 
-  std::uint32_t take_up(std::uint32_t body, MotionType motion);
+  std::uint32_t take_up(Side side);
+  std::uint32_t number_of(Side side) {
+    const std::uint32_t known = side.is_dynamic() ? solver_index_[side.body()] : 0;
+    return known != 0 ? known : take_up(side);
+  }
   void find_sides(const ContactScene& scene, std::size_t first, std::size_t end);
   void take_up_contacts(const ContactScene& scene, Parallel& parallel);
   void reserve_rows();

@@ -18,7 +18,7 @@ void ContactSolver::take_up_joints(const ContactScene& scene) {
     const auto side = [&](std::uint32_t body) -> JointSolver::Side {
       std::uint32_t index = solver_index_[body];
       if (index == 0 && scene.bodies[body].moves())
-        index = take_up(body, static_cast<MotionType>(scene.bodies[body].motion));
+        index = take_up({body, static_cast<MotionType>(scene.bodies[body].motion)});
       return {body, index, scene.bodies[body], scene.rotations[body]};
     };
     const JointSolver::Side a = side(link.body_a), b = side(link.body_b);
