@@ -49,7 +49,7 @@ void World::Impl::find_bounces() {
   const auto elastic = [&](std::uint32_t slot) {
     return surfaces[slot].restitution > Coefficient{};
   };
-  if (std::ranges::none_of(slots, elastic)) return;
+  if (!narrow.has_elastic() || std::ranges::none_of(slots, elastic)) return;
   join_bouncing();
   for (std::size_t i = 0; i < new_contacts.size(); ++i)
     look_for_bounce(i);

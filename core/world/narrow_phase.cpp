@@ -2,6 +2,7 @@
 // them from the tick before.
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/separation.h"
 #include "core/world/world_impl.h"
@@ -17,7 +18,7 @@ constexpr int k_reach_bits = 10;
 
 // Pairs that are worth a worker.
 constexpr std::uint32_t k_pair_grain = 8;
-constexpr std::uint32_t k_number_grain = 256;
+constexpr std::uint32_t k_number_piece = 256;
 
 // How far ahead a pair must look: what it can close in one tick, but no farther than the bodies are
 // thick, lest a glancing pass be taken for a hit.
@@ -230,6 +231,7 @@ void World::Impl::fill_slot(std::uint32_t slot, const ContactKey& key, const Sur
   origins[slot] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old), false};
   inputs[slot] = input;
   find_surface({key.body_a, key.body_b}, surface_a, surface_b, manifolds[slot], surfaces[slot]);
+  if (surfaces[slot].restitution > Coefficient{}) narrow.note_elastic();
 }
 
 // Neither an asset nor without end: its frame is the body's.
@@ -291,23 +293,48 @@ std::uint32_t World::Impl::index_of(const ContactRecord& record) const {
   return static_cast<std::uint32_t>(&record - contact_store.data());
 }
 
+// In pieces: the first pass counts, the second writes where the contacts of the pieces before end.
+// Between them the index of a piece's first pair is that of the piece. The last pairs are those
+// that find no room.
 void World::Impl::number_contacts(StepReport& report) {
   const std::uint32_t room = def.contact_capacity - frozen.count();
-  std::uint32_t count = 0;
-  for (FoundContacts& of_pair : found_contacts) {
-    of_pair.count = std::min(of_pair.count, room - count);
-    of_pair.index = count;
-    count += of_pair.count;
-  }
-  if (narrow.taken() > count) report.status = Status::capacity_exhausted;
-  slots.resize(count);
-  new_contacts.resize(count);
-  approach_speeds.resize(count);
-  parallel.for_each({static_cast<std::uint32_t>(pairs.size()), k_number_grain},
-                    [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-                      for (std::uint32_t i = first; i < end; ++i)
-                        number_contacts_of(i);
-                    });
+  const auto pair_count = static_cast<std::uint32_t>(pairs.size());
+  const std::uint32_t pieces = (pair_count + k_number_piece - 1) / k_number_piece;
+  const auto count = [&](std::uint32_t first, std::uint32_t end) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t i = first; i < end; ++i)
+      sum += found_contacts[i].count;
+    found_contacts[first].index = sum;
+  };
+  const auto add_up = [&] {
+    std::uint32_t sum = 0;
+    for (std::uint32_t i = 0; i < pair_count; i += k_number_piece)
+      sum = std::min(sum + std::exchange(found_contacts[i].index, sum), room);
+    slots.resize(sum);
+    new_contacts.resize(sum);
+    approach_speeds.resize(sum);
+  };
+  const auto number = [&](std::uint32_t first, std::uint32_t end) {
+    std::uint32_t index = found_contacts[first].index;
+    for (std::uint32_t i = first; i < end; ++i) {
+      FoundContacts& of_pair = found_contacts[i];
+      of_pair.count = std::min(of_pair.count, room - index);
+      of_pair.index = index;
+      index += of_pair.count;
+      number_contacts_of(i);
+    }
+  };
+  const Loop loops[] = {{pieces, 1}, {1, 1, true}, {pieces, 1}};
+  parallel.run_all(loops,
+                   [&](std::size_t loop, std::uint32_t first, std::uint32_t end, std::uint32_t) {
+                     if (loop == 1) return add_up();
+                     for (std::uint32_t piece = first; piece < end; ++piece) {
+                       const std::uint32_t begin = piece * k_number_piece;
+                       const std::uint32_t stop = std::min(begin + k_number_piece, pair_count);
+                       loop == 0 ? count(begin, stop) : number(begin, stop);
+                     }
+                   });
+  if (narrow.taken() > new_contacts.size()) report.status = Status::capacity_exhausted;
 }
 
 // A record keeps the impulses and the touching flag of the tick before.

@@ -72,7 +72,7 @@ class NarrowSlots {
   void begin(std::uint32_t workers, bool with_batches) {
     block_ = workers > 1 ? k_block : 1;
     used_ = 0;
-    out_of_slots_ = overflowed_ = false;
+    out_of_slots_ = overflowed_ = has_elastic_ = false;
     for (const std::unique_ptr<PairScratch>& scratch : scratch_) {
       scratch->next = scratch->end = scratch->taken = 0;
       scratch->boxes.are_admitted = with_batches;
@@ -119,6 +119,13 @@ class NarrowSlots {
   void note_overflow() { overflowed_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] bool has_overflowed() const { return overflowed_; }
 
+  /// For contacts with restitution.
+  void note_elastic() {
+    if (!has_elastic_.load(std::memory_order_relaxed))
+      has_elastic_.store(true, std::memory_order_relaxed);
+  }
+  [[nodiscard]] bool has_elastic() const { return has_elastic_; }
+
  private:
   static constexpr std::uint32_t k_block = 64;
   static_assert(k_block >= PartContacts::k_capacity);
@@ -129,6 +136,7 @@ class NarrowSlots {
   std::atomic<std::uint32_t> used_{0};
   std::atomic<bool> out_of_slots_{false};
   std::atomic<bool> overflowed_{false};
+  std::atomic<bool> has_elastic_{false};
 };
 
 }  // namespace lockstone

@@ -128,11 +128,10 @@ void World::Impl::mark_joints() {
 
 void World::Impl::move_bodies(StepReport& report) {
   const StageTimer timer(profiler, StepStage::move);
-  moved.clear();
-  for (const std::uint32_t body : awake.list()) {
+  const std::span<const std::uint32_t> all = awake.list();
+  moved.assign(all.begin(), all.end());
+  for (const std::uint32_t body : all)
     body_hashes.mark(body);
-    moved.push_back(body);
-  }
   report.moving_bodies = static_cast<std::uint32_t>(moved.size());
   run_bounces();
   std::atomic<std::uint32_t> free_bodies{0}, axis_turns{0}, saturations{0};
