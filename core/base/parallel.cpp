@@ -9,8 +9,8 @@ namespace {
 // end, so that others can help and nobody waits long for the last piece.
 constexpr std::uint32_t k_share_of_rest = 3;
 
-constexpr std::uint64_t cursor(std::size_t loop, std::uint32_t item) {
-  return (static_cast<std::uint64_t>(loop) << 32) | item;
+constexpr std::uint64_t cursor(std::size_t loop, std::uint32_t grain) {
+  return (static_cast<std::uint64_t>(loop) + 1) << 32 | grain;
 }
 
 }  // namespace
@@ -30,78 +30,71 @@ bool Parallel::is_worth_sharing(std::span<const Loop> loops) const {
 
 void Parallel::share(std::span<const Loop> loops) {
   loops_ = loops;
-  open(0);
+  done_.store(0, std::memory_order_relaxed);
+  for (Cursor& each : cursors_)
+    each.value.store(0, std::memory_order_relaxed);
   const auto task = [](void* context, std::uint32_t, std::uint32_t worker) {
     static_cast<Parallel*>(context)->work(worker);
   };
   runner_->run(workers_, task, this);
-  LKS_CHECK(current_ == loops.size());
+  std::uint64_t all = 0;
+  for (const Loop& loop : loops)
+    all += loop.count;
+  LKS_CHECK(done_ == all);
 }
 
-// The first loop from here on that has items.
-void Parallel::open(std::size_t loop) {
-  while (loop < loops_.size() && loops_[loop].count == 0)
-    ++loop;
-  done_.store(0, std::memory_order_relaxed);
-  if (loop < loops_.size()) {
-    for (std::uint32_t part = 0; part < workers_; ++part) {
-      cursors_[part].value.store(cursor(loop, begin_of(loops_[loop], part)),
-                                 std::memory_order_release);
-    }
-  }
-  current_.store(loop, std::memory_order_release);
-}
-
-// Whoever runs alone does all of it.
+// Whoever runs alone does all of it. Who comes late goes to the loop at hand.
 void Parallel::work(std::uint32_t worker) {
-  for (;;) {
-    const std::size_t loop = current_.load(std::memory_order_acquire);
-    if (loop >= loops_.size()) return;
+  std::uint64_t end = 0;
+  for (std::size_t loop = 0; loop < loops_.size(); ++loop) {
+    end += loops_[loop].count;
+    if (done_.load(std::memory_order_acquire) >= end) continue;
     work_on(loop, worker);
-    for (Pause pause; current_.load(std::memory_order_acquire) == loop; pause()) {
+    for (Pause pause; done_.load(std::memory_order_acquire) < end; pause()) {
     }
   }
 }
 
-void Parallel::work_on(std::size_t loop, std::uint32_t worker) {
+// Tells what it did once, at its end: each time is a wait for the other processors. Parts are whole
+// grains.
+void Parallel::work_on(std::size_t index, std::uint32_t worker) {
+  const Loop& loop = loops_[index];
+  const std::uint32_t grain = grain_of(loop);
+  const std::uint64_t grains = (std::uint64_t{loop.count} + grain - 1) / grain;
+  std::uint32_t items = 0;
   for (std::uint32_t i = 0; i < workers_; ++i) {
-    const std::uint32_t part = (worker + i) % workers_;
-    std::uint32_t first = 0, end = 0;
-    while (take(loop, part, first, end)) {
-      call_(context_, loop, first, end, worker);
-      const std::uint32_t items = end - first;
-      if (done_.fetch_add(items, std::memory_order_acq_rel) + items == loops_[loop].count) {
-        open(loop + 1);
-        return;
-      }
+    const std::uint32_t part = worker + i < workers_ ? worker + i : worker + i - workers_;
+    Piece piece{static_cast<std::uint32_t>(grains * part / workers_),
+                static_cast<std::uint32_t>(grains * (part + 1) / workers_)};
+    for (const std::uint32_t stop = piece.end; take(index, part, stop, piece);
+         piece = {piece.end, stop}) {
+      const std::uint32_t first = piece.first * grain;
+      const auto end = static_cast<std::uint32_t>(
+          std::min<std::uint64_t>(std::uint64_t{piece.end} * grain, loop.count));
+      call_(context_, index, first, end, worker);
+      items += end - first;
     }
   }
+  if (items != 0) done_.fetch_add(items, std::memory_order_acq_rel);
 }
 
-bool Parallel::take(std::size_t loop, std::uint32_t part, std::uint32_t& first,
-                    std::uint32_t& end) {
+// The next piece of a part. In: where the part begins, if nobody has begun it.
+bool Parallel::take(std::size_t loop, std::uint32_t part, std::uint32_t stop, Piece& piece) {
   std::atomic<std::uint64_t>& value = cursors_[part].value;
-  const std::uint32_t stop = begin_of(loops_[loop], part + 1), grain = grain_of(loops_[loop]);
-  std::uint64_t seen = value.load(std::memory_order_acquire);
+  const std::uint64_t begin = cursor(loop, piece.first);
+  std::uint64_t seen = value.load(std::memory_order_relaxed);
   do {
-    first = static_cast<std::uint32_t>(seen);
-    if (seen >> 32 != loop || first >= stop) return false;
-    const std::uint32_t grains = (stop - first) / grain / k_share_of_rest;
-    end = std::min(first + std::max(grains, 1U) * grain, stop);
-  } while (!value.compare_exchange_weak(seen, cursor(loop, end), std::memory_order_acq_rel));
+    const std::uint64_t from = std::max(seen, begin);
+    piece.first = static_cast<std::uint32_t>(from);
+    if (from >> 32 != begin >> 32 || piece.first >= stop) return false;
+    piece.end = piece.first + std::max((stop - piece.first) / k_share_of_rest, 1U);
+  } while (!value.compare_exchange_weak(seen, cursor(loop, piece.end), std::memory_order_relaxed));
   return true;
 }
 
 std::uint32_t Parallel::grain_of(const Loop& loop) const {
   if (loop.is_serial) return std::max(loop.count, 1U);
   return pieces_ == TaskPieces::smallest ? 1 : loop.grain;
-}
-
-// Parts are whole grains but for the last item.
-std::uint32_t Parallel::begin_of(const Loop& loop, std::uint32_t part) const {
-  const std::uint64_t grain = grain_of(loop);
-  const std::uint64_t begin = (loop.count + grain - 1) / grain * part / workers_ * grain;
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(begin, loop.count));
 }
 
 }  // namespace lockstone

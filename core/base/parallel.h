@@ -61,20 +61,21 @@ class Parallel {
                         std::uint32_t worker);
 
   // Each worker has a part of every loop, the same one each time, lest memory wander between
-  // processors; who is done helps the others. A cursor is the loop's number and the next item of
-  // the part: a worker that comes late from another loop cannot take anything.
+  // processors; who is done helps the others. A cursor is the last loop whose part was begun and
+  // the next grain of it: a worker that comes late from another loop cannot take anything.
   struct alignas(64) Cursor {
     std::atomic<std::uint64_t> value{0};
+  };
+  struct Piece {
+    std::uint32_t first = 0, end = 0;  // grains
   };
 
   [[nodiscard]] bool is_worth_sharing(std::span<const Loop> loops) const;
   void share(std::span<const Loop> loops);
-  void open(std::size_t loop);
   void work(std::uint32_t worker);
-  void work_on(std::size_t loop, std::uint32_t worker);
-  bool take(std::size_t loop, std::uint32_t part, std::uint32_t& first, std::uint32_t& end);
+  void work_on(std::size_t index, std::uint32_t worker);
+  bool take(std::size_t loop, std::uint32_t part, std::uint32_t stop, Piece& piece);
   [[nodiscard]] std::uint32_t grain_of(const Loop& loop) const;
-  [[nodiscard]] std::uint32_t begin_of(const Loop& loop, std::uint32_t part) const;
 
   TaskRunner* runner_ = nullptr;
   TaskPieces pieces_ = TaskPieces::worthwhile;
@@ -83,8 +84,7 @@ class Parallel {
   std::span<const Loop> loops_;
   Call call_ = nullptr;
   void* context_ = nullptr;
-  alignas(64) std::atomic<std::size_t> current_{0};  // the loop at hand
-  alignas(64) std::atomic<std::uint32_t> done_{0};   // items of it
+  alignas(64) std::atomic<std::uint64_t> done_{0};  // items of all loops
   std::array<Cursor, k_max_workers> cursors_{};
 };
 

@@ -5,7 +5,7 @@
 
 namespace lockstone {
 
-/// Tells the processor that this thread only waits, for some ten nanoseconds.
+/// Tells the processor that this thread only waits, for ten to fifty nanoseconds.
 inline void relax_processor() {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();
@@ -14,7 +14,9 @@ inline void relax_processor() {
 #endif
 }
 
-/// Each call waits a moment; after many of them the thread makes way for others.
+/// Each call waits a moment; after many of them, some 20 to 100 µs, the thread makes way for
+/// others: what it waits for takes longer only when another was put aside, and who makes way too
+/// early may get the processor back much later.
 class Pause {
  public:
   void operator()() {
@@ -23,7 +25,7 @@ class Pause {
   }
 
  private:
-  static constexpr int k_before_yield = 200;
+  static constexpr int k_before_yield = 2000;
   int count_ = 0;
 };
 
