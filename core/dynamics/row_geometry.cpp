@@ -117,7 +117,8 @@ void find_responses(const ContactRun& run, const ContactPair& pair, ContactRow& 
   std::array<std::int64_t, 6> inertia_a{}, inertia_b{};
   for (std::size_t i = 0; i < 6; ++i) {
     if (block.is_plain(lane) && i >= 3) break;
-    const std::int64_t word = block.inertia[block.is_plain(lane) ? 0 : i][lane];
+    const bool is_moment = i == 0 || block.is_plain(lane);
+    const std::int64_t word = (is_moment ? block.moment : block.inertia[i - 1])[lane];
     inertia_a[i] = low_word(word);
     inertia_b[i] = high_word(word);
   }

@@ -215,7 +215,7 @@ HWY_ATTR inline void begin_balls(BallBlock* blocks, std::size_t count, const Bod
 /// u in Q20.
 HWY_INLINE HWY_ATTR Vector speed_of(const BallBlock& block, std::size_t lane, const EachShift& by,
                                     const BallPair& bodies) {
-  const TensorPair inertia = load_tensors(block.inertia, lane);
+  const TensorPair inertia = load_tensors(block.inertia[0], block.inertia + 1, lane);
   const Vector arm = load_vector(block.arm, lane);
   const Vector around = subtract(cross(by.round(inertia.b.times(spin_of(bodies.b))), upper(arm)),
                                  cross(by.round(inertia.a.times(spin_of(bodies.a))), arm));

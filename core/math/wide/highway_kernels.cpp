@@ -16,6 +16,7 @@
 #include "core/math/wide/contact_rows_inl.h"
 #include "core/math/wide/manifold_bounce_inl.h"
 #include "core/math/wide/manifold_prepare_inl.h"
+#include "core/math/wide/manifold_relax_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
 #include "core/math/wide/points_inl.h"
 #include "core/math/wide/rotations_inl.h"

@@ -47,26 +47,23 @@ struct alignas(64) ManifoldBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
 
-  // Read by sweeps with friction. Rows t, b and the twist about n at the radius ρ.
-  BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
-  BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
-  BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
-  BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)
-  BlockWord friction{};         // low: impulse along t, high: along b; m/s, Q20
-  BlockWord twist{};            // low: twist impulse, m/s, Q20; high: ρ/ℓ, Q30
-
-  // Read and written by every sweep.
+  // Read by every sweep, in this order: what is read as it lies, the processor fetches ahead.
   BlockWord axes[5]{};  // (n.x, n.y) (n.z, t.x) (t.y, t.z) (b.x, b.y), Q30; (b.z, shift | kind)
+  BlockWord moment{};   // low: M_xx of A, high: of B; Q(shift)
   BlockWord arm[3]{};   // low: r̄A, high: r̄B of the centre, Q30
   BlockWord scale{};    // low: ℓ/sA, high: ℓ/sB, at most 1, Q30
   struct Point {
+    BlockWord offset{};      // low: x, high: y; Q30
     BlockWord impulse{};     // low: P ≥ 0, high: the greatest P so far; m/s, Q20
     BlockWord separation{};  // low: at the tick's beginning, high: now; m, Q24
-    BlockWord offset{};      // low: x, high: y; Q30
 
     friend bool operator==(const Point&, const Point&) = default;
   };
   Point points[k_block_points];
+  // Read by sweeps without friction.
+  BlockWord soft{};  // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
+  BlockWord rest{};  // (1 − κ)·load, what a soft row adds; m/s, Q50
+
   BlockWord mass_01{}, mass_23{};  // 1 / (the response of each point to itself), Q30; 0: no point
   BlockWord common{};              // low: mass of all points at once / count, high: 1/count; Q30
   // Responses: what a unit impulse at one point adds to the speed at another, Q(shift).
@@ -76,14 +73,18 @@ struct alignas(64) ManifoldBlock {
   BlockWord gain_turn{};    // the scales times α
   BlockWord share{};        // low: αB, Q30, high: coefficient of friction, Q30
 
-  // Read by sweeps without friction.
-  BlockWord soft{};  // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
-  BlockWord rest{};  // (1 − κ)·load, what a soft row adds; m/s, Q50
+  // Read by sweeps with friction. Rows t, b and the twist about n at the radius ρ.
+  BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
+  BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
+  BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
+  BlockWord twist_response{};   // low: of t, high: of b, to a twist impulse, Q(shift)
+  BlockWord friction{};         // low: impulse along t, high: along b; m/s, Q20
+  BlockWord twist{};            // low: twist impulse, m/s, Q20; high: ρ/ℓ, Q30
 
-  BlockWord inertia[6]{};  // low: M of A, high: of B; xx, yy, zz, xy, xz, yz, Q(shift)
-  // From `inertia[1]` on: neither written nor read where all of a vector's lanes are plain.
-  BlockWord drive{};  // what moving surfaces add to the speed: low: along t, high: b; Q20
-  BlockWord turn{};   // low: the same about n, as ℓ·ω; high: rolling limit / ΣP, Q28
+  // From here on: neither written nor read where all of a vector's lanes are plain.
+  BlockWord inertia[5]{};  // the rest of M: yy, zz, xy, xz, yz
+  BlockWord drive{};       // what moving surfaces add to the speed: low: along t, high: b; Q20
+  BlockWord turn{};        // low: the same about n, as ℓ·ω; high: rolling limit / ΣP, Q28
   // Read where the rolling limit is not 0: torques about t and b, divided by ℓ.
   BlockWord rolling{};          // low: impulse about t, high: about b; m/s, Q20
   BlockWord rolling_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of their response, Q24

@@ -22,7 +22,8 @@ HWY_INLINE HWY_ATTR bool is_empty(const ManifoldBlock& block, std::size_t lane) 
   return used == 0;
 }
 
-// Where few run it, one text serves plain manifolds and others: programs are smaller by a twentieth.
+// Where few run it, one text serves plain manifolds and others: programs are smaller by a
+// twentieth.
 #if defined(LKS_SCALAR_TWIN)
 constexpr bool k_tells_plain = false;
 #else
@@ -131,11 +132,12 @@ struct TensorPair {
   Tensor a, b;
 };
 
-HWY_INLINE HWY_ATTR TensorPair load_tensors(const BlockWord (&words)[6], std::size_t lane) {
+HWY_INLINE HWY_ATTR TensorPair load_tensors(const BlockWord& xx, const BlockWord* words,
+                                            std::size_t lane) {
   const auto low = [&](std::size_t word) HWY_ATTR { return load(&words[word][lane]); };
   const auto high = [&](std::size_t word) HWY_ATTR { return load_upper(&words[word][lane]); };
-  return {{low(0), low(1), low(2), low(3), low(4), low(5)},
-          {high(0), high(1), high(2), high(3), high(4), high(5)}};
+  return {{load(&xx[lane]), low(0), low(1), low(2), low(3), low(4)},
+          {load_upper(&xx[lane]), high(0), high(1), high(2), high(3), high(4)}};
 }
 
 /// Both bodies of each manifold or joint.
@@ -191,12 +193,12 @@ struct BlockSides {
 
   /// M·spin of each body, before rounding.
   HWY_INLINE HWY_ATTR Vector turned_a(const Vector& spin) const {
-    if constexpr (plain) return multiply(spin, load(&block.inertia[0][lane]));
-    return load_tensors(block.inertia, lane).a.times(spin);
+    if constexpr (plain) return multiply(spin, load(&block.moment[lane]));
+    return load_tensors(block.moment, block.inertia, lane).a.times(spin);
   }
   HWY_INLINE HWY_ATTR Vector turned_b(const Vector& spin) const {
-    if constexpr (plain) return multiply(spin, load_upper(&block.inertia[0][lane]));
-    return load_tensors(block.inertia, lane).b.times(spin);
+    if constexpr (plain) return multiply(spin, load_upper(&block.moment[lane]));
+    return load_tensors(block.moment, block.inertia, lane).b.times(spin);
   }
 
   HWY_INLINE HWY_ATTR Vector arm_a() const { return load_vector(block.arm, lane); }

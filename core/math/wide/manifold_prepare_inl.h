@@ -120,13 +120,13 @@ HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSide
   store(pack(axes.b.z, add(axes.by.shift, in.kind)), &out.axes[4][lane]);
   const Tensor& a = in.inertia_a;
   const Tensor& b = in.inertia_b;
-  store(pack(a.xx, b.xx), &out.inertia[0][lane]);
+  store(pack(a.xx, b.xx), &out.moment[lane]);
   if constexpr (plain) return;
-  store(pack(a.yy, b.yy), &out.inertia[1][lane]);
-  store(pack(a.zz, b.zz), &out.inertia[2][lane]);
-  store(pack(a.xy, b.xy), &out.inertia[3][lane]);
-  store(pack(a.xz, b.xz), &out.inertia[4][lane]);
-  store(pack(a.yz, b.yz), &out.inertia[5][lane]);
+  store(pack(a.yy, b.yy), &out.inertia[0][lane]);
+  store(pack(a.zz, b.zz), &out.inertia[1][lane]);
+  store(pack(a.xy, b.xy), &out.inertia[2][lane]);
+  store(pack(a.xz, b.xz), &out.inertia[3][lane]);
+  store(pack(a.yz, b.yz), &out.inertia[4][lane]);
 }
 
 /// Offsets of the points, and the mean of their squares (Q28).

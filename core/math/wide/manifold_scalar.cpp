@@ -2,6 +2,7 @@
 #define LKS_SCALAR_TWIN
 #include "core/math/wide/manifold_bounce_inl.h"
 #include "core/math/wide/manifold_prepare_inl.h"
+#include "core/math/wide/manifold_relax_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
 
 namespace lockstone::lanes {

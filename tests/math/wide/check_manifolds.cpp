@@ -140,7 +140,7 @@ struct SceneMaker {
 
 constexpr ManifoldGeometry k_no_geometry{};
 
-static_assert(offsetof(ManifoldBlock, coupling) == sizeof(BlockWord) &&
+static_assert(offsetof(ManifoldBlock, axes) == sizeof(BlockWord) &&
               sizeof(ManifoldBlock) % sizeof(BlockWord) == 0);
 
 // Of lanes without a manifold blocks say nothing, of plain ones not all.
@@ -149,8 +149,7 @@ void forget_empty(const ManifoldSources& sources, ManifoldBlock& block,
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const ManifoldSource& source = sources.lanes[lane];
     const bool is_empty = source.one_over_count == 0;
-    const std::size_t first =
-        is_empty ? sizeof(BlockWord) : offsetof(ManifoldBlock, inertia) + sizeof(BlockWord);
+    const std::size_t first = is_empty ? sizeof(BlockWord) : offsetof(ManifoldBlock, inertia);
     const std::int64_t none = 0;
     auto* const bytes = reinterpret_cast<unsigned char*>(&block);
     for (std::size_t at = first; at < sizeof(block); at += sizeof(BlockWord))
