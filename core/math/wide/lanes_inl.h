@@ -86,6 +86,12 @@ HWY_INLINE HWY_ATTR Lanes shift_left(Lanes x) {
   return hn::ShiftLeft<shift>(x);
 }
 
+/// Logically.
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes shift_right(Lanes x) {
+  return hn::BitCast(k_words, hn::ShiftRight<shift>(hn::BitCast(Bits(), x)));
+}
+
 HWY_INLINE HWY_ATTR Lanes multiply(Lanes a, Lanes b) {
 #if HWY_TARGET == HWY_WASM
   // Highway 1.0.3 multiplies signed operands here as if they were unsigned (MulEven,
@@ -136,6 +142,10 @@ HWY_INLINE HWY_ATTR hn::Vec<Bits> shift_right_each(hn::Vec<Bits> x, hn::Vec<Bits
 #else
   return hn::Shr(x, shift);
 #endif
+}
+
+HWY_INLINE HWY_ATTR Lanes shift_right_each(Lanes x, Lanes shift) {
+  return hn::BitCast(k_words, shift_right_each(hn::BitCast(Bits(), x), hn::BitCast(Bits(), shift)));
 }
 
 HWY_INLINE HWY_ATTR Lanes power_of_two(Lanes exponent) {

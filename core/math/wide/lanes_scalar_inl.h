@@ -66,6 +66,13 @@ Lanes shift_left(Lanes x) {
   return scalar::shift_left(x, shift);
 }
 template <int shift>
+Lanes shift_right(Lanes x) {
+  return scalar::shift_right(x, shift);
+}
+inline Lanes shift_right_each(Lanes x, Lanes shift) {
+  return scalar::shift_right(x, static_cast<int>(shift));
+}
+template <int shift>
 Lanes round_shift_low(Lanes x) {
   return scalar::round_shift_low(x, shift);
 }

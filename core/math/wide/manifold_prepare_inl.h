@@ -206,36 +206,85 @@ HWY_INLINE HWY_ATTR void find_rolling_mass(const ManifoldSource* in, const Cente
     mass[i] = load(words[i]);
 }
 
-/// All lanes of all quotients one by one: words go to memory once and come back once.
-template <bool plain>
-HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, const EachShift& by,
-                                             const CenterResponse& k, const Offsets& at,
-                                             const Lanes (&of)[4][4]) {
-  std::int64_t words[8][k_lanes];
-  const Lanes determinant = by.round(subtract(multiply(k.tt, k.bb), multiply(k.tb, k.tb)));
-  for (std::size_t i = 0; i < 4; ++i)
-    store(of[i][i], words[i]);
-  store(k.nn, words[4]);
-  store(max(lower_part(determinant), power_of_two(by.shift)), words[5]);
-  store(at.square, words[6]);
-  store(lower_part(k.ww), words[7]);
+/// What 2^(shift + 30) is divided by: A of each point, K_nn, the tangents' determinant.
+struct Divisors {
+  Lanes of[6];
+};
+
+/// Puts the quotients, rounded down, in the place of their divisors, lane by lane.
+HWY_INLINE HWY_ATTR void divide_each(const ManifoldSource* in, Divisors& d) {
+  std::int64_t words[6][k_lanes];
+  for (std::size_t i = 0; i < 6; ++i)
+    store(d.of[i], words[i]);
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-    const int shift = in[lane].shift;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const bool is_point = static_cast<std::int32_t>(i) < in[lane].count;
-      words[i][lane] = is_point ? bounded_quotient(shift + 30, words[i][lane], k_one) : 0;
-    }
-    words[4][lane] = bounded_quotient(shift + 30, words[4][lane], k_one);
-    words[5][lane] = bounded_quotient(shift + 30, words[5][lane], k_one);
-    words[6][lane] = radius_of(words[6][lane]);
-    words[7][lane] = twist_mass(shift, words[7][lane], words[6][lane]);
+    for (auto& word : words)
+      word[lane] = bounded_quotient(in[lane].shift + 30, word[lane], k_one);
   }
-  Quotients q{{load(words[0]), load(words[1]), load(words[2]), load(words[3])},
-              load(words[4]),
-              load(words[5]),
-              load(words[6]),
-              load(words[7]),
-              {}};
+  for (std::size_t i = 0; i < 6; ++i)
+    d.of[i] = load(words[i]);
+}
+
+template <int by>
+HWY_INLINE HWY_ATTR void raise_below_2_30(Lanes& x, Lanes& lead) {
+  const Lanes bound = broadcast(std::int64_t{1} << (31 - by));
+  lead = select_less(x, bound, add(lead, broadcast(by)), lead);
+  x = select_less(x, bound, shift_left<by>(x), x);
+}
+
+/// ⌊2^(shift + 30) / d⌋ for 2^16 ≤ 2^shift ≤ d < 2^31. A line and three of Newton's steps give
+/// r ≈ 2^61 / D for D = d · 2^lead from 2^30 to 2^31: less by 1/17 of it, then by (1/17)^8. What is
+/// cut off makes it less, too: by 3 in all, and so the quotient by 2.
+HWY_INLINE HWY_ATTR Lanes quotient_of(Lanes d, Lanes shift, Lanes power) {
+  const Lanes none = broadcast(0), one = broadcast(1);
+  Lanes high = d, lead = none;
+  raise_below_2_30<8>(high, lead);
+  raise_below_2_30<4>(high, lead);
+  raise_below_2_30<2>(high, lead);
+  raise_below_2_30<1>(high, lead);
+  Lanes r = subtract(broadcast(k_one * 48 / 17),
+                     shift_right<31>(multiply(high, broadcast(k_one * 32 / 17))));
+  for (int i = 0; i < 3; ++i) {
+    const Lanes factor = subtract(broadcast(INT32_MAX), shift_right<31>(multiply(high, r)));
+    r = shift_right<30>(multiply(r, factor));
+  }
+  const Lanes q = shift_right_each(r, subtract(subtract(broadcast(31), shift), lead));
+  const Lanes left = subtract(power, multiply(q, d));
+  return add(q, add(select_less(left, d, none, one), select_less(left, add(d, d), none, one)));
+}
+
+/// As `divide_each`, side by side where there are lanes enough and divisors as they should be.
+HWY_INLINE HWY_ATTR void divide(const ManifoldSource* in, Lanes shift, Divisors& d) {
+  const Lanes one = power_of_two(shift);
+  Lanes least = d.of[0], most = d.of[0];
+  for (std::size_t i = 1; i < 6; ++i) {
+    least = min(least, d.of[i]);
+    most = max(most, d.of[i]);
+  }
+  if (k_lanes < 4 || any_less(least, one) || any_less(broadcast(INT32_MAX), most))
+    return divide_each(in, d);
+  for (Lanes& each : d.of)
+    each = quotient_of(each, shift, shift_left<30>(one));
+}
+
+/// Radius and twist lane by lane: words go to memory once and come back once.
+template <bool plain>
+HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, Lanes count,
+                                             const EachShift& by, const CenterResponse& k,
+                                             const Offsets& at, const Lanes (&of)[4][4]) {
+  std::int64_t words[2][k_lanes];
+  store(at.square, words[0]);
+  store(lower_part(k.ww), words[1]);
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    words[0][lane] = radius_of(words[0][lane]);
+    words[1][lane] = twist_mass(in[lane].shift, words[1][lane], words[0][lane]);
+  }
+  const Lanes determinant = by.round(subtract(multiply(k.tt, k.bb), multiply(k.tb, k.tb)));
+  Divisors d{{of[0][0], of[1][1], of[2][2], of[3][3], k.nn,
+              max(lower_part(determinant), power_of_two(by.shift))}};
+  divide(in, by.shift, d);
+  Quotients q{{}, d.of[4], d.of[5], load(words[0]), load(words[1]), {}};
+  for (std::size_t i = 0; i < 4; ++i)
+    q.point[i] = select_less(broadcast(static_cast<std::int64_t>(i)), count, d.of[i], broadcast(0));
   if constexpr (!plain) find_rolling_mass(in, k, q.rolling);
   return q;
 }
@@ -385,7 +434,7 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t la
   Lanes of[4][4];
   point_responses(response, offsets, axes.by.shift, of);
   const Quotients quotients =
-      find_quotients<plain>(&in.lanes[lane], axes.by, response, offsets, of);
+      find_quotients<plain>(&in.lanes[lane], count, axes.by, response, offsets, of);
   const TangentImpulses tangents = along_tangents<plain>(source, axes);
   const SourceSides<plain> sides = sides_of<plain>(source);
   PointLanes points{};

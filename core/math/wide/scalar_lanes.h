@@ -60,6 +60,11 @@ using Lane = std::int64_t;
   return static_cast<Lane>(bits(x) << shift);
 }
 
+/// The word moved down by 0 ≤ shift ≤ 63, with zeros above.
+[[nodiscard]] constexpr Lane shift_right(Lane x, int shift) {
+  return static_cast<Lane>(bits(x) >> shift);
+}
+
 /// 2^exponent, 0 ≤ exponent ≤ 63.
 [[nodiscard]] constexpr Lane power_of_two(Lane exponent) {
   return static_cast<Lane>(std::uint64_t{1} << exponent);

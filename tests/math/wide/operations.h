@@ -34,6 +34,8 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
   X(upper_part, upper_part(a), high_part(a), k_all_bits)                                          \
   X(low_byte, low_byte(a), low_byte(a), k_all_bits)                                               \
   X(left_15, shift_left<15>(a), shift_left(a, 15), k_all_bits)                                    \
+  X(right_31, shift_right<31>(a), shift_right(a, 31), k_all_bits)                                 \
+  X(right_each, shift_right_each(a, shift), shift_right(a, static_cast<int>(shift)), k_all_bits)  \
   X(power_of_two, power_of_two(shift), power_of_two(shift), k_all_bits)       \
   X(multiple_18, round_to_multiple<18>(a), round_to_multiple(a, 18), k_all_bits)                  \
   X(at_most, at_most(a, 12345678), at_most(a, 12345678), k_all_bits)                              \
