@@ -199,31 +199,30 @@ JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
   if (body.solver == 0) return after;
   const lanes::RowBody& row = run.rows[body.solver];
   const SolverBody& solver = run.bodies[body.solver];
-  const std::int64_t rate = body.rate;
   const auto read = [](std::int64_t x) { return bounded(x, std::int64_t{1000} << 50); };
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     std::int64_t velocity = read(row.velocity[axis]);
     if (body.centred && !body.free) velocity -= solver.gain[axis] * (1 << 17);
-    after.position[i].raw += raw::round_shift(raw::round_divide(velocity, rate), 18);
+    after.position[i].raw += raw::round_shift(body.rate.quotient(velocity), 18);
   }
   if (row.spin == std::array<std::int64_t, 3>{} || !body.record->rotates()) return after;
   const std::array<std::int64_t, 3> spin = {read(row.spin[0]), read(row.spin[1]),
                                             read(row.spin[2])};
   const int scale = body.record->scale_exponent;
-  const auto turned = [&](const InverseInertia& inertia, std::int64_t divisor) {
+  const auto turned = [&](const InverseInertia& inertia, const RoundDivisor& rate) {
     const std::array<std::int64_t, 3> w = surface_velocity(inertia, spin);
     const auto angle = [&](std::int64_t x) {
-      return RotationComponent::from_raw(raw::scale_binary(raw::round_divide(x, divisor), -scale));
+      return RotationComponent::from_raw(raw::scale_binary(rate.quotient(x), -scale));
     };
     return integrate(body.pose.orientation, {angle(w[0]), angle(w[1]), angle(w[2])});
   };
   if (body.pushed && !body.record->has_spherical_inertia()) {
-    const Quat half = turned(body.inverse_inertia, 2 * rate);
+    const Quat half = turned(body.inverse_inertia, body.rate.doubled());
     body.inertia_ahead = inverse_inertia_of(body, to_matrix(half));
-    after.orientation = turned(body.inertia_ahead, rate);
+    after.orientation = turned(body.inertia_ahead, body.rate);
   } else {
-    after.orientation = turned(body.inverse_inertia, rate);
+    after.orientation = turned(body.inverse_inertia, body.rate);
   }
   after.rotation = to_matrix(after.orientation);
   return after;

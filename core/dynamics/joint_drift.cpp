@@ -34,8 +34,9 @@ bool JointSolver::can_drift(const Cluster& cluster) {
 }
 
 void JointSolver::set_rate(const Cluster& cluster, std::int64_t rate) {
+  const RoundDivisor divisor(rate);
   for (const std::uint32_t body : bodies_of(cluster))
-    bodies_[body].rate = rate, bodies_[body].has_looked = false;
+    bodies_[body].rate = divisor, bodies_[body].has_looked = false;
   for (Group& group : groups_of(cluster))
     group.rate = rate;
 }

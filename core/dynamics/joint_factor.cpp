@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/math/product_sum.h"
+#include "core/math/reciprocal.h"
 
 namespace lockstone {
 namespace {
@@ -140,11 +141,9 @@ std::uint32_t JointFactor::factor_diagonal(Column& column) {
       inverse = {};
       ++left_out;
     } else {
-      const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(pivot)));
-      const int power = 60 + width;
-      const UInt128 one = UInt128{0, 1} << power;
-      inverse = {static_cast<std::int64_t>(round_divide(one, static_cast<std::uint64_t>(pivot))),
-                 power - k_matrix_bits};
+      const int zeros = std::countl_zero(static_cast<std::uint64_t>(pivot));
+      const std::uint64_t mantissa = reciprocal_q124(static_cast<std::uint64_t>(pivot) << zeros);
+      inverse = {static_cast<std::int64_t>(mantissa), 60 + 64 - zeros - k_matrix_bits};
     }
     std::array<std::int64_t, k_factor_rows> above{};
     for (std::uint32_t r = c + 1; r < n; ++r) {

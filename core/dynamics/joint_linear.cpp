@@ -6,6 +6,7 @@
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
 #include "core/math/product_sum.h"
+#include "core/math/reciprocal.h"
 
 namespace lockstone {
 namespace {
@@ -17,11 +18,10 @@ void set_inverse(std::int64_t response, std::int64_t& mantissa, int& shift) {
   mantissa = 0;
   shift = 1;
   if (response < 16) return;
-  const int power = 60 + static_cast<int>(std::bit_width(static_cast<std::uint64_t>(response)));
-  const std::uint64_t quotient =
-      round_divide(UInt128{0, 1} << power, static_cast<std::uint64_t>(response));
-  mantissa = static_cast<std::int64_t>(quotient);
-  shift = power - 30;
+  const int zeros = std::countl_zero(static_cast<std::uint64_t>(response));
+  mantissa =
+      static_cast<std::int64_t>(reciprocal_q124(static_cast<std::uint64_t>(response) << zeros));
+  shift = 60 + 64 - zeros - 30;
 }
 
 // response · inverse mass · 2^-shift, at most 2^-1

@@ -81,9 +81,10 @@ void JointSolver::load_impulses(Joint& joint, int shift) const {
 }
 
 void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contacts) {
+  const RoundDivisor rate(step_.substep_rate());
   for (Body& body : bodies_) {
     body.centred = body.pushed && !body.in_net && body.solver >= first_without_contacts;
-    body.rate = step_.substep_rate();
+    body.rate = rate;
   }
   for (Group& group : groups_)
     group.rate = step_.substep_rate();

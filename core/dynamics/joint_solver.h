@@ -21,6 +21,7 @@
 #include "core/dynamics/principal_inverse.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/time_step.h"
+#include "core/math/round_divisor.h"
 #include "core/math/wide/ball_block.h"
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/manifold_block.h"
@@ -121,7 +122,7 @@ class JointSolver {
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick
     bool free = false;               // half drift, kick, half drift
-    std::int64_t rate = 0;           // 1 / what it drifts for
+    RoundDivisor rate{};             // 1 / what it drifts for
     bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
