@@ -32,20 +32,12 @@ BodyRecord with_inertia(const BodyRecord& record, std::int64_t least) {
   return heavier;
 }
 
-// |x| + |y| + |z|, Q20
-std::int64_t sum_of(const Vec3<Length>& v) {
-  const auto size = [](Length x) { return std::abs(std::int64_t{x.raw}); };
-  return size(v.x) + size(v.y) + size(v.z);
-}
-
 }  // namespace
 
-// `jump`: what joints at the anchor pull, of the body's own velocity, Q30.
-void JointSolver::add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Length>& anchor) {
-  const int scale = bodies_[body].record->scale_exponent;
-  const std::int64_t lever = sum_of(anchor);  // Q20
+// `jump`: what joints pull at the lever (m, Q20), of the body's own velocity, Q30.
+void JointSolver::add_pull(std::uint32_t body, std::int64_t jump, std::int64_t lever) {
   std::int64_t& sum = pulls_[body];
-  sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * scale), k_row_bound);
+  sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * bodies_[body].scale), k_row_bound);
 }
 
 // Half of what a substep takes: the other half is that of `relaxed`, or goes before it.
@@ -56,12 +48,12 @@ void JointSolver::add_pulls(std::span<const Joint> joints, bool free) {
     };
     const auto pull =
         static_cast<std::int64_t>(norm(total(0) >> 20, total(1) >> 20, total(2) >> 20));  // Q30
-    const auto add = [&](std::uint32_t body, const Share& share, const Vec3<Length>& anchor) {
+    const auto add = [&](std::uint32_t body, const Share& share, std::int64_t lever) {
       if (share.mantissa == 0) return;
-      add_pull(body, product_rounded(pull, share.mantissa, share.shift), anchor);
+      add_pull(body, product_rounded(pull, share.mantissa, share.shift), lever);
     };
-    add(joint.a, joint.share_a, joint.record->anchor_a);
-    add(joint.b, joint.share_b, joint.record->anchor_b);
+    add(joint.a, joint.share_a, joint.lever_a);
+    add(joint.b, joint.share_b, joint.lever_b);
   }
 }
 
@@ -74,10 +66,11 @@ void JointSolver::add_net_pulls() {
     };
     const auto pull = static_cast<std::int64_t>(norm(part(0), part(1), part(2)));  // Q30
     if (bodies_[link.a].pushed) {
-      add_pull(link.a, product_rounded(pull, k_one - link.share_b, 30), link.record->anchor_a);
+      add_pull(link.a, product_rounded(pull, k_one - link.share_b, 30),
+               size_of(link.record->anchor_a));
     }
     if (bodies_[link.b].pushed) {
-      add_pull(link.b, product_rounded(pull, link.share_b, 30), link.record->anchor_b);
+      add_pull(link.b, product_rounded(pull, link.share_b, 30), size_of(link.record->anchor_b));
     }
   }
 }

@@ -69,6 +69,7 @@ void JointSolver::leave_out_far(const JointRun& run, Joint& joint) const {
     ++kept;
   }
   rows.count = kept;
+  joint.holds_a_point = lockstone::holds_a_point(*joint.record, joint.far);
 }
 
 // Answers whether anything was pushed.

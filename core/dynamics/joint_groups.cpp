@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
 #include "core/dynamics/mass_share.h"
 
@@ -200,6 +201,8 @@ void JointSolver::make_joint(Link& link) {
   const BodyRecord& b = *bodies_[link.b].record;
   joint.inverse_mass = lockstone::add(a.inverse_mass_value(), b.inverse_mass_value());
   joint.exponent = angular_exponent(a, b);
+  joint.lever_a = size_of(link.record->anchor_a);
+  joint.lever_b = size_of(link.record->anchor_b);
   const auto share = [&](BlockFloat part) -> Share {
     if (part.mantissa == 0) return {};
     const int distance = joint.inverse_mass.exponent - part.exponent;

@@ -73,10 +73,11 @@ JointPlace JointSolver::place_of(const Joint& joint, const JointPose& a, const J
   return {*joint.record,
           a,
           b,
-          bodies_[joint.a].record->scale_exponent,
-          bodies_[joint.b].record->scale_exponent,
+          bodies_[joint.a].scale,
+          bodies_[joint.b].scale,
           joint.exponent,
-          joint.far};
+          joint.far,
+          joint.holds_a_point};
 }
 
 // Rows and factors where the bodies are now.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
@@ -48,7 +49,7 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
     bodies_[body].looked = run.rows[bodies_[body].solver];
     bodies_[body].has_looked = true;
   }
-  JointRows ahead;
+  std::optional<JointRows> rows;  // where there is more than points
   for (const std::uint32_t index : joints_of(group)) {
     Joint& joint = joints_[index];
     const JointPlace place = place_of(joint, after_[joint.a], after_[joint.b]);
@@ -58,6 +59,7 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
         joint.rows.rows[r].error = gap[r];
       continue;
     }
+    JointRows& ahead = rows ? *rows : rows.emplace();
     fill_rows(place, turn ? RowParts::locks : RowParts::lock_errors, ahead);
     if (ahead.locks != joint.rows.locks) continue;
     if (!turn) {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
 #include "core/math/product_sum.h"
 
 namespace lockstone {
@@ -18,6 +21,12 @@ inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
 
 [[nodiscard]] constexpr std::int64_t bounded(std::int64_t x, std::int64_t bound) {
   return std::clamp(x, -bound, bound);
+}
+
+/// |x| + |y| + |z|, Q20
+[[nodiscard]] constexpr std::int64_t size_of(const Vec3<Length>& v) {
+  const auto size = [](Length x) { return std::int64_t{x.raw < 0 ? -std::int64_t{x.raw} : x.raw}; };
+  return size(v.x) + size(v.y) + size(v.z);
 }
 
 /// What closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50.

@@ -73,6 +73,7 @@ class RowFiller {
     arm_a_ = arm_of(place_.a.rotation, joint.anchor_a);
     arm_b_ = arm_of(place_.b.rotation, joint.anchor_b);
     gap_ = (place_.b.position + arm_b_) - (place_.a.position + arm_a_);
+    if (place_.holds_a_point) return lock_anchors();
     switch (static_cast<JointKind>(joint.kind)) {
       case JointKind::distance:
         return fill_distance();
@@ -216,7 +217,7 @@ class RowFiller {
 
   // An arm in Q32, as lever(arm, n, exponent) has it for axes of the world.
   [[nodiscard]] static RawVec3 scaled_arm(const Vec3<Position>& arm, int exponent) {
-    const auto part = [&](Position p) { return product_rounded(p.raw, k_one, 32 + exponent); };
+    const auto part = [&](Position p) { return raw::scale_binary(p.raw, -2 - exponent); };
     return {part(arm.x), part(arm.y), part(arm.z)};
   }
 
@@ -389,6 +390,16 @@ bool is_point(const JointRecord& joint) {
   if (!joint.is(JointKind::ball) || !has_world_axes(joint)) return false;
   for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
     if (joint.mode(axis) != AxisMode::free || joint.axes[axis].is_driven()) return false;
+  }
+  return true;
+}
+
+bool holds_a_point(const JointRecord& joint, std::uint8_t far) {
+  if (joint.kind >= static_cast<std::uint8_t>(JointKind::pulley)) return false;
+  if (joint.is(JointKind::distance) || !has_world_axes(joint)) return false;
+  for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
+    const bool is_free = joint.mode(axis) == AxisMode::free || (far >> axis & 1) != 0;
+    if (!is_free || joint.axes[axis].is_driven()) return false;
   }
   return true;
 }

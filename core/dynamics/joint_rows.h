@@ -55,8 +55,9 @@ struct JointPlace {
   const JointPose& b;
   int scale_a;  // exponents of the bodies
   int scale_b;
-  int exponent;          // of angular rows
-  std::uint8_t far = 0;  // axes, a bit each, whose limits get no rows
+  int exponent;                // of angular rows
+  std::uint8_t far = 0;        // axes, a bit each, whose limits get no rows
+  bool holds_a_point = false;  // as below
 };
 
 /// What of a joint's rows is wanted; without Jacobians only errors are.
@@ -73,6 +74,9 @@ void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
 
 /// Whether it holds a point and nothing else: a ball without limits and drives.
 [[nodiscard]] bool is_point(const JointRecord& joint);
+
+/// Whether it holds a point and nothing else has rows, without limits that are far.
+[[nodiscard]] bool holds_a_point(const JointRecord& joint, std::uint8_t far);
 
 /// M·j for a Jacobian.
 [[nodiscard]] RawVec3 response_of(const InverseInertia& inertia, const RawVec3& angular);

@@ -60,6 +60,7 @@ std::uint32_t JointSolver::take_up(const Side& side) {
   set_principal(body);
   body.inverse_inertia = inverse_inertia_of(body, side.rotation);
   body.solver = side.solver;
+  body.scale = side.record.scale_exponent;
   body.pushed = side.solver != 0 && side.record.is_dynamic();
   bodies_.push_back(body);
   return place - 1;

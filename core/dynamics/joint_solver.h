@@ -114,6 +114,7 @@ class JointSolver {
     InverseInertia inverse_inertia{};
     InverseInertia inertia_ahead{};  // half a substep on, as far as is known
     std::uint32_t solver = 0;
+    int scale = 0;  // exponent
     lanes::RowBody saved_row{}, saved_before{};
     lanes::RowBody looked{};  // with what velocity it goes where `after_` says
     bool has_looked = false;
@@ -169,7 +170,9 @@ class JointSolver {
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
     int exponent = 0;
-    std::uint8_t far = 0;  // axes whose limits have no rows in this tick, a bit each
+    std::int64_t lever_a = 0, lever_b = 0;  // to the anchors, m, Q20: sums of their components
+    std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
+    bool holds_a_point = false;  // and nothing else has rows in this tick
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -210,7 +213,7 @@ class JointSolver {
   void load_impulses(Joint& joint, int shift) const;
   [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
                                     const JointPose& b) const;
-  void add_pull(std::uint32_t body, std::int64_t jump, const Vec3<Length>& anchor);
+  void add_pull(std::uint32_t body, std::int64_t jump, std::int64_t lever);
   [[nodiscard]] bool can_drift(const Cluster& cluster);
   [[nodiscard]] static bool is_plain(const Joint& joint);
   void set_rate(const Cluster& cluster, std::int64_t rate);
