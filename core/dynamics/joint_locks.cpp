@@ -22,6 +22,9 @@ constexpr std::int64_t k_closed = 1 << 12;
 // What rounding leaves of them: 4 nm.
 constexpr std::int64_t k_rounding = 16;
 
+// Where there are limits or drives: 15 nm. After one step most openings lie between both.
+constexpr std::int64_t k_pushed_rounding = 64;
+
 // What ropes and chains may leave: 30 nm, as much as rounding of spin does at a metre's arm.
 constexpr std::int64_t k_noise = 128;
 
@@ -140,8 +143,8 @@ std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64
 // taken, lest swings that the substep hardly resolves grow unseen.
 bool JointSolver::close(const JointRun& run, Group& group) {
   const bool pulled = is_pulled(group);
-  const std::int64_t enough = pulled ? 0 : k_rounding;
-  const std::int64_t expected = pulled ? 0 : group.is_plain ? k_noise : k_rounding;
+  const std::int64_t enough = pulled ? 0 : group.is_plain ? k_rounding : k_pushed_rounding;
+  const std::int64_t expected = pulled ? 0 : group.is_plain ? k_noise : k_pushed_rounding;
   const int solves = pulled && !group.drifts ? k_position_solves : k_most_passes;
   std::int64_t before = 0;
   for (int i = 0; i < solves; ++i) {
