@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"

@@ -195,6 +195,10 @@ void JointSolver::make_joint(Link& link) {
   link.joint = static_cast<std::uint32_t>(joints_.size());
   Joint& joint = joints_.emplace_back();
   joint.record = link.record;
+  const std::size_t rows = most_rows(*link.record);
+  if (rows_.size() < row_count_ + rows) rows_.resize(row_count_ + rows);
+  joint.rows.rows = std::span(rows_).subspan(row_count_, rows);
+  row_count_ += rows;
   joint.a = link.a;
   joint.b = link.b;
   const BodyRecord& a = *bodies_[link.a].record;

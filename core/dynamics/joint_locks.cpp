@@ -1,6 +1,7 @@
 // The locks of a group of joints: positions, then velocities.
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 
@@ -52,7 +53,7 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
     bodies_[body].looked = run.rows[bodies_[body].solver];
     bodies_[body].has_looked = true;
   }
-  std::optional<JointRows> rows;  // where there is more than points
+  std::optional<std::array<JointRow, k_max_joint_rows>> rows;  // where there is more than points
   for (const std::uint32_t index : joints_of(group)) {
     Joint& joint = joints_[index];
     const JointPlace place = place_of(joint, after_[joint.a], after_[joint.b]);
@@ -62,7 +63,8 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
         joint.rows.rows[r].error = gap[r];
       continue;
     }
-    JointRows& ahead = rows ? *rows : rows.emplace();
+    if (!rows) rows.emplace();
+    JointRows ahead{*rows};
     fill_rows(place, turn ? RowParts::locks : RowParts::lock_errors, ahead);
     if (ahead.locks != joint.rows.locks) continue;
     if (!turn) {

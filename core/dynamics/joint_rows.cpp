@@ -142,6 +142,7 @@ class RowFiller {
     row.axis = static_cast<std::uint8_t>(axis);
     row.kind = kind;
     row.error = error;
+    LKS_ASSERT(out_.count < out_.rows.size());
     const auto begin = out_.rows.begin();
     out_.rows[out_.count++] = row;
     if (kind != RowKind::lock) return;
@@ -384,6 +385,16 @@ bool has_world_axes(const JointRecord& joint) {
     if (joint.mode(i) != AxisMode::locked || joint.axes[i].is_driven()) return false;
   }
   return true;
+}
+
+std::size_t most_rows(const JointRecord& joint) {
+  if (joint.kind >= static_cast<std::uint8_t>(JointKind::pulley)) return 1;
+  std::size_t count = 0;
+  for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
+    if (joint.mode(axis) != AxisMode::free) ++count;
+    if (joint.axes[axis].is_driven()) ++count;
+  }
+  return count;
 }
 
 bool is_point(const JointRecord& joint) {

@@ -42,8 +42,8 @@ struct JointRow {
 inline constexpr std::size_t k_max_joint_rows = 2 * k_joint_axes;
 
 struct JointRows {
-  std::array<JointRow, k_max_joint_rows> rows{};
-  std::size_t locks = 0;  // these come first
+  std::span<JointRow> rows;  // room for them
+  std::size_t locks = 0;     // these come first
   std::size_t count = 0;
   bool is_point = false;  // the first three lock the axes of the world
 };
@@ -65,6 +65,9 @@ enum class RowParts : std::uint8_t { all, locks, lock_errors };
 
 /// Jacobians and errors; responses are left alone.
 void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
+
+/// The most rows that it can have.
+[[nodiscard]] std::size_t most_rows(const JointRecord& joint);
 
 /// The opening of a joint that locks the axes of the world, as errors of its first three rows.
 [[nodiscard]] RawVec3 point_gap(const JointPlace& place);

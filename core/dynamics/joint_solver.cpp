@@ -31,6 +31,7 @@ JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
   links_.reserve(joint_capacity);
   in_net_.reserve(joint_capacity);
   joints_.reserve(joint_capacity);
+  rows_.reserve(k_max_joint_rows * joint_capacity);
   by_body_.reserve(2 * joint_capacity);
   order_.reserve(joint_capacity);
   seen_.reserve(joint_capacity);
@@ -46,6 +47,7 @@ void JointSolver::clear() {
   bodies_.clear();
   links_.clear();
   joints_.clear();
+  row_count_ = 0;
   clamps_ = 0;
 }
 

@@ -281,6 +281,8 @@ class JointSolver {
   std::vector<Link> links_;
   std::vector<std::uint32_t> in_net_;        // links
   std::vector<Joint> joints_;                // cluster by cluster
+  std::vector<JointRow> rows_;               // of those, as many as each can have; never shrinks
+  std::size_t row_count_ = 0;                // of them taken
   std::vector<std::uint32_t> by_body_;       // links of each pushed body
   std::vector<std::uint32_t> order_;         // joints, group by group, as they are eliminated
   std::vector<std::uint32_t> group_bodies_;  // bodies, group by group
