@@ -20,19 +20,18 @@ namespace HWY_NAMESPACE {
 /// processor sees a whole block ahead, or waits for as many lines at once. Hints, without meaning.
 class Ahead {
  public:
-  HWY_INLINE HWY_ATTR explicit Ahead(const void* from)
-      : from_(reinterpret_cast<std::uintptr_t>(from)) {}
+  HWY_INLINE HWY_ATTR explicit Ahead(const void* from) : from_(static_cast<const char*>(from)) {}
 
   HWY_INLINE HWY_ATTR void ask(std::size_t lines) {
 #if defined(__GNUC__)
     for (std::size_t i = 0; i < lines; ++i)
-      __builtin_prefetch(reinterpret_cast<const void*>(from_ + 64 * i));
+      __builtin_prefetch(from_ + 64 * i);
 #endif
     from_ += 64 * lines;
   }
 
  private:
-  std::uintptr_t from_;
+  const char* from_;
 };
 
 /// The bodies of a block, or other records of the same form, from `lane` on.
