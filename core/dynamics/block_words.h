@@ -26,6 +26,14 @@ namespace lockstone {
           low_word(block.axes[1][lane])};
 }
 
+/// product_rounded(a, b, shift), 1 ≤ shift ≤ 120, sooner where a is small.
+[[nodiscard]] inline std::int64_t scaled(std::int64_t a, std::int32_t b, int shift) {
+  constexpr std::int64_t k_small = std::int64_t{1} << 31;
+  if (a >= k_small || a <= -k_small || shift > 61) return product_rounded(a, b, shift);
+  const std::int64_t product = a * b;
+  return (product + (std::int64_t{1} << (shift - 1)) + (product >> 63)) >> shift;
+}
+
 /// r̄ × u + scale·turn, Q30.
 [[nodiscard]] inline RawVec3 turned(const RawVec3& arm, const RawVec3& direction,
                                     std::int64_t scale, const RawVec3& turn) {
@@ -48,17 +56,21 @@ namespace lockstone {
   return result;
 }
 
+/// u·v.
+[[nodiscard]] inline ProductSum dot_sum(const RawVec3& u, const RawVec3& v) {
+  ProductSum sum;
+  for (std::size_t i = 0; i < 3; ++i)
+    sum.add(u[i], v[i]);
+  return sum;
+}
+
 /// u·v + angular·response, Q30.
 [[nodiscard]] inline std::int64_t coupled(const RawVec3& linear_x, const RawVec3& linear_y,
-                                          const RawVec3& angular_x, const RawVec3& response_y,
-                                          bool opposite) {
-  ProductSum sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sum.add(linear_x[i], linear_y[i]);
+                                          const RawVec3& angular_x, const RawVec3& response_y) {
+  ProductSum sum = dot_sum(linear_x, linear_y);
+  for (std::size_t i = 0; i < 3; ++i)
     sum.add(angular_x[i], response_y[i]);
-  }
-  const std::int64_t rounded = sum.rounded(30);
-  return opposite ? -rounded : rounded;
+  return sum.rounded(30);
 }
 
 }  // namespace lockstone

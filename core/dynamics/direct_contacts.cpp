@@ -35,7 +35,8 @@ bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
 
 DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_capacity)
     : by_body_(body_capacity, contact_capacity),
-      factor_(std::min(contact_capacity, k_most_contacts)) {
+      factors_{JointFactor(std::min(contact_capacity, k_most_contacts)),
+               JointFactor(std::min(contact_capacity, k_most_contacts))} {
   const std::size_t most = std::min(contact_capacity, k_most_contacts) + k_most_of_loaded;
   links_.reserve(contact_capacity);
   left_out_.reserve(body_capacity);
@@ -62,7 +63,8 @@ void DirectContacts::clear() {
   gains_.clear();
   ties_.clear();
   groups_.clear();
-  factor_.clear();
+  for (JointFactor& factor : factors_)
+    factor.clear();
 }
 
 bool DirectContacts::is_uneven(std::int32_t share_b) {
@@ -255,19 +257,18 @@ bool DirectContacts::plan_factor(Group& group) {
         if (place_[other] != 0) emit(place_[other] - 1);
     }
   };
-  const auto rows = [&](std::uint32_t) -> std::uint32_t {
-    return group.leans ? k_factor_rows : lanes::k_block_points;
+  const auto plan = [&](std::size_t which, bool leans) {
+    const auto rows = [leans](std::uint32_t) -> std::uint32_t {
+      return leans ? k_factor_rows : lanes::k_block_points;
+    };
+    const bool fits =
+        factors_[which].plan(group.count, neighbours, rows, leans ? k_factor_rows : k_joint_axes);
+    group.columns[which] = factors_[which].first();
+    return fits;
   };
-  const auto plan = [&] {
-    return factor_.plan(group.count, neighbours, rows, group.leans ? k_factor_rows : k_joint_axes);
-  };
-  bool fits = plan();
-  if (!fits && group.leans) {
-    group.leans = false;
-    fits = plan();
-  }
-  group.column = factor_.first();
-  return fits;
+  if (group.leans && plan(0, true)) return plan(1, false);
+  group.leans = false;
+  return plan(0, false);
 }
 
 }  // namespace lockstone

@@ -18,6 +18,7 @@
 #include "core/dynamics/body_links.h"
 #include "core/dynamics/joint_factor.h"
 #include "core/dynamics/row_geometry.h"
+#include "core/math/product_sum.h"
 
 namespace lockstone {
 
@@ -71,9 +72,11 @@ class DirectContacts {
     std::uint32_t row_a = 0, row_b = 0;
     std::array<std::uint8_t, lanes::k_block_points> order{};  // of active points
     std::uint32_t active = 0;
-    std::uint32_t active_bits = 0;  // bit i: point i stands in the factors
+    std::uint32_t active_bits = 0;  // bit i: point i pushes, or closes
     std::uint32_t barred_bits = 0;  // for the rest of a solve
     std::uint32_t tie = 0;          // in ties_, + 1; 0: its friction is left to the sweeps
+    // What stands in each of the factors: active bits, and one above them where it is tied.
+    std::array<std::uint8_t, 2> factored = {0xff, 0xff};
 
     [[nodiscard]] bool is_active(std::size_t i) const { return (active_bits >> i & 1) != 0; }
     [[nodiscard]] bool is_barred(std::size_t i) const { return (barred_bits >> i & 1) != 0; }
@@ -81,17 +84,20 @@ class DirectContacts {
   struct Group {
     std::uint32_t first = 0;  // of contacts_
     std::uint32_t count = 0;
-    std::uint32_t column = 0;
-    std::uint32_t first_body = 0;  // of bodies_
+    std::array<std::uint32_t, 2> columns{};  // in each of the factors
+    std::uint32_t first_body = 0;            // of bodies_
     std::uint32_t body_count = 0;
-    std::int64_t most = 0;  // impulse of a point that is believed, m/s, Q32
-    int exponent = 0;       // least of its rows
-    bool leans = false;     // on friction
-    bool is_new = false;    // nothing in it has pushed yet
-    bool holds = false;     // friction stands in the factors
+    std::int64_t most = 0;           // impulse of a point that is believed, m/s, Q32
+    std::array<int, 2> exponents{};  // least of the rows that stand in each of the factors
+    bool leans = false;              // on friction
+    bool is_new = false;             // nothing in it has pushed yet
+    bool holds = false;              // friction is solved along in the pass at hand
     bool is_filled = false;
     bool is_left = false;  // to the sweeps, for the rest of the tick
-    bool is_factored = false;
+
+    // Those of the factors that the pass at hand solves with.
+    [[nodiscard]] std::size_t which() const { return leans && !holds ? 1 : 0; }
+    [[nodiscard]] int exponent() const { return exponents[which()]; }
   };
 
   // Which: direct_contacts.cpp.
@@ -108,13 +114,33 @@ class DirectContacts {
   // How: direct_solve.cpp, direct_push.cpp.
   static void give_back(const ContactRun& run, const Contact& contact);
   void read(const ContactRun& run, Contact& contact, bool pushes_out) const;
-  static bool choose_active(Contact& contact);
+  static void choose_active(Contact& contact);
   static void flatten(Contact& contact);
   [[nodiscard]] static std::int64_t read_row(const ContactRun& run, const Contact& contact,
                                              const ContactRow& row);
-  [[nodiscard]] static std::int64_t entry(const ContactRun& run, const Contact& p,
-                                          const ContactRow& x, const Contact& q,
-                                          const ContactRow& y);
+  [[nodiscard]] static ProductSum read_linear(const ContactRun& run, const Contact& contact,
+                                              const RawVec3& linear);
+  [[nodiscard]] static std::int64_t read_turning(const ContactRun& run, const Contact& contact,
+                                                 const ContactRow& row, ProductSum sum);
+  // A body that two contacts share.
+  struct Share {
+    BlockFloat inverse_mass{};
+    bool a_of_p = false, a_of_q = false;
+  };
+  struct Shares {
+    std::array<Share, 4> all{};
+    std::uint32_t count = 0;
+  };
+  [[nodiscard]] static Shares shares_of(const ContactRun& run, const Contact& p, const Contact& q);
+  // Rows of a contact that stand in the factors: first those of points.
+  struct Rows {
+    std::array<const ContactRow*, k_factor_rows> all{};
+    std::uint32_t count = 0, normals = 0;
+  };
+  [[nodiscard]] Rows all_rows_of(const Contact& contact) const;
+  static void add_share(const Share& share, const Rows& p, const Rows& q, std::int64_t* to);
+  void fill_block(const ContactRun& run, const Contact& p, const Contact& q,
+                  std::int64_t* to) const;
   [[nodiscard]] const ContactRow& row_of(const Contact& contact, std::uint32_t r) const {
     if (r < contact.active) return contact.points[contact.order[r]];
     return ties_[contact.tie - 1].rows[r - contact.active];
@@ -126,6 +152,7 @@ class DirectContacts {
   [[nodiscard]] std::uint32_t rows_of(const Contact& contact) const {
     return contact.active + (is_tied(contact) ? ties_[contact.tie - 1].count : 0);
   }
+  [[nodiscard]] bool note_rows(const Group& group);
   void factor(const ContactRun& run, Group& group);
   [[nodiscard]] bool is_still(const ContactRun& run, const Group& group) const;
   void solve_group(const ContactRun& run, Group& group, bool pushes_out);
@@ -157,6 +184,9 @@ class DirectContacts {
   [[nodiscard]] static bool slips(const Contact& contact, const Tie& tie);
   bool release_slipping(const ContactRun& run, Group& group);
 
+  [[nodiscard]] std::span<JointFactor::Column> columns_of(const Group& group) {
+    return factors_[group.which()].columns(group.columns[group.which()], group.count);
+  }
   [[nodiscard]] std::span<Contact> contacts_of(const Group& group) {
     return std::span(contacts_).subspan(group.first, group.count);
   }
@@ -181,7 +211,9 @@ class DirectContacts {
   std::vector<Contact> contacts_;
   std::vector<Tie> ties_;
   std::vector<Group> groups_;
-  JointFactor factor_;
+  // Of all groups; and without the friction of those that lean on it, since passes with friction
+  // and without take turns.
+  std::array<JointFactor, 2> factors_;
 };
 
 }  // namespace lockstone

@@ -159,7 +159,6 @@ void DirectContacts::store(const ContactRun& run) const {
 
 // Whether ties are rows of the system.
 void DirectContacts::hold_ties(Group& group, bool holds) {
-  if (group.holds != holds) group.is_factored = false;
   group.holds = holds;
   for (const Contact& contact : contacts_of(group))
     if (contact.tie != 0) ties_[contact.tie - 1].holds = holds;
@@ -209,7 +208,6 @@ bool DirectContacts::release_slipping(const ContactRun& run, Group& group) {
     release(run, contact);
     any = true;
   }
-  if (any) group.is_factored = false;
   return any;
 }
 

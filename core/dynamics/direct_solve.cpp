@@ -26,14 +26,25 @@ constexpr int k_no_exponent = 1000;
 // How fast B goes along a row against A, Q50.
 std::int64_t DirectContacts::read_row(const ContactRun& run, const Contact& contact,
                                       const ContactRow& row) {
-  const RowBody& a = run.rows[contact.row_a];
-  const RowBody& b = run.rows[contact.row_b];
+  return read_turning(run, contact, row, read_linear(run, contact, row.linear));
+}
+
+// What both bodies' velocities add to it, Q80, and their spins.
+ProductSum DirectContacts::read_linear(const ContactRun& run, const Contact& contact,
+                                       const RawVec3& linear) {
   ProductSum sum;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    sum.add(row.linear[axis], b.velocity[axis]);
-    sum.subtract(row.linear[axis], a.velocity[axis]);
-    sum.add(row.response_b[axis], b.spin[axis]);
-    sum.subtract(row.response_a[axis], a.spin[axis]);
+    sum.add(linear[axis], run.rows[contact.row_b].velocity[axis]);
+    sum.subtract(linear[axis], run.rows[contact.row_a].velocity[axis]);
+  }
+  return sum;
+}
+
+std::int64_t DirectContacts::read_turning(const ContactRun& run, const Contact& contact,
+                                          const ContactRow& row, ProductSum sum) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sum.add(row.response_b[axis], run.rows[contact.row_b].spin[axis]);
+    sum.subtract(row.response_a[axis], run.rows[contact.row_a].spin[axis]);
   }
   return sum.rounded(30);
 }
@@ -42,6 +53,7 @@ std::int64_t DirectContacts::read_row(const ContactRun& run, const Contact& cont
 void DirectContacts::read(const ContactRun& run, Contact& contact, bool pushes_out) const {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
+  const ProductSum linear = read_linear(run, contact, contact.normal);
   for (std::size_t i = 0; i < contact.count; ++i) {
     PointRow& point = contact.points[i];
     point.change = 0;
@@ -54,13 +66,14 @@ void DirectContacts::read(const ContactRun& run, Contact& contact, bool pushes_o
       bias = std::max(bias, -(std::int64_t{run.rules.push_out} << 30));
     }
     if (pushes_out) bias += product_rounded(point.impulse, point.own, 12 + k_give_shift);
-    point.speed = std::clamp(read_row(run, contact, point) + std::min(bias, k_direct_bound),
-                             -k_direct_bound, k_direct_bound);
+    point.speed =
+        std::clamp(read_turning(run, contact, point, linear) + std::min(bias, k_direct_bound),
+                   -k_direct_bound, k_direct_bound);
   }
 }
 
-// Points that push, or close. Answers whether other ones stand in the factors.
-bool DirectContacts::choose_active(Contact& contact) {
+// Points that push, or close.
+void DirectContacts::choose_active(Contact& contact) {
   std::uint32_t bits = 0;
   contact.active = 0;
   for (std::uint32_t i = 0; i < contact.count; ++i) {
@@ -69,10 +82,8 @@ bool DirectContacts::choose_active(Contact& contact) {
     bits |= 1U << i;
     contact.order[contact.active++] = static_cast<std::uint8_t>(i);
   }
-  const bool changed = bits != contact.active_bits;
   contact.active_bits = bits;
   if (contact.active == k_block_points) flatten(contact);
-  return changed;
 }
 
 // Four speeds as of points in a plane.
@@ -82,48 +93,109 @@ void DirectContacts::flatten(Contact& contact) {
   for (const PointRow& point : contact.points)
     sum.add(point.warp, point.speed);
   const std::int64_t warped = std::clamp(sum.rounded(30), -k_direct_bound / 2, k_direct_bound / 2);
-  for (PointRow& point : contact.points)
-    point.speed =
-        std::clamp(point.speed - round_divide(multiply_wide(warped, point.warp), contact.warp_size),
-                   -k_direct_bound, k_direct_bound);
+  const bool is_small = magnitude(warped) < std::uint64_t{1} << 32;
+  for (PointRow& point : contact.points) {
+    const std::int64_t part =
+        is_small ? raw::round_divide(warped * point.warp, contact.warp_size)
+                 : round_divide(multiply_wide(warped, point.warp), contact.warp_size);
+    point.speed = std::clamp(point.speed - part, -k_direct_bound, k_direct_bound);
+  }
 }
 
-// What row x of p feels of an impulse along y of q, through the bodies that both hold; Q56.
-std::int64_t DirectContacts::entry(const ContactRun& run, const Contact& p, const ContactRow& x,
-                                   const Contact& q, const ContactRow& y) {
-  constexpr std::int64_t k_most = std::int64_t{1} << k_matrix_bits;
-  std::int64_t total = 0;
+// The bodies that p and q share, and which of its sides each is.
+DirectContacts::Shares DirectContacts::shares_of(const ContactRun& run, const Contact& p,
+                                                 const Contact& q) {
+  Shares shares;
   const auto add_body = [&](std::uint32_t body, bool a_of_p, bool a_of_q) {
-    const BlockFloat& inverse_mass = run.bodies[body].inverse_mass;
-    const std::int64_t sum = coupled(x.linear, y.linear, a_of_p ? x.angular_a : x.angular_b,
-                                     a_of_q ? y.response_a : y.response_b, a_of_p != a_of_q);
-    const int shift = x.exponent + y.exponent - inverse_mass.exponent + 30 - k_matrix_bits;
-    if (shift <= 120) total += product_rounded(sum, inverse_mass.mantissa, std::max(shift, 1));
+    shares.all[shares.count++] = {run.bodies[body].inverse_mass, a_of_p, a_of_q};
   };
   if (p.a != 0 && p.a == q.a) add_body(p.a, true, true);
   if (p.a != 0 && p.a == q.b) add_body(p.a, true, false);
   if (p.b != 0 && p.b == q.a) add_body(p.b, false, true);
   if (p.b != 0 && p.b == q.b) add_body(p.b, false, false);
-  return std::clamp(total, -k_most, k_most);
+  return shares;
+}
+
+// Adds what the rows of p feel of impulses along those of q through a body, Q56, row by row; of p
+// itself as far as the diagonal.
+void DirectContacts::add_share(const Share& share, const Rows& p, const Rows& q, std::int64_t* to) {
+  const ProductSum along = dot_sum(p.all[0]->linear, q.all[0]->linear);
+  const int more = 30 - k_matrix_bits - share.inverse_mass.exponent;
+  const std::int32_t mass = share.inverse_mass.mantissa;
+  for (std::uint32_t r = 0; r < p.count; ++r, to += q.count) {
+    const ContactRow& x = *p.all[r];
+    const RawVec3& angular = share.a_of_p ? x.angular_a : x.angular_b;
+    for (std::uint32_t s = 0; s < (&p == &q ? r + 1 : q.count); ++s) {
+      const ContactRow& y = *q.all[s];
+      const RawVec3& response = share.a_of_q ? y.response_a : y.response_b;
+      const bool are_normal = r < p.normals && s < q.normals;
+      ProductSum sum = are_normal ? along : dot_sum(x.linear, y.linear);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sum.add(angular[axis], response[axis]);
+      const int shift = x.exponent + y.exponent + more;
+      if (shift > 120) continue;
+      const std::int64_t felt = scaled(sum.rounded(30), mass, std::max(shift, 1));
+      to[s] += share.a_of_p == share.a_of_q ? felt : -felt;
+    }
+  }
+}
+
+// The same through all bodies that they share.
+void DirectContacts::fill_block(const ContactRun& run, const Contact& p, const Contact& q,
+                                std::int64_t* to) const {
+  constexpr std::int64_t k_most = std::int64_t{1} << k_matrix_bits;
+  const Rows x = all_rows_of(p), y = &p == &q ? Rows{} : all_rows_of(q);
+  const Rows& columns = &p == &q ? x : y;
+  const std::span<std::int64_t> all(to, std::size_t{x.count} * columns.count);
+  std::ranges::fill(all, 0);
+  if (all.empty()) return;
+  const Shares shares = shares_of(run, p, q);
+  for (std::uint32_t i = 0; i < shares.count; ++i)
+    add_share(shares.all[i], x, columns, to);
+  for (std::int64_t& value : all)
+    value = std::clamp(value, -k_most, k_most);
+  if (&p != &q) return;
+  for (std::uint32_t r = 0; r < x.count; ++r)
+    to[r * x.count + r] += to[r * x.count + r] >> k_give_shift;
+}
+
+DirectContacts::Rows DirectContacts::all_rows_of(const Contact& contact) const {
+  Rows rows;
+  rows.count = rows_of(contact);
+  rows.normals = contact.active;
+  for (std::uint32_t r = 0; r < rows.count; ++r)
+    rows.all[r] = &row_of(contact, r);
+  return rows;
+}
+
+// Answers whether other rows stand in the factors.
+bool DirectContacts::note_rows(const Group& group) {
+  bool changed = false;
+  for (Contact& contact : contacts_of(group)) {
+    const std::uint32_t tied = is_tied(contact) ? 1U << k_block_points : 0;
+    const auto rows = static_cast<std::uint8_t>(contact.active_bits | tied);
+    changed = changed || rows != contact.factored[group.which()];
+    contact.factored[group.which()] = rows;
+  }
+  return changed;
 }
 
 void DirectContacts::factor(const ContactRun& run, Group& group) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
+  const std::span<JointFactor::Column> columns = columns_of(group);
   const std::span<Contact> contacts = contacts_of(group);
-  group.exponent = k_no_exponent;
+  int& exponent = group.exponents[group.which()];
+  exponent = k_no_exponent;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     columns[k].count = rows_of(contacts[k]);
     for (std::uint32_t r = 0; r < columns[k].count; ++r)
-      group.exponent = std::min(group.exponent, row_of(contacts[k], r).exponent);
+      exponent = std::min(exponent, row_of(contacts[k], r).exponent);
   }
-  factor_.fill(group.column, group.count,
-               [&](std::uint32_t j, std::uint32_t r, std::uint32_t k, std::uint32_t s) {
-                 const Contact &p = contacts[j], &q = contacts[k];
-                 const std::int64_t value = entry(run, p, row_of(p, r), q, row_of(q, s));
-                 return j == k && r == s ? value + (value >> k_give_shift) : value;
-               });
-  (void)factor_.factor(group.column, group.count);
-  group.is_factored = true;
+  JointFactor& factors = factors_[group.which()];
+  const std::uint32_t column = group.columns[group.which()];
+  factors.fill_blocks(column, group.count, [&](std::uint32_t j, std::uint32_t k, std::int64_t* to) {
+    fill_block(run, contacts[j], contacts[k], to);
+  });
+  (void)factors.factor(column, group.count);
 }
 
 void DirectContacts::solve(const ContactRun& run, bool pushes_out) {
@@ -178,26 +250,27 @@ bool DirectContacts::is_solved(const Group& group) const {
 
 // False when points had to be let go, or others may have begun to close.
 bool DirectContacts::try_once(const ContactRun& run, Group& group, bool pushes_out, bool is_last) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
+  const std::span<JointFactor::Column> columns = columns_of(group);
   const std::span<Contact> contacts = contacts_of(group);
+  JointFactor& factors = factors_[group.which()];
   std::uint32_t idle = 0;
   for (Contact& contact : contacts) {
     read(run, contact, pushes_out);
-    if (choose_active(contact)) group.is_factored = false;
+    choose_active(contact);
     if (contact.tie != 0 && !read_tie(run, contact)) release(run, contact);
     idle += contact.count - contact.active;
   }
   if (is_solved(group)) return !group.leans || !release_slipping(run, group);
-  if (!group.is_factored) factor(run, group);
-  if (group.exponent == k_no_exponent) return true;  // no point pushes
+  if (note_rows(group)) factor(run, group);
+  if (group.exponent() == k_no_exponent) return true;  // no point pushes
   for (std::uint32_t k = 0; k < group.count; ++k) {
     for (std::uint32_t r = 0; r < columns[k].count; ++r) {
       const ContactRow& row = row_of(contacts[k], r);
-      const int shift = std::min(4 + row.exponent - group.exponent, 62);
-      factor_.rhs(columns[k].first_row + r) = raw::round_shift(-row.speed, shift);
+      const int shift = std::min(4 + row.exponent - group.exponent(), 62);
+      factors.rhs(columns[k].first_row + r) = raw::round_shift(-row.speed, shift);
     }
   }
-  factor_.solve(group.column, group.count);
+  factors.solve(group.columns[group.which()], group.count);
   const bool pulls = find_changes(group);
   if (group.is_left) return false;
   if (!pulls && group.leans && release_slipping(run, group)) return false;
@@ -207,7 +280,7 @@ bool DirectContacts::try_once(const ContactRun& run, Group& group, bool pushes_o
 
 // Answers whether any point would pull. What pushes without end is not believed.
 bool DirectContacts::find_changes(Group& group) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
+  const std::span<JointFactor::Column> columns = columns_of(group);
   bool pulls = false;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     Contact& contact = contacts_of(group)[k];
@@ -229,10 +302,12 @@ bool DirectContacts::find_changes(Group& group) {
 
 void DirectContacts::find_change(const Group& group, const Contact& contact, std::uint32_t rhs,
                                  ContactRow& row) {
-  const int shift = k_row_impulse_bits - 46 - row.exponent - group.exponent;
-  row.change =
-      std::clamp<std::int64_t>(scale_saturating(factor_.rhs(rhs), contact.inverse_mass, shift),
-                               -k_direct_bound, k_direct_bound);
+  const std::int64_t solved = factors_[group.which()].rhs(rhs);
+  const BlockFloat mass = contact.inverse_mass;
+  const int shift = 46 + row.exponent + group.exponent() - mass.exponent - k_row_impulse_bits;
+  row.change = shift >= 1 && shift <= 125 ? product_rounded(solved, mass.mantissa, shift)
+                                          : scale_saturating(solved, mass, -shift - mass.exponent);
+  row.change = std::clamp(row.change, -k_direct_bound, k_direct_bound);
 }
 
 }  // namespace lockstone

@@ -192,8 +192,8 @@ void FirstLoads::fill(const ContactRun& run, Support& support) {
   const std::int64_t share_b = low_word(block.share[lane]);
   support.share = support.is_b ? share_b : (std::int64_t{1} << 30) - share_b;
   const auto own = [&](const RawVec3& turn, const RawVec3& response) {
-    return product_rounded(coupled(contact.normal, contact.normal, turn, response, false),
-                           support.share, 30);
+    return product_rounded(coupled(contact.normal, contact.normal, turn, response), support.share,
+                           30);
   };
   if (contact.count == 0) return;
   for (std::size_t i = 0; i < contact.count; ++i) {

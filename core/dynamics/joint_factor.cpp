@@ -25,8 +25,16 @@ void take(std::int64_t& x, std::int64_t part) {
   x = std::clamp(x - part, -k_product_bound, k_product_bound);
 }
 
-// Points have three rows: a number that is known while compiling.
+// Points have three rows, contacts four: numbers that are known while compiling.
 using Three = std::integral_constant<std::uint32_t, 3>;
+using Four = std::integral_constant<std::uint32_t, 4>;
+
+template <class Task>
+void with_size(std::uint32_t n, const Task& task) {
+  if (n == 3) return task(Three{});
+  if (n == 4) return task(Four{});
+  task(n);
+}
 
 template <class Rows, class Columns, class Terms>
 struct Product {
@@ -55,13 +63,9 @@ void subtract_product(std::int64_t* to, const Product<Rows, Columns, Terms>& siz
   }
 }
 
-ProductSum dot_product(const std::int64_t* x, const std::int64_t* y, std::uint32_t terms) {
+template <class Terms>
+ProductSum dot_product(const std::int64_t* x, const std::int64_t* y, Terms terms) {
   ProductSum sum;
-  if (terms == 3) {
-    for (std::uint32_t c = 0; c < 3; ++c)
-      sum.add(x[c], y[c]);
-    return sum;
-  }
   for (std::uint32_t c = 0; c < terms; ++c)
     sum.add(x[c], y[c]);
   return sum;
@@ -182,10 +186,7 @@ void JointFactor::eliminate(std::uint32_t first, const Column& column) {
   for (const Block& block : blocks(column)) {
     std::int64_t* b = values_.data() + block.values;
     const std::uint32_t rows = columns_[first + block.row].count;
-    if (column.count == 3)
-      eliminate_block(column, b, rows, Three{});
-    else
-      eliminate_block(column, b, rows, column.count);
+    with_size(column.count, [&](auto n) { eliminate_block(column, b, rows, n); });
   }
 }
 
@@ -211,22 +212,23 @@ void JointFactor::update(std::uint32_t first, const Column& column) {
   for (std::size_t j = 0; j < below.size(); ++j) {
     const Column& target = columns_[first + below[j].row];
     std::int64_t* const b = values_.data() + below[j].values;
-    if (n == 3)
-      divide_rows(column, b, target.count, Three{}, entries);
-    else
-      divide_rows(column, b, target.count, n, entries);
+    with_size(n, [&](auto size) { divide_rows(column, b, target.count, size, entries); });
     for (std::size_t i = 0; i <= j; ++i) {
       // Block (j, i) stands in the column of i; the blocks up to j hold factors already.
       const Column& column_i = columns_[first + below[i].row];
       std::int64_t* to =
           i == j ? values_.data() + target.diagonal : find_block(column_i, below[j].row);
       const std::int64_t* factors = values_.data() + below[i].values;
-      if (n == 3 && target.count == 3 && column_i.count == 3) {
-        subtract_product(to, Product{Three{}, Three{}, Three{}, i == j}, entries.data(), factors);
-      } else {
-        subtract_product(to, Product{target.count, column_i.count, n, i == j}, entries.data(),
-                         factors);
-      }
+      const auto subtract = [&](auto rows, auto columns, auto terms) {
+        subtract_product(to, Product{rows, columns, terms, i == j}, entries.data(), factors);
+      };
+      const bool alike = n == target.count && n == column_i.count;
+      if (alike && n == 3)
+        subtract(Three{}, Three{}, Three{});
+      else if (alike && n == 4)
+        subtract(Four{}, Four{}, Four{});
+      else
+        subtract(target.count, column_i.count, n);
     }
   }
 }
@@ -245,17 +247,11 @@ std::uint32_t JointFactor::factor(std::uint32_t first, std::uint32_t count) {
 void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
   for (std::uint32_t k = 0; k < count; ++k) {
     const Column& column = columns_[first + k];
-    if (column.count == 3)
-      substitute(first, column, Three{});
-    else
-      substitute(first, column, column.count);
+    with_size(column.count, [&](auto n) { substitute(first, column, n); });
   }
   for (std::uint32_t k = count; k-- > 0;) {
     const Column& column = columns_[first + k];
-    if (column.count == 3)
-      substitute_back(first, column, Three{});
-    else
-      substitute_back(first, column, column.count);
+    with_size(column.count, [&](auto n) { substitute_back(first, column, n); });
   }
 }
 

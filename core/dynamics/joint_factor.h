@@ -70,10 +70,6 @@ class JointFactor {
   template <class Fill>
   void fill_blocks(std::uint32_t first, std::uint32_t count, const Fill& block);
 
-  /// The same entry by entry: entry(j, r, k, s) is what row r of joint j feels of row s of joint k.
-  template <class Entry>
-  void fill(std::uint32_t first, std::uint32_t count, const Entry& entry);
-
   /// Factors the group in place; answers how many pivots were left out.
   std::uint32_t factor(std::uint32_t first, std::uint32_t count);
 
@@ -121,19 +117,6 @@ void JointFactor::fill_blocks(std::uint32_t first, std::uint32_t count, const Fi
     for (const Block& below : blocks(group[k]))
       block(below.row, k, values_.data() + below.values);
   }
-}
-
-template <class Entry>
-void JointFactor::fill(std::uint32_t first, std::uint32_t count, const Entry& entry) {
-  const std::span<const Column> group = columns(first, count);
-  fill_blocks(first, count, [&](std::uint32_t j, std::uint32_t k, std::int64_t* to) {
-    const std::uint32_t n = group[k].count;
-    for (std::uint32_t r = 0; r < group[j].count; ++r) {
-      const std::uint32_t end = j == k ? r + 1 : n;
-      for (std::uint32_t s = 0; s < end; ++s)
-        to[r * n + s] = entry(j, r, k, s);
-    }
-  });
 }
 
 template <class Neighbours, class Rows>

@@ -24,6 +24,12 @@ RawVec3 through(const std::array<std::int64_t, 6>& m, int shift, const RawVec3& 
   return result;
 }
 
+// m·v, where a body turns alike about all axes.
+RawVec3 through(std::int64_t m, int shift, const RawVec3& v) {
+  const auto word = static_cast<std::int32_t>(m);
+  return {scaled(v[0], word, shift), scaled(v[1], word, shift), scaled(v[2], word, shift)};
+}
+
 void find_point(const ManifoldBlock& block, const ContactRows& contact, PointRow& point) {
   const std::size_t lane = contact.lane();
   const RawVec3 turn = mixed(contact.tangent, point.y, contact.binormal, -point.x);
@@ -38,7 +44,7 @@ void find_exponent(const ContactRun& run, const ContactPair& pair, ContactRow& r
   int most = -1000;
   const auto add_side = [&](std::uint32_t body, const RawVec3& turn, const RawVec3& response) {
     if (body == 0) return;
-    const std::int64_t self = coupled(row.linear, row.linear, turn, response, false);
+    const std::int64_t self = coupled(row.linear, row.linear, turn, response);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));
     most = std::max(most, width + 1 + run.bodies[body].inverse_mass.exponent);
   };
@@ -114,16 +120,20 @@ void find_responses(const ContactRun& run, const ContactPair& pair, ContactRow& 
   const ManifoldBlock& block = run.blocks[pair.block()];
   const std::size_t lane = pair.lane();
   const int shift = block.shift(lane);
-  std::array<std::int64_t, 6> inertia_a{}, inertia_b{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    if (block.is_plain(lane) && i >= 3) break;
-    const bool is_moment = i == 0 || block.is_plain(lane);
-    const std::int64_t word = (is_moment ? block.moment : block.inertia[i - 1])[lane];
-    inertia_a[i] = low_word(word);
-    inertia_b[i] = high_word(word);
+  if (block.is_plain(lane)) {
+    const std::int64_t both = block.moment[lane];
+    row.response_a = through(low_word(both), shift, row.angular_a);
+    row.response_b = through(high_word(both), shift, row.angular_b);
+  } else {
+    std::array<std::int64_t, 6> inertia_a{}, inertia_b{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::int64_t word = (i == 0 ? block.moment : block.inertia[i - 1])[lane];
+      inertia_a[i] = low_word(word);
+      inertia_b[i] = high_word(word);
+    }
+    row.response_a = through(inertia_a, shift, row.angular_a);
+    row.response_b = through(inertia_b, shift, row.angular_b);
   }
-  row.response_a = through(inertia_a, shift, row.angular_a);
-  row.response_b = through(inertia_b, shift, row.angular_b);
   find_exponent(run, pair, row);
 }
 
