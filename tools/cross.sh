@@ -5,7 +5,7 @@
 #
 # usage: tools/cross.sh [TARGET…]     default: all of them
 #
-#   gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
+#   gcc-O0 gcc-O2 gcc-Os gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
 #   sanitized                                this machine, AddressSanitizer and UBSan
 #   simd-scalar simd-sse4 simd-avx2 simd-avx512   gcc-O3 with one kind of vectors
 #   aarch64 riscv64 armhf s390x              cross compilers and qemu-user; aarch64 with its vectors
@@ -24,7 +24,7 @@
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-all=(gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O3 sanitized simd-scalar simd-sse4 simd-avx2 simd-avx512
+all=(gcc-O0 gcc-O2 gcc-Os gcc-O3 clang-O0 clang-O3 sanitized simd-scalar simd-sse4 simd-avx2 simd-avx512
   aarch64 aarch64-scalar riscv64 armhf s390x i386 windows wasm wasm-scalar)
 
 # compiler_of TARGET
