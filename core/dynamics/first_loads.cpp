@@ -22,6 +22,9 @@ constexpr std::size_t k_most_supports = 32;
 constexpr int k_most_rounds = 16;
 constexpr std::int64_t k_settled = std::int64_t{1} << 9;
 
+// What opens by more than this part of the weight in a substep tips over: 2^-3.
+constexpr int k_tipping_shift = 3;
+
 // From the Q32 of gains and impulses to the Q50 of rows.
 constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
 constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
@@ -165,8 +168,26 @@ void FirstLoads::hold_up(const ContactRun& run, std::span<RowBody> warm, std::ui
   };
   settle([&](Support& support) { return push_together(support, row); });
   settle([&](Support& support) { return push_points(support, row); });
+  if (tips(row, run.bodies[body])) return;
   for (const Support& support : supports_)
     hand_down(run, warm, support);
+}
+
+// Whether a point opens sooner than a part of the weight would close it: what cannot be held falls.
+// Handed down nevertheless, its push would grow from body to body.
+bool FirstLoads::tips(const RowBody& row, const SolverBody& body) const {
+  std::int64_t weight = 0;
+  for (const std::int64_t gain : body.gain)
+    weight = std::max({weight, gain, -gain});
+  const std::int64_t slow = (weight >> k_tipping_shift) * k_to_row;
+  return std::ranges::any_of(supports_, [&](const Support& support) {
+    for (std::size_t i = 0; i < support.contact.count; ++i) {
+      const PointRow& point = support.contact.points[i];
+      const RawVec3& response = support.is_b ? point.response_b : point.response_a;
+      if (speed_of(support.contact.normal, response, support.is_b, row) > slow) return true;
+    }
+    return false;
+  });
 }
 
 void FirstLoads::gather(const ContactRun& run, std::uint32_t body) {

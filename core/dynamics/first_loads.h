@@ -69,6 +69,7 @@ class FirstLoads {
     return upper_[link] != 0 && is_held_[upper_[link]] != 0;
   }
   void hold_up(const ContactRun& run, std::span<lanes::RowBody> warm, std::uint32_t body);
+  [[nodiscard]] bool tips(const lanes::RowBody& row, const SolverBody& body) const;
   void gather(const ContactRun& run, std::uint32_t body);
   static void fill(const ContactRun& run, Support& support);
   [[nodiscard]] std::int64_t push_together(Support& support, lanes::RowBody& body) const;

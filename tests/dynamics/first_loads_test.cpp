@@ -17,14 +17,15 @@ namespace {
 using namespace literals;
 using test::metres;
 
-// Bricks of 1 m in `rows` rows, each on two below it; of random densities, or all alike.
-std::vector<BodyHandle> add_wall(World& world, int rows, test::Random* random) {
+// Bricks of 1 m in `rows` rows, each on two below it and this much before them; of random
+// densities, or all alike.
+std::vector<BodyHandle> add_wall(World& world, int rows, test::Random* random, Position lean = {}) {
   std::vector<BodyHandle> bricks;
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < rows - row; ++i) {
       BodyDef brick =
           test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), Position::from_ratio(2 * i + row, 2),
-                             Position::from_ratio(2 * row + 1, 2), {});
+                             Position::from_ratio(2 * row + 1, 2), lean * row);
       if (random != nullptr)
         brick.material.density = Density::from_integer(static_cast<int>(random->between(300, 900)));
       bricks.push_back(test::add(world, brick));
@@ -82,6 +83,17 @@ TEST(FirstLoads, HoldNothingInTheAir) {
   test::step(world, 60);
   for (const BodyHandle brick : bricks)
     EXPECT_NEAR(metres_per_second(world.velocity(brick).y), -9.81, 1e-3);
+}
+
+// What tips over its supports pushes them harder than it weighs, and so on from row to row.
+TEST(FirstLoads, ThrowNothingOffAWallThatLeans) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const std::vector<BodyHandle> bricks = add_wall(world, 22, nullptr, Position::from_ratio(2, 5));
+  for (int tick = 1; tick <= 30; ++tick) {
+    test::step(world, 1);
+    EXPECT_LT(fastest(world, bricks), 1 + 9.81 * tick / 60);  // what falls freely, and rolls off
+  }
 }
 
 TEST(ContactPoints, ThatAreNewShareWhatVanishedOnesCarried) {
