@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/accuracy/accuracy.h"
@@ -79,6 +80,17 @@ bool is_chosen(const BenchAccuracyOptions& options, int number) {
   return options.rows.empty() || std::ranges::count(options.rows, number) > 0;
 }
 
+// That makes the same page again.
+std::string command_of(const BenchAccuracyOptions& options) {
+  std::string command = "lockstone bench accuracy";
+  if (!options.rows.empty()) command += fmt::format(" --rows {}", fmt::join(options.rows, ","));
+  if (options.measure.tries != 0) command += fmt::format(" --tries {}", options.measure.tries);
+  if (options.measure.first != 0) command += fmt::format(" --first {}", options.measure.first);
+  if (options.measure.seed != 1) command += fmt::format(" --seed {}", options.measure.seed);
+  if (options.measure.sweep) command += " --sweep";
+  return command + " --page " + options.page;
+}
+
 int plot(const BenchAccuracyOptions& options) {
   const std::string command = fmt::format("lockstone bench accuracy --plot {}", options.plot);
   const MeasuredFront measured = measure_front(options.front);
@@ -98,8 +110,8 @@ int run(const BenchAccuracyOptions& options) {
   }
   if (options.json) print_json(all);
   if (!options.page.empty()) {
-    const std::string command = fmt::format("lockstone bench accuracy --page {}", options.page);
-    if (!write_text_file(options.page, accuracy_page(all, command))) return k_unavailable;
+    if (!write_text_file(options.page, accuracy_page(all, command_of(options))))
+      return k_unavailable;
   }
   return met ? k_ok : k_different;
 }

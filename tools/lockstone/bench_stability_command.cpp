@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/stability/stability.h"
@@ -54,6 +55,14 @@ void print_json(const std::vector<MeasuredStability>& all) {
   write_json(rows);
 }
 
+// That makes the same page again.
+std::string command_of(const BenchStabilityOptions& options) {
+  std::string command = "lockstone bench stability";
+  if (!options.rows.empty()) command += fmt::format(" --rows {}", fmt::join(options.rows, " "));
+  if (options.measure.seconds > 0) command += fmt::format(" --seconds {}", options.measure.seconds);
+  return command + " --page " + options.page;
+}
+
 int run(const BenchStabilityOptions& options) {
   bool met = true;
   std::vector<MeasuredStability> all;
@@ -69,8 +78,8 @@ int run(const BenchStabilityOptions& options) {
   }
   if (options.json) print_json(all);
   if (!options.page.empty()) {
-    const std::string command = fmt::format("lockstone bench stability --page {}", options.page);
-    if (!write_text_file(options.page, stability_page(all, command))) return k_unavailable;
+    if (!write_text_file(options.page, stability_page(all, command_of(options))))
+      return k_unavailable;
   }
   return met ? k_ok : k_different;
 }
