@@ -1,6 +1,8 @@
 // Words of manifold blocks, lane by lane, and products of what they hold.
 #pragma once
 
+#include <array>
+
 #include <lockstone/fixed.h>
 
 #include "core/dynamics/raw_vec3.h"
@@ -24,6 +26,13 @@ namespace lockstone {
 [[nodiscard]] inline RawVec3 normal_of(const lanes::ManifoldBlock& block, std::size_t lane) {
   return {low_word(block.axes[0][lane]), high_word(block.axes[0][lane]),
           low_word(block.axes[1][lane])};
+}
+
+/// Of each point; 0: no point.
+[[nodiscard]] inline std::array<std::int64_t, lanes::k_block_points> masses_of(
+    const lanes::ManifoldBlock& block, std::size_t lane) {
+  return {low_word(block.mass_01[lane]), high_word(block.mass_01[lane]),
+          low_word(block.mass_23[lane]), high_word(block.mass_23[lane])};
 }
 
 /// product_rounded(a, b, shift), 1 ≤ shift ≤ 120, sooner where a is small.

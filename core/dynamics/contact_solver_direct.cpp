@@ -38,9 +38,7 @@ bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
   const std::int64_t impulse = impulse_of(scene.records[entry.record]);
   const std::int64_t share = b_is_lighter ? share_b : (std::int64_t{1} << 30) - share_b;
   const std::int64_t jump = raw::round_shift(impulse * (share >> 2), 15);  // Q32 + 1
-  std::int64_t weight = 0;
-  for (const std::int64_t gain : bodies_[index].gain)
-    weight = std::max({weight, gain, -gain});
+  const std::int64_t weight = bodies_[index].greatest_gain();
   if (weight == 0) return false;
   if (jump < k_loaded_halves * weight) {
     if (impulse != 0 || ((entry.body_a | entry.body_b) & k_immovable) != 0) return false;

@@ -78,13 +78,11 @@ bool DirectContacts::is_pressed(const ContactRun& run, const Link& link, bool he
   const ManifoldBlock& block = run.blocks[link.block()];
   const std::size_t lane = link.lane();
   const RawVec3 n = normal_of(block, lane);
-  const std::array<std::int64_t, 3>& gain = run.bodies[heavy_is_b ? link.b : link.a].gain;
+  const SolverBody& heavy = run.bodies[heavy_is_b ? link.b : link.a];
   ProductSum sum;
-  std::int64_t most = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sum.add(n[i], heavy_is_b ? -gain[i] : gain[i]);
-    most = std::max({most, gain[i], -gain[i]});
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    sum.add(n[i], heavy_is_b ? -heavy.gain[i] : heavy.gain[i]);
+  const std::int64_t most = heavy.greatest_gain();
   return most > 0 && sum.rounded(30) > most / 4;
 }
 

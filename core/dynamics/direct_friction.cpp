@@ -3,22 +3,20 @@
 #include <algorithm>
 
 #include "core/dynamics/direct_words.h"
+#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
 namespace {
 
 using lanes::k_block_lanes;
 using lanes::ManifoldBlock;
+using lanes::scalar::pack;
 
 // What bears a greater part of its load by friction leans: 2^-3.
 constexpr int k_leaning_shift = 3;
 
 // What slides faster is left to the sweeps, Q50: 1/16 m/s.
 constexpr std::int64_t k_sliding_speed = std::int64_t{1} << (lanes::k_velocity_bits - 4);
-
-std::int64_t packed(std::int64_t low, std::int64_t high) {
-  return high * (std::int64_t{1} << 32) + static_cast<std::uint32_t>(low);
-}
 
 // |friction| > push/8; Q20.
 bool leans_on_friction(const ManifoldBlock& block, std::size_t lane, std::int64_t push) {
@@ -60,9 +58,7 @@ std::int64_t DirectContacts::push_of(const ContactRun& run, const Link& link) {
 bool DirectContacts::is_apart(const ContactRun& run, const Link& link, std::int64_t near) {
   const ManifoldBlock& block = run.blocks[link.block()];
   const std::size_t lane = link.lane();
-  const std::array<std::int64_t, 4> masses = {
-      low_word(block.mass_01[lane]), high_word(block.mass_01[lane]), low_word(block.mass_23[lane]),
-      high_word(block.mass_23[lane])};
+  const std::array<std::int64_t, lanes::k_block_points> masses = masses_of(block, lane);
   for (std::size_t i = 0; i < masses.size(); ++i)
     if (masses[i] != 0 && high_word(block.points[i].separation[lane]) <= near) return false;
   return push_of(run, link) == 0;
@@ -121,9 +117,9 @@ void DirectContacts::tie(const ContactRun& run, Contact& contact) {
   tie.words = {block.tangent_mass[0][lane], block.tangent_mass[1][lane],
                high_word(block.twist_row[1][lane])};
   block.friction[lane] = 0;
-  block.twist[lane] = packed(0, tie.radius);
+  block.twist[lane] = pack(0, tie.radius);
   block.tangent_mass[0][lane] = block.tangent_mass[1][lane] = 0;
-  block.twist_row[1][lane] = packed(block.twist_row[1][lane], 0);
+  block.twist_row[1][lane] = pack(block.twist_row[1][lane], 0);
   ties_.push_back(tie);
   contact.tie = static_cast<std::uint32_t>(ties_.size());
 }
@@ -137,7 +133,7 @@ void DirectContacts::release(const ContactRun& run, Contact& contact) {
   const std::size_t lane = contact.lane();
   block.tangent_mass[0][lane] = tie.words[0];
   block.tangent_mass[1][lane] = tie.words[1];
-  block.twist_row[1][lane] = packed(block.twist_row[1][lane], tie.words[2]);
+  block.twist_row[1][lane] = pack(block.twist_row[1][lane], tie.words[2]);
   contact.tie = 0;
 }
 
@@ -148,8 +144,8 @@ void DirectContacts::store_tie(const ContactRun& run, const Contact& contact, co
   for (std::size_t i = 0; i < 3; ++i)
     seen[i] = std::clamp<std::int64_t>(raw::round_shift(tie.rows[i].impulse, k_row_more_bits),
                                        -lanes::k_most_impulse, lanes::k_most_impulse);
-  block.friction[lane] = packed(seen[0], seen[1]);
-  block.twist[lane] = packed(seen[2], high_word(block.twist[lane]));
+  block.friction[lane] = pack(seen[0], seen[1]);
+  block.twist[lane] = pack(seen[2], high_word(block.twist[lane]));
 }
 
 void DirectContacts::store(const ContactRun& run) const {

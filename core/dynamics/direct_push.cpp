@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dynamics/direct_words.h"
+#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
 namespace {
@@ -130,9 +131,7 @@ void DirectContacts::gain(const ContactRun& run, const Group& group) {
 void DirectContacts::give_back(const ContactRun& run, const Contact& contact) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
-  const auto pack = [](std::int64_t low, std::int64_t high) {
-    return high * (std::int64_t{1} << 32) + low;
-  };
+  using lanes::scalar::pack;
   block.mass_01[lane] = pack(contact.masses[0], contact.masses[1]);
   block.mass_23[lane] = pack(contact.masses[2], contact.masses[3]);
   block.common[lane] += contact.common_mass;

@@ -31,14 +31,11 @@ constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 
 // n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
 // of the normal points more than an eighth against it.
-int against(const RawVec3& normal, const std::array<std::int64_t, 3>& gain) {
+int against(const RawVec3& normal, const SolverBody& body) {
   ProductSum sum;
-  std::int64_t most = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sum.add(normal[i], gain[i]);
-    most = std::max({most, gain[i], -gain[i]});
-  }
-  const std::int64_t along = sum.rounded(30);
+  for (std::size_t i = 0; i < 3; ++i)
+    sum.add(normal[i], body.gain[i]);
+  const std::int64_t along = sum.rounded(30), most = body.greatest_gain();
   if (along < -most / 8) return -1;
   return along > most / 8 ? 1 : 0;
 }
@@ -107,9 +104,9 @@ void FirstLoads::find_uppers(const ContactRun& run) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     const RawVec3 normal = normal_of(run.blocks[link.block()], link.lane());
-    if (link.b != 0 && against(normal, run.bodies[link.b].gain) < 0)
+    if (link.b != 0 && against(normal, run.bodies[link.b]) < 0)
       upper_[i] = link.b;
-    else if (link.a != 0 && against(normal, run.bodies[link.a].gain) > 0)
+    else if (link.a != 0 && against(normal, run.bodies[link.a]) > 0)
       upper_[i] = link.a;
   }
 }
@@ -176,16 +173,11 @@ void FirstLoads::hold_up(const ContactRun& run, std::span<RowBody> warm, std::ui
 // Whether a point opens sooner than a part of the weight would close it: what cannot be held falls.
 // Handed down nevertheless, its push would grow from body to body.
 bool FirstLoads::tips(const RowBody& row, const SolverBody& body) const {
-  std::int64_t weight = 0;
-  for (const std::int64_t gain : body.gain)
-    weight = std::max({weight, gain, -gain});
-  const std::int64_t slow = (weight >> k_tipping_shift) * k_to_row;
+  const std::int64_t slow = (body.greatest_gain() >> k_tipping_shift) * k_to_row;
   return std::ranges::any_of(supports_, [&](const Support& support) {
-    for (std::size_t i = 0; i < support.contact.count; ++i) {
-      const PointRow& point = support.contact.points[i];
-      const RawVec3& response = support.is_b ? point.response_b : point.response_a;
-      if (speed_of(support.contact.normal, response, support.is_b, row) > slow) return true;
-    }
+    for (std::size_t i = 0; i < support.contact.count; ++i)
+      if (speed_of(support.contact.normal, support.response_of(i), support.is_b, row) > slow)
+        return true;
     return false;
   });
 }
@@ -218,10 +210,8 @@ void FirstLoads::fill(const ContactRun& run, Support& support) {
   };
   if (contact.count == 0) return;
   for (std::size_t i = 0; i < contact.count; ++i) {
-    const PointRow& point = contact.points[i];
-    const RawVec3& turn = support.is_b ? point.angular_b : point.angular_a;
-    const RawVec3& response = support.is_b ? point.response_b : point.response_a;
-    support.impulse[i] = point.impulse;
+    const RawVec3 &turn = support.turn_of(i), &response = support.response_of(i);
+    support.impulse[i] = contact.points[i].impulse;
     support.own[i] = own(turn, response);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       support.turn[axis] += turn[axis];
@@ -256,16 +246,13 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
   const ContactRows& contact = support.contact;
   std::int64_t most = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
-    const PointRow& point = contact.points[i];
-    const RawVec3& turn = support.is_b ? point.angular_b : point.angular_a;
-    const RawVec3& response = support.is_b ? point.response_b : point.response_a;
-    const std::int64_t asked =
-        stopping(speed_of(contact.normal, response, support.is_b, body), support.own[i]);
+    const std::int64_t asked = stopping(
+        speed_of(contact.normal, support.response_of(i), support.is_b, body), support.own[i]);
     const std::int64_t change = std::max(asked, -support.impulse[i]);
     support.impulse[i] += change;
     const std::int64_t by = product_rounded(change, support.share, 30);
     add_scaled(contact.normal, by, !support.is_b, body.velocity);
-    add_scaled(turn, by, !support.is_b, body.spin);
+    add_scaled(support.turn_of(i), by, !support.is_b, body.spin);
     most = std::max(most, std::abs(change));
   }
   return most;

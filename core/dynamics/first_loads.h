@@ -59,6 +59,14 @@ class FirstLoads {
     std::array<std::int64_t, lanes::k_block_points> impulse{};  // m/s, Q32
     RawVec3 turn{}, response{};                                 // of all points at once
     std::int64_t common = 0;                                    // response to them, Q30
+
+    // Of a point, on the side of the body that rests.
+    [[nodiscard]] const RawVec3& turn_of(std::size_t i) const {
+      return is_b ? contact.points[i].angular_b : contact.points[i].angular_a;
+    }
+    [[nodiscard]] const RawVec3& response_of(std::size_t i) const {
+      return is_b ? contact.points[i].response_b : contact.points[i].response_a;
+    }
   };
 
   void find_uppers(const ContactRun& run);

@@ -87,8 +87,7 @@ void find_warp(ContactRows& contact) {
 void find_masses(const ContactRun& run, ContactRows& contact) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
-  contact.masses = {low_word(block.mass_01[lane]), high_word(block.mass_01[lane]),
-                    low_word(block.mass_23[lane]), high_word(block.mass_23[lane])};
+  contact.masses = masses_of(block, lane);
   contact.common_mass = low_word(block.common[lane]);
   while (contact.count < k_block_points && contact.masses[contact.count] != 0)
     ++contact.count;

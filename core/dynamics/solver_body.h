@@ -1,6 +1,7 @@
 // A body as the contact solver sees it during one tick, besides what the lanes read and write.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -19,10 +20,17 @@ struct alignas(64) SolverBody {
   bool is_plain = true;   // nothing is held, and it turns alike about all axes
   alignas(64) std::array<std::int64_t, 3> gain{};  // of velocity in a substep, by gravity and
                                                    // forces; Q32
-  std::array<std::int64_t, 3> spin_gain{};  // of spin, by torques
+  std::array<std::int64_t, 3> spin_gain{};         // of spin, by torques
 
   /// Whether impulses change it.
   [[nodiscard]] bool is_pushed() const { return inverse_mass.mantissa != 0; }
+  /// The greatest component of the gain, whichever way it points.
+  [[nodiscard]] std::int64_t greatest_gain() const {
+    std::int64_t most = 0;
+    for (const std::int64_t part : gain)
+      most = std::max({most, part, -part});
+    return most;
+  }
   [[nodiscard]] bool is_held(int axis) const { return (held >> axis & 1) != 0; }
   /// Whether it can turn at all.
   [[nodiscard]] bool turns() const {
