@@ -5,7 +5,7 @@
 namespace lockstone {
 
 ConstraintGraph::ConstraintGraph(std::size_t body_capacity, std::size_t constraint_capacity)
-    : places_(std::make_unique_for_overwrite<Place[]>(constraint_capacity)) {
+    : places_(new Place[constraint_capacity]) {
   taken_.reserve(body_capacity + 1);
   clear();
 }

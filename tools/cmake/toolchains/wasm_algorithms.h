@@ -116,6 +116,11 @@ constexpr bool binary_search(Range&& range, const Value& value) {
   return std::binary_search(std::begin(range), std::end(range), value);
 }
 
+template <class Range, class Value>
+constexpr void fill(Range&& range, const Value& value) {
+  std::fill(std::begin(range), std::end(range), value);
+}
+
 template <class A, class B>
 constexpr bool equal(const A& a, const B& b) {
   return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b));
