@@ -230,7 +230,9 @@ void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end)
 
 void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
-    if (bodies_[i].solver != 0) move(run, static_cast<std::uint32_t>(i));
+    if (bodies_[i].solver == 0) continue;
+    move(run, static_cast<std::uint32_t>(i));
+    if (!bodies_[i].pushed) after_[i] = pose_after(run, bodies_[i]);
   }
 }
 

@@ -375,6 +375,53 @@ TEST(Joints, GearTurnsTheOtherWay) {
   EXPECT_NEAR(of_a + 2 * of_b, 0, 1e-5);
 }
 
+// A box on a base that goes 2 m/s along x and turns at 1 rad/s about z.
+struct MovingBase {
+  World world;
+  JointHandle joint;
+  BodyHandle box;
+
+  MovingBase(JointKind kind, std::uint8_t substeps)
+      : world(test::make_world({.body_capacity = 8,
+                                .pair_capacity = 8,
+                                .contact_capacity = 8,
+                                .substeps = substeps})) {
+    BodyDef base;
+    base.motion = MotionType::kinematic;
+    base.velocity.x = 2_mps;
+    base.angular_velocity.z = 1_rps;
+    BodyDef hung = test::dynamic_body(Shape::box(0.2_m, 0.3_m, 0.25_m), 1_m, {}, {});
+    hung.velocity = {2_mps, 1_mps, {}};
+    hung.angular_velocity.z = 1_rps;
+    box = test::add(world, hung);
+    JointDef def = JointDef::of(kind, test::add(world, base), box);
+    def.frame_a.position.x = 0.5_m;
+    def.frame_b.position.x = -0.5_m;
+    joint = join(world, def);
+  }
+
+  // How far the box is from where a weld takes it.
+  [[nodiscard]] double astray() const {
+    const double t = static_cast<double>(world.tick()) / 60;
+    const Vec3<Position> at = world.position(box);
+    return std::hypot(test::metres(at.x) - 2 * t - std::cos(t), test::metres(at.y) - std::sin(t),
+                      test::metres(at.z));
+  }
+};
+
+TEST(Joints, HoldOnToABaseThatMovesAndTurns) {
+  for (const std::uint8_t substeps : {std::uint8_t{1}, std::uint8_t{4}}) {
+    MovingBase weld(JointKind::weld, substeps), pendulum(JointKind::ball, substeps);
+    for (int tick = 0; tick < 120; ++tick) {
+      (void)weld.world.step();
+      (void)pendulum.world.step();
+      ASSERT_LT(weld.astray(), 1e-6) << "tick " << tick;
+      ASSERT_LT(gap(weld.world.joint(weld.joint)), 2e-6) << "tick " << tick;
+      ASSERT_LT(gap(pendulum.world.joint(pendulum.joint)), 2e-6) << "tick " << tick;
+    }
+  }
+}
+
 TEST(Joints, BreakBeyondTheirForceWithAnEvent) {
   World world = test::make_world();
   const BodyHandle base = add_fixed(world);
