@@ -18,6 +18,9 @@ constexpr std::uint32_t k_every_category = 0xffffffff;  // groups override categ
 
 constexpr Unit k_whole = Unit::from_integer(1);
 
+// In `far_movers`, of what hangs together with one of them.
+constexpr std::uint8_t k_joined_mover = 2;
+
 Transform pose_of(const BodyRecord& body) {
   return {body.position, body.orientation};
 }
@@ -125,6 +128,7 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
   visit_obstacles(body, {start, record.position - start.position, {}},
                   [&](std::uint32_t) { is_free = false; });
   if (is_free) return;
+  if (!joint_edges.of(body, joint_links).empty()) return follow_joined(body, report);
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = rotations[body];
   Unit done{};  // of the tick
@@ -143,6 +147,44 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
     if (!limit_position(record)) continue;
     ++report.saturations;
     motion.translation = record.position - motion.start.position;
+  }
+}
+
+// What hangs together stops together where the first of it runs into something, and loses what is
+// left of the tick: alone, a limb would leave its joint. What the impact does to the others is for
+// the solver.
+void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
+  if (!find_impact(body, motion_in_tick(body), {}).impact.hit) return;
+  list_joined(body);
+  NextImpact first;
+  std::uint32_t body_of_first = body;
+  for (const std::uint32_t each : joined_movers) {
+    if (far_movers[each] == k_joined_mover) continue;
+    const NextImpact next = find_impact(each, motion_in_tick(each), {});
+    const bool sooner = next.impact.hit &&
+                        (!first.impact.hit || next.impact.fraction < first.impact.fraction ||
+                         (next.impact.fraction == first.impact.fraction && each < body_of_first));
+    if (sooner) first = next, body_of_first = each;
+  }
+  ++report.impacts;
+  for (const std::uint32_t each : joined_movers) {
+    const Transform pose = pose_at(motion_in_tick(each), first.impact.fraction);
+    stop_at(bodies[each], pose, rotations[each]);
+    far_movers[each] = 0;
+  }
+  answer(body_of_first, first, first.impact.fraction);
+}
+
+// The body and the dynamic ones that hang together with it, all of which move.
+void World::Impl::list_joined(std::uint32_t body) {
+  joined_movers.assign(1, body);
+  far_movers[body] |= k_joined_mover;
+  for (std::size_t i = 0; i < joined_movers.size(); ++i) {
+    for (const std::uint32_t other : joint_edges.of(joined_movers[i], joint_links)) {
+      if (!bodies[other].is_dynamic() || (far_movers[other] & k_joined_mover) != 0) continue;
+      far_movers[other] |= k_joined_mover;
+      joined_movers.push_back(other);
+    }
   }
 }
 

@@ -85,6 +85,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   starts.resize(definition.body_capacity);
   leaves_fat_box.resize(definition.body_capacity);
   far_movers.resize(definition.body_capacity);
+  joined_movers.reserve(definition.joint_capacity == 0 ? 0 : definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
   separating_axes.reserve(definition.pair_capacity);
   bouncing_bodies.reserve(definition.body_capacity);

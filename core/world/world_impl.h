@@ -350,6 +350,8 @@ struct World::Impl {
   void note_far_mover(std::uint32_t body);
   [[nodiscard]] bool went_far(std::uint32_t body) const;
   void follow(std::uint32_t body, StepReport& report);
+  void follow_joined(std::uint32_t body, StepReport& report);
+  void list_joined(std::uint32_t body);
   template <class F>
   void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
@@ -402,10 +404,10 @@ struct World::Impl {
 
   // Scratch of one step.
   std::span<const Pair> pairs;
-  std::vector<std::uint32_t> moved;          // bodies, ascending
-  std::vector<std::uint8_t> leaves_fat_box;  // by place in `moved`
-  std::vector<std::uint8_t> far_movers;      // by body that moved
-  std::vector<Transform> starts;             // by body: where it was before it moved
+  std::vector<std::uint32_t> moved, joined_movers;  // bodies: ascending; that stop together
+  std::vector<std::uint8_t> leaves_fat_box;         // by place in `moved`
+  std::vector<std::uint8_t> far_movers;             // by body that moved
+  std::vector<Transform> starts;                    // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
   // What bounces within the tick: contacts by group, a group by its least body.
   struct BouncingContact {
@@ -415,10 +417,8 @@ struct World::Impl {
     friend auto operator<=>(const BouncingContact&, const BouncingContact&) = default;
   };
   std::vector<BouncingContact> bouncing_contacts;
-  std::vector<std::uint32_t> bounce_groups;  // the first contact of each
-  std::vector<std::uint32_t> bouncing_bodies;
-  std::vector<std::uint8_t> has_bounced;   // by body
-  std::vector<std::uint8_t> bounce_marks;  // by body
+  std::vector<std::uint32_t> bounce_groups, bouncing_bodies;  // a group is its first contact
+  std::vector<std::uint8_t> has_bounced, bounce_marks;        // by body
   std::vector<Swing> swings;
   std::vector<std::uint32_t> swing_of;   // by body: in `swings`, + 1
   std::vector<JointLink> solved_joints;  // the others, where there are any swings
