@@ -43,8 +43,10 @@ struct BodyRecord {
   std::uint64_t user_data = 0;
   AssetId asset{};  // Shape::asset
   Quat orientation{{}, {}, {}, {}};
-  Vec3<Length> size{};   // Shape::size
-  Vec3<Unit> inertia{};  // principal moments / (mass · s²), each in (0, 1]
+  Quat contact_orientation{{}, {}, {}, {}};  // and place: where contacts are found, contact_pose.h
+  Vec3<Length> contact_place{};              // low 32 bits
+  Vec3<Length> size{};                       // Shape::size
+  Vec3<Unit> inertia{};                      // principal moments / (mass · s²), each in (0, 1]
   // Of one of three: of a body that forces push in this tick what they give it (tick_gain.h); of
   // another that may fall asleep by resting where it began to rest (rest.h); of what is not
   // dynamic the motion of its surface. Else zero.
@@ -73,6 +75,7 @@ struct BodyRecord {
   std::int8_t inverse_mass_exponent = 0;
   std::uint8_t locks = 0;        // BodyLock
   std::uint32_t rest_ticks = 0;  // since it rests
+  std::uint32_t reserved = 0;
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 
@@ -146,12 +149,12 @@ struct BodyRecord {
 
 // clang-format off
 #define LKS_BODY_FIELDS(X) \
-  X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) X(size) X(inertia) \
-  X(note_a) X(note_b) X(note_c) X(inverse_mass) \
+  X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) \
+  X(contact_orientation) X(contact_place) X(size) X(inertia) X(note_a) X(note_b) X(note_c) X(inverse_mass) \
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
   X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
   X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
-  X(inverse_mass_exponent) X(locks) X(rest_ticks)
+  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(reserved)
 // clang-format on
 
 template <class F>

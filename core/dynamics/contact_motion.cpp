@@ -78,8 +78,14 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
   const auto index = static_cast<std::size_t>(&solved - bodies_.data());
   const RowBody& row = rows_[index];
   const RowTravel& travel = travel_[index];
-  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
   const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(index, body) : Vec3<Velocity>{};
+  // What stayed where it is did not go too far either.
+  const auto gone = [&](std::int64_t sum, Velocity too_far) {
+    return sum == 0 ? Velocity{} : Velocity::from_raw(step_.substep.times(sum)) - too_far;
+  };
+  const auto turned = [&](std::int64_t sum) {
+    return Velocity::from_raw(step_.substep.times(sum));
+  };
   if (body.is_dynamic()) {
     body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]),
                      from_row(row.velocity[2])};
@@ -92,9 +98,9 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
   }
   return end_substeps(
       body, rotation,
-      {moved(travel.velocity[0]) - back.x, moved(travel.velocity[1]) - back.y,
-       moved(travel.velocity[2]) - back.z},
-      {moved(travel.surface[0]), moved(travel.surface[1]), moved(travel.surface[2])}, step_);
+      {gone(travel.velocity[0], back.x), gone(travel.velocity[1], back.y),
+       gone(travel.velocity[2], back.z)},
+      {turned(travel.surface[0]), turned(travel.surface[1]), turned(travel.surface[2])}, step_);
 }
 
 }  // namespace lockstone

@@ -331,7 +331,9 @@ void ContactSolver::hold_blocks(std::size_t first, std::size_t end) {
 void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     if (bodies_[i].is_pushed() && is_still(rows_[i])) continue;
-    const RowBody& row = rows_[i];
+    const bool is_single = bodies_[i].is_pushed() && i < first_without_contacts_ &&
+                           graph_.degree(static_cast<std::uint32_t>(i)) == 1;
+    const RowBody row = is_single ? steadied(rows_[i]) : rows_[i];
     RowTravel& travel = travel_[i];
     const std::array<std::int64_t, 3> spin = {within_limit(row.spin[0]), within_limit(row.spin[1]),
                                               within_limit(row.spin[2])};

@@ -26,6 +26,23 @@ namespace lockstone {
          still(row.spin[0]) && still(row.spin[1]) && still(row.spin[2]);
 }
 
+/// Where nothing of a body is faster than eight times that, each of its components by itself: what
+/// sinks or rises by a hair on a slope does not creep down meanwhile. Not of bodies that several
+/// contacts hold: what is dropped there adds up.
+[[nodiscard]] inline lanes::RowBody steadied(const lanes::RowBody& row) {
+  constexpr std::int64_t k_least = std::int64_t{8} << (lanes::k_velocity_bits - 20);
+  constexpr std::int64_t k_slow = 8 * k_least;
+  const auto below = [](std::int64_t x, std::int64_t bound) { return x < bound && x > -bound; };
+  lanes::RowBody result = row;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!below(row.velocity[i], k_slow) || !below(row.spin[i], k_slow)) return row;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (below(row.velocity[i], k_least)) result.velocity[i] = 0;
+    if (below(row.spin[i], k_least)) result.spin[i] = 0;
+  }
+  return result;
+}
+
 /// Slower than 1/4 m/s along each axis: what contacts carry may be taken for weight.
 [[nodiscard]] inline bool is_at_rest(const lanes::RowBody& row) {
   constexpr std::int64_t k_most = std::int64_t{1} << (lanes::k_velocity_bits - 2);

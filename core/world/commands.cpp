@@ -59,6 +59,7 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
   const Transform pose = body_pose(asset, {def.position, def.orientation});
   record.position = pose.position;
   record.orientation = pose.orientation;
+  set_contact_pose(record);
   record.user_data = def.user_data;
   record.size = def.shape.size;
   record.asset = def.shape.asset;
@@ -183,6 +184,7 @@ Status World::Impl::execute(const Teleport& command) {
   drop_contacts_of(command.body.index);
   record->position = pose.position;
   record->orientation = pose.orientation;
+  set_contact_pose(*record);
   begin_rest(*record, rest_rules);
   refresh(command.body.index);
   disturb_around(command.body.index);

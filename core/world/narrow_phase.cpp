@@ -26,7 +26,8 @@ Length speculative_distance(const BodyRecord& a, const BodyRecord& b, Length thi
                             const TimeStep& step) {
   constexpr std::int64_t k_below_step = (std::int64_t{1} << k_reach_bits) - 1;
   const std::int64_t closing = step.tick.times(sum_of_magnitudes(a.velocity - b.velocity));
-  const std::int64_t steps = ((closing >> 12) + k_below_step) >> k_reach_bits;
+  const std::int64_t steps =
+      std::max<std::int64_t>(((closing >> 12) + k_below_step) >> k_reach_bits, 1);
   const Length reach = Length::from_raw(raw::saturate<std::int32_t>(steps << k_reach_bits));
   return k_contact_margin + min(min(reach, thickness), k_max_speculation);
 }
@@ -40,6 +41,7 @@ void World::Impl::collide_pairs(StepReport& report) {
   std::swap(slots, old_slots);
   std::swap(manifolds, old_manifolds);
   std::swap(inputs, old_inputs);
+  std::swap(found_separations, old_separations);
   found_contacts.resize(pairs.size());
   separating_axes.begin(pairs.size());
   if (!collide_side_by_side()) collide_one_by_one();
@@ -56,6 +58,13 @@ Length World::Impl::margin_of(const Pair& pair) const {
 // Whether the two would get a contact now.
 bool World::Impl::meet(const Pair& pair) {
   if (bodies[pair.a].is_trigger() || bodies[pair.b].is_trigger()) return false;
+  if (is_found_at_contact_poses(pair)) {
+    const BodyRecord &a = bodies[pair.a], &b = bodies[pair.b];
+    const Shape shape_a = a.shape(), shape_b = b.shape();
+    return collide({shape_a, contact_rotations[pair.a]}, {shape_b, contact_rotations[pair.b]},
+                   saturated<Length>(contact_position(b) - contact_position(a)), margin_of(pair))
+               .count > 0;
+  }
   PairScratch& scratch = narrow.scratch(0);
   collide_bodies(placed(pair.a), placed(pair.b), margin_of(pair), scratch.triangles.get(),
                  scratch.part_contacts);
@@ -120,17 +129,19 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   const bool are_primitives = is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b);
   // Where it stays if the pair is to wait.
   ManifoldInput& input = scratch.boxes.entries[scratch.boxes.batch.size()].input;
-  const Vec3<Position> apart = b.position - a.position;
+  const bool may_drift = is_found_at_contact_poses(pair);
+  const Vec3<Position> apart =
+      may_drift ? contact_position(b) - contact_position(a) : b.position - a.position;
   // Centres are read to the lengths that primitives are collided with; frames of assets, and where
   // a half-space is met, follow from every bit.
   const Vec3<Length> offset = saturated<Length>(apart);
   input.offset = are_primitives ? rounded<Position>(offset) : apart;
-  input.orientation_a = a.orientation;
-  input.orientation_b = b.orientation;
+  input.orientation_a = may_drift ? a.contact_orientation : a.orientation;
+  input.orientation_b = may_drift ? b.contact_orientation : b.orientation;
   input.margin = margin;
-  if (const Manifold* known = known_manifold(before, input); known != nullptr) {
+  if (const std::uint32_t known = known_slot(before, input); known != NarrowSlots::k_none) {
     timer.found(1, 1);
-    return add_known(index, *known, input, before, scratch);
+    return add_known(index, known, input, before, scratch);
   }
   if (are_primitives) return collide_primitives(index, offset, before, last_axis, scratch, timer);
   const PlacedShape shape_a = placed(pair.a), shape_b = placed(pair.b);
@@ -156,7 +167,8 @@ void World::Impl::collide_primitives(std::uint32_t index, const Vec3<Length>& of
   WaitingBoxes& waiting = scratch.boxes;
   WaitingBoxes::Entry& entry = waiting.entries[waiting.batch.size()];
   const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
-  const PosedShape a{shape_a, rotations[pair.a]}, b{shape_b, rotations[pair.b]};
+  const std::vector<Mat3>& turned = rotations_of(pair);
+  const PosedShape a{shape_a, turned[pair.a]}, b{shape_b, turned[pair.b]};
   if (last_axis != Vec3<Unit>{} && separated_along(a, b, offset, entry.input.margin, last_axis)) {
     separating_axes.note(index, pair, last_axis);
     return timer.found_apart();
@@ -179,8 +191,9 @@ int World::Impl::collide_alone(std::uint32_t index, const ManifoldInput& input,
   const std::uint32_t slot = narrow.take(scratch, 1);
   Manifold& manifold = slot == NarrowSlots::k_none ? scratch.part_contacts.contacts.front().manifold
                                                    : manifolds[slot];
-  collide({shape_a, rotations[pair.a]}, {shape_b, rotations[pair.b]},
-          saturated<Length>(input.offset), input.margin, manifold);
+  const std::vector<Mat3>& turned = rotations_of(pair);
+  collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]}, saturated<Length>(input.offset),
+          input.margin, manifold);
   if (manifold.count == 0) {
     separating_axes.note(index, pair, manifold.normal);
     NarrowSlots::give_back(scratch, slot);
@@ -207,11 +220,15 @@ void World::Impl::collide_waiting(PairScratch& scratch) {
   batch.clear();
 }
 
-void World::Impl::add_known(std::uint32_t index, const Manifold& known, const ManifoldInput& input,
+// `known`: the slot of a tick ago. What drifted since that one was found is added anew.
+void World::Impl::add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
                             std::span<const ContactRecord> before, PairScratch& scratch) {
   const std::uint32_t slot = narrow.take(scratch, 1);
   if (slot == NarrowSlots::k_none) return;
-  manifolds[slot] = known;
+  Manifold& manifold = manifolds[slot];
+  manifold = old_manifolds[known];
+  for (std::size_t i = 0; i < k_max_manifold_points; ++i)
+    manifold.points[i].separation = old_separations[known][i];
   fill_single(index, slot, input, before);
 }
 
@@ -223,15 +240,31 @@ void World::Impl::fill_single(std::uint32_t index, std::uint32_t slot, const Man
   fill_slot(slot, {pair.a, pair.b, 0, 0}, nullptr, nullptr, input, before);
 }
 
-// All but the manifold, which is there.
+// All but the manifold, which is there as it was found.
 void World::Impl::fill_slot(std::uint32_t slot, const ContactKey& key, const Surface* surface_a,
                             const Surface* surface_b, const ManifoldInput& input,
                             std::span<const ContactRecord> before) {
   const auto old = std::ranges::find(before, key, &ContactRecord::key);
   origins[slot] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old), false};
   inputs[slot] = input;
+  for (std::size_t i = 0; i < k_max_manifold_points; ++i)
+    found_separations[slot][i] = manifolds[slot].points[i].separation;
+  drift({key.body_a, key.body_b}, manifolds[slot]);
   find_surface({key.body_a, key.body_b}, surface_a, surface_b, manifolds[slot], surfaces[slot]);
   if (surfaces[slot].restitution > Coefficient{}) narrow.note_elastic();
+}
+
+// Faces and edges of boxes stay where they are while their bodies drift; round shapes touch
+// elsewhere at once, and are soon collided.
+bool World::Impl::is_found_at_contact_poses(const Pair& pair) const {
+  constexpr auto k_box = static_cast<std::uint8_t>(ShapeKind::box);
+  return bodies[pair.a].shape_kind == k_box && bodies[pair.b].shape_kind == k_box;
+}
+
+void World::Impl::drift(const Pair& pair, Manifold& manifold) const {
+  if (!is_found_at_contact_poses(pair)) return;
+  const ContactDrift &a = drifts[pair.a], &b = drifts[pair.b];
+  if (!a.is_none() || !b.is_none()) shift_separations(a, b, manifold);
 }
 
 // Neither an asset nor without end: its frame is the body's.
@@ -239,18 +272,18 @@ bool World::Impl::is_bounded_primitive(std::uint32_t body) const {
   return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
 }
 
-// The manifold of a tick ago when it would come out the same: only of pairs with a single contact,
-// which parts 0 and 0 name.
-const Manifold* World::Impl::known_manifold(std::span<const ContactRecord> before,
-                                            const ManifoldInput& input) const {
-  if (!remembers_manifolds || before.size() != 1) return nullptr;
+// The slot of the manifold of a tick ago when it would come out the same: only of pairs with a
+// single contact, which parts 0 and 0 name.
+std::uint32_t World::Impl::known_slot(std::span<const ContactRecord> before,
+                                      const ManifoldInput& input) const {
+  if (!remembers_manifolds || before.size() != 1) return NarrowSlots::k_none;
   const ContactRecord& record = before.front();
   const auto index = static_cast<std::size_t>(&record - contact_store.data());
   const std::uint32_t slot = old_slots[index];
-  if (slot == NarrowSlots::k_none) return nullptr;
+  if (slot == NarrowSlots::k_none) return slot;
   const bool same = record.part_a == 0 && record.part_b == 0 && old_inputs[slot] == input &&
                     has_one_piece(record.body_a) && has_one_piece(record.body_b);
-  return same ? &old_manifolds[slot] : nullptr;
+  return same ? slot : NarrowSlots::k_none;
 }
 
 bool World::Impl::has_one_piece(std::uint32_t body) const {

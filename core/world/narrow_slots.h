@@ -25,6 +25,10 @@ struct ManifoldInput {
   friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
 };
 
+/// What separations of a manifold were where it was found, before they follow what its bodies
+/// drifted (contact_pose.h).
+using FoundSeparations = std::array<Displacement, k_max_manifold_points>;
+
 /// Box pairs that wait for others to be collided with them.
 struct WaitingBoxes {
   struct Entry {

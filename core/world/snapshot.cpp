@@ -126,9 +126,11 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
                           has_valid_mass(record) && has_valid_surface(record) &&
                           has_valid_sleep(record) && has_valid_limits(record) &&
                           has_valid_notes(record);
+  if (!consistent) return Status::malformed;
   const bool in_world = is_within(record.position, k_world_limit) && in_range(record.velocity) &&
-                        in_range(record.spin) && has_unit_norm(record.orientation);
-  return consistent && in_world ? Status::ok : Status::malformed;
+                        in_range(record.spin) && has_unit_norm(record.orientation) &&
+                        has_unit_norm(record.contact_orientation) && record.reserved == 0;
+  return in_world ? Status::ok : Status::malformed;
 }
 
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
@@ -202,7 +204,9 @@ Status SnapshotView::check(JointStore) const {
 
 Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    if (validate(body(i), *assets_) != Status::ok) return Status::malformed;
+    const BodyRecord record = body(i);
+    if (validate(record, *assets_) != Status::ok) return Status::malformed;
+    if (record.exists() && !is_near_contact_pose(record)) return Status::malformed;
   }
   return Status::ok;
 }

@@ -82,6 +82,10 @@ WorldFault World::Impl::fault_of_derived_bodies() const {
     if (body_assets[i] != assets->find(body.asset)) return {"the asset of a body", i};
     if (rotations[i] != to_matrix(body.orientation)) return {"the rotation of a body", i};
     if (broad_phase.bounds(i) != bounds_of(i)) return {"the bounds of a body", i};
+    if (!is_near_contact_pose(body)) return {"the contact pose of a body", i};
+    if (contact_rotations[i] != to_matrix(body.contact_orientation))
+      return {"the rotation of a contact pose", i};
+    if (drifts[i] != drift_of(body)) return {"the drift of a body", i};
   }
   if (awake_count != awake.count()) return {"the number of awake bodies", awake_count};
   if (sleepers != asleep_count) return {"the number of sleeping bodies", sleepers};

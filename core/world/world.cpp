@@ -63,6 +63,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       awake(definition.body_capacity),
       joint_edges(definition.body_capacity, definition.joint_capacity),
       rotations(definition.body_capacity),
+      contact_rotations(definition.body_capacity),
+      drifts(definition.body_capacity),
       frames(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),
@@ -116,6 +118,8 @@ void World::Impl::make_scratch() {
   old_manifolds.resize(most);
   inputs.resize(most);
   old_inputs.resize(most);
+  found_separations.resize(most);
+  old_separations.resize(most);
   surfaces.resize(most);
 }
 

@@ -16,6 +16,7 @@
 #include "core/collision/placed_shape.h"
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/bounce_group.h"
+#include "core/dynamics/contact_pose.h"
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/islands.h"
@@ -30,6 +31,7 @@
 #include "core/world/joint_edges.h"
 #include "core/world/narrow_slots.h"
 #include "core/world/profiler.h"
+#include "core/world/record_checks.h"
 #include "core/world/record_hashes.h"
 #include "core/world/separating_axes.h"
 #include "core/world/stores.h"
@@ -210,6 +212,8 @@ struct World::Impl {
 
   // Derived, by body index.
   std::vector<Mat3> rotations;
+  std::vector<Mat3> contact_rotations;    // at the contact pose
+  std::vector<ContactDrift> drifts;       // from there
   std::vector<ShapeFrame> frames;         // kept where an asset is
   std::vector<const Asset*> body_assets;  // null: a shape complete in itself
   std::vector<Length> inner_radii;
@@ -267,8 +271,13 @@ struct World::Impl {
   void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
   void collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
                     const Vec3<Unit>& last_axis, PairScratch& scratch);
-  [[nodiscard]] const Manifold* known_manifold(std::span<const ContactRecord> before,
-                                               const ManifoldInput& input) const;
+  [[nodiscard]] std::uint32_t known_slot(std::span<const ContactRecord> before,
+                                         const ManifoldInput& input) const;
+  [[nodiscard]] bool is_found_at_contact_poses(const Pair& pair) const;
+  void drift(const Pair& pair, Manifold& manifold) const;
+  [[nodiscard]] const std::vector<Mat3>& rotations_of(const Pair& pair) const {
+    return is_found_at_contact_poses(pair) ? contact_rotations : rotations;
+  }
   [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
   [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
   void collide_primitives(std::uint32_t index, const Vec3<Length>& offset,
@@ -277,7 +286,7 @@ struct World::Impl {
   int collide_alone(std::uint32_t index, const ManifoldInput& input,
                     std::span<const ContactRecord> before, PairScratch& scratch);
   void collide_waiting(PairScratch& scratch);
-  void add_known(std::uint32_t index, const Manifold& known, const ManifoldInput& input,
+  void add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
                  std::span<const ContactRecord> before, PairScratch& scratch);
   void fill_single(std::uint32_t index, std::uint32_t slot, const ManifoldInput& input,
                    std::span<const ContactRecord> before);
@@ -313,7 +322,9 @@ struct World::Impl {
   void move_body(std::uint32_t body, MoveCounts& counts);
   [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
   [[nodiscard]] Loop each_moved() const;
+  void follow_with_contacts();
   void refresh_moved();
+  void refresh_contact_pose(std::uint32_t body);
 
   // Bounces within the tick (bounces.cpp).
   void find_bounces();
@@ -440,11 +451,12 @@ struct World::Impl {
     std::uint32_t before = k_new;  // in contact_store
     bool is_trigger = false;
   };
-  std::vector<ContactOrigin> origins;    // by slot
-  std::vector<Manifold> manifolds;       // by slot
-  std::vector<ManifoldInput> inputs;     // by slot
-  std::vector<ContactSurface> surfaces;  // by slot
-  std::vector<std::uint32_t> slots;      // by new contact
+  std::vector<ContactOrigin> origins;               // by slot
+  std::vector<Manifold> manifolds;                  // by slot
+  std::vector<ManifoldInput> inputs;                // by slot
+  std::vector<ContactSurface> surfaces;             // by slot
+  std::vector<FoundSeparations> found_separations;  // by slot
+  std::vector<std::uint32_t> slots;                 // by new contact
   std::vector<ContactRecord> new_contacts;
 
   // The manifolds of the tick before, and their slots by stored contact, as long as
@@ -452,6 +464,7 @@ struct World::Impl {
   std::vector<std::uint32_t> old_slots;
   std::vector<Manifold> old_manifolds;
   std::vector<ManifoldInput> old_inputs;
+  std::vector<FoundSeparations> old_separations;
   bool remembers_manifolds = false;
   SeparatingAxes separating_axes;
   ContactSolver solver;
@@ -460,28 +473,12 @@ struct World::Impl {
   std::vector<std::uint32_t> event_ends;              // by piece
 };
 
-/// ok, or what makes a stored record impossible. For bytes from outside.
-[[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
-[[nodiscard]] Status validate(const JointRecord& record);
-
-/// The same with the bodies that a contact is between, or that a joint holds.
-[[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,
-                              const BodyRecord& b);
-[[nodiscard]] Status validate(const JointRecord& record, const BodyRecord& a, const BodyRecord& b);
-
 /// Kilograms, 0 of what nothing pushes.
 [[nodiscard]] Mass mass_of(const BodyRecord& record);
 
 /// An impulse λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
 [[nodiscard]] std::int64_t effort_of(std::int64_t impulse, std::int32_t rate,
                                      BlockFloat inverse_mass, int exponent);
-
-/// Whether a joint may hold the two, and whether a body's joints may sit there.
-[[nodiscard]] bool can_join(const BodyRecord& a, const BodyRecord& b);
-[[nodiscard]] bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor);
-
-/// |q| = 1 within 2^-20. For bytes from outside.
-[[nodiscard]] bool has_unit_norm(const Quat& q);
 
 /// |x| + |y| + |z|, at least the length, raw.
 template <class T>

@@ -1,0 +1,119 @@
+#include "core/dynamics/contact_pose.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace lockstone {
+namespace {
+
+// Powers of two: a hair, and its part of the scale of a small body.
+constexpr int k_drift_exponent = -15;
+constexpr int k_drift_of_scale = -14;
+
+int drift_exponent(const BodyRecord& body) {
+  return std::min(k_drift_exponent, body.scale_exponent + k_drift_of_scale);
+}
+
+// |v|² ≤ bound², of components that may be anything.
+template <class Difference>
+bool is_within(int count, std::int64_t bound, Difference&& difference) {
+  std::int64_t sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t x = difference(i);
+    if (x > bound || x < -bound) return false;
+    sum += x * x;
+  }
+  return sum <= bound * bound;
+}
+
+std::array<std::int32_t, 4> components(const Quat& q) {
+  return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
+}
+
+// Steps of lengths within those of positions.
+constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
+
+// From the contact pose's place to the body's, Q32: what is less than a step of lengths included.
+std::int64_t way_of(const BodyRecord& body, int axis) {
+  const std::int64_t now = body.position[axis].raw;
+  const auto steps = static_cast<std::uint32_t>(now >> k_place_shift) -
+                     static_cast<std::uint32_t>(body.contact_place[axis].raw);
+  const std::int64_t rest = now & ((std::int64_t{1} << k_place_shift) - 1);
+  return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + rest;
+}
+
+}  // namespace
+
+Vec3<Position> contact_position(const BodyRecord& body) {
+  Vec3<Position> place;
+  for (int i = 0; i < 3; ++i)
+    place[i].raw = body.position[i].raw - way_of(body, i);
+  return place;
+}
+
+bool is_near_contact_pose(const BodyRecord& body) {
+  const int exponent = drift_exponent(body);
+  // A place is rounded to a step of lengths.
+  const std::int64_t way = std::int64_t{1}
+                           << std::max(Position::frac_bits + exponent, k_place_shift + 1);
+  // Turning by a small angle θ changes a quaternion by θ/2, and moves a surface by θ · scale.
+  const std::int64_t turn = std::int64_t{1}
+                            << (Unit::frac_bits - 1 + exponent - body.scale_exponent);
+  const auto now = components(body.orientation), then = components(body.contact_orientation);
+  return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
+         is_within(4, turn, [&](int i) {
+           const auto k = static_cast<std::size_t>(i);
+           return std::int64_t{now[k]} - then[k];
+         });
+}
+
+void set_contact_pose(BodyRecord& body) {
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t steps = raw::round_shift(body.position[i].raw, k_place_shift);
+    body.contact_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
+  }
+  body.contact_orientation = body.orientation;
+}
+
+ContactDrift drift_of(const BodyRecord& body) {
+  ContactDrift drift;
+  for (int i = 0; i < 3; ++i) {
+    drift.way[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(way_of(body, i));
+  }
+  const Quat& then = body.contact_orientation;
+  if (body.orientation == then) return drift;
+  // The vector of now · then*, of which the part then · then* is none. Q60, halved.
+  const std::int64_t x = std::int64_t{body.orientation.x.raw} - then.x.raw;
+  const std::int64_t y = std::int64_t{body.orientation.y.raw} - then.y.raw;
+  const std::int64_t z = std::int64_t{body.orientation.z.raw} - then.z.raw;
+  const std::int64_t w = std::int64_t{body.orientation.w.raw} - then.w.raw;
+  const std::int64_t half[] = {x * then.w.raw - w * then.x.raw - y * then.z.raw + z * then.y.raw,
+                               y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
+                               z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
+  for (std::size_t i = 0; i < 3; ++i)
+    drift.turn[i] = static_cast<std::int32_t>(raw::round_shift(half[i], 19));
+  return drift;
+}
+
+void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold) {
+  // turn × r, Q40 · Q20, to Q32.
+  const auto turned = [](const ContactDrift& drift, const Vec3<Length>& r, std::size_t axis) {
+    const std::size_t next = axis == 2 ? 0 : axis + 1, after = axis == 0 ? 2 : axis - 1;
+    const std::int64_t arm_next = r[static_cast<int>(next)].raw;
+    const std::int64_t arm_after = r[static_cast<int>(after)].raw;
+    return raw::round_shift(drift.turn[next] * arm_after - drift.turn[after] * arm_next, 28);
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
+    ManifoldPoint& point = manifold.points[i];
+    std::int64_t along = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t way = std::int64_t{b.way[axis]} - a.way[axis] +
+                               turned(b, point.anchor_b, axis) - turned(a, point.anchor_a, axis);
+      along += manifold.normal[static_cast<int>(axis)].raw * way;
+    }
+    point.separation.raw =
+        raw::saturate<std::int32_t>(point.separation.raw + raw::round_shift(along, 38));
+  }
+}
+
+}  // namespace lockstone

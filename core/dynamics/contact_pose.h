@@ -1,0 +1,46 @@
+// Where a body's contacts are found.
+//
+// To find the points in which two bodies touch costs as much as to solve them. What lies or stands
+// trembles by micrometres, and its contacts stay what they are: so a body's contacts are found at a
+// pose of its own, from which it may drift by a hair until that pose follows. Meanwhile separations
+// follow to first order, as they do within a tick. Recycling contacts of bodies that hardly move is
+// Box3D's (E. Catto); here the pose is part of the state, so that a manifold follows from the state
+// alone, whatever was remembered or loaded.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/dynamics/body_record.h"
+#include "core/geometry/manifold.h"
+
+namespace lockstone {
+
+/// How far a body is from its contact pose.
+struct ContactDrift {
+  std::array<std::int32_t, 3> way{};   // of the centre, m, Q32
+  std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q40
+
+  friend bool operator==(const ContactDrift&, const ContactDrift&) = default;
+  [[nodiscard]] bool is_none() const { return *this == ContactDrift{}; }
+};
+
+/// The centre of the contact pose, of a body that is near it: a multiple of 2^-20 m, so that
+/// geometry reads it as it is.
+[[nodiscard]] Vec3<Position> contact_position(const BodyRecord& body);
+
+/// Whether centre and surface are within 2^-15 m of the contact pose, or 2^-14 of the body's scale
+/// where that is less (the centre, within 2^-19 m at least). Holds of every stored body.
+[[nodiscard]] bool is_near_contact_pose(const BodyRecord& body);
+
+/// The contact pose is the body's own from now on.
+void set_contact_pose(BodyRecord& body);
+
+/// Of a body that is near its contact pose.
+[[nodiscard]] ContactDrift drift_of(const BodyRecord& body);
+
+/// From separations at the contact poses to those where the bodies are: along the normal, to first
+/// order; what is left out is below 2^-29 m for bodies of a metre.
+void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold);
+
+}  // namespace lockstone

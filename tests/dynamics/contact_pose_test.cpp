@@ -1,0 +1,133 @@
+// Contacts of bodies that hardly move: how far they may drift, and what separations become.
+
+#include "core/dynamics/contact_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/geometry/scene.h"
+
+namespace lockstone {
+namespace {
+
+using test::Dice;
+using test::metres;
+using test::real;
+using test::Real;
+using test::RealVec;
+
+constexpr double k_hair = 1.0 / 32768;
+
+BodyRecord random_box(Dice& dice) {
+  BodyRecord body;
+  body.motion = static_cast<std::uint8_t>(MotionType::dynamic);
+  body.shape_kind = static_cast<std::uint8_t>(ShapeKind::box);
+  body.size = metres(dice.uniform(0.2, 0.6), dice.uniform(0.2, 0.6), dice.uniform(0.2, 0.6));
+  body.orientation = dice.orientation();
+  set_contact_pose(body);
+  return body;
+}
+
+Position position(double x) {
+  return Position::from_raw(static_cast<std::int64_t>(std::ldexp(x, Position::frac_bits)));
+}
+
+// Moves and turns a body by no more than it may, or by as much as it must not.
+void move(Dice& dice, double way, double angle, BodyRecord& body) {
+  const RealVec along = dice.direction(), about = dice.direction();
+  const auto lane = [](Real x) { return position(static_cast<double>(x)); };
+  body.position += Vec3<Position>{lane(along.x * way), lane(along.y * way), lane(along.z * way)};
+  const auto part = [&](Real x) { return static_cast<double>(x) * std::sin(angle / 2); };
+  const double w = std::cos(angle / 2), x = part(about.x), y = part(about.y), z = part(about.z);
+  const auto value = [](Unit c) { return std::ldexp(double{1} * c.raw, -Unit::frac_bits); };
+  const Quat q = body.orientation;
+  const double qx = value(q.x), qy = value(q.y), qz = value(q.z), qw = value(q.w);
+  body.orientation =
+      test::quat(w * qx + x * qw + y * qz - z * qy, w * qy - x * qz + y * qw + z * qx,
+                 w * qz + x * qy - y * qx + z * qw, w * qw - x * qx - y * qy - z * qz);
+}
+
+TEST(ContactPose, IsNearWithinAHair) {
+  Dice dice;
+  for (int round = 0; round < 2000; ++round) {
+    const BodyRecord still = random_box(dice);
+    EXPECT_TRUE(is_near_contact_pose(still));
+    EXPECT_TRUE(drift_of(still).is_none());
+    BodyRecord body = still;
+    move(dice, 0.99 * k_hair, 0.99 * k_hair, body);
+    EXPECT_TRUE(is_near_contact_pose(body));
+    BodyRecord far = still;
+    move(dice, 1.01 * k_hair, 0, far);
+    EXPECT_FALSE(is_near_contact_pose(far));
+    BodyRecord turned = still;
+    move(dice, 0, 1.01 * k_hair, turned);
+    EXPECT_FALSE(is_near_contact_pose(turned));
+    set_contact_pose(turned);
+    EXPECT_TRUE(is_near_contact_pose(turned));
+  }
+}
+
+// Of a small body the hair is a part of its size: angles stay small.
+TEST(ContactPose, IsNearWithinAPartOfASmallBody) {
+  Dice dice;
+  for (int exponent = -10; exponent < 10; ++exponent) {
+    BodyRecord body = random_box(dice);
+    body.scale_exponent = static_cast<std::int8_t>(exponent);
+    const double scale = std::ldexp(1.0, exponent);
+    const double bound = std::min(k_hair, scale / 16384);
+    const double way = std::max(bound, 1.0 / 524288);  // two steps of lengths
+    BodyRecord near = body, far = body, turned = body;
+    move(dice, 0.99 * way, 0, near);
+    EXPECT_TRUE(is_near_contact_pose(near)) << exponent;
+    move(dice, 1.01 * way, 0, far);
+    EXPECT_FALSE(is_near_contact_pose(far)) << exponent;
+    move(dice, 0, 1.2 * bound / scale, turned);
+    EXPECT_FALSE(is_near_contact_pose(turned)) << exponent;
+  }
+}
+
+// Boxes that stand on each other, leaning by a hundredth or less: the same points, found where the
+// bodies are now, are as far apart as those that followed. A corner that an edge cuts off moves
+// along the face, which counts times what the faces lean.
+TEST(ContactPose, SeparationsFollow) {
+  Dice dice;
+  int met = 0;
+  for (int round = 0; round < 20000; ++round) {
+    BodyRecord a = random_box(dice), b = random_box(dice);
+    a.orientation = b.orientation = {};
+    set_contact_pose(a);
+    const double height = std::ldexp(double{1} * (a.size.y + b.size.y).raw, -Length::frac_bits);
+    b.position = {position(dice.uniform(-0.2, 0.2)), position(height + dice.uniform(-0.001, 0.001)),
+                  position(dice.uniform(-0.2, 0.2))};
+    const double lean = dice.uniform(0, 0.01), about = dice.uniform(-3.2, 3.2);
+    b.orientation = test::quat(lean / 2 * std::cos(about), 0, lean / 2 * std::sin(about), 1);
+    set_contact_pose(b);
+    const Shape shape_a = a.shape(), shape_b = b.shape();
+    const auto found = [&](const BodyRecord& first, const BodyRecord& second) {
+      const Mat3 turned_a = to_matrix(first.orientation), turned_b = to_matrix(second.orientation);
+      return collide({shape_a, turned_a}, {shape_b, turned_b},
+                     saturated<Length>(second.position - first.position), metres(0.02));
+    };
+    Manifold followed = found(a, b);
+    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), a);
+    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), b);
+    shift_separations(drift_of(a), drift_of(b), followed);
+    const Manifold now = found(a, b);
+    for (int i = 0; i < now.count; ++i) {
+      const ManifoldPoint& point = now.points[static_cast<std::size_t>(i)];
+      const auto same = std::ranges::find(followed.points, point.feature, &ManifoldPoint::feature);
+      if (same == followed.points.end()) continue;
+      ++met;
+      // Half a step of lengths counts twice, and of separations.
+      EXPECT_NEAR(static_cast<double>(real(same->separation)),
+                  static_cast<double>(real(point.separation)), 2e-6 + 3 * k_hair * lean)
+          << round;
+    }
+  }
+  EXPECT_GT(met, 20000);
+}
+
+}  // namespace
+}  // namespace lockstone
