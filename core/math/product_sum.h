@@ -22,8 +22,17 @@ class ProductSum {
  private:
 #if defined(__SIZEOF_INT128__)
   __extension__ typedef __int128 Word;
+  __extension__ typedef unsigned __int128 Bits;
   [[nodiscard]] static constexpr Word product(std::int64_t a, std::int64_t b) {
     return Word{a} * b;
+  }
+  /// What it means.
+  [[nodiscard, gnu::noinline]] static constexpr std::int64_t rounded_any(Word sum, int shift) {
+    const Word half = Word{1} << (shift - 1);
+    const Word result = (sum + half + (sum >> 127)) >> shift;
+    if (result > k_product_bound) return k_product_bound;
+    if (result < -k_product_bound) return -k_product_bound;
+    return static_cast<std::int64_t>(result);
   }
 #else
   using Word = Int128;
@@ -35,13 +44,25 @@ class ProductSum {
 };
 
 #if defined(__SIZEOF_INT128__)
+// What fits after a shift within a word, or beyond one, needs a few instructions.
 constexpr std::int64_t ProductSum::rounded(int shift) const {
   LKS_ASSERT(shift >= 1 && shift <= 125);
-  const Word half = Word{1} << (shift - 1);
-  const Word result = (sum_ + half + (sum_ >> 127)) >> shift;
-  if (result > k_product_bound) return k_product_bound;
-  if (result < -k_product_bound) return -k_product_bound;
-  return static_cast<std::int64_t>(result);
+  const auto bits = static_cast<Bits>(sum_);
+  const auto high = static_cast<std::uint64_t>(bits >> 64);
+  if (shift >= 3 && shift < 64) {
+    const bool fits = high + (std::uint64_t{1} << (shift - 3)) < std::uint64_t{1} << (shift - 2);
+    if (fits) [[likely]] {
+      const std::uint64_t half = (std::uint64_t{1} << (shift - 1)) - (high >> 63);
+      const std::uint64_t low = static_cast<std::uint64_t>(bits) + half;
+      const std::uint64_t carry = low < half ? 1 : 0;
+      return static_cast<std::int64_t>((Bits{high + carry} << 64 | low) >> shift);
+    }
+  } else if (shift >= 67) {
+    const std::uint64_t borrow = static_cast<std::uint64_t>(bits) == 0 ? high >> 63 : 0;
+    const std::uint64_t up = high + (std::uint64_t{1} << (shift - 65)) - borrow;
+    return static_cast<std::int64_t>(up) >> (shift - 64);
+  }
+  return rounded_any(sum_, shift);
 }
 #else
 constexpr std::int64_t ProductSum::rounded(int shift) const {

@@ -2,6 +2,7 @@
 
 #include "core/dynamics/joint_factor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -118,6 +119,26 @@ TEST(ProductSum, RoundsOnceAwayFromZeroAndStaysInItsBounds) {
   EXPECT_EQ(product_rounded(-5, 1, 1), -3);
   EXPECT_EQ(product_rounded(std::int64_t{1} << 61, 8, 1), k_product_bound);
   EXPECT_EQ(product_rounded(std::int64_t{1} << 61, -8, 1), -k_product_bound);
+}
+
+TEST(ProductSum, RoundsAlikeByAnyShift) {
+  test::Random random(test::run_seed());
+  for (int i = 0; i < 200'000; ++i) {
+    const int shift = static_cast<int>(random.between(1, 125));
+    const auto any = [&] {
+      return static_cast<std::int64_t>(random.next()) >> random.between(1, 63);
+    };
+    const std::int64_t a = any(), b = any(), near = random.between(-2, 2);
+    const std::int64_t power = std::int64_t{1} << random.between(0, 61);
+    for (const std::int64_t x : {a, power, -power}) {
+      ProductSum sum;
+      sum.add(x, b);
+      sum.add(near, 1);
+      const Int128 exact = multiply_wide(x, b) + Int128::from(near);
+      const std::int64_t expected = saturate_to_int64(round_shift(exact, shift));
+      ASSERT_EQ(sum.rounded(shift), std::clamp(expected, -k_product_bound, k_product_bound));
+    }
+  }
 }
 
 }  // namespace
