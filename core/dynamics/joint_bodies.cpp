@@ -31,6 +31,14 @@ BodyRecord with_inertia(const BodyRecord& record, std::int64_t least) {
   return heavier;
 }
 
+// Whether both go alike; std::array's comparison calls memcmp.
+bool goes_as(const lanes::RowBody& a, const lanes::RowBody& b) {
+  std::int64_t differs = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    differs |= (a.velocity[i] ^ b.velocity[i]) | (a.spin[i] ^ b.spin[i]);
+  return differs == 0;
+}
+
 }  // namespace
 
 // `jump`: what joints pull at the lever (m, Q20), of the body's own velocity, Q30.
@@ -240,8 +248,7 @@ void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) 
 void JointSolver::move(const JointRun& run, std::uint32_t index) {
   Body& body = bodies_[index];
   const lanes::RowBody& row = run.rows[body.solver];
-  const bool is_known =
-      body.has_looked && body.looked.velocity == row.velocity && body.looked.spin == row.spin;
+  const bool is_known = body.has_looked && goes_as(row, body.looked);
   body.pose = is_known ? after_[index] : pose_after(run, body);
   body.has_looked = false;
   if (body.in_net) {

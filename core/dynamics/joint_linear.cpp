@@ -232,8 +232,27 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t row,
   push(run, joint, row, row + 1, impulses);
 }
 
-// Joint impulses go to the velocities at the substep's beginning as well: the next one must not
-// take them for those of contacts, which start it again.
+// What joints do to velocities in a stage goes to those at the substep's beginning as well: the
+// next one must not take it for impulses of contacts, which start it again.
+void JointSolver::begin_pushes(const JointRun& run, const Cluster& cluster) {
+  for (const std::uint32_t body : bodies_of(cluster))
+    bodies_[body].unpushed = run.rows[bodies_[body].solver];
+}
+
+void JointSolver::end_pushes(const JointRun& run, const Cluster& cluster) {
+  if (run.before.empty()) return;
+  for (const std::uint32_t index : bodies_of(cluster)) {
+    const Body& body = bodies_[index];
+    const RowBody& row = run.rows[body.solver];
+    RawVec3 velocity, spin;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      velocity[axis] = row.velocity[axis] - body.unpushed.velocity[axis];
+      spin[axis] = row.spin[axis] - body.unpushed.spin[axis];
+    }
+    add_velocity(run.before[body.solver], velocity, spin);
+  }
+}
+
 void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t first, std::size_t end,
                        const RowImpulses& impulses) {
   const auto push_side = [&](std::uint32_t index, const Share& share, auto linear, auto angular) {
@@ -271,7 +290,6 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t firs
       w[axis] = spin[axis].rounded(30);
     }
     add_velocity(run.rows[solver], v, w);
-    if (!run.before.empty()) add_velocity(run.before[solver], v, w);
   };
   push_side(joint.a, joint.share_a, &JointRow::linear_a, &JointRow::angular_a);
   push_side(joint.b, joint.share_b, &JointRow::linear_b, &JointRow::angular_b);

@@ -179,7 +179,6 @@ void JointSolver::save(const JointRun& run, const Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     Body& body = bodies_[group_bodies_[group.first_body + i]];
     body.saved_row = run.rows[body.solver];
-    if (!run.before.empty()) body.saved_before = run.before[body.solver];
   }
   for (const std::uint32_t index : joints_of(group))
     joints_[index].saved = joints_[index].locks;
@@ -189,7 +188,6 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     const Body& body = bodies_[group_bodies_[group.first_body + i]];
     run.rows[body.solver] = body.saved_row;
-    if (!run.before.empty()) run.before[body.solver] = body.saved_before;
   }
   for (const std::uint32_t index : joints_of(group))
     joints_[index].locks = joints_[index].saved;

@@ -130,8 +130,10 @@ void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t
     Cluster& cluster = clusters_[i];
     const bool is_last = ++cluster.substep == step_.substeps;
     if (cluster.free) set_rate(cluster, std::int64_t{step_.substep_rate()} * (is_last ? 2 : 1));
+    begin_pushes(run, cluster);
     for (Joint& joint : joints_of(cluster))
       warm_start(run, joint);
+    end_pushes(run, cluster);
   }
 }
 
@@ -156,8 +158,11 @@ void JointSolver::warm_start(const JointRun& run, Joint& joint) {
 }
 
 void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i)
+  for (std::size_t i = first; i < end; ++i) {
+    begin_pushes(run, clusters_[i]);
     solve(run, clusters_[i]);
+    end_pushes(run, clusters_[i]);
+  }
 }
 
 void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
@@ -197,6 +202,7 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
     if (bodies_[body].centred && !cluster.free) resist_pull(run, body);
   }
   linearize(cluster);
+  begin_pushes(run, cluster);
   for (int i = 0; i < k_velocity_solves; ++i) {
     for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);
@@ -206,6 +212,7 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
         solve_locks(run, group, false);
     }
   }
+  end_pushes(run, cluster);
 }
 
 void JointSolver::store(std::size_t added, JointRecord& record) const {

@@ -114,8 +114,9 @@ class JointSolver {
     InverseInertia inverse_inertia{};
     InverseInertia inertia_ahead{};  // half a substep on, as far as is known
     std::uint32_t solver = 0;
-    int scale = 0;  // exponent
-    lanes::RowBody saved_row{}, saved_before{};
+    int scale = 0;              // exponent
+    lanes::RowBody unpushed{};  // as the stage at hand found it
+    lanes::RowBody saved_row{};
     lanes::RowBody looked{};  // with what velocity it goes where `after_` says
     bool has_looked = false;
     bool pushed = false;
@@ -240,6 +241,8 @@ class JointSolver {
   void push(const JointRun& run, const Joint& joint, std::size_t first, std::size_t end,
             const RowImpulses& impulses);
   [[nodiscard]] JointPose pose_after(const JointRun& run, Body& body) const;
+  void begin_pushes(const JointRun& run, const Cluster& cluster);
+  void end_pushes(const JointRun& run, const Cluster& cluster);
   void warm_start(const JointRun& run, Joint& joint);
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);
