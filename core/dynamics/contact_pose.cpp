@@ -1,13 +1,14 @@
 #include "core/dynamics/contact_pose.h"
 
 #include <algorithm>
-#include <cstdlib>
+
+#include "core/dynamics/raw_vec3.h"
 
 namespace lockstone {
 namespace {
 
 // Powers of two: a hair, and its part of the scale of a small body.
-constexpr int k_drift_exponent = -15;
+constexpr int k_drift_exponent = -14;
 constexpr int k_drift_of_scale = -14;
 
 int drift_exponent(const BodyRecord& body) {
@@ -96,23 +97,30 @@ ContactDrift drift_of(const BodyRecord& body) {
 }
 
 void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold) {
-  // turn × r, Q40 · Q20, to Q32.
-  const auto turned = [](const ContactDrift& drift, const Vec3<Length>& r, std::size_t axis) {
-    const std::size_t next = axis == 2 ? 0 : axis + 1, after = axis == 0 ? 2 : axis - 1;
-    const std::int64_t arm_next = r[static_cast<int>(next)].raw;
-    const std::int64_t arm_after = r[static_cast<int>(after)].raw;
-    return raw::round_shift(drift.turn[next] * arm_after - drift.turn[after] * arm_next, 28);
+  const Vec3<Unit>& n = manifold.normal;
+  // n × turn, Q40: n · (turn × r) = r · (n × turn).
+  const auto across = [&](const ContactDrift& drift) -> RawVec3 {
+    const auto& turn = drift.turn;
+    const auto part = [](std::int64_t x) { return raw::round_shift(x, Unit::frac_bits); };
+    return {part(std::int64_t{n.y.raw} * turn[2] - std::int64_t{n.z.raw} * turn[1]),
+            part(std::int64_t{n.z.raw} * turn[0] - std::int64_t{n.x.raw} * turn[2]),
+            part(std::int64_t{n.x.raw} * turn[1] - std::int64_t{n.y.raw} * turn[0])};
   };
+  const auto along = [](const RawVec3& v, const Vec3<Length>& r) {
+    return v[0] * r.x.raw + v[1] * r.y.raw + v[2] * r.z.raw;
+  };
+  const RawVec3 across_a = across(a), across_b = across(b);
+  std::int64_t way = 0;  // Q62
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    way += n[axis].raw * (std::int64_t{b.way[i]} - a.way[i]);
+  }
+  way >>= 2;
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
     ManifoldPoint& point = manifold.points[i];
-    std::int64_t along = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int64_t way = std::int64_t{b.way[axis]} - a.way[axis] +
-                               turned(b, point.anchor_b, axis) - turned(a, point.anchor_a, axis);
-      along += manifold.normal[static_cast<int>(axis)].raw * way;
-    }
+    const std::int64_t by = way + along(across_b, point.anchor_b) - along(across_a, point.anchor_a);
     point.separation.raw =
-        raw::saturate<std::int32_t>(point.separation.raw + raw::round_shift(along, 38));
+        raw::saturate<std::int32_t>(point.separation.raw + raw::round_shift(by, 36));
   }
 }
 

@@ -29,7 +29,7 @@ struct ContactDrift {
 /// geometry reads it as it is.
 [[nodiscard]] Vec3<Position> contact_position(const BodyRecord& body);
 
-/// Whether centre and surface are within 2^-15 m of the contact pose, or 2^-14 of the body's scale
+/// Whether centre and surface are within 2^-14 m of the contact pose, or 2^-14 of the body's scale
 /// where that is less (the centre, within 2^-19 m at least). Holds of every stored body.
 [[nodiscard]] bool is_near_contact_pose(const BodyRecord& body);
 
@@ -40,7 +40,7 @@ void set_contact_pose(BodyRecord& body);
 [[nodiscard]] ContactDrift drift_of(const BodyRecord& body);
 
 /// From separations at the contact poses to those where the bodies are: along the normal, to first
-/// order; what is left out is below 2^-29 m for bodies of a metre.
+/// order; what is left out is below 2^-27 m for bodies of a metre.
 void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold);
 
 }  // namespace lockstone

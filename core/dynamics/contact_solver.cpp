@@ -273,6 +273,8 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     sources.body_a[lane] = lanes::row_body_offset(row_of(entry.body_a));
     sources.body_b[lane] = lanes::row_body_offset(row_of(entry.body_b));
     sources.geometry[lane] = geometry_of(scene.manifolds[entry.slot]);
+    if (is_alone(entry))
+      bodies_[(entry.body_a & k_immovable) == 0 ? entry.body_a : entry.body_b].is_alone = true;
     const ContactSurface& surface = scene.surfaces[entry.slot];
     const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface};
     kept_[block * k_block_lanes + lane] =
@@ -331,9 +333,7 @@ void ContactSolver::hold_blocks(std::size_t first, std::size_t end) {
 void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     if (bodies_[i].is_pushed() && is_still(rows_[i])) continue;
-    const bool is_single = bodies_[i].is_pushed() && i < first_without_contacts_ &&
-                           graph_.degree(static_cast<std::uint32_t>(i)) == 1;
-    const RowBody row = is_single ? steadied(rows_[i]) : rows_[i];
+    const RowBody row = bodies_[i].is_alone ? steadied(rows_[i]) : rows_[i];
     RowTravel& travel = travel_[i];
     const std::array<std::int64_t, 3> spin = {within_limit(row.spin[0]), within_limit(row.spin[1]),
                                               within_limit(row.spin[2])};

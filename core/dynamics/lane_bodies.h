@@ -27,8 +27,8 @@ namespace lockstone {
 }
 
 /// Where nothing of a body is faster than eight times that, each of its components by itself: what
-/// sinks or rises by a hair on a slope does not creep down meanwhile. Not of bodies that several
-/// contacts hold: what is dropped there adds up.
+/// sinks or rises by a hair on a slope does not creep down meanwhile. Only of bodies that touch but
+/// one, which does not give way: in a pile, what is dropped adds up.
 [[nodiscard]] inline lanes::RowBody steadied(const lanes::RowBody& row) {
   constexpr std::int64_t k_least = std::int64_t{8} << (lanes::k_velocity_bits - 20);
   constexpr std::int64_t k_slow = 8 * k_least;

@@ -113,6 +113,19 @@ void World::Impl::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
   if (scratch.boxes.batch.size() > 0) collide_waiting(scratch);
 }
 
+// Where the two are, to the length that primitives are collided with; frames of assets, and where a
+// half-space is met, follow from every bit.
+void World::Impl::read_poses(const Pair& pair, Length margin, ManifoldInput& input) const {
+  const BodyRecord &a = bodies[pair.a], &b = bodies[pair.b];
+  const Vec3<Position> apart = b.position - a.position;
+  input = {are_primitives(pair) ? rounded<Position>(saturated<Length>(apart)) : apart,
+           a.orientation,
+           b.orientation,
+           margin,
+           0,
+           0};
+}
+
 // `before`: the records of this pair a tick ago. `last_axis` parted the pair then, unless it is
 // zero.
 void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
@@ -126,24 +139,28 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
     return;
   }
   const Length margin = margin_of(pair);
-  const bool are_primitives = is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b);
+  const bool may_drift = is_found_at_contact_poses(pair);
   // Where it stays if the pair is to wait.
   ManifoldInput& input = scratch.boxes.entries[scratch.boxes.batch.size()].input;
-  const bool may_drift = is_found_at_contact_poses(pair);
-  const Vec3<Position> apart =
-      may_drift ? contact_position(b) - contact_position(a) : b.position - a.position;
-  // Centres are read to the lengths that primitives are collided with; frames of assets, and where
-  // a half-space is met, follow from every bit.
-  const Vec3<Length> offset = saturated<Length>(apart);
-  input.offset = are_primitives ? rounded<Position>(offset) : apart;
-  input.orientation_a = may_drift ? a.contact_orientation : a.orientation;
-  input.orientation_b = may_drift ? b.contact_orientation : b.orientation;
-  input.margin = margin;
-  if (const std::uint32_t known = known_slot(before, input); known != NarrowSlots::k_none) {
+  if (may_drift) {
+    input.margin = margin;
+    input.pose_a = contact_pose_numbers[pair.a];
+    input.pose_b = contact_pose_numbers[pair.b];
+  } else {
+    read_poses(pair, margin, input);
+  }
+  const std::uint32_t known = remembered_slot(before);
+  const bool is_known =
+      known != NarrowSlots::k_none &&
+      (may_drift ? old_inputs[known].has_same_poses(input) : old_inputs[known] == input);
+  if (is_known) {
     timer.found(1, 1);
     return add_known(index, known, input, before, scratch);
   }
-  if (are_primitives) return collide_primitives(index, offset, before, last_axis, scratch, timer);
+  if (may_drift)
+    input.offset = rounded<Position>(saturated<Length>(contact_position(b) - contact_position(a)));
+  if (may_drift || are_primitives(pair))
+    return collide_primitives(index, before, last_axis, scratch, timer);
   const PlacedShape shape_a = placed(pair.a), shape_b = placed(pair.b);
   if (last_axis != Vec3<Unit>{} && separated_along(shape_a, shape_b, margin, last_axis)) {
     separating_axes.note(index, pair, last_axis);
@@ -159,13 +176,13 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
 
 // Of shapes that are complete in themselves the manifold is made where it stays. What it follows
 // from stands in the next of the entries that wait.
-void World::Impl::collide_primitives(std::uint32_t index, const Vec3<Length>& offset,
-                                     std::span<const ContactRecord> before,
+void World::Impl::collide_primitives(std::uint32_t index, std::span<const ContactRecord> before,
                                      const Vec3<Unit>& last_axis, PairScratch& scratch,
                                      PairTimer& timer) {
   const Pair pair = pairs[index];
   WaitingBoxes& waiting = scratch.boxes;
   WaitingBoxes::Entry& entry = waiting.entries[waiting.batch.size()];
+  const Vec3<Length> offset = saturated<Length>(entry.input.offset);
   const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
   const std::vector<Mat3>& turned = rotations_of(pair);
   const PosedShape a{shape_a, turned[pair.a]}, b{shape_b, turned[pair.b]};
@@ -272,18 +289,18 @@ bool World::Impl::is_bounded_primitive(std::uint32_t body) const {
   return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
 }
 
-// The slot of the manifold of a tick ago when it would come out the same: only of pairs with a
-// single contact, which parts 0 and 0 name.
-std::uint32_t World::Impl::known_slot(std::span<const ContactRecord> before,
-                                      const ManifoldInput& input) const {
+bool World::Impl::are_primitives(const Pair& pair) const {
+  return is_bounded_primitive(pair.a) && is_bounded_primitive(pair.b);
+}
+
+// The slot of a tick ago: only of pairs with a single contact, which parts 0 and 0 name.
+std::uint32_t World::Impl::remembered_slot(std::span<const ContactRecord> before) const {
   if (!remembers_manifolds || before.size() != 1) return NarrowSlots::k_none;
   const ContactRecord& record = before.front();
-  const auto index = static_cast<std::size_t>(&record - contact_store.data());
-  const std::uint32_t slot = old_slots[index];
-  if (slot == NarrowSlots::k_none) return slot;
-  const bool same = record.part_a == 0 && record.part_b == 0 && old_inputs[slot] == input &&
-                    has_one_piece(record.body_a) && has_one_piece(record.body_b);
-  return same ? slot : NarrowSlots::k_none;
+  const bool is_single = record.part_a == 0 && record.part_b == 0 && has_one_piece(record.body_a) &&
+                         has_one_piece(record.body_b);
+  return is_single ? old_slots[static_cast<std::size_t>(&record - contact_store.data())]
+                   : NarrowSlots::k_none;
 }
 
 bool World::Impl::has_one_piece(std::uint32_t body) const {

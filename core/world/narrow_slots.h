@@ -21,8 +21,13 @@ struct ManifoldInput {
   Quat orientation_a{{}, {}, {}, {}};
   Quat orientation_b{};
   Length margin{};
+  // Of what is found at contact poses: their numbers, which tell as much. Else 0.
+  std::uint32_t pose_a = 0, pose_b = 0;
 
   friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
+  [[nodiscard]] bool has_same_poses(const ManifoldInput& other) const {
+    return pose_a == other.pose_a && pose_b == other.pose_b && margin == other.margin;
+  }
 };
 
 /// What separations of a manifold were where it was found, before they follow what its bodies

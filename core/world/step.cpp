@@ -23,6 +23,7 @@ Position travel(Velocity v, const TimeStep& step) {
 void World::Impl::refresh(std::uint32_t body) {
   rotations[body] = to_matrix(bodies[body].orientation);
   refresh_contact_pose(body);
+  ++contact_pose_numbers[body];
   turn_frame(body);
   refresh_bounds(body);
 }
@@ -174,8 +175,17 @@ void World::Impl::follow_with_contacts() {
   const bool may_drift = solver.holds_a_heap();
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
-      if (!may_drift || !is_near_contact_pose(bodies[moved[i]])) set_contact_pose(bodies[moved[i]]);
+      if (!may_drift || !is_near_contact_pose(bodies[moved[i]])) take_contact_pose(moved[i]);
   });
+}
+
+void World::Impl::take_contact_pose(std::uint32_t body) {
+  BodyRecord& record = bodies[body];
+  const Vec3<Length> place = record.contact_place;
+  const Quat orientation = record.contact_orientation;
+  set_contact_pose(record);
+  if (record.contact_place != place || record.contact_orientation != orientation)
+    ++contact_pose_numbers[body];
 }
 
 // As `refresh` does for each, with the rotations all at once. Only what leaves its fat box changes

@@ -65,6 +65,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       rotations(definition.body_capacity),
       contact_rotations(definition.body_capacity),
       drifts(definition.body_capacity),
+      contact_pose_numbers(definition.body_capacity),
       frames(definition.body_capacity),
       body_assets(definition.body_capacity),
       inner_radii(definition.body_capacity),

@@ -212,10 +212,11 @@ struct World::Impl {
 
   // Derived, by body index.
   std::vector<Mat3> rotations;
-  std::vector<Mat3> contact_rotations;    // at the contact pose
-  std::vector<ContactDrift> drifts;       // from there
-  std::vector<ShapeFrame> frames;         // kept where an asset is
-  std::vector<const Asset*> body_assets;  // null: a shape complete in itself
+  std::vector<Mat3> contact_rotations;              // at the contact pose
+  std::vector<ContactDrift> drifts;                 // from there
+  std::vector<std::uint32_t> contact_pose_numbers;  // another when the pose is another
+  std::vector<ShapeFrame> frames;                   // kept where an asset is
+  std::vector<const Asset*> body_assets;            // null: a shape complete in itself
   std::vector<Length> inner_radii;
   BroadPhase broad_phase;
   RecordHashes<BodyRecord, k_body_domain> body_hashes;
@@ -271,8 +272,9 @@ struct World::Impl {
   void collide_piece(std::uint32_t first, std::uint32_t end, PairScratch& scratch);
   void collide_pair(std::uint32_t index, std::span<const ContactRecord> before,
                     const Vec3<Unit>& last_axis, PairScratch& scratch);
-  [[nodiscard]] std::uint32_t known_slot(std::span<const ContactRecord> before,
-                                         const ManifoldInput& input) const;
+  [[nodiscard]] std::uint32_t remembered_slot(std::span<const ContactRecord> before) const;
+  void read_poses(const Pair& pair, Length margin, ManifoldInput& input) const;
+  [[nodiscard]] bool are_primitives(const Pair& pair) const;
   [[nodiscard]] bool is_found_at_contact_poses(const Pair& pair) const;
   void drift(const Pair& pair, Manifold& manifold) const;
   [[nodiscard]] const std::vector<Mat3>& rotations_of(const Pair& pair) const {
@@ -280,9 +282,8 @@ struct World::Impl {
   }
   [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
   [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
-  void collide_primitives(std::uint32_t index, const Vec3<Length>& offset,
-                          std::span<const ContactRecord> before, const Vec3<Unit>& last_axis,
-                          PairScratch& scratch, PairTimer& timer);
+  void collide_primitives(std::uint32_t index, std::span<const ContactRecord> before,
+                          const Vec3<Unit>& last_axis, PairScratch& scratch, PairTimer& timer);
   int collide_alone(std::uint32_t index, const ManifoldInput& input,
                     std::span<const ContactRecord> before, PairScratch& scratch);
   void collide_waiting(PairScratch& scratch);
@@ -323,6 +324,7 @@ struct World::Impl {
   [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
   [[nodiscard]] Loop each_moved() const;
   void follow_with_contacts();
+  void take_contact_pose(std::uint32_t body);
   void refresh_moved();
   void refresh_contact_pose(std::uint32_t body);
 

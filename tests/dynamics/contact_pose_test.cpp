@@ -18,7 +18,7 @@ using test::real;
 using test::Real;
 using test::RealVec;
 
-constexpr double k_hair = 1.0 / 32768;
+constexpr double k_hair = 1.0 / 16384;
 
 BodyRecord random_box(Dice& dice) {
   BodyRecord body;
