@@ -27,6 +27,14 @@ namespace lockstone {
   return {low_word(block.axes[0][lane]), high_word(block.axes[0][lane]),
           low_word(block.axes[1][lane])};
 }
+[[nodiscard]] inline RawVec3 tangent_of(const lanes::ManifoldBlock& block, std::size_t lane) {
+  return {high_word(block.axes[1][lane]), low_word(block.axes[2][lane]),
+          high_word(block.axes[2][lane])};
+}
+[[nodiscard]] inline RawVec3 binormal_of(const lanes::ManifoldBlock& block, std::size_t lane) {
+  return {low_word(block.axes[3][lane]), high_word(block.axes[3][lane]),
+          low_word(block.axes[4][lane])};
+}
 
 /// Of each point; 0: no point.
 [[nodiscard]] inline std::array<std::int64_t, lanes::k_block_points> masses_of(

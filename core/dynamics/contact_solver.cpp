@@ -27,6 +27,13 @@ constexpr std::int32_t k_restitution_threshold = 1 << 20;
 constexpr Displacement k_skin = Displacement::from_ratio(1, 4000);
 constexpr Displacement k_resting_overlap = Displacement::from_ratio(1, 200000);
 
+// Contacts of a heap that are nearer to rest than this are rigid, if they carry more than this part
+// of what makes a heap, and their bodies are slower than 2^-6 of what gravity gives in a substep:
+// without springs, what rattles would go on.
+constexpr Displacement k_firm_range = Displacement::from_ratio(1, 5000);
+constexpr std::int64_t k_firm_part = 10;
+constexpr int k_rigid_shift = 6;
+
 // 1/count, Q28.
 constexpr std::int64_t k_one_over_q28[] = {0, 1 << 28, 1 << 27, ((1 << 28) + 1) / 3, 1 << 26};
 
@@ -130,6 +137,12 @@ void name_points(const Manifold& manifold, ContactRecord& record) {
     record.points[i].feature = manifold.points[i].feature;
 }
 
+// Keeps all of its impulse, and pushes nothing out.
+void make_rigid(lanes::ManifoldSource& source) {
+  source.keep = 1 << 30;
+  source.bias_rate = 0;
+}
+
 std::int32_t low(std::int64_t word) {
   return static_cast<std::int32_t>(word);
 }
@@ -155,7 +168,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity)),
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
       direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
-      first_loads_(body_capacity + contact_capacity + joint_capacity, contact_capacity) {
+      supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
+      first_loads_(contact_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
   bodies_.reserve(most_rows);
@@ -279,6 +293,7 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface};
     kept_[block * k_block_lanes + lane] =
         fill_source(input, softness_, sources.lanes[lane]) ? 1 : 0;
+    if (has_heap_ && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
     if (asks_for_load && is_loaded(scene, entry, source.share_b)) ++loaded;
     if (DirectContacts::is_uneven(source.share_b)) uneven_.store(true, std::memory_order_relaxed);
@@ -288,6 +303,22 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
   }
   if (loaded != 0) loaded_.fetch_add(loaded, std::memory_order_relaxed);
   return points;
+}
+
+// Whether a contact of a heap carries, and lies where it comes to rest: a spring there is what a
+// heap bends by.
+bool ContactSolver::is_firm(const ContactScene& scene, const Entry& entry) const {
+  const ContactRecord& record = scene.records[entry.record];
+  if (std::int64_t{record.load.raw} * record.count * k_firm_part <= heap_push_) return false;
+  const Manifold& manifold = scene.manifolds[entry.slot];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
+    const std::int64_t off = std::int64_t{manifold.points[i].separation.raw} + rules_.overlap;
+    if (off > k_firm_range.raw || off < -k_firm_range.raw) return false;
+  }
+  const auto rests = [&](std::uint32_t index) {
+    return (index & k_immovable) != 0 || is_slower(rows_[index], bodies_[index], k_rigid_shift);
+  };
+  return rests(entry.body_a) && rests(entry.body_b);
 }
 
 // In the first substep: gravity and the impulses of the tick before. Later ones start with the

@@ -19,6 +19,7 @@
 #include "core/dynamics/contact_record.h"
 #include "core/dynamics/direct_contacts.h"
 #include "core/dynamics/first_loads.h"
+#include "core/dynamics/heap_loads.h"
 #include "core/dynamics/joint_net.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/solver_body.h"
@@ -97,6 +98,9 @@ class ContactSolver {
 
   // More loaded contacts than these are left to the sweeps; no more are counted.
   static constexpr std::uint32_t k_most_loaded = 128;
+
+  // A heap finds what it carries anew every so many ticks.
+  static constexpr std::uint64_t k_heap_ticks = 64;
 
   // Blocks of one colour.
   struct Range {
@@ -192,6 +196,8 @@ class ContactSolver {
   void take_up_net(const ContactScene& scene);
   void take_up_direct(const ContactScene& scene);
   void find_first_loads(const ContactScene& scene);
+  void add_supports(const ContactScene& scene, bool only_of_free);
+  [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
   [[nodiscard]] bool few_are_loaded() const {
     return loaded_.load(std::memory_order_relaxed) <= k_most_loaded;
   }
@@ -277,7 +283,9 @@ class ContactSolver {
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
   DirectContacts direct_;
+  SupportOrder supports_;
   FirstLoads first_loads_;
+  HeapLoads heap_loads_;
   std::uint32_t first_without_contacts_ = 1;  // by number
 
   std::vector<Sides> sides_;  // by record
@@ -289,14 +297,17 @@ class ContactSolver {
   std::vector<lanes::ManifoldBlock> blocks_;
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
-  bool is_idle_ = false;                  // neither contacts nor joints in this tick
-  std::atomic<bool> bounces_{false};      // any restitution at all
-  std::atomic<bool> holds_{false};        // any locked axis of moving
-  std::atomic<bool> uneven_{false};       // any contact of a light body and a heavy one
-  std::atomic<std::uint32_t> loaded_{0};  // contacts at rest under several times a body's weight
-  std::atomic<std::uint32_t> new_{0};     // contacts of this tick between what moves
-  std::vector<Loop> loops_;               // of the sequence at hand
-  std::vector<Stage> stages_;             // what they are
+  bool is_idle_ = false;                   // neither contacts nor joints in this tick
+  bool has_heap_ = false;                  // more contacts bear loads than are solved at once
+  std::atomic<std::uint32_t> bearing_{0};  // contacts whose load is several times a weight
+  std::int64_t heap_push_ = 0;             // from which on one does, of all its points, m/s, Q20
+  std::atomic<bool> bounces_{false};       // any restitution at all
+  std::atomic<bool> holds_{false};         // any locked axis of moving
+  std::atomic<bool> uneven_{false};        // any contact of a light body and a heavy one
+  std::atomic<std::uint32_t> loaded_{0};   // contacts at rest under several times a body's weight
+  std::atomic<std::uint32_t> new_{0};      // contacts of this tick between what moves
+  std::vector<Loop> loops_;                // of the sequence at hand
+  std::vector<Stage> stages_;              // what they are
 };
 
 }  // namespace lockstone

@@ -73,17 +73,35 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
 }
 
 // Where more contacts are loaded than are solved at once, and a good part of all is new: what was
-// just put there stands on impulses that nobody knows yet.
+// just put there stands on impulses that nobody knows yet. Heaps find theirs anew from time to
+// time.
 void ContactSolver::find_first_loads(const ContactScene& scene) {
   first_loads_.clear();
-  if (few_are_loaded() || new_ <= k_most_loaded || new_ < entries_.size() / 4) return;
+  if (!few_are_loaded() && new_ > k_most_loaded && new_ >= entries_.size() / 4) {
+    add_supports(scene, false);
+    first_loads_.find(supports_, direct_run(), before_);
+  } else if (has_heap_ && scene.tick % k_heap_ticks == 0) {
+    add_supports(scene, true);
+    heap_loads_.find(supports_, direct_run(), before_);
+  }
+}
+
+void ContactSolver::add_supports(const ContactScene& scene, bool only_of_free) {
+  supports_.clear();
+  const auto is_free = [&](std::uint32_t index) {
+    if ((index & k_immovable) != 0) return true;
+    return bodies_[index].held == 0 && joints_->find(members_[index]) == nullptr;
+  };
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin))) continue;
+    if (only_of_free && (!is_free(entry.body_a) || !is_free(entry.body_b))) continue;
     const ContactPair pair{slot_of(i), pushed_number(entry.body_a), pushed_number(entry.body_b)};
-    first_loads_.add({{pair}, entry.record, scene.records[entry.record].count == 0});
+    const ContactSurface& surface = scene.surfaces[entry.slot];
+    const bool is_driven = surface.drive != Vec3<SolverVelocity>{} || surface.twist_drive != Rate{};
+    const bool is_on_ground = ((entry.body_a | entry.body_b) & k_immovable) != 0 && !is_driven;
+    supports_.add({{pair}, entry.record, scene.records[entry.record].count == 0, is_on_ground});
   }
-  first_loads_.find(direct_run(), before_);
 }
 
 ContactRun ContactSolver::direct_run() {

@@ -1,5 +1,8 @@
 // Which bodies and contacts a tick's solver takes up: their numbers, colours and lanes.
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/joint_solver.h"
 
@@ -10,6 +13,17 @@ using lanes::k_block_lanes;
 
 // What a piece of a loop has at least: a microsecond or so of work.
 constexpr std::uint32_t k_side_grain = 256;
+
+// What a contact of a heap bears, m/s, Q20: between bodies of equal mass 2½ times what gravity
+// gives them in a substep.
+std::int64_t heap_push(const Vec3<Acceleration>& gravity, const TimeStep& step) {
+  std::int64_t most = 0;
+  for (int i = 0; i < 3; ++i)
+    most = std::max(most, std::abs(std::int64_t{gravity[i].raw}));
+  if (most == 0) return INT64_MAX;
+  return raw::round_divide(5 * raw::round_shift(most, Acceleration::frac_bits - 20),
+                           step.substep_rate());
+}
 
 }  // namespace
 
@@ -27,7 +41,7 @@ std::uint32_t ContactSolver::take_up(Side side) {
 
 // What taking up reads of large records, side by side.
 void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std::size_t end) {
-  std::uint32_t fresh = 0;
+  std::uint32_t fresh = 0, bearing = 0;
   for (std::size_t i = first; i < end; ++i) {
     const ContactRecord& record = scene.records[i];
     const bool left_out = record.is_trigger() || scene.surfaces[scene.slots[i]].bounces;
@@ -38,17 +52,21 @@ void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std
     };
     sides_[i] = {side_of(record.body_a), side_of(record.body_b)};
     if (record.count == 0 && sides_[i].a.is_dynamic() && sides_[i].b.is_dynamic()) ++fresh;
+    if (std::int64_t{record.load.raw} * record.count > heap_push_) ++bearing;
   }
+  if (bearing != 0) bearing_.fetch_add(bearing, std::memory_order_relaxed);
   if (fresh != 0) new_.fetch_add(fresh, std::memory_order_relaxed);
 }
 
 // In the order of the records: bodies, colours and lanes follow from the state alone.
 void ContactSolver::take_up_contacts(const ContactScene& scene, Parallel& parallel) {
   sides_.resize(scene.records.size());
-  new_ = 0;
+  new_ = bearing_ = 0;
+  heap_push_ = heap_push(scene.gravity, step_);
   parallel.for_each(
       {static_cast<std::uint32_t>(sides_.size()), k_side_grain},
       [&](std::size_t first, std::size_t end, std::uint32_t) { find_sides(scene, first, end); });
+  has_heap_ = bearing_ > k_most_loaded;
   graph_.clear();
   for (const std::uint32_t body : members_)
     solver_index_[body] = 0;

@@ -29,17 +29,6 @@ constexpr int k_tipping_shift = 3;
 constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
 constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 
-// n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
-// of the normal points more than an eighth against it.
-int against(const RawVec3& normal, const SolverBody& body) {
-  ProductSum sum;
-  for (std::size_t i = 0; i < 3; ++i)
-    sum.add(normal[i], body.gain[i]);
-  const std::int64_t along = sum.rounded(30), most = body.greatest_gain();
-  if (along < -most / 8) return -1;
-  return along > most / 8 ? 1 : 0;
-}
-
 // Along the normal, towards the body that rests: of a point or of all points at once, Q50.
 std::int64_t speed_of(const RawVec3& normal, const RawVec3& response, bool is_b,
                       const RowBody& body) {
@@ -70,86 +59,23 @@ void add_scaled(const RawVec3& direction, std::int64_t by, bool is_taken,
 
 }  // namespace
 
-FirstLoads::FirstLoads(std::size_t body_capacity, std::size_t contact_capacity)
-    : by_body_(body_capacity, contact_capacity) {
-  links_.reserve(contact_capacity);
-  upper_.reserve(contact_capacity);
-  is_held_.reserve(body_capacity + 1);
-  carried_.reserve(body_capacity + 1);
-  queue_.reserve(body_capacity + 1);
+FirstLoads::FirstLoads(std::size_t contact_capacity) {
   supports_.reserve(k_most_supports);
   loads_.reserve(contact_capacity);
 }
 
-void FirstLoads::clear() {
-  links_.clear();
-  loads_.clear();
-}
-
-void FirstLoads::find(const ContactRun& run, std::span<RowBody> warm) {
-  by_body_.assign(std::span<const Link>(links_), run.bodies.size());
-  find_uppers(run);
-  find_held(run);
-  find_order();
-  for (const std::uint32_t body : queue_)
-    hold_up(run, warm, body);
-}
-
-std::uint32_t FirstLoads::lower_of(std::uint32_t link) const {
-  return upper_[link] == links_[link].b ? links_[link].a : links_[link].b;
-}
-
-void FirstLoads::find_uppers(const ContactRun& run) {
-  upper_.assign(links_.size(), 0);
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
-    const RawVec3 normal = normal_of(run.blocks[link.block()], link.lane());
-    if (link.b != 0 && against(normal, run.bodies[link.b]) < 0)
-      upper_[i] = link.b;
-    else if (link.a != 0 && against(normal, run.bodies[link.a]) > 0)
-      upper_[i] = link.a;
-  }
-}
-
-// Upwards from what no impulse moves.
-void FirstLoads::find_held(const ContactRun& run) {
-  is_held_.assign(run.bodies.size(), 0);
-  queue_.clear();
-  const auto hold = [&](std::uint32_t link, std::uint32_t lower) {
-    const std::uint32_t body = upper_[link];
-    if (body == 0 || lower_of(link) != lower || is_held_[body] != 0) return;
-    if (!is_at_rest(run.rows[body])) return;
-    is_held_[body] = 1;
-    queue_.push_back(body);
-  };
-  for (std::uint32_t i = 0; i < links_.size(); ++i)
-    hold(i, 0);
-  for (std::size_t i = 0; i < queue_.size(); ++i)
-    for (const std::uint32_t link : by_body_.at(queue_[i]))
-      hold(link, queue_[i]);
-}
-
-// Downwards from what carries nothing. Bodies that carry each other in a ring are left out.
-void FirstLoads::find_order() {
-  carried_.assign(is_held_.size(), 0);
-  for (std::uint32_t i = 0; i < links_.size(); ++i)
-    if (rests(i)) ++carried_[lower_of(i)];
-  queue_.clear();
-  for (std::uint32_t body = 1; body < is_held_.size(); ++body)
-    if (is_held_[body] != 0 && carried_[body] == 0) queue_.push_back(body);
-  for (std::size_t i = 0; i < queue_.size(); ++i) {
-    for (const std::uint32_t link : by_body_.at(queue_[i])) {
-      if (upper_[link] != queue_[i]) continue;
-      const std::uint32_t lower = lower_of(link);
-      if (lower != 0 && --carried_[lower] == 0 && is_held_[lower] != 0) queue_.push_back(lower);
-    }
-  }
+void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm) {
+  order.find(run,
+             [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
+  for (const std::uint32_t body : order.order())
+    hold_up(order, run, warm, body);
 }
 
 // All points of a support push alike as far as that will do: pressure in the middle is what sweeps
 // keep best.
-void FirstLoads::hold_up(const ContactRun& run, std::span<RowBody> warm, std::uint32_t body) {
-  gather(run, body);
+void FirstLoads::hold_up(const SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
+                         std::uint32_t body) {
+  gather(order, run, body);
   RowBody row = warm[body];
   for (std::size_t i = 0; i < 3; ++i) {
     row.velocity[i] += run.bodies[body].gain[i] * k_to_row;
@@ -182,18 +108,17 @@ bool FirstLoads::tips(const RowBody& row, const SolverBody& body) const {
   });
 }
 
-void FirstLoads::gather(const ContactRun& run, std::uint32_t body) {
+void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body) {
   supports_.clear();
-  for (const std::uint32_t index : by_body_.at(body)) {
-    if (upper_[index] != body || supports_.size() == k_most_supports) continue;
-    const Link& link = links_[index];
+  order.for_supports(body, [&](const SupportLink& link) {
+    if (supports_.size() == k_most_supports) return;
     Support& support = supports_.emplace_back();
     support.contact = {link};
     support.record = link.record;
     support.is_new = link.is_new;
     support.is_b = link.b == body;
     fill(run, support);
-  }
+  });
 }
 
 void FirstLoads::fill(const ContactRun& run, Support& support) {

@@ -14,18 +14,13 @@
 #include <span>
 #include <vector>
 
-#include "core/dynamics/body_links.h"
 #include "core/dynamics/row_geometry.h"
+#include "core/dynamics/support_order.h"
 
 namespace lockstone {
 
 class FirstLoads {
  public:
-  /// A contact that touches.
-  struct Link : ContactPair {
-    std::uint32_t record = 0;
-    bool is_new = false;
-  };
   /// What the record of a new contact has to know.
   struct Load {
     std::uint32_t record = 0;
@@ -33,17 +28,14 @@ class FirstLoads {
   };
 
   /// No function but this allocates.
-  FirstLoads(std::size_t body_capacity, std::size_t contact_capacity);
+  explicit FirstLoads(std::size_t contact_capacity);
 
-  void clear();
-
-  /// In the order of the records.
-  void add(const Link& link) { links_.push_back(link); }
+  void clear() { loads_.clear(); }
 
   /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
   /// given to the blocks, and what they do to bodies, added to `warm`. Bodies faster than 1/4 m/s
-  /// are left out.
-  void find(const ContactRun& run, std::span<lanes::RowBody> warm);
+  /// are left out. `order` knows the contacts, and finds who stands.
+  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm);
 
   [[nodiscard]] std::span<const Load> loads() const { return loads_; }
 
@@ -69,28 +61,16 @@ class FirstLoads {
     }
   };
 
-  void find_uppers(const ContactRun& run);
-  void find_held(const ContactRun& run);
-  void find_order();
-  [[nodiscard]] std::uint32_t lower_of(std::uint32_t link) const;
-  [[nodiscard]] bool rests(std::uint32_t link) const {
-    return upper_[link] != 0 && is_held_[upper_[link]] != 0;
-  }
-  void hold_up(const ContactRun& run, std::span<lanes::RowBody> warm, std::uint32_t body);
+  void hold_up(const SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+               std::uint32_t body);
   [[nodiscard]] bool tips(const lanes::RowBody& row, const SolverBody& body) const;
-  void gather(const ContactRun& run, std::uint32_t body);
+  void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body);
   static void fill(const ContactRun& run, Support& support);
   [[nodiscard]] std::int64_t push_together(Support& support, lanes::RowBody& body) const;
   [[nodiscard]] std::int64_t push_points(Support& support, lanes::RowBody& body) const;
   void hand_down(const ContactRun& run, std::span<lanes::RowBody> warm, const Support& support);
 
-  std::vector<Link> links_;
-  BodyLinks by_body_;
-  std::vector<std::uint32_t> upper_;    // by link: the body that rests on the other; 0: none
-  std::vector<std::uint8_t> is_held_;   // by body: stands, over others, on something immovable
-  std::vector<std::uint32_t> carried_;  // by body: contacts that others rest on it by
-  std::vector<std::uint32_t> queue_;    // bodies
-  std::vector<Support> supports_;       // of one body
+  std::vector<Support> supports_;  // of one body
   std::vector<Load> loads_;
 };
 

@@ -96,10 +96,9 @@ void find_masses(const ContactRun& run, ContactRows& contact) {
 void find_rows(const ContactRun& run, ContactRows& contact) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
-  const auto& axes = block.axes;
   contact.normal = normal_of(block, lane);
-  contact.tangent = {high_word(axes[1][lane]), low_word(axes[2][lane]), high_word(axes[2][lane])};
-  contact.binormal = {low_word(axes[3][lane]), high_word(axes[3][lane]), low_word(axes[4][lane])};
+  contact.tangent = tangent_of(block, lane);
+  contact.binormal = binormal_of(block, lane);
   contact.inverse_mass =
       add(run.bodies[contact.a].inverse_mass, run.bodies[contact.b].inverse_mass);
   for (std::size_t i = 0; i < contact.count; ++i) {

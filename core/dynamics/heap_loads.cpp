@@ -1,0 +1,249 @@
+#include "core/dynamics/heap_loads.h"
+
+#include <algorithm>
+
+#include "core/dynamics/block_words.h"
+#include "core/math/wide/scalar_lanes.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::k_block_points;
+using lanes::ManifoldBlock;
+using lanes::RowBody;
+
+// Supports of one body; more are left out.
+constexpr std::size_t k_most_supports = 32;
+
+// What stands firm has friction of this part of its push to spare, and is slower than this part of
+// what gravity gives in a substep: 2^-3.
+constexpr int k_firm_shift = 3;
+
+// From the Q32 of gains and impulses to the Q50 of rows; fraction bits of what is balanced, which
+// is within 1/32 m/s.
+constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
+constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
+constexpr int k_change_bits = 36;
+
+// An impulse of the block, Q32.
+std::int64_t finer(std::int64_t impulse) {
+  return impulse * (std::int64_t{1} << k_row_more_bits);
+}
+
+// |(t, b, twist)| ≤ limit; Q20, all within 32 bits, or it is not.
+bool is_within(std::int64_t limit, std::int64_t t, std::int64_t b, std::int64_t twist) {
+  constexpr std::int64_t k_most = lanes::k_most_impulse;
+  limit = std::min(limit, k_most);
+  if (limit < 0 || std::max({t, -t, b, -b}) > k_most) return false;
+  const auto square = [](std::int64_t x) { return static_cast<std::uint64_t>(x * x); };
+  return square(t) + square(b) + square(twist) <= square(limit);
+}
+
+// Whether it is left to the sweeps.
+bool is_swept(const ManifoldBlock& block, std::size_t lane) {
+  return block.mass_01[lane] != 0;
+}
+
+// Whether a face pushes, with friction to spare.
+bool grips(const ManifoldBlock& block, std::size_t lane) {
+  if (!is_swept(block, lane)) return false;
+  std::int64_t push = 0;
+  int pushing = 0;
+  for (const ManifoldBlock::Point& point : block.points) {
+    const std::int64_t impulse = low_word(point.impulse[lane]);
+    pushing += impulse > 0 ? 1 : 0;
+    push += impulse;
+  }
+  if (pushing < 3) return false;
+  const std::int64_t most = product_rounded(push, high_word(block.share[lane]), 30);
+  return is_within(most - (push >> k_firm_shift), low_word(block.friction[lane]),
+                   high_word(block.friction[lane]), low_word(block.twist[lane]));
+}
+
+// A row's direction and its turning, through the share of its body, Q26, within ±2.
+Motion6 column_of(const RawVec3& linear, const RawVec3& turn, std::int64_t share) {
+  constexpr std::int64_t k_most = std::int64_t{1} << 27;
+  Motion6 column{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    column[i] = raw::round_shift(linear[i] * share, 34);
+    const std::int64_t bounded = std::clamp(turn[i], -16 * k_most, 16 * k_most);
+    column[i + 3] = raw::round_shift(bounded * share, 34);
+  }
+  return column;
+}
+
+// arm × force + torque·turn, Q32, to the Q50 of rows.
+void add_spin(const RawVec3& arm, const RawVec3& force, const RawVec3& torque, std::int64_t turn,
+              std::int64_t sign, RawVec3& spin) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    ProductSum sum;
+    sum.add(arm[j], force[k]);
+    sum.subtract(arm[k], force[j]);
+    sum.add(torque[i], turn);
+    spin[i] += sign * sum.rounded(30) * k_to_row;
+  }
+}
+
+// What a body gains by what pushes it and by its own forces has to be taken from it, Q36.
+Motion6 change_of(const RowBody& warm, const SolverBody& body) {
+  Motion6 change{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    constexpr int k_shift = lanes::k_velocity_bits - k_change_bits;
+    change[i] = -raw::round_shift(warm.velocity[i] + body.gain[i] * k_to_row, k_shift);
+    change[i + 3] = -raw::round_shift(warm.spin[i] + body.spin_gain[i] * k_to_row, k_shift);
+  }
+  return change;
+}
+
+}  // namespace
+
+bool is_slower(const RowBody& row, const SolverBody& body, int shift) {
+  const std::int64_t most = (body.greatest_gain() >> shift) * k_to_row;
+  const auto slow = [&](std::int64_t x) { return x < most && x > -most; };
+  return std::ranges::all_of(row.velocity, slow) && std::ranges::all_of(row.spin, slow);
+}
+
+HeapLoads::HeapLoads() {
+  supports_.reserve(k_most_supports);
+  columns_.reserve(k_most_supports * (k_block_points + 2));
+}
+
+void HeapLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm) {
+  order.find(run, [&](const SupportLink& link, std::uint32_t body) {
+    if ((link.a == 0 || link.b == 0) && !link.is_on_ground) return false;
+    return is_slower(run.rows[body], run.bodies[body], k_firm_shift) &&
+           grips(run.blocks[link.block()], link.lane());
+  });
+  for (const std::uint32_t body : order.order()) {
+    gather(order, run, body);
+    if (!balance(run, change_of(warm[body], run.bodies[body]))) continue;
+    for (const Support& support : supports_)
+      hand_down(run, warm, support);
+  }
+  for (std::size_t body = 1; body < run.bodies.size(); ++body)
+    if (order.is_held(body)) run.rows[body] = {};
+}
+
+void HeapLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body) {
+  supports_.clear();
+  columns_.clear();
+  order.for_supports(body, [&](const SupportLink& link) {
+    if (supports_.size() == k_most_supports) return;
+    if (!is_swept(run.blocks[link.block()], link.lane())) return;
+    Support& support = supports_.emplace_back();
+    support.pair = link;
+    support.is_tied = grips(run.blocks[link.block()], link.lane());
+    add_columns(run, support, link.b == body);
+  });
+}
+
+// Of points that push, then of the tangents.
+void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool is_b) {
+  const ManifoldBlock& block = run.blocks[support.pair.block()];
+  const std::size_t lane = support.pair.lane();
+  const RawVec3 normal = normal_of(block, lane);
+  const RawVec3 t = tangent_of(block, lane), b = binormal_of(block, lane);
+  const RawVec3 arm = is_b ? high_words(block.arm, lane) : low_words(block.arm, lane);
+  const std::int64_t scale = is_b ? high_word(block.scale[lane]) : low_word(block.scale[lane]);
+  const std::int64_t share_b = low_word(block.share[lane]);
+  const std::int64_t share = is_b ? share_b : share_b - (std::int64_t{1} << 30);
+  for (const ManifoldBlock::Point& point : block.points) {
+    if (low_word(point.impulse[lane]) <= 0) continue;
+    const std::int64_t x = low_word(point.offset[lane]), y = high_word(point.offset[lane]);
+    RawVec3 turn{};
+    for (std::size_t i = 0; i < 3; ++i)
+      turn[i] = raw::round_shift(t[i] * y - b[i] * x, 30);
+    columns_.push_back(column_of(normal, turned(arm, normal, scale, turn), share));
+  }
+  if (!support.is_tied) return;
+  for (const RawVec3& tangent : {t, b})
+    columns_.push_back(column_of(tangent, turned(arm, tangent, 0, {}), share));
+}
+
+// Whether all supports can give what the change takes.
+bool HeapLoads::balance(const ContactRun& run, const Motion6& change) {
+  const auto is_great = [](std::int64_t x) {
+    return x > MotionBalance::k_most_change || x < -MotionBalance::k_most_change;
+  };
+  if (std::ranges::any_of(change, is_great)) return false;
+  MotionBalance all;
+  for (const Motion6& column : columns_)
+    all.add(column);
+  all.factor();
+  Motion6 solution{};
+  if (!all.solve(change, solution)) return false;
+  auto column = columns_.begin();
+  // In steps of the block.
+  const auto next = [&] {
+    return raw::round_shift(MotionBalance::impulse(*column++, solution), k_change_bits - 20);
+  };
+  for (Support& support : supports_) {
+    const ManifoldBlock& block = run.blocks[support.pair.block()];
+    for (std::size_t i = 0; i < k_block_points; ++i)
+      if (low_word(block.points[i].impulse[support.pair.lane()]) > 0) support.points[i] = next();
+    if (support.is_tied) support.ties = {next(), next()};
+    if (!holds(run, support)) return false;
+  }
+  return true;
+}
+
+// Neither pulls nor slips.
+bool HeapLoads::holds(const ContactRun& run, const Support& support) {
+  const ManifoldBlock& block = run.blocks[support.pair.block()];
+  const std::size_t lane = support.pair.lane();
+  std::int64_t push = 0;
+  for (std::size_t i = 0; i < k_block_points; ++i) {
+    const std::int64_t now = low_word(block.points[i].impulse[lane]) + support.points[i];
+    if (now < 0 || now > lanes::k_most_impulse) return false;
+    push += now;
+  }
+  if (!support.is_tied) return true;
+  return is_within(product_rounded(push, high_word(block.share[lane]), 30),
+                   low_word(block.friction[lane]) + support.ties[0],
+                   high_word(block.friction[lane]) + support.ties[1], low_word(block.twist[lane]));
+}
+
+// To the block, and at its centre to both bodies.
+void HeapLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const Support& support) {
+  ManifoldBlock& block = run.blocks[support.pair.block()];
+  const std::size_t lane = support.pair.lane();
+  const RawVec3 t = tangent_of(block, lane), b = binormal_of(block, lane);
+  std::int64_t push = 0;
+  ProductSum about_t, about_b;
+  for (std::size_t i = 0; i < k_block_points; ++i) {
+    const std::int64_t by = support.points[i];
+    if (by == 0) continue;
+    std::int64_t& word = block.points[i].impulse[lane];
+    const std::int64_t now = low_word(word) + by;
+    word = std::max<std::int64_t>(high_word(word), now) * (std::int64_t{1} << 32) + now;
+    push += by;
+    about_t.add(high_word(block.points[i].offset[lane]), finer(by));
+    about_b.subtract(low_word(block.points[i].offset[lane]), finer(by));
+  }
+  const std::int64_t friction = block.friction[lane];
+  block.friction[lane] = lanes::scalar::pack(low_word(friction) + support.ties[0],
+                                             high_word(friction) + support.ties[1]);
+  RawVec3 force = mixed(t, finer(support.ties[0]), b, finer(support.ties[1]));
+  const RawVec3 along = mixed(normal_of(block, lane), finer(push), {}, 0);
+  for (std::size_t i = 0; i < 3; ++i)
+    force[i] += along[i];
+  const RawVec3 torque = mixed(t, about_t.rounded(30), b, about_b.rounded(30));
+  const std::int64_t turn = block.gain_turn[lane], share_b = low_word(block.share[lane]);
+  RawVec3 to_b{};
+  for (std::size_t i = 0; i < 3; ++i)
+    to_b[i] = product_rounded(force[i], share_b, 30);
+  if (support.pair.a != 0) {
+    RowBody& a = warm[support.pair.a];
+    for (std::size_t i = 0; i < 3; ++i)
+      a.velocity[i] += (to_b[i] - force[i]) * k_to_row;
+    add_spin(low_words(block.gain_arm, lane), force, torque, low_word(turn), -1, a.spin);
+  }
+  if (support.pair.b == 0) return;
+  RowBody& other = warm[support.pair.b];
+  for (std::size_t i = 0; i < 3; ++i)
+    other.velocity[i] += to_b[i] * k_to_row;
+  add_spin(high_words(block.gain_arm, lane), force, torque, high_word(turn), 1, other.spin);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,56 @@
+// What contacts of a heap carry, found anew: impulses, friction included, that keep it at rest.
+//
+// Sweeps hand on what a heap bends by as slowly as its load: one that starts warm is a spring of
+// about m/h² a contact, and a wall of forty rows lies beyond the buckling load of such springs. So
+// from time to time each body, from the top downwards, asks of its supports what it takes to stand
+// still, the least change in the sum of squares, and hands that down, as first loads are. What
+// moved until then is stopped.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/motion_balance.h"
+#include "core/dynamics/support_order.h"
+
+namespace lockstone {
+
+/// Whether a body is slower than 2^-shift of what gravity and forces give it in a substep.
+[[nodiscard]] bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift);
+
+class HeapLoads {
+ public:
+  /// No function but this allocates.
+  HeapLoads();
+
+  /// Of bodies that stand firm: what their supports push with, given to the blocks, and what that
+  /// does to bodies, added to `warm`; their own motion in `run` is taken away. Firm is what is
+  /// slower than an eighth of what gravity gives in a substep, and rests by three points or more on
+  /// the ground, or on what stands firm, with friction of an eighth of the push to spare: enough to
+  /// stop, in a substep, all that stands there.
+  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm);
+
+ private:
+  // A contact on which a body rests, and what it has to push more, Q32.
+  struct Support {
+    ContactPair pair;
+    bool is_tied = false;  // friction takes part
+    std::array<std::int64_t, lanes::k_block_points> points{};
+    std::array<std::int64_t, 2> ties{};  // along t and b
+  };
+
+  void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body);
+  void add_columns(const ContactRun& run, const Support& support, bool is_b);
+  [[nodiscard]] bool balance(const ContactRun& run, const Motion6& change);
+  [[nodiscard]] static bool holds(const ContactRun& run, const Support& support);
+  static void hand_down(const ContactRun& run, std::span<lanes::RowBody> warm,
+                        const Support& support);
+
+  // Of one body.
+  std::vector<Support> supports_;
+  std::vector<Motion6> columns_;  // of the rows of these
+};
+
+}  // namespace lockstone

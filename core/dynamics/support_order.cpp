@@ -1,0 +1,64 @@
+#include "core/dynamics/support_order.h"
+
+#include "core/dynamics/block_words.h"
+
+namespace lockstone {
+namespace {
+
+// n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
+// of the normal points more than an eighth against it.
+int against(const RawVec3& normal, const SolverBody& body) {
+  ProductSum sum;
+  for (std::size_t i = 0; i < 3; ++i)
+    sum.add(normal[i], body.gain[i]);
+  const std::int64_t along = sum.rounded(30), most = body.greatest_gain();
+  if (along < -most / 8) return -1;
+  return along > most / 8 ? 1 : 0;
+}
+
+}  // namespace
+
+SupportOrder::SupportOrder(std::size_t body_capacity, std::size_t contact_capacity)
+    : by_body_(body_capacity, contact_capacity) {
+  links_.reserve(contact_capacity);
+  upper_.reserve(contact_capacity);
+  is_held_.reserve(body_capacity + 1);
+  carried_.reserve(body_capacity + 1);
+  order_.reserve(body_capacity + 1);
+}
+
+std::uint32_t SupportOrder::lower_of(std::uint32_t link) const {
+  return upper_[link] == links_[link].b ? links_[link].a : links_[link].b;
+}
+
+void SupportOrder::find_uppers(const ContactRun& run) {
+  by_body_.assign(std::span<const SupportLink>(links_), run.bodies.size());
+  upper_.assign(links_.size(), 0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const SupportLink& link = links_[i];
+    const RawVec3 normal = normal_of(run.blocks[link.block()], link.lane());
+    if (link.b != 0 && against(normal, run.bodies[link.b]) < 0)
+      upper_[i] = link.b;
+    else if (link.a != 0 && against(normal, run.bodies[link.a]) > 0)
+      upper_[i] = link.a;
+  }
+}
+
+// Downwards from what carries nothing. Bodies that carry each other in a ring are left out.
+void SupportOrder::find_order() {
+  carried_.assign(is_held_.size(), 0);
+  for (std::uint32_t i = 0; i < links_.size(); ++i)
+    if (rests(i)) ++carried_[lower_of(i)];
+  order_.clear();
+  for (std::uint32_t body = 1; body < is_held_.size(); ++body)
+    if (is_held_[body] != 0 && carried_[body] == 0) order_.push_back(body);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    for (const std::uint32_t link : by_body_.at(order_[i])) {
+      if (upper_[link] != order_[i]) continue;
+      const std::uint32_t lower = lower_of(link);
+      if (lower != 0 && --carried_[lower] == 0 && is_held_[lower] != 0) order_.push_back(lower);
+    }
+  }
+}
+
+}  // namespace lockstone
