@@ -43,6 +43,12 @@ std::int64_t way_of(const BodyRecord& body, int axis) {
   return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + rest;
 }
 
+// A state in which somebody flipped a bit may have its contact pose anywhere, for a tick.
+std::int64_t bounded(std::int64_t x, int bits) {
+  const std::int64_t most = std::int64_t{1} << bits;
+  return std::clamp(x, -most, most);
+}
+
 }  // namespace
 
 Vec3<Position> contact_position(const BodyRecord& body) {
@@ -59,7 +65,7 @@ bool is_near_contact_pose(const BodyRecord& body) {
                            << std::max(Position::frac_bits + exponent, k_place_shift + 1);
   // Turning by a small angle θ changes a quaternion by θ/2, and moves a surface by θ · scale.
   const std::int64_t turn = std::int64_t{1}
-                            << (Unit::frac_bits - 1 + exponent - body.scale_exponent);
+                            << std::max(Unit::frac_bits - 1 + exponent - body.scale_exponent, 0);
   const auto now = components(body.orientation), then = components(body.contact_orientation);
   return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
          is_within(4, turn, [&](int i) {
@@ -79,20 +85,21 @@ void set_contact_pose(BodyRecord& body) {
 ContactDrift drift_of(const BodyRecord& body) {
   ContactDrift drift;
   for (int i = 0; i < 3; ++i) {
-    drift.way[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(way_of(body, i));
+    drift.way[static_cast<std::size_t>(i)] =
+        static_cast<std::int32_t>(bounded(way_of(body, i), 20));
   }
   const Quat& then = body.contact_orientation;
   if (body.orientation == then) return drift;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
-  const std::int64_t x = std::int64_t{body.orientation.x.raw} - then.x.raw;
-  const std::int64_t y = std::int64_t{body.orientation.y.raw} - then.y.raw;
-  const std::int64_t z = std::int64_t{body.orientation.z.raw} - then.z.raw;
-  const std::int64_t w = std::int64_t{body.orientation.w.raw} - then.w.raw;
+  const std::int64_t x = bounded(std::int64_t{body.orientation.x.raw} - then.x.raw, 20);
+  const std::int64_t y = bounded(std::int64_t{body.orientation.y.raw} - then.y.raw, 20);
+  const std::int64_t z = bounded(std::int64_t{body.orientation.z.raw} - then.z.raw, 20);
+  const std::int64_t w = bounded(std::int64_t{body.orientation.w.raw} - then.w.raw, 20);
   const std::int64_t half[] = {x * then.w.raw - w * then.x.raw - y * then.z.raw + z * then.y.raw,
                                y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
                                z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
   for (std::size_t i = 0; i < 3; ++i)
-    drift.turn[i] = static_cast<std::int32_t>(raw::round_shift(half[i], 19));
+    drift.turn[i] = static_cast<std::int32_t>(bounded(raw::round_shift(half[i], 19), 27));
   return drift;
 }
 
