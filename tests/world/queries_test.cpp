@@ -59,7 +59,7 @@ TEST(CastRay, GivesTheSameAnswerAfterDerivedDataIsRebuilt) {
     return Length::from_raw(static_cast<std::int32_t>(random.between(-(8 << 20), 8 << 20)));
   };
   int hits = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const Vec3<Length> ray{coordinate(), coordinate(), coordinate()};
     const Vec3<Position> from{rounded<Position>(coordinate()), 6_m,
                               rounded<Position>(coordinate())};
