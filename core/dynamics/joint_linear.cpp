@@ -33,7 +33,7 @@ std::int64_t scaled_response(std::int64_t response, const BodyRecord& body, int 
 
 void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
   const auto gained = [](std::int64_t x, std::int64_t by) {
-    return bounded(bounded(x, k_row_bound) + by, k_row_bound);
+    return bounded(bounded(x, k_row_bound) + bounded(by, 2 * k_row_bound), k_row_bound);
   };
   // Bits 62 and 63 of what is out of bounds, offset by the bound.
   const auto excess = [](std::int64_t x) {
@@ -56,6 +56,11 @@ void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
     next.spin[axis] = gained(body.spin[axis], spin[axis]);
   }
   body = next;
+}
+
+// Of what contacts pushed out of bounds, and joints held within them.
+std::int64_t gain(std::int64_t before, std::int64_t after) {
+  return bounded(after, k_row_bound) - bounded(before, k_row_bound);
 }
 
 std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
@@ -246,8 +251,8 @@ void JointSolver::end_pushes(const JointRun& run, const Cluster& cluster) {
     const RowBody& row = run.rows[body.solver];
     RawVec3 velocity, spin;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      velocity[axis] = row.velocity[axis] - body.unpushed.velocity[axis];
-      spin[axis] = row.spin[axis] - body.unpushed.spin[axis];
+      velocity[axis] = gain(body.unpushed.velocity[axis], row.velocity[axis]);
+      spin[axis] = gain(body.unpushed.spin[axis], row.spin[axis]);
     }
     add_velocity(run.before[body.solver], velocity, spin);
   }
