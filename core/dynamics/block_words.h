@@ -73,6 +73,21 @@ namespace lockstone {
   return result;
 }
 
+/// arm × force + torque·turn, in 30 bits less.
+[[nodiscard]] inline RawVec3 moment_of(const RawVec3& arm, const RawVec3& force,
+                                       const RawVec3& torque, std::int64_t turn) {
+  RawVec3 result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    ProductSum sum;
+    sum.add(arm[j], force[k]);
+    sum.subtract(arm[k], force[j]);
+    sum.add(torque[i], turn);
+    result[i] = sum.rounded(30);
+  }
+  return result;
+}
+
 /// u·v.
 [[nodiscard]] inline ProductSum dot_sum(const RawVec3& u, const RawVec3& v) {
   ProductSum sum;

@@ -38,7 +38,7 @@ void ContactSolver::PushAxis::add(const Vec3<Unit>& n) {
 // surface act to second order. Across it contacts have placed the body, and it stays.
 Vec3<Velocity> ContactSolver::half_step_back(std::size_t index, const BodyRecord& body) const {
   const PushAxis& axis = axes_[index];
-  if (axis.mixed || travel_[index] == RowTravel{}) return {};
+  if (axis.mixed) return {};
   const RowBody& row = rows_[index];
   Vec3<Velocity> gain;
   for (int i = 0; i < 3; ++i)
@@ -79,12 +79,10 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
   const RowBody& row = rows_[index];
   const RowTravel& travel = travel_[index];
   const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(index, body) : Vec3<Velocity>{};
+  const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
   // What stayed where it is did not go too far either.
   const auto gone = [&](std::int64_t sum, Velocity too_far) {
-    return sum == 0 ? Velocity{} : Velocity::from_raw(step_.substep.times(sum)) - too_far;
-  };
-  const auto turned = [&](std::int64_t sum) {
-    return Velocity::from_raw(step_.substep.times(sum));
+    return sum == 0 ? Velocity{} : moved(sum) - too_far;
   };
   if (body.is_dynamic()) {
     body.velocity = {from_row(row.velocity[0]), from_row(row.velocity[1]),
@@ -100,7 +98,7 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
       body, rotation,
       {gone(travel.velocity[0], back.x), gone(travel.velocity[1], back.y),
        gone(travel.velocity[2], back.z)},
-      {turned(travel.surface[0]), turned(travel.surface[1]), turned(travel.surface[2])}, step_);
+      {moved(travel.surface[0]), moved(travel.surface[1]), moved(travel.surface[2])}, step_);
 }
 
 }  // namespace lockstone

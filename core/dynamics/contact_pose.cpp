@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dynamics/pose_distance.h"
 #include "core/dynamics/raw_vec3.h"
 
 namespace lockstone {
@@ -13,22 +14,6 @@ constexpr int k_drift_of_scale = -14;
 
 int drift_exponent(const BodyRecord& body) {
   return std::min(k_drift_exponent, body.scale_exponent + k_drift_of_scale);
-}
-
-// |v|² ≤ bound², of components that may be anything.
-template <class Difference>
-bool is_within(int count, std::int64_t bound, Difference&& difference) {
-  std::int64_t sum = 0;
-  for (int i = 0; i < count; ++i) {
-    const std::int64_t x = difference(i);
-    if (x > bound || x < -bound) return false;
-    sum += x * x;
-  }
-  return sum <= bound * bound;
-}
-
-std::array<std::int32_t, 4> components(const Quat& q) {
-  return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
 }
 
 // Steps of lengths within those of positions.
@@ -63,15 +48,11 @@ bool is_near_contact_pose(const BodyRecord& body) {
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
                            << std::max(Position::frac_bits + exponent, k_place_shift + 1);
-  // Turning by a small angle θ changes a quaternion by θ/2, and moves a surface by θ · scale.
+  // Turning by θ moves a surface by θ · scale.
   const std::int64_t turn = std::int64_t{1}
                             << std::max(Unit::frac_bits - 1 + exponent - body.scale_exponent, 0);
-  const auto now = components(body.orientation), then = components(body.contact_orientation);
   return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
-         is_within(4, turn, [&](int i) {
-           const auto k = static_cast<std::size_t>(i);
-           return std::int64_t{now[k]} - then[k];
-         });
+         is_turned_within(turn, body.orientation, body.contact_orientation);
 }
 
 void set_contact_pose(BodyRecord& body) {

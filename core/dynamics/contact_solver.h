@@ -84,7 +84,7 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
   /// Whether more contacts bear loads in this tick than are solved at once.
-  [[nodiscard]] bool holds_a_heap() const { return !few_are_loaded(); }
+  [[nodiscard]] bool leaves_loads_to_sweeps() const { return !few_are_loaded(); }
   [[nodiscard]] std::size_t solved_at_once() const { return direct_.contacts(); }
 
   /// Values that were clamped to their range.

@@ -18,19 +18,6 @@ constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_row_impulse_bits +
 // What a body's velocity and spin are held within, Q50.
 constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
 
-// arm × force + torque·turn, in 30 bits less.
-void add_spin(const RawVec3& arm, const RawVec3& force, const RawVec3& torque, std::int64_t turn,
-              bool is_taken, RawVec3& spin) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    ProductSum sum;
-    sum.add(arm[j], force[k]);
-    sum.subtract(arm[k], force[j]);
-    sum.add(torque[i], turn);
-    spin[i] += is_taken ? -sum.rounded(30) : sum.rounded(30);
-  }
-}
-
 }  // namespace
 
 // Gives points what was found; or, as long as others pull, only lets those go.
@@ -84,15 +71,19 @@ void DirectContacts::give(const ContactRun& run, const Contact& contact, const R
     to_b[i] = product_rounded(force[i], share, 30);
   if (contact.a != 0) {
     Gain& a = gains_[gain_place_[contact.a]];
-    for (std::size_t i = 0; i < 3; ++i)
+    const RawVec3 spin = moment_of(low_words(block.gain_arm, lane), force, torque, low_word(turn));
+    for (std::size_t i = 0; i < 3; ++i) {
       a.velocity[i] += to_b[i] - force[i];
-    add_spin(low_words(block.gain_arm, lane), force, torque, low_word(turn), true, a.spin);
+      a.spin[i] -= spin[i];
+    }
   }
   if (contact.b == 0) return;
   Gain& b = gains_[gain_place_[contact.b]];
-  for (std::size_t i = 0; i < 3; ++i)
+  const RawVec3 spin = moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turn));
+  for (std::size_t i = 0; i < 3; ++i) {
     b.velocity[i] += to_b[i];
-  add_spin(high_words(block.gain_arm, lane), force, torque, high_word(turn), false, b.spin);
+    b.spin[i] += spin[i];
+  }
 }
 
 void DirectContacts::push_tie(const ContactRun& run, const Contact& contact) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dynamics/block_words.h"
+#include "core/dynamics/lane_bodies.h"
 #include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
@@ -72,19 +73,6 @@ Motion6 column_of(const RawVec3& linear, const RawVec3& turn, std::int64_t share
   return column;
 }
 
-// arm × force + torque·turn, Q32, to the Q50 of rows.
-void add_spin(const RawVec3& arm, const RawVec3& force, const RawVec3& torque, std::int64_t turn,
-              std::int64_t sign, RawVec3& spin) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    ProductSum sum;
-    sum.add(arm[j], force[k]);
-    sum.subtract(arm[k], force[j]);
-    sum.add(torque[i], turn);
-    spin[i] += sign * sum.rounded(30) * k_to_row;
-  }
-}
-
 // What a body gains by what pushes it and by its own forces has to be taken from it, Q36.
 Motion6 change_of(const RowBody& warm, const SolverBody& body) {
   Motion6 change{};
@@ -99,9 +87,7 @@ Motion6 change_of(const RowBody& warm, const SolverBody& body) {
 }  // namespace
 
 bool is_slower(const RowBody& row, const SolverBody& body, int shift) {
-  const std::int64_t most = (body.greatest_gain() >> shift) * k_to_row;
-  const auto slow = [&](std::int64_t x) { return x < most && x > -most; };
-  return std::ranges::all_of(row.velocity, slow) && std::ranges::all_of(row.spin, slow);
+  return is_below(row, (body.greatest_gain() >> shift) * k_to_row);
 }
 
 HeapLoads::HeapLoads() {
@@ -235,15 +221,19 @@ void HeapLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const 
     to_b[i] = product_rounded(force[i], share_b, 30);
   if (support.pair.a != 0) {
     RowBody& a = warm[support.pair.a];
-    for (std::size_t i = 0; i < 3; ++i)
+    const RawVec3 spin = moment_of(low_words(block.gain_arm, lane), force, torque, low_word(turn));
+    for (std::size_t i = 0; i < 3; ++i) {
       a.velocity[i] += (to_b[i] - force[i]) * k_to_row;
-    add_spin(low_words(block.gain_arm, lane), force, torque, low_word(turn), -1, a.spin);
+      a.spin[i] -= spin[i] * k_to_row;
+    }
   }
   if (support.pair.b == 0) return;
   RowBody& other = warm[support.pair.b];
-  for (std::size_t i = 0; i < 3; ++i)
+  const RawVec3 spin = moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turn));
+  for (std::size_t i = 0; i < 3; ++i) {
     other.velocity[i] += to_b[i] * k_to_row;
-  add_spin(high_words(block.gain_arm, lane), force, torque, high_word(turn), 1, other.spin);
+    other.spin[i] += spin[i] * k_to_row;
+  }
 }
 
 }  // namespace lockstone

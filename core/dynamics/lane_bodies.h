@@ -17,28 +17,34 @@ namespace lockstone {
            both(r.y.y, r.y.z), both(r.z.x, r.z.y), both(r.z.z, {})}};
 }
 
-/// Within eight steps of what rows can read, 7.6 µm/s: what contacts hold trembles by so much, and
-/// does not move.
+/// Eight steps of what rows can read, 7.6 µm/s: what contacts hold trembles by so much.
+inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_bits - 20);
+
+[[nodiscard]] constexpr bool is_below(std::int64_t x, std::int64_t bound) {
+  return x < bound && x > -bound;
+}
+
+/// Whether all components of its motion are.
+[[nodiscard]] inline bool is_below(const lanes::RowBody& row, std::int64_t bound) {
+  return is_below(row.velocity[0], bound) && is_below(row.velocity[1], bound) &&
+         is_below(row.velocity[2], bound) && is_below(row.spin[0], bound) &&
+         is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
+}
+
+/// What only trembles does not move.
 [[nodiscard]] inline bool is_still(const lanes::RowBody& row) {
-  constexpr std::int64_t k_least = std::int64_t{8} << (lanes::k_velocity_bits - 20);
-  const auto still = [](std::int64_t x) { return x < k_least && x > -k_least; };
-  return still(row.velocity[0]) && still(row.velocity[1]) && still(row.velocity[2]) &&
-         still(row.spin[0]) && still(row.spin[1]) && still(row.spin[2]);
+  return is_below(row, k_tremble);
 }
 
 /// Where nothing of a body is faster than eight times that, each of its components by itself: what
 /// sinks or rises by a hair on a slope does not creep down meanwhile. Only of bodies that touch but
 /// one, which does not give way: in a pile, what is dropped adds up.
 [[nodiscard]] inline lanes::RowBody steadied(const lanes::RowBody& row) {
-  constexpr std::int64_t k_least = std::int64_t{8} << (lanes::k_velocity_bits - 20);
-  constexpr std::int64_t k_slow = 8 * k_least;
-  const auto below = [](std::int64_t x, std::int64_t bound) { return x < bound && x > -bound; };
+  if (!is_below(row, 8 * k_tremble)) return row;
   lanes::RowBody result = row;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!below(row.velocity[i], k_slow) || !below(row.spin[i], k_slow)) return row;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (below(row.velocity[i], k_least)) result.velocity[i] = 0;
-    if (below(row.spin[i], k_least)) result.spin[i] = 0;
+    if (is_below(row.velocity[i], k_tremble)) result.velocity[i] = 0;
+    if (is_below(row.spin[i], k_tremble)) result.spin[i] = 0;
   }
   return result;
 }
@@ -46,8 +52,8 @@ namespace lockstone {
 /// Slower than 1/4 m/s along each axis: what contacts carry may be taken for weight.
 [[nodiscard]] inline bool is_at_rest(const lanes::RowBody& row) {
   constexpr std::int64_t k_most = std::int64_t{1} << (lanes::k_velocity_bits - 2);
-  const auto slow = [](std::int64_t v) { return v < k_most && v > -k_most; };
-  return slow(row.velocity[0]) && slow(row.velocity[1]) && slow(row.velocity[2]);
+  return is_below(row.velocity[0], k_most) && is_below(row.velocity[1], k_most) &&
+         is_below(row.velocity[2], k_most);
 }
 
 }  // namespace lockstone

@@ -1,7 +1,8 @@
 #include "core/dynamics/rest.h"
 
 #include <algorithm>
-#include <cstdlib>
+
+#include "core/dynamics/pose_distance.h"
 
 namespace lockstone {
 namespace {
@@ -18,33 +19,16 @@ std::int64_t difference(std::int32_t now, std::int32_t then) {
 
 bool is_near(const BodyRecord& body, std::int64_t distance) {
   const Vec3<Length> then = body.rest_position();
-  std::int64_t sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t way = difference(noted(body.position[i]), then[i].raw);
-    if (std::abs(way) > distance) return false;
-    sum += way * way;
-  }
-  return sum <= distance * distance;
+  return is_within(3, distance,
+                   [&](int i) { return difference(noted(body.position[i]), then[i].raw); });
 }
 
-// Turning by a small angle θ changes a quaternion by θ/2, and takes a point of the surface
-// θ · 2^scale_exponent or less.
+// Turning by a small angle θ takes a point of the surface θ · 2^scale_exponent or less.
 bool is_turned_little(const BodyRecord& body, std::int64_t distance) {
   constexpr std::int64_t k_whole = 1 << 30;
-  const Quat& now = body.orientation;
-  const Quat then = body.rest_orientation();
   const int to_half_angle = 9 - body.scale_exponent;  // Q20 to Q30, halved
   const std::int64_t limit = std::min(raw::scale_binary(distance, to_half_angle), k_whole);
-  std::int64_t sum = 0;
-  const auto add = [&](Unit a, Unit b) {
-    const std::int64_t change = std::min(std::abs(std::int64_t{a.raw} - b.raw), k_whole);
-    sum += change * change;
-  };
-  add(now.x, then.x);
-  add(now.y, then.y);
-  add(now.z, then.z);
-  add(now.w, then.w);
-  return sum <= limit * limit;
+  return is_turned_within(limit, body.orientation, body.rest_orientation());
 }
 
 }  // namespace

@@ -113,6 +113,7 @@ bool World::Impl::take_body(std::uint32_t body, const BodyRecord& record) {
   body_hashes.mark(body);
   if (is_derived_stale) return same;
   if (same) {
+    contact_rotations[body] = to_matrix(record.contact_orientation);
     moved.push_back(body);
     return true;
   }

@@ -32,6 +32,11 @@ Length speculative_distance(const BodyRecord& a, const BodyRecord& b, Length thi
   return k_contact_margin + min(min(reach, thickness), k_max_speculation);
 }
 
+// From A's contact pose to B's.
+Vec3<Length> contact_offset(const BodyRecord& a, const BodyRecord& b) {
+  return saturated<Length>(contact_position(b) - contact_position(a));
+}
+
 }  // namespace
 
 // Each pair leaves what it found in slots of its own; then the contacts are numbered in the order
@@ -62,7 +67,7 @@ bool World::Impl::meet(const Pair& pair) {
     const BodyRecord &a = bodies[pair.a], &b = bodies[pair.b];
     const Shape shape_a = a.shape(), shape_b = b.shape();
     return collide({shape_a, contact_rotations[pair.a]}, {shape_b, contact_rotations[pair.b]},
-                   saturated<Length>(contact_position(b) - contact_position(a)), margin_of(pair))
+                   contact_offset(a, b), margin_of(pair))
                .count > 0;
   }
   PairScratch& scratch = narrow.scratch(0);
@@ -157,8 +162,7 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
     timer.found(1, 1);
     return add_known(index, known, input, before, scratch);
   }
-  if (may_drift)
-    input.offset = rounded<Position>(saturated<Length>(contact_position(b) - contact_position(a)));
+  if (may_drift) input.offset = rounded<Position>(contact_offset(a, b));
   if (may_drift || are_primitives(pair))
     return collide_primitives(index, before, last_axis, scratch, timer);
   const PlacedShape shape_a = placed(pair.a), shape_b = placed(pair.b);

@@ -22,18 +22,17 @@ Position travel(Velocity v, const TimeStep& step) {
 
 void World::Impl::refresh(std::uint32_t body) {
   rotations[body] = to_matrix(bodies[body].orientation);
+  contact_rotations[body] = to_matrix(bodies[body].contact_orientation);
   refresh_contact_pose(body);
   ++contact_pose_numbers[body];
   turn_frame(body);
   refresh_bounds(body);
 }
 
-// After the body's rotation.
+// After the body's rotation. A contact pose that its body has left keeps its rotation.
 void World::Impl::refresh_contact_pose(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
-  contact_rotations[body] = record.contact_orientation == record.orientation
-                                ? rotations[body]
-                                : to_matrix(record.contact_orientation);
+  if (record.contact_orientation == record.orientation) contact_rotations[body] = rotations[body];
   drifts[body] = drift_of(record);
 }
 
@@ -172,7 +171,7 @@ Loop World::Impl::each_moved() const {
 // What left its contact pose takes another. Poses that drift are for heaps, which sweeps hold and
 // which have many contacts to find: the motion that is left in what is solved at once is finer.
 void World::Impl::follow_with_contacts() {
-  const bool may_drift = solver.holds_a_heap();
+  const bool may_drift = solver.leaves_loads_to_sweeps();
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
       if (!may_drift || !is_near_contact_pose(bodies[moved[i]])) take_contact_pose(moved[i]);
