@@ -22,7 +22,9 @@ struct ContactDrift {
   std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q40
 
   friend bool operator==(const ContactDrift&, const ContactDrift&) = default;
-  [[nodiscard]] bool is_none() const { return *this == ContactDrift{}; }
+  [[nodiscard]] bool is_none() const {
+    return (way[0] | way[1] | way[2] | turn[0] | turn[1] | turn[2]) == 0;
+  }
 };
 
 /// The centre of the contact pose, of a body that is near it: a multiple of 2^-20 m, so that

@@ -219,6 +219,7 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
     rows_[index].velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
     rows_[index].spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
   }
+  bodies_[index].rests = is_slower(rows_[index], bodies_[index], k_rigid_shift);
 }
 
 const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) {
@@ -316,7 +317,7 @@ bool ContactSolver::is_firm(const ContactScene& scene, const Entry& entry) const
     if (off > k_firm_range.raw || off < -k_firm_range.raw) return false;
   }
   const auto rests = [&](std::uint32_t index) {
-    return (index & k_immovable) != 0 || is_slower(rows_[index], bodies_[index], k_rigid_shift);
+    return (index & k_immovable) != 0 || bodies_[index].rests;
   };
   return rests(entry.body_a) && rests(entry.body_b);
 }

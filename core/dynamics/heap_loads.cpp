@@ -86,10 +86,6 @@ Motion6 change_of(const RowBody& warm, const SolverBody& body) {
 
 }  // namespace
 
-bool is_slower(const RowBody& row, const SolverBody& body, int shift) {
-  return is_below(row, (body.greatest_gain() >> shift) * k_to_row);
-}
-
 HeapLoads::HeapLoads() {
   supports_.reserve(k_most_supports);
   columns_.reserve(k_most_supports * (k_block_points + 2));

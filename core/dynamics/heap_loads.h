@@ -17,9 +17,6 @@
 
 namespace lockstone {
 
-/// Whether a body is slower than 2^-shift of what gravity and forces give it in a substep.
-[[nodiscard]] bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift);
-
 class HeapLoads {
  public:
   /// No function but this allocates.

@@ -1,7 +1,7 @@
 // Bodies as kernels read them.
 #pragma once
 
-#include "core/dynamics/inertia.h"
+#include "core/dynamics/solver_body.h"
 #include "core/math/wide/ball_block.h"
 #include "core/math/wide/scalar_lanes.h"
 
@@ -47,6 +47,12 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
     if (is_below(row.spin[i], k_tremble)) result.spin[i] = 0;
   }
   return result;
+}
+
+/// Whether a body is slower than 2^-shift of what gravity and forces give it in a substep.
+[[nodiscard]] inline bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift) {
+  constexpr int k_to_row = lanes::k_velocity_bits - lanes::k_grid_bits;
+  return is_below(row, (body.greatest_gain() >> shift) * (std::int64_t{1} << k_to_row));
 }
 
 /// Slower than 1/4 m/s along each axis: what contacts carry may be taken for weight.

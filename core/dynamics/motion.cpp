@@ -31,6 +31,11 @@ Vec3<Velocity> divided(const Vec3<Velocity>& v, std::int64_t divisor) {
           Velocity::from_raw(raw::round_divide(v.z.raw, divisor))};
 }
 
+// Most bodies have neither forces nor torques, and gravity along one axis.
+std::int64_t part_of(std::int64_t x, std::int64_t count) {
+  return x == 0 ? 0 : raw::round_divide(x, count);
+}
+
 void damp(Vec3<Velocity>& v, Rate damping, const TimeStep& step) {
   if (damping.raw == 0) return;
   const std::int32_t keep = Damping::of(damping, step).keep;
@@ -260,9 +265,9 @@ SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    solver.gain[axis] = raw::round_divide(g[i].raw, step.substep_rate()) +
-                        raw::round_divide(force[i].raw, step.substeps);
-    solver.spin_gain[axis] = raw::round_divide(torque[i].raw, step.substeps);
+    solver.gain[axis] =
+        part_of(g[i].raw, step.substep_rate()) + part_of(force[i].raw, step.substeps);
+    solver.spin_gain[axis] = part_of(torque[i].raw, step.substeps);
   }
   solver.held = body.locks & k_lock_moving;
   solver.inverse_inertia = inverse_inertia(body, rotation);
