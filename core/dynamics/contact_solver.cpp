@@ -195,6 +195,11 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
 
 ContactSolver::~ContactSolver() = default;
 
+void ContactSolver::make_room(std::uint32_t workers) {
+  first_loads_.make_room(workers);
+  heap_loads_.make_room(workers);
+}
+
 std::uint32_t ContactSolver::contacts() const {
   return static_cast<std::uint32_t>(entries_.size());
 }
@@ -393,7 +398,7 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
   if (is_idle_) return;
   if (!direct_.empty()) direct_.store(direct_run());
   for (const FirstLoads::Load& first : first_loads_.loads())
-    records[first.record].load.raw = first.load;
+    if (first.record != FirstLoads::k_no_record) records[first.record].load.raw = first.load;
   loops_.clear();
   stages_.clear();
   add_loop_of_each_color(StageKind::store);

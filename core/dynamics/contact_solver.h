@@ -49,10 +49,13 @@ struct ContactScene {
 
 class ContactSolver {
  public:
-  /// No function but this allocates.
+  /// No functions but this and `make_room` allocate.
   ContactSolver(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity,
                 std::size_t joint_capacity);
   ~ContactSolver();
+
+  /// For so many workers.
+  void make_room(std::uint32_t workers);
 
   /// Takes up the touched bodies and makes the constraints, in the order of the records.
   void prepare(const ContactScene& scene, Parallel& parallel);
@@ -195,7 +198,7 @@ class ContactSolver {
   void begin_joints();
   void take_up_net(const ContactScene& scene);
   void take_up_direct(const ContactScene& scene);
-  void find_first_loads(const ContactScene& scene);
+  void find_first_loads(const ContactScene& scene, Parallel& parallel);
   void add_supports(const ContactScene& scene, bool only_of_free);
   [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
   [[nodiscard]] bool few_are_loaded() const {

@@ -75,14 +75,14 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
 // Where more contacts are loaded than are solved at once, and a good part of all is new: what was
 // just put there stands on impulses that nobody knows yet. Heaps find theirs anew from time to
 // time.
-void ContactSolver::find_first_loads(const ContactScene& scene) {
+void ContactSolver::find_first_loads(const ContactScene& scene, Parallel& parallel) {
   first_loads_.clear();
   if (!few_are_loaded() && new_ > k_most_loaded && new_ >= entries_.size() / 4) {
     add_supports(scene, false);
-    first_loads_.find(supports_, direct_run(), before_);
+    first_loads_.find(supports_, direct_run(), before_, parallel);
   } else if (has_heap_ && scene.tick % k_heap_ticks == 0) {
     add_supports(scene, true);
-    heap_loads_.find(supports_, direct_run(), before_);
+    heap_loads_.find(supports_, direct_run(), before_, parallel);
   }
 }
 

@@ -64,7 +64,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                       joints_->prepare(joint_run(), first, end);
                     });
   take_up_direct(scene);
-  find_first_loads(scene);
+  find_first_loads(scene, parallel);
 }
 
 void ContactSolver::prepare_piece(const ContactScene& scene, const Stage& stage, std::size_t first,

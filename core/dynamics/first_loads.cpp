@@ -59,48 +59,55 @@ void add_scaled(const RawVec3& direction, std::int64_t by, bool is_taken,
 
 }  // namespace
 
-FirstLoads::FirstLoads(std::size_t contact_capacity) {
-  supports_.reserve(k_most_supports);
-  loads_.reserve(contact_capacity);
+void FirstLoads::make_room(std::uint32_t workers) {
+  while (supports_.size() < workers)
+    supports_.emplace_back().reserve(k_most_supports);
 }
 
-void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm) {
+void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
+                      Parallel& parallel) {
   order.find(run,
              [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
-  for (const std::uint32_t body : order.order())
-    hold_up(order, run, warm, body);
+  loads_.assign(order.link_count(), {});
+  order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
+    Supports& supports = supports_[worker];
+    gather(order, run, body, supports);
+    hold_up(run.bodies[body], warm[body], supports);
+    for (const Support& support : supports) {
+      RowPush to_a, to_b;
+      hand_down(run, support, to_a, to_b);
+      (support.is_b ? to_b : to_a).add_to(warm[body]);
+      order.hand_down(support.link, support.is_b ? to_a : to_b);
+    }
+  });
 }
 
 // All points of a support push alike as far as that will do: pressure in the middle is what sweeps
-// keep best.
-void FirstLoads::hold_up(const SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
-                         std::uint32_t body) {
-  gather(order, run, body);
-  RowBody row = warm[body];
+// keep best. What tips over has no supports.
+void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
+  RowBody row = warm;
   for (std::size_t i = 0; i < 3; ++i) {
-    row.velocity[i] += run.bodies[body].gain[i] * k_to_row;
-    row.spin[i] += run.bodies[body].spin_gain[i] * k_to_row;
+    row.velocity[i] += body.gain[i] * k_to_row;
+    row.spin[i] += body.spin_gain[i] * k_to_row;
   }
   const auto settle = [&](const auto& push_support) {
     std::int64_t most = k_settled;
     for (int round = 0; round < k_most_rounds && most >= k_settled; ++round) {
       most = 0;
-      for (Support& support : supports_)
+      for (Support& support : supports)
         most = std::max(most, push_support(support));
     }
   };
   settle([&](Support& support) { return push_together(support, row); });
   settle([&](Support& support) { return push_points(support, row); });
-  if (tips(row, run.bodies[body])) return;
-  for (const Support& support : supports_)
-    hand_down(run, warm, support);
+  if (tips(row, body, supports)) supports.clear();
 }
 
 // Whether a point opens sooner than a part of the weight would close it: what cannot be held falls.
 // Handed down nevertheless, its push would grow from body to body.
-bool FirstLoads::tips(const RowBody& row, const SolverBody& body) const {
+bool FirstLoads::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
   const std::int64_t slow = (body.greatest_gain() >> k_tipping_shift) * k_to_row;
-  return std::ranges::any_of(supports_, [&](const Support& support) {
+  return std::ranges::any_of(supports, [&](const Support& support) {
     for (std::size_t i = 0; i < support.contact.count; ++i)
       if (speed_of(support.contact.normal, support.response_of(i), support.is_b, row) > slow)
         return true;
@@ -108,12 +115,14 @@ bool FirstLoads::tips(const RowBody& row, const SolverBody& body) const {
   });
 }
 
-void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body) {
-  supports_.clear();
-  order.for_supports(body, [&](const SupportLink& link) {
-    if (supports_.size() == k_most_supports) return;
-    Support& support = supports_.emplace_back();
+void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
+                        Supports& supports) {
+  supports.clear();
+  order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
+    if (supports.size() == k_most_supports) return;
+    Support& support = supports.emplace_back();
     support.contact = {link};
+    support.link = number;
     support.record = link.record;
     support.is_new = link.is_new;
     support.is_b = link.b == body;
@@ -151,7 +160,7 @@ void FirstLoads::fill(const ContactRun& run, Support& support) {
 }
 
 // Answers by how much, Q32.
-std::int64_t FirstLoads::push_together(Support& support, RowBody& body) const {
+std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   if (contact.count == 0) return 0;
   const std::int64_t least =
@@ -167,7 +176,7 @@ std::int64_t FirstLoads::push_together(Support& support, RowBody& body) const {
   return std::abs(each);
 }
 
-std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
+std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   std::int64_t most = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
@@ -184,7 +193,8 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) const {
 }
 
 // To the block in its own steps, and to both bodies; a new contact is at rest under what it got.
-void FirstLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const Support& support) {
+void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPush& to_a,
+                           RowPush& to_b) {
   const ContactRows& contact = support.contact;
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -198,20 +208,20 @@ void FirstLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const
     std::int64_t& word = block.points[i].impulse[lane];
     word = std::max<std::int64_t>(high_word(word), now) * (std::int64_t{1} << 32) + now;
     const std::int64_t change = now * (std::int64_t{1} << k_row_more_bits) - point.impulse;
-    const std::int64_t to_b = product_rounded(change, share_b, 30), to_a = change - to_b;
+    const std::int64_t part_b = product_rounded(change, share_b, 30), part_a = change - part_b;
     if (contact.a != 0) {
-      add_scaled(contact.normal, to_a, true, warm[contact.a].velocity);
-      add_scaled(point.angular_a, to_a, true, warm[contact.a].spin);
+      add_scaled(contact.normal, part_a, true, to_a.velocity);
+      add_scaled(point.angular_a, part_a, true, to_a.spin);
     }
     if (contact.b != 0) {
-      add_scaled(contact.normal, to_b, false, warm[contact.b].velocity);
-      add_scaled(point.angular_b, to_b, false, warm[contact.b].spin);
+      add_scaled(contact.normal, part_b, false, to_b.velocity);
+      add_scaled(point.angular_b, part_b, false, to_b.spin);
     }
   }
   if (!support.is_new || contact.count == 0) return;
   const std::int64_t load = raw::round_divide(sum, contact.count);
   block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
-  loads_.push_back({support.record, static_cast<std::int32_t>(load)});
+  loads_[support.link] = {support.record, static_cast<std::int32_t>(load)};
 }
 
 }  // namespace lockstone

@@ -23,26 +23,31 @@ class FirstLoads {
  public:
   /// What the record of a new contact has to know.
   struct Load {
-    std::uint32_t record = 0;
+    std::uint32_t record = k_no_record;
     std::int32_t load = 0;  // impulse of a point, mean of all, m/s, Q20
   };
+  static constexpr std::uint32_t k_no_record = 0xffffffff;
 
-  /// No function but this allocates.
-  explicit FirstLoads(std::size_t contact_capacity);
+  /// No functions but this and `make_room` allocate.
+  explicit FirstLoads(std::size_t contact_capacity) { loads_.reserve(contact_capacity); }
+  void make_room(std::uint32_t workers);
 
   void clear() { loads_.clear(); }
 
   /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
   /// given to the blocks, and what they do to bodies, added to `warm`. Bodies faster than 1/4 m/s
   /// are left out. `order` knows the contacts, and finds who stands.
-  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm);
+  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+            Parallel& parallel);
 
+  /// Some without a record.
   [[nodiscard]] std::span<const Load> loads() const { return loads_; }
 
  private:
   // A contact on which a body rests.
   struct Support {
     ContactRows contact;
+    std::uint32_t link = 0;
     std::uint32_t record = 0;
     bool is_new = false;
     bool is_b = false;  // the body that rests
@@ -61,17 +66,21 @@ class FirstLoads {
     }
   };
 
-  void hold_up(const SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
-               std::uint32_t body);
-  [[nodiscard]] bool tips(const lanes::RowBody& row, const SolverBody& body) const;
-  void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body);
-  static void fill(const ContactRun& run, Support& support);
-  [[nodiscard]] std::int64_t push_together(Support& support, lanes::RowBody& body) const;
-  [[nodiscard]] std::int64_t push_points(Support& support, lanes::RowBody& body) const;
-  void hand_down(const ContactRun& run, std::span<lanes::RowBody> warm, const Support& support);
+  // Of one body.
+  using Supports = std::vector<Support>;
 
-  std::vector<Support> supports_;  // of one body
-  std::vector<Load> loads_;
+  static void hold_up(const SolverBody& body, const lanes::RowBody& warm, Supports& supports);
+  [[nodiscard]] static bool tips(const lanes::RowBody& row, const SolverBody& body,
+                                 const Supports& supports);
+  static void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
+                     Supports& supports);
+  static void fill(const ContactRun& run, Support& support);
+  [[nodiscard]] static std::int64_t push_together(Support& support, lanes::RowBody& body);
+  [[nodiscard]] static std::int64_t push_points(Support& support, lanes::RowBody& body);
+  void hand_down(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
+
+  std::vector<Supports> supports_;  // by worker
+  std::vector<Load> loads_;         // by link
 };
 
 }  // namespace lockstone

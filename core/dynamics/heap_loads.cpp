@@ -86,42 +86,55 @@ Motion6 change_of(const RowBody& warm, const SolverBody& body) {
 
 }  // namespace
 
-HeapLoads::HeapLoads() {
-  supports_.reserve(k_most_supports);
-  columns_.reserve(k_most_supports * (k_block_points + 2));
+void HeapLoads::make_room(std::uint32_t workers) {
+  while (scratch_.size() < workers) {
+    scratch_.emplace_back();
+    scratch_.back().supports.reserve(k_most_supports);
+    scratch_.back().columns.reserve(k_most_supports * (k_block_points + 2));
+  }
 }
 
-void HeapLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm) {
+void HeapLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
+                     Parallel& parallel) {
   order.find(run, [&](const SupportLink& link, std::uint32_t body) {
     if ((link.a == 0 || link.b == 0) && !link.is_on_ground) return false;
     return is_slower(run.rows[body], run.bodies[body], k_firm_shift) &&
            grips(run.blocks[link.block()], link.lane());
   });
-  for (const std::uint32_t body : order.order()) {
-    gather(order, run, body);
-    if (!balance(run, change_of(warm[body], run.bodies[body]))) continue;
-    for (const Support& support : supports_)
-      hand_down(run, warm, support);
-  }
+  order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
+    Scratch& scratch = scratch_[worker];
+    gather(order, run, body, scratch);
+    if (!balance(run, change_of(warm[body], run.bodies[body]), scratch)) return;
+    for (const Support& support : scratch.supports) {
+      RowPush to_a, to_b;
+      push(run, support, to_a, to_b);
+      const bool is_b = support.pair.b == body;
+      (is_b ? to_b : to_a).add_to(warm[body]);
+      order.hand_down(support.link, is_b ? to_a : to_b);
+    }
+  });
   for (std::size_t body = 1; body < run.bodies.size(); ++body)
     if (order.is_held(body)) run.rows[body] = {};
 }
 
-void HeapLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body) {
-  supports_.clear();
-  columns_.clear();
-  order.for_supports(body, [&](const SupportLink& link) {
-    if (supports_.size() == k_most_supports) return;
+void HeapLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
+                       Scratch& scratch) {
+  scratch.supports.clear();
+  scratch.columns.clear();
+  order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
+    if (scratch.supports.size() == k_most_supports) return;
     if (!is_swept(run.blocks[link.block()], link.lane())) return;
-    Support& support = supports_.emplace_back();
+    Support& support = scratch.supports.emplace_back();
     support.pair = link;
+    support.link = number;
     support.is_tied = grips(run.blocks[link.block()], link.lane());
-    add_columns(run, support, link.b == body);
+    add_columns(run, support, link.b == body, scratch.columns);
   });
 }
 
 // Of points that push, then of the tangents.
-void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool is_b) {
+void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool is_b,
+                            std::vector<Motion6>& columns) {
   const ManifoldBlock& block = run.blocks[support.pair.block()];
   const std::size_t lane = support.pair.lane();
   const RawVec3 normal = normal_of(block, lane);
@@ -136,31 +149,31 @@ void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool 
     RawVec3 turn{};
     for (std::size_t i = 0; i < 3; ++i)
       turn[i] = raw::round_shift(t[i] * y - b[i] * x, 30);
-    columns_.push_back(column_of(normal, turned(arm, normal, scale, turn), share));
+    columns.push_back(column_of(normal, turned(arm, normal, scale, turn), share));
   }
   if (!support.is_tied) return;
   for (const RawVec3& tangent : {t, b})
-    columns_.push_back(column_of(tangent, turned(arm, tangent, 0, {}), share));
+    columns.push_back(column_of(tangent, turned(arm, tangent, 0, {}), share));
 }
 
 // Whether all supports can give what the change takes.
-bool HeapLoads::balance(const ContactRun& run, const Motion6& change) {
+bool HeapLoads::balance(const ContactRun& run, const Motion6& change, Scratch& scratch) {
   const auto is_great = [](std::int64_t x) {
     return x > MotionBalance::k_most_change || x < -MotionBalance::k_most_change;
   };
   if (std::ranges::any_of(change, is_great)) return false;
   MotionBalance all;
-  for (const Motion6& column : columns_)
+  for (const Motion6& column : scratch.columns)
     all.add(column);
   all.factor();
   Motion6 solution{};
   if (!all.solve(change, solution)) return false;
-  auto column = columns_.begin();
+  auto column = scratch.columns.begin();
   // In steps of the block.
   const auto next = [&] {
     return raw::round_shift(MotionBalance::impulse(*column++, solution), k_change_bits - 20);
   };
-  for (Support& support : supports_) {
+  for (Support& support : scratch.supports) {
     const ManifoldBlock& block = run.blocks[support.pair.block()];
     for (std::size_t i = 0; i < k_block_points; ++i)
       if (low_word(block.points[i].impulse[support.pair.lane()]) > 0) support.points[i] = next();
@@ -187,7 +200,7 @@ bool HeapLoads::holds(const ContactRun& run, const Support& support) {
 }
 
 // To the block, and at its centre to both bodies.
-void HeapLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const Support& support) {
+void HeapLoads::push(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b) {
   ManifoldBlock& block = run.blocks[support.pair.block()];
   const std::size_t lane = support.pair.lane();
   const RawVec3 t = tangent_of(block, lane), b = binormal_of(block, lane);
@@ -212,23 +225,17 @@ void HeapLoads::hand_down(const ContactRun& run, std::span<RowBody> warm, const 
     force[i] += along[i];
   const RawVec3 torque = mixed(t, about_t.rounded(30), b, about_b.rounded(30));
   const std::int64_t turn = block.gain_turn[lane], share_b = low_word(block.share[lane]);
-  RawVec3 to_b{};
-  for (std::size_t i = 0; i < 3; ++i)
-    to_b[i] = product_rounded(force[i], share_b, 30);
-  if (support.pair.a != 0) {
-    RowBody& a = warm[support.pair.a];
-    const RawVec3 spin = moment_of(low_words(block.gain_arm, lane), force, torque, low_word(turn));
-    for (std::size_t i = 0; i < 3; ++i) {
-      a.velocity[i] += (to_b[i] - force[i]) * k_to_row;
-      a.spin[i] -= spin[i] * k_to_row;
-    }
-  }
-  if (support.pair.b == 0) return;
-  RowBody& other = warm[support.pair.b];
-  const RawVec3 spin = moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turn));
+  RawVec3 spin_a{}, spin_b{};
+  if (support.pair.a != 0)
+    spin_a = moment_of(low_words(block.gain_arm, lane), force, torque, low_word(turn));
+  if (support.pair.b != 0)
+    spin_b = moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turn));
   for (std::size_t i = 0; i < 3; ++i) {
-    other.velocity[i] += to_b[i] * k_to_row;
-    other.spin[i] += spin[i] * k_to_row;
+    const std::int64_t part_b = product_rounded(force[i], share_b, 30);
+    to_a.velocity[i] = (part_b - force[i]) * k_to_row;
+    to_a.spin[i] = -spin_a[i] * k_to_row;
+    to_b.velocity[i] = part_b * k_to_row;
+    to_b.spin[i] = spin_b[i] * k_to_row;
   }
 }
 

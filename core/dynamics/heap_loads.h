@@ -20,34 +20,42 @@ namespace lockstone {
 class HeapLoads {
  public:
   /// No function but this allocates.
-  HeapLoads();
+  void make_room(std::uint32_t workers);
 
   /// Of bodies that stand firm: what their supports push with, given to the blocks, and what that
   /// does to bodies, added to `warm`; their own motion in `run` is taken away. Firm is what is
   /// slower than an eighth of what gravity gives in a substep, and rests by three points or more on
   /// the ground, or on what stands firm, with friction of an eighth of the push to spare: enough to
   /// stop, in a substep, all that stands there.
-  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm);
+  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+            Parallel& parallel);
 
  private:
   // A contact on which a body rests, and what it has to push more, Q32.
   struct Support {
     ContactPair pair;
+    std::uint32_t link = 0;
     bool is_tied = false;  // friction takes part
     std::array<std::int64_t, lanes::k_block_points> points{};
     std::array<std::int64_t, 2> ties{};  // along t and b
   };
 
-  void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body);
-  void add_columns(const ContactRun& run, const Support& support, bool is_b);
-  [[nodiscard]] bool balance(const ContactRun& run, const Motion6& change);
-  [[nodiscard]] static bool holds(const ContactRun& run, const Support& support);
-  static void hand_down(const ContactRun& run, std::span<lanes::RowBody> warm,
-                        const Support& support);
-
   // Of one body.
-  std::vector<Support> supports_;
-  std::vector<Motion6> columns_;  // of the rows of these
+  struct Scratch {
+    std::vector<Support> supports;
+    std::vector<Motion6> columns;  // of the rows of these
+  };
+
+  static void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
+                     Scratch& scratch);
+  static void add_columns(const ContactRun& run, const Support& support, bool is_b,
+                          std::vector<Motion6>& columns);
+  [[nodiscard]] static bool balance(const ContactRun& run, const Motion6& change,
+                                    Scratch& scratch);
+  [[nodiscard]] static bool holds(const ContactRun& run, const Support& support);
+  static void push(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
+
+  std::vector<Scratch> scratch_;  // by worker
 };
 
 }  // namespace lockstone

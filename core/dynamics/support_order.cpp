@@ -5,6 +5,9 @@
 namespace lockstone {
 namespace {
 
+// Bodies that are worth a worker.
+constexpr std::uint32_t k_body_grain = 4;
+
 // n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
 // of the normal points more than an eighth against it.
 int against(const RawVec3& normal, const SolverBody& body) {
@@ -25,6 +28,9 @@ SupportOrder::SupportOrder(std::size_t body_capacity, std::size_t contact_capaci
   is_held_.reserve(body_capacity + 1);
   carried_.reserve(body_capacity + 1);
   order_.reserve(body_capacity + 1);
+  handed_.reserve(contact_capacity);
+  round_begins_.reserve(body_capacity + 1);
+  rounds_.reserve(body_capacity + 1);
 }
 
 std::uint32_t SupportOrder::lower_of(std::uint32_t link) const {
@@ -50,15 +56,32 @@ void SupportOrder::find_order() {
   for (std::uint32_t i = 0; i < links_.size(); ++i)
     if (rests(i)) ++carried_[lower_of(i)];
   order_.clear();
+  const auto add = [&](std::uint32_t body) {
+    if (is_held_[body] == 0 || carried_[body] != 0) return;
+    is_held_[body] = k_visited;
+    order_.push_back(body);
+  };
   for (std::uint32_t body = 1; body < is_held_.size(); ++body)
-    if (is_held_[body] != 0 && carried_[body] == 0) order_.push_back(body);
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    for (const std::uint32_t link : by_body_.at(order_[i])) {
-      if (upper_[link] != order_[i]) continue;
-      const std::uint32_t lower = lower_of(link);
-      if (lower != 0 && --carried_[lower] == 0 && is_held_[lower] != 0) order_.push_back(lower);
+    add(body);
+  round_begins_.clear();
+  rounds_.clear();
+  for (std::size_t begin = 0, end = order_.size(); begin < end; begin = end, end = order_.size()) {
+    round_begins_.push_back(static_cast<std::uint32_t>(begin));
+    rounds_.push_back({static_cast<std::uint32_t>(end - begin), k_body_grain});
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const std::uint32_t link : by_body_.at(order_[i])) {
+        const std::uint32_t lower = upper_[link] == order_[i] ? lower_of(link) : 0;
+        if (lower == 0) continue;
+        --carried_[lower];
+        add(lower);
+      }
     }
   }
+}
+
+void SupportOrder::add_handed(std::uint32_t body, lanes::RowBody& row) const {
+  for (const std::uint32_t link : by_body_.at(body))
+    if (upper_[link] != 0 && upper_[link] != body) handed_[link].add_to(row);
 }
 
 }  // namespace lockstone

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/dynamics/body_links.h"
 #include "core/dynamics/row_geometry.h"
 
@@ -15,6 +16,18 @@ struct SupportLink : ContactPair {
   std::uint32_t record = 0;
   bool is_new = false;
   bool is_on_ground = false;  // one of its surfaces never moves, and neither is driven
+};
+
+/// What impulses add to a body's row.
+struct RowPush {
+  RawVec3 velocity{}, spin{};
+
+  void add_to(lanes::RowBody& row) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      row.velocity[i] += velocity[i];
+      row.spin[i] += spin[i];
+    }
+  }
 };
 
 class SupportOrder {
@@ -38,7 +51,7 @@ class SupportOrder {
       const std::uint32_t body = upper_[link];
       if (body == 0 || lower_of(link) != lower || is_held_[body] != 0) return;
       if (!carries(links_[link], body)) return;
-      is_held_[body] = 1;
+      is_held_[body] = k_held;
       order_.push_back(body);
     };
     for (std::uint32_t i = 0; i < links_.size(); ++i)
@@ -49,20 +62,44 @@ class SupportOrder {
     find_order();
   }
 
-  /// Bodies that stand, downwards from what carries nothing.
-  [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
   [[nodiscard]] bool is_held(std::size_t body) const { return is_held_[body] != 0; }
 
-  /// Visits the links that a body rests on.
+  /// Calls `visit(body, worker)` for bodies that stand, downwards from what carries nothing: for
+  /// each when all that rests on it was visited, and what these handed down is in its row. In the
+  /// end other bodies get theirs.
+  template <class Visit>
+  void descend(Parallel& parallel, std::span<lanes::RowBody> rows, const Visit& visit) {
+    handed_.assign(links_.size(), {});
+    parallel.run_all(rounds_, [&](std::size_t round, std::uint32_t first, std::uint32_t end,
+                                  std::uint32_t worker) {
+      for (std::uint32_t i = first; i < end; ++i) {
+        const std::uint32_t body = order_[round_begins_[round] + i];
+        add_handed(body, rows[body]);
+        visit(body, worker);
+      }
+    });
+    for (std::uint32_t body = 1; body < is_held_.size(); ++body)
+      if (is_held_[body] != k_visited) add_handed(body, rows[body]);
+  }
+
+  /// What a link does to the body that carries it: of one that the body being visited rests on.
+  void hand_down(std::uint32_t link, const RowPush& push) { handed_[link] = push; }
+
+  /// Calls `visit(link, number)` for the links that a body rests on.
   template <class Visit>
   void for_supports(std::uint32_t body, const Visit& visit) const {
     for (const std::uint32_t link : by_body_.at(body))
-      if (upper_[link] == body) visit(links_[link]);
+      if (upper_[link] == body) visit(links_[link], link);
   }
 
+  [[nodiscard]] std::size_t link_count() const { return links_.size(); }
+
  private:
+  static constexpr std::uint8_t k_held = 1, k_visited = 2;
+
   void find_uppers(const ContactRun& run);
   void find_order();
+  void add_handed(std::uint32_t body, lanes::RowBody& row) const;
   [[nodiscard]] std::uint32_t lower_of(std::uint32_t link) const;
   [[nodiscard]] bool rests(std::uint32_t link) const {
     return upper_[link] != 0 && is_held_[upper_[link]] != 0;
@@ -71,9 +108,12 @@ class SupportOrder {
   std::vector<SupportLink> links_;
   BodyLinks by_body_;
   std::vector<std::uint32_t> upper_;    // by link: the body that rests on the other; 0: none
+  std::vector<RowPush> handed_;         // by link: to the other
   std::vector<std::uint8_t> is_held_;   // by body: stands, over others, on something immovable
   std::vector<std::uint32_t> carried_;  // by body: contacts that others rest on it by
-  std::vector<std::uint32_t> order_;    // bodies
+  std::vector<std::uint32_t> order_;    // bodies, round by round
+  std::vector<std::uint32_t> round_begins_;
+  std::vector<Loop> rounds_;  // of bodies that have nothing to wait for any more
 };
 
 }  // namespace lockstone

@@ -112,6 +112,7 @@ void World::Impl::make_scratch() {
   const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
   narrow.prepare(def.contact_capacity, parallel.workers(),
                  std::ranges::any_of(assets->all(), has_triangles));
+  solver.make_room(parallel.workers());
   const std::size_t most = narrow.capacity();
   if (manifolds.size() >= most) return;
   origins.resize(most);
