@@ -124,11 +124,7 @@ void World::Impl::read_poses(const Pair& pair, Length margin, ManifoldInput& inp
   const BodyRecord &a = bodies[pair.a], &b = bodies[pair.b];
   const Vec3<Position> apart = b.position - a.position;
   input = {are_primitives(pair) ? rounded<Position>(saturated<Length>(apart)) : apart,
-           a.orientation,
-           b.orientation,
-           margin,
-           0,
-           0};
+           key_of(a.orientation), key_of(b.orientation), margin};
 }
 
 // `before`: the records of this pair a tick ago. `last_axis` parted the pair then, unless it is
@@ -149,8 +145,8 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   ManifoldInput& input = scratch.boxes.entries[scratch.boxes.batch.size()].input;
   if (may_drift) {
     input.margin = margin;
-    input.pose_a = contact_pose_numbers[pair.a];
-    input.pose_b = contact_pose_numbers[pair.b];
+    input.pose_a = key_of_contact_pose(contact_pose_numbers[pair.a]);
+    input.pose_b = key_of_contact_pose(contact_pose_numbers[pair.b]);
   } else {
     read_poses(pair, margin, input);
   }

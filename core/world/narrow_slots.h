@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,16 +17,32 @@
 
 namespace lockstone {
 
+/// An orientation; or the number of a body's contact pose, which tells as much.
+struct PoseKey {
+  std::int32_t x = 0, y = 0, z = 0, w = 0;
+
+  friend constexpr bool operator==(const PoseKey& a, const PoseKey& b) {
+    return ((a.x ^ b.x) | (a.y ^ b.y) | (a.z ^ b.z) | (a.w ^ b.w)) == 0;
+  }
+};
+
+[[nodiscard]] constexpr PoseKey key_of(const Quat& q) {
+  return {q.x.raw, q.y.raw, q.z.raw, q.w.raw};
+}
+
+/// No orientation has components as large.
+[[nodiscard]] constexpr PoseKey key_of_contact_pose(std::uint32_t number) {
+  return {static_cast<std::int32_t>(number), std::numeric_limits<std::int32_t>::max(), 0, 0};
+}
+
 /// What the manifold of two convex shapes follows from, besides the shapes.
 struct ManifoldInput {
   Vec3<Position> offset{};
-  Quat orientation_a{{}, {}, {}, {}};
-  Quat orientation_b{};
+  PoseKey pose_a{}, pose_b{};
   Length margin{};
-  // Of what is found at contact poses: their numbers, which tell as much. Else 0.
-  std::uint32_t pose_a = 0, pose_b = 0;
 
   friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
+  /// Where poses tell all: contact poses do.
   [[nodiscard]] bool has_same_poses(const ManifoldInput& other) const {
     return pose_a == other.pose_a && pose_b == other.pose_b && margin == other.margin;
   }
