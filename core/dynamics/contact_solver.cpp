@@ -397,8 +397,7 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (is_idle_) return;
   if (!direct_.empty()) direct_.store(direct_run());
-  for (const FirstLoads::Load& first : first_loads_.loads())
-    if (first.record != FirstLoads::k_no_record) records[first.record].load.raw = first.load;
+  first_loads_.store(supports_, records);
   loops_.clear();
   stages_.clear();
   add_loop_of_each_color(StageKind::store);

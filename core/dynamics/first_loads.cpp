@@ -68,7 +68,7 @@ void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowB
                       Parallel& parallel) {
   order.find(run,
              [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
-  loads_.assign(order.link_count(), {});
+  loads_.assign(order.links().size(), k_no_load);
   order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
     Supports& supports = supports_[worker];
     gather(order, run, body, supports);
@@ -123,7 +123,6 @@ void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::u
     Support& support = supports.emplace_back();
     support.contact = {link};
     support.link = number;
-    support.record = link.record;
     support.is_new = link.is_new;
     support.is_b = link.b == body;
     fill(run, support);
@@ -221,7 +220,12 @@ void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPus
   if (!support.is_new || contact.count == 0) return;
   const std::int64_t load = raw::round_divide(sum, contact.count);
   block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
-  loads_[support.link] = {support.record, static_cast<std::int32_t>(load)};
+  loads_[support.link] = static_cast<std::int32_t>(load);
+}
+
+void FirstLoads::store(const SupportOrder& order, std::span<ContactRecord> records) const {
+  for (std::size_t i = 0; i < loads_.size(); ++i)
+    if (loads_[i] != k_no_load) records[order.links()[i].record].load.raw = loads_[i];
 }
 
 }  // namespace lockstone

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "core/dynamics/contact_record.h"
 #include "core/dynamics/row_geometry.h"
 #include "core/dynamics/support_order.h"
 
@@ -21,13 +22,6 @@ namespace lockstone {
 
 class FirstLoads {
  public:
-  /// What the record of a new contact has to know.
-  struct Load {
-    std::uint32_t record = k_no_record;
-    std::int32_t load = 0;  // impulse of a point, mean of all, m/s, Q20
-  };
-  static constexpr std::uint32_t k_no_record = 0xffffffff;
-
   /// No functions but this and `make_room` allocate.
   explicit FirstLoads(std::size_t contact_capacity) { loads_.reserve(contact_capacity); }
   void make_room(std::uint32_t workers);
@@ -40,15 +34,16 @@ class FirstLoads {
   void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
             Parallel& parallel);
 
-  /// Some without a record.
-  [[nodiscard]] std::span<const Load> loads() const { return loads_; }
+  /// To the records of new contacts, with the order of `find`.
+  void store(const SupportOrder& order, std::span<ContactRecord> records) const;
 
  private:
+  static constexpr std::int32_t k_no_load = -1;
+
   // A contact on which a body rests.
   struct Support {
     ContactRows contact;
     std::uint32_t link = 0;
-    std::uint32_t record = 0;
     bool is_new = false;
     bool is_b = false;  // the body that rests
     std::int64_t share = 0;
@@ -80,7 +75,9 @@ class FirstLoads {
   void hand_down(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
 
   std::vector<Supports> supports_;  // by worker
-  std::vector<Load> loads_;         // by link
+  // By link, of a new contact: what its record has to know, the impulse of a point, mean of all,
+  // m/s, Q20; else k_no_load.
+  std::vector<std::int32_t> loads_;
 };
 
 }  // namespace lockstone

@@ -92,7 +92,7 @@ class SupportOrder {
       if (upper_[link] == body) visit(links_[link], link);
   }
 
-  [[nodiscard]] std::size_t link_count() const { return links_.size(); }
+  [[nodiscard]] std::span<const SupportLink> links() const { return links_; }
 
  private:
   static constexpr std::uint8_t k_held = 1, k_visited = 2;
