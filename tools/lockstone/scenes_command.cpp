@@ -17,7 +17,7 @@ void print_json(const std::vector<scenes::SceneSummary>& list) {
     json.push_back({{"name", scene.name},
                     {"description", scene.description},
                     {"golden_ticks", scene.golden_ticks},
-                    {"bodies", scene.bodies}});
+                    {"bodies", scenes::count_bodies(scene)}});
   }
   write_json(json);
 }
@@ -25,8 +25,8 @@ void print_json(const std::vector<scenes::SceneSummary>& list) {
 void print_table(const std::vector<scenes::SceneSummary>& list) {
   fmt::print("{:<10} {:>6} {:>6}  {}\n", "scene", "bodies", "ticks", "");
   for (const scenes::SceneSummary& scene : list) {
-    fmt::print("{:<10} {:>6} {:>6}  {}\n", scene.name, scene.bodies, scene.golden_ticks,
-               scene.description);
+    fmt::print("{:<10} {:>6} {:>6}  {}\n", scene.name, scenes::count_bodies(scene),
+               scene.golden_ticks, scene.description);
   }
 }
 

@@ -63,19 +63,18 @@ class ArenaPlay final : public ScenePlay {
   arena::ArenaSimulation simulation_;
 };
 
-SceneSummary summarize(std::string_view name, std::string_view description, std::uint32_t ticks) {
-  return {name, description, ticks, make_play(name, 1).value()->world().body_count()};
-}
-
 }  // namespace
 
 std::vector<SceneSummary> list_scenes() {
   std::vector<SceneSummary> list;
-  for (const Scene& scene : world_scenes()) {
-    list.push_back(summarize(scene.name, scene.description, scene.golden_ticks));
-  }
-  list.push_back(summarize(k_arena_name, k_arena_description, k_arena_golden_ticks));
+  for (const Scene& scene : world_scenes())
+    list.push_back({scene.name, scene.description, scene.golden_ticks});
+  list.push_back({k_arena_name, k_arena_description, k_arena_golden_ticks});
   return list;
+}
+
+std::uint32_t count_bodies(const SceneSummary& scene) {
+  return make_play(scene.name, 1).value()->world().body_count();
 }
 
 Result<std::unique_ptr<ScenePlay>> make_play(std::string_view name, std::uint64_t seed,

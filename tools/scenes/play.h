@@ -16,11 +16,13 @@ struct SceneSummary {
   std::string_view name;
   std::string_view description;
   std::uint32_t golden_ticks;
-  std::uint32_t bodies;  ///< at the beginning, for seed 1
 };
 
-/// All scenes, the arena last. Builds each one to count its bodies.
+/// All scenes, the arena last. Builds none of them.
 [[nodiscard]] std::vector<SceneSummary> list_scenes();
+
+/// Of a scene in the list, at the beginning, for seed 1. Builds it.
+[[nodiscard]] std::uint32_t count_bodies(const SceneSummary& scene);
 
 /// One scene with everything that it needs to go on by itself.
 class ScenePlay {
