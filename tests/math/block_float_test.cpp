@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -33,7 +34,7 @@ BlockFloat any_block(Raws& raws, int exponents) {
 TEST(BlockFloat, InverseOfAnyMassIsCorrectlyRounded) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const Mass mass{static_cast<std::int64_t>(raws.below_bits(63))};
     if (mass.raw == 0) continue;
     const BlockFloat inverse = inverse_of(mass);
@@ -55,7 +56,7 @@ TEST(BlockFloat, ScalingRoundsOnceAndSaturates) {
   Raws raws;
   const Real low(k_min), high(k_max);
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const std::int64_t raw = i % 53 == 0 ? k_min : raws.signed_below_bits(63);
     const BlockFloat x = any_block(raws, 127);
     const int shift = static_cast<int>(raws.bits64() % 129) - 64;
@@ -86,7 +87,7 @@ TEST(BlockFloat, ImpulseTimesInverseMassIsAVelocity) {
 TEST(BlockFloat, RatioIsCorrectlyRounded) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const BlockFloat a = any_block(raws, i % 2 == 0 ? 20 : 127);
     const BlockFloat b = any_block(raws, i % 2 == 0 ? 20 : 127);
     const Real exact = value_of(a) / (value_of(a) + value_of(b));
@@ -108,7 +109,7 @@ TEST(BlockFloat, RatioOfEqualsAndZeros) {
 TEST(BlockFloat, SumIsCorrectlyRounded) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const BlockFloat a = any_block(raws, i % 2 == 0 ? 20 : 60);
     const BlockFloat b = any_block(raws, i % 2 == 0 ? 20 : 60);
     const BlockFloat sum = add(a, b);

@@ -6,6 +6,7 @@
 #include "core/math/reciprocal.h"
 #include "core/math/round_divisor.h"
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -20,7 +21,7 @@ void expect_reciprocal(std::uint64_t d) {
 
 TEST(Division, ReciprocalsAreThoseOfTheQuotient) {
   test::Raws raws;
-  for (int i = 0; i < 1000000; ++i)
+  for (int i = 0; i < test::share_of(1000000); ++i)
     ASSERT_NO_FATAL_FAILURE(expect_reciprocal(raws.below_bits(64) | k_top));
   for (int bit = 0; bit < 63; ++bit) {
     for (std::uint64_t near = 0; near < 5; ++near) {
@@ -40,7 +41,7 @@ void expect_quotient(std::int64_t x, std::int64_t d) {
 TEST(Division, RoundDivisorsRoundAsDivisionDoes) {
   test::Raws raws;
   constexpr std::int64_t k_most = std::int64_t{1} << 62;
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     const auto d = static_cast<std::int64_t>((raws.below_bits(64) >> 4 >> i % 60) | 1);
     const auto x = static_cast<std::int64_t>(raws.below_bits(64) >> 3);
     ASSERT_NO_FATAL_FAILURE(expect_quotient(x, d));

@@ -9,6 +9,7 @@
 #include "core/math/square_roots.h"
 #include "core/math/trig.h"
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -35,7 +36,7 @@ mpz_class exact_quotient(std::int64_t a, std::int64_t b, int shift) {
 
 TEST(Divide, EqualsTheExactQuotientOfEverySizeAndShift) {
   Raws raws;
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     const std::int64_t a = i % 61 == 0 ? k_min : raws.signed_below_bits(63);
     const std::int64_t b = i % 59 == 0 ? k_min : raws.signed_below_bits(63);
     const int shift = static_cast<int>(raws.bits64() % 127) - 63;
@@ -76,7 +77,7 @@ TEST(SquareRoot, OfAreasAndWideNumbersIsTheNearest) {
   using Area = Fixed<SquareMetre, std::int64_t, 40>;
   using WideNumber = Fixed<Scalar, std::int64_t, 32>;
   Raws raws;
-  for (int i = 0; i < 500000; ++i) {
+  for (int i = 0; i < test::share_of(500000); ++i) {
     const auto raw = static_cast<std::int64_t>(raws.below_bits(63));
     const mpz_class n(raw);
     ASSERT_TRUE(is_root(sqrt(WideNumber{raw}).raw, n << 32));
@@ -92,7 +93,7 @@ TEST(SquareRoot, OfAreasAndWideNumbersIsTheNearest) {
 
 TEST(Hypot, IsTheNearestEvenAndSymmetric) {
   Raws raws;
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < test::share_of(300000); ++i) {
     const std::int64_t x = raws.signed_below_bits(62), y = raws.signed_below_bits(62),
                        z = i % 2 == 0 ? 0 : raws.signed_below_bits(61);
     const mpz_class n = mpz_class(x) * x + mpz_class(y) * y + mpz_class(z) * z;
@@ -116,7 +117,7 @@ TEST(Exp2, IsExactAtWholeNumbersAndRisesMonotonically) {
   EXPECT_EQ(exp2_saturating<Number>(Number::min()).raw, 0);
   EXPECT_EQ(exp2_saturating<Number>(Number::from_integer(11)), Number::max());
   std::int32_t last = 0;
-  for (std::int32_t raw = -(22 << 20); raw < 11 << 20; raw += 7) {
+  for (std::int32_t raw = -(22 << 20); raw < 11 << 20; raw += 7 * test::k_share) {
     const std::int32_t power = exp2_saturating<Number>(Number{raw}).raw;
     ASSERT_GE(power, last);
     last = power;
@@ -128,7 +129,7 @@ TEST(Log2, IsExactAtPowersOfTwoAndTakesWideInputs) {
     ASSERT_EQ(log2<Number>(Number::from_raw(1 << bit)), Number::from_integer(bit - 20));
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const auto raw = static_cast<std::int64_t>(raws.below_bits(63)) | 1;
     const auto ours = log2_raw(raw, 32, 56);
     worst = worst_of(worst, log2(Real(raw, 32)).error_of(ours, 56));

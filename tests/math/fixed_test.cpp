@@ -6,6 +6,7 @@
 
 #include "core/math/int128.h"
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -45,7 +46,7 @@ static_assert(!std::is_convertible_v<int, Length>);
 
 TEST(RoundShift, EqualsTheWideReferenceAndIsOdd) {
   Raws raws;
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     const int shift = static_cast<int>(raws.bits64() % 63);
     const std::int64_t x = raws.signed_below_bits(62);
     const std::int64_t expected = saturate_to_int64(round_shift(Int128::from(x), shift));
@@ -69,7 +70,7 @@ TEST(RoundShift, SendsTiesAwayFromZeroAndKeepsExtremes) {
 
 TEST(RoundDivide, EqualsTheWideReferenceAndIsOdd) {
   Raws raws;
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     const std::int64_t n = raws.signed_below_bits(62);
     const auto d = static_cast<std::int64_t>(raws.below_bits(62)) + 1;
     const std::int64_t expected = round_divide(Int128::from(n), d);
@@ -80,7 +81,7 @@ TEST(RoundDivide, EqualsTheWideReferenceAndIsOdd) {
 
 TEST(MultiplyShift, EqualsTheWideReferenceWhereverTheResultFits) {
   Raws raws;
-  for (int i = 0; i < 2000000; ++i) {
+  for (int i = 0; i < test::share_of(2000000); ++i) {
     const std::int64_t a = i % 97 == 0 ? k_min : raws.signed_below_bits(63);
     const auto b = i % 89 == 0 ? std::numeric_limits<std::int32_t>::min()
                                : static_cast<std::int32_t>(raws.signed_below_bits(31));
@@ -121,7 +122,7 @@ TEST(Fixed, FromRatioRoundsAndMirrors) {
 
 TEST(Quat, MatrixRotatesAsTheQuaternionDoes) {
   Raws raws;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const auto unit = [&] { return Unit::from_raw(raws.any32()); };
     const Quat q = normalized({unit(), unit(), unit(), unit()});
     const Mat3 m = to_matrix(q);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -23,7 +24,7 @@ SignedWord word(Int128 x) {
 
 TEST(Int128, PortableProductAndQuotientEqualTheCompilers) {
   test::Raws raws;
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     const std::uint64_t a = raws.below_bits(64);
     const std::uint64_t b = raws.below_bits(64);
     ASSERT_EQ(portable::multiply_wide(a, b), native::multiply_wide(a, b)) << a << ' ' << b;
@@ -37,7 +38,7 @@ TEST(Int128, PortableProductAndQuotientEqualTheCompilers) {
 
 TEST(Int128, SumsShiftsAndOrderEqualTheCompilers) {
   test::Raws raws;
-  for (int i = 0; i < 500000; ++i) {
+  for (int i = 0; i < test::share_of(500000); ++i) {
     const Int128 a = Int128::from_bits({raws.below_bits(64), raws.bits64()});
     const Int128 b = Int128::from_bits({raws.below_bits(64), raws.bits64()});
     const int shift = static_cast<int>(raws.bits64() % 128);
@@ -53,7 +54,7 @@ TEST(Int128, SumsShiftsAndOrderEqualTheCompilers) {
 
 TEST(Int128, SignedProductIsExact) {
   test::Raws raws;
-  for (int i = 0; i < 500000; ++i) {
+  for (int i = 0; i < test::share_of(500000); ++i) {
     const std::int64_t a = i % 97 == 0 ? k_min : raws.signed_below_bits(63);
     const std::int64_t b = i % 89 == 0 ? k_min : raws.signed_below_bits(63);
     ASSERT_EQ(word(multiply_wide(a, b)), SignedWord{a} * b) << a << ' ' << b;

@@ -62,7 +62,7 @@ int exact_circumsphere(const std::array<LatticePoint, 5>& p) {
 
 TEST(Orient3d, EqualsTheExactDeterminantAtEveryScale) {
   Raws raws;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < test::share_of(200000); ++i) {
     const int bits = 1 + static_cast<int>(raws.bits64() % 31);
     const auto a = random_point(raws, bits), b = random_point(raws, bits),
                c = random_point(raws, bits), d = random_point(raws, bits);
@@ -76,7 +76,7 @@ TEST(Orient3d, EqualsTheExactDeterminantAtEveryScale) {
 
 TEST(Orient3d, IsExactNextToDegenerateCases) {
   Raws raws;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const int bits = 3 + static_cast<int>(raws.bits64() % 27);
     const auto a = random_point(raws, bits), u = random_point(raws, bits - 2),
                v = random_point(raws, bits - 2);
@@ -98,7 +98,7 @@ TEST(Orient3d, IsExactNextToDegenerateCases) {
 
 TEST(SideOfPlane, EqualsTheExactSum) {
   Raws raws;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < test::share_of(200000); ++i) {
     const auto n = random_point(raws, 31), p = random_point(raws, 31);
     const mpz_class sum = mpz_class(n.x) * p.x + mpz_class(n.y) * p.y + mpz_class(n.z) * p.z;
     const std::int64_t offset = raws.signed_below_bits(63);
@@ -113,7 +113,7 @@ TEST(SideOfPlane, EqualsTheExactSum) {
 
 TEST(SideOfSphere, EqualsTheExactDistance) {
   Raws raws;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < test::share_of(200000); ++i) {
     const auto c = random_point(raws, 31), p = random_point(raws, 31);
     const auto radius = static_cast<std::int64_t>(raws.below_bits(34));
     const mpz_class distance = square(minus(p, c));
@@ -125,7 +125,7 @@ TEST(SideOfSphere, EqualsTheExactDistance) {
 
 TEST(SideOfCircumsphere, EqualsTheCentreByCramersRule) {
   Raws raws;
-  for (int i = 0; i < 60000; ++i) {
+  for (int i = 0; i < test::share_of(60000); ++i) {
     const int bits = 1 + static_cast<int>(raws.bits64() % 23);
     std::array<LatticePoint, 5> p;
     for (LatticePoint& point : p)
@@ -159,7 +159,7 @@ TEST(Lattice, BringsDifferencesIntoItsBits) {
   EXPECT_EQ(lattice_shift(~std::uint64_t{0}), 45);
   EXPECT_EQ(to_lattice({7, -7, 6}, {1, -1, 1}, 2), (LatticePoint{2, -2, 1}));
   Raws raws;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const std::int64_t x = raws.signed_below_bits(62);
     const LatticePoint p = to_lattice({x, -x, 0}, {}, lattice_shift(magnitude(x)));
     ASSERT_LE(std::abs(p.x), 1 << k_lattice_bits);

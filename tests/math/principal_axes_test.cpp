@@ -6,6 +6,7 @@
 
 #include "core/math/int192.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 
 namespace lockstone::test {
 namespace {
@@ -67,7 +68,7 @@ Tensor random_tensor(Random& random, int vectors, int thin_bits) {
 
 TEST(PrincipalAxes, GiveTheTensorBack) {
   Random random;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Tensor tensor = random_tensor(random, 1 + i % 5, i % 7);
     const PrincipalAxes principal = principal_axes(tensor);
     ASSERT_LT(difference(matrix_of(principal), matrix_of(tensor)), 8e-9L);
@@ -123,7 +124,7 @@ TEST(Int192, MultipliesAndAddsExactly) {
   const auto word = [&random] {
     return static_cast<std::int64_t>(random.next()) >> (random.next() % 64);
   };
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const std::int64_t a = word() >> 1, b = word() >> 1, c = word(), d = word();
     const Int128 ab = multiply_wide(a, b);
     // (ab)·c + (ab)·d = ab·(c + d), by two halves of d that cannot overflow the sum
@@ -141,7 +142,7 @@ TEST(Int192, ScalesAsNarrowerOnesDo) {
   const auto word = [&random] {
     return static_cast<std::int64_t>(random.next()) >> (random.next() % 64);
   };
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Int128 x = multiply_wide(word(), word());
     const int shift = static_cast<int>(random.between(0, 63));
     EXPECT_EQ(scaled(Int192::from(x), -shift), round_shift(x, shift));

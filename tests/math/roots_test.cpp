@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -35,7 +36,8 @@ TEST(ReciprocalSqrt, NeverExceedsTheTrueValueAndStaysWithinItsBound) {
 }
 
 TEST(Isqrt, FloorsAtNeighboursOfPerfectSquares) {
-  for (std::uint64_t root = 1; root <= 0xffffffffU; root += root < 100000 ? 1 : 2039) {
+  for (std::uint64_t root = 1; root <= 0xffffffffU;
+       root += root < 100000 ? 1 : 2039 * test::k_share) {
     const std::uint64_t square = root * root;
     ASSERT_EQ(isqrt(square), root);
     ASSERT_EQ(isqrt(square - 1), root - 1);
@@ -58,7 +60,7 @@ TEST(Isqrt, FloorsBelowSquaresWhereTheReciprocalIsHigh) {
 
 TEST(Isqrt, FloorsRandomInputsOfEveryScale) {
   Raws raws;
-  for (int i = 0; i < 3000000; ++i) {
+  for (int i = 0; i < test::share_of(3000000); ++i) {
     const std::uint64_t n = raws.below_bits(64);
     const std::uint64_t root = isqrt(n);
     ASSERT_TRUE(root * root <= n && n - root * root <= 2 * root) << n;
@@ -79,7 +81,7 @@ TEST(Isqrt128, FloorsInputsOfEveryScaleAndNeighboursOfSquares) {
     const UInt128 square = multiply_wide(root, root);
     ASSERT_TRUE(square <= n && n - square <= (UInt128{0, root} << 1)) << n.high << ' ' << n.low;
   };
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     check({raws.below_bits(64), raws.bits64()});
     const std::uint64_t root = raws.below_bits(64) | 1;
     const UInt128 square = multiply_wide(root, root);
@@ -99,7 +101,7 @@ TEST(Isqrt128, EndsWhereTheEstimateIsAlreadyExact) {
     ASSERT_TRUE(square <= n && n - square <= (UInt128{0, root} << 1)) << n.high << ' ' << n.low;
   };
   check({9, 12113780222731940864U});
-  for (int i = 0; i < 1000000; ++i) {
+  for (int i = 0; i < test::share_of(1000000); ++i) {
     const std::uint64_t y = (std::uint64_t{1} << 31) | raws.below_bits(31) | 1;
     const std::uint64_t s = divide(UInt128{std::uint64_t{1} << 62, 0}, y * y).quotient;
     if (s < std::uint64_t{1} << 62) continue;
@@ -112,7 +114,7 @@ TEST(Isqrt128, EndsWhereTheEstimateIsAlreadyExact) {
 TEST(Norm, IsRoundedCorrectlyForVectorsOfAnyScale) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const std::int64_t x = i % 101 == 0 ? k_min : raws.signed_below_bits(63);
     const std::int64_t y = raws.signed_below_bits(62), z = raws.signed_below_bits(62);
     const Real root = sqrt(Real(x) * Real(x) + Real(y) * Real(y) + Real(z) * Real(z));
@@ -129,7 +131,7 @@ TEST(Norm, IsRoundedCorrectlyForVectorsOfAnyScale) {
 TEST(Direction, ErrsLessThan0_51InTheLastPlace) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const int bits = 1 + static_cast<int>(raws.bits64() % 63);
     const std::int64_t v[3] = {raws.signed_below_bits(bits), raws.signed_below_bits(bits),
                                i % 101 == 0 ? k_min : raws.signed_below_bits(63)};
@@ -160,7 +162,7 @@ TEST(Direction, OfTinyZeroAndHugeVectorsIsExactOnTheAxes) {
 
 TEST(Direction, MirrorsAndPermutesWithItsInputAndIgnoresScale) {
   Raws raws;
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < test::share_of(300000); ++i) {
     const int bits = 1 + static_cast<int>(raws.bits64() % 63);
     const std::int64_t x = raws.signed_below_bits(bits), y = raws.signed_below_bits(bits),
                        z = raws.signed_below_bits(bits);
@@ -178,7 +180,7 @@ TEST(Direction, MirrorsAndPermutesWithItsInputAndIgnoresScale) {
 TEST(Normalized, QuaternionsOfEveryScaleGetNormOne) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const int bits = 31;
     const auto unit = [&] {
       return Unit::from_raw(static_cast<std::int32_t>(raws.signed_below_bits(bits)));
@@ -199,7 +201,7 @@ TEST(Normalized, QuaternionsOfEveryScaleGetNormOne) {
 TEST(Normalized, NearUnitPathAgreesWithTheExactScaling) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const Vec3<Unit> d = direction_of(raws.any32(), raws.any32(), raws.any32());
     const auto off = [&](Unit u) {
       return Unit::from_raw(u.raw + static_cast<std::int32_t>(raws.signed_below_bits(10)));

@@ -7,6 +7,7 @@
 
 #include "core/math/roots.h"
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -68,7 +69,7 @@ RawSymMat3 random_definite(Raws& raws) {
 TEST(SymMat3Inverse, RoundsEveryEntryOfTheExactInverse) {
   Raws raws;
   double worst = 0, worst_relative = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const RawSymMat3 s = random_definite(raws);
     if (!is_positive_definite(s)) continue;
     const int bits = static_cast<int>(raws.bits64() % 31);
@@ -119,7 +120,8 @@ TEST(SymMat3Definite, IsExactAtTheEdge) {
   EXPECT_FALSE(is_positive_definite(RawSymMat3{low, low, low, low, low, low}));
   EXPECT_FALSE(is_positive_definite(RawSymMat3{5, 5, 5, low, low, low}));
   Raws raws;
-  for (int i = 0; i < 20000; ++i) {  // rank 2: the determinant is exactly zero, or one step off
+  // Rank 2: the determinant is exactly zero, or one step off.
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const auto a = static_cast<std::int32_t>(raws.signed_below_bits(14)),
                b = static_cast<std::int32_t>(raws.signed_below_bits(14)),
                c = static_cast<std::int32_t>(raws.signed_below_bits(14)) | 1;
@@ -132,7 +134,7 @@ TEST(SymMat3Definite, IsExactAtTheEdge) {
 
 TEST(SymMat3Solve, RoundsTheExactSolution) {
   Raws raws;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const RawSymMat3 s = random_definite(raws);
     if (!is_positive_definite(s)) continue;
     const Vec3<std::int32_t> b{raws.any32(), raws.any32(), raws.any32()};
@@ -162,7 +164,7 @@ TEST(SymMat3Solve, RoundsTheExactSolution) {
 
 TEST(SymMat3Rotate, RoundsTheExactTensorOnce) {
   Raws raws;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const auto unit = [&] { return Unit::from_raw(raws.any32()); };
     const Mat3 r = to_matrix(normalized({unit(), unit(), unit(), unit()}));
     const auto entry = [&] { return static_cast<std::int32_t>(raws.signed_below_bits(29)); };

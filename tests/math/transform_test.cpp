@@ -3,6 +3,7 @@
 #include <lockstone/transform.h>
 
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -44,7 +45,7 @@ TEST(Transform, QuarterTurnsAreExact) {
 // away is off by 2^-30 of that.
 TEST(Transform, InverseUndoesWithinTheMatrixError) {
   Raws raws;
-  for (int i = 0; i < 50000; ++i) {
+  for (int i = 0; i < test::share_of(50000); ++i) {
     const Transform t = random_transform(raws);
     const auto near = [&] { return Position::from_raw(raws.signed_below_bits(30)); };
     const Vec3<Position> p{near(), near(), near()};
@@ -55,7 +56,7 @@ TEST(Transform, InverseUndoesWithinTheMatrixError) {
 
 TEST(Transform, ComposeAppliesTheSecondFirst) {
   Raws raws;
-  for (int i = 0; i < 50000; ++i) {
+  for (int i = 0; i < test::share_of(50000); ++i) {
     const Transform a = random_transform(raws), b = random_transform(raws);
     const auto near = [&] { return Position::from_raw(raws.signed_below_bits(30)); };
     const Vec3<Position> p{near(), near(), near()};
@@ -65,7 +66,7 @@ TEST(Transform, ComposeAppliesTheSecondFirst) {
 
 TEST(Transform, RotationOfWidePositionsIsRoundedOnce) {
   Raws raws;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::share_of(20000); ++i) {
     const Mat3 m = to_matrix(random_transform(raws).orientation);
     const Vec3<Position> v{
         {raws.signed_below_bits(60)}, {raws.signed_below_bits(60)}, {raws.signed_below_bits(60)}};

@@ -6,6 +6,7 @@
 
 #include "core/math/roots.h"
 #include "tests/math/reference.h"
+#include "tests/support/workload.h"
 
 namespace lockstone {
 namespace {
@@ -37,7 +38,8 @@ double error_of_rotation(const RotationVector& v) {
 TEST(SinCos, ErrsLessThanOneLastPlace) {
   Raws raws;
   double worst = 0;
-  for (std::int64_t raw = -(std::int64_t{1} << 31); raw < std::int64_t{1} << 31; raw += 42937) {
+  for (std::int64_t raw = -(std::int64_t{1} << 31); raw < std::int64_t{1} << 31;
+       raw += 42937 * test::k_share) {
     const Angle x = Angle::from_raw(static_cast<std::int32_t>(raw));
     const SinCos ours = sin_cos(x);
     worst = worst_of(worst, sin(Real(raw, 27)).error_of(ours.sin.raw, 30));
@@ -61,7 +63,7 @@ TEST(SinCos, IsOddAndEvenExactly) {
 TEST(Atan2, ErrsLittleMoreThanHalfALastPlaceAtEveryScale) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const std::int64_t y = raws.signed_below_bits(i % 2 == 0 ? 31 : 63);
     const std::int64_t x = raws.signed_below_bits(i % 3 == 0 ? 31 : 63);
     if (x == 0 && y == 0) continue;
@@ -80,7 +82,7 @@ TEST(Atan2, KnowsTheAxesAndIsOddInY) {
   EXPECT_EQ(atan2_raw(-7, 0).raw, -pi / 2);
   EXPECT_EQ(atan2_raw(std::numeric_limits<std::int64_t>::min(), 0).raw, -pi / 2);
   Raws raws;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < test::share_of(200000); ++i) {
     const std::int64_t y = raws.signed_below_bits(63) | 1, x = raws.signed_below_bits(63);
     ASSERT_EQ(atan2_raw(-y, x), -atan2_raw(y, x));
   }
@@ -89,7 +91,8 @@ TEST(Atan2, KnowsTheAxesAndIsOddInY) {
 TEST(ArcSineAndCosine, ErrLessThanOneLastPlace) {
   Raws raws;
   double worst = 0;
-  for (std::int64_t i = -(std::int64_t{1} << 30); i <= std::int64_t{1} << 30; i += 42949) {
+  for (std::int64_t i = -(std::int64_t{1} << 30); i <= std::int64_t{1} << 30;
+       i += 42949 * test::k_share) {
     const std::int64_t near_one = (std::int64_t{1} << 30) - (i & 0xffff);
     for (const std::int64_t raw : {i, near_one}) {
       const Unit x = Unit::from_raw(static_cast<std::int32_t>(raw));
@@ -105,7 +108,7 @@ TEST(ArcSineAndCosine, ErrLessThanOneLastPlace) {
 TEST(RotationFromVector, SmallVectorsErrLessThanOneLastPlace) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 40000; ++i) {
+  for (int i = 0; i < test::share_of(40000); ++i) {
     const int bits = 1 + static_cast<int>(raws.bits64() % 31);
     worst = worst_of(worst, error_of_rotation(rotation_vector(raws.signed_below_bits(bits),
                                                               raws.signed_below_bits(bits),
@@ -118,7 +121,7 @@ TEST(RotationFromVector, SmallVectorsErrLessThanOneLastPlace) {
 TEST(RotationFromVector, LargeVectorsErrLessThanTwoLastPlaces) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 40000; ++i) {
+  for (int i = 0; i < test::share_of(40000); ++i) {
     const int bits = 31 + static_cast<int>(raws.bits64() % 33);
     worst = worst_of(worst, error_of_rotation(rotation_vector(raws.signed_below_bits(bits),
                                                               raws.signed_below_bits(bits),
@@ -130,7 +133,7 @@ TEST(RotationFromVector, LargeVectorsErrLessThanTwoLastPlaces) {
 
 TEST(RotationFromVector, FlipsMirrorsAndPermutesExactly) {
   Raws raws;
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < test::share_of(300000); ++i) {
     const int bits = 1 + static_cast<int>(raws.bits64() % 63);
     const std::int64_t x = raws.signed_below_bits(bits), y = raws.signed_below_bits(bits),
                        z = raws.signed_below_bits(bits);
@@ -148,7 +151,7 @@ TEST(RotationFromVector, FlipsMirrorsAndPermutesExactly) {
 TEST(FromAxisAngle, ErrsLessThanTwoLastPlaces) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 30000; ++i) {
+  for (int i = 0; i < test::share_of(30000); ++i) {
     const Vec3<Unit> axis = direction_of(raws.any32(), raws.any32(), raws.any32());
     const Angle angle = Angle::from_raw(raws.any32());
     const Real half = Real(angle.raw, 28);
@@ -198,7 +201,7 @@ TEST(Integrate, DriftsLittleOverAMillionSteps) {
 TEST(Integrate, MakesATurnOfManyRoundingsAUnitAgain) {
   Raws raws;
   double worst = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const Quat q = normalized({{static_cast<std::int32_t>(raws.signed_below_bits(30))},
                                {static_cast<std::int32_t>(raws.signed_below_bits(30))},
                                {static_cast<std::int32_t>(raws.signed_below_bits(30))},
@@ -215,7 +218,7 @@ TEST(Integrate, MakesATurnOfManyRoundingsAUnitAgain) {
 TEST(Integrate, MirroredMotionStaysMirrored) {
   Quat q, mirrored;
   Raws raws;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::share_of(100000); ++i) {
     const std::int64_t x = raws.signed_below_bits(30), y = raws.signed_below_bits(30),
                        z = raws.signed_below_bits(30);
     q = integrate(q, rotation_vector(x, y, z));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tools/fuzz/fuzz_run.h"
 #include "tools/fuzz/pair_checks.h"
 
@@ -12,7 +13,7 @@ const Figure& figure_of(const std::array<Figure, k_checks>& figures, Check check
   return figures[static_cast<std::size_t>(check)];
 }
 
-constexpr std::uint64_t k_pairs = 20'000;
+constexpr std::uint64_t k_pairs = test::share_of(20'000);
 
 TEST(FuzzPairs, OfARandomSeedKeepTheLaws) {
   const FuzzReport report = fuzz_pairs(
@@ -21,7 +22,7 @@ TEST(FuzzPairs, OfARandomSeedKeepTheLaws) {
   for (int i = 0; i < k_checks; ++i) {
     const auto check = static_cast<Check>(i);
     const Figure& figure = figure_of(report.figures, check);
-    EXPECT_GT(figure.count, 1000U) << text_of(check).name;
+    EXPECT_GT(figure.count, test::share_of(1000U)) << text_of(check).name;
     EXPECT_EQ(figure.failures, 0U) << text_of(check).name << " of pair " << figure.worst_index;
   }
 }
@@ -41,7 +42,8 @@ TEST(FuzzPairs, ThatBrokeABoundKeepIt) {
 }
 
 TEST(FuzzPairs, GiveOneReportForAnyNumberOfThreads) {
-  FuzzOptions options{.seed = 5, .first = 100, .count = 1500, .threads = 1, .kinds = {}};
+  FuzzOptions options{
+      .seed = 5, .first = 100, .count = test::share_of(1500), .threads = 1, .kinds = {}};
   const FuzzReport one = fuzz_pairs(options);
   options.threads = 3;
   const FuzzReport three = fuzz_pairs(options);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/workload.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -57,7 +58,7 @@ void expect_stack_stands_for_a_minute(int count, double sunk) {
     top = test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {},
                                               Position::from_ratio(2 * i + 1, 2), {}));
   }
-  test::step(world, 3600);
+  test::step(world, test::share_of(3600));
   const Vec3<Position> at = world.position(top);
   EXPECT_NEAR(metres(at.x), 0.0, 1e-6);
   EXPECT_NEAR(metres(at.z), 0.0, 1e-6);
@@ -110,7 +111,7 @@ TEST(Stack, OfFortyBoxesOutOfLineStands) {
                                                         Position::from_ratio(2 * i + 1, 2), z)));
   }
   const Vec3<Position> start = world.position(boxes.back());
-  test::step(world, 900);
+  test::step(world, test::share_of(900));
   const Vec3<Position> end = world.position(boxes.back());
   EXPECT_NEAR(metres(end.x - start.x), 0.0, 1e-4);
   EXPECT_NEAR(metres(end.y - start.y), 0.0, 1e-3);

@@ -13,6 +13,7 @@
 #include <lockstone/mesh.h>
 #include <lockstone/testing/floating.h>
 
+#include "tests/support/workload.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -24,7 +25,7 @@ constexpr int k_samples = 73;  // 72 × 72 cells: 10368 triangles
 constexpr int k_cell_mm = 1000;
 constexpr int k_settle_ticks = 12;
 constexpr int k_slide_ticks = 120;
-constexpr int k_headings = 16;
+constexpr int k_headings = test::share_of(16);
 
 /// Grid points, the middle one at the origin; raised by `ridge` along the line that is 3 m from it.
 std::vector<Vec3<Length>> grid_points(Length ridge) {

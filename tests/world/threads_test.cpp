@@ -8,6 +8,7 @@
 #include <lockstone/thread_pool.h>
 
 #include "tests/support/shuffled_runner.h"
+#include "tests/support/workload.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -45,7 +46,7 @@ void expect_same(std::uint32_t pair_capacity, std::uint32_t contact_capacity, Ta
   World shared = make_crowd(pair_capacity, contact_capacity);
   shared.set_task_runner(&runner, TaskPieces::smallest);
   bool exhausted = false;
-  for (int tick = 0; tick < 20; ++tick) {
+  for (int tick = 0; tick < test::share_of(20); ++tick) {
     const StepReport report = alone.step();
     exhausted = exhausted || report.status == Status::capacity_exhausted;
     ASSERT_EQ(shared.step(), report) << "at tick " << tick;
