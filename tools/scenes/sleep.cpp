@@ -11,7 +11,7 @@ constexpr std::uint32_t k_floor_index = 1;
 constexpr std::uint32_t k_lift_index = 2;
 
 constexpr int k_towers = 6;
-constexpr int k_storeys = 4;
+constexpr int k_stacked = 4;
 constexpr std::uint64_t k_floor_goes = 70;
 constexpr std::uint64_t k_ball_comes = 100;
 constexpr std::uint64_t k_lift_starts = 130;
@@ -23,10 +23,10 @@ void build_sleep(World& world, std::uint64_t) {
   BodyDef lift = fixed_box({-8_m, 0.25_m, {}}, {1.5_m, 0.25_m, 1.5_m});
   lift.motion = MotionType::kinematic;
   add(world, lift);
-  add_stack(world, {-12_m, 0.5_m, {}}, k_storeys);
-  add_stack(world, {-8_m, 0.5_m, {}}, k_storeys);
+  add_stack(world, {-12_m, 0.5_m, {}}, k_stacked);
+  add_stack(world, {-8_m, 0.5_m, {}}, k_stacked);
   for (int i = 0; i < k_towers; ++i)
-    add_stack(world, {millimetres(-4000 + 3000 * i), {}, {}}, k_storeys);
+    add_stack(world, {millimetres(-4000 + 3000 * i), {}, {}}, k_stacked);
 }
 
 void drive_sleep(World& world, std::uint64_t seed) {
