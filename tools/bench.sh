@@ -35,10 +35,20 @@ for argument in "$@"; do
 done
 ((${#benchmarks[@]})) || benchmarks=(speed queries rows numerics skip front)
 
+node=build/bench/node
+
+# fetch_node: Emscripten, and the engines under Node.
+fetch_node() {
+  command -v npm >/dev/null || return 0
+  (require_packages bench-wasm) || true
+  mkdir -p "$node"
+  cp tools/bench/peers/node/*.mjs tools/bench/peers/node/package.json "$node"
+  npm install --prefix "$node" --no-audit --no-fund --silent || rm -f "$node/package.json"
+}
+
 # wasm_player: builds ours for Node and names the file; nothing without Emscripten.
 wasm_player() {
   local folder=build/bench/wasm
-  (require_packages bench-wasm) >&2 || true
   command -v em++ >/dev/null || return 0
   # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.
   export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
@@ -50,12 +60,9 @@ wasm_player() {
 
 # node_options: what tells `lockstone` of engines under Node; nothing without them.
 node_options() {
-  local folder=build/bench/node player
-  command -v node >/dev/null && command -v npm >/dev/null || return 0
-  mkdir -p "$folder"
-  cp tools/bench/peers/node/*.mjs tools/bench/peers/node/package.json "$folder"
-  npm install --prefix "$folder" --no-audit --no-fund --silent >&2 || return 0
-  printf '%s\n' --node "$folder"
+  local player
+  command -v node >/dev/null && [[ -e $node/package.json ]] || return 0
+  printf '%s\n' --node "$node"
   player=$(wasm_player)
   [[ -z $player ]] || printf '%s\n' --wasm "$player"
 }
@@ -86,7 +93,10 @@ arguments_of() {
 require_packages build
 # A peer that cannot be had is no reason to stop.
 (require_packages bench) || true
+# Fetching hardly needs a processor: meanwhile they build. Nothing is measured before both are done.
+if [[ " ${benchmarks[*]} " == *" front "* ]]; then fetch_node >&2 & fi
 build_preset bench
+wait
 mkdir -p "$results"
 
 # A goal that is missed is reported, and the rest still runs.
