@@ -224,7 +224,7 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
     rows_[index].velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
     rows_[index].spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
   }
-  bodies_[index].rests = is_slower(rows_[index], bodies_[index], k_rigid_shift);
+  bodies_[index].rests = has_heap_ && is_slower(rows_[index], bodies_[index], k_rigid_shift);
 }
 
 const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) {

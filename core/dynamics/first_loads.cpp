@@ -76,8 +76,7 @@ void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowB
     for (const Support& support : supports) {
       RowPush to_a, to_b;
       hand_down(run, support, to_a, to_b);
-      (support.is_b ? to_b : to_a).add_to(warm[body]);
-      order.hand_down(support.link, support.is_b ? to_a : to_b);
+      order.hand_down(support.link, support.is_b, to_a, to_b, warm[body]);
     }
   });
 }

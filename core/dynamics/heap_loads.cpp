@@ -108,9 +108,7 @@ void HeapLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBo
     for (const Support& support : scratch.supports) {
       RowPush to_a, to_b;
       push(run, support, to_a, to_b);
-      const bool is_b = support.pair.b == body;
-      (is_b ? to_b : to_a).add_to(warm[body]);
-      order.hand_down(support.link, is_b ? to_a : to_b);
+      order.hand_down(support.link, support.pair.b == body, to_a, to_b, warm[body]);
     }
   });
   for (std::size_t body = 1; body < run.bodies.size(); ++body)

@@ -82,8 +82,13 @@ class SupportOrder {
       if (is_held_[body] != k_visited) add_handed(body, rows[body]);
   }
 
-  /// What a link does to the body that carries it: of one that the body being visited rests on.
-  void hand_down(std::uint32_t link, const RowPush& push) { handed_[link] = push; }
+  /// What a link does to its bodies: to the row of the one being visited, which rests on it by its
+  /// side B or A, and to the one that carries it.
+  void hand_down(std::uint32_t link, bool rests_by_b, const RowPush& to_a, const RowPush& to_b,
+                 lanes::RowBody& row) {
+    (rests_by_b ? to_b : to_a).add_to(row);
+    handed_[link] = rests_by_b ? to_a : to_b;
+  }
 
   /// Calls `visit(link, number)` for the links that a body rests on.
   template <class Visit>
