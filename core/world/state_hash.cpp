@@ -41,9 +41,7 @@ StateHash World::hash() const {
   StateHash hash;
   hash.header = hash_record(world.header, 0);
   world.visit(BodyStore{}, [&](auto bodies) { hash.bodies = world.body_hashes.sum(bodies); });
-  hash.contacts = world.frozen.hash();
-  for (const ContactRecord& contact : world.contacts())
-    hash.contacts += hash_contact(contact);
+  hash.contacts = world.frozen.hash() + hash_contacts(world.contacts());
   world.visit(JointStore{}, [&](auto joints) { hash.joints = world.joint_hashes.sum(joints); });
   hash.hashed =
       1 + world.body_hashes.hashed() + world.active_contacts + world.joint_hashes.hashed();
