@@ -50,9 +50,9 @@ struct ContactScene {
 class ContactSolver {
  public:
   /// No functions but this and `make_room` allocate.
-  ContactSolver(const TimeStep& step, std::size_t body_capacity, std::size_t contact_capacity,
-                std::size_t joint_capacity);
-  ~ContactSolver();
+  [[gnu::cold]] ContactSolver(const TimeStep& step, std::size_t body_capacity,
+                              std::size_t contact_capacity, std::size_t joint_capacity);
+  [[gnu::cold]] ~ContactSolver();
 
   /// For so many workers.
   void make_room(std::uint32_t workers);

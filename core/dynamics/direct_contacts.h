@@ -32,7 +32,7 @@ class DirectContacts {
   };
 
   /// No function but this allocates.
-  DirectContacts(std::size_t body_capacity, std::size_t contact_capacity);
+  [[gnu::cold]] DirectContacts(std::size_t body_capacity, std::size_t contact_capacity);
 
   void clear();
 

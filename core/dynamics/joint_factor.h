@@ -27,7 +27,7 @@ class JointFactor {
   using Entries = std::array<std::int64_t, k_factor_rows * k_factor_rows>;
 
   /// No function but this allocates.
-  explicit JointFactor(std::size_t joint_capacity);
+  [[gnu::cold]] explicit JointFactor(std::size_t joint_capacity);
 
   void clear();
 

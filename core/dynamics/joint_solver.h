@@ -40,7 +40,8 @@ struct JointRun {
 class JointSolver {
  public:
   /// No function but this allocates.
-  JointSolver(const TimeStep& step, std::size_t body_capacity, std::size_t joint_capacity);
+  [[gnu::cold]] JointSolver(const TimeStep& step, std::size_t body_capacity,
+                            std::size_t joint_capacity);
 
   void clear();
 

@@ -46,7 +46,7 @@ inline constexpr int k_max_impacts = 4;
 inline constexpr Length k_contact_margin = Length::from_ratio(1, 50);
 
 struct World::Impl {
-  Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
+  [[gnu::cold]] Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
   // The tick, one function a stage (step.cpp).
   StepReport step();
