@@ -17,6 +17,10 @@ void ConstraintGraph::clear() {
   size_ = 0;
 }
 
+std::uint32_t ConstraintGraph::greatest_count() const {
+  return *std::max_element(counts_, counts_ + k_graph_colors);
+}
+
 // A constraint gets the first colour free at both bodies: none below one in use is empty.
 std::uint32_t ConstraintGraph::colors() const {
   const std::uint32_t* const end = counts_ + k_graph_colors;

@@ -55,6 +55,8 @@ class ConstraintGraph {
 
   /// Constraints of a colour, the overflow included.
   [[nodiscard]] std::uint32_t count(std::size_t color) const { return counts_[color]; }
+  /// Of the colour that has most, the overflow left out.
+  [[nodiscard]] std::uint32_t greatest_count() const;
 
   /// Colours in use, the overflow not counted.
   [[nodiscard]] std::uint32_t colors() const;

@@ -227,8 +227,8 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
   bodies_[index].rests = has_heap_ && is_slower(rows_[index], bodies_[index], k_rigid_shift);
 }
 
-const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) {
-  return color == k_overflow_color ? lanes::k_scalar_manifolds : lanes::manifold_kernels();
+const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) const {
+  return color == k_overflow_color ? lanes::k_scalar_manifolds : *kernels_;
 }
 
 // Blocks of one colour, counted from its first.

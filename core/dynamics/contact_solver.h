@@ -232,7 +232,7 @@ class ContactSolver {
   void add_loop_of_each_color(StageKind kind, std::uint8_t substep = 0);
   void add_net_loops(StageKind kind);
   void add_loops_of_substep(std::uint8_t substep);
-  [[nodiscard]] static const lanes::ManifoldKernels& kernels_of(std::size_t color);
+  [[nodiscard]] const lanes::ManifoldKernels& kernels_of(std::size_t color) const;
 
   // Pieces of loops.
   void fill_bodies(const ContactScene& scene, std::size_t first, std::size_t end);
@@ -294,6 +294,7 @@ class ContactSolver {
   std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
   Range ranges_[k_graph_colors + 1];
+  const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact
   std::vector<std::uint8_t> kept_;    // by lane: whether the record has the manifold's points
   std::size_t block_count_ = 0;

@@ -111,6 +111,7 @@ void ContactSolver::lay_out(Parallel& parallel) {
     ranges_[color] = {block_count_, blocks_for(graph_.count(color))};
     block_count_ += ranges_[color].count;
   }
+  kernels_ = &lanes::manifold_kernels(graph_.greatest_count());
   if (blocks_.size() < block_count_) {  // they only grow, within what is reserved
     slots_.resize(block_count_ * k_block_lanes);
     blocks_.resize(block_count_);

@@ -70,6 +70,7 @@ void JointNet::lay_out() {
     ranges_[color] = {blocks, (graph_.count(color) + k_block_lanes - 1) / k_block_lanes};
     blocks += ranges_[color].count;
   }
+  kernels_ = &lanes::ball_kernels(graph_.greatest_count());
   slots_.assign(blocks * k_block_lanes, k_no_joint);
   if (blocks_.size() < blocks) blocks_.resize(blocks);  // they only grow
   const std::span<const ConstraintGraph::Place> places = graph_.places();
@@ -79,8 +80,8 @@ void JointNet::lay_out() {
   }
 }
 
-const BallKernels& JointNet::kernels_of(std::size_t color) {
-  return color == k_overflow_color ? lanes::k_scalar_balls : lanes::ball_kernels();
+const BallKernels& JointNet::kernels_of(std::size_t color) const {
+  return color == k_overflow_color ? lanes::k_scalar_balls : *kernels_;
 }
 
 void JointNet::fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {

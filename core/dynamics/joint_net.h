@@ -84,7 +84,7 @@ class JointNet {
     End a, b;
   };
 
-  [[nodiscard]] static const lanes::BallKernels& kernels_of(std::size_t color);
+  [[nodiscard]] const lanes::BallKernels& kernels_of(std::size_t color) const;
   static void fill_lane(const NetRun& run, const Entry& entry, std::size_t lane,
                         lanes::BallBlock& block);
 
@@ -92,7 +92,8 @@ class JointNet {
   ConstraintGraph graph_;
   std::vector<Entry> entries_;
   Range ranges_[k_graph_colors + 1];
-  std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_joint
+  const lanes::BallKernels* kernels_ = nullptr;  // for as many balls as a colour has at most
+  std::vector<std::uint32_t> slots_;             // by lane of each block: an entry, or k_no_joint
   std::vector<lanes::BallBlock> blocks_;
 };
 

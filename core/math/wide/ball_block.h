@@ -82,8 +82,8 @@ struct BallKernels {
   void (*relax)(RowBody* bodies, BallBlock* blocks, std::size_t count);
 };
 
-/// Those of the target in force.
-[[nodiscard]] const BallKernels& ball_kernels();
+/// Those of the target in force, or of narrower vectors that hold so many balls at once.
+[[nodiscard]] const BallKernels& ball_kernels(std::size_t balls);
 
 /// What they mean.
 extern const BallKernels k_scalar_balls;

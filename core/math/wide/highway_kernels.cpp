@@ -53,28 +53,28 @@ LKS_BLOCK_KERNELS(N_WASM)
 constexpr Kernels k_tables[] = {
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
-    {"sse4", N_SSE4::solve_contact_rows, N_SSE4::compute_rotations, N_SSE4::farthest_point,
-     N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4, &k_balls_N_SSE4,
-     &k_boxes_N_SSE4},
+    {"sse4", N_SSE4::k_lanes, N_SSE4::solve_contact_rows, N_SSE4::compute_rotations,
+     N_SSE4::farthest_point, N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4,
+     &k_balls_N_SSE4, &k_boxes_N_SSE4},
 #endif
 #if HWY_TARGETS & HWY_AVX2
-    {"avx2", N_AVX2::solve_contact_rows, N_AVX2::compute_rotations, N_AVX2::farthest_point,
-     N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2, &k_balls_N_AVX2,
-     &k_boxes_N_AVX2},
+    {"avx2", N_AVX2::k_lanes, N_AVX2::solve_contact_rows, N_AVX2::compute_rotations,
+     N_AVX2::farthest_point, N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2,
+     &k_balls_N_AVX2, &k_boxes_N_AVX2},
 #endif
 #if HWY_TARGETS & HWY_AVX3
-    {"avx512", N_AVX3::solve_contact_rows, N_AVX3::compute_rotations, N_AVX3::farthest_point,
-     N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3, &k_balls_N_AVX3,
-     &k_boxes_N_AVX3},
+    {"avx512", N_AVX3::k_lanes, N_AVX3::solve_contact_rows, N_AVX3::compute_rotations,
+     N_AVX3::farthest_point, N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3,
+     &k_balls_N_AVX3, &k_boxes_N_AVX3},
 #endif
 #elif HWY_TARGETS & HWY_NEON
-    {"neon", N_NEON::solve_contact_rows, N_NEON::compute_rotations, N_NEON::farthest_point,
-     N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON, &k_balls_N_NEON,
-     &k_boxes_N_NEON},
+    {"neon", N_NEON::k_lanes, N_NEON::solve_contact_rows, N_NEON::compute_rotations,
+     N_NEON::farthest_point, N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON,
+     &k_balls_N_NEON, &k_boxes_N_NEON},
 #elif HWY_TARGETS & HWY_WASM
-    {"wasm", N_WASM::solve_contact_rows, N_WASM::compute_rotations, N_WASM::farthest_point,
-     N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM, &k_balls_N_WASM,
-     &k_boxes_N_WASM},
+    {"wasm", N_WASM::k_lanes, N_WASM::solve_contact_rows, N_WASM::compute_rotations,
+     N_WASM::farthest_point, N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM,
+     &k_balls_N_WASM, &k_boxes_N_WASM},
 #endif
     {},
 };

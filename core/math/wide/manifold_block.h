@@ -214,8 +214,9 @@ struct ManifoldKernels {
                  const BlockWord& restitution, std::int32_t threshold);
 };
 
-/// Those of the target in force.
-[[nodiscard]] const ManifoldKernels& manifold_kernels();
+/// Those of the target in force, or of narrower vectors that hold so many manifolds at once: where
+/// there are few, these take less time.
+[[nodiscard]] const ManifoldKernels& manifold_kernels(std::size_t manifolds);
 
 /// What they mean.
 extern const ManifoldKernels k_scalar_manifolds;

@@ -1,5 +1,6 @@
 #include "core/math/wide/target.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 
@@ -9,6 +10,7 @@ namespace lockstone::lanes {
 namespace {
 
 constexpr Kernels k_scalar{"scalar",
+                           1,
                            solve_contact_rows_scalar,
                            compute_rotations_scalar,
                            farthest_point_scalar,
@@ -69,6 +71,16 @@ const Kernels& current() {
   return kernels != nullptr ? *kernels : *supported().kernels[supported().count - 1];
 }
 
+// Wide vectors take longer than narrow ones, whatever they hold. What is forced stays so.
+const Kernels& narrowest_for(std::size_t items) {
+  const Kernels& widest = current();
+  if (forced.load(std::memory_order_relaxed) != nullptr) return widest;
+  const auto all = std::span(supported().kernels).first(supported().count);
+  const auto found =
+      std::ranges::find_if(all, [&](const Kernels* kernels) { return kernels->lanes >= items; });
+  return found == all.end() ? widest : **found;
+}
+
 }  // namespace
 
 std::span<const std::string_view> supported_targets() {
@@ -80,6 +92,10 @@ std::string_view current_target() {
 }
 
 Status set_target(std::string_view name) {
+  if (name.empty()) {
+    forced.store(nullptr, std::memory_order_relaxed);
+    return Status::ok;
+  }
   const Supported& all = supported();
   for (std::size_t i = 0; i < all.count; ++i) {
     if (all.names[i] != name) continue;
@@ -89,12 +105,12 @@ Status set_target(std::string_view name) {
   return Status::not_found;
 }
 
-const ManifoldKernels& manifold_kernels() {
-  return *current().manifolds;
+const ManifoldKernels& manifold_kernels(std::size_t manifolds) {
+  return *narrowest_for(manifolds).manifolds;
 }
 
-const BallKernels& ball_kernels() {
-  return *current().balls;
+const BallKernels& ball_kernels(std::size_t balls) {
+  return *narrowest_for(balls).balls;
 }
 
 const BoxKernels& box_kernels() {

@@ -12,10 +12,11 @@ namespace lockstone::lanes {
 /// `scalar`; others are named `sse4`, `avx2`, `avx512`, `neon`, `wasm`.
 [[nodiscard]] std::span<const std::string_view> supported_targets();
 
-/// The one in force: the best supported until `set_target` is called.
+/// The one in force: the best supported unless another is forced.
 [[nodiscard]] std::string_view current_target();
 
-/// Forces a target for the whole process. To be called before worlds are stepped on other threads.
+/// Forces a target for the whole process, even where narrower vectors hold all there is; with an
+/// empty name, none any more. To be called before worlds are stepped on other threads.
 /// Errors: not_found when it is not among the supported ones; then nothing changes.
 Status set_target(std::string_view name);
 

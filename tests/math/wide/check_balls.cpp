@@ -121,7 +121,7 @@ std::string compare(const Scene& start) {
   run(k_scalar_balls, expected);
   return on_each_target([&] {
     Scene scene = start;
-    run(ball_kernels(), scene);
+    run(ball_kernels(k_block_lanes), scene);
     if (scene == expected) return std::string();
     return "balls in " + std::to_string(start.blocks.size()) + " blocks\n";
   });

@@ -231,7 +231,7 @@ std::string compare(const Scene& start, const SweepRules& rules) {
   run(k_scalar_manifolds, rules, expected);
   return on_each_target([&] {
     Scene scene = start;
-    run(manifold_kernels(), rules, scene);
+    run(manifold_kernels(k_block_lanes), rules, scene);
     if (scene == expected) return std::string();
     return "manifolds in " + std::to_string(start.blocks.size()) + " blocks\n";
   });

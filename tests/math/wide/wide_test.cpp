@@ -4,6 +4,8 @@
 
 #include <lockstone/fixed.h>
 
+#include "core/math/wide/ball_block.h"
+#include "core/math/wide/manifold_block.h"
 #include "core/math/wide/points.h"
 #include "core/math/wide/scalar_lanes.h"
 #include "core/math/wide/target.h"
@@ -34,6 +36,22 @@ TEST(WideTargets, AnUnknownNameChangesNothing) {
   EXPECT_EQ(set_target("abacus"), Status::not_found);
   EXPECT_EQ(current_target(), "scalar");
   ASSERT_EQ(set_target(supported_targets().back()), Status::ok);
+}
+
+TEST(WideTargets, FewAreLeftToNarrowVectorsUnlessOneIsForced) {
+  ASSERT_EQ(set_target("scalar"), Status::ok);
+  EXPECT_EQ(&manifold_kernels(k_block_lanes), &k_scalar_manifolds);
+  EXPECT_EQ(&ball_kernels(k_block_lanes), &k_scalar_balls);
+  const std::string_view best = supported_targets().back();
+  ASSERT_EQ(set_target(best), Status::ok);
+  const ManifoldKernels& widest = manifold_kernels(1);
+  EXPECT_EQ(&manifold_kernels(1000), &widest);
+  ASSERT_EQ(set_target({}), Status::ok);
+  EXPECT_EQ(current_target(), best);
+  EXPECT_EQ(&manifold_kernels(1), &k_scalar_manifolds);
+  EXPECT_EQ(&ball_kernels(1), &k_scalar_balls);
+  EXPECT_EQ(&manifold_kernels(k_block_lanes), &widest);
+  EXPECT_EQ(&manifold_kernels(1000), &widest);
 }
 
 // The scalar twins are the meaning of the lanes; here they meet the rules of the whole project.
