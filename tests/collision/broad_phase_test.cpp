@@ -138,7 +138,7 @@ std::vector<Pair> first(std::vector<Pair> pairs, std::size_t count) {
   return pairs;
 }
 
-class BothBroadPhases : public testing::TestWithParam<BroadPhaseKind> {};
+class BothBroadPhases : public ::testing::TestWithParam<BroadPhaseKind> {};
 
 TEST_P(BothBroadPhases, FindEveryPairOnceAndSortedWhateverHappens) {
   test::Random random;
@@ -271,7 +271,7 @@ TEST_P(BothBroadPhases, TakeBoxesAtTheEdgeOfTheirRange) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, BothBroadPhases,
-                         testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune),
+                         ::testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune),
                          [](const auto& kind) {
                            return kind.param == BroadPhaseKind::tree ? "Tree" : "SweepAndPrune";
                          });

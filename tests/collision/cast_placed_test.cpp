@@ -103,7 +103,7 @@ const OrientedBox k_everything{{}, {}, {metres(500), metres(500), metres(500)}};
 
 using AssetMaker = AssetPtr (*)(Dice& dice);
 
-class ManyPieces : public testing::TestWithParam<AssetMaker> {};
+class ManyPieces : public ::testing::TestWithParam<AssetMaker> {};
 
 TEST_P(ManyPieces, AreCastAtAsEachOfThemAlone) {
   Dice dice;
@@ -158,7 +158,7 @@ TEST_P(ManyPieces, AreAsNearAsTheNearestOfThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Assets, ManyPieces,
-                         testing::Values(random_mesh, random_field, random_compound));
+                         ::testing::Values(random_mesh, random_field, random_compound));
 
 // The middle of the corner's bounds lies half a metre beyond its slanted face, and behind a
 // triangle in front of that face.

@@ -16,6 +16,7 @@ namespace {
 
 using namespace literals;
 using test::metres;
+using test::metres_per_second;
 
 // Bricks of 1 m in `rows` rows, each on two below it and this much before them; of random
 // densities, or all alike.
@@ -32,10 +33,6 @@ std::vector<BodyHandle> add_wall(World& world, int rows, test::Random* random, P
     }
   }
   return bricks;
-}
-
-double metres_per_second(Velocity v) {
-  return std::ldexp(static_cast<double>(v.raw), -32);
 }
 
 double fastest(const World& world, const std::vector<BodyHandle>& bodies) {

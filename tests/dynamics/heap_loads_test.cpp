@@ -16,6 +16,7 @@ namespace {
 
 using namespace literals;
 using test::metres;
+using test::metres_per_second;
 
 // Nothing sleeps.
 World heap_world() {
@@ -35,10 +36,6 @@ std::vector<BodyHandle> add_wall(World& world, int rows, Position bend = {}) {
     }
   }
   return bricks;
-}
-
-double metres_per_second(Velocity v) {
-  return std::ldexp(static_cast<double>(v.raw), -32);
 }
 
 BodyHandle add_moving(World& world, const Shape& shape, Position z, Velocity speed,

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-class FuzzTest : public testing::TestWithParam<Target> {};
+class FuzzTest : public ::testing::TestWithParam<Target> {};
 
 Bytes read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -119,11 +119,11 @@ TEST_P(FuzzTest, SurvivesMutations) {
   EXPECT_GT(refused, 0U);
 }
 
-std::string name_of(const testing::TestParamInfo<Target>& info) {
+std::string name_of(const ::testing::TestParamInfo<Target>& info) {
   return std::string(info.param.name);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FuzzTest, testing::ValuesIn(targets()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, FuzzTest, ::testing::ValuesIn(targets()), name_of);
 
 }  // namespace
 }  // namespace lockstone::fuzz

@@ -6,19 +6,9 @@
 namespace lockstone::test {
 namespace {
 
-const Mat3 k_identity{};
-
 Manifold collide_boxes(const Shape& a, const Mat3& ra, const Shape& b, const Mat3& rb,
                        const Vec3<Length>& offset, double margin = 0.05) {
   return collide({a, ra}, {b, rb}, offset, metres(margin));
-}
-
-std::set<std::uint32_t> features_of(const Manifold& m) {
-  std::set<std::uint32_t> features;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
-    features.insert(m.points[i].feature);
-  }
-  return features;
 }
 
 const Shape k_cube = Shape::box(metres(0.5), metres(0.5), metres(0.5));

@@ -6,16 +6,7 @@
 namespace lockstone::test {
 namespace {
 
-constexpr int k_rounds = 4000;
-constexpr Real k_micrometre = 1e-6L;
-
-Real deepest(const Manifold& m) {
-  Real least = 1e30L;
-  for (int i = 0; i < m.count; ++i) {
-    least = std::min(least, real(m.points[static_cast<std::size_t>(i)].separation));
-  }
-  return least;
-}
+constexpr int k_scenes = 4000;
 
 bool is_pair_of(const Scene& scene, ShapeKind kind) {
   return scene.a.kind == kind && scene.b.kind == kind;
@@ -45,7 +36,7 @@ Real tolerance(const Scene& scene) {
 }
 
 TEST(Collide, FindsTheDistanceOfShapesApart) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Real truth = signed_distance(scene.placed_a(), scene.placed_b());
     if (truth <= 0) return;
     const Real margin = real(scene.margin);
@@ -65,7 +56,7 @@ TEST(Collide, FindsTheDistanceOfShapesApart) {
 }
 
 TEST(Collide, TouchesWhatOverlapsAndIsHardlyDeeperThanTheLeastOverlap) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Real truth = signed_distance(scene.placed_a(), scene.placed_b());
     if (truth > -tolerance(scene)) return;
     const Manifold m = scene.collide();
@@ -79,7 +70,7 @@ TEST(Collide, TouchesWhatOverlapsAndIsHardlyDeeperThanTheLeastOverlap) {
 }
 
 TEST(Collide, NormalsAreUnitVectors) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     if (m.count == 0) return;
     EXPECT_NEAR(static_cast<double>(norm(real(m.normal))), 1.0, std::ldexp(2.0, -30));
@@ -87,7 +78,7 @@ TEST(Collide, NormalsAreUnitVectors) {
 }
 
 TEST(Collide, NoPointIsDeeperThanTheShapesAlongTheNormal) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     if (m.count == 0) return;
     const RealVec n = real(m.normal);
@@ -107,7 +98,7 @@ Real surface_slack(const Scene& scene, const Placed& shape) {
 }
 
 TEST(Collide, AnchorsLieOnTheRoundSurfaceOrMidway) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     const Placed a = scene.placed_a();
     const Placed b = scene.placed_b();
@@ -134,7 +125,7 @@ TEST(Collide, AnchorsLieOnTheRoundSurfaceOrMidway) {
 TEST(Collide, SwappingTheShapesFlipsTheManifoldBitForBit) {
   // Two spheres touch halfway, and the odd half step of the midpoint stays with B.
 
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     const Manifold f = collide(scene.posed_b(), scene.posed_a(), -scene.offset, scene.margin);
     ASSERT_EQ(m.count, f.count);
@@ -155,7 +146,7 @@ TEST(Collide, SwappingTheShapesFlipsTheManifoldBitForBit) {
 }
 
 TEST(Collide, KeepsOnlyPointsWithinTheMargin) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
       const Displacement s = m.points[i].separation;
@@ -165,7 +156,7 @@ TEST(Collide, KeepsOnlyPointsWithinTheMargin) {
 }
 
 TEST(Collide, FeaturesAreUniqueAndAscending) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = scene.collide();
     for (std::size_t i = 1; i < static_cast<std::size_t>(m.count); ++i) {
       EXPECT_LT(m.points[i - 1].feature, m.points[i].feature);
@@ -173,16 +164,16 @@ TEST(Collide, FeaturesAreUniqueAndAscending) {
   });
 }
 
-Vec3<Length> mirrored(const Vec3<Length>& v) {
+Vec3<Length> mirror_image(const Vec3<Length>& v) {
   return {-v.x, v.y, v.z};
 }
-Vec3<Unit> mirrored(const Vec3<Unit>& v) {
+Vec3<Unit> mirror_image(const Vec3<Unit>& v) {
   return {-v.x, v.y, v.z};
 }
 
 /// The mirror image in x of a rotation of a shape that is its own mirror image: M·R·M.
-Mat3 mirrored(const Mat3& m) {
-  return {-mirrored(m.x), mirrored(m.y), mirrored(m.z)};
+Mat3 mirror_image(const Mat3& m) {
+  return {-mirror_image(m.x), mirror_image(m.y), mirror_image(m.z)};
 }
 
 using PointKey = std::array<std::int32_t, 7>;
@@ -191,8 +182,8 @@ std::multiset<PointKey> points_of(const Manifold& m, bool mirror) {
   std::multiset<PointKey> points;
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
     const ManifoldPoint& p = m.points[i];
-    const Vec3<Length> a = mirror ? mirrored(p.anchor_a) : p.anchor_a;
-    const Vec3<Length> b = mirror ? mirrored(p.anchor_b) : p.anchor_b;
+    const Vec3<Length> a = mirror ? mirror_image(p.anchor_a) : p.anchor_a;
+    const Vec3<Length> b = mirror ? mirror_image(p.anchor_b) : p.anchor_b;
     points.insert({a.x.raw, a.y.raw, a.z.raw, b.x.raw, b.y.raw, b.z.raw, p.separation.raw});
   }
   return points;
@@ -203,11 +194,11 @@ TEST(Collide, MirrorImagesGiveMirrorImagesBitForBit) {
   // choice of four among more), the nearest of equally near vertices, the order of equal shapes,
   // and centres that lie level.
   int compared = 0;
-  for_random_scenes(k_rounds, [&compared](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [&compared](Dice&, const Scene& scene) {
     Scene image = scene;
-    image.rotation_a = mirrored(scene.rotation_a);
-    image.rotation_b = mirrored(scene.rotation_b);
-    image.offset = mirrored(scene.offset);
+    image.rotation_a = mirror_image(scene.rotation_a);
+    image.rotation_b = mirror_image(scene.rotation_b);
+    image.offset = mirror_image(scene.offset);
     const Manifold m = scene.collide();
     const Manifold w = image.collide();
     ASSERT_EQ(m.count > 0, w.count > 0);
@@ -216,14 +207,14 @@ TEST(Collide, MirrorImagesGiveMirrorImagesBitForBit) {
     if (scene.offset.x.raw == 0 || scene.offset.y.raw == 0 || scene.offset.z.raw == 0) return;
     if (scene.a == scene.b && scene.a.kind != ShapeKind::sphere) return;
     ++compared;
-    EXPECT_EQ(m.normal, mirrored(w.normal));
+    EXPECT_EQ(m.normal, mirror_image(w.normal));
     EXPECT_EQ(points_of(m, false), points_of(w, true));
   });
-  EXPECT_GT(compared, k_rounds);
+  EXPECT_GT(compared, k_scenes);
 }
 
 TEST(Collide, ACommonRotationRotatesTheResult) {
-  for_random_scenes(k_rounds / 2, [](Dice& dice, const Scene& scene) {
+  for_random_scenes(k_scenes / 2, [](Dice& dice, const Scene& scene) {
     const Mat3 turn = to_matrix(dice.orientation());
     Scene turned_scene = scene;
     const auto product = [&turn](const Mat3& m) {
@@ -246,7 +237,7 @@ TEST(Collide, ACommonRotationRotatesTheResult) {
 }
 
 TEST(Overlaps, AgreesWithAZeroMarginManifold) {
-  for_random_scenes(k_rounds, [](Dice&, const Scene& scene) {
+  for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Manifold m = collide(scene.posed_a(), scene.posed_b(), scene.offset, {});
     EXPECT_EQ(overlaps(scene.posed_a(), scene.posed_b(), scene.offset), m.count > 0);
     const Real truth = signed_distance(scene.placed_a(), scene.placed_b());

@@ -143,7 +143,7 @@ void for_convex_pairs(int rounds, Check check) {
       ConvexPair pair =
           random_pair(dice, kinds / k_convex_kinds, kinds % k_convex_kinds, range[0], range[1]);
       check(dice, pair);
-      if (testing::Test::HasFailure()) {
+      if (::testing::Test::HasFailure()) {
         ADD_FAILURE() << describe(pair);
         return;
       }
@@ -173,6 +173,11 @@ struct RealPair {
     return -reach_along(b, n * -1) - reach_along(a, n) - radii;
   }
 };
+
+/// What rounding of inputs, rotations and results explains.
+inline Real tolerance(const RealPair& pair) {
+  return 2 * k_micrometre + 4e-9L * pair.size;
+}
 
 /// Distance of a point from the triangle abc (which may be a point or a segment).
 inline Real point_to_triangle(const RealVec& p, const RealVec& a, const RealVec& b,

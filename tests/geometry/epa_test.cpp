@@ -8,12 +8,6 @@
 namespace lockstone::test {
 namespace {
 
-constexpr Real k_micrometre = 1e-6L;
-
-Real tolerance(const RealPair& pair) {
-  return 2 * k_micrometre + 4e-9L * pair.size;
-}
-
 Penetration penetration_of(ConvexPair& pair) {
   return penetration(pair.a.posed(), pair.b.posed(), pair.offset);
 }

@@ -6,12 +6,6 @@
 namespace lockstone::test {
 namespace {
 
-constexpr Real k_micrometre = 1e-6L;
-
-Real tolerance(const RealPair& pair) {
-  return 2 * k_micrometre + 4e-9L * pair.size;
-}
-
 ClosestPoints distance_of(ConvexPair& pair) {
   return distance(pair.a.posed(), pair.b.posed(), pair.offset);
 }

@@ -5,15 +5,6 @@
 namespace lockstone::test {
 namespace {
 
-const Mat3 k_identity{};
-
-Real deepest(const Manifold& m) {
-  Real least = 1e30L;
-  for (int i = 0; i < m.count; ++i)
-    least = std::min(least, real(m.points[static_cast<std::size_t>(i)].separation));
-  return least;
-}
-
 /// A random bounded body over or in a half-space.
 struct PlaneScene {
   TestPolytopePtr polytope;
@@ -64,7 +55,7 @@ void for_random_planes(Check check) {
     const Real move = wanted - scene.lowest();
     scene.offset = scene.offset + metres(scene.normal() * move);
     check(scene);
-    if (testing::Test::HasFailure()) return;
+    if (::testing::Test::HasFailure()) return;
   }
 }
 

@@ -13,10 +13,6 @@ namespace lockstone::test {
 
 using Cloud = std::vector<Vec3<Length>>;
 
-inline Vec3<Length> metres(const RealVec& v) {
-  return metres(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
-}
-
 inline Cloud in_cube(Dice& dice, int count, double half) {
   Cloud cloud;
   for (int i = 0; i < count; ++i)

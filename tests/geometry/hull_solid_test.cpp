@@ -118,7 +118,7 @@ TEST(HullSolid, MatchesTheIntegrals) {
       const auto solid = geometry::solid_of(points, hull.triangles);
       ASSERT_TRUE(solid.has_value());
       expect_solid(*solid, reference_of(points, hull.triangles));
-      if (testing::Test::HasNonfatalFailure()) return;
+      if (::testing::Test::HasNonfatalFailure()) return;
     }
   }
 }

@@ -20,16 +20,16 @@ using geometry::PolytopeFace;
 using geometry::RawVec;
 using test::real;
 
-constexpr int k_rounds = 12;
+constexpr int k_cloud_rounds = 12;
 
 template <class Check>
 void for_random_clouds(Check check) {
   Dice dice;
-  for (int i = 0; i < k_rounds; ++i) {
+  for (int i = 0; i < k_cloud_rounds; ++i) {
     for (const NamedCloud& cloud : clouds(dice)) {
       SCOPED_TRACE(cloud.name);
       check(dice, cloud);
-      if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) return;
+      if (::testing::Test::HasFatalFailure() || ::testing::Test::HasNonfatalFailure()) return;
     }
   }
 }
@@ -289,7 +289,7 @@ TEST(Hull, DropsPointsThatNearlyCoincide) {
   EXPECT_LE(result.deviation, Length::from_raw(512));
 }
 
-HullFault fault_of(const Cloud& cloud, const HullOptions& options = {}) {
+HullFault hull_fault_of(const Cloud& cloud, const HullOptions& options = {}) {
   const HullResult result = Hull::build(cloud, options);
   EXPECT_EQ(result.ok(), result.fault == HullFault::none);
   return result.fault;
@@ -302,28 +302,28 @@ TEST(Hull, RefusesWithAReason) {
     line.push_back(metres(0.1 * i, 0.2 * i, -0.3 * i));
     plane.push_back(metres(dice.uniform(-1, 1), dice.uniform(-1, 1), 0.25));
   }
-  EXPECT_EQ(fault_of({}), HullFault::too_few_points);
-  EXPECT_EQ(fault_of({{}, metres(1, 0, 0), metres(0, 1, 0)}), HullFault::too_few_points);
-  EXPECT_EQ(fault_of(Cloud(k_max_hull_points + 1)), HullFault::too_many_points);
-  EXPECT_EQ(fault_of(Cloud(50, metres(1, 2, 3))), HullFault::coincident);
-  EXPECT_EQ(fault_of(in_cube(dice, 50, 0.0004)), HullFault::coincident);
-  EXPECT_EQ(fault_of(line), HullFault::collinear);
-  EXPECT_EQ(fault_of(plane), HullFault::flat);
-  EXPECT_EQ(fault_of(turned(plane, to_matrix(dice.orientation()))), HullFault::flat);
-  EXPECT_EQ(fault_of(box(1, 1, 0.0004)), HullFault::flat);
-  EXPECT_EQ(fault_of(box(1, 1, 0.0005)), HullFault::none);
-  EXPECT_EQ(fault_of(box(512, 512, 512)), HullFault::none);
+  EXPECT_EQ(hull_fault_of({}), HullFault::too_few_points);
+  EXPECT_EQ(hull_fault_of({{}, metres(1, 0, 0), metres(0, 1, 0)}), HullFault::too_few_points);
+  EXPECT_EQ(hull_fault_of(Cloud(k_max_hull_points + 1)), HullFault::too_many_points);
+  EXPECT_EQ(hull_fault_of(Cloud(50, metres(1, 2, 3))), HullFault::coincident);
+  EXPECT_EQ(hull_fault_of(in_cube(dice, 50, 0.0004)), HullFault::coincident);
+  EXPECT_EQ(hull_fault_of(line), HullFault::collinear);
+  EXPECT_EQ(hull_fault_of(plane), HullFault::flat);
+  EXPECT_EQ(hull_fault_of(turned(plane, to_matrix(dice.orientation()))), HullFault::flat);
+  EXPECT_EQ(hull_fault_of(box(1, 1, 0.0004)), HullFault::flat);
+  EXPECT_EQ(hull_fault_of(box(1, 1, 0.0005)), HullFault::none);
+  EXPECT_EQ(hull_fault_of(box(512, 512, 512)), HullFault::none);
   Cloud spike = moved(box(1, 1, 1), metres(-511, -511, -511));
   spike.push_back(metres(512, 512, 512));
-  EXPECT_EQ(fault_of(spike), HullFault::too_large);
+  EXPECT_EQ(hull_fault_of(spike), HullFault::too_large);
   Cloud outside = box(1, 1, 1);
   outside[3].y = k_max_asset_coordinate + Length::from_raw(1);
-  EXPECT_EQ(fault_of(outside), HullFault::coordinate_out_of_range);
+  EXPECT_EQ(hull_fault_of(outside), HullFault::coordinate_out_of_range);
   outside[3].y = Length::min();
-  EXPECT_EQ(fault_of(outside), HullFault::coordinate_out_of_range);
-  EXPECT_EQ(fault_of(box(1, 1, 1), {.max_vertices = 3}), HullFault::invalid_options);
-  EXPECT_EQ(fault_of(box(1, 1, 1), {.max_vertices = 129}), HullFault::invalid_options);
-  EXPECT_EQ(fault_of(box(1, 1, 1), {.tolerance = metres(-1)}), HullFault::invalid_options);
+  EXPECT_EQ(hull_fault_of(outside), HullFault::coordinate_out_of_range);
+  EXPECT_EQ(hull_fault_of(box(1, 1, 1), {.max_vertices = 3}), HullFault::invalid_options);
+  EXPECT_EQ(hull_fault_of(box(1, 1, 1), {.max_vertices = 129}), HullFault::invalid_options);
+  EXPECT_EQ(hull_fault_of(box(1, 1, 1), {.tolerance = metres(-1)}), HullFault::invalid_options);
   for (int fault = 0; fault <= static_cast<int>(HullFault::too_large); ++fault)
     EXPECT_NE(to_string(static_cast<HullFault>(fault)), "unknown hull fault");
 }

@@ -83,7 +83,7 @@ Manifold collide_sphere_front(const TriangleVertices& vertices, const Pose& pose
   manifold.normal = unit_of(outward);
   const Real radius = real(pose.shape.size.x);
   geometry::add_round_point(manifold, {fine_of(q), fine_of(centre - outward * radius)}, pose.at,
-                      fine_of({distance - radius, 0, 0}).x, pose.margin, 7);
+                            fine_of({distance - radius, 0, 0}).x, pose.margin, 7);
   return manifold;
 }
 
@@ -215,7 +215,7 @@ Real plane_separation(const Pose& pose, const RealVec& up) {
 void expect_flat_grid_is_a_plane(ShapeKind kind, int rounds) {
   Dice dice;
   const auto mesh = flat_grid(24, 0.25);
-  for (int i = 0; i < rounds && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < rounds && !::testing::Test::HasFailure(); ++i) {
     Pose pose{dice.shape(kind, 0.05, 0.6)};
     pose.rotation = random_turn(dice);
     pose.turn = to_matrix(dice.orientation());

@@ -25,7 +25,7 @@ int count_active(const Mesh& mesh) {
   return active;
 }
 
-MeshFault fault_of(const MeshDef& def) {
+MeshFault mesh_fault_of(const MeshDef& def) {
   return Mesh::build(def).fault;
 }
 
@@ -141,7 +141,7 @@ TEST(Mesh, DropsAndCountsTrianglesWithoutAreaAndRepeats) {
   EXPECT_EQ(result.degenerate_triangles, 2U);
   EXPECT_EQ(result.duplicate_triangles, 1U);
   soup.triangles = {{0, 1, 2}};
-  EXPECT_EQ(fault_of(soup.def()), MeshFault::empty);
+  EXPECT_EQ(mesh_fault_of(soup.def()), MeshFault::empty);
 }
 
 TEST(Mesh, KeepsATriangleOfTheLeastArea) {
@@ -155,7 +155,7 @@ TEST(Mesh, KeepsATriangleOfTheLeastArea) {
 
 TEST(Mesh, RefusesWithAReason) {
   const Triangles good = cube(1);
-  EXPECT_EQ(fault_of({}), MeshFault::empty);
+  EXPECT_EQ(mesh_fault_of({}), MeshFault::empty);
   Triangles bad = good;
   bad.triangles[7].b = 8;
   MeshResult result = Mesh::build(bad.def());
@@ -169,23 +169,23 @@ TEST(Mesh, RefusesWithAReason) {
   EXPECT_EQ(result.index, 3U);
   MeshDef def = good.def();
   def.weld_tolerance = Length{-1};
-  EXPECT_EQ(fault_of(def), MeshFault::invalid_option);
+  EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_option);
   def = good.def();
   def.flat_angle = Angle::from_integer(2);
-  EXPECT_EQ(fault_of(def), MeshFault::invalid_option);
+  EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_option);
   const std::vector<std::uint8_t> indices(12, 1);
   const std::vector<Surface> surfaces(1);
   def = good.def();
   def.triangle_surfaces = indices;
   def.surfaces = surfaces;
-  EXPECT_EQ(fault_of(def), MeshFault::surface_out_of_range);
+  EXPECT_EQ(mesh_fault_of(def), MeshFault::surface_out_of_range);
   const std::vector<Surface> slippery(2, Surface{Coefficient{-1}, {}});
   def.surfaces = slippery;
-  EXPECT_EQ(fault_of(def), MeshFault::invalid_surface);
+  EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_surface);
   const std::vector<TriangleIndices> many(k_max_mesh_triangles + 1);
   def = good.def();
   def.triangles = many;
-  EXPECT_EQ(fault_of(def), MeshFault::too_many);
+  EXPECT_EQ(mesh_fault_of(def), MeshFault::too_many);
   EXPECT_EQ(to_string(MeshFault::too_many), "too many triangles, vertices or surfaces");
 }
 

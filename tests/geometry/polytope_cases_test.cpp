@@ -9,9 +9,6 @@ namespace {
 using geometry::BoxPolytope;
 using geometry::Polytope;
 
-const Mat3 k_identity{};
-constexpr Real k_micrometre = 1e-6L;
-
 Shape hull(std::uint64_t id) {
   return {ShapeKind::hull, {}, {id}};
 }
@@ -24,20 +21,6 @@ struct HullBox {
   BoxPolytope box;
   Polytope view;
 };
-
-Real deepest(const Manifold& m) {
-  Real least = 1e30L;
-  for (int i = 0; i < m.count; ++i)
-    least = std::min(least, real(m.points[static_cast<std::size_t>(i)].separation));
-  return least;
-}
-
-std::set<std::uint32_t> features_of(const Manifold& m) {
-  std::set<std::uint32_t> features;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
-    features.insert(m.points[i].feature);
-  return features;
-}
 
 TEST(BoxPolytope, HasClosedFacesThatTouchTheirVertices) {
   const HullBox box(metres(1, 2, 3));

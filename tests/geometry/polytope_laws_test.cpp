@@ -5,15 +5,7 @@
 namespace lockstone::test {
 namespace {
 
-constexpr int k_rounds = 300;
-constexpr Real k_micrometre = 1e-6L;
-
-Real deepest(const Manifold& m) {
-  Real least = 1e30L;
-  for (int i = 0; i < m.count; ++i)
-    least = std::min(least, real(m.points[static_cast<std::size_t>(i)].separation));
-  return least;
-}
+constexpr int k_polytope_scenes = 300;
 
 Real tolerance(const PolytopeScene& scene) {
   return 2 * k_micrometre + scene.scale() * 4e-9L;
@@ -26,7 +18,7 @@ Real choice_slack(const PolytopeScene& scene, Real truth) {
 }
 
 TEST(CollidePolytope, FindsTheDistanceOfShapesApart) {
-  for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Real truth = signed_distance(scene.real_a(), scene.real_b());
     if (truth <= 0) return;
     const Real margin = real(scene.margin);
@@ -43,7 +35,7 @@ TEST(CollidePolytope, FindsTheDistanceOfShapesApart) {
 }
 
 TEST(CollidePolytope, TouchesWhatOverlapsAndIsHardlyDeeperThanTheLeastOverlap) {
-  for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Real truth = signed_distance(scene.real_a(), scene.real_b());
     if (truth > -tolerance(scene)) return;
     const Manifold m = scene.collide();
@@ -57,7 +49,7 @@ TEST(CollidePolytope, TouchesWhatOverlapsAndIsHardlyDeeperThanTheLeastOverlap) {
 }
 
 TEST(CollidePolytope, NormalsAreUnitVectors) {
-  for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Manifold m = scene.collide();
     if (m.normal == Vec3<Unit>{}) {
       EXPECT_EQ(m.count, 0);
@@ -68,7 +60,7 @@ TEST(CollidePolytope, NormalsAreUnitVectors) {
 }
 
 TEST(CollidePolytope, NoPointIsDeeperThanTheShapesAlongTheNormal) {
-  for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Manifold m = scene.collide();
     if (m.count == 0) return;
     const RealVec n = real(m.normal);
@@ -80,7 +72,7 @@ TEST(CollidePolytope, NoPointIsDeeperThanTheShapesAlongTheNormal) {
 }
 
 TEST(CollidePolytope, AnchorsLieOnTheRoundSurfaceOrMidway) {
-  for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Manifold m = scene.collide();
     const RealSolid a = scene.real_a();
     const RealSolid b = scene.real_b();
@@ -118,7 +110,7 @@ void expect_flipped(const Manifold& m, const Manifold& f) {
 }
 
 TEST(CollidePolytope, SwappingTheShapesFlipsTheManifoldBitForBit) {
-  for_random_polytope_scenes(2 * k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(2 * k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     expect_flipped(scene.collide(),
                    collide(scene.posed_b(), scene.posed_a(), -scene.offset, scene.margin));
   });
@@ -138,12 +130,12 @@ TEST(CollidePolytope, SwappingTwoOfOneAssetFlipsTheManifoldBitForBit) {
     Vec3<Length> offset = metres(dice.direction() * dice.uniform(0, 2));
     if (dice.chance(3)) offset = {};
     expect_flipped(collide(a, b, offset, metres(0.1)), collide(b, a, -offset, metres(0.1)));
-    if (testing::Test::HasFailure()) return;
+    if (::testing::Test::HasFailure()) return;
   }
 }
 
 TEST(CollidePolytope, KeepsOnlyPointsWithinTheMarginAndNamesThemOnceAscending) {
-  for_random_polytope_scenes(2 * k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(2 * k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Manifold m = scene.collide();
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
       const Displacement s = m.points[i].separation;
@@ -156,7 +148,7 @@ TEST(CollidePolytope, KeepsOnlyPointsWithinTheMarginAndNamesThemOnceAscending) {
 }
 
 TEST(CollidePolytope, ACommonRotationKeepsTheDistance) {
-  for_random_polytope_scenes(k_rounds / 2, [](Dice& dice, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes / 2, [](Dice& dice, const PolytopeScene& scene) {
     const Real truth = signed_distance(scene.real_a(), scene.real_b());
     const Real slack = 2 * choice_slack(scene, truth) + scene.scale() * 4e-9L;
     if (std::fabs(truth - real(scene.margin)) < slack || truth < 0) return;
@@ -178,7 +170,7 @@ TEST(CollidePolytope, ACommonRotationKeepsTheDistance) {
 }
 
 TEST(CollidePolytope, OverlapsAgreesWithAZeroMarginManifold) {
-  for_random_polytope_scenes(k_rounds, [](Dice&, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const bool touching = overlaps(scene.posed_a(), scene.posed_b(), scene.offset);
     const Manifold m = collide(scene.posed_a(), scene.posed_b(), scene.offset, {});
     EXPECT_EQ(touching, m.count > 0);
@@ -191,7 +183,7 @@ TEST(CollidePolytope, OverlapsAgreesWithAZeroMarginManifold) {
 
 TEST(SeparatedAlong, ImpliesNoPoints) {
   int separated = 0;
-  for_random_polytope_scenes(k_rounds, [&](Dice& dice, const PolytopeScene& scene) {
+  for_random_polytope_scenes(k_polytope_scenes, [&](Dice& dice, const PolytopeScene& scene) {
     const Manifold m = scene.collide();
     const RealVec d = dice.chance(2) ? dice.direction() : real(scene.offset);
     const auto raw = [](Real x) { return static_cast<std::int64_t>(x * (1 << 24)); };
@@ -206,7 +198,7 @@ TEST(SeparatedAlong, ImpliesNoPoints) {
       EXPECT_EQ(m.count, 0);
     }
   });
-  EXPECT_GT(separated, k_rounds / 4);
+  EXPECT_GT(separated, k_polytope_scenes / 4);
 }
 
 }  // namespace

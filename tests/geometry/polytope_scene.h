@@ -168,10 +168,6 @@ class TestPolytope {
 
 using TestPolytopePtr = std::unique_ptr<TestPolytope>;
 
-inline Vec3<Length> metres(const RealVec& v) {
-  return metres(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
-}
-
 inline std::vector<Vec3<Length>> box_points(double x, double y, double z) {
   std::vector<Vec3<Length>> points;
   for (int i = 0; i < 8; ++i)
@@ -491,7 +487,7 @@ void for_random_polytope_scenes(int rounds, Check check) {
       const auto& range = ranges[static_cast<std::size_t>(i) % ranges.size()];
       const PolytopeScene scene = random_polytope_scene(dice, other, range[0], range[1]);
       check(dice, scene);
-      if (testing::Test::HasFailure()) {
+      if (::testing::Test::HasFailure()) {
         ADD_FAILURE() << describe(scene);
         return;
       }

@@ -7,8 +7,6 @@
 namespace lockstone::test {
 namespace {
 
-const Mat3 k_identity{};
-
 struct RealHit {
   Real fraction = 0;
   RealVec normal;
@@ -113,7 +111,7 @@ void for_random_rays(Check check) {
     const Real reach = 4 * real(bounding_radius(shape));
     const Ray ray = random_ray(dice, placed, std::max(1.0, static_cast<double>(reach)));
     check(shape, rotation, placed, ray);
-    if (testing::Test::HasFailure()) {
+    if (::testing::Test::HasFailure()) {
       ADD_FAILURE() << describe(shape) << " R " << describe(rotation) << " o " << ray.origin.x.raw
                     << "," << ray.origin.y.raw << "," << ray.origin.z.raw << " t "
                     << ray.translation.x.raw << "," << ray.translation.y.raw << ","

@@ -4,7 +4,6 @@
 namespace lockstone::test {
 namespace {
 
-const Mat3 k_identity{};
 const Vec3<Unit> k_up{{}, Unit::from_integer(1), {}};
 const Vec3<Unit> k_right{Unit::from_integer(1), {}, {}};
 

@@ -1,7 +1,9 @@
 // Random shapes, rotations and pairs for the collision tests.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -13,11 +15,17 @@
 
 namespace lockstone::test {
 
+inline constexpr Mat3 k_identity{};
+inline constexpr Real k_micrometre = 1e-6L;
+
 inline Length metres(double x) {
   return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Length::frac_bits)))};
 }
 inline Vec3<Length> metres(double x, double y, double z) {
   return {metres(x), metres(y), metres(z)};
+}
+inline Vec3<Length> metres(const RealVec& v) {
+  return metres(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 inline Unit unit(double x) {
   return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Unit::frac_bits)))};
@@ -32,6 +40,21 @@ inline Mat3 turned(double x, double y, double z, double angle) {
   const double length = std::sqrt(x * x + y * y + z * z);
   const double s = std::sin(angle / 2) / length;
   return to_matrix(quat(x * s, y * s, z * s, std::cos(angle / 2)));
+}
+
+/// The least separation of a manifold's points.
+inline Real deepest(const Manifold& m) {
+  Real least = 1e30L;
+  for (int i = 0; i < m.count; ++i)
+    least = std::min(least, real(m.points[static_cast<std::size_t>(i)].separation));
+  return least;
+}
+
+inline std::set<std::uint32_t> features_of(const Manifold& m) {
+  std::set<std::uint32_t> features;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
+    features.insert(m.points[i].feature);
+  return features;
 }
 
 class Dice : public Random {
@@ -165,7 +188,7 @@ void for_random_scenes(int rounds, Check check) {
         const auto& range = ranges[static_cast<std::size_t>(i) % ranges.size()];
         const Scene scene = random_scene(dice, kind_a, kind_b, range[0], range[1]);
         check(dice, scene);
-        if (testing::Test::HasFailure()) {
+        if (::testing::Test::HasFailure()) {
           ADD_FAILURE() << describe(scene);
           return;
         }

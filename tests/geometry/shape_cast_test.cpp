@@ -7,12 +7,6 @@
 namespace lockstone::test {
 namespace {
 
-constexpr Real k_micrometre = 1e-6L;
-
-Vec3<Length> metres_of(const RealVec& v) {
-  return metres(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
-}
-
 /// B starts beyond reach of A and flies towards a point near A, for as far again or less.
 struct Cast {
   ConvexPair pair;
@@ -24,7 +18,7 @@ struct Cast {
   /// Distance at a fraction of the way, or the depth with a minus sign, by GJK and EPA, which have
   /// their own tests. The place is rounded to 0.5 µm an axis.
   [[nodiscard]] Real at(Real fraction) {
-    const Vec3<Length> there = pair.offset + metres_of(real(way) * fraction);
+    const Vec3<Length> there = pair.offset + metres(real(way) * fraction);
     const ClosestPoints points = distance(pair.a.posed(), pair.b.posed(), there);
     if (!points.overlapping) return real(points.distance);
     return -real(penetration(pair.a.posed(), pair.b.posed(), there).depth);
@@ -36,10 +30,10 @@ Cast random_cast(Dice& dice, const ConvexPair& pair) {
   const Real far = std::min<Real>(reals.size * static_cast<Real>(dice.uniform(0.5, 1.5)), 1000);
   const RealVec aside = dice.direction() * (reals.size * static_cast<Real>(dice.uniform(0, 0.5)));
   Cast cast{pair, {}};
-  cast.pair.offset = metres_of(dice.direction() * far);
+  cast.pair.offset = metres(dice.direction() * far);
   const RealVec target = norm(aside) > 300 ? RealVec{} : aside;
-  cast.way = metres_of((target - real(cast.pair.offset)) *
-                       std::min<Real>(static_cast<Real>(dice.uniform(0.5, 2.5)), 1400 / far));
+  cast.way = metres((target - real(cast.pair.offset)) *
+                    std::min<Real>(static_cast<Real>(dice.uniform(0.5, 2.5)), 1400 / far));
   return cast;
 }
 
@@ -95,8 +89,8 @@ TEST(ShapeCast, OfASphereIsTheRootOfAQuadratic) {
     const Real reach = real(a.shape.size.x) + real(b.shape.size.x);
     const RealVec from = dice.direction() * (reach * 5);
     const RealVec to = dice.direction() * (reach * static_cast<Real>(dice.uniform(0, 1.2)));
-    const Vec3<Length> offset = metres_of(from);
-    const Vec3<Length> way = metres_of(to - from);
+    const Vec3<Length> offset = metres(from);
+    const Vec3<Length> way = metres(to - from);
     const RealVec d = real(offset);
     const RealVec v = real(way);
     const Real half_b = dot(d, v);

@@ -48,7 +48,7 @@ void for_random_shapes(Check check) {
     const ShapeKind kind = k_all_kinds[static_cast<std::size_t>(i % 3)];
     const Shape shape = dice.shape(kind, 0.001, 512);
     check(dice, shape);
-    if (testing::Test::HasFailure()) {
+    if (::testing::Test::HasFailure()) {
       ADD_FAILURE() << describe(shape);
       return;
     }

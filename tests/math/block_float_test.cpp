@@ -8,11 +8,10 @@
 namespace lockstone {
 namespace {
 
+using test::k_max;
+using test::k_min;
 using test::Raws;
 using test::Real;
-
-constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t k_max = std::numeric_limits<std::int64_t>::max();
 
 Real power_of_two(int exponent) {
   return Real(1, -exponent);

@@ -14,12 +14,11 @@
 namespace lockstone {
 namespace {
 
+using test::k_max;
+using test::k_min;
 using test::Raws;
 using test::Real;
 using test::worst_of;
-
-constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t k_max = std::numeric_limits<std::int64_t>::max();
 
 mpz_class clamped(const mpz_class& x) {
   return x > mpz_class(k_max) ? mpz_class(k_max) : x < mpz_class(k_min) ? mpz_class(k_min) : x;

@@ -11,10 +11,9 @@
 namespace lockstone {
 namespace {
 
+using test::k_max;
+using test::k_min;
 using test::Raws;
-
-constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t k_max = std::numeric_limits<std::int64_t>::max();
 
 template <class A, class B>
 concept Addable = requires(A a, B b) {

@@ -8,8 +8,8 @@
 namespace lockstone {
 namespace {
 
-constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t k_max = std::numeric_limits<std::int64_t>::max();
+using test::k_max;
+using test::k_min;
 
 #if defined(__SIZEOF_INT128__)
 __extension__ typedef unsigned __int128 Word;

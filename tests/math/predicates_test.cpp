@@ -15,8 +15,8 @@ namespace {
 using test::Raws;
 using Exact3 = std::array<mpz_class, 3>;
 
-constexpr std::int32_t k_min = std::numeric_limits<std::int32_t>::min();
-constexpr std::int32_t k_max = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t k_min32 = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t k_max32 = std::numeric_limits<std::int32_t>::max();
 
 LatticePoint random_point(Raws& raws, int bits) {
   const auto c = [&] { return static_cast<std::int32_t>(raws.signed_below_bits(bits)); };
@@ -91,7 +91,7 @@ TEST(Orient3d, IsExactNextToDegenerateCases) {
   for (int corner = 0; corner < 4096; ++corner) {  // every choice of extreme coordinates
     std::array<LatticePoint, 4> p;
     for (int i = 0; i < 12; ++i)
-      p[static_cast<std::size_t>(i / 3)][i % 3] = (corner >> i & 1) != 0 ? k_max : k_min;
+      p[static_cast<std::size_t>(i / 3)][i % 3] = (corner >> i & 1) != 0 ? k_max32 : k_min32;
     ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), exact_orient3d(p[0], p[1], p[2], p[3]));
   }
 }
@@ -107,8 +107,8 @@ TEST(SideOfPlane, EqualsTheExactSum) {
     for (const int near : {-1, 0, 1})
       ASSERT_EQ(side_of_plane(n, sum.get_si() - near, p), near);
   }
-  EXPECT_EQ(side_of_plane({k_min, k_min, k_min}, 0, {k_min, k_min, k_min}), 1);
-  EXPECT_EQ(side_of_plane({k_min, k_min, k_min}, 0, {k_max, k_max, k_max}), -1);
+  EXPECT_EQ(side_of_plane({k_min32, k_min32, k_min32}, 0, {k_min32, k_min32, k_min32}), 1);
+  EXPECT_EQ(side_of_plane({k_min32, k_min32, k_min32}, 0, {k_max32, k_max32, k_max32}), -1);
 }
 
 TEST(SideOfSphere, EqualsTheExactDistance) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 #include <mpfr.h>
@@ -79,6 +80,9 @@ class Real {
 
   mpfr_t value_;
 };
+
+inline constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t k_max = std::numeric_limits<std::int64_t>::max();
 
 /// Printed once; LOCKSTONE_TEST_SEED repeats a run.
 inline std::uint64_t seed() {

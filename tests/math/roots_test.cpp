@@ -8,10 +8,9 @@
 namespace lockstone {
 namespace {
 
+using test::k_min;
 using test::Raws;
 using test::Real;
-
-constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
 
 TEST(ReciprocalSqrt, NeverExceedsTheTrueValueAndStaysWithinItsBound) {
   Raws raws;

@@ -5,8 +5,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
 MatchOptions match_with_flip(std::uint8_t players, std::uint64_t seed, std::size_t slot,
                              const Flip& flip) {
   MatchOptions options;

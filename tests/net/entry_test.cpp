@@ -7,15 +7,9 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
-MatchOptions match_of(std::uint8_t players, std::uint64_t ticks, std::uint64_t seed) {
-  MatchOptions options;
-  options.toy.player_count = players;
-  options.toy.seed = seed;
-  options.server.tick_count = ticks;
+MatchOptions rejoinable_match(std::uint8_t players, std::uint64_t ticks, std::uint64_t seed) {
+  MatchOptions options = match_of(players, ticks, seed);
   options.server.rejoin_seed = 99;
-  options.seed = seed;
   return options;
 }
 
@@ -29,7 +23,7 @@ void expect_active_from(const Match& match, std::size_t slot, std::uint64_t tick
 
 TEST(Entry, LateJoinerPlaysFromTheAnnouncedTickAndNobodyWaits) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    MatchOptions options = match_of(3, 700, seed);
+    MatchOptions options = rejoinable_match(3, 700, seed);
     options.authoritative = seed % 2 == 0;
     if (seed > 4) options.faults = rough(100'000);
     options.server.start_players = 2;
@@ -51,7 +45,7 @@ TEST(Entry, LateJoinerPlaysFromTheAnnouncedTickAndNobodyWaits) {
 }
 
 TEST(Entry, TakesTheStateOfAnotherDonorWhenOneIsGone) {
-  MatchOptions options = match_of(4, 900, 5);
+  MatchOptions options = rejoinable_match(4, 900, 5);
   options.authoritative = false;
   options.server.start_players = 3;
   options.server.history_ticks = 256;
@@ -70,7 +64,7 @@ TEST(Entry, TakesTheStateOfAnotherDonorWhenOneIsGone) {
 }
 
 TEST(Entry, LostPlayerGoesOnWithTicksAlone) {
-  MatchOptions options = match_of(2, 900, 7);
+  MatchOptions options = rejoinable_match(2, 900, 7);
   Match match(options);
   match.network.partition(*match.players[1].transport, 2 * k_second_us, 9 * k_second_us);
   match.run_for(9 * k_second_us);
@@ -87,7 +81,7 @@ TEST(Entry, LostPlayerGoesOnWithTicksAlone) {
 
 // The line is still dead when it calls for the first time.
 TEST(Entry, LostPlayerMayCallAgainAndAgain) {
-  Match match(match_of(2, 1200, 7));
+  Match match(rejoinable_match(2, 1200, 7));
   match.network.partition(*match.players[1].transport, 2 * k_second_us, 15 * k_second_us);
   match.run_for(9 * k_second_us);
   ASSERT_EQ(match.players[1].client->failure(), ClientFailure::server_silent);
@@ -103,7 +97,7 @@ TEST(Entry, LostPlayerMayCallAgainAndAgain) {
 }
 
 TEST(Entry, LostPlayerGetsAStateWhenTheGapIsTooLong) {
-  MatchOptions options = match_of(2, 900, 8);
+  MatchOptions options = rejoinable_match(2, 900, 8);
   options.server.history_ticks = 256;
   Match match(options);
   match.network.partition(*match.players[1].transport, 2 * k_second_us, 9 * k_second_us);
@@ -116,7 +110,7 @@ TEST(Entry, LostPlayerGetsAStateWhenTheGapIsTooLong) {
 }
 
 TEST(Entry, SeatIsKeptForWhoHasItsKey) {
-  Match match(match_of(2, 1200, 9));
+  Match match(rejoinable_match(2, 1200, 9));
   match.run_for(3 * k_second_us);
   const std::uint64_t key = match.players[1].client->rejoin_key();
   EXPECT_NE(key, 0U);
@@ -137,7 +131,7 @@ TEST(Entry, SeatIsKeptForWhoHasItsKey) {
 
 // The one that is gone had sent inputs far ahead, for ticks that its next life plays.
 TEST(Entry, InputsOfAFormerLifeAreForgotten) {
-  MatchOptions options = match_of(2, 600, 14);
+  MatchOptions options = rejoinable_match(2, 600, 14);
   options.server.late_policy = LatePolicy::strict;
   Match match(options);
   match.run_for(2 * k_second_us);
@@ -168,7 +162,7 @@ TEST(Entry, InputsOfAFormerLifeAreForgotten) {
 
 // It died before it had heard of its key.
 TEST(Entry, SeatOfWhoNeverSpokeIsFreeWhenItIsLost) {
-  MatchOptions options = match_of(2, 900, 15);
+  MatchOptions options = rejoinable_match(2, 900, 15);
   options.faults.delay_us = 20'000;
   Match match(options);
   while (match.server->state() == ServerState::lobby)
@@ -185,7 +179,7 @@ TEST(Entry, SeatOfWhoNeverSpokeIsFreeWhenItIsLost) {
 }
 
 TEST(Entry, KeyReplacesAConnectionThatTheServerStillBelievesIn) {
-  Match match(match_of(2, 900, 10));
+  Match match(rejoinable_match(2, 900, 10));
   match.run_for(3 * k_second_us);
   const std::uint64_t key = match.players[1].client->rejoin_key();
   match.network.kill(*match.players[1].transport);
@@ -199,7 +193,7 @@ TEST(Entry, KeyReplacesAConnectionThatTheServerStillBelievesIn) {
 }
 
 TEST(Entry, SeatIsFreeForOthersWhenItsTimeIsOver) {
-  MatchOptions options = match_of(2, 1200, 11);
+  MatchOptions options = rejoinable_match(2, 1200, 11);
   options.server.timeouts.rejoin_us = 2 * k_second_us;
   Match match(options);
   match.run_for(2 * k_second_us);
@@ -213,7 +207,7 @@ TEST(Entry, SeatIsFreeForOthersWhenItsTimeIsOver) {
 }
 
 TEST(Entry, MatchWaitsWhileAllPlayersAreExpectedBack) {
-  Match match(match_of(2, 600, 12));
+  Match match(rejoinable_match(2, 600, 12));
   match.run_for(2 * k_second_us);
   match.network.partition(match.server_transport, match.now_us, match.now_us + 8 * k_second_us);
   match.run_for(8 * k_second_us);
@@ -231,7 +225,7 @@ TEST(Entry, MatchWaitsWhileAllPlayersAreExpectedBack) {
 
 TEST(Entry, DivergedPlayerGetsTheRightStateOnce) {
   for (bool authoritative : {true, false}) {
-    MatchOptions options = match_of(3, 600, 13);
+    MatchOptions options = rejoinable_match(3, 600, 13);
     options.authoritative = authoritative;
     options.server.desync_policy = DesyncPolicy::resync;
     options.flips = {{}, {{120, "body", "spin", 3, 4}}};
@@ -246,7 +240,7 @@ TEST(Entry, DivergedPlayerGetsTheRightStateOnce) {
 }
 
 TEST(Entry, PlayerThatDivergesAgainIsKicked) {
-  MatchOptions options = match_of(3, 600, 14);
+  MatchOptions options = rejoinable_match(3, 600, 14);
   options.server.desync_policy = DesyncPolicy::resync;
   options.flips = {{}, {{120, "body", "spin", 3, 4}, {400, "body", "heat", 3, 4}}};
   Match match(options);
@@ -258,7 +252,7 @@ TEST(Entry, PlayerThatDivergesAgainIsKicked) {
 }
 
 TEST(Entry, PausesAndGoesOn) {
-  Match match(match_of(2, 400, 15));
+  Match match(rejoinable_match(2, 400, 15));
   match.run_for(2 * k_second_us);
   match.players[1].client->ask(AskKind::pause);
   match.players[0].client->ask(AskKind::vote, 3, 1);

@@ -7,10 +7,8 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
 // A server in an empty lobby, and clients of any kind.
-class Handshake : public testing::Test {
+class Handshake : public ::testing::Test {
  protected:
   Handshake() : transport_(network_.add_endpoint()), simulation_(toy_), inputs_(1, 0) {
     ServerConfig config;

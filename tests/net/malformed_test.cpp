@@ -8,8 +8,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
 MatchOptions endless_match() {
   MatchOptions options;
   options.toy.player_count = 2;

@@ -22,6 +22,15 @@ void FaultySimulation::step(std::span<const PlayerInput> inputs) {
   }
 }
 
+MatchOptions match_of(std::uint8_t players, std::uint64_t ticks, std::uint64_t seed) {
+  MatchOptions options;
+  options.toy.player_count = players;
+  options.toy.seed = seed;
+  options.server.tick_count = ticks;
+  options.seed = seed;
+  return options;
+}
+
 void ServerLog::tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                             std::optional<std::uint64_t> hash) {
   EXPECT_EQ(tick, seen.ticks.size());

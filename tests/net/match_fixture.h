@@ -19,6 +19,8 @@ namespace lockstone::net::test {
 using lockstone::toy::ToyConfig;
 using lockstone::toy::ToySimulation;
 
+inline constexpr std::int64_t k_second_us = 1'000'000;
+
 /// One tick as a peer saw it, comparable.
 struct SeenTick {
   std::vector<std::byte> bytes;  ///< all slots' inputs
@@ -154,6 +156,9 @@ struct MatchOptions {
   std::int64_t step_us = 4'000;
   std::vector<std::vector<Flip>> flips;  ///< by client; may be shorter
 };
+
+/// `seed` is the toy's and the network's.
+MatchOptions match_of(std::uint8_t players, std::uint64_t ticks, std::uint64_t seed);
 
 class Match {
  public:

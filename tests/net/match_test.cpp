@@ -5,17 +5,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
-MatchOptions match_of(std::uint8_t players, std::uint64_t ticks, std::uint64_t seed) {
-  MatchOptions options;
-  options.toy.player_count = players;
-  options.toy.seed = seed;
-  options.server.tick_count = ticks;
-  options.seed = seed;
-  return options;
-}
-
 std::size_t count_origin(const Seen& seen, std::size_t slot, InputOrigin origin) {
   std::size_t count = 0;
   for (const SeenTick& tick : seen.ticks)

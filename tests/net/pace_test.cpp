@@ -8,8 +8,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
 TEST(LeadControl, RisesAtOnceWhenLateTwiceWithin60Ticks) {
   LeadControl lead(16);
   lead.note(-3, 100, 104, 0);

@@ -5,8 +5,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
 MatchOptions predicting_match(std::uint64_t seed) {
   MatchOptions options;
   options.toy.player_count = 3;

@@ -7,7 +7,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
 constexpr ConnectionId k_first = 1;  // of an endpoint that has one connection
 
 MatchOptions secure_match() {

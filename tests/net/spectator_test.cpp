@@ -5,8 +5,6 @@
 namespace lockstone::net::test {
 namespace {
 
-constexpr std::int64_t k_second_us = 1'000'000;
-
 MatchOptions watched_match(std::uint64_t ticks, std::uint32_t delay_ticks) {
   MatchOptions options;
   options.toy.player_count = 2;

@@ -29,7 +29,7 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& name)
       : path_(
-            std::filesystem::path(testing::TempDir()) /
+            std::filesystem::path(::testing::TempDir()) /
             (name + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()))) {}
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -65,10 +65,10 @@ TEST(File, HoldsTheSameBytesAsMemory) {
 }
 
 TEST(File, WhatIsNotThereOrNotAFileIsATypedError) {
-  EXPECT_EQ(FileSource::open(testing::TempDir() + "/lockstone/none.lks").status(),
+  EXPECT_EQ(FileSource::open(::testing::TempDir() + "/lockstone/none.lks").status(),
             Status::not_found);
-  EXPECT_EQ(FileSource::open(testing::TempDir()).status(), Status::io_error);
-  EXPECT_EQ(FileSink::create(testing::TempDir() + "/lockstone/none.lks").status(),
+  EXPECT_EQ(FileSource::open(::testing::TempDir()).status(), Status::io_error);
+  EXPECT_EQ(FileSink::create(::testing::TempDir() + "/lockstone/none.lks").status(),
             Status::io_error);
 }
 

@@ -15,10 +15,6 @@ namespace {
 
 using namespace replay;
 
-std::size_t below(Random& random, std::size_t limit) {
-  return static_cast<std::size_t>(random.next() % limit);
-}
-
 const ToyMatch k_indexed{.ticks = 100, .compress = true, .index = true};
 
 // The state of the toy at a tick, by playing it.
@@ -178,8 +174,8 @@ TEST(Compression, SurvivesDamagedFramesWithRightChecksums) {
   for (int i = 0; i < 300; ++i) {
     Bytes log = good;
     const std::size_t payload = place.bytes - k_chunk_header_bytes;
-    const std::size_t offset = place.offset + k_chunk_header_bytes + below(random, payload);
-    log[offset] ^= static_cast<std::byte>(1U << below(random, 8));
+    const std::size_t offset = place.offset + k_chunk_header_bytes + random.below(payload);
+    log[offset] ^= static_cast<std::byte>(1U << random.below(8));
     relink(log);
     refused += verify_toy(log).outcome == VerifyOutcome::same ? 0 : 1;
   }

@@ -10,7 +10,7 @@ namespace {
 
 using namespace replay;
 
-class Signature : public testing::Test {
+class Signature : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!signing_available()) GTEST_SKIP() << "built without libsodium";

@@ -11,10 +11,6 @@ namespace {
 
 using namespace replay;
 
-std::size_t below(Random& random, std::size_t limit) {
-  return static_cast<std::size_t>(random.next() % limit);
-}
-
 std::vector<VerifyReport> verify_parts(const std::vector<Bytes>& logs, unsigned threads,
                                        const VerifyOptions& options = {}) {
   std::vector<SourceOpener> openers;
@@ -57,9 +53,9 @@ TEST(VerifyAll, SaysTheSameOfDamageAnywhere) {
   Random random;
   for (int i = 0; i < 60; ++i) {
     Bytes log = good;
-    log[below(random, log.size())] ^= static_cast<std::byte>(1U << below(random, 8));
+    log[random.below(log.size())] ^= static_cast<std::byte>(1U << random.below(8));
     expect_same_verdict(log);
-    log.resize(below(random, log.size()));
+    log.resize(random.below(log.size()));
     expect_same_verdict(log);
   }
 }

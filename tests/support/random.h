@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -33,6 +34,9 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31);
   }
+
+  /// Uniform in [0, limit).
+  std::size_t below(std::size_t limit) { return static_cast<std::size_t>(next() % limit); }
 
   /// Uniform in [low, high].
   std::int64_t between(std::int64_t low, std::int64_t high) {

@@ -21,7 +21,7 @@ std::vector<std::string> names() {
   return result;
 }
 
-class EveryScene : public testing::TestWithParam<std::string> {
+class EveryScene : public ::testing::TestWithParam<std::string> {
  protected:
   [[nodiscard]] std::unique_ptr<ScenePlay> play() const {
     return make_play(GetParam(), k_seed).value();
@@ -87,7 +87,7 @@ TEST_P(EveryScene, KeepsItsBodiesInTheWorld) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::ValuesIn(names()),
                          [](const auto& name) { return name.param; });
 
 TEST(Scenes, AreMadeFromTheirConfiguration) {

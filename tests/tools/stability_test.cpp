@@ -11,7 +11,7 @@ struct Short {
   double seconds;
 };
 
-class StableRow : public testing::TestWithParam<Short> {};
+class StableRow : public ::testing::TestWithParam<Short> {};
 
 TEST_P(StableRow, StaysWithinItsBounds) {
   const StabilityRow* row = find_stability_row(GetParam().row);
@@ -23,17 +23,19 @@ TEST_P(StableRow, StaysWithinItsBounds) {
                               << ", bound " << figure.bound;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Stability, StableRow,
-    testing::Values(Short{"stack-10", 4}, Short{"sizes", 3}, Short{"overlap", 3}, Short{"mixed", 2},
-                    Short{"spin", 2}, Short{"edge", 3}, Short{"chain-100", 0.5}, Short{"loops", 1},
-                    Short{"contradictions", 2}, Short{"stack-10-asleep", 4}, Short{"saturation", 3},
-                    Short{"flakes", 2}, Short{"worn-mesh", 2}, Short{"rebuilt", 2}),
-    [](const auto& name) {
-      std::string text = name.param.row;
-      std::erase(text, '-');
-      return text;
-    });
+INSTANTIATE_TEST_SUITE_P(Stability, StableRow,
+                         ::testing::Values(Short{"stack-10", 4}, Short{"sizes", 3},
+                                           Short{"overlap", 3}, Short{"mixed", 2}, Short{"spin", 2},
+                                           Short{"edge", 3}, Short{"chain-100", 0.5},
+                                           Short{"loops", 1}, Short{"contradictions", 2},
+                                           Short{"stack-10-asleep", 4}, Short{"saturation", 3},
+                                           Short{"flakes", 2}, Short{"worn-mesh", 2},
+                                           Short{"rebuilt", 2}),
+                         [](const auto& name) {
+                           std::string text = name.param.row;
+                           std::erase(text, '-');
+                           return text;
+                         });
 
 TEST(Stability, KnowsItsRowsByName) {
   EXPECT_EQ(find_stability_row("tea"), nullptr);

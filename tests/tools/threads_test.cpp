@@ -41,7 +41,7 @@ Record record_of(const std::string& scene, TaskRunner* runner) {
   return record;
 }
 
-class EverySceneOnThreads : public testing::TestWithParam<std::string> {
+class EverySceneOnThreads : public ::testing::TestWithParam<std::string> {
  protected:
   void expect_same(TaskRunner* runner) {
     const Record record = record_of(GetParam(), runner);
@@ -69,7 +69,7 @@ TEST_P(EverySceneOnThreads, ComesOutTheSameInAnyOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneOnThreads, testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneOnThreads, ::testing::ValuesIn(names()),
                          [](const auto& name) { return name.param; });
 
 TEST(Threads, ComeAndGoWhileASceneRuns) {

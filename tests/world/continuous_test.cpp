@@ -38,7 +38,7 @@ double needle_energy(const BodyView& view) {
   return linear + k_across * (turning - square(axial)) + k_along * square(axial);
 }
 
-World weightless() {
+World space_for_bullets() {
   return test::make_world({.body_capacity = 16, .gravity = {}});
 }
 
@@ -47,7 +47,7 @@ TEST(Continuous, NoBulletPassesAWallOfOneCentimetre) {
   test::Random random(test::run_seed());
   int impacts = 0;
   for (int run = 0; run < test::share_of(2000); ++run) {
-    World world = weightless();
+    World world = space_for_bullets();
     test::add(world, wall(0.005_m));
     const Length size =
         Length::from_raw(static_cast<std::int32_t>(random.between(1 << 14, 1 << 16)));
@@ -78,7 +78,7 @@ TEST(Continuous, NoBulletPassesAWallOfOneCentimetre) {
 }
 
 TEST(Continuous, ABouncingBallKeepsTheRestOfTheTick) {
-  World world = weightless();
+  World world = space_for_bullets();
   test::add(world, wall(0.05_m));
   BodyDef def = test::dynamic_body(Shape::sphere(0.1_m), -10_m, {}, {});
   def.velocity = {300_mps, {}, {}};
@@ -92,7 +92,7 @@ TEST(Continuous, ABouncingBallKeepsTheRestOfTheTick) {
 TEST(Continuous, ASpinningRodDoesNotReachThroughAWall) {
   test::Random random(test::run_seed());
   for (int run = 0; run < test::share_of(300); ++run) {
-    World world = weightless();
+    World world = space_for_bullets();
     test::add(world, wall(0.01_m));
     BodyDef def = test::dynamic_body(Shape::capsule(1_m, 0.02_m), -1.1_m, {}, {});
     def.angular_velocity.z.raw = random.between(std::int64_t{20} << 32, std::int64_t{150} << 32);
@@ -113,7 +113,7 @@ TEST(Continuous, AFastThinRodDoesNotPassAWallOfOneCentimetre) {
     return random.between(low << 32, high << 32);
   };
   for (int run = 0; run < test::share_of(300); ++run) {
-    World world = weightless();
+    World world = space_for_bullets();
     test::add(world, wall(0.005_m));
     const Length thin =
         Length::from_raw(static_cast<std::int32_t>(random.between(5 << 10, 30 << 10)));
@@ -136,7 +136,7 @@ TEST(Continuous, AFastThinRodDoesNotPassAWallOfOneCentimetre) {
 TEST(Continuous, AnImpactGivesANeedleNoEnergy) {
   test::Random random(test::run_seed());
   for (int run = 0; run < test::share_of(100); ++run) {
-    World world = weightless();
+    World world = space_for_bullets();
     test::add(world, wall(0.05_m));
     BodyDef def = test::dynamic_body(Shape::capsule(1_m, 0.01_m), -1.4_m, {}, {});
     def.material.friction = {};
@@ -154,7 +154,7 @@ TEST(Continuous, AnImpactGivesANeedleNoEnergy) {
 
 TEST(Continuous, OnlyBulletsAreStoppedByDynamicBodies) {
   for (const bool bullet : {false, true}) {
-    World world = weightless();
+    World world = space_for_bullets();
     BodyDef plate = test::dynamic_body(Shape::box(0.01_m, 2_m, 2_m), 4_m, {}, {});
     const BodyHandle target = test::add(world, plate);
     BodyDef def = test::dynamic_body(Shape::sphere(0.05_m), {}, {}, {});
@@ -204,7 +204,7 @@ TEST(Continuous, SlidingFastIsNoImpact) {
 // A half-space has its body somewhere, but no end. It leans, so that its own axes count.
 TEST(Continuous, AHalfSpaceStopsBulletsFarFromItsBody) {
   for (const std::int64_t far : {0, 900, 1900, 20'000, 300'000}) {
-    World world = weightless();
+    World world = space_for_bullets();
     BodyDef slope;
     slope.motion = MotionType::static_body;
     slope.shape = Shape::half_space();
@@ -231,7 +231,7 @@ TEST(Continuous, AHalfSpaceStopsBulletsFarFromItsBody) {
 // below.
 TEST(Continuous, AHalfSpaceIsNoMatterKilometresAway) {
   for (const int height : {-300'000, -4000, 1500, 4000, 300'000}) {
-    World world = weightless();
+    World world = space_for_bullets();
     BodyDef ground;
     ground.motion = MotionType::static_body;
     ground.shape = Shape::half_space();
@@ -247,7 +247,7 @@ TEST(Continuous, AHalfSpaceIsNoMatterKilometresAway) {
 }
 
 TEST(Continuous, KeepsBodiesInTheWorldAfterAnImpact) {
-  World world = weightless();
+  World world = space_for_bullets();
   BodyDef def = wall(0.5_m);
   def.position = {k_world_limit - 4_m, {}, {}};
   test::add(world, def);

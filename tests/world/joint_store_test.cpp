@@ -15,7 +15,7 @@ namespace {
 
 using namespace literals;
 
-struct Pendulum {
+struct HungBall {
   World world = test::make_world();
   BodyHandle anchor = test::add(world, fixed());
   BodyHandle bob = test::add(world, test::dynamic_body(Shape::sphere(0.5_m), 1_m, {}, {}));
@@ -33,7 +33,7 @@ struct Pendulum {
 };
 
 TEST(JointStore, HandlesOfDestroyedJointsNameNothing) {
-  Pendulum p;
+  HungBall p;
   const JointHandle first = p.world.create_joint(p.ball()).value();
   EXPECT_TRUE(p.world.exists(first));
   EXPECT_EQ(p.world.joint_count(), 1U);
@@ -47,7 +47,7 @@ TEST(JointStore, HandlesOfDestroyedJointsNameNothing) {
 }
 
 TEST(JointStore, DestroyingABodyDestroysItsJoints) {
-  Pendulum p;
+  HungBall p;
   const JointHandle joint = p.world.create_joint(p.ball()).value();
   ASSERT_EQ(p.world.apply(DestroyBody{p.anchor}), Status::ok);
   EXPECT_FALSE(p.world.exists(joint));
@@ -55,8 +55,8 @@ TEST(JointStore, DestroyingABodyDestroysItsJoints) {
 }
 
 TEST(JointStore, RefusesWhatNoJointCanBe) {
-  Pendulum p;
-  const BodyHandle other = test::add(p.world, Pendulum::fixed());
+  HungBall p;
+  const BodyHandle other = test::add(p.world, HungBall::fixed());
   const auto refused = [&](auto&& change, Status status = Status::invalid_argument) {
     JointDef def = p.ball();
     change(def);
@@ -77,7 +77,7 @@ TEST(JointStore, RefusesWhatNoJointCanBe) {
 }
 
 TEST(JointStore, RefusesToLetABodyTurnThatHangsTooFarAway) {
-  Pendulum p;
+  HungBall p;
   const AxisLocks upright{.turn_x = true, .turn_y = true, .turn_z = true};
   JointDef far = p.ball();
   far.frame_b.position = {-200_m, {}, {}};
@@ -99,7 +99,7 @@ TEST(JointStore, IsFullAtItsCapacity) {
 }
 
 TEST(JointStore, NewSettingsAreCheckedAndKept) {
-  Pendulum p;
+  HungBall p;
   const JointHandle joint = p.world.create_joint(p.ball()).value();
   AngularAxis axis;
   axis.speed = 2_rps;
@@ -114,7 +114,7 @@ TEST(JointStore, NewSettingsAreCheckedAndKept) {
 
 TEST(JointStore, JoinedBodiesMeetOnlyWhenAsked) {
   for (const bool collide : {false, true}) {
-    Pendulum p;
+    HungBall p;
     JointDef def = p.ball();
     def.frame_b.position = {-0.5_m, {}, {}};
     def.frame_a.position = {0.25_m, {}, {}};
@@ -125,7 +125,7 @@ TEST(JointStore, JoinedBodiesMeetOnlyWhenAsked) {
 }
 
 TEST(JointStore, LoadedGivesTheSameStateAndRefusesForgedRecords) {
-  Pendulum p;
+  HungBall p;
   ASSERT_TRUE(p.world.create_joint(p.ball()).ok());
   (void)p.world.step();
   for (const SnapshotKind kind : {SnapshotKind::native, SnapshotKind::canonical}) {
@@ -154,7 +154,7 @@ TEST(JointStore, LoadedGivesTheSameStateAndRefusesForgedRecords) {
 }
 
 TEST(JointStore, DifferencesAreNamed) {
-  Pendulum p;
+  HungBall p;
   const JointHandle joint = p.world.create_joint(p.ball()).value();
   const std::vector<std::byte> before = test::save(p.world, SnapshotKind::canonical);
   AngularAxis axis;

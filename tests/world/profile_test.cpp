@@ -9,14 +9,7 @@
 namespace lockstone {
 namespace {
 
-std::uint64_t g_calls = 0;
-
-// One tick a call.
-std::uint64_t counting_clock() {
-  return ++g_calls;
-}
-
-World busy_world() {
+World profiled_world() {
   World world = test::make_world();
   test::fill_with_random_bodies(world, 7, 120);
   return world;
@@ -32,10 +25,10 @@ std::vector<std::uint64_t> hash_chain(World world, int ticks) {
 }
 
 TEST(Profile, ChangesNoState) {
-  const std::vector<std::uint64_t> plain = hash_chain(busy_world(), 60);
+  const std::vector<std::uint64_t> plain = hash_chain(profiled_world(), 60);
   for (const ProfileDetail detail : {ProfileDetail::stages, ProfileDetail::pairs}) {
-    World world = busy_world();
-    world.set_clock(counting_clock, detail);
+    World world = profiled_world();
+    world.set_clock(test::counting_clock, detail);
     EXPECT_EQ(hash_chain(std::move(world), 60), plain);
   }
   World other = test::make_world();
@@ -44,8 +37,8 @@ TEST(Profile, ChangesNoState) {
 }
 
 TEST(Profile, IsNotSaved) {
-  World plain = busy_world(), timed = busy_world();
-  timed.set_clock(counting_clock, ProfileDetail::pairs);
+  World plain = profiled_world(), timed = profiled_world();
+  timed.set_clock(test::counting_clock, ProfileDetail::pairs);
   test::step(plain, 20);
   test::step(timed, 20);
   for (const SnapshotKind kind : {SnapshotKind::native, SnapshotKind::canonical})
@@ -53,23 +46,23 @@ TEST(Profile, IsNotSaved) {
 }
 
 TEST(Profile, TakesNoTimesWithoutAClock) {
-  World world = busy_world();
-  world.set_clock(counting_clock, ProfileDetail::pairs);
+  World world = profiled_world();
+  world.set_clock(test::counting_clock, ProfileDetail::pairs);
   world.set_clock(nullptr);
-  const std::uint64_t calls = g_calls;
+  const std::uint64_t calls = test::clock_calls();
   test::step(world, 20);
-  EXPECT_EQ(g_calls, calls);
+  EXPECT_EQ(test::clock_calls(), calls);
   EXPECT_EQ(world.profile().steps, 0U);
   EXPECT_EQ(world.profile().ticks_of(StepStage::collide), 0U);
 }
 
 TEST(Profile, CallsTheClockTwiceAStage) {
-  World world = busy_world();
-  world.set_clock(counting_clock);
-  const std::uint64_t calls = g_calls;
+  World world = profiled_world();
+  world.set_clock(test::counting_clock);
+  const std::uint64_t calls = test::clock_calls();
   test::step(world, 20);
   const StepProfile& profile = world.profile();
-  EXPECT_EQ(g_calls - calls, 20 * 2 * k_step_stages);
+  EXPECT_EQ(test::clock_calls() - calls, 20 * 2 * k_step_stages);
   EXPECT_EQ(profile.steps, 20U);
   for (const std::uint64_t ticks : profile.stage_ticks)
     EXPECT_EQ(ticks, 20U);
@@ -77,8 +70,8 @@ TEST(Profile, CallsTheClockTwiceAStage) {
 }
 
 TEST(Profile, CountsEveryPairUnderItsKinds) {
-  World world = busy_world();
-  world.set_clock(counting_clock, ProfileDetail::pairs);
+  World world = profiled_world();
+  world.set_clock(test::counting_clock, ProfileDetail::pairs);
   std::uint64_t pairs = 0, contacts = 0;
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = world.step();
@@ -110,7 +103,7 @@ TEST(Profile, CountsTriggersAsPairsWithoutManifolds) {
   zone.is_trigger = true;
   test::add(world, zone);
   test::add(world, {});
-  world.set_clock(counting_clock, ProfileDetail::pairs);
+  world.set_clock(test::counting_clock, ProfileDetail::pairs);
   (void)world.step();
   const PairProfile& spheres = world.profile().pairs_of(ShapeKind::sphere, ShapeKind::sphere);
   EXPECT_EQ(spheres.pairs, 1U);
@@ -130,7 +123,7 @@ TEST(Profile, CountsManifoldsThatWereReused) {
     test::add_ground(world);
     test::add(world, test::dynamic_body(Shape::sphere(Length::from_ratio(1, 2)), {},
                                         Position::from_ratio(1, 2), {}));
-    world.set_clock(counting_clock, ProfileDetail::pairs);
+    world.set_clock(test::counting_clock, ProfileDetail::pairs);
     for (int tick = 0; tick < 300; ++tick) {
       if (forgets) world.drop_derived();
       (void)world.step();

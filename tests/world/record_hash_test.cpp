@@ -40,8 +40,8 @@ std::uint64_t expected_hash(std::span<const std::byte> bytes, std::uint64_t seed
 }
 
 template <class Record>
-class RecordHash : public testing::Test {};
-using Records = testing::Types<BodyRecord, ContactRecord, JointRecord>;
+class RecordHash : public ::testing::Test {};
+using Records = ::testing::Types<BodyRecord, ContactRecord, JointRecord>;
 TYPED_TEST_SUITE(RecordHash, Records);
 
 TYPED_TEST(RecordHash, IsThatOfTheCanonicalBytes) {

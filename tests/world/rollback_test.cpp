@@ -11,7 +11,7 @@ namespace {
 using namespace literals;
 using Bytes = std::vector<std::byte>;
 
-World busy_world(BroadPhaseKind broad_phase = BroadPhaseKind::tree) {
+World jointed_world(BroadPhaseKind broad_phase = BroadPhaseKind::tree) {
   World world = test::make_world({.body_capacity = 128,
                                   .pair_capacity = 4096,
                                   .contact_capacity = 1024,
@@ -49,10 +49,10 @@ void disturb(World& world, test::Random& random) {
   if (what == 2) (void)world.apply(DestroyJoint{world.joint_at(0)});
 }
 
-class Rollback : public testing::TestWithParam<BroadPhaseKind> {};
+class Rollback : public ::testing::TestWithParam<BroadPhaseKind> {};
 
 TEST_P(Rollback, GoesTheSameWayAgain) {
-  World plain = busy_world(GetParam()), rolled = busy_world(GetParam());
+  World plain = jointed_world(GetParam()), rolled = jointed_world(GetParam());
   const std::uint64_t seed = test::run_seed();
   test::Random of_plain(seed), detour(seed + 1);
   test::step(plain, 30);
@@ -80,10 +80,10 @@ TEST_P(Rollback, GoesTheSameWayAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BroadPhases, Rollback,
-                         testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune));
+                         ::testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune));
 
 TEST(Rollback, PastTheNightOfSleepersGoesTheSameWayAgain) {
-  World plain = busy_world(), rolled = busy_world();
+  World plain = jointed_world(), rolled = jointed_world();
   test::step(plain, 300);
   test::step(rolled, 300);
   const Bytes saved = test::save(rolled, SnapshotKind::native);
@@ -101,7 +101,7 @@ TEST(Rollback, PastTheNightOfSleepersGoesTheSameWayAgain) {
 }
 
 TEST(Delta, WithItsBaseIsTheWholeState) {
-  World world = busy_world(), other = busy_world();
+  World world = jointed_world(), other = jointed_world();
   test::Random random;
   Bytes base = test::save(world, SnapshotKind::native);
   for (int round = 0; round < 60; ++round) {
@@ -139,7 +139,7 @@ TEST(Delta, OfAWorldAtRestIsSmall) {
 }
 
 TEST(Delta, OfAnotherBaseOrCutShortIsRefused) {
-  World world = busy_world();
+  World world = jointed_world();
   const Bytes base = test::save(world, SnapshotKind::native);
   test::step(world, 60);
   const Bytes delta = delta_of(world, base);

@@ -102,12 +102,10 @@ struct Outcome {
   std::uint64_t parted = 0;  // of these, by last tick's axis
 };
 
-std::uint64_t g_calls = 0;
-
 // What the world derives from its state is dropped in every so many ticks; 0: never.
 Outcome run_crowd(int drop_every) {
   World world = crowd();
-  world.set_clock([] { return ++g_calls; }, ProfileDetail::pairs);
+  world.set_clock(test::counting_clock, ProfileDetail::pairs);
   Outcome outcome;
   for (int tick = 0; tick < 90; ++tick) {
     if (drop_every != 0 && tick % drop_every == 0) world.drop_derived();

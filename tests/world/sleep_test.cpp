@@ -237,7 +237,7 @@ TEST(Sleep, EndsTheStayOfATriggerUntilItEnds) {
 }
 
 // Pushes, ends and adds bodies of a world in which most sleep most of the time.
-void disturb(World& world, test::Random& random) {
+void disturb_sleepers(World& world, test::Random& random) {
   const std::int64_t what = random.between(0, 59);
   const auto index = static_cast<std::uint32_t>(random.between(1, world.body_limit() - 1));
   const BodyHandle body = world.body_at(index);
@@ -283,7 +283,7 @@ TEST(Sleep, FollowsFromTheStateAlone) {
   const auto turn = [&](World& world, int tick) {
     test::Random random(seed + static_cast<std::uint64_t>(tick));
     for (int i = 0; i < 4; ++i)
-      disturb(world, random);
+      disturb_sleepers(world, random);
     most = std::max(most, world.step().asleep_bodies);
   };
   for (int tick = 0; tick < 400; ++tick) {

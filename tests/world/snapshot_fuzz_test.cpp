@@ -13,11 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-std::size_t below(test::Random& random, std::size_t limit) {
-  return static_cast<std::size_t>(random.next() % limit);
-}
-
-World busy_world() {
+World saved_world() {
   World world = test::make_world();
   test::fill_with_random_bodies(world, 7, 40);
   test::step(world, 60);
@@ -33,14 +29,14 @@ void reseal(Bytes& bytes) {
 void mutate(Bytes& bytes, test::Random& random) {
   constexpr std::uint64_t k_words[] = {0, ~std::uint64_t{0}, std::uint64_t{1} << 63,
                                        (std::uint64_t{1} << 63) - 1, 0x8000000080000000U};
-  const std::size_t count = 1 + below(random, 20);
+  const std::size_t count = 1 + random.below(20);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t place = below(random, bytes.size() - 8);
+    const std::size_t place = random.below(bytes.size() - 8);
     if (random.next() % 4 != 0) {
-      bytes[place] ^= static_cast<std::byte>(1U << below(random, 8));
+      bytes[place] ^= static_cast<std::byte>(1U << random.below(8));
       continue;
     }
-    ByteWriter(std::span(bytes).subspan(place / 4 * 4)).put(k_words[below(random, 5)]);
+    ByteWriter(std::span(bytes).subspan(place / 4 * 4)).put(k_words[random.below(5)]);
   }
   reseal(bytes);
 }
@@ -56,7 +52,7 @@ void expect_lives(World& world) {
 }
 
 TEST(CanonicalSnapshot, MutatedIsRefusedWholeOrLives) {
-  const World source = busy_world();
+  const World source = saved_world();
   const Bytes good = test::save(source, SnapshotKind::canonical);
   test::Random random;
   World world = test::make_world();
@@ -79,14 +75,14 @@ TEST(CanonicalSnapshot, MutatedIsRefusedWholeOrLives) {
 }
 
 TEST(CanonicalSnapshot, OneFlippedBitThatIsLetInLives) {
-  const World source = busy_world();
+  const World source = saved_world();
   const Bytes good = test::save(source, SnapshotKind::canonical);
   test::Random random;
   World world = test::make_world();
   int accepted = 0;
   for (int i = 0; i < 200; ++i) {
     Bytes bytes = good;
-    bytes[below(random, bytes.size() - 8)] ^= static_cast<std::byte>(1U << below(random, 8));
+    bytes[random.below(bytes.size() - 8)] ^= static_cast<std::byte>(1U << random.below(8));
     reseal(bytes);
     if (world.load(SnapshotKind::canonical, bytes) != Status::ok) continue;
     ++accepted;

@@ -83,7 +83,7 @@ TEST(Snapshot, SavingAndLoadingEveryTickChangesNothing) {
   }
 }
 
-class DropDerived : public testing::TestWithParam<BroadPhaseKind> {};
+class DropDerived : public ::testing::TestWithParam<BroadPhaseKind> {};
 
 TEST_P(DropDerived, EveryTickChangesNothing) {
   World plain = busy_world(test::run_seed() + 2);
@@ -97,7 +97,7 @@ TEST_P(DropDerived, EveryTickChangesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BroadPhases, DropDerived,
-                         testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune));
+                         ::testing::Values(BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune));
 
 TEST(Snapshot, LoadOverwritesAWorldThatHadMoreBodies) {
   World small = test::make_world();

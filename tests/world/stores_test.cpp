@@ -88,7 +88,7 @@ Bytes canonical_of(const GrownState& state) {
   return bytes;
 }
 
-class AddedField : public testing::Test {
+class AddedField : public ::testing::Test {
  protected:
   AddedField() {
     changed.records[1].added = 8;

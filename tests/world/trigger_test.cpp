@@ -63,7 +63,7 @@ struct Named {
   Shape shape;
 };
 
-class Triggers : public testing::Test {
+class Triggers : public ::testing::Test {
  protected:
   Triggers() {
     const std::vector<AssetPtr> list{cube_hull(), pair_of_balls(), square_mesh(), square_field()};
@@ -98,12 +98,12 @@ BodyDef body_of(const Shape& shape, MotionType motion, bool is_trigger) {
 }
 
 /// Events of a run, and how they came one after the other.
-struct Counts {
+struct TriggerCounts {
   int enter = 0, stay = 0, exit = 0, others = 0, out_of_order = 0;
 };
 
-Counts run(World& world, int ticks) {
-  Counts counts;
+TriggerCounts run(World& world, int ticks) {
+  TriggerCounts counts;
   bool inside = false;
   for (int tick = 0; tick < ticks; ++tick) {
     (void)world.step();
@@ -124,7 +124,7 @@ Counts run(World& world, int ticks) {
 }
 
 // At 6 m/s a ball of 0.25 m passes 1 m (0.8 m the capsule) of trigger: inside for 1.3 … 1.5 m.
-void expect_one_passage(const Counts& counts, const std::string& who) {
+void expect_one_passage(const TriggerCounts& counts, const std::string& who) {
   EXPECT_EQ(counts.enter, 1) << who;
   EXPECT_EQ(counts.exit, 1) << who;
   EXPECT_EQ(counts.out_of_order, 0) << who;
@@ -178,7 +178,7 @@ TEST_F(Triggers, ThatMoveSeeStaticSurfaces) {
         def.position.y = 0.3_m;
         def.allow_sleep = false;
         const BodyHandle trigger = test::add(world, def);
-        Counts counts = run(world, 10);
+        TriggerCounts counts = run(world, 10);
         const std::string who = zone.name + " over " + surface.name;
         const bool moves = motion != MotionType::static_body;
         EXPECT_EQ(counts.enter, moves ? 1 : 0) << who;
@@ -206,7 +206,7 @@ TEST_F(Triggers, ThatAreSurfacesSeeEveryBoundedShapePass) {
         def.position = {0.7_m, 2_m, 0.4_m};
         def.velocity.y = -4_mps;
         test::add(world, def);
-        const Counts counts = run(world, 60);
+        const TriggerCounts counts = run(world, 60);
         const std::string who = passing.name + " through " + surface.name;
         EXPECT_EQ(counts.enter, 1) << who;
         EXPECT_EQ(counts.exit, surface.shape.kind == ShapeKind::half_space ? 0 : 1) << who;
@@ -224,7 +224,7 @@ TEST_F(Triggers, DoNotSeeEachOtherTwiceNorPush) {
     test::add(world, def);
     def.position.x = 0.2_m;
     const BodyHandle second = test::add(world, def);
-    const Counts counts = run(world, 5);
+    const TriggerCounts counts = run(world, 5);
     EXPECT_LE(counts.enter, 1) << zone.name;
     EXPECT_EQ(counts.others, 0) << zone.name;
     EXPECT_EQ(world.position(second).x, Position(0.2_m)) << zone.name;

@@ -1,5 +1,7 @@
 #include "tests/world/world_fixture.h"
 
+#include <cmath>
+
 #include "tests/support/random.h"
 
 namespace lockstone::test {
@@ -86,8 +88,24 @@ std::vector<std::byte> save(const World& world, SnapshotKind kind) {
   return bytes;
 }
 
+namespace {
+std::uint64_t g_clock_calls = 0;
+}  // namespace
+
+std::uint64_t counting_clock() {
+  return ++g_clock_calls;
+}
+
+std::uint64_t clock_calls() {
+  return g_clock_calls;
+}
+
 double metres(Position x) {
   return static_cast<double>(x.raw) / 4294967296.0;
+}
+
+double metres_per_second(Velocity v) {
+  return std::ldexp(static_cast<double>(v.raw), -32);
 }
 
 }  // namespace lockstone::test

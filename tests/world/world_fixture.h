@@ -27,7 +27,13 @@ void step(World& world, int ticks);
 
 std::vector<std::byte> save(const World& world, SnapshotKind kind);
 
+/// A clock for profiles: one tick a call.
+std::uint64_t counting_clock();
+/// How often it was called.
+std::uint64_t clock_calls();
+
 /// Metres as a floating-point number, for messages and loose bounds.
 double metres(Position x);
+double metres_per_second(Velocity v);
 
 }  // namespace lockstone::test
