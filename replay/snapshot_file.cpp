@@ -8,7 +8,7 @@
 namespace lockstone::replay {
 namespace {
 
-constexpr std::uint32_t k_magic = 0x53534b4c;  // "LKSS"
+constexpr std::uint32_t k_snapshot_magic = 0x53534b4c;  // "LKSS"
 constexpr std::uint16_t k_version = 1;
 constexpr std::size_t k_front_bytes = 4 + 2 + 1 + 1 + 4 + 4;
 constexpr std::size_t k_end_bytes = 8;
@@ -22,7 +22,7 @@ std::vector<std::byte> pack_snapshot(ByteView canonical) {
   const ByteView stored = room.empty() ? canonical : ByteView(room.subspan(k_chunk_header_bytes));
   std::vector<std::byte> file(k_front_bytes + stored.size() + k_end_bytes);
   ByteWriter writer(file);
-  writer.put(k_magic);
+  writer.put(k_snapshot_magic);
   writer.put(k_version);
   writer.put(room.empty() ? Codec::raw : Codec::zstd);
   writer.put(std::uint8_t{0});
@@ -46,7 +46,7 @@ Result<std::vector<std::byte>> unpack_snapshot(ByteView file) {
   const std::size_t covered = reader.position();
   const auto checksum = reader.get<std::uint64_t>();
   if (!reader.ok()) return Status::truncated;
-  if (magic != k_magic) return Status::malformed;
+  if (magic != k_snapshot_magic) return Status::malformed;
   if (version != k_version) return Status::unsupported_version;
   if (reader.remaining() != 0 || reserved != 0 || codec > Codec::zstd ||
       raw_bytes > k_max_keyframe_bytes) {

@@ -24,6 +24,9 @@
 
 namespace lockstone {
 
+/// A mask.
+inline constexpr std::uint32_t k_every_category = 0xffffffff;
+
 class BroadPhase {
  public:
   BroadPhase(BroadPhaseKind kind, std::uint32_t body_capacity, std::uint32_t pair_capacity);
@@ -78,8 +81,6 @@ class BroadPhase {
   [[nodiscard]] bool is_valid() const;
 
  private:
-  static constexpr std::uint32_t k_every_category = 0xffffffff;
-
   template <class Test, class Visit>
   void traverse_some(std::uint32_t mask, bool with_dynamic, Test&& test, Visit&& visit) const {
     const auto look = [&](std::uint32_t body) {

@@ -11,7 +11,7 @@ namespace {
 using geometry::Metres;
 using geometry::RawVec;
 
-constexpr Metres k_rounding = 8;
+constexpr Metres k_way_rounding = 8;
 
 template <class V>
 RawVec raws(const V& v) {
@@ -46,12 +46,12 @@ Position relative_way(const Sweep& a, const Sweep& b, Length radius) {
   if (turn_b != RawVec{}) {
     if (!is_small(turn_b)) return Position::max();
     const Metres angle = norm_of(turn_b);  // below 1 rad
-    bend = times(norm_of(drift), angle / 4) * 2 + k_rounding;
+    bend = times(norm_of(drift), angle / 4) * 2 + k_way_rounding;
     drift = drift - cross(turn_b, raws(a.start.position - b.start.position));
   }
   const Metres turned =
       raw::multiply_shift(norm_of(turn_a - turn_b), radius.raw, Length::frac_bits);
-  return Position::from_raw(norm_of(drift) + bend + turned + k_rounding);
+  return Position::from_raw(norm_of(drift) + bend + turned + k_way_rounding);
 }
 
 }  // namespace lockstone

@@ -13,12 +13,6 @@ namespace {
 
 constexpr int k_most_impacts = 64;  // of a group in a tick
 
-constexpr Unit k_whole = Unit::from_integer(1);
-
-Velocity times(Velocity v, Unit u) {
-  return Velocity::from_raw(raw::multiply_shift(v.raw, u.raw, Unit::frac_bits));
-}
-
 Vec3<Velocity> times(const Vec3<Velocity>& v, Unit u) {
   return {times(v.x, u), times(v.y, u), times(v.z, u)};
 }
@@ -248,7 +242,7 @@ Meeting BounceGroup::meeting_of(const Contact& contact, Unit limit) const {
 }
 
 void BounceGroup::run() {
-  Unit left = k_whole;
+  Unit left = k_whole_tick;
   for (int i = 0; i < k_most_impacts; ++i) {
     Meeting first;
     first.fraction = left.raw + std::int64_t{1};

@@ -29,7 +29,7 @@ std::int64_t way_of(const BodyRecord& body, int axis) {
 }
 
 // A state in which somebody flipped a bit may have its contact pose anywhere, for a tick.
-std::int64_t bounded(std::int64_t x, int bits) {
+std::int64_t within_bits(std::int64_t x, int bits) {
   const std::int64_t most = std::int64_t{1} << bits;
   return std::clamp(x, -most, most);
 }
@@ -67,20 +67,20 @@ ContactDrift drift_of(const BodyRecord& body) {
   ContactDrift drift;
   for (int i = 0; i < 3; ++i) {
     drift.way[static_cast<std::size_t>(i)] =
-        static_cast<std::int32_t>(bounded(way_of(body, i), 20));
+        static_cast<std::int32_t>(within_bits(way_of(body, i), 20));
   }
   const Quat& then = body.contact_orientation;
   if (body.orientation == then) return drift;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
-  const std::int64_t x = bounded(std::int64_t{body.orientation.x.raw} - then.x.raw, 20);
-  const std::int64_t y = bounded(std::int64_t{body.orientation.y.raw} - then.y.raw, 20);
-  const std::int64_t z = bounded(std::int64_t{body.orientation.z.raw} - then.z.raw, 20);
-  const std::int64_t w = bounded(std::int64_t{body.orientation.w.raw} - then.w.raw, 20);
+  const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 20);
+  const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 20);
+  const std::int64_t z = within_bits(std::int64_t{body.orientation.z.raw} - then.z.raw, 20);
+  const std::int64_t w = within_bits(std::int64_t{body.orientation.w.raw} - then.w.raw, 20);
   const std::int64_t half[] = {x * then.w.raw - w * then.x.raw - y * then.z.raw + z * then.y.raw,
                                y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
                                z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
   for (std::size_t i = 0; i < 3; ++i)
-    drift.turn[i] = static_cast<std::int32_t>(bounded(raw::round_shift(half[i], 19), 27));
+    drift.turn[i] = static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 19), 27));
   return drift;
 }
 

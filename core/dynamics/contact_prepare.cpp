@@ -27,9 +27,6 @@ constexpr std::int64_t contact_hertz(std::int64_t substep_rate) {
 }
 constexpr std::int32_t k_contact_damping_ratio = 10;
 
-// 2π in Q28, from the digits 6.28318530717958647692.
-constexpr std::int64_t k_two_pi_q28 = 1686629713;
-
 // With ω = 2π·hertz: a1 = 2ζ + hω, a2 = hω·a1, a3 = 1/(1 + a2);
 // bias rate = ω/a1, mass scale = a2·a3 = 1 − a3.
 Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
@@ -62,7 +59,7 @@ std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_squeezed.raw));
 }
 
-std::int32_t bounded(const ContactPointRecord& point) {
+std::int32_t bounded_impulse(const ContactPointRecord& point) {
   return std::clamp(point.normal_impulse.raw, 0, lanes::k_most_impulse);
 }
 
@@ -91,7 +88,7 @@ bool fill_points(const ContactInput& in, ManifoldSource& out) {
   std::int64_t left = 0;
   std::uint32_t fresh = 0;
   for (std::size_t i = 0; i < in.record.count; ++i)
-    left += bounded(in.record.points[i]);
+    left += bounded_impulse(in.record.points[i]);
   out.impulses = {};
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = find_point(in.record, i, in.manifold.points[i].feature);
@@ -100,7 +97,7 @@ bool fill_points(const ContactInput& in, ManifoldSource& out) {
       fresh |= 1U << i;
       continue;
     }
-    out.impulses[i] = bounded(in.record.points[place]);
+    out.impulses[i] = bounded_impulse(in.record.points[place]);
     left -= out.impulses[i];
   }
   for (std::size_t i = count; i < lanes::k_block_points; ++i)

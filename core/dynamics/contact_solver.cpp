@@ -6,6 +6,7 @@
 #include "core/dynamics/joint_solver.h"
 #include "core/dynamics/lane_bodies.h"
 #include "core/dynamics/motion.h"
+#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
 namespace {
@@ -15,6 +16,8 @@ using lanes::ManifoldBlock;
 using lanes::ManifoldKernels;
 using lanes::RowBody;
 using lanes::RowTravel;
+using lanes::scalar::high;
+using lanes::scalar::low;
 
 // Overlap is pushed out at most this fast, m/s, Q20.
 constexpr std::int32_t k_push_out_speed = 3 << 20;
@@ -36,9 +39,6 @@ constexpr int k_rigid_shift = 6;
 
 // 1/count, Q28.
 constexpr std::int64_t k_one_over_q28[] = {0, 1 << 28, 1 << 27, ((1 << 28) + 1) / 3, 1 << 26};
-
-// From the Q32 of velocities to the Q50 of rows.
-constexpr int k_row_shift = lanes::k_velocity_bits - lanes::k_grid_bits;
 
 // Of lanes without a contact.
 constexpr lanes::ManifoldGeometry k_no_geometry{};
@@ -62,7 +62,7 @@ lanes::SweepRules rules_of(const TimeStep& step) {
 }
 
 std::int64_t to_row(Velocity v) {
-  return v.raw << k_row_shift;
+  return v.raw << k_grid_to_row;
 }
 
 std::int64_t within_limit(std::int64_t x) {
@@ -73,7 +73,7 @@ std::int64_t within_limit(std::int64_t x) {
 // the impulses of the tick before give.
 void start_component(std::int64_t gain, std::int64_t& now, std::int64_t& before) {
   const std::int64_t start = within_limit(now), warm = within_limit(before);
-  now = start + gain * (std::int64_t{1} << k_row_shift) + warm;
+  now = start + gain * (std::int64_t{1} << k_grid_to_row) + warm;
   before = start;
 }
 
@@ -143,14 +143,7 @@ void make_rigid(lanes::ManifoldSource& source) {
   source.bias_rate = 0;
 }
 
-std::int32_t low(std::int64_t word) {
-  return static_cast<std::int32_t>(word);
-}
-std::int32_t high(std::int64_t word) {
-  return static_cast<std::int32_t>(word >> 32);
-}
-
-Vec3<Unit> normal_of(const ManifoldBlock& block, std::size_t lane) {
+Vec3<Unit> unit_normal_of(const ManifoldBlock& block, std::size_t lane) {
   return {Unit::from_raw(low(block.axes[0][lane])), Unit::from_raw(high(block.axes[0][lane])),
           Unit::from_raw(low(block.axes[1][lane]))};
 }
@@ -376,7 +369,7 @@ void ContactSolver::integrate_positions(std::size_t first, std::size_t end) {
                                               within_limit(row.spin[2])};
     const std::array<std::int64_t, 3> surface = surface_velocity(bodies_[i].inverse_inertia, spin);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      travel.velocity[axis] += within_limit(row.velocity[axis]) >> k_row_shift;
+      travel.velocity[axis] += within_limit(row.velocity[axis]) >> k_grid_to_row;
       travel.surface[axis] += surface[axis];
     }
   }
@@ -430,7 +423,7 @@ std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first,
     clamped += store_contact(block, lane, record);
     follow_load(before, mean_impulse(record), is_alone(entry), load_shift_, record);
     target.approaches[entry.record].raw = approaches_[block].fastest(lane);
-    if (record.is_touching()) add_axes(entry, normal_of(blocks_[block], lane));
+    if (record.is_touching()) add_axes(entry, unit_normal_of(blocks_[block], lane));
   }
   return clamped;
 }

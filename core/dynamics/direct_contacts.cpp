@@ -23,7 +23,7 @@ constexpr std::size_t k_most_of_group = 160;
 constexpr std::size_t k_most_contacts = 512;
 
 // Where friction carries, what is farther apart is left to the sweeps, Q24: 1 mm.
-constexpr std::int64_t k_near = (std::int64_t{1} << 24) / 1000;
+constexpr std::int64_t k_most_apart = (std::int64_t{1} << 24) / 1000;
 
 // The share of the other end's inverse mass is light beside this one's.
 bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
@@ -193,7 +193,7 @@ void DirectContacts::plan_group(const ContactRun& run, std::uint32_t root) {
   group.leans = leans(run);
   if (group.leans) {
     std::erase_if(order_,
-                  [&](std::uint32_t index) { return is_apart(run, links_[index], k_near); });
+                  [&](std::uint32_t index) { return is_apart(run, links_[index], k_most_apart); });
     group.is_new = std::ranges::none_of(
         order_, [&](std::uint32_t index) { return push_of(run, links_[index]) != 0; });
   }
@@ -257,7 +257,7 @@ bool DirectContacts::plan_factor(Group& group) {
   };
   const auto plan = [&](std::size_t which, bool leans) {
     const auto rows = [leans](std::uint32_t) -> std::uint32_t {
-      return leans ? k_factor_rows : lanes::k_block_points;
+      return static_cast<std::uint32_t>(leans ? k_factor_rows : lanes::k_block_points);
     };
     const bool fits =
         factors_[which].plan(group.count, neighbours, rows, leans ? k_factor_rows : k_joint_axes);

@@ -13,7 +13,7 @@ using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-constexpr std::int64_t k_most_impulse = std::int64_t{1} << (k_row_impulse_bits + 16);
+constexpr std::int64_t k_most_row_impulse = std::int64_t{1} << (k_row_impulse_bits + 16);
 
 // What a body's velocity and spin are held within, Q50.
 constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
@@ -43,7 +43,7 @@ void DirectContacts::push(const ContactRun& run, Contact& contact, const Impulse
   ProductSum about_b, about_t;
   for (std::size_t i = 0; i < contact.count; ++i) {
     PointRow& point = contact.points[i];
-    const std::int64_t now = std::clamp<std::int64_t>(next[i], 0, k_most_impulse);
+    const std::int64_t now = std::clamp<std::int64_t>(next[i], 0, k_most_row_impulse);
     const std::int64_t moved = now - point.impulse;
     point.impulse = now;
     const std::int64_t seen =
@@ -91,7 +91,8 @@ void DirectContacts::push_tie(const ContactRun& run, const Contact& contact) {
   std::array<std::int64_t, 3> moved{};
   for (std::size_t i = 0; i < tie.count; ++i) {
     ContactRow& row = tie.rows[i];
-    const std::int64_t now = std::clamp(row.impulse + row.change, -k_most_impulse, k_most_impulse);
+    const std::int64_t now =
+        std::clamp(row.impulse + row.change, -k_most_row_impulse, k_most_row_impulse);
     moved[i] = now - row.impulse;
     row.impulse = now;
   }

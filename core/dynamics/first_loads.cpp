@@ -15,19 +15,12 @@ using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-// Supports of one body; more are left out.
-constexpr std::size_t k_most_supports = 32;
-
 // Rounds over the supports of one body, of each kind, and what need not be pushed, Q32: 0.1 µm/s.
-constexpr int k_most_rounds = 16;
+constexpr int k_most_support_rounds = 16;
 constexpr std::int64_t k_settled = std::int64_t{1} << 9;
 
 // What opens by more than this part of the weight in a substep tips over: 2^-3.
 constexpr int k_tipping_shift = 3;
-
-// From the Q32 of gains and impulses to the Q50 of rows.
-constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
-constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 
 // Along the normal, towards the body that rests: of a point or of all points at once, Q50.
 std::int64_t speed_of(const RawVec3& normal, const RawVec3& response, bool is_b,
@@ -91,7 +84,7 @@ void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& 
   }
   const auto settle = [&](const auto& push_support) {
     std::int64_t most = k_settled;
-    for (int round = 0; round < k_most_rounds && most >= k_settled; ++round) {
+    for (int round = 0; round < k_most_support_rounds && most >= k_settled; ++round) {
       most = 0;
       for (Support& support : supports)
         most = std::max(most, push_support(support));

@@ -22,7 +22,7 @@ constexpr int k_step_bits = 50;
 constexpr std::uint64_t k_piece = std::uint64_t{1} << 32;
 constexpr std::uint64_t k_most_pieces = 32;
 // Below this the product of the turns about both axes is small enough for Strang's scheme: 2^-20.
-constexpr UInt128 k_small = {0, std::uint64_t{1} << (64 - 20)};
+constexpr UInt128 k_small_product = {0, std::uint64_t{1} << (64 - 20)};
 
 // The turn for a momentum m is m · mantissa · 2^-shift, 32 bits.
 struct TurnRate {
@@ -160,7 +160,7 @@ void turn_residual(const FreeAxes& axes, const TurnTime& time, int exponent, Tur
   const std::uint64_t third = magnitude(split.third.angle(norm));
   const bool is_top = nearer == 0 || third > k_most_pieces * k_piece;
   if (is_top) return body.turn(axes.third, split.third);
-  if (multiply_wide(nearer, third) <= k_small) {
+  if (multiply_wide(nearer, third) <= k_small_product) {
     turn_by_halves(split, body);
     return;
   }

@@ -13,17 +13,11 @@ using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-// Supports of one body; more are left out.
-constexpr std::size_t k_most_supports = 32;
-
 // What stands firm has friction of this part of its push to spare, and is slower than this part of
 // what gravity gives in a substep: 2^-3.
 constexpr int k_firm_shift = 3;
 
-// From the Q32 of gains and impulses to the Q50 of rows; fraction bits of what is balanced, which
-// is within 1/32 m/s.
-constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
-constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
+// Fraction bits of what is balanced, which is within 1/32 m/s.
 constexpr int k_change_bits = 36;
 
 // An impulse of the block, Q32.
@@ -32,7 +26,7 @@ std::int64_t finer(std::int64_t impulse) {
 }
 
 // |(t, b, twist)| ≤ limit; Q20, all within 32 bits, or it is not.
-bool is_within(std::int64_t limit, std::int64_t t, std::int64_t b, std::int64_t twist) {
+bool is_within_limit(std::int64_t limit, std::int64_t t, std::int64_t b, std::int64_t twist) {
   constexpr std::int64_t k_most = lanes::k_most_impulse;
   limit = std::min(limit, k_most);
   if (limit < 0 || std::max({t, -t, b, -b}) > k_most) return false;
@@ -57,8 +51,8 @@ bool grips(const ManifoldBlock& block, std::size_t lane) {
   }
   if (pushing < 3) return false;
   const std::int64_t most = product_rounded(push, high_word(block.share[lane]), 30);
-  return is_within(most - (push >> k_firm_shift), low_word(block.friction[lane]),
-                   high_word(block.friction[lane]), low_word(block.twist[lane]));
+  return is_within_limit(most - (push >> k_firm_shift), low_word(block.friction[lane]),
+                         high_word(block.friction[lane]), low_word(block.twist[lane]));
 }
 
 // A row's direction and its turning, through the share of its body, Q26, within ±2.
@@ -192,9 +186,10 @@ bool HeapLoads::holds(const ContactRun& run, const Support& support) {
     push += now;
   }
   if (!support.is_tied) return true;
-  return is_within(product_rounded(push, high_word(block.share[lane]), 30),
-                   low_word(block.friction[lane]) + support.ties[0],
-                   high_word(block.friction[lane]) + support.ties[1], low_word(block.twist[lane]));
+  return is_within_limit(product_rounded(push, high_word(block.share[lane]), 30),
+                         low_word(block.friction[lane]) + support.ties[0],
+                         high_word(block.friction[lane]) + support.ties[1],
+                         low_word(block.twist[lane]));
 }
 
 // To the block, and at its centre to both bodies.

@@ -12,7 +12,7 @@
 namespace lockstone {
 namespace {
 
-constexpr int k_sweeps = 12;
+constexpr int k_sweeps_per_point = 12;
 
 // Impulses stay below this, m/s: more than any approach asks for where the answer is not absurd.
 constexpr Velocity k_most_impulse = Velocity::from_integer(1 << 20);
@@ -28,10 +28,6 @@ Vec3<Unit> normalized_arm(const Vec3<Length>& r, int scale_exponent) {
   return {entry(r.x), entry(r.y), entry(r.z)};
 }
 
-Velocity times(Velocity v, Unit factor) {
-  return Velocity::from_raw(raw::multiply_shift(v.raw, factor.raw, Unit::frac_bits));
-}
-
 Velocity dot(const Vec3<Velocity>& v, const Vec3<Unit>& u) {
   return times(v.x, u.x) + times(v.y, u.y) + times(v.z, u.z);
 }
@@ -41,7 +37,7 @@ Vec3<Velocity> times(const Vec3<Unit>& u, Velocity v) {
 }
 
 // r × v
-Vec3<Velocity> cross(const Vec3<Unit>& r, const Vec3<Velocity>& v) {
+Vec3<Velocity> cross_arm(const Vec3<Unit>& r, const Vec3<Velocity>& v) {
   return {times(v.z, r.y) - times(v.y, r.z), times(v.x, r.z) - times(v.z, r.x),
           times(v.y, r.x) - times(v.x, r.y)};
 }
@@ -55,7 +51,7 @@ struct Side {
 
   [[nodiscard]] Vec3<Velocity> velocity_at(const Vec3<Unit>& arm) const {
     const Vec3<Velocity> w = surface_velocity(body.inertia, body.record.spin);
-    return body.record.velocity - cross(arm, w);  // ω × r = −(r × ω)
+    return body.record.velocity - cross_arm(arm, w);  // ω × r = −(r × ω)
   }
 
   // The jump P, or −P, at a point. Along the normal it does not turn a ball.
@@ -63,7 +59,7 @@ struct Side {
     if (share == Unit{}) return;  // others may be reading it
     const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
     body.record.velocity += own;
-    if (turns && !(is_ball && along_normal)) body.record.spin += cross(arm, own);
+    if (turns && !(is_ball && along_normal)) body.record.spin += cross_arm(arm, own);
     hold_axes(body.record);
   }
 
@@ -76,7 +72,7 @@ struct Side {
       free -= raw::multiply_shift(square, share.raw, Unit::frac_bits);
     }
     if (!turns || share == Unit{}) return free;
-    const Vec3<Velocity> axis = cross(arm, times(u, Velocity::from_integer(1)));
+    const Vec3<Velocity> axis = cross_arm(arm, times(u, Velocity::from_integer(1)));
     const Vec3<Velocity> w = surface_velocity(body.inertia, axis);
     const auto product = [](Velocity a, Velocity b) {
       return saturate_to_int64(round_shift(multiply_wide(a.raw, b.raw), 32));
@@ -175,7 +171,7 @@ class ImpactSolver {
   }
 
   void sweep() {
-    for (int i = 0; i < k_sweeps * contact_.manifold.count; ++i)
+    for (int i = 0; i < k_sweeps_per_point * contact_.manifold.count; ++i)
       solve(points_[static_cast<std::size_t>(i % contact_.manifold.count)]);
   }
 

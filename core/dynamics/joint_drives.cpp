@@ -10,9 +10,6 @@
 namespace lockstone {
 namespace {
 
-// 2π in Q28, from the digits 6.28318530717958647692.
-constexpr std::int64_t k_two_pi_q28 = 1686629713;
-
 // A limit is far from what gets no nearer than this within a tick, at this many times its speed
 // now: m, Q32, of an angle in radians.
 constexpr std::int64_t k_near = std::int64_t{1} << 29;

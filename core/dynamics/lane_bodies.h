@@ -7,6 +7,9 @@
 
 namespace lockstone {
 
+/// From the Q32 of velocities to the Q50 of rows.
+inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits;
+
 [[nodiscard]] inline lanes::SourceBody source_body(const InverseInertia& m) {
   return {{m.xx, m.yy, m.zz, m.xy, m.xz, m.yz}};
 }
@@ -51,8 +54,7 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
 
 /// Whether a body is slower than 2^-shift of what gravity and forces give it in a substep.
 [[nodiscard]] inline bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift) {
-  constexpr int k_to_row = lanes::k_velocity_bits - lanes::k_grid_bits;
-  return is_below(row, (body.greatest_gain() >> shift) * (std::int64_t{1} << k_to_row));
+  return is_below(row, (body.greatest_gain() >> shift) * (std::int64_t{1} << k_grid_to_row));
 }
 
 /// Slower than 1/4 m/s along each axis: what contacts carry may be taken for weight.

@@ -11,12 +11,6 @@
 namespace lockstone {
 namespace {
 
-constexpr Unit k_whole_tick = Unit::from_integer(1);
-
-Velocity times(Velocity v, Unit factor) {
-  return Velocity::from_raw(raw::multiply_shift(v.raw, factor.raw, Unit::frac_bits));
-}
-
 // A surface displacement (m, Q32) as a rotation vector (rad, Q32): divided by 2^scale_exponent.
 RotationVector to_rotation(const Vec3<Velocity>& turn, int scale_exponent) {
   const auto angle = [&](Velocity x) {

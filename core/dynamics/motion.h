@@ -13,6 +13,13 @@
 
 namespace lockstone {
 
+/// Of parts of a tick.
+inline constexpr Unit k_whole_tick = Unit::from_integer(1);
+
+[[nodiscard]] constexpr Velocity times(Velocity v, Unit factor) {
+  return Velocity::from_raw(raw::multiply_shift(v.raw, factor.raw, Unit::frac_bits));
+}
+
 /// Scales velocity, or spin, by e^(−damping·dt). Flight damps the velocity by itself.
 void damp_velocity(BodyRecord& body, const TimeStep& step);
 void damp_spin(BodyRecord& body, const TimeStep& step);

@@ -12,10 +12,10 @@ namespace {
 constexpr int k_sum_bits = 22;
 constexpr int k_bits = 20;
 constexpr std::int64_t k_most_lower = std::int64_t{1} << (k_bits + 9);
-constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_sum_bits - 8);
+constexpr std::int64_t k_least_sum_pivot = std::int64_t{1} << (k_sum_bits - 8);
 constexpr std::int64_t k_most_solution = 4 * MotionBalance::k_most_change;
 
-std::int64_t times(std::int64_t x, std::int64_t y) {
+std::int64_t times_q20(std::int64_t x, std::int64_t y) {
   return raw::round_shift(x * y, k_bits);
 }
 
@@ -37,14 +37,14 @@ void MotionBalance::factor() {
     for (std::size_t i = j; i < 6; ++i) {
       scaled[i] = raw::round_shift(sums_[i][j], 52 - k_sum_bits);
       for (std::size_t k = 0; k < j; ++k)
-        scaled[i] -= times(lower_[i][k], sums_[j][k]);
+        scaled[i] -= times_q20(lower_[i][k], sums_[j][k]);
     }
     const std::int64_t pivot = scaled[j];
-    const bool is_left_out = pivot < k_least_pivot;
+    const bool is_left_out = pivot < k_least_sum_pivot;
     over_[j] = is_left_out ? 0 : (std::int64_t{1} << (k_sum_bits + k_bits)) / pivot;
     for (std::size_t i = j + 1; i < 6; ++i) {
       const std::int64_t part = is_left_out ? 0 : scaled[i];
-      lower_[i][j] = within(times(part, over_[j]) / (1 << (k_sum_bits - k_bits)), k_most_lower);
+      lower_[i][j] = within(times_q20(part, over_[j]) / (1 << (k_sum_bits - k_bits)), k_most_lower);
       sums_[i][j] = part;  // of a row past, from here on L·D
     }
   }
@@ -60,16 +60,16 @@ bool MotionBalance::solve(const Motion6& change, Motion6& x) const {
   x = change;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < i; ++k)
-      x[i] -= times(lower_[i][k], x[k]);
+      x[i] -= times_q20(lower_[i][k], x[k]);
     bound(x[i]);
   }
   for (std::size_t i = 0; i < 6; ++i) {
-    x[i] = times(x[i], over_[i]);
+    x[i] = times_q20(x[i], over_[i]);
     bound(x[i]);
   }
   for (std::size_t i = 6; i-- > 0;) {
     for (std::size_t k = i + 1; k < 6; ++k)
-      x[i] -= times(lower_[k][i], x[k]);
+      x[i] -= times_q20(lower_[k][i], x[k]);
     bound(x[i]);
   }
   return fits;

@@ -20,6 +20,10 @@ namespace lockstone {
 inline constexpr int k_row_impulse_bits = 32;
 inline constexpr int k_row_more_bits = k_row_impulse_bits - 20;
 
+/// From the Q32 of gains and impulses to the Q50 of rows.
+inline constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
+inline constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
+
 /// What the contact solver lends.
 struct ContactRun {
   std::span<lanes::RowBody> rows;

@@ -6,7 +6,7 @@ namespace lockstone {
 namespace {
 
 // Bodies that are worth a worker.
-constexpr std::uint32_t k_body_grain = 4;
+constexpr std::uint32_t k_descent_grain = 4;
 
 // n·gain beside the greatest component of the gain: a contact holds a body up where the body's side
 // of the normal points more than an eighth against it.
@@ -67,7 +67,7 @@ void SupportOrder::find_order() {
   rounds_.clear();
   for (std::size_t begin = 0, end = order_.size(); begin < end; begin = end, end = order_.size()) {
     round_begins_.push_back(static_cast<std::uint32_t>(begin));
-    rounds_.push_back({static_cast<std::uint32_t>(end - begin), k_body_grain});
+    rounds_.push_back({static_cast<std::uint32_t>(end - begin), k_descent_grain});
     for (std::size_t i = begin; i < end; ++i) {
       for (const std::uint32_t link : by_body_.at(order_[i])) {
         const std::uint32_t lower = upper_[link] == order_[i] ? lower_of(link) : 0;

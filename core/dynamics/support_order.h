@@ -11,6 +11,9 @@
 
 namespace lockstone {
 
+/// Supports of one body; more are left out.
+inline constexpr std::size_t k_most_supports = 32;
+
 /// A contact that touches.
 struct SupportLink : ContactPair {
   std::uint32_t record = 0;

@@ -19,14 +19,14 @@ namespace {
 constexpr std::int64_t k_most_gap = std::int64_t{1} << (Position::frac_bits - 16);
 
 // A substep is taken in pieces of at most half a radian of the swing, in so many at most.
-constexpr std::int32_t k_most_pieces = 32;
+constexpr std::int32_t k_most_swing_pieces = 32;
 
 // Bits of what pulls, as a mantissa; then no product below leaves 63.
 constexpr int k_pull_bits = 29;
 constexpr std::int64_t k_torque_bound = std::int64_t{1} << 31;
 
 // Inverse moments, and a torque divided by a moment, have so many fraction bits.
-constexpr int k_inverse_bits = 18;
+constexpr int k_inverse_moment_bits = 18;
 constexpr int k_turning_bits = 26;
 constexpr std::int64_t k_turning_bound = std::int64_t{1} << 30;
 
@@ -148,7 +148,7 @@ std::int32_t pieces_of(const Pull& pull, const Arm& arm, const Vec3<Unit>& momen
   const Unit middle = max(min(x, y), min(max(x, y), z));
   const std::int64_t product = (sum_of(pull.mantissa) >> 1) * (sum_of(arm.part) >> 2) / middle.raw;
   const int shift = pull.exponent - 27 - arm.exponent;  // of 4·ω²
-  for (std::int32_t pieces = 1; pieces <= k_most_pieces; pieces *= 2) {
+  for (std::int32_t pieces = 1; pieces <= k_most_swing_pieces; pieces *= 2) {
     const std::int64_t rate = std::int64_t{step.substep_rate()} * pieces;
     const std::int64_t left = shift < 0 ? product >> std::min(-shift, 62) : product;
     const std::int64_t right = shift > 0 ? (rate * rate) >> std::min(shift, 62) : rate * rate;
@@ -187,7 +187,7 @@ class Swing {
     rotation_ = rotation;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t own = moments_[static_cast<int>(i)].raw;
-      inverse_[i] = raw::round_divide(std::int64_t{1} << (30 + k_inverse_bits), own);
+      inverse_[i] = raw::round_divide(std::int64_t{1} << (30 + k_inverse_moment_bits), own);
     }
     if (inertia.axes == Quat{}) return;
     orientation_ = normalized(multiply(orientation_, inertia.axes));
@@ -254,7 +254,7 @@ class Swing {
     RawVec3 y = turned_back(rotation_, torque);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t own =
-          raw::round_shift(y[i] * inverse_[i], 30 + k_inverse_bits - k_turning_bits);
+          raw::round_shift(y[i] * inverse_[i], 30 + k_inverse_moment_bits - k_turning_bits);
       y[i] = std::clamp(own, -k_turning_bound, k_turning_bound);
     }
     y = turned(rotation_, y);

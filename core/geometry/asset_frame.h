@@ -35,6 +35,9 @@ void put_asset_header(ByteWriter& writer, ShapeKind kind, std::uint16_t version)
   return is_asset_coordinate(v.x) && is_asset_coordinate(v.y) && is_asset_coordinate(v.z);
 }
 
+/// Of meshes and height fields: MeshDef::flat_angle.
+inline constexpr Angle k_max_flat_angle = Angle::from_integer(1);
+
 /// Friction 0 … 1.99, restitution and rolling resistance 0 … 1, known rules.
 [[nodiscard]] constexpr bool is_valid(const Surface& surface) {
   constexpr Coefficient most_friction = Coefficient::from_ratio(199, 100);

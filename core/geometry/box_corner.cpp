@@ -53,7 +53,7 @@ std::uint64_t squared(const RawVec& gap) {
   return sum;
 }
 
-struct NearestVertex {
+struct NearestCorner {
   bool found = false;
   bool of_b = true;
   int index = 0;
@@ -64,7 +64,7 @@ struct NearestVertex {
 
 /// `edges` are the half edges and `centre` the centre of the box with the vertices, in the axes of
 /// the other, whose half extents are `half`.
-void find_nearest(NearestVertex& best, bool of_b, const RawVec& centre,
+void find_nearest(NearestCorner& best, bool of_b, const RawVec& centre,
                   const std::array<RawVec, 3>& edges, const RawVec& half) {
   for (int index = 0; index < 8; ++index) {
     const RawVec point = vertex(centre, edges[0], edges[1], edges[2], index);
@@ -74,7 +74,7 @@ void find_nearest(NearestVertex& best, bool of_b, const RawVec& centre,
   }
 }
 
-NearestVertex nearest_vertex(const BoxPair& pair) {
+NearestCorner nearest_vertex(const BoxPair& pair) {
   std::array<RawVec, 3> edges_a;
   std::array<RawVec, 3> edges_b;
   for (int k = 0; k < 3; ++k) {
@@ -83,7 +83,7 @@ NearestVertex nearest_vertex(const BoxPair& pair) {
     edges_a[i] = along(a_in_b, pair.a.shape.size[k]);
     edges_b[i] = along(pair.b_in_a[i], pair.b.shape.size[k]);
   }
-  NearestVertex best;
+  NearestCorner best;
   find_nearest(best, true, pair.centre_in_a, edges_b, pair.half_a);
   find_nearest(best, false, -pair.centre_in_b, edges_a, pair.half_b);
   return best;
@@ -105,7 +105,7 @@ EdgeContact edge_contact(const BoxPair& pair, const EdgeAxis& axis) {
 }
 
 Manifold vertex_manifold(const BoxPair& pair) {
-  const NearestVertex best = nearest_vertex(pair);
+  const NearestCorner best = nearest_vertex(pair);
   Manifold manifold;
   if (!best.found || best.gap == RawVec{}) return manifold;
   const Mat3& rotation = best.of_b ? pair.a.rotation : pair.b.rotation;

@@ -12,8 +12,8 @@ namespace {
 
 using Lanes = std::array<std::int64_t, 3>;
 
-constexpr std::array<int, 3> k_next = {1, 2, 0};
-constexpr std::array<int, 3> k_after_next = {2, 0, 1};
+constexpr std::array<int, 3> k_next_axis = {1, 2, 0};
+constexpr std::array<int, 3> k_axis_after_next = {2, 0, 1};
 
 /// The reference face, and the other box's axes as seen from it.
 struct FaceFrame {
@@ -37,8 +37,8 @@ struct FaceFrame {
         reference(face_of_b ? boxes.b : boxes.a),
         incident(face_of_b ? boxes.a : boxes.b),
         axis(face.axis),
-        tangent_x(k_next[static_cast<std::size_t>(face.axis)]),
-        tangent_y(k_after_next[static_cast<std::size_t>(face.axis)]),
+        tangent_x(k_next_axis[static_cast<std::size_t>(face.axis)]),
+        tangent_y(k_axis_after_next[static_cast<std::size_t>(face.axis)]),
         sign(face_of_b ? -face.sign : face.sign),
         of_b(face_of_b),
         flip(flip_pair != face_of_b),
@@ -86,8 +86,8 @@ FaceMeeting meeting_of(const FaceFrame& frame) {
     sign = lean > 0 ? -1 : 1;
   }
   const Vec3<Length>& size = frame.incident.shape.size;
-  const int next = k_next[static_cast<std::size_t>(axis)];
-  const int after = k_after_next[static_cast<std::size_t>(axis)];
+  const int next = k_next_axis[static_cast<std::size_t>(axis)];
+  const int after = k_axis_after_next[static_cast<std::size_t>(axis)];
   const auto times = [](const Lanes& direction, Length half) {
     return Lanes{direction[0] * half.raw, direction[1] * half.raw, direction[2] * half.raw};
   };

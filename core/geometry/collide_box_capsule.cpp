@@ -27,7 +27,7 @@ struct BoxCapsule {
 constexpr std::uint32_t face_feature(int axis, int sign, int end) {
   return 0x10U | static_cast<std::uint32_t>(axis << 2 | (sign < 0 ? 2 : 0) | end);
 }
-constexpr std::uint32_t edge_feature(int axis) {
+constexpr std::uint32_t edge_axis_feature(int axis) {
   return 0x20U | static_cast<std::uint32_t>(axis);
 }
 
@@ -95,7 +95,8 @@ Manifold nearest_point(const BoxCapsule& pair, Fine s, const RawVec& gap) {
 }
 
 /// Whether the part beside the face comes as near to it as the core comes to the box.
-bool attains(const BoxCapsule& pair, int axis, int sign, const Interval& beside, Fine distance) {
+bool attains_face(const BoxCapsule& pair, int axis, int sign, const Interval& beside,
+                  Fine distance) {
   const Fine nearest =
       std::min(height_at(pair, axis, sign, beside.low), height_at(pair, axis, sign, beside.high));
   return nearest <= distance + distance / 2048;
@@ -112,7 +113,7 @@ Manifold collide_apart(const BoxCapsule& pair, Fine s, const RawVec& gap) {
   const Interval beside = beside_face(pair.local, axis);
   const int sign = sign_of(gap[axis]);
   if (beside.high - beside.low <= fine(pair.radius) / 16) return nearest_point(pair, s, gap);
-  if (!attains(pair, axis, sign, beside, distance)) return nearest_point(pair, s, gap);
+  if (!attains_face(pair, axis, sign, beside, distance)) return nearest_point(pair, s, gap);
   const Manifold manifold = face_manifold(pair, axis, sign, beside);
   return manifold.count > 0 ? manifold : nearest_point(pair, s, gap);
 }
@@ -138,7 +139,8 @@ Manifold edge_manifold(const BoxCapsule& pair, const OverlapAxis& overlap) {
   manifold.normal = direction_of(n.x, n.y, n.z);
   const RawVec on_capsule = point_at(core, at.on_b) - along(manifold.normal, pair.radius);
   add_round_point(manifold, {point_at(edge, at.on_a), on_capsule}, pair.offset,
-                  overlap.separation - fine(pair.radius), pair.margin, edge_feature(overlap.axis));
+                  overlap.separation - fine(pair.radius), pair.margin,
+                  edge_axis_feature(overlap.axis));
   return manifold;
 }
 

@@ -43,10 +43,12 @@ struct Meeting {
     if (a.face < 0 || b.face < 0) return -k_any_separation;
     return b_is_reference() ? a.separation : b.separation;
   }
-  [[nodiscard]] FaceMeeting on_a() const {
+  [[nodiscard]] PolytopeFaceMeeting on_a() const {
     return {pair.from_a, pair.offset, pair.margin, a, false};
   }
-  [[nodiscard]] FaceMeeting on_b() const { return {pair.from_b, back, pair.margin, b, true}; }
+  [[nodiscard]] PolytopeFaceMeeting on_b() const {
+    return {pair.from_b, back, pair.margin, b, true};
+  }
 };
 
 Manifold face_manifold_of(const Meeting& meeting, bool b_is_reference) {

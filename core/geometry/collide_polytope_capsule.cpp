@@ -104,7 +104,7 @@ int facing_face(const PolytopeCapsule& pair, const RawVec& gap) {
 }
 
 /// Whether the part beside the face comes as near to it as the core comes to the polytope.
-bool attains(const PolytopeCapsule& pair, int face, const BesideFace& beside, Fine distance) {
+bool attains_face(const PolytopeCapsule& pair, int face, const BesideFace& beside, Fine distance) {
   const Fine nearest =
       std::min(height_at(pair, face, beside.low), height_at(pair, face, beside.high));
   return nearest <= distance + distance / 2048;
@@ -116,7 +116,7 @@ Manifold collide_apart(const PolytopeCapsule& pair, const SegmentNearest& neares
   const BesideFace beside = beside_face(pair.local, face);
   if (beside.low > beside.high || beside.high - beside.low <= fine(pair.radius) / 16)
     return manifold_at(pair, nearest);
-  if (!attains(pair, face, beside, nearest.distance)) return manifold_at(pair, nearest);
+  if (!attains_face(pair, face, beside, nearest.distance)) return manifold_at(pair, nearest);
   const Manifold manifold = face_manifold(pair, face, beside);
   return manifold.count > 0 ? manifold : manifold_at(pair, nearest);
 }

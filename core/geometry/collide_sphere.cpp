@@ -8,20 +8,20 @@
 namespace lockstone::geometry {
 namespace {
 
-struct CoreGap {
+struct SphereGap {
   Vec3<Unit> normal;
   Fine distance = 0;
 };
 
 /// Direction and length of a fine vector; a zero vector takes the direction `otherwise`.
-CoreGap gap_of(const RawVec& v, const Vec3<Unit>& otherwise) {
+SphereGap gap_of(const RawVec& v, const Vec3<Unit>& otherwise) {
   if (v == RawVec{}) return {otherwise, 0};
   const Direction d = direction(v.x, v.y, v.z);
   return {d.unit, static_cast<Fine>(d.length)};
 }
 
 Manifold round_contact(const RawVec& core_a, Length radius_a, const RawVec& core_b, Length radius_b,
-                       const CoreGap& gap, const Vec3<Length>& offset, Length margin) {
+                       const SphereGap& gap, const Vec3<Length>& offset, Length margin) {
   Manifold manifold;
   const Fine separation = gap.distance - fine(radius_a) - fine(radius_b);
   if (!keeps(separation, margin)) return manifold;
@@ -78,8 +78,8 @@ Manifold collide_capsule_sphere(const PosedShape& capsule, const PosedShape& sph
   const RawVec gap = centre - closest;
   return round_contact(
       closest, capsule.shape.size.x, centre, sphere.shape.size.x,
-      is_negligible(gap) ? CoreGap{perpendicular_to(core.axis), 0} : gap_of(gap, core.axis), offset,
-      margin);
+      is_negligible(gap) ? SphereGap{perpendicular_to(core.axis), 0} : gap_of(gap, core.axis),
+      offset, margin);
 }
 
 Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,
@@ -91,7 +91,7 @@ Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,
                        clamp_to(centre.z, half.z)};
   const RawVec gap = centre - closest;
   if (is_negligible(gap)) return sphere_inside_box(box, centre, radius, offset, margin);
-  const CoreGap world_gap = gap_of(rotate(box.rotation, gap), k_concentric_normal);
+  const SphereGap world_gap = gap_of(rotate(box.rotation, gap), k_concentric_normal);
   Manifold manifold;
   manifold.normal = world_gap.normal;
   add_round_point(manifold,

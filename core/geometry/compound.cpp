@@ -17,7 +17,7 @@ namespace {
 
 using geometry::LocalBounds;
 
-constexpr std::uint16_t k_version = 2;
+constexpr std::uint16_t k_compound_version = 2;
 constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + geometry::k_surface_bytes;
 constexpr Number k_max_density = Number::from_integer(1024);
 constexpr Number k_min_density = Number::from_ratio(1, 1024);
@@ -100,7 +100,7 @@ std::vector<std::byte> encode(std::span<const CompoundChild> children) {
   std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 4 +
                                children.size() * k_child_bytes);
   ByteWriter writer(bytes);
-  geometry::put_asset_header(writer, ShapeKind::compound, k_version);
+  geometry::put_asset_header(writer, ShapeKind::compound, k_compound_version);
   writer.put(static_cast<std::uint32_t>(children.size()));
   for (const CompoundChild& child : children)
     encode(child, writer);
@@ -228,7 +228,7 @@ CompoundResult Compound::build(std::span<const CompoundChild> children) {
 Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
                                                              const AssetSet& hulls) {
   ByteReader reader(bytes);
-  const Status head = geometry::read_asset_header(reader, ShapeKind::compound, k_version);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::compound, k_compound_version);
   if (head != Status::ok) return head;
   const auto count = reader.get<std::uint32_t>();
   if (!reader.ok()) return Status::truncated;

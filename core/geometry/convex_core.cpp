@@ -82,7 +82,7 @@ RawVec lattice_point(const LatticeCore& core, std::uint8_t index) {
   return sum;
 }
 
-DifferenceVertex difference(const LatticePair& pair, std::uint8_t a, std::uint8_t b) {
+DifferenceVertex difference_vertex(const LatticePair& pair, std::uint8_t a, std::uint8_t b) {
   return {lattice_point(pair.b, b) + pair.offset - lattice_point(pair.a, a), a, b};
 }
 
@@ -119,10 +119,6 @@ std::uint8_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& dire
     best = i;
   }
   return static_cast<std::uint8_t>(best);
-}
-
-RawVec shifted(const RawVec& v, int shift) {
-  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
 }
 
 void to_lattice(const ConvexCore& core, int shift, LatticeCore& lattice) {
@@ -199,13 +195,13 @@ void set_offset(const RawVec& offset, LatticePair& pair) {
 }
 
 DifferenceVertex least_along(const LatticePair& pair, const RawVec& direction) {
-  return difference(pair, greatest_vertex(pair.a, product_with(direction)),
-                    greatest_vertex(pair.b, product_with(-direction)));
+  return difference_vertex(pair, greatest_vertex(pair.a, product_with(direction)),
+                           greatest_vertex(pair.b, product_with(-direction)));
 }
 
 DifferenceVertex greatest_along(const LatticePair& pair, const RawVec& direction) {
-  return difference(pair, exactly_greatest_vertex(pair.a, -direction),
-                    exactly_greatest_vertex(pair.b, direction));
+  return difference_vertex(pair, exactly_greatest_vertex(pair.a, -direction),
+                           exactly_greatest_vertex(pair.b, direction));
 }
 
 }  // namespace lockstone::geometry

@@ -46,7 +46,7 @@ bool add_dimension(const LatticePair& pair, Frame& frame) {
   return false;
 }
 
-Vec3<Unit> direction_of(const RawVec& v) {
+Vec3<Unit> unit_along(const RawVec& v) {
   return lockstone::direction_of(v.x, v.y, v.z);
 }
 
@@ -55,11 +55,11 @@ CoreGap flat_overlap(const GapQuery& query, const Frame& frame) {
   const FinePair fine_pair = query.fine_pair();
   CoreGap gap = refine(fine_pair, query.lattice(), query.simplex(), Side::before);
   if (frame.count == 1) gap.normal = k_concentric_normal;
-  if (frame.count == 2) gap.normal = perpendicular_to(direction_of(frame.edge(1)));
+  if (frame.count == 2) gap.normal = perpendicular_to(unit_along(frame.edge(1)));
   if (frame.count == 3) {
     const RawVec plane = narrow_cross(frame.edge(1), frame.edge(2));
     // A triangle that holds the origin has refined it already.
-    if (query.simplex().count != 3) gap.normal = direction_of(plane);
+    if (query.simplex().count != 3) gap.normal = unit_along(plane);
   }
   if (dot(fine_pair.offset, gap.normal) < 0) gap.normal = -gap.normal;
   gap.distance = 0;

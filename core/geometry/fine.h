@@ -45,6 +45,11 @@ struct RawVec {
   constexpr RawVec operator-() const { return {-x, -y, -z}; }
 };
 
+/// v / 2^shift, rounded.
+[[nodiscard]] constexpr RawVec shifted(const RawVec& v, int shift) {
+  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
+}
+
 /// A length in fine lanes, exact.
 [[nodiscard]] constexpr Fine fine(Length length) {
   return Fine{length.raw} * (Fine{1} << k_fine_per_length);

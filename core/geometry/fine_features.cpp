@@ -8,12 +8,12 @@
 namespace lockstone::geometry {
 namespace {
 
-Fine part(Fine x, Weight weight) {
+Fine weighted(Fine x, Weight weight) {
   return static_cast<Fine>(round_shift(multiply_wide(x, weight), k_weight_bits).low);
 }
 
-RawVec part(const RawVec& v, Weight weight) {
-  return {part(v.x, weight), part(v.y, weight), part(v.z, weight)};
+RawVec weighted(const RawVec& v, Weight weight) {
+  return {weighted(v.x, weight), weighted(v.y, weight), weighted(v.z, weight)};
 }
 
 int greatest_axis(const RawVec& v) {
@@ -60,7 +60,7 @@ Weight weight_of(Int128 numerator, Int128 denominator) {
 RawVec blend(const FineFeatures& features, const std::array<RawVec, 3>& points) {
   RawVec sum = points[0];
   for (std::size_t i = 1; i < static_cast<std::size_t>(features.count); ++i)
-    sum = sum + part(points[i] - points[0], features.weight[i]);
+    sum = sum + weighted(points[i] - points[0], features.weight[i]);
   return sum;
 }
 

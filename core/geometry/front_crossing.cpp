@@ -7,7 +7,7 @@
 namespace lockstone::geometry {
 namespace {
 
-constexpr Unit k_whole = Unit::from_integer(1);
+constexpr Unit k_whole_way = Unit::from_integer(1);
 
 // What may be beside a triangle and still counts.
 constexpr Length k_beside = Length::from_raw(64);
@@ -23,7 +23,7 @@ class CrossingSearch final : public PartVisitor {
     const FacePlane plane(triangle, normal);
     const Fine above = plane.height(from_), end = plane.height(to_);
     if (above < 0 || end >= fine(k_front_guard)) return;
-    const Unit fraction = end < 0 ? rounded(RayRatio{above, above - end}) : k_whole;
+    const Unit fraction = end < 0 ? rounded(RayRatio{above, above - end}) : k_whole_way;
     if (best_.found && fraction >= best_.fraction) return;
     if (!plane.has_beside(from_ + part_of_way(fraction))) return;
     best_ = {true, fraction, part.index, normal, end};

@@ -10,18 +10,16 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-struct Refusal {
+struct HeightFieldRefusal {
   HeightFieldFault fault = HeightFieldFault::none;
   std::uint32_t index = 0;
 };
-
-constexpr Angle k_max_flat_angle = Angle::from_integer(1);
 
 bool is_size(std::uint32_t samples) {
   return samples >= 2 && samples <= k_max_height_field_samples;
 }
 
-Refusal check_sizes(const HeightFieldDef& def) {
+HeightFieldRefusal check_sizes(const HeightFieldDef& def) {
   if (!is_size(def.columns) || !is_size(def.rows)) return {HeightFieldFault::size_mismatch};
   const std::size_t samples = std::size_t{def.columns} * def.rows;
   const std::size_t cells = (std::size_t{def.columns} - 1) * (def.rows - 1);
@@ -37,7 +35,7 @@ Refusal check_sizes(const HeightFieldDef& def) {
   return {options ? HeightFieldFault::none : HeightFieldFault::invalid_option};
 }
 
-Refusal check_surfaces(const HeightFieldDef& def) {
+HeightFieldRefusal check_surfaces(const HeightFieldDef& def) {
   if (def.surfaces.size() > k_max_surfaces) return {HeightFieldFault::surface_out_of_range};
   for (std::uint32_t i = 0; i < def.surfaces.size(); ++i)
     if (!is_valid(def.surfaces[i])) return {HeightFieldFault::invalid_surface, i};
@@ -60,7 +58,7 @@ bool is_coordinate_of(const HeightFieldDef& def, std::uint32_t sample) {
   return is_coordinate(def.origin.y, def.heights[sample], 1);
 }
 
-Refusal check_coordinates(const HeightFieldDef& def) {
+HeightFieldRefusal check_coordinates(const HeightFieldDef& def) {
   const bool grid = is_asset_coordinate(def.origin) &&
                     is_coordinate(def.origin.x, def.cell_x, def.columns - 1) &&
                     is_coordinate(def.origin.z, def.cell_z, def.rows - 1);
@@ -70,8 +68,8 @@ Refusal check_coordinates(const HeightFieldDef& def) {
   return {};
 }
 
-Refusal check(const HeightFieldDef& def) {
-  Refusal refusal = check_sizes(def);
+HeightFieldRefusal check(const HeightFieldDef& def) {
+  HeightFieldRefusal refusal = check_sizes(def);
   if (refusal.fault == HeightFieldFault::none) refusal = check_surfaces(def);
   if (refusal.fault == HeightFieldFault::none) refusal = check_coordinates(def);
   const bool nothing = !def.holes.empty() && std::ranges::count(def.holes, 0) == 0;
@@ -156,7 +154,7 @@ HeightField::~HeightField() = default;
 
 HeightFieldResult HeightField::build(const HeightFieldDef& def) {
   HeightFieldResult result;
-  const geometry::Refusal refusal = geometry::check(def);
+  const geometry::HeightFieldRefusal refusal = geometry::check(def);
   result.fault = refusal.fault;
   result.index = refusal.index;
   if (result.fault != HeightFieldFault::none) return result;

@@ -1,6 +1,6 @@
 // The canonical bytes of height fields.
 //
-//   header (asset_frame.h), version 1
+//   header (asset_frame.h), version 2
 //   i32 flat angle, origin x and z, cell x and z; u16 columns, rows, surfaces; u8 bit 0: holes,
 //   bit 1: cells have surfaces
 //   i32 height of each sample; the holes, a bit a cell from the lowest up, padded with zeros;
@@ -12,10 +12,10 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-constexpr std::uint16_t k_version = 2;
-constexpr std::size_t k_counts_bytes = 27;
+constexpr std::uint16_t k_height_field_version = 2;
+constexpr std::size_t k_height_field_counts_bytes = 27;
 
-struct Counts {
+struct HeightFieldCounts {
   std::uint16_t columns = 0;
   std::uint16_t rows = 0;
   std::uint16_t surfaces = 0;
@@ -38,7 +38,7 @@ struct Counts {
   }
 };
 
-Status read_counts(ByteReader& reader, HeightFieldDef& def, Counts& counts) {
+Status read_counts(ByteReader& reader, HeightFieldDef& def, HeightFieldCounts& counts) {
   for (std::int32_t* field : {&def.flat_angle.raw, &def.origin.x.raw, &def.origin.z.raw,
                               &def.cell_x.raw, &def.cell_z.raw})
     *field = reader.get<std::int32_t>();
@@ -60,7 +60,7 @@ struct Payload {
   std::vector<std::uint8_t> cell_surfaces;
 };
 
-Payload read_payload(ByteReader& reader, const Counts& counts) {
+Payload read_payload(ByteReader& reader, const HeightFieldCounts& counts) {
   Payload payload;
   payload.heights.resize(counts.samples());
   for (Length& height : payload.heights)
@@ -83,15 +83,15 @@ Payload read_payload(ByteReader& reader, const Counts& counts) {
 }  // namespace
 
 std::vector<std::byte> encode_height_field(const HeightFieldData& data) {
-  Counts counts;
+  HeightFieldCounts counts;
   counts.columns = static_cast<std::uint16_t>(data.columns);
   counts.rows = static_cast<std::uint16_t>(data.rows);
   counts.surfaces = static_cast<std::uint16_t>(data.surfaces.size());
   counts.flags = static_cast<std::uint8_t>((data.holes.empty() ? 0 : 1) |
                                            (data.cell_surfaces.empty() ? 0 : 2));
-  std::vector<std::byte> bytes(k_asset_header_bytes + k_counts_bytes + counts.bytes());
+  std::vector<std::byte> bytes(k_asset_header_bytes + k_height_field_counts_bytes + counts.bytes());
   ByteWriter writer(bytes);
-  put_asset_header(writer, ShapeKind::height_field, k_version);
+  put_asset_header(writer, ShapeKind::height_field, k_height_field_version);
   writer.put(data.flat_angle.raw);
   for (const Length field : {data.origin_x, data.origin_z, data.cell_x, data.cell_z})
     writer.put(field.raw);
@@ -116,10 +116,10 @@ std::vector<std::byte> encode_height_field(const HeightFieldData& data) {
 Result<std::shared_ptr<const HeightField>> HeightField::from_bytes(ByteView bytes) {
   using namespace geometry;
   ByteReader reader(bytes);
-  const Status header = read_asset_header(reader, ShapeKind::height_field, k_version);
+  const Status header = read_asset_header(reader, ShapeKind::height_field, k_height_field_version);
   if (header != Status::ok) return header;
   HeightFieldDef def;
-  Counts counts;
+  HeightFieldCounts counts;
   if (const Status s = read_counts(reader, def, counts); s != Status::ok) return s;
   const Payload payload = read_payload(reader, counts);
   def.columns = counts.columns;

@@ -39,7 +39,7 @@ struct Hull::Data {
 
 namespace {
 
-constexpr std::uint16_t k_version = 1;
+constexpr std::uint16_t k_hull_version = 1;
 
 using Points = std::vector<Vec3<Length>>;
 
@@ -215,7 +215,7 @@ Length deviation_of(const std::vector<PolytopeFace>& faces, std::span<const Vec3
 std::vector<std::byte> encode(std::span<const Vec3<Length>> vertices, Length tolerance) {
   std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 6 + 12 * vertices.size());
   ByteWriter writer(bytes);
-  geometry::put_asset_header(writer, ShapeKind::hull, k_version);
+  geometry::put_asset_header(writer, ShapeKind::hull, k_hull_version);
   writer.put(tolerance.raw);
   writer.put(static_cast<std::uint16_t>(vertices.size()));
   for (const Vec3<Length>& v : vertices)
@@ -263,7 +263,7 @@ HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& 
 
 Result<std::shared_ptr<const Hull>> Hull::from_bytes(ByteView bytes) {
   ByteReader reader(bytes);
-  const Status head = geometry::read_asset_header(reader, ShapeKind::hull, k_version);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::hull, k_hull_version);
   if (head != Status::ok) return head;
   const auto tolerance = Length::from_raw(reader.get<std::int32_t>());
   const std::size_t count = reader.get<std::uint16_t>();

@@ -14,7 +14,7 @@ namespace {
 
 using Vertices = std::span<const Vec3<Length>>;
 
-constexpr std::uint16_t k_none = 0xffff;
+constexpr std::uint16_t k_no_index = 0xffff;
 
 /// v · n in the asset's own frame: below 2^62.
 Fine along_normal(const Vec3<Length>& v, const Vec3<Unit>& n) {
@@ -46,15 +46,15 @@ Edge edge_of(std::span<const std::uint16_t> loop, std::size_t i) {
 /// The cycle that the edges form, the least index first; empty when they are not one simple cycle.
 Loop cycle_of(std::span<const Edge> edges) {
   std::array<std::uint16_t, k_max_polytope_vertices> next{};
-  next.fill(k_none);
-  std::uint16_t start = k_none;
+  next.fill(k_no_index);
+  std::uint16_t start = k_no_index;
   for (const Edge& edge : edges) {
-    if (next[edge.from] != k_none) return {};
+    if (next[edge.from] != k_no_index) return {};
     next[edge.from] = edge.to;
     start = std::min(start, edge.from);
   }
   Loop loop;
-  for (std::uint16_t v = start; v != k_none && loop.size() < edges.size(); v = next[v]) {
+  for (std::uint16_t v = start; v != k_no_index && loop.size() < edges.size(); v = next[v]) {
     if (v == start && !loop.empty()) return {};
     loop.push_back(v);
   }
@@ -65,7 +65,7 @@ Loop cycle_of(std::span<const Edge> edges) {
 class EdgeOwners {
  public:
   explicit EdgeOwners(std::size_t vertex_count)
-      : stride_(vertex_count), owner_(vertex_count * vertex_count, k_none) {}
+      : stride_(vertex_count), owner_(vertex_count * vertex_count, k_no_index) {}
 
   [[nodiscard]] std::uint16_t& at(Edge edge) { return owner_[edge.from * stride_ + edge.to]; }
   [[nodiscard]] std::uint16_t beyond(Edge edge) const {
@@ -177,12 +177,12 @@ Fine lowest(Vertices vertices, const Loop& loop, const Vec3<Unit>& normal) {
   return low;
 }
 
-struct Candidate {
+struct MergeCandidate {
   std::uint16_t a = 0;
   std::uint16_t b = 0;
   Fine depth = 0;
 
-  friend bool operator<(const Candidate& x, const Candidate& y) {
+  friend bool operator<(const MergeCandidate& x, const MergeCandidate& y) {
     return std::tie(x.depth, x.a, x.b) < std::tie(y.depth, y.a, y.b);
   }
 };
@@ -205,7 +205,7 @@ class Merger {
 
   MergedFaces run() {
     while (!candidates_.empty()) {
-      const Candidate best = *std::min_element(candidates_.begin(), candidates_.end());
+      const MergeCandidate best = *std::min_element(candidates_.begin(), candidates_.end());
       merge(best.a, best.b);
     }
     dented_.clear();  // only what keeps the final faces apart counts
@@ -265,7 +265,7 @@ class Merger {
     loops_[b].clear();
     owners_.give(loops_[a], a);
     normals_[a] = mean_normal(vertices_, loops_[a]);
-    std::erase_if(candidates_, [a, b](const Candidate& c) {
+    std::erase_if(candidates_, [a, b](const MergeCandidate& c) {
       return c.a == a || c.b == a || c.a == b || c.b == b;
     });
     consider_neighbours(a, 0);
@@ -276,7 +276,7 @@ class Merger {
   std::vector<Loop> loops_;
   std::vector<Vec3<Unit>> normals_;
   EdgeOwners owners_;
-  std::vector<Candidate> candidates_;
+  std::vector<MergeCandidate> candidates_;
   std::vector<std::uint16_t> dented_;
 };
 

@@ -19,7 +19,7 @@ constexpr Length k_least_tolerance = Length::from_raw(2);
 // Measured from points that happen to be extreme, a hull may seem thinner than it is.
 constexpr std::int64_t k_clearly_thin = k_min_hull_thickness.raw / 4;
 
-struct Simplex {
+struct FirstSimplex {
   HullFault fault = HullFault::none;
   std::array<PointIndex, 4> points{};
   std::int64_t extent = 0;  ///< the greatest along an axis, raw
@@ -27,7 +27,7 @@ struct Simplex {
 };
 
 /// The two ends of the axis along which the points extend most.
-void take_longest_axis(Points points, Simplex& simplex) {
+void take_longest_axis(Points points, FirstSimplex& simplex) {
   for (int axis = 0; axis < 3; ++axis) {
     std::size_t low = 0, high = 0;
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -48,7 +48,7 @@ UInt128 square_of(const RawVec& v) {
   return dot_wide(v, v).bits();
 }
 
-void take_farthest_from_line(Points points, Simplex& simplex) {
+void take_farthest_from_line(Points points, FirstSimplex& simplex) {
   const Vec3<Length> a = points[simplex.points[0]];
   const RawVec line = difference(points[simplex.points[1]], a);
   UInt128 most{};
@@ -63,7 +63,7 @@ void take_farthest_from_line(Points points, Simplex& simplex) {
 }
 
 /// Leaves the first three clockwise seen from the fourth.
-void take_farthest_from_plane(Points points, Simplex& simplex) {
+void take_farthest_from_plane(Points points, FirstSimplex& simplex) {
   auto& [a, b, c, d] = simplex.points;
   const ExactPlane plane = plane_through(points[a], points[b], points[c]);
   Fine apex = 0;
@@ -78,15 +78,15 @@ void take_farthest_from_plane(Points points, Simplex& simplex) {
   if (apex > 0) std::swap(b, c);
 }
 
-Simplex find_simplex(Points points) {
-  Simplex simplex;
+FirstSimplex find_simplex(Points points) {
+  FirstSimplex simplex;
   take_longest_axis(points, simplex);
   if (simplex.fault == HullFault::none) take_farthest_from_line(points, simplex);
   if (simplex.fault == HullFault::none) take_farthest_from_plane(points, simplex);
   return simplex;
 }
 
-Length tolerance_for(const Simplex& simplex, Length wanted) {
+Length tolerance_for(const FirstSimplex& simplex, Length wanted) {
   const auto extent = std::bit_floor(static_cast<std::uint64_t>(simplex.extent));
   const Length usual = Length::from_raw(static_cast<std::int32_t>(extent >> 12));
   const auto thickness = static_cast<std::int32_t>(simplex.thickness >> (k_fine_per_length + 4));
@@ -107,7 +107,7 @@ struct Facet {
 
 class Builder {
  public:
-  Builder(Points points, const Simplex& simplex, Length tolerance);
+  Builder(Points points, const FirstSimplex& simplex, Length tolerance);
 
   void grow(int max_vertices) {
     // A closed surface of triangles has two more vertices than half its faces.
@@ -150,7 +150,7 @@ class Builder {
   std::vector<FacetIndex> fresh_;
 };
 
-Builder::Builder(Points points, const Simplex& simplex, Length tolerance)
+Builder::Builder(Points points, const FirstSimplex& simplex, Length tolerance)
     : points_(points),
       tolerance_(fine(tolerance)),
       next_outside_(points.size(), k_no_point),
@@ -286,7 +286,7 @@ void Builder::assign(int index) {
 
 HullTriangles hull_triangles(Points points, const HullOptions& options) {
   HullTriangles result;
-  const Simplex simplex = find_simplex(points);
+  const FirstSimplex simplex = find_simplex(points);
   result.fault = simplex.fault;
   if (result.fault != HullFault::none) return result;
   result.tolerance = tolerance_for(simplex, options.tolerance);

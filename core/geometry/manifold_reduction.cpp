@@ -28,9 +28,9 @@ std::int64_t square(const Flat& a) {
 }
 
 /// A triangle, either way round.
-class Triangle {
+class FlatTriangle {
  public:
-  Triangle(const Flat& a, const Flat& b, const Flat& c)
+  FlatTriangle(const Flat& a, const Flat& b, const Flat& c)
       : corners_{a, b, c},
         sides_{b - a, c - b, a - c},
         winding_(sign_of(cross(sides_[0], c - a))) {}
@@ -129,7 +129,7 @@ void select_four(Selection& selection) {
     selection.take_best([&](const Flat& p) { return magnitude_of(cross(line, p - first)); });
   }
   if (selection.count == 3) {
-    const Triangle triangle{first, selection.chosen(1), selection.chosen(2)};
+    const FlatTriangle triangle{first, selection.chosen(1), selection.chosen(2)};
     selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
   include_deepest(selection);

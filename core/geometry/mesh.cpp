@@ -10,15 +10,14 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-struct Refusal {
+struct MeshRefusal {
   MeshFault fault = MeshFault::none;
   std::uint32_t index = 0;
 };
 
 constexpr Length k_max_weld_tolerance = Length::from_integer(1);
-constexpr Angle k_max_flat_angle = Angle::from_integer(1);
 
-Refusal check_sizes(const MeshDef& def) {
+MeshRefusal check_sizes(const MeshDef& def) {
   if (def.triangles.empty()) return {MeshFault::empty};
   const bool too_many = def.triangles.size() > k_max_mesh_triangles ||
                         def.vertices.size() > k_max_mesh_vertices ||
@@ -33,7 +32,7 @@ Refusal check_sizes(const MeshDef& def) {
   return {};
 }
 
-Refusal check_surfaces(const MeshDef& def) {
+MeshRefusal check_surfaces(const MeshDef& def) {
   for (std::uint32_t i = 0; i < def.surfaces.size(); ++i)
     if (!is_valid(def.surfaces[i])) return {MeshFault::invalid_surface, i};
   for (std::uint32_t i = 0; i < def.triangle_surfaces.size(); ++i) {
@@ -44,7 +43,7 @@ Refusal check_surfaces(const MeshDef& def) {
   return {};
 }
 
-Refusal check_geometry(const MeshDef& def) {
+MeshRefusal check_geometry(const MeshDef& def) {
   for (std::uint32_t i = 0; i < def.vertices.size(); ++i)
     if (!is_asset_coordinate(def.vertices[i])) return {MeshFault::coordinate_out_of_range, i};
   for (std::uint32_t i = 0; i < def.triangles.size(); ++i) {
@@ -54,8 +53,8 @@ Refusal check_geometry(const MeshDef& def) {
   return {};
 }
 
-Refusal check(const MeshDef& def) {
-  Refusal refusal = check_sizes(def);
+MeshRefusal check(const MeshDef& def) {
+  MeshRefusal refusal = check_sizes(def);
   if (refusal.fault == MeshFault::none) refusal = check_surfaces(def);
   if (refusal.fault == MeshFault::none) refusal = check_geometry(def);
   return refusal;
@@ -159,7 +158,7 @@ Mesh::~Mesh() = default;
 
 MeshResult Mesh::build(const MeshDef& def) {
   MeshResult result;
-  const geometry::Refusal refusal = geometry::check(def);
+  const geometry::MeshRefusal refusal = geometry::check(def);
   result.fault = refusal.fault;
   result.index = refusal.index;
   if (result.fault != MeshFault::none) return result;

@@ -1,6 +1,6 @@
 // The canonical bytes of meshes.
 //
-//   header (asset_frame.h), version 1
+//   header (asset_frame.h), version 2
 //   i32 flat angle; u32 vertices, triangles; u16 surfaces; u8 whether triangles have surfaces
 //   i32 x, y, z of each vertex; u32 a, b, c of each triangle; i32 friction, restitution of each
 //   surface; u8 surface of each triangle
@@ -11,10 +11,10 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-constexpr std::uint16_t k_version = 2;
-constexpr std::size_t k_counts_bytes = 15;
+constexpr std::uint16_t k_mesh_version = 2;
+constexpr std::size_t k_mesh_counts_bytes = 15;
 
-struct Counts {
+struct MeshCounts {
   Angle flat_angle{};
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
@@ -28,7 +28,7 @@ struct Counts {
   }
 };
 
-Status read_counts(ByteReader& reader, Counts& counts) {
+Status read_counts(ByteReader& reader, MeshCounts& counts) {
   counts.flat_angle.raw = reader.get<std::int32_t>();
   counts.vertices = reader.get<std::uint32_t>();
   counts.triangles = reader.get<std::uint32_t>();
@@ -43,7 +43,7 @@ Status read_counts(ByteReader& reader, Counts& counts) {
   return counts.bytes() == reader.remaining() ? Status::ok : Status::malformed;
 }
 
-void read_payload(ByteReader& reader, const Counts& counts, TriangleSoup& soup,
+void read_payload(ByteReader& reader, const MeshCounts& counts, TriangleSoup& soup,
                   std::vector<Surface>& surfaces) {
   soup.vertices.resize(counts.vertices);
   for (Vec3<Length>& v : soup.vertices)
@@ -66,12 +66,12 @@ void read_payload(ByteReader& reader, const Counts& counts, TriangleSoup& soup,
 
 std::vector<std::byte> encode_mesh(const TriangleSoup& soup, std::span<const Surface> surfaces,
                                    Angle flat_angle) {
-  const Counts counts{flat_angle, static_cast<std::uint32_t>(soup.vertices.size()),
-                      static_cast<std::uint32_t>(soup.triangles.size()),
-                      static_cast<std::uint16_t>(surfaces.size()), !soup.surfaces.empty()};
-  std::vector<std::byte> bytes(k_asset_header_bytes + k_counts_bytes + counts.bytes());
+  const MeshCounts counts{flat_angle, static_cast<std::uint32_t>(soup.vertices.size()),
+                          static_cast<std::uint32_t>(soup.triangles.size()),
+                          static_cast<std::uint16_t>(surfaces.size()), !soup.surfaces.empty()};
+  std::vector<std::byte> bytes(k_asset_header_bytes + k_mesh_counts_bytes + counts.bytes());
   ByteWriter writer(bytes);
-  put_asset_header(writer, ShapeKind::mesh, k_version);
+  put_asset_header(writer, ShapeKind::mesh, k_mesh_version);
   writer.put(flat_angle.raw);
   writer.put(counts.vertices);
   writer.put(counts.triangles);
@@ -97,8 +97,8 @@ std::vector<std::byte> encode_mesh(const TriangleSoup& soup, std::span<const Sur
 Result<std::shared_ptr<const Mesh>> Mesh::from_bytes(ByteView bytes) {
   using namespace geometry;
   ByteReader reader(bytes);
-  Counts counts;
-  if (const Status s = read_asset_header(reader, ShapeKind::mesh, k_version); s != Status::ok)
+  MeshCounts counts;
+  if (const Status s = read_asset_header(reader, ShapeKind::mesh, k_mesh_version); s != Status::ok)
     return s;
   if (const Status s = read_counts(reader, counts); s != Status::ok) return s;
   TriangleSoup soup;

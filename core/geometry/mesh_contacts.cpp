@@ -28,10 +28,6 @@ Priority priority_of(const TriangleContact& contact) {
   return {least_separation(contact.manifold), contact.part};
 }
 
-LatticePoint lattice(const Vec3<Length>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
 bool are_equal(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   const auto near = [](Unit x, Unit y) {
     return magnitude_of(std::int64_t{x.raw} - y.raw) <= k_same_normal;
@@ -99,7 +95,8 @@ class GhostTest {
       const Vec3<Length>* apex = apex_beyond(other, edge);
       if (apex == nullptr) continue;
       found = true;
-      const int side = orient3d(lattice(t[0]), lattice(t[1]), lattice(t[2]), lattice(*apex));
+      const int side = orient3d(lattice_point(t[0]), lattice_point(t[1]), lattice_point(t[2]),
+                                lattice_point(*apex));
       if (side > 0 || rises(normal_, t[at(edge)], *apex)) return true;
       if (side == 0 && !is_edge_active(edge)) return true;
     }

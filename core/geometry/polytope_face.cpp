@@ -36,7 +36,7 @@ struct Shift {
 };
 constexpr int k_fine_per_shift = 8;
 
-struct ClipVertex {
+struct IncidentVertex {
   Fine x;
   Fine y;
   Fine z;
@@ -45,23 +45,23 @@ struct ClipVertex {
 };
 
 /// Room for more vertices than most polygons have: it begins uninitialised.
-struct ClipPolygon {
-  std::array<ClipVertex, k_capacity> vertices;
+struct IncidentPolygon {
+  std::array<IncidentVertex, k_capacity> vertices;
   int count;
 
-  void add(const ClipVertex& v) {
+  void add(const IncidentVertex& v) {
     if (count < k_capacity) vertices[static_cast<std::size_t>(count++)] = v;
   }
-  [[nodiscard]] ClipVertex& operator[](int i) { return vertices[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const ClipVertex& operator[](int i) const {
+  [[nodiscard]] IncidentVertex& operator[](int i) { return vertices[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const IncidentVertex& operator[](int i) const {
     return vertices[static_cast<std::size_t>(i)];
   }
 };
 
 /// The reference face's axes: u along its first edge as seen from above, v = n × u. Heights are
 /// from its plane.
-struct Frame {
-  const FaceMeeting& meeting;
+struct ReferenceFrame {
+  const PolytopeFaceMeeting& meeting;
   const PolytopeFace& face;
   Vec3<Unit> u;
   Vec3<Unit> v;
@@ -91,24 +91,24 @@ Vec3<Unit> inward_axis(const Polytope& own, const PolytopeFace& face) {
   return direction_of(inward.x, inward.y, inward.z);
 }
 
-Frame make_frame(const FaceMeeting& meeting, int incident) {
+ReferenceFrame make_frame(const PolytopeFaceMeeting& meeting, int incident) {
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const Vec3<Unit> v = inward_axis(view.own, face);
   const Vec3<Unit> u = rounded<Unit>(cross(v, face.normal));
-  Frame frame{meeting,
-              face,
-              u,
-              v,
-              view.to_other(face.normal),
-              view.to_other(u),
-              view.to_other(v),
-              start_of(view.own, face.first_edge),
-              0,
-              0,
-              0,
-              {},
-              0};
+  ReferenceFrame frame{meeting,
+                       face,
+                       u,
+                       v,
+                       view.to_other(face.normal),
+                       view.to_other(u),
+                       view.to_other(v),
+                       start_of(view.own, face.first_edge),
+                       0,
+                       0,
+                       0,
+                       {},
+                       0};
   frame.x_origin = dot(view.origin, u) - lockstone::dot(frame.corner, u).raw;
   frame.y_origin = dot(view.origin, v) - lockstone::dot(frame.corner, v).raw;
   frame.z_origin = dot(view.origin, face.normal) - face.offset;
@@ -141,7 +141,7 @@ struct FlatPoint {
 
 using Outline = std::array<FlatPoint, k_max_polytope_face_edges>;
 
-void reference_outline(const Frame& frame, Outline& outline) {
+void reference_outline(const ReferenceFrame& frame, Outline& outline) {
   const Polytope& own = frame.meeting.view.own;
   for (int i = 0; i < frame.face.edge_count; ++i) {
     const Vec3<Length> p = start_of(own, frame.face.first_edge + i) - frame.corner;
@@ -150,7 +150,7 @@ void reference_outline(const Frame& frame, Outline& outline) {
   }
 }
 
-void incident_polygon(const Frame& frame, int incident, ClipPolygon& polygon) {
+void incident_polygon(const ReferenceFrame& frame, int incident, IncidentPolygon& polygon) {
   const Polytope& other = frame.meeting.view.other;
   const PolytopeFace& face = other.faces[static_cast<std::size_t>(incident)];
   polygon.count = 0;
@@ -166,7 +166,8 @@ void incident_polygon(const Frame& frame, int incident, ClipPolygon& polygon) {
 }
 
 /// Lattice lanes fit 29 bits, so that differences fit 30.
-int lattice_shift_of(const Frame& frame, const Outline& outline, const ClipPolygon& polygon) {
+int lattice_shift_of(const ReferenceFrame& frame, const Outline& outline,
+                     const IncidentPolygon& polygon) {
   std::uint64_t size = 0;
   for (int i = 0; i < frame.face.edge_count; ++i) {
     const FlatPoint& p = outline[static_cast<std::size_t>(i)];
@@ -177,7 +178,8 @@ int lattice_shift_of(const Frame& frame, const Outline& outline, const ClipPolyg
   return std::max(0, static_cast<int>(std::bit_width(size)) - 29);
 }
 
-Side side_between(const Frame& frame, const FlatPoint& from, const FlatPoint& to, int edge) {
+Side side_between(const ReferenceFrame& frame, const FlatPoint& from, const FlatPoint& to,
+                  int edge) {
   const std::int64_t x = frame.lattice(from.x);
   const std::int64_t y = frame.lattice(from.y);
   return {x, y, frame.lattice(to.x) - x, frame.lattice(to.y) - y,
@@ -185,7 +187,7 @@ Side side_between(const Frame& frame, const FlatPoint& from, const FlatPoint& to
 }
 
 /// Whether the incident face is flat enough on the reference to move its vertices.
-bool may_snap(const Frame& frame) {
+bool may_snap(const ReferenceFrame& frame) {
   const std::int64_t limit = magnitude_of(frame.incident_normal.z) / 16;
   return magnitude_of(frame.incident_normal.x) <= limit &&
          magnitude_of(frame.incident_normal.y) <= limit;
@@ -204,7 +206,8 @@ bool add_shift(Shift& moved, Fine x, Fine y) {
 
 /// Moves a vertex that is just outside onto the side, within the plane of the incident face.
 /// Answers whether it did.
-bool snap(const Frame& frame, const Side& side, std::int64_t excess, ClipVertex& vertex) {
+bool snap(const ReferenceFrame& frame, const Side& side, std::int64_t excess,
+          IncidentVertex& vertex) {
   const Fine rough = magnitude_of(side.dx) + magnitude_of(side.dy);
   const Fine reach = k_snap >> frame.shift;
   if (excess > reach * rough) return false;
@@ -226,7 +229,7 @@ bool snap(const Frame& frame, const Side& side, std::int64_t excess, ClipVertex&
 using Excesses = std::array<std::int64_t, k_capacity>;
 
 /// Signed distances to the side times its length. Answers whether any is outside.
-bool is_outside(const Frame& frame, const Side& side, const ClipPolygon& polygon,
+bool is_outside(const ReferenceFrame& frame, const Side& side, const IncidentPolygon& polygon,
                 Excesses& excesses) {
   bool outside = false;
   for (int i = 0; i < polygon.count; ++i) {
@@ -240,7 +243,8 @@ bool is_outside(const Frame& frame, const Side& side, const ClipPolygon& polygon
 
 /// Likewise; vertices just outside a polygon that reaches inside are snapped and count as on the
 /// side.
-bool measure(const Frame& frame, const Side& side, ClipPolygon& polygon, Excesses& excesses) {
+bool measure(const ReferenceFrame& frame, const Side& side, IncidentPolygon& polygon,
+             Excesses& excesses) {
   if (!is_outside(frame, side, polygon, excesses)) return false;
   const auto measured = std::span(excesses).first(static_cast<std::size_t>(polygon.count));
   const bool inside = std::ranges::any_of(measured, [](std::int64_t e) { return e < 0; });
@@ -252,8 +256,8 @@ bool measure(const Frame& frame, const Side& side, ClipPolygon& polygon, Excesse
   return true;
 }
 
-ClipVertex cut(const ClipVertex& inside, std::int64_t depth, const ClipVertex& outside,
-               std::int64_t excess, std::uint32_t label) {
+IncidentVertex cut(const IncidentVertex& inside, std::int64_t depth, const IncidentVertex& outside,
+                   std::int64_t excess, std::uint32_t label) {
   const std::uint64_t share = share_inside(depth, excess);
   const auto lane = [share](std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(cut_between(a, b, share));
@@ -265,13 +269,13 @@ ClipVertex cut(const ClipVertex& inside, std::int64_t depth, const ClipVertex& o
           {lane(inside.moved.x, outside.moved.x), lane(inside.moved.y, outside.moved.y)}};
 }
 
-void clip(const Side& side, const ClipPolygon& polygon, const Excesses& excesses,
-          ClipPolygon& result) {
+void clip(const Side& side, const IncidentPolygon& polygon, const Excesses& excesses,
+          IncidentPolygon& result) {
   result.count = 0;
   for (int i = 0; i < polygon.count; ++i) {
     const int next = i + 1 < polygon.count ? i + 1 : 0;
-    const ClipVertex& from = polygon[i];
-    const ClipVertex& to = polygon[next];
+    const IncidentVertex& from = polygon[i];
+    const IncidentVertex& to = polygon[next];
     const std::int64_t from_excess = excesses[static_cast<std::size_t>(i)];
     const std::int64_t to_excess = excesses[static_cast<std::size_t>(next)];
     if (from_excess <= 0) {
@@ -287,7 +291,7 @@ void clip(const Side& side, const ClipPolygon& polygon, const Excesses& excesses
 
 /// The sides of the outline's bounds and a few steps around them, which vertices moved onto a side
 /// may be off by. Counter-clockwise from the lowest y.
-std::array<Side, 4> bounds_of(const Frame& frame, const Outline& outline) {
+std::array<Side, 4> bounds_of(const ReferenceFrame& frame, const Outline& outline) {
   constexpr std::int64_t far = std::int64_t{1} << 30;
   std::int64_t left = far, right = -far, low = far, high = -far;
   for (int i = 0; i < frame.face.edge_count; ++i) {
@@ -308,11 +312,11 @@ std::array<Side, 4> bounds_of(const Frame& frame, const Outline& outline) {
 /// The incident face within the sides of the reference face, in one of the two polygons. Where two
 /// sides meet at a sharp angle, what is within a step of both may be far beyond their corner, but
 /// not beyond the bounds.
-const ClipPolygon& clip_to_sides(const Frame& frame, const Outline& outline, ClipPolygon& polygon,
-                                 ClipPolygon& spare) {
+const IncidentPolygon& clip_to_sides(const ReferenceFrame& frame, const Outline& outline,
+                                     IncidentPolygon& polygon, IncidentPolygon& spare) {
   Excesses excesses;
-  ClipPolygon* from = &polygon;
-  ClipPolygon* to = &spare;
+  IncidentPolygon* from = &polygon;
+  IncidentPolygon* to = &spare;
   for (int i = 0; i < frame.face.edge_count && from->count > 0; ++i) {
     const int next = i + 1 < frame.face.edge_count ? i + 1 : 0;
     const Side side =
@@ -331,13 +335,14 @@ const ClipPolygon& clip_to_sides(const Frame& frame, const Outline& outline, Cli
   return *from;
 }
 
-std::uint32_t feature_of(const Frame& frame, std::uint32_t edge_in, std::uint32_t edge_out) {
+std::uint32_t feature_of(const ReferenceFrame& frame, std::uint32_t edge_in,
+                         std::uint32_t edge_out) {
   const std::uint32_t side = frame.meeting.own_is_b ? k_hull_of_b : 0;
   return k_hull_face_bits | side | edge_in << k_label_bits | edge_out;
 }
 
-void add_face_point(Manifold& manifold, const Frame& frame, const FaceVertex& v) {
-  const FaceMeeting& meeting = frame.meeting;
+void add_face_point(Manifold& manifold, const ReferenceFrame& frame, const FaceVertex& v) {
+  const PolytopeFaceMeeting& meeting = frame.meeting;
   const Vec3<Unit>& n = frame.face.normal;
   const Fine lift = frame.face.offset - lockstone::dot(frame.corner, n).raw;
   const RawVec on_own =
@@ -347,11 +352,11 @@ void add_face_point(Manifold& manifold, const Frame& frame, const FaceVertex& v)
   add_point(manifold, witnesses, meeting.offset, v.z, meeting.margin, v.feature);
 }
 
-Manifold manifold_of(const Frame& frame, const ClipPolygon& polygon) {
+Manifold manifold_of(const ReferenceFrame& frame, const IncidentPolygon& polygon) {
   std::array<FaceVertex, k_capacity> vertices;
   int count = 0;
   for (int i = 0; i < polygon.count; ++i) {
-    const ClipVertex& v = polygon[i];
+    const IncidentVertex& v = polygon[i];
     const std::uint32_t edge_in = polygon[i > 0 ? i - 1 : polygon.count - 1].edge;
     vertices[static_cast<std::size_t>(count++)] = {v.x, v.y, v.z,
                                                    feature_of(frame, edge_in, v.edge)};
@@ -369,22 +374,22 @@ Manifold manifold_of(const Frame& frame, const ClipPolygon& polygon) {
 
 }  // namespace
 
-Manifold face_manifold(const FaceMeeting& meeting) {
+Manifold face_manifold(const PolytopeFaceMeeting& meeting) {
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const int incident =
       most_opposed_face(view.other, meeting.face.support, view.to_other(face.normal));
-  Frame frame = make_frame(meeting, incident);
+  ReferenceFrame frame = make_frame(meeting, incident);
   Outline outline;
-  ClipPolygon polygon;
-  ClipPolygon spare;
+  IncidentPolygon polygon;
+  IncidentPolygon spare;
   reference_outline(frame, outline);
   incident_polygon(frame, incident, polygon);
   frame.shift = lattice_shift_of(frame, outline, polygon);
   return manifold_of(frame, clip_to_sides(frame, outline, polygon, spare));
 }
 
-Manifold support_manifold(const FaceMeeting& meeting) {
+Manifold support_manifold(const PolytopeFaceMeeting& meeting) {
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const Vec3<Length>& vertex = view.other.vertices[static_cast<std::size_t>(meeting.face.support)];

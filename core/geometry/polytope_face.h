@@ -7,7 +7,7 @@
 namespace lockstone::geometry {
 
 /// A reference face of a view's own polytope, against the other.
-struct FaceMeeting {
+struct PolytopeFaceMeeting {
   const PolytopeView& view;
   const Vec3<Length>& offset;  ///< own centre to the other's, world axes
   Length margin;
@@ -26,9 +26,9 @@ inline constexpr std::uint32_t k_hull_of_b = 1U << 27;
 /// the reference (Gregorius, as above; Box3D). Clipped by Sutherland and Hodgman, Reentrant polygon
 /// clipping, on a lattice of 30 bits a lane: resolution 2^-29 of the extent. A vertex beyond a side
 /// by less than k_snap is moved onto it and keeps its feature; by √2 · k_snap in all.
-[[nodiscard]] Manifold face_manifold(const FaceMeeting& meeting);
+[[nodiscard]] Manifold face_manifold(const PolytopeFaceMeeting& meeting);
 
 /// One point at the deepest vertex.
-[[nodiscard]] Manifold support_manifold(const FaceMeeting& meeting);
+[[nodiscard]] Manifold support_manifold(const PolytopeFaceMeeting& meeting);
 
 }  // namespace lockstone::geometry

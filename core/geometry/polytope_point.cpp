@@ -7,6 +7,7 @@
 #include "core/geometry/polytope_edges.h"
 #include "core/geometry/preference.h"
 #include "core/geometry/segment.h"
+#include "core/geometry/wide_vectors.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
 
@@ -16,21 +17,13 @@ namespace {
 using Heights = std::array<Fine, k_max_polytope_faces>;
 
 /// The sum of squares of three lanes below 2^63 in size.
-UInt128 square_of(const RawVec& v) {
+UInt128 sum_of_squares(const RawVec& v) {
   const auto square = [](std::int64_t x) { return multiply_wide(magnitude(x), magnitude(x)); };
   return square(v.x) + square(v.y) + square(v.z);
 }
 
-RawVec shifted(const RawVec& v, int shift) {
-  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
-}
-
 std::int64_t size_of(const RawVec& v) {
   return magnitude_of(v.x) | magnitude_of(v.y) | magnitude_of(v.z);
-}
-
-std::int64_t narrow_dot(const RawVec& a, const RawVec& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 constexpr std::int64_t k_whole_share = std::int64_t{1} << Unit::frac_bits;
@@ -78,7 +71,7 @@ EdgeChoice nearest_edge(const Polytope& polytope, const Heights& heights, const 
     const bool seen = heights[half.face] > 0 || heights[static_cast<std::size_t>(twin_face)] > 0;
     if (!seen && !is_flat(polytope)) continue;
     const RawVec gap = gap_to_edge(polytope, edge, point);
-    const UInt128 square = square_of(gap);
+    const UInt128 square = sum_of_squares(gap);
     if (best.edge < 0 || square < best.square) best = {edge, gap, square};
   }
   return best;

@@ -26,10 +26,6 @@ int shift_for(std::int64_t largest) {
   return raw::round_shift(largest, shift) > k_max_lane ? shift + 1 : shift;
 }
 
-RawVec shifted(const RawVec& v, int shift) {
-  return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};
-}
-
 std::int64_t dot(const RawVec& a, const RawVec& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -62,24 +58,24 @@ RawVec across(const RawVec& v, const Vec3<Unit>& axis) {
   return v - along(axis, geometry::dot(v, axis));
 }
 
-struct Candidate {
+struct RoundCandidate {
   RoundHit at;
   RawVec outward;  ///< from the core to the point
 };
 
-void take_earlier(Candidate& best, const Candidate& other) {
+void take_earlier(RoundCandidate& best, const RoundCandidate& other) {
   if (!other.at.hit) return;
   if (!best.at.hit || other.at.fraction < best.at.fraction) best = other;
 }
 
-Candidate meet_ball(const RawVec& origin, const RawVec& translation, Fine radius) {
+RoundCandidate meet_ball(const RawVec& origin, const RawVec& translation, Fine radius) {
   const RoundHit at = first_meeting(origin, translation, radius);
   return {at, point_on(origin, translation, at.fraction)};
 }
 
 /// The cylinder between the balls; a hit beyond its ends belongs to a ball.
-Candidate meet_side(const Segment& core, const RawVec& origin, const RawVec& translation,
-                    Fine radius) {
+RoundCandidate meet_side(const Segment& core, const RawVec& origin, const RawVec& translation,
+                         Fine radius) {
   constexpr Fine seam = Fine{1} << (k_fine_bits - 30);  // no ray slips between side and ball
   const RawVec flat_origin = across(origin, core.axis);
   const RawVec flat_translation = across(translation, core.axis);
@@ -134,7 +130,7 @@ ShapeRayHit cast_ray_at_capsule(const Shape& capsule, const Mat3& rotation,
   const RawVec way = fine(translation);
   if (starts_inside(core, start, radius)) return {true, {}, {}};
   const RawVec end = along(core.axis, core.half);
-  Candidate best = meet_side(core, start, way, radius);
+  RoundCandidate best = meet_side(core, start, way, radius);
   take_earlier(best, meet_ball(start - end, way, radius));
   take_earlier(best, meet_ball(start + end, way, radius));
   if (!best.at.hit) return {};

@@ -13,14 +13,14 @@ bool is_inside(const RawVec& point, const RawVec& half) {
 }
 
 /// The part of the ray between all slabs looked at so far.
-struct Passage {
+struct SlabPassage {
   RayRatio enter{-1, 1};
   RayRatio leave{1, 1};
   int axis = -1;  ///< of the face it enters by
   bool open = true;
 };
 
-void narrow(Passage& passage, int axis, std::int64_t start, std::int64_t way, Fine half) {
+void narrow(SlabPassage& passage, int axis, std::int64_t start, std::int64_t way, Fine half) {
   if (way == 0) {
     passage.open = passage.open && magnitude_of(start) <= half;
     return;
@@ -43,7 +43,7 @@ ShapeRayHit cast_ray_at_box(const Shape& box, const Mat3& rotation, const Vec3<L
   const RawVec start = to_local(rotation, origin);
   const RawVec way = to_local(rotation, translation);
   if (is_inside(start, half)) return {true, {}, {}};
-  Passage passage;
+  SlabPassage passage;
   for (int axis = 0; axis < 3; ++axis)
     narrow(passage, axis, start[axis], way[axis], half[axis]);
   if (!passage.open || passage.axis < 0 || passage.enter.numerator < 0) return {};

@@ -1,14 +1,10 @@
 #include "core/geometry/segment.h"
 
+#include "core/geometry/wide_vectors.h"
 #include "core/math/int128.h"
 
 namespace lockstone::geometry {
 namespace {
-
-/// The exact dot product of raw lanes. |a|·|b| < 2^127.
-Int128 wide_dot(const RawVec& a, const RawVec& b) {
-  return multiply_wide(a.x, b.x) + multiply_wide(a.y, b.y) + multiply_wide(a.z, b.z);
-}
 
 /// numerator · 2^60 / denominator, rounded and clamped to ±limit. denominator > 0.
 std::int64_t clamped_ratio(Int128 numerator, Int128 denominator, std::int64_t limit) {

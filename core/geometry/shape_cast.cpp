@@ -7,26 +7,26 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-constexpr int k_max_steps = 96;
+constexpr int k_max_cast_steps = 96;
 
-/// Of the least distance that a step leaves: so much apart, shapes are apart on the lattice too, and
-/// no step ends earlier.
+/// Of the least distance that a step leaves: so much apart, shapes are apart on the lattice too,
+/// and no step ends earlier.
 constexpr Fine k_most_left = 16;
 
 /// Fractions of the translation, 60 bits.
 using Fraction = std::int64_t;
-constexpr int k_fraction_bits = 60;
-constexpr Fraction k_whole = Fraction{1} << k_fraction_bits;
+constexpr int k_cast_fraction_bits = 60;
+constexpr Fraction k_whole_cast = Fraction{1} << k_cast_fraction_bits;
 
 /// The last that rounds down to the limit.
 Fraction last_of(Unit limit) {
-  constexpr int shift = k_fraction_bits - Unit::frac_bits;
-  return std::min(k_whole, ((Fraction{limit.raw} + 1) << shift) - 1);
+  constexpr int shift = k_cast_fraction_bits - Unit::frac_bits;
+  return std::min(k_whole_cast, ((Fraction{limit.raw} + 1) << shift) - 1);
 }
 
 /// The part of a translation, fine.
 Fine travelled(Length way, Fraction fraction) {
-  constexpr int shift = k_fraction_bits + Length::frac_bits - k_fine_bits;
+  constexpr int shift = k_cast_fraction_bits + Length::frac_bits - k_fine_bits;
   return static_cast<Fine>(round_shift(multiply_wide(std::int64_t{way.raw}, fraction), shift).low);
 }
 
@@ -41,10 +41,11 @@ Fine approach(const Vec3<Length>& way, const Vec3<Unit>& normal) {
   return rounding - lockstone::dot(way, normal).raw;
 }
 
-/// distance / approach, rounded down; 1 and more give k_whole.
+/// distance / approach, rounded down; 1 and more give k_whole_cast.
 Fraction quotient(Fine distance, Fine approach) {
-  if (distance >= approach) return k_whole;
-  const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(distance)} << k_fraction_bits;
+  if (distance >= approach) return k_whole_cast;
+  const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(distance)}
+                            << k_cast_fraction_bits;
   return static_cast<Fraction>(divide(numerator, static_cast<std::uint64_t>(approach)).quotient);
 }
 
@@ -59,7 +60,7 @@ Fine clearance(const GapQuery& query) {
 ShapeCastHit hit_at(Fraction fraction, const CoreGap& gap, const GapQuery& query) {
   ShapeCastHit hit;
   hit.hit = true;
-  hit.fraction = {static_cast<std::int32_t>(fraction >> (k_fraction_bits - Unit::frac_bits))};
+  hit.fraction = {static_cast<std::int32_t>(fraction >> (k_cast_fraction_bits - Unit::frac_bits))};
   hit.normal = gap.normal;
   const Witnesses surface =
       inflate(gap.on_a, query.a().radius, gap.on_b, query.b().radius, gap.normal);
@@ -105,13 +106,13 @@ ShapeCastHit ordered_cast(const PosedShape& a, const PosedShape& b, const RawVec
   if (query.gap().distance <= query.radii()) return overlapping_hit(query.gap(), query);
   Fraction fraction = 0;
   // A plane separates the shapes up to `fraction`.
-  for (int step = 0; step < k_max_steps; ++step) {
+  for (int step = 0; step < k_max_cast_steps; ++step) {
     const Fine apart = query.gap().distance - query.radii();
     const Fine leave = clearance(query);
     const Fine nearer = approach(way, query.gap().normal);
     if (nearer <= 0) return {};
     const Fraction advance = quotient(std::max(Fine{0}, apart - leave), nearer);
-    if (advance > k_whole - fraction) return {};
+    if (advance > k_whole_cast - fraction) return {};
     if (apart <= 2 * leave) break;
     const Fraction least = quotient(std::max(Fine{0}, apart - k_most_left * leave), nearer);
     if (least > limit - fraction) return {};

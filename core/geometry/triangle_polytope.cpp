@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/exact_plane.h"
 #include "core/geometry/fine.h"
 #include "core/geometry/polytope_kernels.h"
 #include "core/math/predicates.h"
@@ -13,20 +14,6 @@ namespace {
 /// Edges 0 … 2 run around the front, 3 … 5 around the back: from vertex 0 to 2 to 1.
 constexpr std::array<HalfEdge, 6> k_half_edges{
     {{0, 5, 0}, {1, 4, 0}, {2, 3, 0}, {0, 2, 1}, {2, 1, 1}, {1, 0, 1}}};
-
-LatticePoint lattice(const Vec3<Length>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
-RawVec difference(const Vec3<Length>& a, const Vec3<Length>& b) {
-  return {std::int64_t{a.x.raw} - b.x.raw, std::int64_t{a.y.raw} - b.y.raw,
-          std::int64_t{a.z.raw} - b.z.raw};
-}
-
-/// Differences are at most 2^30: each product is at most 2^60.
-RawVec cross(const RawVec& a, const RawVec& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 RawVec doubled_area(const TriangleVertices& t) {
   return cross(difference(t[1], t[0]), difference(t[2], t[0]));
@@ -64,8 +51,8 @@ bool is_edge_active(const TriangleVertices& triangle, int edge, const Vec3<Lengt
                     Unit flat_cosine) {
   const Vec3<Length>& from = triangle[static_cast<std::size_t>(edge)];
   const Vec3<Length>& to = triangle[static_cast<std::size_t>((edge + 1) % 3)];
-  const int side =
-      orient3d(lattice(triangle[0]), lattice(triangle[1]), lattice(triangle[2]), lattice(apex));
+  const int side = orient3d(lattice_point(triangle[0]), lattice_point(triangle[1]),
+                            lattice_point(triangle[2]), lattice_point(apex));
   if (side > 0) return false;
   const auto cosine =
       lockstone::dot(triangle_normal(triangle), triangle_normal({to, from, apex})).raw;

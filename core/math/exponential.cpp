@@ -4,20 +4,13 @@
 #include <bit>
 
 #include "core/math/exponential_tables.h"
+#include "core/math/factorial.h"
 #include "core/math/int128.h"
 
 namespace lockstone {
 namespace {
 
 using namespace exponential_detail;
-
-/// ⌊2^64 / n!⌋ for n ≥ 3.
-constexpr std::uint64_t inverse_factorial_q64(int n) {
-  std::uint64_t factorial = 1;
-  for (int i = 2; i <= n; ++i)
-    factorial *= static_cast<std::uint64_t>(i);
-  return ~std::uint64_t{0} / factorial;
-}
 
 /// e^h − 1 for h < 2^-7, both with 71 fraction bits: h + h²·(1/2! + h·(1/3! + …)).
 constexpr std::uint64_t exp_minus_one(std::uint64_t h) {

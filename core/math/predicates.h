@@ -9,11 +9,17 @@
 
 #include <cstdint>
 
+#include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
 namespace lockstone {
 
 using LatticePoint = Vec3<std::int32_t>;
+
+/// Lengths as they are, not scaled.
+[[nodiscard]] constexpr LatticePoint lattice_point(const Vec3<Length>& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
 
 /// |coordinate| ≤ 2^19 on the lattice, so that |difference| ≤ 2^20.
 inline constexpr int k_lattice_bits = 19;

@@ -1,3 +1,4 @@
+#include "core/math/factorial.h"
 #include "core/math/int128.h"
 #include "core/math/trig.h"
 
@@ -8,14 +9,6 @@ namespace {
 constexpr std::uint64_t k_inverse_half_turn_high = 0xa2f9836e4U;
 constexpr std::uint64_t k_inverse_half_turn_low = 0xe441529fc2757d1fU;
 constexpr std::uint64_t k_pi_q62 = 0xc90fdaa22168c235U;
-
-/// ⌊2^64 / n!⌋ for n ≥ 3.
-constexpr std::uint64_t inverse_factorial_q64(int n) {
-  std::uint64_t factorial = 1;
-  for (int i = 2; i <= n; ++i)
-    factorial *= static_cast<std::uint64_t>(i);
-  return ~std::uint64_t{0} / factorial;
-}
 
 /// 1/first! − z/(first + 2)! + z²/(first + 4)! − … ± z^k/last!, 64 fraction bits.
 template <int First, int Last>

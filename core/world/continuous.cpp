@@ -14,10 +14,6 @@
 namespace lockstone {
 namespace {
 
-constexpr std::uint32_t k_every_category = 0xffffffff;  // groups override categories
-
-constexpr Unit k_whole = Unit::from_integer(1);
-
 // In `far_movers`, of what hangs together with one of them.
 constexpr std::uint8_t k_joined_mover = 2;
 
@@ -37,7 +33,7 @@ void stop_at(BodyRecord& body, const Transform& pose, const Mat3& rotation) {
 
 // What is left of a motion after a fraction of it.
 Sweep rest_of(const Sweep& motion, Unit fraction) {
-  const std::int32_t left = (k_whole - fraction).raw;
+  const std::int32_t left = (k_whole_tick - fraction).raw;
   const auto part = [&](std::int64_t x) { return raw::multiply_shift(x, left, Unit::frac_bits); };
   Sweep rest = motion;
   rest.start = pose_at(motion, fraction);
@@ -137,13 +133,13 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
     if (!next.impact.hit) return;
     ++report.impacts;
     stop_at(record, pose_at(motion, next.impact.fraction), rotation);
-    const Unit left = k_whole - done;
-    done = k_whole - rounded<Unit>(left * (k_whole - next.impact.fraction));
+    const Unit left = k_whole_tick - done;
+    done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
     answer(body, next, done);
     const bool last = i + 1 == k_max_impacts;
     if (last) return;
     rotation = to_matrix(record.orientation);
-    motion = go_on(record, k_whole - done);
+    motion = go_on(record, k_whole_tick - done);
     if (!limit_position(record)) continue;
     ++report.saturations;
     motion.translation = record.position - motion.start.position;
@@ -192,7 +188,7 @@ Sweep World::Impl::motion_in_tick(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   const Transform& start = starts[body];
   return {start, record.position - start.position,
-          turn_since(start.orientation, rotations[body], record, time_step, k_whole)};
+          turn_since(start.orientation, rotations[body], record, time_step, k_whole_tick)};
 }
 
 // Moves a body for the rest of a tick at the velocities at hand, which already hold the whole
@@ -277,7 +273,7 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
                  k_impact_gap * 4, scratch.triangles.get(), scratch.part_contacts);
   const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
   const InverseInertia inertia_b = inverse_inertia(b, rotation_b);
-  const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole - done);
+  const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole_tick - done);
   a.velocity -= to_come;
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;

@@ -133,7 +133,6 @@ void World::Impl::disturb(std::uint32_t body) {
 // finds the others by itself.
 void World::Impl::disturb_around(std::uint32_t body) {
   if (asleep_count == 0 || bodies[body].moves()) return;
-  constexpr std::uint32_t k_every_category = 0xffffffff;
   const Bounds here = broad_phase.bounds(body);
   broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(here, bounds); },

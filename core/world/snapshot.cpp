@@ -13,7 +13,7 @@
 namespace lockstone {
 namespace {
 
-constexpr Unit k_whole = Unit::from_integer(1);
+constexpr Unit k_most_note = Unit::from_integer(1);
 
 // The limit plus what its own rounding may leave.
 bool in_range(const Vec3<Velocity>& v) {
@@ -53,8 +53,8 @@ bool has_valid_notes(const BodyRecord& record) {
   if (!record.is_dynamic()) return !record.is_pushed() && record.note_c == Unit{};
   if (!record.is_pushed()) return true;
   return !record.is_asleep() && record.rest_ticks == 0 &&
-         record.note_c.raw >> k_exponent_bits == 0 && is_within(record.note_a, k_whole) &&
-         is_within(record.note_b, k_whole);
+         record.note_c.raw >> k_exponent_bits == 0 && is_within(record.note_a, k_most_note) &&
+         is_within(record.note_b, k_most_note);
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);

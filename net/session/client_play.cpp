@@ -11,7 +11,6 @@
 namespace lockstone::net {
 namespace {
 
-constexpr std::int64_t k_keepalive_us = 250'000;
 constexpr std::int64_t k_fast_retry_us = 20'000;
 constexpr std::int64_t k_resend_interval_us = 100'000;
 constexpr std::int64_t k_gap_patience_us = 30'000;

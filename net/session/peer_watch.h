@@ -7,6 +7,9 @@
 
 namespace lockstone::net {
 
+/// After as long a silence a peer says that it is still there.
+inline constexpr std::int64_t k_keepalive_us = 250'000;
+
 class PeerWatch {
  public:
   static constexpr std::size_t k_malformed_limit = 3;

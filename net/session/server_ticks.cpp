@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::uint64_t k_max_closes_per_update = 256;
 constexpr std::int64_t k_max_catch_up_us = 250'000;  // a longer pause is not played faster after
-constexpr std::int64_t k_keepalive_us = 250'000;
 constexpr int k_resends_per_update = 4;
 
 }  // namespace

@@ -40,14 +40,14 @@ std::string Refusal::to_line() const {
   std::string line = "refused: " + std::string(to_string(reason));
   if (field == RefuseField::none) return line;
   line += ", " + std::string(to_string(field)) + ": ";
-  return line + hexadecimal(here) + " here, " + hexadecimal(there) + " there";
+  return line + lockstone::hexadecimal(here) + " here, " + lockstone::hexadecimal(there) + " there";
 }
 
 std::string DesyncReport::to_line() const {
   std::string line = "tick " + std::to_string(tick) + ", player " + std::to_string(slot) + ", ";
   if (difference.differs) return line + difference.to_line();
-  return line + (part.empty() ? "hash" : part) + ": " + hexadecimal(hash_here) + " here, " +
-         hexadecimal(hash_there) + " there";
+  return line + (part.empty() ? "hash" : part) + ": " + lockstone::hexadecimal(hash_here) +
+         " here, " + lockstone::hexadecimal(hash_there) + " there";
 }
 
 }  // namespace lockstone::net

@@ -13,6 +13,34 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_G
   target_compile_options(lockstone_options INTERFACE -fno-ipa-modref)
 endif()
 
+# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD is on, files of one folder are compiled a
+# few at once: most of what one takes is in headers. More at once gain little, and a change of one costs
+# all of them. Elsewhere they are compiled one by one, whatever CMAKE_UNITY_BUILD says.
+function(lockstone_unite_sources target)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${LOCKSTONE_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  set(folders)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "in_${folder}" folder)
+    list(APPEND folders ${folder})
+    list(APPEND ${folder} ${source})
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  set(most 8)
+  foreach(folder IN LISTS folders)
+    list(LENGTH ${folder} length)
+    math(EXPR groups "(${length} + ${most} - 1) / ${most}")
+    set(index 0)
+    foreach(source IN LISTS ${folder})
+      math(EXPR group "${index} * ${groups} / ${length}")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+      math(EXPR index "${index} + 1")
+    endforeach()
+  endforeach()
+endfunction()
+
 # lockstone_add_library(NAME room sources…): one of the three libraries. NAME `core` gives the target
 # lockstone_core, known as lockstone::core here and to those who find_package(lockstone).
 function(lockstone_add_library name)
@@ -36,4 +64,5 @@ function(lockstone_add_library name)
     POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
+  lockstone_unite_sources(${target})
 endfunction()
