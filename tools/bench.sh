@@ -53,8 +53,7 @@ wasm_player() {
   # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.
   export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
   say "build ours for WebAssembly"
-  cmake --preset wasm -B "$folder" -DLOCKSTONE_UNITY_BUILD=OFF \
-    -DLOCKSTONE_SCENE_PLAYER=ON >/dev/null &&
+  cmake --preset wasm -B "$folder" -DLOCKSTONE_SCENE_PLAYER=ON >/dev/null &&
     cmake --build "$folder" --target lockstone_scene_player --parallel "$jobs" >&2 || return 0
   echo "$folder/tools/bench/player/lockstone_scene_player"
 }
