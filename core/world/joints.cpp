@@ -385,8 +385,13 @@ JointView World::Impl::view(const JointRecord& joint) const {
     view.torque[i].raw = effort_of(impulse(i + 3), rate, inverse_mass, exponent);
   }
   if (has_world_axes(joint)) {
-    const auto raws = [](const Vec3<Force>& f) {
-      return Vec3<Position>{{f.x.raw}, {f.y.raw}, {f.z.raw}};
+    // Turned, what is at the type's limit along two axes is longer than that along one.
+    const auto within = [](Force f) {
+      constexpr std::int64_t k_most = std::int64_t{1} << 62;
+      return Position::from_raw(std::clamp(f.raw, -k_most, k_most));
+    };
+    const auto raws = [&](const Vec3<Force>& f) {
+      return Vec3<Position>{within(f.x), within(f.y), within(f.z)};
     };
     const Vec3<Position> along = rotate_inverse(frame_a, raws(view.force));
     view.force = {{along.x.raw}, {along.y.raw}, {along.z.raw}};

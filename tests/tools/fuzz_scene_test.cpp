@@ -32,6 +32,7 @@ TEST(FuzzScenes, ThatFailedOnceHold) {
       {20261122, 1084},  // a known manifold on a half-space was taken for other bits
       {20261122, 1275},  // angular momenta at the end of their range
       {20261122, 1331},  // a factor of rows that say the same twice
+      {20261123, 1630},  // a joint's force at the end of its type along two axes, turned
   };
   for (const Scene& scene : k_scenes) {
     SceneFuzzOptions options;

@@ -30,7 +30,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 47;
+inline constexpr std::uint32_t k_simulation_abi = 48;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
