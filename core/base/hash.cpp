@@ -1,12 +1,11 @@
 #include <lockstone/hash.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
+#include "core/base/inline_hash.h"
 
 namespace lockstone {
 
 std::uint64_t hash64(std::span<const std::byte> bytes, std::uint64_t seed) {
-  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+  return hash64_inline(bytes, seed);
 }
 
 Hash128 hash128(std::span<const std::byte> bytes, std::uint64_t seed) {

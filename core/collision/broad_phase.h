@@ -24,7 +24,7 @@
 
 namespace lockstone {
 
-/// A mask.
+/// The mask that no category is outside of: groups override categories.
 inline constexpr std::uint32_t k_every_category = 0xffffffff;
 
 class BroadPhase {

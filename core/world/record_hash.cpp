@@ -31,7 +31,7 @@ std::uint64_t hash_record(const ContactRecord& record, std::uint64_t seed) {
 std::uint64_t hash_contacts(std::span<const ContactRecord> records) {
   std::uint64_t sum = 0;
   for (const ContactRecord& record : records)
-    sum += hash_inlined(record, k_contact_domain << 32);
+    sum += hash_contact(record);
   return sum;
 }
 

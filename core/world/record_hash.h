@@ -35,7 +35,7 @@ template <class Record, class Hash>
   }
 }
 
-/// Beyond this XXH3 derives a secret from each seed, which takes longer than the hash itself.
+/// Beyond this XXH3 derives a secret from each seed: parts of known lengths take less time.
 inline constexpr std::size_t k_long_record_bytes = 240;
 inline constexpr std::size_t k_hashed_part_bytes = 128;
 

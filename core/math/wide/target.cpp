@@ -73,12 +73,11 @@ const Kernels& current() {
 
 // Wide vectors take longer than narrow ones, whatever they hold. What is forced stays so.
 const Kernels& narrowest_for(std::size_t items) {
-  const Kernels& widest = current();
-  if (forced.load(std::memory_order_relaxed) != nullptr) return widest;
+  if (const Kernels* kernels = forced.load(std::memory_order_relaxed)) return *kernels;
   const auto all = std::span(supported().kernels).first(supported().count);
   const auto found =
       std::ranges::find_if(all, [&](const Kernels* kernels) { return kernels->lanes >= items; });
-  return found == all.end() ? widest : **found;
+  return found == all.end() ? *all.back() : **found;
 }
 
 }  // namespace
