@@ -1,6 +1,8 @@
 // Ranges that commands, world definitions and snapshots are all held to.
 #pragma once
 
+#include <cstdint>
+
 #include <lockstone/asset.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
@@ -13,6 +15,21 @@ namespace lockstone {
 inline constexpr int k_largest_scale_exponent = 10;
 
 inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
+
+/// The last generation of a slot. When its object is gone the slot is never used again: a handle
+/// never names two objects.
+inline constexpr std::uint32_t k_last_generation = 0xfffffffe;
+
+/// Whether a slot that was ever used may have it.
+[[nodiscard]] constexpr bool is_generation(std::uint32_t generation) {
+  return generation != 0 && generation <= k_last_generation;
+}
+
+/// Whether an object may be made in the slot.
+template <class Record>
+[[nodiscard]] bool is_free(const Record& slot) {
+  return !slot.exists() && slot.generation < k_last_generation;
+}
 
 /// Of any bits from outside: the least number has no magnitude.
 template <class T>

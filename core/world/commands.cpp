@@ -128,7 +128,7 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
     return Status::invalid_argument;
   }
   std::uint32_t slot = free_hint;
-  while (slot < header.body_limit && bodies[slot].exists())
+  while (slot < header.body_limit && !is_free(bodies[slot]))
     ++slot;
   if (slot == def.body_capacity) return Status::capacity_exhausted;
   free_hint = slot + 1;

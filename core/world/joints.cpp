@@ -157,7 +157,7 @@ bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor) {
 }
 
 Status validate(const JointRecord& joint) {
-  if (joint.generation == 0 || joint.kind > k_last_kind) return Status::malformed;
+  if (!is_generation(joint.generation) || joint.kind > k_last_kind) return Status::malformed;
   if (!joint.exists()) {
     JointRecord empty;
     empty.generation = joint.generation;
@@ -188,7 +188,7 @@ Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
   }
   if (joint.is(JointKind::pulley) && !set_total_length(joint)) return Status::invalid_argument;
   std::uint32_t slot = joint_hint;
-  while (slot < header.joint_limit && joints[slot].exists())
+  while (slot < header.joint_limit && !is_free(joints[slot]))
     ++slot;
   if (slot == def.joint_capacity) return Status::capacity_exhausted;
   joint_hint = slot + 1;

@@ -114,7 +114,7 @@ bool has_unit_norm(const Quat& q) {
 }
 
 Status validate(const BodyRecord& record, const AssetSet& assets) {
-  if (record.generation == 0 || record.motion > 3) return Status::malformed;
+  if (!is_generation(record.generation) || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
   const bool known =
       record.shape_kind <= k_last_shape_kind && (record.flags & ~k_all_body_flags) == 0;

@@ -203,7 +203,7 @@ struct World::Impl {
   // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
   std::vector<JointLink> joint_links;
   std::vector<Pair> joined_pairs;
-  std::uint32_t joint_hint = 0;  // no slot below this is empty
+  std::uint32_t joint_hint = 0;  // no slot below this is free
   JointEdges joint_edges;
 
   // Joints with an awake body, by index.
@@ -221,7 +221,7 @@ struct World::Impl {
   BroadPhase broad_phase;
   RecordHashes<BodyRecord, k_body_domain> body_hashes;
   RecordHashes<JointRecord, k_joint_domain> joint_hashes;
-  std::uint32_t free_hint = 0;  // no slot below this is empty
+  std::uint32_t free_hint = 0;  // no slot below this is free
 
   // Of the last step only.
   std::vector<ContactEvent> events;
