@@ -162,6 +162,11 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world
   return too_fast || spins_too_fast;
 }
 
+void hold_in_range(Vec3<Velocity>& v) {
+  for (int i = 0; i < 3; ++i)
+    v[i] = clamp(v[i], -k_speed_limit, k_speed_limit);
+}
+
 void hold_axes(BodyRecord& body) {
   if (body.locks == 0) return;
   for (int i = 0; i < 3; ++i) {

@@ -31,6 +31,10 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world
 /// Velocity and spin along locked axes are zero.
 void hold_axes(BodyRecord& body);
 
+/// Holds each component within ±500 m/s: what commands add up between two ticks. The tick's end
+/// limits the speeds themselves.
+void hold_in_range(Vec3<Velocity>& v);
+
 /// Clamps the position to the world, stopping what would leave it. Answers whether it had to.
 bool limit_position(BodyRecord& body);
 

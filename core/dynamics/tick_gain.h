@@ -16,6 +16,9 @@ struct TickGain {
   Vec3<Velocity> spin{};
 };
 
+/// Of each component: enough to turn the greatest velocity round.
+inline constexpr Velocity k_most_gain = Velocity::from_raw(2 * k_speed_limit.raw);
+
 inline constexpr int k_most_gain_exponent = 15;
 inline constexpr int k_gain_exponent_bits = 4;
 
@@ -44,12 +47,11 @@ inline int write_gain(const Vec3<Velocity>& gain, Vec3<Unit>& mantissa) {
   return exponent;
 }
 
-/// Adds, each component held within ±2^12 m/s, to a relative error of 2^-30.
+/// Adds, each component held within ±k_most_gain, to a relative error of 2^-30.
 inline void add_gain(BodyRecord& body, const TickGain& gain) {
-  constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
   TickGain sum = tick_gain_of(body);
   const auto add = [&](Velocity& to, Velocity x) {
-    to = clamp(to + clamp(x, -k_bound, k_bound), -k_bound, k_bound);
+    to = clamp(to + clamp(x, -k_most_gain, k_most_gain), -k_most_gain, k_most_gain);
   };
   for (int i = 0; i < 3; ++i) {
     add(sum.velocity[i], gain.velocity[i]);

@@ -141,6 +141,7 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
+    hold_in_range(record.spin);
     hold_axes(record);
     awake.insert(slot);
   }
@@ -214,6 +215,7 @@ Status World::Impl::execute(const SetAngularVelocity& command) {
   }
   wake(command.body.index);
   record->spin = spin_of(*record, rotations[command.body.index], surface);
+  hold_in_range(record->spin);
   refresh(command.body.index);
   return Status::ok;
 }

@@ -20,7 +20,7 @@ Vec3<Velocity> velocity_gain(const BodyRecord& body, const Vec3<Impulse>& impuls
   return {gain(impulse.x), gain(impulse.y), gain(impulse.z)};
 }
 
-// Sums that cannot overflow before the speed limit brings them back.
+// Adds what may be of any size to what is within ±2^13 m/s.
 void add_velocity(Vec3<Velocity>& velocity, const Vec3<Velocity>& gain) {
   constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
   for (int i = 0; i < 3; ++i)
@@ -112,6 +112,8 @@ Status World::Impl::push_now(BodyHandle body, const Push& push) {
   BodyRecord& record = *edit(body);
   add_velocity(record.velocity, gain.velocity);
   add_velocity(record.spin, gain.spin);
+  hold_in_range(record.velocity);
+  hold_in_range(record.spin);
   refresh(body.index);
   return Status::ok;
 }

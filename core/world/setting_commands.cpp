@@ -112,6 +112,7 @@ Status World::Impl::execute(const SetAxisLocks& command) {
       surface_velocity(inverse_inertia(*record, rotations[command.body.index]), record->spin);
   record->locks = locked.locks;
   record->spin = spin_of(*record, rotations[command.body.index], turning);
+  hold_in_range(record->spin);
   hold_axes(*record);
   refresh(command.body.index);
   return Status::ok;

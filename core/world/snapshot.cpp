@@ -13,8 +13,6 @@
 namespace lockstone {
 namespace {
 
-constexpr Unit k_most_note = Unit::from_integer(1);
-
 // The limit plus what its own rounding may leave.
 bool in_range(const Vec3<Velocity>& v) {
   constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
@@ -46,15 +44,16 @@ bool has_valid_limits(const BodyRecord& record) {
          is_within(record.gravity_scale, k_gravity_scale_limit) && record.locks <= k_all_body_locks;
 }
 
-// Mantissas of at most 30 bits. What is not dynamic may have a surface motion: rotated, and moved
+// What is not dynamic may have a surface motion: rotated, and moved
 // to the centre of mass, it may be longer than what commands give.
 bool has_valid_notes(const BodyRecord& record) {
   constexpr int k_exponent_bits = 2 * k_gain_exponent_bits;
   if (!record.is_dynamic()) return !record.is_pushed() && record.note_c == Unit{};
   if (!record.is_pushed()) return true;
+  const TickGain gain = tick_gain_of(record);
   return !record.is_asleep() && record.rest_ticks == 0 &&
-         record.note_c.raw >> k_exponent_bits == 0 && is_within(record.note_a, k_most_note) &&
-         is_within(record.note_b, k_most_note);
+         record.note_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
+         is_within(gain.spin, k_most_gain);
 }
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
