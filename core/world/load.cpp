@@ -112,6 +112,7 @@ bool World::Impl::take_body(std::uint32_t body, const BodyRecord& record) {
   bodies[body] = record;
   body_hashes.mark(body);
   if (is_derived_stale) return same;
+  if (changed_sleep.has(body) != record.has_changed_sleep()) changed_sleep.flip(body);
   if (same) {
     contact_rotations[body] = to_matrix(record.contact_orientation);
     moved.push_back(body);

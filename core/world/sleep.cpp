@@ -15,6 +15,16 @@ constexpr Displacement k_deep = Displacement::from_ratio(1, 1500);
 
 }  // namespace
 
+// After a change of the body's sleep: there and back again is no event.
+void World::Impl::note_changed_sleep(std::uint32_t body) {
+  BodyRecord& record = bodies[body];
+  if (record.is_dynamic()) {
+    record.flags ^= k_body_changed_sleep;
+    changed_sleep.flip(body);
+  }
+  body_hashes.mark(body);
+}
+
 void World::Impl::set_awake(std::uint32_t body) {
   BodyRecord& record = bodies[body];
   record.flags = static_cast<std::uint8_t>(record.flags & ~k_body_asleep);
@@ -22,8 +32,7 @@ void World::Impl::set_awake(std::uint32_t body) {
   awake.insert(body);
   are_active_joints_current = false;
   --asleep_count;
-  if (record.is_dynamic()) changed_sleep.flip(body);
-  body_hashes.mark(body);
+  note_changed_sleep(body);
   refresh_bounds(body);
 }
 
@@ -35,8 +44,7 @@ void World::Impl::set_asleep(std::uint32_t body) {
   awake.erase(body);
   are_active_joints_current = false;
   ++asleep_count;
-  if (record.is_dynamic()) changed_sleep.flip(body);
-  body_hashes.mark(body);
+  note_changed_sleep(body);
   refresh_bounds(body);
 }
 
@@ -98,9 +106,9 @@ void World::Impl::wake_ends(const JointRecord& joint) {
   wake_listed();
 }
 
-// Those with an awake body: found anew when one slept, woke, came or went. What a joint ties to an
-// awake body is awake: of a state from outside that is made so here.
-void World::Impl::find_active_joints() {
+// What a joint ties to an awake body wakes: after a command that put it to sleep beside a kinematic
+// body, and in a state from outside.
+void World::Impl::wake_joined() {
   if (are_active_joints_current) return;
   for (const JointLink& link : joint_links) {
     const bool a_awake = awake.has(link.body_a), b_awake = awake.has(link.body_b);
@@ -108,6 +116,11 @@ void World::Impl::find_active_joints() {
     if (a_awake != b_awake && bodies[other].is_dynamic()) list_to_wake(other);
   }
   wake_listed();
+}
+
+// Those with an awake body: found anew when one slept, woke, came or went.
+void World::Impl::find_active_joints() {
+  if (are_active_joints_current) return;
   active_joints.clear();
   for (const JointLink& link : joint_links)
     if (awake.has(link.body_a) || awake.has(link.body_b)) active_joints.push_back(link);
@@ -268,6 +281,8 @@ void World::Impl::add_sleep_events() {
   for (const std::uint32_t body : changed_sleep.list()) {
     const EventKind kind = bodies[body].is_asleep() ? EventKind::sleep : EventKind::wake;
     events.push_back({kind, {body, bodies[body].generation}, {}, {}});
+    bodies[body].flags &= static_cast<std::uint8_t>(~k_body_changed_sleep);
+    body_hashes.mark(body);
   }
   changed_sleep.clear();
 }
@@ -286,6 +301,7 @@ Status World::Impl::execute(const SleepBody& command) {
   if (!record->is_dynamic() || rest_rules.ticks == 0) return Status::invalid_argument;
   if (record->is_asleep()) return Status::ok;
   join_islands();
+  are_active_joints_current = false;  // nothing was woken across joints: that is for the next step
   const std::uint32_t island = islands.root(command.body.index);
   to_sleep.clear();
   for (const std::uint32_t body : awake.list()) {

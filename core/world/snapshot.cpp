@@ -77,6 +77,7 @@ bool has_zero_rest(const BodyRecord& record) {
 bool has_valid_sleep(const BodyRecord& record) {
   const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
   if (!watched && !has_zero_rest(record)) return false;
+  if (record.has_changed_sleep() && !record.is_dynamic()) return false;
   if (!record.moves()) return !record.is_asleep();
   const bool still = record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{};
   return !record.is_asleep() || (still && record.may_sleep());

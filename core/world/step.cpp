@@ -86,6 +86,7 @@ StepReport World::Impl::step() {
 void World::Impl::find_pairs(StepReport& report) {
   const StageTimer timer(profiler, StepStage::find_pairs);
   do {
+    wake_joined();
     find_active_joints();
     pairs = broad_phase.find_pairs(parallel);
   } while (wake_met());

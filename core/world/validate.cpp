@@ -76,6 +76,7 @@ WorldFault World::Impl::fault_of_derived_bodies() const {
     const BodyRecord& body = bodies[i];
     if (awake.has(i) != (body.exists() && body.is_awake())) return {"the list of awake bodies", i};
     awake_count += awake.has(i) ? 1U : 0U;
+    if (changed_sleep.has(i) != body.has_changed_sleep()) return {"the list of changed sleep", i};
     if (broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;

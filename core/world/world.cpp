@@ -159,12 +159,14 @@ void World::Impl::rebuild_derived() {
   separating_axes.forget();
   free_hint = 0;
   awake.clear();
+  changed_sleep.clear();
   asleep_count = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (!bodies[i].exists()) continue;
     body_assets[i] = assets->find(bodies[i].asset);
     if (bodies[i].is_asleep()) ++asleep_count;
     if (bodies[i].is_awake()) awake.insert(i);
+    if (bodies[i].has_changed_sleep()) changed_sleep.insert(i);
     refresh(i);
   }
   adopt_contacts(new_contacts);

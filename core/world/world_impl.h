@@ -137,6 +137,7 @@ struct World::Impl {
   // Sleep (sleep.cpp).
   void wake(std::uint32_t body);
   void wake_ends(const JointRecord& joint);
+  void wake_joined();
   void find_active_joints();
   void mark_joints();
   void wake_all();
@@ -178,7 +179,6 @@ struct World::Impl {
   void forget_events() {
     events.clear();
     joint_events.clear();
-    changed_sleep.clear();
   }
 
   const WorldDef def;
@@ -226,7 +226,7 @@ struct World::Impl {
   // Of the last step only.
   std::vector<ContactEvent> events;
   std::vector<JointEvent> joint_events;
-  IndexSet changed_sleep;  // dynamic bodies that sleep and did not, or the reverse, since events
+  IndexSet changed_sleep;  // derived: bodies with that flag
 
   Profiler profiler;
   bool traces_stages = false;
@@ -380,6 +380,7 @@ struct World::Impl {
   void find_events();
 
   // Sleep (sleep.cpp).
+  void note_changed_sleep(std::uint32_t body);
   void set_awake(std::uint32_t body);
   void set_asleep(std::uint32_t body);
   void list_to_wake(std::uint32_t body);

@@ -1,0 +1,263 @@
+#include "tests/world/random_commands.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/world/world_fixture.h"
+
+namespace lockstone::test {
+
+using namespace literals;
+
+template <class Quantity>
+Quantity CommandDice::number(Quantity reach) {
+  using Raw = typename Quantity::Representation;
+  if (!goes_wild())
+    return Quantity::from_raw(static_cast<Raw>(random_.between(-reach.raw, reach.raw)));
+  const Raw ends[] = {Quantity::max().raw,
+                      Quantity::min().raw,
+                      Raw(Quantity::min().raw + 1),
+                      Raw(reach.raw + 1),
+                      Raw(-reach.raw - 1),
+                      Raw(-1),
+                      Raw(0),
+                      static_cast<Raw>(random_.next())};
+  return Quantity::from_raw(ends[random_.below(8)]);
+}
+
+BodyHandle CommandDice::body() {
+  if (goes_wild()) {
+    const BodyHandle strange[] = {
+        {}, {0, 0xffffffff}, {0xffffffff, 1}, {world_.body_limit(), 1}, {1, 99}, {2, 0}};
+    return strange[random_.below(6)];
+  }
+  return world_.body_at(static_cast<std::uint32_t>(random_.below(world_.body_limit() + 1)));
+}
+
+JointHandle CommandDice::joint() {
+  if (goes_wild()) {
+    const JointHandle strange[] = {{}, {0, 0xffffffff}, {0xffffffff, 1}, {1, 99}};
+    return strange[random_.below(4)];
+  }
+  return world_.joint_at(static_cast<std::uint32_t>(random_.below(world_.joint_limit() + 1)));
+}
+
+Quat CommandDice::turn() {
+  const Unit one = Unit::from_integer(1);
+  if (chance(3)) return {};
+  return {number(one), number(one), number(one), number(one)};
+}
+
+Frame CommandDice::frame() {
+  return static_cast<Frame>(random_.below(goes_wild() ? 256 : 2));
+}
+
+std::uint8_t CommandDice::axis() {
+  return static_cast<std::uint8_t>(random_.below(goes_wild() ? 256 : 3));
+}
+
+Surface CommandDice::surface() {
+  Surface surface;
+  surface.friction = abs(number(Coefficient(1_r))),
+  surface.restitution = abs(number(Coefficient(1_r)));
+  if (goes_wild()) surface.rolling_resistance = number(Coefficient(1_r));
+  surface.friction_rule = static_cast<CombineRule>(random_.below(goes_wild() ? 256 : 6));
+  surface.tag = static_cast<std::uint32_t>(random_.below(4));
+  return surface;
+}
+
+BodyDef CommandDice::body_def() {
+  constexpr MotionType k_motions[] = {MotionType::dynamic, MotionType::dynamic,
+                                      MotionType::kinematic, MotionType::static_body};
+  BodyDef def;
+  def.motion =
+      goes_wild() ? static_cast<MotionType>(random_.below(256)) : k_motions[random_.below(4)];
+  def.shape = chance(2) ? Shape::box(0.3_m, 0.3_m, 0.3_m) : Shape::capsule(0.3_m, 0.2_m);
+  if (goes_wild()) def.shape = {static_cast<ShapeKind>(random_.below(9)), vector(Length(1_m)), {}};
+  def.position = vector(Position(3_m));
+  def.position.y += Position(2_m);
+  def.orientation = turn();
+  if (def.motion != MotionType::static_body && chance(2)) def.velocity = vector(Velocity(3_mps));
+  if (goes_wild()) def.gravity_scale = number(Number::from_integer(100));
+  if (goes_wild()) def.linear_damping = number(Rate::from_integer(3));
+  if (goes_wild()) def.material.density = number(Density::from_integer(1000));
+  def.is_trigger = chance(8);
+  def.is_bullet = chance(8);
+  def.fixed_rotation = chance(8);
+  def.allow_sleep = !chance(8);
+  return def;
+}
+
+template <class Axis>
+void CommandDice::fill_axis(Axis& axis) {
+  axis.mode = static_cast<AxisMode>(random_.below(goes_wild() ? 256 : 3));
+  axis.lower = -abs(number(decltype(axis.lower)::from_ratio(1, 4)));
+  axis.upper = abs(number(decltype(axis.upper)::from_ratio(1, 4)));
+  if (chance(2)) axis.hertz = Number::from_integer(random_.between(0, 10));
+  if (goes_wild()) axis.hertz = number(Number::from_integer(1000));
+  axis.target = number(decltype(axis.target)::from_ratio(1, 4));
+  axis.speed = number(decltype(axis.speed)::from_integer(2));
+  if (chance(2)) axis.max_effort = number(decltype(axis.max_effort)::from_integer(1000));
+}
+
+void CommandDice::fill(CreateBody& c) {
+  c.def = body_def();
+}
+void CommandDice::fill(DestroyBody& c) {
+  c.body = body();
+}
+void CommandDice::fill(Teleport& c) {
+  c = {body(), vector(Position(3_m)), turn()};
+}
+void CommandDice::fill(SetVelocity& c) {
+  c = {body(), vector(wild_ ? k_speed_limit : Velocity(3_mps))};
+}
+void CommandDice::fill(SetAngularVelocity& c) {
+  c = {body(), vector(AngularVelocity(9_rps))};
+}
+void CommandDice::fill(ApplyImpulse& c) {
+  c = {body(), vector(Impulse(900_Ns)), frame()};
+}
+void CommandDice::fill(ApplyImpulseAt& c) {
+  c = {body(), vector(Impulse(900_Ns)), vector(Length(0.3_m)), frame()};
+}
+void CommandDice::fill(ApplyAngularImpulse& c) {
+  c = {body(), vector(AngularImpulse::from_integer(90)), frame()};
+}
+void CommandDice::fill(ApplyForce& c) {
+  c = {body(), vector(Force(9000_N)), frame()};
+}
+void CommandDice::fill(ApplyForceAt& c) {
+  c = {body(), vector(Force(9000_N)), vector(Length(0.3_m)), frame()};
+}
+void CommandDice::fill(ApplyTorque& c) {
+  c = {body(), vector(Torque::from_integer(900)), frame()};
+}
+void CommandDice::fill(MoveKinematic& c) {
+  c.body = body();
+  c.position =
+      c.body.is_null() || !world_.exists(c.body) ? Vec3<Position>{} : world_.position(c.body);
+  c.position.x += number(Position::from_ratio(1, 20));
+  c.orientation = turn();
+}
+void CommandDice::fill(SetMaterial& c) {
+  c = {body(), surface()};
+}
+void CommandDice::fill(SetSurfaceMotion& c) {
+  c = {body(), {vector(SolverVelocity::from_integer(2)), vector(Rate::from_integer(2))}};
+}
+void CommandDice::fill(SetGravityScale& c) {
+  c = {body(), number(Number::from_integer(2))};
+}
+void CommandDice::fill(SetDamping& c) {
+  c = {body(), abs(Rate::from_integer(random_.between(0, 5))), Rate{}};
+  if (goes_wild()) c.angular = number(Rate::from_integer(5));
+}
+void CommandDice::fill(SetAxisLocks& c) {
+  c = {body(), {chance(4), chance(4), chance(4), chance(4), chance(4), chance(4)}};
+}
+void CommandDice::fill(SetSpeedLimit& c) {
+  c = {body(), {Velocity::from_integer(random_.between(1, 400)), AngularVelocity(100_rps)}};
+  if (goes_wild()) c.limit.angular = number(AngularVelocity(100_rps));
+}
+void CommandDice::fill(SetFilter& c) {
+  c = {body(), {1, chance(4) ? 0 : 0xffffffff, static_cast<std::int32_t>(random_.below(2))}};
+}
+void CommandDice::fill(SetUserData& c) {
+  c = {body(), random_.next()};
+}
+void CommandDice::fill(WakeBody& c) {
+  c.body = body();
+}
+void CommandDice::fill(SleepBody& c) {
+  c.body = body();
+}
+void CommandDice::fill(SetAllowSleep& c) {
+  c = {body(), !chance(4)};
+}
+void CommandDice::fill(SetGravity& c) {
+  c.gravity = {{}, Acceleration::from_integer(-random_.between(5, 10)), {}};
+  if (goes_wild()) c.gravity.x = number(Acceleration::from_integer(1000));
+}
+void CommandDice::fill(CreateJoint& c) {
+  const auto kind =
+      static_cast<JointKind>(goes_wild() ? random_.below(256) : 1 + random_.below(11));
+  c.def = JointDef::of(kind, body(), body());
+  c.def.frame_a.position = vector(Length(1_m));
+  c.def.frame_b.position = vector(Length(1_m));
+  c.def.frame_a.orientation = turn();
+  if (chance(3)) fill_axis(c.def.linear[random_.below(3)]);
+  if (chance(3)) fill_axis(c.def.angular[random_.below(3)]);
+  if (chance(3)) c.def.break_force = Force::from_integer(random_.between(1, 90'000));
+  if (goes_wild()) c.def.ratio = number(Number::from_integer(1000));
+  if (goes_wild()) c.def.ground_a = vector(Position(900_m));
+  c.def.collide = chance(2);
+}
+void CommandDice::fill(DestroyJoint& c) {
+  c.joint = joint();
+}
+void CommandDice::fill(SetLinearAxis& c) {
+  c.joint = joint(), c.axis = axis();
+  fill_axis(c.settings);
+}
+void CommandDice::fill(SetAngularAxis& c) {
+  c.joint = joint(), c.axis = axis();
+  fill_axis(c.settings);
+}
+
+Command CommandDice::any() {
+  std::size_t left = random_.below(k_command_kinds);
+  Command command;
+#define LKS_FILL_COMMAND(Name) \
+  if (left-- == 0) {           \
+    Name made;                 \
+    fill(made);                \
+    command = made;            \
+  }
+  LKS_COMMANDS(LKS_FILL_COMMAND)
+#undef LKS_FILL_COMMAND
+  return command;
+}
+
+WorldDef crowd_def() {
+  return {.body_capacity = 20,
+          .pair_capacity = 512,
+          .contact_capacity = 512,
+          .joint_capacity = 6,
+          .substeps = 2,
+          .sleep_ms = 80};
+}
+
+World make_crowd(Random& random) {
+  World world = World::create(crowd_def()).value();
+  add_ground(world);
+  for (int i = 0; i < 12; ++i) {
+    BodyDef def =
+        dynamic_body(i % 3 == 0 ? Shape::sphere(0.4_m) : Shape::box(0.4_m, 0.4_m, 0.4_m),
+                     Position::from_integer(i % 4 - 2), Position::from_ratio(i / 4 * 9 + 4, 10),
+                     Position::from_ratio(random.between(-10, 10), 100));
+    if (i == 5) def.motion = MotionType::kinematic;
+    if (i == 7) def.is_trigger = true;
+    if (i == 10) def.allow_sleep = false;
+    add(world, def);
+  }
+  for (std::uint32_t i = 1; i < 4; ++i) {
+    JointDef def = JointDef::of(i == 1 ? JointKind::distance : JointKind::six_axis,
+                                world.body_at(i), world.body_at(i + 3));
+    def.linear[0].upper = 2_m;
+    EXPECT_TRUE(world.create_joint(def).ok());
+  }
+  return world;
+}
+
+std::vector<std::int64_t> told_by(const World& world) {
+  std::vector<std::int64_t> told;
+  for (const ContactEvent& e : world.events()) {
+    told.insert(told.end(), {static_cast<std::int64_t>(e.kind), e.a.index, e.a.generation,
+                             e.b.index, e.b.generation, e.approach_speed.raw, e.tag_a, e.tag_b});
+  }
+  for (const JointEvent& e : world.joint_events())
+    told.insert(told.end(), {e.joint.index, e.joint.generation, e.a.index, e.b.index});
+  return told;
+}
+
+}  // namespace lockstone::test
