@@ -87,9 +87,10 @@ std::uint32_t BoundingVolumeTree::build_below(std::span<Item> items) {
     if (length(i) > length(axis)) axis = i;
   }
   const std::size_t half = items.size() / 2;
-  std::nth_element(
-      items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-      [axis](const Item& a, const Item& b) { return a.middle[axis] < b.middle[axis]; });
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+                   [axis](const Item& a, const Item& b) {
+                     return std::pair(a.middle[axis], a.leaf) < std::pair(b.middle[axis], b.leaf);
+                   });
   const std::uint32_t node = allocate();
   const std::uint32_t children[] = {build_below(items.first(half)),
                                     build_below(items.subspan(half))};

@@ -186,11 +186,12 @@ class PointPool {
   }
 
   /// Features from triangles may repeat by accident: the deepest stays, of equals the first by
-  /// place.
+  /// place. The key is the whole point.
   void drop_repeats() {
     const auto used = std::span(points_).first(count_);
     std::ranges::sort(used, {}, [](const ManifoldPoint& p) {
-      return std::tuple(p.feature, p.separation, p.anchor_b.x, p.anchor_b.y, p.anchor_b.z);
+      return std::tuple(p.feature, p.separation, p.anchor_b.x, p.anchor_b.y, p.anchor_b.z,
+                        p.anchor_a.x, p.anchor_a.y, p.anchor_a.z);
     });
     const auto same = [](const ManifoldPoint& a, const ManifoldPoint& b) {
       return a.feature == b.feature;

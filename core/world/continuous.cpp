@@ -297,7 +297,7 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   body_hashes.mark(other);
   if (b.moves()) note_far_mover(other);
   if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
-  if (impacts.size() < impacts.capacity()) {
+  if (impacts.size() < def.body_capacity) {
     impacts.push_back(
         {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
   }

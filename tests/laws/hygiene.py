@@ -29,6 +29,8 @@ BANNED = {
     "build_date": r"\b__(?:DATE|TIME|TIMESTAMP)__\b",
     # 32 bits here, 64 there; long long is 64 everywhere.
     "long": r"(?<!long )\blong\b(?!\s+(?:long|double)\b)(?!\s+(?:un)?signed\s+long\b)|\bwchar_t\b",
+    # A vector may hold room for more than was asked for, by as much as each library likes.
+    "capacity": r"(?:\.|->)capacity\s*\(\s*\)",
     # Another machine has another environment and other conventions.
     "environment": r"\b(?:getenv|setlocale)\s*\(|\bstd::locale\b",
 }
@@ -76,6 +78,7 @@ def control():
             "thread_local": ["thread_local int x;"],
             "build_date": ["auto s = __DATE__;"],
             "long": ["long x;", "unsigned long x;", "long int x;"],
+            "capacity": ["if (list.size() < list.capacity()) return;"],
             "environment": ["auto s = std::getenv(name);"]}.items():
         for line in lines:
             expect_only(found(line), f"net/a.cpp:1: {rule}: ")
