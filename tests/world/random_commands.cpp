@@ -8,6 +8,16 @@ namespace lockstone::test {
 
 using namespace literals;
 
+namespace {
+
+// Of the least number, which has no magnitude, the least number.
+template <class Quantity>
+Quantity size_of(Quantity x) {
+  return x == Quantity::min() ? x : abs(x);
+}
+
+}  // namespace
+
 template <class Quantity>
 Quantity CommandDice::number(Quantity reach) {
   using Raw = typename Quantity::Representation;
@@ -57,8 +67,8 @@ std::uint8_t CommandDice::axis() {
 
 Surface CommandDice::surface() {
   Surface surface;
-  surface.friction = abs(number(Coefficient(1_r))),
-  surface.restitution = abs(number(Coefficient(1_r)));
+  surface.friction = size_of(number(Coefficient(1_r))),
+  surface.restitution = size_of(number(Coefficient(1_r)));
   if (goes_wild()) surface.rolling_resistance = number(Coefficient(1_r));
   surface.friction_rule = static_cast<CombineRule>(random_.below(goes_wild() ? 256 : 6));
   surface.tag = static_cast<std::uint32_t>(random_.below(4));
@@ -74,7 +84,7 @@ BodyDef CommandDice::body_def() {
   def.shape = chance(2) ? Shape::box(0.3_m, 0.3_m, 0.3_m) : Shape::capsule(0.3_m, 0.2_m);
   if (goes_wild()) def.shape = {static_cast<ShapeKind>(random_.below(9)), vector(Length(1_m)), {}};
   def.position = vector(Position(3_m));
-  def.position.y += Position(2_m);
+  def.position.y.raw = raw::saturating_add(def.position.y.raw, Position(2_m).raw);
   def.orientation = turn();
   if (def.motion != MotionType::static_body && chance(2)) def.velocity = vector(Velocity(3_mps));
   if (goes_wild()) def.gravity_scale = number(Number::from_integer(100));
@@ -90,8 +100,9 @@ BodyDef CommandDice::body_def() {
 template <class Axis>
 void CommandDice::fill_axis(Axis& axis) {
   axis.mode = static_cast<AxisMode>(random_.below(goes_wild() ? 256 : 3));
-  axis.lower = -abs(number(decltype(axis.lower)::from_ratio(1, 4)));
-  axis.upper = abs(number(decltype(axis.upper)::from_ratio(1, 4)));
+  axis.lower = number(decltype(axis.lower)::from_ratio(1, 4));
+  if (axis.lower.raw > 0) axis.lower = -axis.lower;
+  axis.upper = size_of(number(decltype(axis.upper)::from_ratio(1, 4)));
   if (chance(2)) axis.hertz = Number::from_integer(random_.between(0, 10));
   if (goes_wild()) axis.hertz = number(Number::from_integer(1000));
   axis.target = number(decltype(axis.target)::from_ratio(1, 4));
@@ -136,7 +147,7 @@ void CommandDice::fill(MoveKinematic& c) {
   c.body = body();
   c.position =
       c.body.is_null() || !world_.exists(c.body) ? Vec3<Position>{} : world_.position(c.body);
-  c.position.x += number(Position::from_ratio(1, 20));
+  c.position.x.raw = raw::saturating_add(c.position.x.raw, number(Position::from_ratio(1, 20)).raw);
   c.orientation = turn();
 }
 void CommandDice::fill(SetMaterial& c) {
@@ -149,7 +160,7 @@ void CommandDice::fill(SetGravityScale& c) {
   c = {body(), number(Number::from_integer(2))};
 }
 void CommandDice::fill(SetDamping& c) {
-  c = {body(), abs(Rate::from_integer(random_.between(0, 5))), Rate{}};
+  c = {body(), Rate::from_integer(random_.between(0, 5)), Rate{}};
   if (goes_wild()) c.angular = number(Rate::from_integer(5));
 }
 void CommandDice::fill(SetAxisLocks& c) {
@@ -205,6 +216,7 @@ void CommandDice::fill(SetAngularAxis& c) {
 }
 
 Command CommandDice::any() {
+  if (chance(5)) return SleepBody{body()};  // most is refused or wakes again at once
   std::size_t left = random_.below(k_command_kinds);
   Command command;
 #define LKS_FILL_COMMAND(Name) \

@@ -24,7 +24,8 @@ struct Teleport { BodyHandle body{}; Vec3<Position> position{}; Quat orientation
 struct SetVelocity { BodyHandle body{}; Vec3<Velocity> velocity{}; };
 struct SetAngularVelocity { BodyHandle body{}; Vec3<AngularVelocity> angular_velocity{}; };
 
-/// At the centre of mass.
+/// At the centre of mass. Impulses leave velocity, and angular momentum over mass and size, within
+/// ±500 m/s an axis: what is beyond is lost.
 struct ApplyImpulse { BodyHandle body{}; Vec3<Impulse> impulse{}; Frame frame{}; };
 
 /// At a point within twice the body's radius of its centre of mass.
@@ -33,7 +34,7 @@ struct ApplyImpulseAt { BodyHandle body{}; Vec3<Impulse> impulse{}; Vec3<Length>
 struct ApplyAngularImpulse { BodyHandle body{}; Vec3<AngularImpulse> impulse{}; Frame frame{}; };
 
 /// At the centre of mass. A force works evenly over the coming tick and is then gone, a torque too;
-/// those of a tick add up.
+/// those of a tick add up, each axis to at most ±1000 m/s.
 struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; Frame frame{}; };
 
 /// At a point as that of an impulse. Both turn with the body in the tick no more than the world does.
