@@ -30,7 +30,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 48;
+inline constexpr std::uint32_t k_simulation_abi = 49;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
@@ -124,11 +124,11 @@ class World {
   // Commands --------------------------------------------------------------------------------------
 
   /// Makes a body: capacity_exhausted, invalid_argument or, for an unknown asset, not_found when it
-  /// cannot be. Slots are reused, lowest first.
+  /// cannot be. Slots are reused, lowest first; each holds 2^32 − 2 bodies in its life.
   Result<BodyHandle> create_body(const BodyDef& def);
 
   /// Makes a joint: capacity_exhausted, stale_handle for a body, or invalid_argument when it cannot
-  /// be. Slots are reused, lowest first. Destroying a body destroys its joints.
+  /// be. Slots are reused as those of bodies. Destroying a body destroys its joints.
   Result<JointHandle> create_joint(const JointDef& def);
 
   /// Applies one command now. On any status but ok nothing has changed.
