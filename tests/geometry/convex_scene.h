@@ -179,6 +179,42 @@ inline Real tolerance(const RealPair& pair) {
   return 2 * k_micrometre + 4e-9L * pair.size;
 }
 
+/// How many rounded terms a core's vertex is the sum of: generators, or one listed vertex.
+inline int rounded_terms(const Convex& c) {
+  if (!c.vertices.empty()) return 1;
+  return c.shape.kind == ShapeKind::box ? 3 : c.shape.kind == ShapeKind::capsule ? 1 : 0;
+}
+
+/// A step of the lattice at most: 2^-29 of the farthest corner of the bounds of B − A, world axes.
+inline Real greatest_lattice_step(const RealPair& pair) {
+  RealVec reach;
+  for (const RealVec& p : pair.a) {
+    for (const RealVec& q : pair.b) {
+      for (int k = 0; k < 3; ++k)
+        reach[k] = std::max(reach[k], std::fabs(q[k] - p[k]));
+    }
+  }
+  return std::ldexp(norm(reach), -29);
+}
+
+/// How far the depth may be from the overlap along its normal n. The depth is that of the plane
+/// of a face's exact vertices, and EPA proves on the lattice that no vertex is beyond it:
+///
+///   √3 steps a term  between two vertices of B − A each rounded term differs at most twice, by
+///                    half a step in each of three lanes
+///   1 step           that a vertex may lie beyond the plane on the lattice (`is_supported`)
+///   2√3 steps        the direction asked along is cut to 31 bits, below 2^-30 of it a lane, and
+///                    two vertices are at most 2^31 steps apart
+///   √3/2 steps       n is rounded by 2^-31 a lane, and vertices are at most 2^30 steps away
+///
+/// and 2 µm for points and radii, as `distance` has. At most 16 steps: 30e-9 of the sizes.
+inline Real depth_tolerance(const ConvexPair& pair) {
+  const Real root = std::sqrt(Real{3});
+  const int terms = rounded_terms(pair.a) + rounded_terms(pair.b);
+  const Real steps = root * terms + 1 + 2 * root + root / 2;
+  return 2 * k_micrometre + steps * greatest_lattice_step(RealPair(pair));
+}
+
 /// Distance of a point from the triangle abc (which may be a point or a segment).
 inline Real point_to_triangle(const RealVec& p, const RealVec& a, const RealVec& b,
                               const RealVec& c) {
