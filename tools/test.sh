@@ -1,13 +1,20 @@
 #!/usr/bin/env bash
 # Builds the project with all warnings in build/release and runs its tests.
 #
-# usage: tools/test.sh [--sanitize] [--fuzz[=SECONDS]] [--cross[=TARGET,…]] [--werror]
+# usage: tools/test.sh [--sanitize] [--fuzz[=SECONDS]] [--cross[=TARGET,…]] [--explore [SECONDS]]
+#                      [--werror]
+#
+# The tests do the same in every run: their seeds are listed (tests/support/random.h and
+# listed_seeds.txt). LOCKSTONE_TEST_SEED gives them another.
 #
 #   --sanitize   also build and run the tests under AddressSanitizer and UBSan (build/asan-ubsan)
 #   --fuzz       also run the libFuzzer program of every parser, from its corpus, under both
 #                sanitizers (build/fuzz, default 30 s each)
 #   --cross      also compare the golden scenes between processors, see tools/cross.sh
 #                (default aarch64,s390x)
+#   --explore    also run the tests that draw from a seed with new ones (default 60 s), after all
+#                others. What that finds is counted in a line of its own and printed with the
+#                command that repeats it; the status is then 3, if nothing else failed
 #   --werror     compiler warnings are errors
 #   --help       print this
 #
@@ -78,6 +85,21 @@ fuzzers() {
   for file in tests/fuzz/*_target.cpp; do basename "$file" _target.cpp; done
 }
 
+# explore SECONDS: new seeds for the tests of the release build that have just run.
+explored=
+explore() {
+  local tests output
+  tests=$(mktemp) output=$(mktemp)
+  say "explore new seeds for $1 s"
+  ctest --preset release --show-only=json-v1 >"$tests"
+  python3 -B tools/explore_seeds.py --tests "$tests" --report build/release/tests.xml \
+    --seconds "$1" --jobs "$jobs" | tee "$output" || true
+  explored=$(tail -n 1 "$output")
+  if [[ $explored != explore:*' 0 findings' ]]; then cat "$output" >>"$failures"; fi
+  [[ $explored == explore:* ]] || failed=$((failed + 1))  # it did not come to its end
+  rm -f "$tests" "$output"
+}
+
 # corpus_of NAME EMPTY-FOLDER: the folder of its corpus, if it has one.
 corpus_of() {
   if [[ -d $root/tests/fuzz/corpus/$1 ]]; then echo "$root/tests/fuzz/corpus/$1"; else echo "$2/corpus"; fi
@@ -85,15 +107,21 @@ corpus_of() {
 
 sanitize=false
 fuzz_seconds=0
+explore_seconds=0
 cross=()
 options=()
-for argument in "$@"; do
+while (($#)); do
+  argument=$1
+  shift
   case $argument in
     --sanitize) sanitize=true ;;
     --fuzz) fuzz_seconds=30 ;;
     --fuzz=*) fuzz_seconds=${argument#*=} ;;
     --cross) cross=(aarch64 s390x) ;;
     --cross=*) IFS=, read -ra cross <<<"${argument#*=}" ;;
+    --explore)
+      explore_seconds=60
+      if [[ ${1-} =~ ^[0-9]+$ ]]; then explore_seconds=$1 && shift; fi ;;
     --werror) options+=(-DLOCKSTONE_WARNINGS_AS_ERRORS=ON) ;;
     --help) usage; exit ;;
     *) usage >&2; exit 2 ;;
@@ -116,9 +144,12 @@ fi
 if ((${#cross[@]})); then run_cross "${cross[@]}"; fi
 build_preset release "${options[@]}"
 run_tests release
+if ((explore_seconds)); then explore "$explore_seconds"; fi
 
 echo
 cat "$failures"
 ((skipped == 0)) || echo "$skipped skipped"
+if [[ -n $explored ]]; then echo "$explored"; fi
 echo "$passed passed, $failed failed"
-((failed == 0))
+((failed == 0)) || exit 1
+[[ -z $explored || $explored == *' 0 findings' ]] || exit 3

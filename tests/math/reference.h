@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <random>
 
 #include <mpfr.h>
+
+#include "tests/support/random.h"
 
 namespace lockstone::test {
 
@@ -84,18 +84,6 @@ class Real {
 inline constexpr std::int64_t k_min = std::numeric_limits<std::int64_t>::min();
 inline constexpr std::int64_t k_max = std::numeric_limits<std::int64_t>::max();
 
-/// Printed once; LOCKSTONE_TEST_SEED repeats a run.
-inline std::uint64_t seed() {
-  static const std::uint64_t value = [] {
-    const char* given = std::getenv("LOCKSTONE_TEST_SEED");
-    const std::uint64_t chosen =
-        given != nullptr ? std::strtoull(given, nullptr, 0) : std::random_device{}();
-    std::printf("LOCKSTONE_TEST_SEED=%llu\n", static_cast<unsigned long long>(chosen));
-    return chosen;
-  }();
-  return value;
-}
-
 /// Raws of all scales: uniform in the number of bits, with round powers of two and their
 /// neighbours.
 class Raws {
@@ -130,7 +118,7 @@ class Raws {
   }
 
  private:
-  std::mt19937_64 generator_{seed()};
+  std::mt19937_64 generator_{run_seed()};
 };
 
 inline double worst_of(double worst, double error) {

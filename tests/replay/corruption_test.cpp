@@ -6,6 +6,7 @@
 #include <lockstone/hash.h>
 
 #include "tests/replay/log_tools.h"
+#include "tests/support/random.h"
 
 namespace lockstone::test {
 namespace {
@@ -127,9 +128,7 @@ TEST(Corruption, AChunkOfAnotherLogIsFound) {
 }
 
 TEST(Corruption, RandomBytesAreNotALog) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(run_seed());
   for (int round = 0; round < 2000; ++round) {
     Bytes bytes(random() % 300);
     for (std::byte& byte : bytes)
@@ -140,9 +139,7 @@ TEST(Corruption, RandomBytesAreNotALog) {
 
 // Builds damage with right checksums, so that the decoders behind the checksums are reached.
 TEST(Corruption, RandomContentUnderRightChecksumsNeverCrashesAndIsNeverSameUnnoticed) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(run_seed());
   const Bytes good = record(small_match());
   const auto chunks = chunks_of(good);
   for (int round = 0; round < 3000; ++round) {

@@ -8,6 +8,7 @@
 #include <lockstone/replay/format.h>
 
 #include "replay/header_codec.h"
+#include "tests/support/random.h"
 
 namespace lockstone::replay {
 namespace {
@@ -67,9 +68,7 @@ Ticks random_ticks(std::mt19937_64& random, const Shape& shape) {
 }
 
 TEST(InputCodec, GivesBackRandomInputsOfEveryShape) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::run_seed());
   for (int round = 0; round < 200; ++round) {
     const Shape shape{1 + random() % k_max_players, 1 + random() % k_max_input_bytes,
                       1 + random() % 300};
@@ -116,9 +115,7 @@ TEST(InputCodec, WorstCaseFitsItsBound) {
 
 // Whatever decodes, encodes to the same bytes again: one content, one encoding.
 TEST(InputCodec, AcceptsRandomBytesOnlyInCanonicalForm) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::run_seed());
   std::size_t accepted = 0;
   for (int round = 0; round < 200'000; ++round) {
     const Shape shape{1 + random() % 3, 1 + random() % 2, 1 + random() % 4};

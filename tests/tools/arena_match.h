@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <random>
 #include <span>
 #include <vector>
 
@@ -58,13 +56,6 @@ inline std::vector<std::byte> saved(const Simulation& simulation, SnapshotKind k
   std::vector<std::byte> bytes(simulation.snapshot_bytes_max(kind));
   bytes.resize(simulation.save(kind, bytes));
   return bytes;
-}
-
-/// Another one in every run, or LOCKSTONE_TEST_SEED. Print it where it is used.
-inline std::uint64_t fresh_seed() {
-  const char* wanted = std::getenv("LOCKSTONE_TEST_SEED");
-  if (wanted != nullptr) return std::strtoull(wanted, nullptr, 10);
-  return std::random_device{}();
 }
 
 }  // namespace lockstone::arena::test

@@ -1,6 +1,7 @@
 // The arena as a simulation: reproducible, saved whole, safe with any input.
 #include <gtest/gtest.h>
 
+#include "tests/support/random.h"
 #include "tests/tools/arena_match.h"
 
 namespace lockstone::arena::test {
@@ -80,8 +81,7 @@ TEST(Arena, GoesOnTheSameAfterDerivedDataIsDropped) {
 }
 
 TEST(Arena, AcceptsAnyInputBytesAndOrigins) {
-  const std::uint64_t seed = fresh_seed();
-  SCOPED_TRACE("LOCKSTONE_TEST_SEED=" + std::to_string(seed));
+  const std::uint64_t seed = lockstone::test::run_seed();
   const ArenaConfig config{.seed = seed, .loose_bodies = 80, .players = 16};
   ArenaSimulation first(config), second(config);
   Random random(seed);
@@ -97,8 +97,7 @@ TEST(Arena, AcceptsAnyInputBytesAndOrigins) {
 }
 
 TEST(Arena, StaysAsItIsWhenASnapshotIsBad) {
-  const std::uint64_t seed = fresh_seed();
-  SCOPED_TRACE("LOCKSTONE_TEST_SEED=" + std::to_string(seed));
+  const std::uint64_t seed = lockstone::test::run_seed();
   ArenaSimulation simulation({.loose_bodies = 30, .players = 2});
   for (int tick = 0; tick < 60; ++tick)
     step_with_bots(simulation);
@@ -115,8 +114,7 @@ TEST(Arena, StaysAsItIsWhenASnapshotIsBad) {
 
 // A snapshot may come from a hostile peer: what is accepted must then run.
 TEST(Arena, SurvivesWhateverSnapshotItAccepts) {
-  const std::uint64_t seed = fresh_seed();
-  SCOPED_TRACE("LOCKSTONE_TEST_SEED=" + std::to_string(seed));
+  const std::uint64_t seed = lockstone::test::run_seed();
   const ArenaConfig config{.loose_bodies = 30, .players = 4};
   ArenaSimulation start(config), simulation(config);
   for (int tick = 0; tick < 120; ++tick)

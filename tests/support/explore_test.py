@@ -1,0 +1,78 @@
+"""Tests of tools/explore_seeds.py on tests that fail with some seeds, always, or never.
+
+usage: explore_test.py EXPLORE_SEEDS
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+EXPLORE = sys.argv.pop()
+
+# Fails where the remainder of the seed by 5 is 3.
+SEEDED = """#!/bin/sh
+echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
+[ $((LOCKSTONE_TEST_SEED % 5)) -ne 3 ] || { echo "broken by $1"; exit 1; }
+"""
+PASSING = """#!/bin/sh
+echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
+"""
+REPORT = """<testsuite>
+<testcase name="{name}" status="run" time="0.01"><system-out>LOCKSTONE_TEST_SEED=7</system-out></testcase>
+<testcase name="Same.EveryTime" status="run" time="0.01"><system-out>ok</system-out></testcase>
+</testsuite>
+"""
+
+
+class Explore(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def explore(self, name, script, environment=(), seconds=1):
+        program = self.folder / "program"
+        program.write_text(script, encoding="utf-8")
+        program.chmod(0o755)
+        # A test that does not name the seed must not be run: this one would fail.
+        tests = [{"name": name, "command": [str(program), "--filter=A.b"],
+                  "properties": [{"name": "ENVIRONMENT", "value": list(environment)}]},
+                 {"name": "Same.EveryTime", "command": ["false"]}]
+        (self.folder / "tests.json").write_text(json.dumps({"tests": tests}), encoding="utf-8")
+        (self.folder / "report.xml").write_text(REPORT.format(name=name), encoding="utf-8")
+        return subprocess.run(
+            [sys.executable, "-B", EXPLORE, "--tests", "tests.json", "--report", "report.xml",
+             "--seconds", str(seconds), "--jobs", "2", "--first-seed", "1000"],
+            cwd=self.folder, capture_output=True, text=True, check=False)
+
+    def test_finds_the_seed_that_fails_and_prints_how_to_repeat_it(self):
+        done = self.explore("A.b", SEEDED, seconds=60)
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertIn("-- found: A.b with seed 1003: status 1\n", done.stdout)
+        self.assertIn("broken by --filter=A.b\n", done.stdout)
+        self.assertRegex(done.stdout.splitlines()[-1], r"^explore: \d+ runs of 1 tests, 1 findings$")
+        repeat = re.search(r"^repeat: (.*)$", done.stdout, re.MULTILINE)[1]
+        self.assertEqual(repeat, "LOCKSTONE_TEST_SEED=1003 ./program --filter=A.b")
+        again = subprocess.run(repeat, shell=True, cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual((again.returncode, "broken by" in again.stdout), (1, True))
+
+    def test_finds_nothing_where_all_seeds_pass(self):
+        done = self.explore("A.b", PASSING)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"^explore: [1-9]\d* runs of 1 tests, 0 findings\n$")
+
+    def test_tries_every_test_once_however_short_the_time(self):
+        self.assertRegex(self.explore("A.b", PASSING, seconds=0).stdout, "^explore: 1 runs of 1 tests")
+
+    def test_leaves_tests_with_a_listed_seed_alone(self):
+        done = self.explore("A.b", SEEDED, environment=["LOCKSTONE_TEST_SEED=3"])
+        self.assertIn("no test of the report draws from the seed", done.stderr)
+        self.assertNotEqual(done.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
