@@ -90,7 +90,7 @@ arguments_of() {
   esac
 }
 
-require_packages build
+require_packages demo build
 # A peer that cannot be had is no reason to stop.
 (require_packages bench) || true
 # Fetching hardly needs a processor: meanwhile they build. Nothing is measured before both are done.

@@ -125,7 +125,7 @@ wanted=("$@")
 ((${#wanted[@]})) || wanted=("${all[@]}")
 
 # A package that cannot be installed costs its target, not the others.
-(require_packages build clang cross) || true
+(require_packages demo build clang cross) || true
 if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm|wasm-scalar)\  ]]; then (require_packages cross-more) || true; fi
 export WINEDEBUG=${WINEDEBUG:--all}
 # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the project and runs `lockstone demo`: a server and four clients on this machine.
+# Builds the command as the demo needs it, in build/demo, and runs `lockstone demo`: a server and four
+# clients on this machine.
 #
 # usage: tools/demo.sh [OPTION…]      options go to the command; --help lists them
 #
@@ -8,10 +9,9 @@
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-require_packages build
-build_targets=(lockstone)
-build_preset release
+require_packages demo
+build_preset demo
 # Paths among the options are the caller's.
 cd "$OLDPWD"
 # exec: Ctrl-C and the exit status belong to the command.
-exec "$root"/build/release/tools/lockstone demo "$@"
+exec "$root"/build/demo/tools/lockstone demo "$@"

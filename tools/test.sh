@@ -128,7 +128,7 @@ while (($#)); do
   esac
 done
 
-require_packages build assets
+require_packages demo build assets
 if "$sanitize"; then
   require_packages clang
   build_preset asan-ubsan

@@ -86,6 +86,9 @@ class Network(unittest.TestCase):
         self.assertEqual(self.verify("demo.lks")["ticks_verified"], 240)
         self.assertTrue((self.folder / "demo.svg").read_text().endswith("</svg>\n"))
 
+    def test_a_demo_plays_for_fifteen_seconds_unless_told(self):
+        self.assertRegex(self.expect(0, self.start("demo", "--help")), r"--ticks UINT=900\b")
+
     def test_a_demo_finds_one_wrong_bit(self):
         out = self.expect(1, self.start("demo", "--fast", "--players", 3, "--ticks", 240,
                                         "--bodies", 30, "--flip-bit-at", 77))

@@ -218,6 +218,7 @@ int demo(DemoOptions options) {
 void add_demo_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DemoOptions>();
   options->match.record = "demo.lks";
+  options->match.ticks = 900;
   CLI::App* command = app.add_subcommand(
       "demo", "Play a match of bots on this machine, one process each, and verify its log");
   add_match_options(*command, options->match);
