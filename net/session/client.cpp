@@ -204,6 +204,7 @@ void Client::Impl::say_hello() {
   hello.build = BuildText(config.build);
   hello.rejoin_key = rejoin_key;
   hello.ticks_stepped = stepped;
+  hello.state_hash = state_hash;
   send(hello);
 }
 

@@ -14,6 +14,7 @@ bool Client::Impl::reconnect(ConnectionId connection) {
       failure == ClientFailure::connection_lost || failure == ClientFailure::server_silent ||
       failure == ClientFailure::handshake_timed_out || failure == ClientFailure::dropped;
   if (!lost) return false;
+  if (head > stepped) roll_back(stepped);
   parts.connection = connection;
   state = ClientState::connecting;
   failure = ClientFailure::none;
@@ -26,6 +27,8 @@ bool Client::Impl::reconnect(ConnectionId connection) {
   entry_received = 0;
   dump_size = 0;
   active_tick = k_never;
+  records.clear();  // a server that was started anew may close other ticks
+  received_end = 0;
   return true;
 }
 
@@ -85,6 +88,10 @@ void Client::Impl::take_snapshot(const Snapshot& last_piece) {
   if (!good) return;
   ++stats.states_loaded;
   received_end = last_piece.ticks;
+  records.clear();
+  // The match went back: a server that was started anew has lost the last ticks.
+  if (last_piece.ticks < stepped) sampled = 0;
+  state_hash = last_piece.hash;
   begin_running(last_piece.ticks);
   observer->state_loaded(last_piece.ticks);
 }

@@ -112,9 +112,10 @@ struct Client::Impl {
   Welcome seat;
   bool seated = false;
 
-  TickRing records;            ///< closed ticks
-  std::uint64_t stepped = 0;   ///< ticks below are stepped
-  std::uint64_t received = 0;  ///< ticks below are here
+  TickRing records;              ///< closed ticks
+  std::uint64_t stepped = 0;     ///< ticks below are stepped
+  std::uint64_t state_hash = 0;  ///< of the state after them; 0 at first
+  std::uint64_t received = 0;    ///< ticks below are here
   std::uint64_t rejoin_key = 0;
   std::uint64_t offered_hash = 0;  ///< of the configuration that `simulation` was made from
   bool over = false;               ///< the match is: nothing is kept back

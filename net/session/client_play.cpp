@@ -106,6 +106,7 @@ void Client::Impl::note_parts() {
 // The tick `stepped` has been stepped as it was closed; `hash` is the state after it.
 void Client::Impl::after_step(std::uint64_t hash) {
   hashes.push(hash);
+  state_hash = hash;
   if (snapshots.capacity() > 0) {
     const std::size_t size = simulation->save(SnapshotKind::canonical, snapshots.claim(stepped));
     snapshots.commit(stepped, size);

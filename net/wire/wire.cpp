@@ -21,6 +21,7 @@ std::size_t encode(const Hello& message, std::span<std::byte> out) {
   writer.put(message.wanted_slot);
   writer.put(message.rejoin_key);
   writer.put(message.ticks_stepped);
+  writer.put(message.state_hash);
   writer.put_text(message.name);
   writer.put_text(message.build);
   return writer.finish();
@@ -39,6 +40,7 @@ Status decode(ByteView packet, Hello& message) {
                  message.wanted_slot == k_spectator_slot);
   message.rejoin_key = reader.get<std::uint64_t>();
   message.ticks_stepped = reader.get_tick();
+  message.state_hash = reader.get<std::uint64_t>();
   reader.get_text(message.name);
   reader.get_text(message.build);
   return reader.finish();
@@ -244,7 +246,7 @@ std::size_t encode(const Bye& message, std::span<std::byte> out) {
 
 Status decode(ByteView packet, Bye& message) {
   WireReader reader(MessageType::bye, packet);
-  message.reason = reader.get_enum(LeaveReason::flooding);
+  message.reason = reader.get_enum(k_last_leave_reason);
   return reader.finish();
 }
 

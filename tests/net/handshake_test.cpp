@@ -141,11 +141,11 @@ TEST_F(Handshake, RefusesAnotherInputSizeAndNamesBothValues) {
 
 TEST_F(Handshake, RefusesAnotherProtocolVersionAndNamesBothValues) {
   std::array<std::byte, 64> bytes{};
-  say(ByteView(bytes).first(encode(Hello{7, true, k_any_slot, 0, 0, {}, {}}, bytes)));
+  say(ByteView(bytes).first(encode(Hello{7, true, k_any_slot, 0, 0, 0, {}, {}}, bytes)));
   run_for(k_second_us);
   ASSERT_EQ(log_.refusals.size(), 1U);
   EXPECT_EQ(log_.refusals[0].to_line(),
-            "refused: protocol mismatch, protocol: 0x0000000000000003 here, "
+            "refused: protocol mismatch, protocol: 0x0000000000000004 here, "
             "0x0000000000000007 there");
 }
 

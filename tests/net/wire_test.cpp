@@ -95,7 +95,7 @@ std::vector<Sample> samples() {
   const SimulationInfo info{1, 2, 3, 4, 60, 2, 4};
   return {
       sample("hello",
-             Hello{k_protocol_version, true, 3, 77, 1200, NameText("Ann"), BuildText("1.2")}),
+             Hello{k_protocol_version, true, 3, 77, 1200, 99, NameText("Ann"), BuildText("1.2")}),
       sample("offer", Offer{true, config}),
       sample("answer", Answer{info}),
       sample("welcome",
@@ -111,7 +111,7 @@ std::vector<Sample> samples() {
       sample("dump_request", DumpRequest{1842}),
       sample("dump", Dump{1842, 200, 100, config}),
       sample("finish", Finish{FinishReason::stopped, 99, true, 5}),
-      sample("bye", Bye{LeaveReason::malformed}),
+      sample("bye", Bye{k_last_leave_reason}),
       sample("snapshot", Snapshot{1800, 5, 200, 100, config}),
       sample("snapshot_taken", SnapshotTaken{1800, true}),
       sample("activate", Activate{2, 1900}),
@@ -222,9 +222,10 @@ TEST(Wire, HelloOfAnotherVersionTellsItsVersion) {
 
 TEST(Wire, HasTheDocumentedBytes) {
   const std::vector<std::byte> bytes =
-      encoded(Hello{2, true, 255, 3, 4, NameText("A"), BuildText("B")});
-  const std::array<int, 29> expected{1, 'L', 'K', 'S', 'N', 2, 0, 1, 255, 3, 0, 0,   0, 0,  0,
-                                     0, 0,   4,   0,   0,   0, 0, 0, 0,   0, 1, 'A', 1, 'B'};
+      encoded(Hello{2, true, 255, 3, 4, 5, NameText("A"), BuildText("B")});
+  const std::array<int, 37> expected{1, 'L', 'K', 'S', 'N', 2, 0, 1, 255, 3, 0,  0, 0,
+                                     0, 0,   0,   0,   4,   0, 0, 0, 0,   0, 0,  0, 5,
+                                     0, 0,   0,   0,   0,   0, 0, 1, 'A', 1, 'B'};
   ASSERT_EQ(bytes.size(), expected.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;

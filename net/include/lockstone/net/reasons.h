@@ -1,6 +1,7 @@
 // The enumerations of a session. The values are on the wire: never renumber, only append.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -36,9 +37,11 @@ enum class RefuseReason : std::uint8_t {
   replaced = 13,        ///< the same player connected again
   flooding = 14,        ///< far more packets than a session sends
   stream_damaged = 15,  ///< a reliable packet was not authentic
+  expelled = 16,        ///< was sent away from this match, for good
 };
 
-inline constexpr RefuseReason k_last_refuse_reason = RefuseReason::stream_damaged;
+inline constexpr RefuseReason k_last_refuse_reason = RefuseReason::expelled;
+inline constexpr std::size_t k_refuse_reasons = static_cast<std::size_t>(k_last_refuse_reason) + 1;
 
 /// What differed between server and client.
 enum class RefuseField : std::uint8_t {
@@ -61,6 +64,7 @@ enum class Verdict : std::uint8_t {
   undecided = 2,        ///< no judge and no majority
   server_diverged = 3,  ///< stepped again, the server gets the player's state
 };
+inline constexpr std::size_t k_verdicts = 4;
 
 enum class FinishReason : std::uint8_t {
   completed = 0,   ///< all ticks were played
@@ -77,8 +81,11 @@ enum class LeaveReason : std::uint8_t {
   desync = 4,          ///< kicked after a desync
   too_far_behind = 5,  ///< needs ticks that the server no longer keeps
   match_over = 6,
-  flooding = 7,  ///< far more packets than a session sends
+  flooding = 7,   ///< far more packets than a session sends
+  no_hashes = 8,  ///< takes ticks, and does not report the states after them
 };
+inline constexpr LeaveReason k_last_leave_reason = LeaveReason::no_hashes;
+inline constexpr std::size_t k_leave_reasons = static_cast<std::size_t>(k_last_leave_reason) + 1;
 
 /// What a player asks the server for.
 enum class AskKind : std::uint8_t { pause = 0, resume = 1, vote = 2 };

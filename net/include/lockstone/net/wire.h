@@ -21,7 +21,7 @@
 namespace lockstone::net {
 
 inline constexpr std::uint32_t k_protocol_magic = 0x4e534b4c;  ///< "LKSN"
-inline constexpr std::uint16_t k_protocol_version = 3;
+inline constexpr std::uint16_t k_protocol_version = 4;
 inline constexpr std::uint8_t k_any_slot = 255;
 inline constexpr std::uint64_t k_max_tick = std::uint64_t{1} << 62;  ///< no tick or count is above
 inline constexpr std::size_t k_max_name_bytes = 32;
@@ -87,6 +87,7 @@ struct Hello {
   std::uint8_t wanted_slot = k_any_slot;  ///< 0 … k_max_players - 1, k_spectator_slot, k_any_slot
   std::uint64_t rejoin_key = 0;           ///< from an earlier Welcome; 0: never was here
   std::uint64_t ticks_stepped = 0;        ///< the state after so many ticks is still here
+  std::uint64_t state_hash = 0;           ///< its hash; 0 after 0 ticks
   NameText name;
   BuildText build;  ///< of the game, and the processor: for reports
 };
