@@ -43,12 +43,26 @@ class HashJudge {
   /// `slot` reports anew, from `tick` on, whatever it reported before. Nobody waits for it yet.
   void restart(std::size_t slot, std::uint64_t tick);
 
+  /// Before anything else: the match goes on after `ticks` of them, above 0; the last hash is
+  /// known.
+  void begin_after(std::uint64_t ticks, std::uint64_t hash) {
+    own_.restart(ticks - 1);
+    own_.push(hash);
+    own_first_ = ticks - 1;
+  }
+
   /// Players that do not report any more are not waited for.
   void set_present(std::size_t slot, bool present) { players_[slot].present = present; }
+
+  /// `slot` was found different by other means.
+  void ignore(std::size_t slot) { players_[slot].ignored = true; }
 
   /// Compares until a mismatch is found or reports are missing. A player found different is left
   /// out of all further comparison.
   [[nodiscard]] std::optional<Mismatch> advance();
+
+  /// Ticks below were compared for `slot`.
+  [[nodiscard]] std::uint64_t judged(std::size_t slot) const { return players_[slot].judged; }
 
   /// Ticks below were compared for every present player.
   [[nodiscard]] std::uint64_t judged_ticks() const;
@@ -59,6 +73,10 @@ class HashJudge {
   /// The server's hash of a recent tick; in a relay, the one that most players had.
   [[nodiscard]] std::uint64_t right_hash(std::uint64_t tick) const { return own_.at(tick); }
   [[nodiscard]] std::uint64_t right_hash_ticks() const { return own_.next_tick(); }
+  [[nodiscard]] bool knows_right_hash(std::uint64_t tick) const {
+    const std::uint64_t end = own_.next_tick();
+    return tick >= own_first_ && tick < end && end - tick <= history_ticks_;
+  }
 
  private:
   struct Player {
@@ -82,6 +100,7 @@ class HashJudge {
   bool has_own_;
   std::size_t history_ticks_;
   HashRing own_;  ///< the server's, or in a relay the players'
+  std::uint64_t own_first_ = 0;
   std::vector<Player> players_;
   std::uint64_t shared_judged_ = 0;  ///< next tick to compare among players
   std::vector<Mismatch> pending_;    ///< found, not yet answered; at most one a player

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <lockstone/net/session.h>
 #include <lockstone/net/wire.h>
@@ -18,36 +19,57 @@ struct PartMismatch {
   std::uint64_t ticks = 0;  ///< the state after so many ticks
   std::uint8_t slot = 0;
   std::uint8_t reference = k_no_slot;
+  Verdict verdict = Verdict::undecided;
   std::size_t part = 0;
   Hash128 here;
   Hash128 there;
 };
 
-/// Compares what players report with the server's own, or, where it has none, with what the first
-/// of them reported. The 64-bit hashes of every tick come first: this finds what they are blind to.
+/// Compares the players' parts with the server's own, or, where it has none, lets the majority of
+/// the players decide. The 64-bit hashes of every tick come first: this finds what they are blind
+/// to. Allocates when made only.
 class PartsJudge {
  public:
+  explicit PartsJudge(bool has_own);
+
   /// The server's own parts, before any player's of the same ticks.
   void note_own(const Parts& parts);
 
-  /// A player's. True if they were compared, and are equal. With `has_own` the server's decide.
-  bool compare(std::uint8_t slot, const Parts& parts, bool has_own);
+  /// A player's. The first for its ticks counts.
+  void take(std::uint8_t slot, const Parts& parts);
 
-  /// The first difference found, until it is forgotten.
-  [[nodiscard]] const std::optional<PartMismatch>& found() const { return found_; }
-  void forget() { found_.reset(); }
+  /// Without own parts: decides about what all of `voters` have reported, and, after `closed`
+  /// ticks, about what is so old that nobody is waited for any more. Bit n of `voters`: slot n.
+  void vote(std::uint16_t voters, std::uint64_t closed);
+
+  /// The first difference found in a player, until it is forgotten.
+  [[nodiscard]] const std::optional<PartMismatch>& found(std::size_t slot) const {
+    return found_[slot];
+  }
+  void forget(std::size_t slot) { found_[slot].reset(); }
+
+  /// How many checks of a player gave no difference.
+  [[nodiscard]] std::uint64_t equal(std::size_t slot) const { return equal_[slot]; }
 
  private:
-  struct Entry {
-    Parts parts;
-    std::uint8_t slot = k_no_slot;
+  /// What was reported for one number of ticks.
+  struct Check {
+    std::uint64_t ticks = 0;
+    std::uint16_t reported = 0;  ///< bit n: slot n
+    bool decided = false;
+    std::array<Parts, k_max_players> parts{};
   };
-  [[nodiscard]] Entry& entry_of(std::uint64_t ticks) {
-    return entries_[static_cast<std::size_t>(ticks / k_parts_interval_ticks % entries_.size())];
-  }
+  void compare(std::uint8_t slot, const Parts& theirs, std::uint8_t reference, const Parts& right,
+               Verdict verdict);
+  void decide(Check& check, std::uint16_t voters);
+  [[nodiscard]] static unsigned votes_for(const Check& check, std::uint16_t members,
+                                          std::uint8_t slot);
 
-  std::array<Entry, 64> entries_{};
-  std::optional<PartMismatch> found_;
+  bool has_own_;
+  std::array<Parts, 64> own_{};
+  std::vector<Check> checks_;  ///< without own parts: the last eight
+  std::array<std::optional<PartMismatch>, k_max_players> found_;
+  std::array<std::uint64_t, k_max_players> equal_{};
 };
 
 }  // namespace lockstone::net

@@ -90,6 +90,12 @@ void Server::pause() {
 void Server::resume() {
   impl_->set_paused(false);
 }
+const ServerCounters& Server::counters() const {
+  return impl_->counters;
+}
+ConnectionCounts Server::connections() const {
+  return impl_->connections();
+}
 std::size_t Server::spectators() const {
   return static_cast<std::size_t>(
       std::count_if(impl_->watchers.begin(), impl_->watchers.end(),
@@ -118,6 +124,7 @@ Server::Impl::Impl(const ServerConfig& server_config, const ServerParts& server_
       snapshots(parts.simulation == nullptr ? 0 : config.snapshot_ticks,
                 snapshot_bytes(parts.simulation)),
       judge(info.player_count, config.history_ticks, parts.simulation != nullptr),
+      parts_judge(parts.simulation != nullptr),
       out(k_max_message_bytes) {
   for (Seat& place : seats)
     place.inputs = TickRing(k_input_ring_ticks, info.input_bytes);
@@ -139,11 +146,12 @@ void Server::Impl::update(std::int64_t now) {
   end_if_deserted();
   if (state == ServerState::lobby) try_start();
   if (state == ServerState::running) {
+    drop_secretive();
     close_due_ticks();
     advance_entries();
   }
   judge_hashes();
-  advance_case();
+  advance_cases();
   if (state == ServerState::finishing) try_finish();
   if (state == ServerState::closing) try_end();
   send_due_ticks();
@@ -177,8 +185,13 @@ void Server::Impl::receive_packet(Link& link, const TransportEvent& event) {
   link.watch.heard(now_us);
   if (dispatch(link, event.bytes)) return;
   const bool too_many = link.watch.malformed(now_us);
-  if (link.slot < seats.size()) ++seats[link.slot].stats.malformed_packets;
-  if (too_many) drop(link, LeaveReason::malformed);
+  ++counters.malformed_packets;
+  const bool seated = link.slot < seats.size();
+  if (seated) ++seats[link.slot].stats.malformed_packets;
+  if (!too_many) return;
+  // Without encryption the packets may be anybody's.
+  if (seated && link.identity.authenticated) return expel(link.slot, LeaveReason::malformed);
+  drop(link, LeaveReason::malformed);
 }
 
 // False for a packet that breaks the format or comes out of turn; then it had no effect at all.
@@ -252,6 +265,16 @@ void Server::Impl::drop(Link& link, LeaveReason reason) {
   if (slot < seats.size()) seat_lost(slot, reason);
 }
 
+// It does not come back to this match.
+void Server::Impl::expel(std::uint8_t slot, LeaveReason reason) {
+  Seat& place = seats[slot];
+  if (!place.expelled) ++counters.expelled;
+  place.expelled = true;
+  offenders.bar(place.identity, slot);
+  place.rejoin_key = 0;
+  if (place.link != nullptr) drop(*place.link, reason);
+}
+
 void Server::Impl::seat_lost(std::uint8_t slot, LeaveReason reason) {
   if (state >= ServerState::closing) return;
   judge.set_present(slot, false);
@@ -262,11 +285,12 @@ void Server::Impl::seat_lost(std::uint8_t slot, LeaveReason reason) {
   // Who was lost before it heard of its key cannot show it.
   if (!may_return || state == ServerState::lobby || !place.confirmed) place.rejoin_key = 0;
   place.reserved_until_us = place.rejoin_key == 0 ? now_us : now_us + config.timeouts.rejoin_us;
-  if (desync) {
-    for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
-      if (transfer->slot == slot && !transfer->done) *transfer = {slot, {}, 0, true};
+  for (DesyncCase& found : cases) {
+    for (DumpTransfer* transfer : {&found.here, &found.there}) {
+      if (transfer->slot == slot && !transfer->done) *transfer = {slot, {}, 0, true, now_us};
     }
   }
+  ++counters.left[static_cast<std::size_t>(reason)];
   observer->player_left(slot, reason);
   end_if_deserted();
 }
@@ -274,7 +298,7 @@ void Server::Impl::seat_lost(std::uint8_t slot, LeaveReason reason) {
 // Nobody plays, and nobody is expected back.
 void Server::Impl::end_if_deserted() {
   const bool playing = state == ServerState::running || state == ServerState::finishing;
-  if (!playing || desync || present_mask() != 0) return;
+  if (!playing || !cases.empty() || present_mask() != 0) return;
   const bool running = state == ServerState::running;
   const bool expected = std::any_of(seats.begin(), seats.end(), [this](const Seat& place) {
     return now_us < place.reserved_until_us;
@@ -295,12 +319,15 @@ void Server::Impl::begin_finishing() {
 void Server::Impl::try_finish() {
   const bool all_judged = judge.judged_ticks() >= closed;
   const bool timed_out = now_us - state_since_us > config.timeouts.finish_us;
-  if (desync || (!all_judged && !timed_out)) return;
+  const bool complete = cases.empty() && all_judged;
+  if (frozen() || (!complete && !timed_out)) return;
   finish(finish_reason);
 }
 
 void Server::Impl::finish(FinishReason reason) {
   if (state >= ServerState::closing) return;
+  while (!cases.empty())
+    static_cast<void>(report_case());
   finish_reason = reason;
   state = ServerState::closing;
   state_since_us = now_us;
@@ -349,6 +376,7 @@ PlayerStats Server::Impl::stats_of(std::uint8_t slot) const {
   PlayerStats stats = seats[slot].stats;
   stats.hashes_compared = judge.compared(slot);
   stats.hashes_equal = judge.equal(slot);
+  stats.parts_equal = parts_judge.equal(slot);
   if (seats[slot].link == nullptr) return stats;
   const TransportStats traffic = parts.transport->stats(seats[slot].link->connection);
   stats.bytes_sent = traffic.bytes_sent;
@@ -357,6 +385,18 @@ PlayerStats Server::Impl::stats_of(std::uint8_t slot) const {
   stats.packets_received = traffic.packets_received;
   stats.round_trip_us = traffic.round_trip_us;
   return stats;
+}
+
+ConnectionCounts Server::Impl::connections() const {
+  ConnectionCounts counts;
+  for (const Link& link : links) {
+    const bool condemned = link.stage == Stage::seated && seats[link.slot].condemned;
+    if (link.stage == Stage::connected || link.stage == Stage::offered) ++counts.greeting;
+    if (link.stage == Stage::seated && !condemned) ++counts.players;
+    if (condemned) ++counts.condemned;
+    if (link.stage == Stage::watching) ++counts.spectators;
+  }
+  return counts;
 }
 
 std::optional<std::uint64_t> Server::Impl::final_hash() const {

@@ -1,9 +1,12 @@
 // Two states differ: at which tick, in whom, in what.
 //
-// The match freezes while the snapshots of the first bad tick are fetched. They are the ones that
-// were kept when the tick was stepped: stepping again from an older one would not bring back a bit
-// that flipped in memory.
+// A player that is found wrong is out from that moment on, and the match goes on without it while
+// the snapshots of the first bad tick are fetched. Only where nobody can tell who is right, or the
+// policy is to end the match, does the match stand still. The snapshots are the ones that were kept
+// when the tick was stepped: stepping again from an older one would not bring back a bit that
+// flipped in memory.
 #include <algorithm>
+#include <utility>
 
 #include <lockstone/assert.h>
 
@@ -11,35 +14,55 @@
 #include "net/wire/tick_record.h"
 
 namespace lockstone::net {
+namespace {
+
+constexpr std::size_t k_chunk_overhead_bytes = 64;
+
+bool is_decided(Verdict verdict) {
+  return verdict == Verdict::client_diverged || verdict == Verdict::minority;
+}
+
+}  // namespace
 
 void Server::Impl::judge_hashes() {
   const bool judging = state == ServerState::running || state == ServerState::finishing;
-  if (!judging || desync) return;
-  const std::optional<Mismatch> found = judge.advance();
-  if (parts.simulation == nullptr) {
-    const bool undecided = found && found->verdict == Verdict::undecided;
-    const std::uint64_t end = undecided ? found->tick : judge.judged_ticks();
-    for (; agreed_told < end; ++agreed_told) {
-      observer->hash_agreed(agreed_told, judge.right_hash(agreed_told));
-    }
+  while (judging && !frozen()) {
+    const std::optional<Mismatch> found = judge.advance();
+    tell_agreed(found);
+    if (!found) break;
+    parts_judge.forget(found->slot);
+    open_case(*found, {});
   }
-  if (found) {
-    parts_judge.forget();
-    return open_case(*found);
-  }
-  judge_parts();
+  if (judging && !frozen()) judge_parts();
+}
+
+// In a relay: what all players agree on.
+void Server::Impl::tell_agreed(const std::optional<Mismatch>& found) {
+  if (parts.simulation != nullptr) return;
+  const bool undecided = found && found->verdict == Verdict::undecided;
+  const std::uint64_t end = undecided ? found->tick : judge.judged_ticks();
+  for (; agreed_told < end; ++agreed_told)
+    observer->hash_agreed(agreed_told, judge.right_hash(agreed_told));
 }
 
 // Only what the hashes of every tick are blind to.
 void Server::Impl::judge_parts() {
-  const std::optional<PartMismatch> found = parts_judge.found();
-  if (!found || judge.judged_ticks() < found->ticks) return;
-  parts_judge.forget();
-  const bool judges = found->reference == k_no_slot;
-  open_case({found->ticks - 1, found->slot, found->reference,
-             judges ? Verdict::client_diverged : Verdict::undecided, found->here.low,
-             found->there.low});
-  desync->part = name_of_part(found->part);
+  unsigned voters = 0;
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    const Seat& place = seats[slot];
+    if (place.link != nullptr && place.active_tick <= closed) voters |= 1U << slot;
+  }
+  parts_judge.vote(static_cast<std::uint16_t>(voters), closed);
+  for (std::uint8_t slot = 0; slot < seats.size() && !frozen(); ++slot) {
+    const std::optional<PartMismatch> found = parts_judge.found(slot);
+    if (!found || judge.judged(slot) < found->ticks) continue;
+    parts_judge.forget(slot);
+    if (seats[slot].condemned) continue;
+    judge.ignore(slot);
+    open_case({found->ticks - 1, slot, found->reference, found->verdict, found->here.low,
+               found->there.low},
+              name_of_part(found->part));
+  }
 }
 
 void Server::Impl::note_own_parts() {
@@ -50,10 +73,7 @@ void Server::Impl::note_own_parts() {
 bool Server::Impl::on_parts(const Link& link, ByteView packet) {
   Parts message;
   if (decode(packet, message) != Status::ok || message.ticks > closed) return false;
-  Seat& place = seats[link.slot];
-  if (place.loading || desync) return true;
-  const bool has_own = parts.simulation != nullptr;
-  if (parts_judge.compare(link.slot, message, has_own)) ++place.stats.parts_equal;
+  if (!seats[link.slot].loading && !frozen()) parts_judge.take(link.slot, message);
   return true;
 }
 
@@ -64,79 +84,164 @@ std::string Server::Impl::name_of_part(std::size_t part) const {
   return part < count ? std::string(hashed[part].name) : "part " + std::to_string(part);
 }
 
-void Server::Impl::open_case(const Mismatch& mismatch) {
-  desync.emplace();
-  desync->mismatch = mismatch;
-  desync->since_us = now_us;
-  waiting = 0;
-  entry.fetching = false;  // a player has one dump to send at a time
+// Nobody can tell who is right, or the match is to end: then it stands still until it is explained.
+bool Server::Impl::frozen() const {
+  return std::any_of(cases.begin(), cases.end(),
+                     [](const DesyncCase& found) { return found.ends_match; });
+}
+
+void Server::Impl::open_case(const Mismatch& mismatch, const std::string& part) {
+  if (cases.size() >= seats.size()) close_case();
+  if (state >= ServerState::closing) return;
+  const bool first = cases.empty();
+  DesyncCase& found = cases.emplace_back();
+  found.mismatch = mismatch;
+  found.part = part;
+  if (server_is_wrong(mismatch)) found.mismatch.verdict = Verdict::server_diverged;
+  found.ends_match =
+      !is_decided(found.mismatch.verdict) || config.desync_policy == DesyncPolicy::end_match;
   if (mismatch.reference == k_no_slot) {
     const ByteView own = snapshots.find(mismatch.tick);
-    desync->here = {k_no_slot, {own.begin(), own.end()}, own.size(), true};
+    found.here = {k_no_slot, {own.begin(), own.end()}, own.size(), true, now_us};
   } else {
-    request_dump(desync->here, mismatch.reference);
+    found.here.slot = mismatch.reference;
   }
-  request_dump(desync->there, mismatch.slot);
+  request_dump(found.there, mismatch.slot, mismatch.tick);
+  if (found.ends_match) {
+    waiting = 0;
+  } else {
+    condemn(mismatch.slot);
+  }
+  if (first) begin_case();
 }
 
-void Server::Impl::request_dump(DumpTransfer& transfer, std::uint8_t slot) {
+// It gets no ticks, has no say, and nobody waits for it. The sentence holds even if it leaves.
+void Server::Impl::condemn(std::uint8_t slot) {
+  Seat& place = seats[slot];
+  place.condemned = true;
+  load_anew(place, 0);
+  place.active_tick = k_never;
+  judge.set_present(slot, false);
+  waiting = static_cast<std::uint16_t>(waiting & ~(1U << slot));
+  const bool again = offenders.was_resynced(place.identity, slot);
+  if (config.desync_policy == DesyncPolicy::resync && !again) {
+    offenders.note_resync(place.identity, slot);
+    return;
+  }
+  place.expelled = true;
+  place.rejoin_key = 0;
+  place.reserved_until_us = std::min(place.reserved_until_us, now_us);
+  offenders.bar(place.identity, slot);
+  ++counters.expelled;
+}
+
+// A relay asks the player that speaks for the others, one case at a time: it has one dump to send.
+void Server::Impl::begin_case() {
+  DesyncCase& found = cases.front();
+  if (found.here.done) return;
+  const bool donates = entry.fetching && entry.transfer.slot == found.here.slot;
+  if (donates) entry.fetching = false;
+  request_dump(found.here, found.here.slot, found.mismatch.tick);
+}
+
+void Server::Impl::request_dump(DumpTransfer& transfer, std::uint8_t slot, std::uint64_t tick) {
+  transfer = {};
   transfer.slot = slot;
+  transfer.asked_us = now_us;
   transfer.done = seats[slot].link == nullptr;
-  if (!transfer.done) send(*seats[slot].link, DumpRequest{desync->mismatch.tick});
+  if (transfer.done) return;
+  const std::size_t chunks = dump_limit_bytes() / k_max_chunk_bytes + 2;
+  seats[slot].dump_room_bytes += dump_limit_bytes() + chunks * k_chunk_overhead_bytes;
+  send(*seats[slot].link, DumpRequest{tick});
 }
 
+std::size_t Server::Impl::dump_limit_bytes() const {
+  const Simulation* known = parts.simulation == nullptr ? parts.describer : parts.simulation;
+  return known == nullptr ? config.max_dump_bytes
+                          : known->snapshot_bytes_max(SnapshotKind::canonical);
+}
+
+// Whether `slot` has a dump to send for a case.
+bool Server::Impl::dumps(std::uint8_t slot) const {
+  return std::any_of(cases.begin(), cases.end(), [slot](const DesyncCase& found) {
+    return found.here.slot == slot || found.there.slot == slot;
+  });
+}
+
+DumpTransfer* Server::Impl::transfer_of(std::uint8_t slot, std::uint64_t tick) {
+  const bool for_entry = entry.fetching && entry.transfer.slot == slot && tick + 1 == entry.ticks;
+  if (for_entry && !entry.transfer.done) return &entry.transfer;
+  for (DesyncCase& found : cases) {
+    if (found.mismatch.tick != tick) continue;
+    for (DumpTransfer* transfer : {&found.here, &found.there}) {
+      if (transfer->slot == slot && !transfer->done) return transfer;
+    }
+  }
+  return nullptr;
+}
+
+// More than was asked for is malformed. What comes too late is only ignored.
 bool Server::Impl::on_dump(Link& link, ByteView packet) {
   Dump dump;
   if (decode(packet, dump) != Status::ok) return false;
-  const bool for_entry = entry.fetching && entry.transfer.slot == link.slot &&
-                         dump.tick + 1 == entry.ticks && !entry.transfer.done;
-  if (for_entry) return take_chunk(entry.transfer, dump);
-  if (!desync || dump.tick != desync->mismatch.tick) return true;  // asked for, but too late
-  for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
-    if (transfer->slot == link.slot && !transfer->done) return take_chunk(*transfer, dump);
-  }
-  return false;
+  Seat& place = seats[link.slot];
+  const std::size_t size = dump.chunk.size() + k_chunk_overhead_bytes;
+  if (size > place.dump_room_bytes) return false;
+  place.dump_room_bytes -= size;
+  DumpTransfer* transfer = transfer_of(link.slot, dump.tick);
+  return transfer == nullptr || take_chunk(*transfer, dump);
 }
 
 bool Server::Impl::take_chunk(DumpTransfer& transfer, const Dump& dump) const {
-  const Simulation* known = parts.simulation == nullptr ? parts.describer : parts.simulation;
-  const std::size_t limit =
-      known == nullptr ? config.max_dump_bytes : known->snapshot_bytes_max(SnapshotKind::canonical);
-  if (dump.total_bytes > limit || dump.offset_bytes != transfer.received_bytes) return false;
-  if (transfer.received_bytes == 0) transfer.bytes.resize(dump.total_bytes);
-  if (dump.total_bytes != transfer.bytes.size()) return false;
-  std::copy(dump.chunk.begin(), dump.chunk.end(),
-            std::span(transfer.bytes).subspan(dump.offset_bytes).begin());
-  transfer.received_bytes += dump.chunk.size();
-  transfer.done = transfer.received_bytes == transfer.bytes.size();
+  if (dump.total_bytes > dump_limit_bytes()) return false;
+  if (dump.offset_bytes != transfer.bytes.size()) return false;
+  if (transfer.bytes.empty()) transfer.total_bytes = dump.total_bytes;
+  if (dump.total_bytes != transfer.total_bytes) return false;
+  transfer.bytes.insert(transfer.bytes.end(), dump.chunk.begin(), dump.chunk.end());
+  transfer.done = transfer.bytes.size() == transfer.total_bytes;
   return true;
 }
 
-void Server::Impl::advance_case() {
-  if (!desync || state >= ServerState::closing) return;
-  const bool timed_out = now_us - desync->since_us > config.timeouts.dump_us;
-  if (!timed_out && !(desync->here.done && desync->there.done)) return;
-  for (DumpTransfer* transfer : {&desync->here, &desync->there}) {
+void Server::Impl::advance_cases() {
+  while (!cases.empty() && state < ServerState::closing) {
+    const DesyncCase& found = cases.front();
+    if (is_awaited(found.here) || is_awaited(found.there)) return;
+    close_case();
+  }
+}
+
+bool Server::Impl::is_awaited(const DumpTransfer& transfer) const {
+  return !transfer.done && now_us - transfer.asked_us <= config.timeouts.dump_us;
+}
+
+// Tells of the first case with the dumps that have come.
+DesyncCase Server::Impl::report_case() {
+  DesyncCase found = std::move(cases.front());
+  cases.erase(cases.begin());
+  for (DumpTransfer* transfer : {&found.here, &found.there}) {
     if (!transfer->done) transfer->bytes.clear();
   }
-  const DesyncReport report = report_of_case();
+  const DesyncReport report = report_of(found);
+  ++counters.verdicts[static_cast<std::size_t>(report.verdict)];
   observer->desync_found(report);
   send_notice(report);
-  desync.reset();
-  const bool decided =
-      report.verdict == Verdict::client_diverged || report.verdict == Verdict::minority;
-  if (!decided || config.desync_policy == DesyncPolicy::end_match) {
-    return finish(FinishReason::desync);
-  }
-  Seat& place = seats[report.slot];
-  const bool again = config.desync_policy == DesyncPolicy::resync && !place.resynced;
-  if (place.link != nullptr && again && state == ServerState::running) {
-    resync(report.slot);
-  } else if (place.link != nullptr) {
-    drop(*place.link, LeaveReason::desync);
+  return found;
+}
+
+void Server::Impl::close_case() {
+  const DesyncCase found = report_case();
+  if (found.ends_match) return finish(FinishReason::desync);
+  const std::uint8_t slot = found.mismatch.slot;
+  Seat& place = seats[slot];
+  if (place.link != nullptr && place.condemned) {
+    if (place.expelled || state != ServerState::running) {
+      drop(*place.link, LeaveReason::desync);
+    } else {
+      resync(slot);
+    }
   }
   end_if_deserted();
-  rebase_schedule(now_us);
+  if (!cases.empty()) begin_case();
 }
 
 std::string Server::Impl::build_of(std::uint8_t slot) const {
@@ -162,21 +267,20 @@ bool Server::Impl::server_is_wrong(const Mismatch& mismatch) {
   return wrong;
 }
 
-// The views in the answer point into the case.
-DesyncReport Server::Impl::report_of_case() {
-  const Mismatch& mismatch = desync->mismatch;
+// The views in the report point into the case.
+DesyncReport Server::Impl::report_of(const DesyncCase& found) const {
+  const Mismatch& mismatch = found.mismatch;
   DesyncReport report;
   report.tick = mismatch.tick;
   report.slot = mismatch.slot;
   report.verdict = mismatch.verdict;
   report.hash_here = mismatch.hash_here;
   report.hash_there = mismatch.hash_there;
-  report.part = desync->part;
+  report.part = found.part;
   report.build_here = build_of(mismatch.reference);
   report.build_there = build_of(mismatch.slot);
-  if (server_is_wrong(mismatch)) report.verdict = Verdict::server_diverged;
-  report.dump_here = desync->here.bytes;
-  report.dump_there = desync->there.bytes;
+  report.dump_here = found.here.bytes;
+  report.dump_there = found.there.bytes;
   const Simulation* describer = parts.simulation == nullptr ? parts.describer : parts.simulation;
   if (describer != nullptr && !report.dump_here.empty() && !report.dump_there.empty()) {
     report.difference = describer->describe(report.dump_here, report.dump_there);

@@ -25,7 +25,7 @@ void Server::Impl::enter(std::uint8_t slot, const Link& link) {
   place.margin = k_no_margin;
   const std::uint64_t has = link.ticks_stepped;
   const bool ticks_alone = has <= closed && closed - has < config.history_ticks / 2 &&
-                           (has == closed || records.has(has));
+                           (has == closed || records.has(has)) && may_go_on(link);
   send(link, welcome(slot, ticks_alone ? Entry::ticks : Entry::snapshot));
   if (ticks_alone) {
     place.ticks_received = has;
@@ -36,12 +36,20 @@ void Server::Impl::enter(std::uint8_t slot, const Link& link) {
   if (paused) send(link, Paused{true});
 }
 
+// Its state is the match's: not one that was wrong, nor one of ticks that a server closed which was
+// killed before it had them in its log. A relay that knows no better believes it.
+bool Server::Impl::may_go_on(const Link& link) const {
+  if (link.ticks_stepped == 0) return true;
+  const std::uint64_t last = link.ticks_stepped - 1;
+  if (!judge.knows_right_hash(last)) return parts.simulation == nullptr;
+  return judge.right_hash(last) == link.state_hash;
+}
+
 // The player goes on from the right state; until then its slot is absent.
 void Server::Impl::resync(std::uint8_t slot) {
   Seat& place = seats[slot];
-  place.resynced = true;
-  place.active_tick = k_never;
-  judge.set_present(slot, false);
+  place.condemned = false;
+  ++counters.resyncs;
   load_anew(place, closed);
 }
 
@@ -63,7 +71,7 @@ void Server::Impl::advance_entries() {
   if (entry.fetching) take_fetched_entry();
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     Seat& place = seats[slot];
-    if (place.link == nullptr) continue;
+    if (place.link == nullptr || place.condemned) continue;
     if (place.loading && !place.offered) offer_entry(place, slot);
     if (place.loading && place.offered) send_entry_chunks(place);
     if (!place.loading && place.active_tick == k_never) try_activate(slot);
@@ -99,17 +107,16 @@ void Server::Impl::capture_entry() {
 void Server::Impl::fetch_entry() {
   entry.ready = false;
   const std::uint64_t agreed = judge.judged_ticks();
-  if (entry.fetching || desync || agreed == 0) return;
+  if (entry.fetching || agreed == 0) return;
   for (std::size_t i = 0; i < seats.size(); ++i) {
     const auto donor = static_cast<std::uint8_t>(entry.next_donor++ % seats.size());
     const Seat& place = seats[donor];
-    if (place.link == nullptr || place.active_tick > closed) continue;
+    if (place.link == nullptr || place.active_tick > closed || dumps(donor)) continue;
     entry.fetching = true;
     entry.since_us = now_us;
     entry.ticks = agreed;
     entry.hash = judge.right_hash(agreed - 1);
-    entry.transfer = {donor, {}, 0, false};
-    send(*place.link, DumpRequest{agreed - 1});
+    request_dump(entry.transfer, donor, agreed - 1);
     return;
   }
 }
@@ -180,11 +187,15 @@ bool Server::Impl::on_snapshot_taken(Link& link, ByteView packet) {
     follower->loading = false;
     return true;
   }
-  entry.ready = false;
-  if (++follower->bad_snapshots >= k_max_bad_snapshots) {
-    drop(link, LeaveReason::desync);
-  } else {
+  // What the server took from itself is good, whatever one player says.
+  const bool own = parts.simulation != nullptr;
+  if (!own) entry.ready = false;
+  if (++follower->bad_snapshots < k_max_bad_snapshots) {
     load_anew(*follower, entry.ticks + 1);
+  } else if (own && link.slot < seats.size()) {
+    expel(link.slot, LeaveReason::desync);
+  } else {
+    drop(link, LeaveReason::desync);
   }
   return true;
 }
@@ -221,7 +232,7 @@ void Server::Impl::set_paused(bool pause) {
 bool Server::Impl::on_ask(const Link& link, ByteView packet) {
   Ask ask;
   if (decode(packet, ask) != Status::ok) return false;
-  if (state <= ServerState::running) {
+  if (state <= ServerState::running && !seats[link.slot].condemned) {
     observer->player_asks(link.slot, ask.kind, ask.topic, ask.choice);
   }
   return true;

@@ -13,6 +13,7 @@ void Server::Impl::accept(ConnectionId connection) {
   const auto place = std::find_if(links.begin(), links.end(),
                                   [](const Link& link) { return link.stage == Stage::unused; });
   if (place == links.end()) {
+    ++counters.turned_away;
     parts.transport->disconnect(connection);
     return;
   }
@@ -30,6 +31,7 @@ bool Server::Impl::on_hello(Link& link, ByteView packet) {
   link.wanted_slot = hello.wanted_slot;
   link.rejoin_key = hello.rejoin_key;
   link.ticks_stepped = hello.ticks_stepped;
+  link.state_hash = hello.state_hash;
   link.build = hello.build;
   const Refusal refusal = judge_hello(link, hello);
   if (refusal.reason != RefuseReason::none) {
@@ -68,7 +70,13 @@ Refusal Server::Impl::judge_hello(const Link& link, const Hello& hello) const {
   return judge_seats(link);
 }
 
+// By its token, or, without one, by the seat that it asks for.
+bool Server::Impl::is_barred(const Link& link) const {
+  return offenders.is_barred(link.identity, wanted_slot(link));
+}
+
 Refusal Server::Impl::judge_seats(const Link& link) const {
+  if (is_barred(link)) return {RefuseReason::expelled, RefuseField::none, 0, 0};
   const std::uint8_t wanted = wanted_slot(link);
   if (wanted == k_spectator_slot) return judge_spectator();
   const bool runs = state == ServerState::running && config.late_join;
@@ -98,7 +106,8 @@ std::uint8_t Server::Impl::free_slot(const Link& link) const {
   const std::uint8_t wanted = wanted_slot(link);
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     const Seat& place = seats[slot];
-    const bool open = place.link == nullptr && now_us >= place.reserved_until_us;
+    const bool open = place.link == nullptr && now_us >= place.reserved_until_us &&
+                      !offenders.is_barred(link.identity, slot);
     if (open && (wanted == k_any_slot || wanted == slot)) return slot;
   }
   return k_no_slot;
@@ -107,7 +116,7 @@ std::uint8_t Server::Impl::free_slot(const Link& link) const {
 bool Server::Impl::is_player_of(const Link& link, const Seat& place) const {
   if (!link.identity.authenticated) return place.rejoin_key == link.rejoin_key;
   return link.identity.slot == static_cast<std::size_t>(&place - seats.data()) &&
-         link.identity.player == place.player;
+         link.identity.player == place.identity.player;
 }
 
 bool Server::Impl::on_answer(Link& link, ByteView packet) {
@@ -153,6 +162,7 @@ void Server::Impl::refuse(Link& link, const Refusal& refusal) {
   const ConnectionId connection = link.connection;
   release(link);
   parts.transport->disconnect(connection);
+  ++counters.refused[static_cast<std::size_t>(refusal.reason)];
   observer->player_refused(refusal);
 }
 
@@ -164,12 +174,15 @@ void Server::Impl::seat(Link& link, std::uint8_t slot) {
   static_cast<Follower&>(place) = {};
   place.link = &link;
   place.last_sent_us = now_us;
+  place.condemned = false;
+  place.expelled = false;
+  place.dump_room_bytes = 0;
+  place.hashes_since_us = now_us;
   parts.transport->trust(link.connection);
   if (place.rejoin_key == 0 || !is_player_of(link, place)) {
     place.stats = {};
-    place.resynced = false;
     place.confirmed = false;
-    place.player = link.identity.player;
+    place.identity = link.identity;
     place.rejoin_key = hash64({}, hash64({}, config.rejoin_seed) + ++keys_given) | 1;
   }
   if (state == ServerState::lobby) {

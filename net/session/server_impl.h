@@ -12,6 +12,7 @@
 #include <lockstone/net/wire.h>
 
 #include "net/session/hash_judge.h"
+#include "net/session/offender_list.h"
 #include "net/session/parts_judge.h"
 #include "net/session/peer_watch.h"
 #include "net/session/tick_ring.h"
@@ -26,16 +27,17 @@ namespace lockstone::net {
 /// A canonical snapshot on its way from a player.
 struct DumpTransfer {
   std::uint8_t slot = k_no_slot;  ///< who sends it; k_no_slot: the server's own
-  std::vector<std::byte> bytes;
-  std::size_t received_bytes = 0;
-  bool done = false;  ///< arrived whole, or will not come: then `bytes` is empty
+  std::vector<std::byte> bytes;   ///< grows as they come, whatever length was claimed
+  std::size_t total_bytes = 0;    ///< as claimed by the first piece
+  bool done = false;              ///< arrived whole, or will not come: then `bytes` is empty
+  std::int64_t asked_us = -1;     ///< when it was asked for; below 0: not yet
 };
 
 /// A mismatch whose snapshots are being fetched.
 struct DesyncCase {
   Mismatch mismatch;
-  std::int64_t since_us = 0;
-  std::string part;  ///< if the 128-bit hashes found it
+  bool ends_match = false;  ///< then no tick closes any more
+  std::string part;         ///< if the 128-bit hashes found it
   DumpTransfer here;
   DumpTransfer there;
 };
@@ -52,6 +54,7 @@ struct Server::Impl {
     PeerIdentity identity;
     std::uint64_t rejoin_key = 0;
     std::uint64_t ticks_stepped = 0;
+    std::uint64_t state_hash = 0;
     BuildText build;
     std::int64_t since_us = 0;
     PeerWatch watch;
@@ -79,12 +82,16 @@ struct Server::Impl {
     TickRing inputs;
     std::uint64_t inputs_next = 0;        ///< inputs below are received or replaced
     std::uint64_t active_tick = k_never;  ///< its player plays from this tick on
-    std::uint64_t player = 0;             ///< the account in its token
+    PeerIdentity identity;                ///< of its player, here or lost
     std::uint64_t rejoin_key = 0;         ///< who has it may sit here again
     std::int64_t reserved_until_us = -1;  ///< so long nobody else may, if it is empty
     std::int8_t margin = k_no_margin;     ///< the least since it was last told
-    bool resynced = false;
-    bool confirmed = false;  ///< its player has spoken since it was told its key
+    std::size_t dump_room_bytes = 0;   ///< of dumps that it was asked for and that may still come
+    std::uint64_t hashes_had = 0;      ///< hashes below were here …
+    std::int64_t hashes_since_us = 0;  ///< … since then, and others are owed
+    bool condemned = false;            ///< its state was wrong: it is out until its case is closed
+    bool expelled = false;             ///< and for good
+    bool confirmed = false;            ///< its player has spoken since it was told its key
     PlayerStats stats;
   };
   struct Watcher : Follower {
@@ -115,6 +122,7 @@ struct Server::Impl {
   void release(Link& link);
   void drop(Link& link, LeaveReason reason);
   void seat_lost(std::uint8_t slot, LeaveReason reason);
+  void expel(std::uint8_t slot, LeaveReason reason);
   void end_if_deserted();
   void begin_finishing();
   void try_finish();
@@ -123,6 +131,7 @@ struct Server::Impl {
   [[nodiscard]] Link* find_link(ConnectionId connection);
   [[nodiscard]] std::uint16_t present_mask() const;
   [[nodiscard]] PlayerStats stats_of(std::uint8_t slot) const;
+  [[nodiscard]] ConnectionCounts connections() const;
   [[nodiscard]] std::optional<std::uint64_t> final_hash() const;
 
   // server_handshake.cpp
@@ -132,6 +141,7 @@ struct Server::Impl {
   [[nodiscard]] bool refuse_secure_hello(Link& link, ByteView packet);
   [[nodiscard]] Refusal judge_hello(const Link& link, const Hello& hello) const;
   [[nodiscard]] Refusal judge_seats(const Link& link) const;
+  [[nodiscard]] bool is_barred(const Link& link) const;
   [[nodiscard]] Refusal judge_info(const SimulationInfo& theirs) const;
   void refuse(Link& link, const Refusal& refusal);
   void seat(Link& link, std::uint8_t slot);
@@ -143,6 +153,7 @@ struct Server::Impl {
 
   // server_entry.cpp: entering a match that runs.
   void enter(std::uint8_t slot, const Link& link);
+  [[nodiscard]] bool may_go_on(const Link& link) const;
   void resync(std::uint8_t slot);
   void load_anew(Follower& follower, std::uint64_t oldest_ticks);
   void advance_entries();
@@ -181,9 +192,10 @@ struct Server::Impl {
   void fill_slot(std::span<std::byte> record, std::uint8_t slot);
   [[nodiscard]] std::optional<std::uint64_t> step_simulation(ByteView record);
   [[nodiscard]] std::uint16_t missing_inputs_mask() const;
-  [[nodiscard]] bool laggard_holds() const;
+  [[nodiscard]] std::uint16_t laggards_mask() const;
   void drop_waited_for();
   void drop_laggards();
+  void drop_secretive();
   void rebase_schedule(std::int64_t due_us);
   [[nodiscard]] std::int64_t due_us() const;
   void send_due_ticks();
@@ -199,18 +211,28 @@ struct Server::Impl {
 
   // server_desync.cpp
   void judge_hashes();
+  void tell_agreed(const std::optional<Mismatch>& found);
   void judge_parts();
   void note_own_parts();
   [[nodiscard]] bool on_parts(const Link& link, ByteView packet);
   [[nodiscard]] std::string name_of_part(std::size_t part) const;
-  void open_case(const Mismatch& mismatch);
-  void request_dump(DumpTransfer& transfer, std::uint8_t slot);
+  void open_case(const Mismatch& mismatch, const std::string& part);
+  void condemn(std::uint8_t slot);
+  void begin_case();
+  [[nodiscard]] bool frozen() const;
+  [[nodiscard]] bool dumps(std::uint8_t slot) const;
+  [[nodiscard]] bool is_awaited(const DumpTransfer& transfer) const;
+  [[nodiscard]] std::size_t dump_limit_bytes() const;
+  void request_dump(DumpTransfer& transfer, std::uint8_t slot, std::uint64_t tick);
   [[nodiscard]] bool on_dump(Link& link, ByteView packet);
   [[nodiscard]] bool take_chunk(DumpTransfer& transfer, const Dump& dump) const;
-  void advance_case();
+  [[nodiscard]] DumpTransfer* transfer_of(std::uint8_t slot, std::uint64_t tick);
+  void advance_cases();
+  DesyncCase report_case();
+  void close_case();
   [[nodiscard]] std::string build_of(std::uint8_t slot) const;
   [[nodiscard]] bool server_is_wrong(const Mismatch& mismatch);
-  [[nodiscard]] DesyncReport report_of_case();
+  [[nodiscard]] DesyncReport report_of(const DesyncCase& found) const;
   void send_notice(const DesyncReport& report);
 
   template <class Message>
@@ -254,7 +276,9 @@ struct Server::Impl {
   HashJudge judge;
   PartsJudge parts_judge;
   std::uint64_t agreed_told = 0;  ///< hash_agreed was called below
-  std::optional<DesyncCase> desync;
+  std::vector<DesyncCase> cases;  ///< in the order found; dumps of the first one are fetched
+  OffenderList offenders;
+  ServerCounters counters;
 
   std::vector<std::byte> out;  ///< a message being encoded
   std::array<std::byte, k_max_datagram_bytes> coded{};

@@ -62,7 +62,8 @@ void Server::Impl::begin_watching(Watcher& watcher, std::uint64_t has) {
       (closed - has < config.history_ticks / 2 + config.spectator_delay_ticks && records.has(has));
   const std::uint64_t worth =
       std::max<std::uint64_t>(keyframe_ticks_of(config), config.history_ticks / 4);
-  const bool ticks_alone = has <= visible && visible - has < worth && kept;
+  const bool ticks_alone =
+      has <= visible && visible - has < worth && kept && may_go_on(*watcher.link);
   send(*watcher.link, welcome(k_spectator_slot, ticks_alone ? Entry::ticks : Entry::snapshot));
   if (ticks_alone) {
     watcher.ticks_received = has;

@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t k_max_closes_per_update = 256;
 constexpr std::int64_t k_max_catch_up_us = 250'000;  // a longer pause is not played faster after
 constexpr int k_resends_per_update = 4;
+constexpr std::uint64_t k_owed_hashes = 64;  // more than these are not merely on their way
 
 }  // namespace
 
@@ -89,7 +90,7 @@ bool Server::Impl::on_resend(Link& link, ByteView packet) {
 }
 
 void Server::Impl::close_due_ticks() {
-  for (std::uint64_t i = 0; i < k_max_closes_per_update && !desync; ++i) {
+  for (std::uint64_t i = 0; i < k_max_closes_per_update && !frozen(); ++i) {
     if (closed == end_tick) return begin_finishing();
     if (!may_close_next()) break;
     close_tick();
@@ -104,10 +105,11 @@ bool Server::Impl::may_close_next() {
   if (paused || !anybody_plays()) return false;
   if (!fast && now_us < due_us()) return false;
   const bool waits = fast || config.late_policy == LatePolicy::strict;
-  const std::uint16_t missing = waits ? missing_inputs_mask() : std::uint16_t{0};
+  const auto missing =
+      static_cast<std::uint16_t>(waits ? missing_inputs_mask() | laggards_mask() : 0);
   if (missing != 0 && waiting == 0) waiting_since_us = now_us;
   waiting = missing;
-  if (missing != 0 || (waits && laggard_holds())) return false;
+  if (missing != 0) return false;
   if (!fast && now_us - due_us() > k_max_catch_up_us) rebase_schedule(now_us);
   return true;
 }
@@ -130,16 +132,18 @@ bool Server::Impl::anybody_plays() const {
 }
 
 // Where the match may wait, it does so before a player loses ticks or snapshots. For newcomers it
-// waits only if nothing else would slow it down.
-bool Server::Impl::laggard_holds() const {
+// waits only if nothing else would slow it down. Who holds it without a sign of progress is dropped
+// in the end, as one that sends no inputs is.
+std::uint16_t Server::Impl::laggards_mask() const {
+  unsigned mask = 0;
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     if (!follows(seats[slot])) continue;
     const bool plays = seats[slot].active_tick <= closed;
     if (!plays && config.pacing != Pacing::fast) continue;
     const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
-    if (closed - has >= config.history_ticks / 2) return true;
+    if (closed - has >= config.history_ticks / 2) mask |= 1U << slot;
   }
-  return false;
+  return static_cast<std::uint16_t>(mask);
 }
 
 // It has a state, or is being sent one, and so needs every tick from there on.
@@ -152,6 +156,8 @@ void Server::Impl::drop_waited_for() {
   waiting = 0;
   for (Seat& place : seats) {
     if (place.link == nullptr || ((mask >> place.link->slot) & 1) == 0) continue;
+    // A state that is still being sent is no fault of whoever gets it.
+    if (place.loading && place.snapshot_sent < entry_bytes(place).size()) continue;
     drop(*place.link, LeaveReason::timed_out);
   }
 }
@@ -174,8 +180,28 @@ void Server::Impl::drop_laggards() {
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     if (!follows(seats[slot])) continue;
     const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
-    if (closed - has + 1 >= config.history_ticks) {
+    if (closed - has + 1 < config.history_ticks) continue;
+    if (closed - seats[slot].ticks_received < config.history_ticks / 4) {
+      expel(slot, LeaveReason::no_hashes);  // it has the ticks, but does not tell what they gave
+    } else {
       drop(*seats[slot].link, LeaveReason::too_far_behind);
+    }
+  }
+}
+
+// Whoever takes ticks owes the hashes of the states after them: without these nobody could be
+// judged, and in a relay nobody else either.
+void Server::Impl::drop_secretive() {
+  for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
+    Seat& place = seats[slot];
+    if (place.link == nullptr || place.loading) continue;
+    const std::uint64_t had = judge.wanted(slot);
+    const bool owes = place.ticks_received > had + k_owed_hashes && judge.can_push(slot);
+    if (!owes || had != place.hashes_had) {
+      place.hashes_had = had;
+      place.hashes_since_us = now_us;
+    } else if (now_us - place.hashes_since_us > config.timeouts.drop_us) {
+      expel(slot, LeaveReason::no_hashes);
     }
   }
 }

@@ -11,6 +11,7 @@ MatchOptions match_with_flip(std::uint8_t players, std::uint64_t seed, std::size
   options.toy.player_count = players;
   options.toy.seed = seed;
   options.server.tick_count = 400;
+  options.server.desync_policy = DesyncPolicy::end_match;
   options.seed = seed;
   options.flips.resize(players);
   options.flips[slot] = {flip};
@@ -86,7 +87,7 @@ TEST(Desync, PartsShowWhatTheHashIsBlindTo) {
     const DesyncReport& report = match.server_log.reports[0];
     EXPECT_EQ(report.tick, 127U);
     EXPECT_EQ(report.part, "bodies");
-    EXPECT_EQ(report.verdict, Verdict::undecided);
+    EXPECT_EQ(report.verdict, Verdict::minority);
     EXPECT_EQ(report.difference.store, "body");
     EXPECT_EQ(match.server->stats(0).parts_equal, 2U);  // after 64 and 128 ticks
     EXPECT_EQ(match.server->stats(1).parts_equal + match.server->stats(2).parts_equal, 3U);

@@ -105,6 +105,12 @@ Match::Player& Match::add_player(std::uint8_t wanted_slot, std::uint64_t rejoin_
     player.secure = join_securely(*player.transport, wanted_slot, random);
     client_parts.transport = player.secure.get();
   }
+  const Liar liar = index < options.liars.size() ? options.liars[index] : Liar{};
+  if (liar.lie != simnet::Lie::none) {
+    player.lying = std::make_unique<simnet::LyingTransport>(*client_parts.transport, liar.lie,
+                                                            liar.from, options.toy.input_bytes);
+    client_parts.transport = player.lying.get();
+  }
   client_parts.connection = network.connect(*player.transport, server_transport, options.faults);
   std::vector<Flip> flips;
   if (index < options.flips.size()) flips = options.flips[index];

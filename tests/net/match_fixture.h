@@ -12,6 +12,7 @@
 #include <lockstone/net/transport_sim.h>
 
 #include "tests/net/secure_fixture.h"
+#include "tools/simnet/lying_transport.h"
 #include "tools/toy/toy_simulation.h"
 
 namespace lockstone::net::test {
@@ -72,6 +73,12 @@ class FaultySimulation final : public Simulation {
   ToySimulation toy_;
   std::vector<Flip> flips_;
   bool blind_;
+};
+
+/// A client that lies about its states, from a tick on.
+struct Liar {
+  simnet::Lie lie = simnet::Lie::none;
+  std::uint64_t from = 0;
 };
 
 /// Presses what toy_input says.
@@ -155,6 +162,7 @@ struct MatchOptions {
   bool blind = false;  ///< in a relay: hashes of 64 bits show nothing
   std::int64_t step_us = 4'000;
   std::vector<std::vector<Flip>> flips;  ///< by client; may be shorter
+  std::vector<Liar> liars;               ///< likewise
 };
 
 /// `seed` is the toy's and the network's.
@@ -164,7 +172,8 @@ class Match {
  public:
   struct Player {
     SimTransport* transport = nullptr;
-    std::unique_ptr<SecureTransport> secure;  ///< around it, if the match is
+    std::unique_ptr<SecureTransport> secure;        ///< around it, if the match is
+    std::unique_ptr<simnet::LyingTransport> lying;  ///< around that, if it lies
     std::unique_ptr<ScriptedInputs> inputs;
     std::unique_ptr<ClientLog> log;
     std::unique_ptr<Client> client;

@@ -1,6 +1,7 @@
 // The server's side of a match: seats the players, closes tick after tick, compares states.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -21,11 +22,31 @@ enum class Substitute : std::uint8_t {
   neutral,  ///< all zero
 };
 
-/// What follows a DesyncReport. Without a judge and a majority the match always ends.
+/// What becomes of a player whose state is wrong. Without a judge and a majority the match always
+/// ends. Where it goes on, it goes on at once: the player is absent from the verdict on.
 enum class DesyncPolicy : std::uint8_t {
-  end_match,
-  kick,
-  resync,  ///< send the right state, once a player; kick it the second time
+  end_match,  ///< the match stands still until the report is complete, then it ends
+  kick,       ///< the player is refused for the rest of the match (RefuseReason::expelled)
+  resync,     ///< send the right state, once a player; kick it the second time
+};
+
+/// What a server has met with since its creation.
+struct ServerCounters {
+  std::array<std::uint64_t, k_refuse_reasons> refused{};  ///< handshakes, by RefuseReason
+  std::array<std::uint64_t, k_leave_reasons> left{};      ///< players, by LeaveReason
+  std::array<std::uint64_t, k_verdicts> verdicts{};       ///< wrong states, by Verdict
+  std::uint64_t resyncs = 0;                              ///< right states sent to wrong players
+  std::uint64_t expelled = 0;                             ///< players sent away for good
+  std::uint64_t malformed_packets = 0;                    ///< of everybody
+  std::uint64_t turned_away = 0;  ///< connections for which there was no place
+};
+
+/// How many connections are in which state.
+struct ConnectionCounts {
+  std::size_t greeting = 0;  ///< connected, not yet through the handshake
+  std::size_t players = 0;
+  std::size_t condemned = 0;  ///< players whose state was wrong, about to be kicked or corrected
+  std::size_t spectators = 0;
 };
 
 enum class ServerState : std::uint8_t {
@@ -47,7 +68,7 @@ struct ServerConfig {
   LatePolicy late_policy = LatePolicy::deadline;
   Substitute substitute = Substitute::repeat;
   Pacing pacing = Pacing::real_time;
-  DesyncPolicy desync_policy = DesyncPolicy::end_match;
+  DesyncPolicy desync_policy = DesyncPolicy::resync;
   std::uint32_t history_ticks =
       1024;  ///< closed ticks kept for laggards; power of two, 256 … 65536
   std::uint32_t snapshot_ticks = 64;      ///< canonical snapshots kept, one a tick; 0 … 4096
@@ -135,11 +156,15 @@ class Server {
   /// Bit n: slot n is seated.
   [[nodiscard]] std::uint16_t present_mask() const;
 
-  /// Bit n: the match waits for slot n's input (LatePolicy::strict, Pacing::fast).
+  /// Bit n: the match waits for slot n's input, or for a word that it has the ticks and their
+  /// hashes (LatePolicy::strict, Pacing::fast).
   [[nodiscard]] std::uint16_t waiting_mask() const;
 
   /// Counters of a slot's player, kept after it left. `slot` is below the player count.
   [[nodiscard]] PlayerStats stats(std::uint8_t slot) const;
+
+  [[nodiscard]] const ServerCounters& counters() const;
+  [[nodiscard]] ConnectionCounts connections() const;
 
  private:
   struct Impl;
