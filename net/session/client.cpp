@@ -75,6 +75,9 @@ std::uint64_t Client::rejoin_key() const {
 bool Client::reconnect(ConnectionId connection) {
   return impl_->reconnect(connection);
 }
+bool Client::may_reconnect() const {
+  return impl_->may_reconnect();
+}
 bool Client::paused() const {
   return impl_->paused;
 }
@@ -199,7 +202,8 @@ void Client::Impl::say_hello() {
   state = ClientState::handshaking;
   Hello hello;
   hello.insecure = config.insecure;
-  hello.wanted_slot = config.wanted_slot;
+  const bool seated_before = rejoin_key != 0 && seat.slot < info.player_count;
+  hello.wanted_slot = seated_before ? seat.slot : config.wanted_slot;
   hello.name = NameText(config.name);
   hello.build = BuildText(config.build);
   hello.rejoin_key = rejoin_key;

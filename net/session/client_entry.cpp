@@ -8,16 +8,31 @@
 
 namespace lockstone::net {
 
-bool Client::Impl::reconnect(ConnectionId connection) {
+bool Client::Impl::may_reconnect() const {
+  if (state == ClientState::refused) return refusal.reason == RefuseReason::handshake_timeout;
   if (state != ClientState::failed) return false;
-  const bool lost =
-      failure == ClientFailure::connection_lost || failure == ClientFailure::server_silent ||
-      failure == ClientFailure::handshake_timed_out || failure == ClientFailure::dropped;
+  if (failure == ClientFailure::dropped) {
+    return leave_reason == LeaveReason::disconnected || leave_reason == LeaveReason::timed_out ||
+           leave_reason == LeaveReason::too_far_behind;
+  }
+  return failure == ClientFailure::connection_lost || failure == ClientFailure::server_silent ||
+         failure == ClientFailure::handshake_timed_out;
+}
+
+bool Client::Impl::reconnect(ConnectionId connection) {
+  const bool refused =
+      state == ClientState::refused && refusal.reason == RefuseReason::handshake_timeout;
+  if (state != ClientState::failed && !refused) return false;
+  const bool lost = refused || failure == ClientFailure::connection_lost ||
+                    failure == ClientFailure::server_silent ||
+                    failure == ClientFailure::handshake_timed_out ||
+                    failure == ClientFailure::dropped;
   if (!lost) return false;
   if (head > stepped) roll_back(stepped);
   parts.connection = connection;
   state = ClientState::connecting;
   failure = ClientFailure::none;
+  refusal = {};
   watch = {};
   updated = false;
   seated = false;
@@ -90,7 +105,10 @@ void Client::Impl::take_snapshot(const Snapshot& last_piece) {
   received_end = last_piece.ticks;
   records.clear();
   // The match went back: a server that was started anew has lost the last ticks.
-  if (last_piece.ticks < stepped) sampled = 0;
+  if (last_piece.ticks < stepped) {
+    sampled = 0;
+    inputs_acked = 0;
+  }
   state_hash = last_piece.hash;
   begin_running(last_piece.ticks);
   observer->state_loaded(last_piece.ticks);

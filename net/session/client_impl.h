@@ -57,6 +57,7 @@ struct Client::Impl {
   void confirm_one();
   [[nodiscard]] bool guessed_right() const;
   void roll_back(std::uint64_t tick);
+  [[nodiscard]] bool may_reconnect() const;
   void predict_ticks();
   void predict_one();
   void guess_slot(std::span<std::byte> record, std::uint8_t slot);

@@ -187,7 +187,9 @@ void Client::Impl::send_due_inputs() {
   if (since_us < soonest_us || (!news && since_us < latest_us)) return;
   last_sent_us = now_us;
   news = false;
-  if (spectates() || state != ClientState::running) return send_inputs(stepped);
+  // Of a match that it is not in yet, it knows nothing for certain.
+  if (state != ClientState::running) return send(Inputs{}, Channel::unreliable);
+  if (spectates()) return send_inputs(stepped);
   std::uint64_t first_hash_tick = hashes_acked;
   for (std::uint64_t i = 0; i < k_max_hash_packets; ++i) {
     send_inputs(first_hash_tick);

@@ -50,7 +50,8 @@ Server::Created Server::create(const ServerConfig& config, const ServerParts& pa
   if (error != SetupError::none) return {nullptr, error};
   error = check(config, simulates ? parts.simulation->info() : config.info);
   if (error != SetupError::none) return {nullptr, error};
-  if (simulates && parts.simulation->tick() != 0) {
+  const bool stepped = simulates && parts.simulation->tick() != 0;
+  if (stepped != config.resume_mask.has_value()) {
     return {nullptr, SetupError::simulation_already_stepped};
   }
   return {std::unique_ptr<Server>(new Server(std::make_unique<Impl>(config, parts))),
@@ -137,10 +138,33 @@ Server::Impl::Impl(const ServerConfig& server_config, const ServerParts& server_
   }
 }
 
+// As if it had closed all ticks so far, and lost all players.
+void Server::Impl::resume() {
+  closed = parts.simulation->tick();
+  judge.begin_after(closed, parts.simulation->hash());
+  awaited = *config.resume_mask;
+  state = ServerState::running;
+  expected_until_us = now_us + config.timeouts.rejoin_us;
+}
+
+// Not for long: from the first one on that is back, the others have as long as a lost one.
+bool Server::Impl::awaits_players() {
+  if (awaited == 0) return false;
+  unsigned back = 0;
+  for (std::size_t slot = 0; slot < seats.size(); ++slot)
+    back |= seats[slot].link != nullptr && seats[slot].active_tick != k_never ? 1U << slot : 0U;
+  if (back != 0 && first_back_us < 0) first_back_us = now_us;
+  const bool enough = first_back_us >= 0 && now_us - first_back_us > config.timeouts.drop_us;
+  if (enough || (back & awaited) == awaited) awaited = 0;
+  if (awaited == 0) rebase_schedule(now_us);
+  return awaited != 0;
+}
+
 void Server::Impl::update(std::int64_t now) {
   LKS_ASSERT(now >= now_us);
   if (state == ServerState::over) return;
   now_us = now;
+  if (config.resume_mask && state == ServerState::lobby) resume();
   receive();
   watch_peers();
   end_if_deserted();
@@ -303,7 +327,7 @@ void Server::Impl::end_if_deserted() {
   const bool expected = std::any_of(seats.begin(), seats.end(), [this](const Seat& place) {
     return now_us < place.reserved_until_us;
   });
-  if (running && expected) return;
+  if (running && (expected || now_us < expected_until_us)) return;
   finish(running ? FinishReason::no_players : finish_reason);
 }
 

@@ -119,6 +119,8 @@ struct Server::Impl {
   void receive_packet(Link& link, const TransportEvent& event);
   [[nodiscard]] bool dispatch(Link& link, ByteView packet);
   void watch_peers();
+  void resume();
+  [[nodiscard]] bool awaits_players();
   void release(Link& link);
   void drop(Link& link, LeaveReason reason);
   void seat_lost(std::uint8_t slot, LeaveReason reason);
@@ -271,6 +273,9 @@ struct Server::Impl {
   std::uint16_t waiting = 0;
   std::int64_t waiting_since_us = 0;
   bool paused = false;
+  std::uint16_t awaited = 0;           ///< resumed: slots that the match waits for
+  std::int64_t first_back_us = -1;     ///< resumed: when the first one could play
+  std::int64_t expected_until_us = 0;  ///< resumed: so long somebody may come back
   TickRing records;
   TickRing snapshots;
   HashJudge judge;

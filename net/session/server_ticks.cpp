@@ -102,7 +102,7 @@ void Server::Impl::close_due_ticks() {
 // Says who is waited for, if that is what keeps the next tick open.
 bool Server::Impl::may_close_next() {
   const bool fast = config.pacing == Pacing::fast;
-  if (paused || !anybody_plays()) return false;
+  if (paused || !anybody_plays() || awaits_players()) return false;
   if (!fast && now_us < due_us()) return false;
   const bool waits = fast || config.late_policy == LatePolicy::strict;
   const auto missing =

@@ -64,6 +64,9 @@ struct ServerConfig {
   std::vector<std::byte> match_config;  ///< for the clients' SimulationFactory; ≤ 32 KiB
   SimulationInfo info;                  ///< of a relay; unused where the server simulates
   std::uint64_t tick_count = 0;         ///< ticks to play; 0: until `stop`
+  /// The match goes on from where the simulation stands, above tick 0: its server was killed. It
+  /// waits for these slots' players (bit n: slot n), at most Timeouts::drop_us after the first came.
+  std::optional<std::uint16_t> resume_mask;
   std::uint8_t input_delay_ticks = 4;   ///< 0 … 60
   LatePolicy late_policy = LatePolicy::deadline;
   Substitute substitute = Substitute::repeat;

@@ -36,7 +36,7 @@ enum class SetupError : std::uint8_t {
   input_delay_out_of_range,
   history_out_of_range,
   timeouts_out_of_range,
-  simulation_already_stepped,
+  simulation_already_stepped,  ///< and no resume_mask, or the other way round
   prediction_out_of_range,  ///< rollback beyond 15 ticks, or its delay beyond 60
   spectators_out_of_range,  ///< too many, or the history is shorter than their delay and queue
 };
