@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -220,15 +221,6 @@ std::unique_ptr<Caller> call(const std::string& host, std::uint16_t port,
   return caller;
 }
 
-// The seat may still be there: nobody was sent away, the line was lost.
-bool may_come_back(const net::Client& client) {
-  if (client.state() != net::ClientState::failed || client.rejoin_key() == 0) return false;
-  if (client.failure() != net::ClientFailure::dropped) return true;
-  const net::LeaveReason reason = client.leave_reason();
-  return reason == net::LeaveReason::disconnected || reason == net::LeaveReason::timed_out ||
-         reason == net::LeaveReason::too_far_behind;
-}
-
 /// Plays to the end. A lost connection is made anew, for a while.
 class Play {
  public:
@@ -241,7 +233,10 @@ class Play {
     std::int64_t busy_us = 0;
     while (!is_over(client_.state()) || come_back()) {
       client_.update(watch_.microseconds());
-      if (client_.state() == net::ClientState::running) lost_seconds_ = -1;
+      if (client_.state() == net::ClientState::running) {
+        lost_seconds_ = -1;
+        calls_ = 0;
+      }
       if (interrupted() && !std::exchange(leaving_, true)) client_.leave();
       const bool busy = std::exchange(seen, client_.ticks_stepped()) != client_.ticks_stepped();
       if (busy) busy_us = watch_.microseconds();
@@ -254,19 +249,41 @@ class Play {
  private:
   // False when there is nothing to come back to, or it took too long.
   [[nodiscard]] bool come_back() {
-    constexpr double k_pause_seconds = 0.25;
-    if (leaving_ || interrupted() || !may_come_back(client_)) return false;
+    if (leaving_ || interrupted() || !client_.may_reconnect()) return false;
     const double now = watch_.seconds();
-    if (lost_seconds_ < 0) lost_seconds_ = now;
-    if (now - lost_seconds_ > options_.reconnect) return false;
-    if (now - tried_seconds_ < k_pause_seconds) return true;
-    tried_seconds_ = now;
+    if (pause_seconds_ == 0) return plan_call(now);
+    if (now < call_seconds_) return true;
+    pause_seconds_ = 0;
     const Result<net::ConnectionId> connection =
         caller_.enet->connect(options_.host, options_.port);
     if (!connection || !client_.reconnect(connection.value())) return connection.ok();
     ++observer_.reconnects;
-    if (!options_.quiet) fmt::print(stderr, "the connection was lost: calling again\n");
     return true;
+  }
+
+  // The first pause is short, each further one twice as long.
+  [[nodiscard]] bool plan_call(double now) {
+    constexpr double k_first_pause_seconds = 0.25;
+    constexpr double k_longest_pause_seconds = 4;
+    constexpr unsigned k_calls_of_strangers = 3;
+    if (lost_seconds_ < 0) lost_seconds_ = now;
+    const bool stranger = client_.rejoin_key() == 0;
+    if (stranger && calls_ >= k_calls_of_strangers) return false;
+    pause_seconds_ =
+        std::min(k_first_pause_seconds * static_cast<double>(1U << std::min(calls_, 8U)),
+                 k_longest_pause_seconds);
+    if (now + pause_seconds_ - lost_seconds_ > options_.reconnect) return false;
+    ++calls_;
+    call_seconds_ = now + pause_seconds_;
+    if (!options_.quiet) {
+      fmt::print(stderr, "{}: calling again in {} s\n", why(), pause_seconds_);
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::string why() const {
+    if (client_.state() == net::ClientState::refused) return client_.refusal().to_line();
+    return std::string(failure_text(client_.failure()));
   }
 
   const JoinOptions& options_;
@@ -275,8 +292,10 @@ class Play {
   JoinObserver& observer_;
   Stopwatch watch_;
   bool leaving_ = false;
-  double lost_seconds_ = -1;   ///< since when; below 0: it is not
-  double tried_seconds_ = -1;  ///< to call, the last time
+  double lost_seconds_ = -1;  ///< since when; below 0: it is not
+  unsigned calls_ = 0;        ///< since then
+  double pause_seconds_ = 0;  ///< before the next call; 0: none is planned
+  double call_seconds_ = 0;   ///< when it is due
 };
 
 // Reads the token and takes the server from it where none is given. Not k_ok, with a complaint.

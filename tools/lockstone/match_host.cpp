@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "tools/arena/config.h"
 #include "tools/lockstone/build_text.h"
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/resume.h"
 #include "tools/lockstone/secrets.h"
 #include "tools/lockstone/tar.h"
 #include "tools/scenes/play.h"
@@ -72,7 +74,8 @@ class MatchLog {
       memory_ = memory.get();
       sink_ = std::move(memory);
     } else {
-      auto sink = replay::FileSink::create(options.record);
+      auto sink =
+          replay::FileSink::create(options.record + (options.resume.empty() ? "" : k_unfinished));
       if (!sink) return sink.status();
       sink_ = std::move(sink).value();
     }
@@ -84,7 +87,8 @@ class MatchLog {
                                       .seed = options.seed,
                                       .start_tick = 0,
                                       .build = "lockstone " LOCKSTONE_VERSION};
-    return note(recorder_->begin(simulation.info(), config, match));
+    const Status begun = recorder_->begin(simulation.info(), config, match);
+    return note(begun == Status::ok && !options.resume.empty() ? take_over(options) : begun);
   }
 
   void record(const Simulation& simulation, std::uint64_t tick, std::span<const PlayerInput> inputs,
@@ -114,6 +118,19 @@ class MatchLog {
   }
 
  private:
+  static constexpr const char* k_unfinished = ".resuming";
+
+  // The old log stays as it is until the new one holds all of it, and then gives way at once.
+  [[nodiscard]] Status take_over(const MatchOptions& options) {
+    Status status = copy_log(options.resume, *recorder_);
+    if (status == Status::ok) status = recorder_->flush();
+    std::error_code error;
+    if (status == Status::ok && memory_ == nullptr) {
+      std::filesystem::rename(options.record + k_unfinished, options.record, error);
+    }
+    return error ? Status::io_error : status;
+  }
+
   [[nodiscard]] bool active() const { return recorder_.has_value() && status_ == Status::ok; }
 
   Status note(Status status) {
@@ -150,7 +167,8 @@ struct MatchHost::Impl final : net::ServerObserver {
   std::uint64_t ticks_seen = 0;
   std::unique_ptr<MetricsPort> metrics_port;
   bool wanted_pause = false;
-  std::vector<TarEntry> bundle;  ///< of the first desync, without the log
+  std::optional<std::uint16_t> resume_mask;  ///< of a match that goes on
+  std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
   void say(const std::string& line) {
     progress.clear();
@@ -161,7 +179,7 @@ struct MatchHost::Impl final : net::ServerObserver {
   void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                    std::optional<std::uint64_t> hash) override {
     const double now = watch.seconds();
-    if (tick > 0) {
+    if (last_tick_seconds > 0) {
       summary.longest_seconds = std::max(summary.longest_seconds, now - last_tick_seconds);
     }
     last_tick_seconds = now;
@@ -233,11 +251,32 @@ struct MatchHost::Impl final : net::ServerObserver {
     summary.reason = reason;
   }
 
-  [[nodiscard]] bool set_up() {
+  [[nodiscard]] bool make_simulation() {
+    if (!options.resume.empty()) return take_up();
     config = config_bytes(options);
     Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
     if (!made) return refuse(fmt::format("scene {}: {}", options.scene, to_string(made.status())));
     simulation = std::move(made).value();
+    return true;
+  }
+
+  // The log says what is played; all else is as the options say.
+  [[nodiscard]] bool take_up() {
+    std::optional<ResumedMatch> match = load_killed_match(options.resume);
+    if (!match) return false;
+    config = std::move(match->config);
+    simulation = std::move(match->simulation);
+    resume_mask = match->playing_mask;
+    options.players = simulation->info().player_count;
+    options.seed = match->header.match.seed;
+    if (options.record.empty()) options.record = options.resume;
+    ticks_seen = simulation->tick();
+    say(fmt::format("{} goes on at tick {}", options.resume, simulation->tick()));
+    return true;
+  }
+
+  [[nodiscard]] bool set_up() {
+    if (!make_simulation()) return false;
     net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
     enet.max_connections = connections();
     if (options.fast) enet.limits = net::DatagramLimits::none();
@@ -259,9 +298,10 @@ struct MatchHost::Impl final : net::ServerObserver {
     }
     std::array<std::byte, 16> unguessable{};
     random.fill(unguessable);
+    net::ServerConfig server_options = server_config(options, config, unguessable);
+    server_options.resume_mask = resume_mask;
     net::Server::Created created =
-        net::Server::create(server_config(options, config, unguessable),
-                            {session_transport(), simulation.get(), nullptr, this});
+        net::Server::create(server_options, {session_transport(), simulation.get(), nullptr, this});
     server = std::move(created.server);
     if (server == nullptr) return refuse(std::string(to_string(created.error)));
     return true;

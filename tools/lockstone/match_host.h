@@ -35,10 +35,11 @@ struct MatchOptions {
   std::uint64_t match = 0;      ///< of the tokens
   net::ServerList addresses;    ///< what tokens may call this server; none: no check
   std::string record;           ///< empty: no log
+  std::string resume;           ///< the log of a killed server, whose match goes on; empty: none
   unsigned start_players = 0;   ///< the match begins with so many; 0: with all
   std::uint16_t spectators = 0;
   unsigned spectator_delay_s = 0;
-  net::DesyncPolicy desync_policy = net::DesyncPolicy::end_match;
+  net::DesyncPolicy desync_policy = net::DesyncPolicy::resync;
   std::string bundle;              ///< the first desync is written to this file; empty: nowhere
   std::uint16_t metrics_port = 0;  ///< 0: none
 };

@@ -20,7 +20,7 @@ namespace {
 struct ServeOptions {
   MatchOptions match;
   std::string policy = "deadline";
-  std::string on_desync = "end";
+  std::string on_desync = "resync";
   unsigned matches = 1;
   std::string key;
   std::vector<std::string> addresses;
@@ -84,12 +84,27 @@ MatchOptions options_of(const ServeOptions& options, unsigned index) {
   return match;
 }
 
+// Each match has ports of its own, and they must exist.
+int check_matches(const ServeOptions& options) {
+  constexpr unsigned k_last_port = 65535;
+  for (const std::uint16_t port : {options.match.port, options.match.metrics_port}) {
+    if (port == 0 || port + options.matches - 1 <= k_last_port) continue;
+    complain(fmt::format("{} matches from port {} on: there is none above {}", options.matches,
+                         port, k_last_port));
+    return k_usage;
+  }
+  if (options.matches == 1 || options.match.resume.empty()) return k_ok;
+  complain("--resume is for one match");
+  return k_usage;
+}
+
 int serve(ServeOptions options) {
   options.match.strict = options.policy == "strict";
   options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
                                 : options.on_desync == "resync" ? net::DesyncPolicy::resync
                                                                 : net::DesyncPolicy::end_match;
   if (const int code = set_security(options); code != k_ok) return code;
+  if (const int code = check_matches(options); code != k_ok) return code;
   catch_interrupts();
   std::vector<std::unique_ptr<MatchHost>> hosts;
   for (unsigned i = 0; i < options.matches; ++i) {
@@ -120,6 +135,10 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--scene", options->match.scene, "What is simulated, see `scenes`")
       ->capture_default_str();
   command->add_option("--record", options->match.record, "Write the log to this file");
+  command->add_option("--resume", options->match.resume,
+                      "Go on with the match of a killed server, from its log; what is played comes "
+                      "from there, other options as before. The log goes on in the same file, or "
+                      "in that of --record");
   command->add_option("--policy", options->policy, "On a late input: replace it, or wait for it")
       ->check(CLI::IsMember({"deadline", "strict"}))
       ->capture_default_str();
@@ -139,7 +158,11 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--spectator-delay", options->match.spectator_delay_s, "Seconds")
       ->check(CLI::Range(0, 180))
       ->capture_default_str();
-  command->add_option("--on-desync", options->on_desync, "What becomes of a wrong player's match")
+  command
+      ->add_option(
+          "--on-desync", options->on_desync,
+          "A player whose state is wrong: end the match, send the player away for good, or "
+          "correct it once")
       ->check(CLI::IsMember({"end", "kick", "resync"}))
       ->capture_default_str();
   command->add_option("--bundle", options->match.bundle,
