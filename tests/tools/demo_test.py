@@ -241,6 +241,31 @@ class Network(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertGreaterEqual(json.loads(done.stdout)[0]["ticks_verified"], ticks)
 
+    def test_a_killed_server_goes_on_from_its_log(self):
+        options = ["--players", 2, "--ticks", 400, "--bodies", 10]
+        server, port = self.serve(*options, "--record", "match.lks")
+        players = [self.start("join", "--insecure", "--port", port, "--slot", slot, "--json")
+                   for slot in (0, 1)]
+        self.wait_for_ticks(60, "match.lks")
+        server.kill()
+        server.wait()
+        again, _ = self.serve("--ticks", 400, "--port", port, "--resume", "match.lks")
+        answers = [json.loads(self.expect(0, player)) for player in players]
+        out = self.expect(0, again)
+        final_hash = re.search(r"completed, 400 ticks, final hash ([0-9a-f]{16})", out)[1]
+        self.assertEqual([answer["final_hash"] for answer in answers], [final_hash] * 2)
+        self.assertEqual([answer["slot"] for answer in answers], [0, 1])
+        done = self.verify("match.lks")
+        self.assertEqual((done["ticks_verified"], done["final_hash"]), (400, final_hash))
+        out = self.run_command(69, "serve", "--insecure", "--resume", "match.lks")
+        self.assertIn("its match is over", out)
+
+    def test_ports_that_do_not_exist_are_refused_before_anything_starts(self):
+        for option in ("--port", "--metrics-port"):
+            out = self.run_command(64, "serve", "--insecure", "--matches", 3, option, 65534)
+            self.assertIn("none above 65535", out)
+            self.assertNotIn("listening", out)
+
     def test_insecure_must_be_asked_for(self):
         self.expect(64, self.start("serve", "--players", 1))
         self.expect(64, self.start("join", "--port", 9))

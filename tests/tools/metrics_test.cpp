@@ -73,6 +73,34 @@ TEST(Metrics, AreAnsweredInTheFormatOfEachPath) {
   EXPECT_TRUE(has(Caller(*port).ask(*port, "/"), "player 1 (here):"));
 }
 
+TEST(Metrics, TellOfAttacksByReason) {
+  MatchMetrics metrics = some_metrics();
+  metrics.server.refused[static_cast<std::size_t>(net::RefuseReason::expelled)] = 4;
+  metrics.server.left[static_cast<std::size_t>(net::LeaveReason::desync)] = 1;
+  metrics.server.verdicts[static_cast<std::size_t>(net::Verdict::client_diverged)] = 2;
+  metrics.server.resyncs = 1;
+  metrics.connections.condemned = 3;
+  metrics.socket.limited = 70;
+  metrics.security.packets_forged = 9;
+  const std::string text = metrics_for_prometheus(metrics);
+  for (const std::string_view line :
+       {"lockstone_refused{match=\"7777\",reason=\"sent away from this match\"} 4\n",
+        "lockstone_left{match=\"7777\",reason=\"desync\"} 1\n",
+        "lockstone_wrong_states{match=\"7777\",verdict=\"client diverged\"} 2\n",
+        "lockstone_resyncs{match=\"7777\"} 1\n", "lockstone_datagrams_limited{match=\"7777\"} 70\n",
+        "lockstone_connections_condemned{match=\"7777\"} 3\n",
+        "lockstone_packets_forged{match=\"7777\"} 9\n"})
+    EXPECT_TRUE(has(text, line)) << line << text;
+  EXPECT_TRUE(has(metrics_as_json(metrics), "\"sent away from this match\": 4"));
+  EXPECT_TRUE(has(metrics_as_text(metrics), "refused (sent away from this match): 4"));
+}
+
+TEST(Metrics, AreOnTheAddressThatIsAskedFor) {
+  EXPECT_NE(MetricsPort::open(0, "0.0.0.0"), nullptr);
+  EXPECT_EQ(MetricsPort::open(0, "no address"), nullptr);
+  EXPECT_EQ(MetricsPort::open(0, "192.0.2.1"), nullptr);  // nobody's, by RFC 5737
+}
+
 TEST(Metrics, DoNotWaitForWhoSaysNothing) {
   const auto port = MetricsPort::open(0);
   ASSERT_NE(port, nullptr);

@@ -293,7 +293,7 @@ struct MatchHost::Impl final : net::ServerObserver {
       return refuse(fmt::format("cannot write {}: {}", options.record, to_string(status)));
     }
     if (options.metrics_port != 0) {
-      metrics_port = MetricsPort::open(options.metrics_port);
+      metrics_port = MetricsPort::open(options.metrics_port, options.metrics_bind);
       if (metrics_port == nullptr) return false;
     }
     std::array<std::byte, 16> unguessable{};
@@ -403,6 +403,10 @@ MatchMetrics MatchHost::metrics() const {
   metrics.spectators = impl_->server->spectators();
   metrics.present_mask = impl_->server->present_mask();
   metrics.desyncs = impl_->summary.desyncs;
+  metrics.server = impl_->server->counters();
+  metrics.connections = impl_->server->connections();
+  metrics.socket = impl_->transport->counters();
+  if (impl_->secure != nullptr) metrics.security = impl_->secure->counters();
   for (unsigned slot = 0; slot < impl_->simulation->info().player_count; ++slot) {
     metrics.players.push_back(impl_->server->stats(static_cast<std::uint8_t>(slot)));
   }

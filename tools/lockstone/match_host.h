@@ -42,6 +42,7 @@ struct MatchOptions {
   net::DesyncPolicy desync_policy = net::DesyncPolicy::resync;
   std::string bundle;              ///< the first desync is written to this file; empty: nowhere
   std::uint16_t metrics_port = 0;  ///< 0: none
+  std::string metrics_bind = "127.0.0.1";
 };
 
 /// What became of a match.

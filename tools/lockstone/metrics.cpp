@@ -7,6 +7,7 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <netdb.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <sys/socket.h>
@@ -45,6 +46,66 @@ constexpr std::array<PlayerFigure, 13> k_figures{
      {"entries", "counter", [](const Stats& s) { return as_signed(s.entries); }},
      {"resends", "counter", [](const Stats& s) { return as_signed(s.resends); }}}};
 
+// One line here, and a counter is in every format.
+struct MatchFigure {
+  const char* name;
+  const char* kind;
+  std::uint64_t (*value)(const MatchMetrics&);
+};
+
+using M = MatchMetrics;
+constexpr std::array<MatchFigure, 23> k_match_figures{
+    {{"ticks", "counter", [](const M& m) { return m.ticks; }},
+     {"spectators", "gauge", [](const M& m) { return std::uint64_t{m.spectators}; }},
+     {"desyncs", "counter", [](const M& m) { return m.desyncs; }},
+     {"connections_greeting", "gauge",
+      [](const M& m) { return std::uint64_t{m.connections.greeting}; }},
+     {"connections_players", "gauge",
+      [](const M& m) { return std::uint64_t{m.connections.players}; }},
+     {"connections_condemned", "gauge",
+      [](const M& m) { return std::uint64_t{m.connections.condemned}; }},
+     {"resyncs", "counter", [](const M& m) { return m.server.resyncs; }},
+     {"players_expelled", "counter", [](const M& m) { return m.server.expelled; }},
+     {"malformed_packets", "counter", [](const M& m) { return m.server.malformed_packets; }},
+     {"connections_turned_away", "counter", [](const M& m) { return m.server.turned_away; }},
+     {"datagrams", "counter", [](const M& m) { return m.socket.datagrams; }},
+     {"datagrams_malformed", "counter", [](const M& m) { return m.socket.malformed; }},
+     {"datagrams_stray", "counter", [](const M& m) { return m.socket.strays; }},
+     {"datagrams_forged", "counter", [](const M& m) { return m.socket.forged; }},
+     {"datagrams_limited", "counter", [](const M& m) { return m.socket.limited; }},
+     {"connects_repeated", "counter", [](const M& m) { return m.socket.repeated_connects; }},
+     {"connects_refused", "counter", [](const M& m) { return m.socket.refusals; }},
+     {"floods", "counter", [](const M& m) { return m.socket.floods; }},
+     {"handshakes_completed", "counter",
+      [](const M& m) { return m.security.handshakes_completed; }},
+     {"handshakes_refused", "counter", [](const M& m) { return m.security.handshakes_refused; }},
+     {"handshakes_timed_out", "counter",
+      [](const M& m) { return m.security.handshakes_timed_out; }},
+     {"packets_forged", "counter", [](const M& m) { return m.security.packets_forged; }},
+     {"packets_replayed", "counter", [](const M& m) { return m.security.packets_replayed; }}}};
+
+// Counters by reason; value 0 of an enumeration that means "none" stays 0.
+struct ReasonFigure {
+  const char* name;
+  const char* label;
+  std::size_t count;
+  std::uint64_t (*value)(const MatchMetrics&, std::size_t);
+  std::string_view (*text)(std::size_t);
+};
+
+template <class E>
+std::string_view text_of(std::size_t value) {
+  return to_string(static_cast<E>(value));
+}
+
+constexpr std::array<ReasonFigure, 3> k_reason_figures{
+    {{"refused", "reason", net::k_refuse_reasons,
+      [](const M& m, std::size_t i) { return m.server.refused[i]; }, text_of<net::RefuseReason>},
+     {"left", "reason", net::k_leave_reasons,
+      [](const M& m, std::size_t i) { return m.server.left[i]; }, text_of<net::LeaveReason>},
+     {"wrong_states", "verdict", net::k_verdicts,
+      [](const M& m, std::size_t i) { return m.server.verdicts[i]; }, text_of<net::Verdict>}}};
+
 void close_socket(int& socket) {
   if (socket >= 0) ::close(socket);
   socket = -1;
@@ -55,6 +116,12 @@ void close_socket(int& socket) {
 std::string metrics_as_text(const MatchMetrics& metrics) {
   std::string text = fmt::format("port {}: {} ticks, {} spectators, {} desyncs\n", metrics.port,
                                  metrics.ticks, metrics.spectators, metrics.desyncs);
+  for (const ReasonFigure& figure : k_reason_figures) {
+    for (std::size_t i = 0; i < figure.count; ++i) {
+      if (figure.value(metrics, i) == 0) continue;
+      text += fmt::format("{} ({}): {}\n", figure.name, figure.text(i), figure.value(metrics, i));
+    }
+  }
   for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
     const bool present = ((metrics.present_mask >> slot) & 1) != 0;
     text += fmt::format("player {} ({}):", slot, present ? "here" : "away");
@@ -74,20 +141,33 @@ std::string metrics_as_json(const MatchMetrics& metrics) {
       player[figure.name] = figure.value(metrics.players[slot]);
     players.push_back(std::move(player));
   }
-  const nlohmann::ordered_json json{{"port", metrics.port},
-                                    {"ticks", metrics.ticks},
-                                    {"spectators", metrics.spectators},
-                                    {"desyncs", metrics.desyncs},
-                                    {"players", players}};
+  nlohmann::ordered_json json{{"port", metrics.port}};
+  for (const MatchFigure& figure : k_match_figures)
+    json[figure.name] = figure.value(metrics);
+  for (const ReasonFigure& figure : k_reason_figures) {
+    nlohmann::ordered_json& counts = json[figure.name] = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < figure.count; ++i) {
+      if (figure.value(metrics, i) > 0)
+        counts[std::string(figure.text(i))] = figure.value(metrics, i);
+    }
+  }
+  json["players"] = std::move(players);
   return json.dump(2) + '\n';
 }
 
 std::string metrics_for_prometheus(const MatchMetrics& metrics) {
-  std::string text = fmt::format(
-      "# TYPE lockstone_ticks counter\nlockstone_ticks{{match=\"{0}\"}} {1}\n"
-      "# TYPE lockstone_spectators gauge\nlockstone_spectators{{match=\"{0}\"}} {2}\n"
-      "# TYPE lockstone_desyncs counter\nlockstone_desyncs{{match=\"{0}\"}} {3}\n",
-      metrics.port, metrics.ticks, metrics.spectators, metrics.desyncs);
+  std::string text;
+  for (const MatchFigure& figure : k_match_figures) {
+    text += fmt::format("# TYPE lockstone_{0} {1}\nlockstone_{0}{{match=\"{2}\"}} {3}\n",
+                        figure.name, figure.kind, metrics.port, figure.value(metrics));
+  }
+  for (const ReasonFigure& figure : k_reason_figures) {
+    text += fmt::format("# TYPE lockstone_{} counter\n", figure.name);
+    for (std::size_t i = 0; i < figure.count; ++i) {
+      text += fmt::format("lockstone_{}{{match=\"{}\",{}=\"{}\"}} {}\n", figure.name, metrics.port,
+                          figure.label, figure.text(i), figure.value(metrics, i));
+    }
+  }
   for (const PlayerFigure& figure : k_figures) {
     text += fmt::format("# TYPE lockstone_player_{} {}\n", figure.name, figure.kind);
     for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
@@ -98,28 +178,35 @@ std::string metrics_for_prometheus(const MatchMetrics& metrics) {
   return text;
 }
 
-std::unique_ptr<MetricsPort> MetricsPort::open(std::uint16_t port) {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+std::unique_ptr<MetricsPort> MetricsPort::open(std::uint16_t port, const std::string& address) {
+  addrinfo hints{};
+  hints.ai_flags = AI_NUMERICHOST | AI_PASSIVE;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
+    complain(fmt::format("no metrics: {} is no numeric address", address));
+    return nullptr;
+  }
+  const int socket = ::socket(found->ai_family, SOCK_STREAM, 0);
   const int yes = 1;
-  const bool ok =
-      socket >= 0 && ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
-      ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
-      ::listen(socket, 4) == 0 && ::fcntl(socket, F_SETFL, O_NONBLOCK) == 0;
+  const bool ok = socket >= 0 &&
+                  ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
+                  ::bind(socket, found->ai_addr, found->ai_addrlen) == 0 &&
+                  ::listen(socket, 4) == 0 && ::fcntl(socket, F_SETFL, O_NONBLOCK) == 0;
+  const int error = errno;
+  ::freeaddrinfo(found);
   if (ok) return std::unique_ptr<MetricsPort>(new MetricsPort(socket));
-  complain(fmt::format("no metrics on 127.0.0.1:{}: {}", port, std::strerror(errno)));
+  complain(fmt::format("no metrics on {} port {}: {}", address, port, std::strerror(error)));
   if (socket >= 0) ::close(socket);
   return nullptr;
 }
 
+// The port is in the same place for both families.
 std::uint16_t MetricsPort::port() const {
-  sockaddr_in address{};
+  sockaddr_storage address{};
   socklen_t bytes = sizeof address;
   ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &bytes);
-  return ntohs(address.sin_port);
+  return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
 }
 
 MetricsPort::~MetricsPort() {

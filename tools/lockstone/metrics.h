@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include <lockstone/net/session.h>
+#include <lockstone/net/server.h>
+#include <lockstone/net/transport_enet.h>
+#include <lockstone/net/transport_secure.h>
 
 namespace lockstone::tool {
 
@@ -19,6 +21,10 @@ struct MatchMetrics {
   std::uint16_t present_mask = 0;
   std::uint64_t desyncs = 0;
   std::vector<net::PlayerStats> players;
+  net::ServerCounters server;
+  net::ConnectionCounts connections;
+  net::EnetCounters socket;
+  net::SecurityCounters security;  ///< zeros where a match is insecure
 };
 
 [[nodiscard]] std::string metrics_as_text(const MatchMetrics& metrics);
@@ -26,12 +32,14 @@ struct MatchMetrics {
 /// Prometheus' text format 0.0.4.
 [[nodiscard]] std::string metrics_for_prometheus(const MatchMetrics& metrics);
 
-/// A listening TCP socket on 127.0.0.1 that answers `GET /metrics`, `/stats.json` and everything
+/// A listening TCP socket that answers `GET /metrics`, `/stats.json` and everything
 /// else with a text. Never blocks.
 class MetricsPort {
  public:
-  /// Null, with a complaint, when the system refuses. 0: the system chooses.
-  [[nodiscard]] static std::unique_ptr<MetricsPort> open(std::uint16_t port);
+  /// On a numeric IPv4 or IPv6 address. Null, with a complaint, when the system refuses. 0: the
+  /// system chooses.
+  [[nodiscard]] static std::unique_ptr<MetricsPort> open(std::uint16_t port,
+                                                         const std::string& address = "127.0.0.1");
   ~MetricsPort();
   [[nodiscard]] std::uint16_t port() const;
 

@@ -168,7 +168,11 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--bundle", options->match.bundle,
                       "Write the first desync to this file (tar): report, both states, log");
   command->add_option("--metrics-port", options->match.metrics_port,
-                      "Answer /metrics and /stats.json on 127.0.0.1");
+                      "Answer /metrics and /stats.json over HTTP");
+  command
+      ->add_option("--metrics-bind", options->match.metrics_bind,
+                   "Numeric address for that; whoever reaches it may read")
+      ->capture_default_str();
   command->add_option("--matches", options->matches, "Host so many, on ports that follow")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
