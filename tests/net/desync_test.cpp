@@ -219,6 +219,14 @@ TEST(Desync, LineReadsLikeASentence) {
       "tick 1842, player 2, body 17 \"crate\", velocity.y: 0x0003a2f1 here, 0x0003a2f0 there");
 }
 
+TEST(Desync, LineDoesNotNameTwoPlayersAlike) {
+  DesyncReport report;
+  report.tick = 90;
+  report.slot = 3;
+  report.difference = {true, "player", 0, "", "score", "0x01", "0x02"};
+  EXPECT_EQ(report.to_line(), "tick 90, state of player 3, player 0, score: 0x01 here, 0x02 there");
+}
+
 TEST(Desync, WithoutSnapshotsStillNamesTickAndPlayer) {
   MatchOptions options = match_with_flip(2, 9, 1, {33, "body", "spin", 2, 3});
   options.client.snapshot_ticks = 0;

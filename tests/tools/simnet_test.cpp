@@ -56,6 +56,25 @@ TEST(Simnet, OneFlippedBitIsReportedAtItsTickBodyAndField) {
   EXPECT_EQ(totals.matches, options.seeds);
 }
 
+// On lines with all but deaths: where two of four are dead, nobody has a majority.
+TEST(Simnet, ALiarKeepsNobodyFromPlayingToTheEnd) {
+  BatchOptions options = small_batch(80);
+  options.seeds = 2;
+  options.faults =
+      *parse_faults("loss,burst,duplicate,reorder,delay,jitter,corrupt,truncate,skew,pause");
+  for (std::size_t lie = 1; lie < k_lies; ++lie) {
+    for (const net::DesyncPolicy policy : {net::DesyncPolicy::kick, net::DesyncPolicy::resync}) {
+      options.lie = static_cast<Lie>(lie);
+      options.policy = policy;
+      options.first_seed += options.seeds;
+      for (const BatchFailure& failure : play(options, Defect::none).failures) {
+        ADD_FAILURE() << to_string(options.lie) << ", seed " << failure.seed << ": " << failure.what
+                      << "\n  " << to_text(failure.mode);
+      }
+    }
+  }
+}
+
 TEST(Simnet, AFieldLeftOutOfSaveIsCaughtInEveryMatch) {
   BatchOptions options = small_batch(60);
   options.ticks = 120;

@@ -72,8 +72,11 @@ class JoinObserver final : public net::ClientObserver {
   explicit JoinObserver(bool quiet) : quiet_(quiet) {}
 
   void joined(std::uint8_t slot) override {
-    own_slot_ = slot;
-    if (!quiet_) fmt::print(stderr, "joined as player {}\n", slot);
+    const bool back = std::exchange(own_slot_, slot) == slot;
+    if (quiet_) return;
+    const bool watches = slot == net::k_spectator_slot;
+    fmt::print(stderr, "{} {}\n", back ? "back as" : "joined as",
+               watches ? "a spectator" : fmt::format("player {}", slot));
   }
   void tick_stepped(std::uint64_t tick, std::span<const PlayerInput>, std::uint64_t hash) override {
     final_hash = hash;

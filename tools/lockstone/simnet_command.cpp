@@ -54,6 +54,11 @@ std::string repeat_command(const SimnetOptions& options, const simnet::BatchFail
     line += fmt::format(" --scene {} --bodies {}", options.scene, options.bodies);
   }
   if (!options.control.empty()) line += " --control " + options.control;
+  if (options.batch.lie != simnet::Lie::none) {
+    const bool kicks = options.batch.policy == net::DesyncPolicy::kick;
+    line += fmt::format(" --liar {} --on-desync {}", to_string(options.batch.lie),
+                        kicks ? "kick" : "resync");
+  }
   return line + fmt::format(" --schedule '{}'", to_text(failure.schedule));
 }
 
@@ -161,6 +166,22 @@ void add_simnet_command(CLI::App& app, int& exit_code) {
       ->add_option("--control", options->control,
                    "What must be caught (toy): flip, one bit of one state; unsaved, a field")
       ->check(CLI::IsMember({"flip", "unsaved"}));
+  command
+      ->add_option_function<std::string>(
+          "--liar",
+          [options](const std::string& text) { options->batch.lie = *simnet::parse_lie(text); },
+          "What the last client tells of its states instead of the truth")
+      ->check(
+          CLI::IsMember({"once", "always", "alternately", "parts", "silence", "future", "dumps"}));
+  command
+      ->add_option_function<std::string>(
+          "--on-desync",
+          [options](const std::string& text) {
+            options->batch.policy =
+                text == "kick" ? net::DesyncPolicy::kick : net::DesyncPolicy::resync;
+          },
+          "What becomes of a liar")
+      ->check(CLI::IsMember({"kick", "resync"}));
   command->add_flag_callback(
       "--no-shrink", [options] { options->batch.shrink = false; },
       "Print failing schedules as they are");

@@ -44,6 +44,8 @@ class Batch {
     setup.clients = options_.clients;
     setup.ticks = options_.ticks;
     setup.schedule = schedule;
+    setup.lie = options_.lie;
+    if (options_.lie != Lie::none) setup.policy = options_.policy;
     const Game game = make_game_(seed, setup.control);
     return run_match(game, setup);
   }

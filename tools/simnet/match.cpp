@@ -76,6 +76,9 @@ class SimMatch final : public net::ServerObserver {
   [[nodiscard]] net::ServerConfig server_config() const;
   void start_node(std::size_t index);
   void note_connection(std::size_t index);
+  [[nodiscard]] bool is_liar(std::size_t index) const {
+    return setup_.lie != Lie::none && index + 1 == setup_.clients;
+  }
   void start_spectator(std::size_t index);
   void start_late();
   [[nodiscard]] std::int64_t kill_until_us(std::size_t client) const;
@@ -161,7 +164,7 @@ SimMatch::SimMatch(const Game& game, const MatchSetup& setup)
   connected_us_.resize(connections_.size());
   nodes_.reserve(connections_.size());
   for (std::size_t i = 0; i < connections_.size(); ++i) {
-    nodes_.emplace_back(i, setup.seed, oracle_);
+    nodes_.emplace_back(i, setup.seed, simulation_->info().input_bytes, oracle_);
     if (i >= setup.clients) start_spectator(i);
     if (i < setup.clients - mode_.late_clients) start_node(i);
   }
@@ -178,6 +181,7 @@ net::ServerConfig SimMatch::server_config() const {
   config.pacing = mode_.pacing;
   config.timeouts.handshake_us = k_patience_us;
   config.start_players = static_cast<std::uint8_t>(setup_.clients - mode_.late_clients);
+  config.desync_policy = setup_.policy;
   config.rejoin_seed = setup_.seed;
   config.max_spectators = 2;
   config.spectator_delay_ticks = mode_.spectator_delay_ticks;
@@ -187,7 +191,8 @@ net::ServerConfig SimMatch::server_config() const {
 void SimMatch::start_node(std::size_t index) {
   const bool faulty = setup_.control && setup_.control->client == index;
   nodes_[index].start(network_, endpoint_, key_, faults_of(index), client_config(index),
-                      faulty ? game_.faulty_factory : game_.factory);
+                      faulty ? game_.faulty_factory : game_.factory,
+                      is_liar(index) ? setup_.lie : Lie::none);
   note_connection(index);
 }
 
@@ -247,7 +252,8 @@ bool SimMatch::must_ask_again(std::size_t client) const {
 void SimMatch::revive() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
-    if (!node.alive()) continue;
+    const bool sent_away = is_liar(i) && node.alive() && !node.client().may_reconnect();
+    if (!node.alive() || sent_away) continue;
     if (must_ask_again(i)) {
       node.kill(network_);
       start_node(i);
@@ -391,6 +397,7 @@ void SimMatch::check_end() {
     oracle_.fail(fmt::format("the match ended: {}", to_string(server_->finish_reason())));
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (is_liar(i)) continue;
     if (!nodes_[i].alive() || nodes_[i].client().ticks_stepped() == setup_.ticks) continue;
     if (came_too_late(i)) {
       ++too_late_;
@@ -467,7 +474,7 @@ void SimMatch::tick_closed(std::uint64_t tick, std::span<const PlayerInput> inpu
 }
 
 void SimMatch::player_left(std::uint8_t slot, net::LeaveReason reason) {
-  const bool expected = reason == net::LeaveReason::left ||
+  const bool expected = is_liar(slot) || reason == net::LeaveReason::left ||
                         reason == net::LeaveReason::match_over ||
                         reason == net::LeaveReason::disconnected || !nodes_[slot].alive() ||
                         nodes_[slot].client().state() < net::ClientState::lobby;
@@ -481,7 +488,7 @@ void SimMatch::desync_found(const net::DesyncReport& report) {
   reports_.push_back(report);
   reports_.back().dump_here = {};
   reports_.back().dump_there = {};
-  if (!setup_.control) oracle_.fail("unexplained: " + report.to_line());
+  if (!setup_.control && !is_liar(report.slot)) oracle_.fail("unexplained: " + report.to_line());
 }
 
 }  // namespace

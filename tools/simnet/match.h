@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <lockstone/net/session.h>
+#include <lockstone/net/server.h>
 #include <lockstone/simulation.h>
 
+#include "tools/simnet/lying_transport.h"
 #include "tools/simnet/schedule.h"
 
 namespace lockstone::simnet {
@@ -37,6 +38,10 @@ struct MatchSetup {
   std::uint64_t ticks = 3600;
   Schedule schedule;
   std::optional<Control> control;
+  /// The last client lies about its states, from the 100th tick on. It must not keep others from
+  /// playing all ticks, whatever becomes of it.
+  Lie lie = Lie::none;
+  net::DesyncPolicy policy = net::DesyncPolicy::end_match;
 };
 
 /// How a match is played; drawn from its seed.
@@ -67,7 +72,7 @@ struct MatchOutcome {
   std::uint64_t resends = 0;
   std::uint64_t refused_packets = 0;  ///< damaged or forged
   std::uint64_t kills = 0;
-  std::uint64_t entries = 0;  ///< into a running match: late, or back
+  std::uint64_t entries = 0;   ///< into a running match: late, or back
   std::uint64_t too_late = 0;  ///< on the way in when a fast match was over
   std::uint64_t rollbacks = 0;
   std::uint64_t virtual_ms = 0;

@@ -9,13 +9,15 @@ namespace lockstone::simnet {
 
 void Node::start(net::SimNetwork& network, net::SimTransport& server, std::uint64_t key,
                  const net::LinkFaults& faults, const net::ClientConfig& config,
-                 const SimulationFactory& factory) {
+                 const SimulationFactory& factory, Lie lie) {
   endpoint_ = &network.add_endpoint();
   sealed_ = std::make_unique<SealedTransport>(*endpoint_, key);
   const net::ConnectionId connection = network.connect(*endpoint_, server, faults);
   net::ClientConfig own = config;
   own.rejoin_key = rejoin_key_;
-  net::ClientParts parts{sealed_.get(), connection, factory, this, this, nullptr};
+  constexpr std::uint64_t k_lies_from = 100;
+  lying_ = std::make_unique<LyingTransport>(*sealed_, lie, k_lies_from, input_bytes_);
+  net::ClientParts parts{lying_.get(), connection, factory, this, this, nullptr};
   client_ = std::move(net::Client::create(own, std::move(parts)).client);
 }
 
@@ -32,6 +34,7 @@ void Node::kill(net::SimNetwork& network) {
   rollbacks_before_ = rollbacks();
   rejoin_key_ = client_->rejoin_key();
   client_.reset();
+  lying_.reset();
   network.kill(*endpoint_);
   sealed_.reset();
 }

@@ -8,6 +8,7 @@
 #include <lockstone/net/client.h>
 #include <lockstone/net/transport_sim.h>
 
+#include "tools/simnet/lying_transport.h"
 #include "tools/simnet/oracle.h"
 #include "tools/simnet/schedule.h"
 #include "tools/simnet/sealed_transport.h"
@@ -28,13 +29,13 @@ class SkewedClock {
 
 class Node final : public net::ClientObserver, public net::InputSource {
  public:
-  Node(std::size_t index, std::uint64_t seed, Oracle& oracle)
-      : index_(index), seed_(seed), oracle_(oracle) {}
+  Node(std::size_t index, std::uint64_t seed, std::uint8_t input_bytes, Oracle& oracle)
+      : index_(index), seed_(seed), input_bytes_(input_bytes), oracle_(oracle) {}
 
   /// Starts the client's process: a new endpoint, a new connection.
   void start(net::SimNetwork& network, net::SimTransport& server, std::uint64_t key,
              const net::LinkFaults& faults, const net::ClientConfig& config,
-             const SimulationFactory& factory);
+             const SimulationFactory& factory, Lie lie = Lie::none);
   void kill(net::SimNetwork& network);
   /// A new connection for a client that has lost its own.
   void reconnect(net::SimNetwork& network, net::SimTransport& server,
@@ -64,12 +65,14 @@ class Node final : public net::ClientObserver, public net::InputSource {
  private:
   std::size_t index_;
   std::uint64_t seed_;
+  std::uint8_t input_bytes_;
   Oracle& oracle_;
   SkewedClock clock_;
   std::int64_t skew_ppm_ = 0;
   bool paused_ = false;
   net::SimTransport* endpoint_ = nullptr;
   std::unique_ptr<SealedTransport> sealed_;
+  std::unique_ptr<LyingTransport> lying_;
   std::unique_ptr<net::Client> client_;
   std::uint64_t ticks_ = 0;
   std::uint32_t delay_ticks_ = 0;
