@@ -2,14 +2,17 @@
 
 #include <lockstone/replay/sink.h>
 
+#include "replay/regular_file.h"
+
 namespace lockstone::replay {
 
-Result<std::unique_ptr<FileSink>> FileSink::create(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) return Status::io_error;
+Result<std::unique_ptr<FileSink>> FileSink::create(const std::string& path, bool replace) {
+  const Result<std::FILE*> file =
+      open_regular(path, replace ? OpenFor::replacing : OpenFor::creating);
+  if (!file) return file.status();
   // Each append becomes one write to the system, so there is nothing left to flush.
-  std::setvbuf(file, nullptr, _IONBF, 0);
-  return std::unique_ptr<FileSink>(new FileSink(file));
+  std::setvbuf(file.value(), nullptr, _IONBF, 0);
+  return std::unique_ptr<FileSink>(new FileSink(file.value()));
 }
 
 FileSink::~FileSink() {

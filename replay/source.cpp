@@ -2,20 +2,22 @@
 #define _FILE_OFFSET_BITS 64
 
 #include <algorithm>
-#include <cerrno>
 
 #include <lockstone/assert.h>
 #include <lockstone/replay/source.h>
 
+#include "replay/regular_file.h"
+
 namespace lockstone::replay {
 
 Result<std::unique_ptr<FileSource>> FileSource::open(const std::string& path) {
-  errno = 0;
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) return errno == ENOENT ? Status::not_found : Status::io_error;
+  const Result<std::FILE*> opened = open_regular(path, OpenFor::reading);
+  if (!opened) return opened.status();
+  std::FILE* file = opened.value();
   const auto end = ::fseeko(file, 0, SEEK_END) == 0 ? ::ftello(file) : -1;
   const bool rewound = end >= 0 && ::fseeko(file, 0, SEEK_SET) == 0;
-  // A directory opens and seeks; only reading it fails.
+  // Where the system did not say what it opened, a directory opens and seeks; only reading it
+  // fails.
   const bool readable = rewound && (end == 0 || std::fgetc(file) != EOF);
   if (!readable || ::fseeko(file, 0, SEEK_SET) != 0) {
     std::fclose(file);

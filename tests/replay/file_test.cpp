@@ -14,7 +14,10 @@
 #include "tests/replay/log_tools.h"
 
 #if defined(__unix__)
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #endif
@@ -82,16 +85,50 @@ TEST(File, AnEmptyFileIsATruncatedLog) {
   EXPECT_EQ(report.damage->status, Status::truncated);
 }
 
-#if defined(__linux__)
-TEST(File, AFullDiskIsATypedErrorWithItsCause) {
-  auto sink = FileSink::create("/dev/full");
-  ASSERT_TRUE(sink.ok());
-  EXPECT_EQ(record({}, *sink.value()), Status::io_error);
-  EXPECT_EQ(sink.value()->system_error(), ENOSPC);
+TEST(File, IsReplacedOnlyWhenThatIsAskedFor) {
+  const TemporaryFile file("lockstone_there");
+  std::ofstream(file.path()) << "precious";
+  EXPECT_EQ(FileSink::create(file.path(), false).status(), Status::io_error);
+  EXPECT_EQ(file.bytes(), 8U);
+  EXPECT_TRUE(FileSink::create(file.path(), true).ok());
+  EXPECT_EQ(file.bytes(), 0U);
 }
-#endif
 
 #if defined(__unix__)
+TEST(File, AFifoOrADeviceIsATypedErrorAtOnce) {
+  const TemporaryFile fifo("lockstone_fifo");
+  ASSERT_EQ(::mkfifo(fifo.path().c_str(), 0600), 0);
+  for (const std::string& path :
+       {fifo.path(), std::string("/dev/null"), std::string("/dev/zero")}) {
+    EXPECT_EQ(FileSource::open(path).status(), Status::io_error) << path;
+    EXPECT_EQ(FileSink::create(path).status(), Status::io_error) << path;
+    EXPECT_EQ(FileSink::create(path, false).status(), Status::io_error) << path;
+  }
+  // Also with somebody at the other end.
+  const int other_end = ::open(fifo.path().c_str(), O_RDWR | O_NONBLOCK);
+  ASSERT_GE(other_end, 0);
+  EXPECT_EQ(FileSource::open(fifo.path()).status(), Status::io_error);
+  EXPECT_EQ(FileSink::create(fifo.path()).status(), Status::io_error);
+  ::close(other_end);
+}
+
+// The disk is full for a process that may write no longer files.
+TEST(File, AFullDiskIsATypedErrorWithItsCause) {
+  const TemporaryFile file("lockstone_full");
+  auto sink = FileSink::create(file.path());
+  ASSERT_TRUE(sink.ok());
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old_handler = ::signal(SIGXFSZ, SIG_IGN);
+  const struct rlimit full { 100, before.rlim_max };
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+  const Status status = record({}, *sink.value());
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  ::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(status, Status::io_error);
+  EXPECT_EQ(sink.value()->system_error(), EFBIG);
+}
+
 [[noreturn]] void record_until_killed(const std::string& path) {
   auto sink = FileSink::create(path);
   if (!sink) ::_exit(1);

@@ -26,8 +26,11 @@ class Sink {
 /// nothing that append() answered ok for. (A power cut may: the file is not synced to the disk.)
 class FileSink final : public Sink {
  public:
-  /// Creates `path`, or empties what is there. io_error when the system refuses.
-  [[nodiscard]] static Result<std::unique_ptr<FileSink>> create(const std::string& path);
+  /// Creates `path`; with `replace`, empties the file that is there. io_error when the system
+  /// refuses, when there is a file and `replace` is false, and, at once, for a directory, a FIFO or
+  /// a device.
+  [[nodiscard]] static Result<std::unique_ptr<FileSink>> create(const std::string& path,
+                                                                bool replace = true);
 
   FileSink(const FileSink&) = delete;
   FileSink& operator=(const FileSink&) = delete;

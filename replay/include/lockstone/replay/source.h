@@ -28,7 +28,8 @@ class Source {
 /// A seekable file of the operating system.
 class FileSource final : public Source {
  public:
-  /// not_found when there is no such file; io_error when it cannot be read or is not seekable.
+  /// not_found when there is no such file; io_error when it cannot be read, and, at once, for a
+  /// directory, a FIFO or a device.
   [[nodiscard]] static Result<std::unique_ptr<FileSource>> open(const std::string& path);
 
   FileSource(const FileSource&) = delete;
