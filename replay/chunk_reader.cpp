@@ -38,7 +38,8 @@ Walk ChunkReader::next_frame() {
   }
   std::array<std::byte, k_chunk_header_bytes> bytes{};
   if (source_.read_at(cursor_, bytes) != Status::ok) return read_error();
-  const DecodeFault fault = decode_chunk_frame(bytes, frame_);
+  DecodeFault fault = decode_chunk_frame(bytes, frame_);
+  if (fault.ok()) fault = check_bounds();
   if (fault.status == Status::checksum_mismatch) {
     // The type in a damaged frame may be the damage, so it is not named.
     frame_.header.type = ChunkType::none;
@@ -46,6 +47,15 @@ Walk ChunkReader::next_frame() {
   }
   if (!fault.ok()) return reject(fault.status, "frame of " + name_chunk() + ": " + fault.what);
   return check_place();
+}
+
+DecodeFault ChunkReader::check_bounds() const {
+  const ChunkHeader& chunk = frame_.header;
+  if (chunk.type == ChunkType::keyframe &&
+      chunk.raw_bytes > sizeof(std::uint64_t) + snapshot_bytes_max_) {
+    return malformed(24, "a snapshot longer than any of this simulation");
+  }
+  return replay::check_bounds(chunk, log_.info);
 }
 
 Status ChunkReader::jump(std::uint64_t offset) {
@@ -117,6 +127,11 @@ void ChunkReader::reject_payload(const DecodeFault& fault) {
 
 void ChunkReader::reject_chunk(Status status, const char* what) {
   reject(status, name_chunk() + ": " + what);
+}
+
+void ChunkReader::reject_rest() {
+  report(Walk::damaged,
+         {Status::malformed, chunk_offset_, ChunkType::none, "bytes after the end of the log"});
 }
 
 Walk ChunkReader::reject(Status status, std::string what) {

@@ -37,6 +37,9 @@ class ChunkReader {
   /// are. malformed for an offset beyond the log.
   Status jump(std::uint64_t offset);
 
+  /// What the simulation's snapshots have at most: longer ones are refused from here on.
+  void bound_snapshots(std::size_t bytes) { snapshot_bytes_max_ = bytes; }
+
   /// Reads the stored payload of the chunk whose frame was read: good or damaged.
   [[nodiscard]] Walk read_payload();
 
@@ -48,6 +51,9 @@ class ChunkReader {
 
   /// Reports that the current chunk as a whole is not acceptable.
   void reject_chunk(Status status, const char* what);
+
+  /// Reports that from the current chunk's place on there should be nothing.
+  void reject_rest();
 
   [[nodiscard]] const LogHeader& log() const { return log_; }
   [[nodiscard]] const ChunkHeader& chunk() const { return frame_.header; }
@@ -68,6 +74,7 @@ class ChunkReader {
   Walk report(Walk walk, Damage damage);
   Walk read_error();
   Walk torn(ChunkType type, std::string what);
+  [[nodiscard]] DecodeFault check_bounds() const;
   Walk check_place();
 
   Source& source_;
@@ -78,8 +85,9 @@ class ChunkReader {
   std::uint64_t cursor_ = 0;        ///< where the next chunk begins
   std::uint64_t chunk_offset_ = 0;  ///< of the current chunk
   std::uint64_t previous_ = 0;      ///< checksum that the next chunk must name
-  std::uint32_t sequence_ = 0;      ///< of the next chunk
-  bool jumped_ = false;             ///< the next chunk is the first after a jump
+  std::size_t snapshot_bytes_max_ = k_max_keyframe_bytes;
+  std::uint32_t sequence_ = 0;  ///< of the next chunk
+  bool jumped_ = false;         ///< the next chunk is the first after a jump
   Damage damage_;
 };
 

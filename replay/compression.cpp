@@ -1,7 +1,5 @@
 #include "replay/compression.h"
 
-#include <lockstone/replay/format.h>
-
 #if defined(LOCKSTONE_WITH_ZSTD)
 #include <zstd.h>
 #endif
@@ -30,6 +28,7 @@ struct Compressor::Parts {
     const std::size_t bytes = ZSTD_compressCCtx(context.get(), stored.data(), stored.size(),
                                                 raw.data(), raw.size(), k_level);
     if (ZSTD_isError(bytes) != 0U || bytes >= raw.size()) return {};
+    if (!within_ratio(bytes, raw.size())) return {};
     return std::span(chunk).first(k_chunk_header_bytes + bytes);
   }
 };
@@ -46,6 +45,9 @@ std::span<std::byte> Compressor::compress(ByteView raw) {
 }
 
 DecodeFault decompress(ByteView stored, std::uint32_t raw_bytes, std::vector<std::byte>& raw) {
+  if (!within_ratio(stored.size(), raw_bytes)) {
+    return malformed(0, "announces more bytes than its stored ones may stand for");
+  }
   if (ZSTD_getFrameContentSize(stored.data(), stored.size()) != raw_bytes) {
     return malformed(0, "no Zstandard frame of the announced length");
   }

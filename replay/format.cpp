@@ -42,4 +42,16 @@ std::string_view to_string(EventKind kind) {
   return "event";
 }
 
+std::string_view to_string(EndKind kind) {
+  switch (kind) {
+    case EndKind::finished:
+      return "finished";
+    case EndKind::cut:
+      return "cut";
+    case EndKind::repaired:
+      return "repaired";
+  }
+  return "end";
+}
+
 }  // namespace lockstone::replay

@@ -5,6 +5,10 @@
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
 
+#include "replay/index_codec.h"
+#include "replay/input_codec.h"
+#include "replay/log_digest.h"
+#include "replay/record_codec.h"
 #include "replay/utf8.h"
 
 namespace lockstone::replay {
@@ -40,11 +44,14 @@ DecodeFault check_ranges(const LogHeader& header) {
   return {};
 }
 
+DecodeFault check_limit(const ChunkHeader& header, std::size_t limit_bytes) {
+  if (header.stored_bytes <= limit_bytes && header.raw_bytes <= limit_bytes) return {};
+  return malformed(32, "announces a payload beyond the limit");
+}
+
 DecodeFault check_lengths(const ChunkHeader& header) {
-  if (header.stored_bytes > max_payload_bytes(header.type) ||
-      header.raw_bytes > max_payload_bytes(header.type)) {
-    return malformed(32, "announces a payload beyond the limit");
-  }
+  const DecodeFault fault = check_limit(header, max_payload_bytes(header.type));
+  if (!fault.ok()) return fault;
   if (header.codec == Codec::raw && header.raw_bytes != header.stored_bytes) {
     return malformed(32, "raw and stored length differ without compression");
   }
@@ -120,7 +127,8 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   ByteReader reader(covered);
   (void)reader.get_bytes(k_magic.size());
   if (reader.get<std::uint16_t>() != k_format_version) {
-    return {Status::unsupported_version, 8, "another format version"};
+    return {Status::unsupported_version, 8,
+            "of another format version than this build reads; record it again"};
   }
   (void)reader.get<std::uint16_t>();
   header.info.abi = reader.get<std::uint32_t>();
@@ -209,12 +217,38 @@ std::size_t max_payload_bytes(ChunkType type) {
     case ChunkType::event:
       return 1U << 20;
     case ChunkType::end:
-      return 1024;
+      return k_end_fixed_bytes + k_max_text_bytes;
     case ChunkType::keyframe:
       return k_max_keyframe_bytes + sizeof(std::uint64_t);
+    case ChunkType::index:
+      return k_max_index_bytes;
+    case ChunkType::signature:
+      return k_signature_bytes;
     default:
       return k_max_keyframe_bytes;
   }
+}
+
+std::size_t max_payload_bytes(ChunkType type, const SimulationInfo& info) {
+  const std::size_t ticks = max_chunk_ticks(info);
+  if (type == ChunkType::hash) return ticks * sizeof(std::uint64_t);
+  if (type != ChunkType::input) return max_payload_bytes(type);
+  return InputEncoder::bytes_max(ticks, info.player_count, info.input_bytes);
+}
+
+std::size_t max_chunk_ticks(const SimulationInfo& info) {
+  return std::min<std::size_t>(info.tick_rate, k_max_chunk_ticks);
+}
+
+DecodeFault check_bounds(const ChunkHeader& chunk, const SimulationInfo& info) {
+  const DecodeFault fault = check_limit(chunk, max_payload_bytes(chunk.type, info));
+  if (!fault.ok()) return fault;
+  const bool may_be_compressed =
+      chunk.type == ChunkType::scene || chunk.type == ChunkType::keyframe || !is_known(chunk.type);
+  if (chunk.codec == Codec::zstd && !may_be_compressed) {
+    return malformed(6, "compressed, which only SCENE and KEYFRAME may be");
+  }
+  return {};
 }
 
 bool is_known(ChunkType type) {

@@ -54,12 +54,20 @@ std::uint64_t seal_chunk_frame(std::span<std::byte, k_chunk_header_bytes> frame)
 std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
                                  std::span<std::byte, k_chunk_header_bytes> out);
 
-/// Checks sync word, checksum, version, codec, flags and lengths.
+/// Checks sync word, checksum, flags, and lengths by what any log may hold.
 [[nodiscard]] DecodeFault decode_chunk_frame(std::span<const std::byte, k_chunk_header_bytes> bytes,
                                              ChunkFrame& frame);
 
-/// The longest payload that a chunk of this type may announce.
+/// The longest payload that a chunk of this type may announce in any log, and in one with this
+/// header.
 [[nodiscard]] std::size_t max_payload_bytes(ChunkType type);
+[[nodiscard]] std::size_t max_payload_bytes(ChunkType type, const SimulationInfo& info);
+
+/// The most ticks of a chunk: one second, and at most k_max_chunk_ticks.
+[[nodiscard]] std::size_t max_chunk_ticks(const SimulationInfo& info);
+
+/// Checks lengths and codec by what a log with this header may hold.
+[[nodiscard]] DecodeFault check_bounds(const ChunkHeader& chunk, const SimulationInfo& info);
 
 [[nodiscard]] bool is_known(ChunkType type);
 

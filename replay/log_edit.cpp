@@ -39,6 +39,7 @@ LogItem measure(LogReader& reader, GoodPart& part) {
       part.totals.ticks += chunk.count;
       part.totals.final_hash = reader.hashes().back();
       part.totals.final_tick = chunk.first_tick + chunk.count;
+      part.totals.transcript = reader.transcript();
     }
     if (item == LogItem::events) part.totals.events += chunk.count;
     if (item == LogItem::keyframe) {
@@ -103,6 +104,8 @@ RepairReport repair(Source& damaged, Sink& sink) {
   }
   GoodPart part;
   part.totals.final_tick = reader.header().match.start_tick;
+  part.totals.kind = EndKind::repaired;
+  part.totals.transcript = reader.transcript();
   const LogItem last = measure(reader, part);
   if (!part.has_scene) {
     report.status = Status::malformed;
@@ -123,8 +126,42 @@ RepairReport repair(Source& damaged, Sink& sink) {
   return report;
 }
 
+namespace {
+
+// Records the ticks before `end`, and what stands between them.
+void copy_ticks(TickReader& ticks, std::uint64_t end, Recorder& recorder, CutReport& report) {
+  std::uint64_t hash = 0;
+  while (report.status == Status::ok && ticks.next() && ticks.tick() < end) {
+    if (report.ticks > 0 && ticks.at_keyframe()) {
+      report.status = recorder.keyframe(ticks.tick(), hash, ticks.snapshot());
+    }
+    if (report.status != Status::ok) return;
+    hash = ticks.hash();
+    report.status = recorder.record_tick(ticks.tick(), ticks.inputs(), hash);
+    ++report.ticks;
+  }
+}
+
+// Why there are fewer ticks than were asked for. A log may just end, also in a torn tail.
+void judge_end(const TickReader& ticks, CutReport& report) {
+  if (report.status != Status::ok) return;
+  const Damage& damage = ticks.reader().damage();
+  if (damage.status != Status::ok && damage.status != Status::truncated) {
+    report.status = damage.status;
+    report.what = damage.what;
+  } else if (report.ticks == 0) {
+    report.status = Status::not_found;
+    report.what = "the log ends before the first tick of the cut";
+  }
+}
+
+}  // namespace
+
 CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t begin,
               std::uint64_t end, Sink& sink) {
+  if (begin >= end) {
+    return {Status::invalid_argument, "the first tick of the cut must lie before its end", 0};
+  }
   SeekResult found = seek(source, factory, begin);
   if (found.status != Status::ok) return {found.status, std::move(found.what), 0};
   if (!found.same_canary) return {Status::incompatible, "this build has another canary", 0};
@@ -140,18 +177,9 @@ CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t be
   CutReport report;
   report.status = recorder.begin(header.info, found.ticks->config(), match);
   if (report.status == Status::ok) report.status = recorder.keyframe(*found.simulation);
-  std::uint64_t hash = 0;
-  while (report.status == Status::ok && found.ticks->next() && found.ticks->tick() < end) {
-    const TickReader& ticks = *found.ticks;
-    if (report.ticks > 0 && ticks.at_keyframe()) {
-      report.status = recorder.keyframe(ticks.tick(), hash, ticks.snapshot());
-    }
-    if (report.status != Status::ok) break;
-    hash = ticks.hash();
-    report.status = recorder.record_tick(ticks.tick(), ticks.inputs(), hash);
-    ++report.ticks;
-  }
-  if (report.status == Status::ok) report.status = recorder.finish("cut");
+  copy_ticks(*found.ticks, end, recorder, report);
+  judge_end(*found.ticks, report);
+  if (report.status == Status::ok) report.status = recorder.finish("cut", EndKind::cut);
   return report;
 }
 

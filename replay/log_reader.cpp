@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <lockstone/assert.h>
 #include <lockstone/replay/log_reader.h>
@@ -19,14 +21,17 @@ struct LogReader::Parts {
   std::vector<LogEvent> events;
   LogEnd end;
   LogEnd seen;  // totals so far, which the END must repeat
+  Transcript transcript;
+  std::optional<std::uint64_t> last_keyframe;  // its tick
   std::uint64_t next_tick = 0;
   std::uint64_t keyframe_hash = 0;
   bool opened = false;
   bool has_scene = false;
   bool awaits_hashes = false;  // the last chunk was INPUT
   bool complete = false;
-  bool arrives = false;  // the next chunk is the keyframe that was jumped to
-  bool jumped = false;   // `seen` does not count what stands before
+  bool signed_end = false;  // a SIGNATURE stands behind the END
+  bool arrives = false;     // the next chunk is the keyframe that was jumped to
+  bool jumped = false;      // `seen` does not count what stands before
 
   LogItem reject(Status status, const char* what) {
     chunks.reject_chunk(status, what);
@@ -65,6 +70,12 @@ std::span<const LogEvent> LogReader::events() const {
 const LogEnd& LogReader::end() const {
   return parts_->end;
 }
+TranscriptHash LogReader::transcript() const {
+  return parts_->transcript.value();
+}
+void LogReader::bound_snapshots(std::size_t bytes) {
+  parts_->chunks.bound_snapshots(bytes);
+}
 bool LogReader::complete() const {
   return parts_->complete;
 }
@@ -98,6 +109,8 @@ Status LogReader::jump(const KeyframePlace& place) {
   const Status status = parts_->chunks.jump(place.offset);
   if (status != Status::ok) return status;
   parts_->seen = {};
+  parts_->transcript = {};
+  parts_->last_keyframe.reset();
   parts_->next_tick = place.tick;
   parts_->awaits_hashes = false;
   parts_->arrives = parts_->jumped = true;
@@ -111,6 +124,7 @@ LogItem LogReader::next() {
 }
 
 LogItem LogReader::read_next() {
+  if (parts_->complete) return read_behind_end();
   ChunkReader& chunks = parts_->chunks;
   const Walk walk = chunks.next_frame();
   if (walk == Walk::finished) return LogItem::finished;
@@ -124,20 +138,34 @@ LogItem LogReader::read_next() {
   return chunks.unpack() == Walk::good ? read_known() : LogItem::damaged;
 }
 
+// One signature over all before it, and nothing else.
+LogItem LogReader::read_behind_end() {
+  ChunkReader& chunks = parts_->chunks;
+  const Walk walk = chunks.next_frame();
+  if (walk == Walk::finished) return LogItem::finished;
+  const bool is_signature = walk == Walk::good && chunk().type == ChunkType::signature &&
+                            !std::exchange(parts_->signed_end, true);
+  if (!is_signature) {
+    chunks.reject_rest();
+    return LogItem::damaged;
+  }
+  return chunks.read_payload() == Walk::good ? LogItem::skipped : LogItem::damaged;
+}
+
 bool LogReader::check_frame() {
   if (chunk().version != k_chunk_version || chunk().codec > Codec::zstd) {
     (void)parts_->reject(Status::unsupported_version, "unknown chunk version or codec");
     return false;
   }
   const bool has_ticks = chunk().type == ChunkType::input || chunk().type == ChunkType::hash;
-  const std::size_t second = std::min<std::size_t>(header().info.tick_rate, k_max_chunk_ticks);
+  const std::size_t second = max_chunk_ticks(header().info);
   const bool in_range = has_ticks ? chunk().count >= 1 && chunk().count <= second
                                   : chunk().count == 0 || chunk().type == ChunkType::event;
   if (!in_range) (void)parts_->reject(Status::malformed, "count out of range");
   return in_range;
 }
 
-// A scene first; then inputs and their hashes in turn, tick after tick; nothing after the end.
+// A scene first; then inputs and their hashes in turn, and at most one keyframe between them.
 bool LogReader::check_order() {
   const ChunkType type = chunk().type;
   const auto fail = [&](const char* what) {
@@ -146,14 +174,22 @@ bool LogReader::check_order() {
   };
   if (parts_->has_scene == (type == ChunkType::scene))
     return fail("the scene comes first, and once");
-  if (parts_->complete) return fail("after the end");
   if (parts_->arrives && type != ChunkType::keyframe) return fail("not the keyframe looked for");
   if (parts_->awaits_hashes != (type == ChunkType::hash)) {
     return fail("each INPUT chunk is followed by its HASH chunk");
   }
-  const std::uint64_t behind = type == ChunkType::hash ? parts_->inputs.ticks() : 0;
-  if (chunk().first_tick != parts_->next_tick - behind) return fail("not at the log's next tick");
-  return true;
+  if (type == ChunkType::keyframe && parts_->last_keyframe == chunk().first_tick) {
+    return fail("a second keyframe of one tick");
+  }
+  return check_place();
+}
+
+// Tick after tick.
+bool LogReader::check_place() {
+  const std::uint64_t behind = chunk().type == ChunkType::hash ? parts_->inputs.ticks() : 0;
+  if (chunk().first_tick == parts_->next_tick - behind) return true;
+  (void)parts_->reject(Status::malformed, "not at the log's next tick");
+  return false;
 }
 
 LogItem LogReader::read_known() {
@@ -201,6 +237,8 @@ LogItem LogReader::read_hashes() {
   parts_->hashes.resize(count);
   for (std::uint64_t& hash : parts_->hashes)
     hash = reader.get<std::uint64_t>();
+  for (std::size_t i = 0; i < count; ++i)
+    parts_->transcript.add(chunk().first_tick + i, parts_->inputs.tick(i));
   parts_->awaits_hashes = false;
   parts_->seen.ticks += count;
   parts_->seen.final_hash = parts_->hashes.back();
@@ -219,6 +257,7 @@ LogItem LogReader::read_keyframe() {
   const bool has_tick_before = chunk().first_tick > header().match.start_tick;
   if (parts_->arrives && has_tick_before) parts_->seen.final_hash = parts_->keyframe_hash;
   parts_->arrives = false;
+  parts_->last_keyframe = chunk().first_tick;
   ++parts_->seen.keyframes;
   return LogItem::keyframe;
 }
@@ -236,6 +275,9 @@ LogItem LogReader::read_end() {
   if (!fault.ok()) return parts_->reject(fault);
   if (!check_end(parts_->end)) {
     return parts_->reject(Status::malformed, "its totals are not those of the log");
+  }
+  if (!parts_->jumped && parts_->end.transcript != parts_->transcript.value()) {
+    return parts_->reject(Status::malformed, "its transcript is not that of the log's inputs");
   }
   parts_->complete = true;
   return LogItem::end;

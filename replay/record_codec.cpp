@@ -75,6 +75,8 @@ void encode_end(ByteWriter& writer, const LogEnd& end, std::string_view reason) 
   writer.put(end.ticks);
   writer.put(end.events);
   writer.put(end.keyframes);
+  writer.put(end.kind);
+  writer.put_bytes(end.transcript);
   put_text(writer, reason);
 }
 
@@ -85,6 +87,10 @@ DecodeFault decode_end(ByteView payload, LogEnd& end) {
   end.ticks = reader.get<std::uint64_t>();
   end.events = reader.get<std::uint64_t>();
   end.keyframes = reader.get<std::uint32_t>();
+  end.kind = static_cast<EndKind>(reader.get<std::uint8_t>());
+  const ByteView transcript = reader.get_bytes(end.transcript.size());
+  std::copy(transcript.begin(), transcript.end(), end.transcript.begin());
+  if (reader.ok() && end.kind > EndKind::repaired) return malformed(36, "unknown kind of end");
   const DecodeFault fault = get_text(reader, end.reason);
   if (!fault.ok()) return fault;
   if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the reason");

@@ -16,7 +16,7 @@ namespace lockstone::replay {
 
 /// Bytes of an event record without its text, and of the END payload without its reason.
 inline constexpr std::size_t k_event_fixed_bytes = 12;
-inline constexpr std::size_t k_end_fixed_bytes = 38;
+inline constexpr std::size_t k_end_fixed_bytes = 71;
 
 /// Writes text cut to k_max_text_bytes, with control bytes replaced by '?', after its length (u16).
 void put_text(ByteWriter& writer, std::string_view text);

@@ -54,6 +54,7 @@ struct Recorder::Buffers {
   std::size_t event_bytes = 0;
   std::uint32_t event_count = 0;
   InputEncoder inputs;
+  Transcript transcript;
 };
 
 Recorder::Recorder(Sink& sink, const RecorderOptions& options) : sink_(sink), options_(options) {}
@@ -140,6 +141,7 @@ Status Recorder::record_tick(std::uint64_t tick, std::span<const PlayerInput> in
   if (tick != next_tick_ || !has_start || !fits(inputs)) return Status::invalid_argument;
   buffers_->inputs.add(inputs);
   buffers_->hashes.push_back(hash);
+  buffers_->transcript.add(tick, inputs);
   ++next_tick_;
   ++totals_.ticks;
   totals_.final_hash = hash;
@@ -182,7 +184,8 @@ Status Recorder::keyframe(std::uint64_t tick, std::uint64_t hash, ByteView snaps
 }
 
 Status Recorder::write_keyframe(std::uint64_t hash, std::size_t snapshot_bytes) {
-  if (snapshot_bytes == 0 || (totals_.ticks > 0 && hash != totals_.final_hash)) {
+  const bool repeated = totals_.keyframes > 0 && next_tick_ == last_keyframe_tick_;
+  if (repeated || snapshot_bytes == 0 || (totals_.ticks > 0 && hash != totals_.final_hash)) {
     return Status::invalid_argument;
   }
   const Status status = flush();
@@ -258,10 +261,16 @@ std::size_t Recorder::seal_events(std::size_t used_bytes) {
   return used_bytes + chunk.size();
 }
 
-Status Recorder::finish(std::string_view reason) {
+TranscriptHash Recorder::transcript() const {
+  return buffers_ ? buffers_->transcript.value() : Transcript().value();
+}
+
+Status Recorder::finish(std::string_view reason, EndKind kind) {
   const Status status = flush();
   if (status != Status::ok) return status;
   totals_.final_tick = next_tick_;
+  totals_.kind = kind;
+  totals_.transcript = transcript();
   ChunkWriter& writer = buffers_->writer;
   const std::span<std::byte> group(buffers_->group);
   Status appended = Status::ok;

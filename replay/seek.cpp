@@ -89,6 +89,7 @@ SeekResult seek(Source& source, const SimulationFactory& factory, std::uint64_t 
   }
   SeekResult result = create(factory, *ticks);
   if (result.status != Status::ok) return result;
+  ticks->bound_snapshots(result.simulation->snapshot_bytes_max(SnapshotKind::canonical));
   if (place) {
     if (!ticks->read_keyframe()) return refused(*ticks, ticks->reader().damage().status);
     const Status loaded = result.simulation->load(SnapshotKind::canonical, ticks->snapshot());

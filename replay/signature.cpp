@@ -7,6 +7,7 @@
 
 #include "replay/chunk_reader.h"
 #include "replay/log_digest.h"
+#include "replay/text.h"
 
 #if defined(LOCKSTONE_WITH_SODIUM)
 #include <sodium.h>
@@ -17,15 +18,6 @@ namespace {
 
 constexpr std::size_t k_key_offset = 8;
 constexpr std::size_t k_signature_offset = 40;
-
-std::string hexadecimal(ByteView bytes) {
-  std::string text;
-  for (const std::byte byte : bytes) {
-    text += "0123456789abcdef"[std::to_integer<unsigned>(byte) >> 4];
-    text += "0123456789abcdef"[std::to_integer<unsigned>(byte) & 15];
-  }
-  return text;
-}
 
 int digit_of(char letter) {
   if (letter >= '0' && letter <= '9') return letter - '0';
@@ -95,7 +87,7 @@ SignatureState take_signature(ChunkReader& chunks, CoveredBytes& covered,
 namespace {
 
 // Keeps these signatures apart from others of the same key.
-constexpr std::string_view k_domain = "lockstone log 1.";
+constexpr std::string_view k_domain = "lockstone log 2.";
 constexpr std::size_t k_digest_bytes = 32;
 using Message = std::array<unsigned char, 16 + 8 + k_digest_bytes>;
 static_assert(k_domain.size() == 16);
@@ -188,7 +180,7 @@ Result<SigningKey> make_signing_key() {
 LogDigest::~LogDigest() = default;
 
 std::string PublicKey::to_text() const {
-  return hexadecimal(bytes);
+  return hex_digits(bytes);
 }
 
 Result<PublicKey> PublicKey::from_text(std::string_view text) {
@@ -204,7 +196,7 @@ PublicKey SigningKey::public_key() const {
 }
 
 std::string SigningKey::to_text() const {
-  return hexadecimal(bytes);
+  return hex_digits(bytes);
 }
 
 Result<SigningKey> SigningKey::from_text(std::string_view text) {
@@ -236,8 +228,10 @@ SignatureReport check_signatures(Source& source, const std::optional<PublicKey>&
   CoveredBytes covered(source);
   bool ended = false;
   std::uint64_t ticks = 0;
-  while (chunks.next_frame() == Walk::good) {
+  Walk walk = chunks.next_frame();
+  for (; walk == Walk::good; walk = chunks.next_frame()) {
     const ChunkHeader& chunk = chunks.chunk();
+    if (ended && (report.covers_end || chunk.type != ChunkType::signature)) break;
     ended = ended || chunk.type == ChunkType::end;
     if (chunk.type == ChunkType::hash) ticks += chunk.count;
     if (chunk.type != ChunkType::signature) continue;
@@ -245,6 +239,11 @@ SignatureReport check_signatures(Source& source, const std::optional<PublicKey>&
     if (report.state != SignatureState::good) return report;
     report.covered_ticks = ticks;
     report.covers_end = ended;
+  }
+  // One signature may follow the END, and nothing else: what stands behind it is not covered.
+  if (ended && walk != Walk::finished && report.state == SignatureState::good) {
+    report.state = SignatureState::bad;
+    report.covers_end = false;
   }
   return report;
 }

@@ -9,7 +9,7 @@ namespace lockstone::replay {
 namespace {
 
 constexpr std::uint32_t k_snapshot_magic = 0x53534b4c;  // "LKSS"
-constexpr std::uint16_t k_version = 1;
+constexpr std::uint16_t k_version = 2;
 constexpr std::size_t k_front_bytes = 4 + 2 + 1 + 1 + 4 + 4;
 constexpr std::size_t k_end_bytes = 8;
 

@@ -1,8 +1,10 @@
-// Numbers for people.
+// Numbers and bytes for people.
 #pragma once
 
 #include <cstdint>
 #include <string>
+
+#include <lockstone/bytes.h>
 
 namespace lockstone::replay {
 
@@ -11,6 +13,16 @@ namespace lockstone::replay {
   std::string text = "0x0000000000000000";
   for (std::size_t i = text.size(); i-- > 2; value >>= 4)
     text[i] = "0123456789abcdef"[value & 15];
+  return text;
+}
+
+/// Two lower-case digits for each byte.
+[[nodiscard]] inline std::string hex_digits(ByteView bytes) {
+  std::string text;
+  for (const std::byte byte : bytes) {
+    text += "0123456789abcdef"[std::to_integer<unsigned>(byte) >> 4];
+    text += "0123456789abcdef"[std::to_integer<unsigned>(byte) & 15];
+  }
   return text;
 }
 

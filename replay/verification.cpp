@@ -54,6 +54,8 @@ void Verification::take(LogItem item) {
       return take_keyframe();
     case LogItem::end:
       report_.end_reason = reader_.end().reason;
+      report_.end_kind = reader_.end().kind;
+      report_.transcript = reader_.end().transcript;
       return;
     default:
       return;
@@ -70,6 +72,7 @@ void Verification::take_scene() {
   simulation_ = std::move(made).value();
   report_.mismatches = compare_info(reader_.header().info, simulation_->info());
   if (!report_.mismatches.empty()) report_.outcome = VerifyOutcome::incompatible;
+  reader_.bound_snapshots(simulation_->snapshot_bytes_max(SnapshotKind::canonical));
   if (!running() || !segment_.begin) return;
   // A place beyond the log shows in the item that comes next.
   static_cast<void>(reader_.jump(*segment_.begin));

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
+#include <lockstone/replay/log_map.h>
+#include <lockstone/replay/log_reader.h>
 #include <lockstone/replay/verifier.h>
 
 #include "replay/verification.h"
@@ -17,6 +20,44 @@ VerifyReport unreadable(Status status) {
   report.damage =
       Damage{status, 0, ChunkType::none, "cannot be opened: " + std::string(to_string(status))};
   return report;
+}
+
+// More parts than this for each thread gain nothing, and each makes a simulation of its own.
+constexpr std::size_t k_parts_per_thread = 8;
+
+// What reading a log from its beginning to its end finds, without simulating.
+struct Reading {
+  LogMap map;
+  std::optional<Damage> damage;
+};
+
+// The parts do not see the totals and the transcript of the whole log; this does.
+Reading read_whole(Source& source) {
+  Reading reading;
+  LogReader reader(source);
+  if (reader.open() != Status::ok) return reading;
+  LogItem item = reader.next();
+  for (; !is_last(item); item = reader.next()) {
+    if (item == LogItem::hashes) reading.map.ticks += reader.hashes().size();
+    if (item == LogItem::keyframe)
+      reading.map.keyframes.push_back({reader.chunk().first_tick, reader.chunk_offset()});
+  }
+  if (item == LogItem::damaged) reading.damage = reader.damage();
+  return reading;
+}
+
+// Of all keyframes, those between parts of about equal length.
+std::vector<KeyframePlace> choose_parts(const LogMap& map, std::size_t parts) {
+  std::vector<KeyframePlace> chosen;
+  const std::uint64_t least_ticks = map.ticks / parts + 1;
+  for (const KeyframePlace& place : map.keyframes) {
+    if (map.keyframes.size() > parts && !chosen.empty() &&
+        place.tick - chosen.back().tick < least_ticks) {
+      continue;
+    }
+    chosen.push_back(place);
+  }
+  return chosen;
 }
 
 // One task of a worker, and what came of it.
@@ -50,12 +91,15 @@ class ParallelVerification {
   // One thread has nothing to gain from segments.
   void plan(std::size_t log) {
     const Result<std::unique_ptr<Source>> source = logs_[log]();
-    LogMap map;
-    if (source && (threads_ > 1 || progress_)) map = map_log(*source.value());
-    total_ += map.ticks;
-    if (threads_ <= 1) map.keyframes.clear();
+    Reading reading;
+    if (source && threads_ > 1) reading = read_whole(*source.value());
+    if (source && threads_ <= 1 && progress_) reading.map = map_log(*source.value());
+    total_ += reading.map.ticks;
+    if (threads_ <= 1) reading.map.keyframes.clear();
+    damages_.push_back(std::move(reading.damage));
     LogSegment segment;
-    for (const KeyframePlace& place : map.keyframes) {
+    for (const KeyframePlace& place :
+         choose_parts(reading.map, k_parts_per_thread * std::max(threads_, 1U))) {
       segment.end = place;
       tasks_.push_back({log, segment, {}});
       segment = {place, std::nullopt};
@@ -99,7 +143,19 @@ class ParallelVerification {
         join(whole, std::move(task.report));
       }
     }
+    for (std::size_t log = 0; log < reports.size(); ++log)
+      judge_whole(reports[log], damages_[log]);
     return reports;
+  }
+
+  // Each part was right, and yet the whole is not: its END names other totals.
+  static void judge_whole(VerifyReport& whole, const std::optional<Damage>& damage) {
+    if (!damage || whole.damage || whole.outcome == VerifyOutcome::incompatible) return;
+    whole.damage = damage;
+    whole.complete = false;
+    whole.end_reason.clear();
+    whole.transcript = {};
+    if (whole.outcome == VerifyOutcome::same) whole.outcome = VerifyOutcome::corrupt;
   }
 
   static void join(VerifyReport& whole, VerifyReport part) {
@@ -117,6 +173,8 @@ class ParallelVerification {
     whole.complete = part.complete;
     whole.torn_tail = part.torn_tail;
     whole.end_reason = std::move(part.end_reason);
+    whole.end_kind = part.end_kind;
+    whole.transcript = part.transcript;
     if (!whole.damage) whole.damage = std::move(part.damage);
   }
 
@@ -126,6 +184,7 @@ class ParallelVerification {
   const unsigned threads_;
   const VerifyProgress& progress_;
   std::vector<Task> tasks_;
+  std::vector<std::optional<Damage>> damages_;  // of each log as a whole
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::uint64_t done_ = 0;

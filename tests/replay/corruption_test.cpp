@@ -165,7 +165,7 @@ TEST(Corruption, RandomContentUnderRightChecksumsNeverCrashesAndIsNeverSameUnnot
 TEST(Corruption, AHeaderOfAnotherVersionIsIncompatibleNotCorrupt) {
   Bytes log = record(small_match());
   const std::size_t header_bytes = chunks_of(log)[0].offset;
-  log[8] = std::byte{2};
+  log[8] = std::byte{1};
   const auto covered = std::span(log).first(header_bytes - k_checksum_bytes);
   ByteWriter(std::span(log).subspan(covered.size())).put(hash64(covered, 1));
   const VerifyReport report = verify_toy(log);

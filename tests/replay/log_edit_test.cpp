@@ -68,12 +68,12 @@ TEST(Repair, RefusesWhatIsNoLog) {
 
 TEST(Cut, GivesALogOfItsOwn) {
   const Bytes log = record({.ticks = 100});
-  for (const std::uint64_t begin : {0U, 13U, 48U, 99U}) {
+  for (const std::uint64_t begin : {0U, 13U, 48U, 89U}) {
     MemorySource source(log);
     MemorySink sink;
     const CutReport report = cut(source, toy_factory(), begin, 90, sink);
     ASSERT_EQ(report.status, Status::ok) << report.what;
-    EXPECT_EQ(report.ticks, begin < 90 ? 90 - begin : 0);
+    EXPECT_EQ(report.ticks, 90 - begin);
     const VerifyReport verified = verify_toy(sink.bytes(), {.strict = true});
     EXPECT_EQ(verified.outcome, VerifyOutcome::same) << verified.to_line();
     EXPECT_EQ(verified.start_tick, begin);
@@ -90,6 +90,35 @@ TEST(Cut, RefusesALogOfAnotherWay) {
   MemorySink sink;
   EXPECT_EQ(cut(source, toy_factory(), 50, 90, sink).status, Status::incompatible);
   EXPECT_TRUE(sink.bytes().empty());
+}
+
+TEST(Cut, RefusesAnEndThatIsNotBehindItsBeginning) {
+  const Bytes log = record({.ticks = 100});
+  for (const std::uint64_t end : {0U, 30U, 60U}) {
+    MemorySource source(log);
+    MemorySink sink;
+    EXPECT_EQ(cut(source, toy_factory(), 60, end, sink).status, Status::invalid_argument) << end;
+    EXPECT_TRUE(sink.bytes().empty());
+  }
+}
+
+TEST(Cut, RefusesABeginningThatTheLogDoesNotReach) {
+  const Bytes log = record({.ticks = 100});
+  for (const std::uint64_t begin : {100U, 101U, 5000U}) {
+    MemorySource source(log);
+    MemorySink sink;
+    EXPECT_EQ(cut(source, toy_factory(), begin, 6000, sink).status, Status::not_found) << begin;
+  }
+}
+
+TEST(Cut, RefusesDamageBetweenItsTicks) {
+  Bytes log = record({.ticks = 100});
+  const auto chunks = chunks_of(log);
+  log[chunks[find_chunk(chunks, ChunkType::hash, 17)].end() - 1] ^= std::byte{1};
+  MemorySource source(log);
+  MemorySink sink;
+  EXPECT_EQ(cut(source, toy_factory(), 20, 90, sink).status, Status::checksum_mismatch);
+  EXPECT_EQ(cut(source, toy_factory(), 20, 50, sink).status, Status::ok);
 }
 
 TEST(Compare, FindsNothingBetweenEqualMatches) {

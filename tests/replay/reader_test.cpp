@@ -92,7 +92,8 @@ TEST(LogReader, SkipsUnknownChunksThatMayBeSkipped) {
   const ChunkHeader unknown{.type = ChunkType{200}, .version = 9, .flags = k_flag_may_skip};
   insert_chunk(log, chunks[0].offset, unknown, 10);
   insert_chunk(log, chunks_of(log)[find_chunk(chunks_of(log), ChunkType::hash)].offset, unknown, 0);
-  insert_chunk(log, log.size(), {.type = ChunkType::index, .flags = k_flag_may_skip}, 99);
+  insert_chunk(log, chunks_of(log).back().offset,
+               {.type = ChunkType::index, .flags = k_flag_may_skip}, 99);
   const Reading reading(log);
   EXPECT_EQ(reading.last, LogItem::finished) << reading.reader.damage().what;
   EXPECT_EQ(reading.skipped, 3U);
@@ -212,7 +213,9 @@ TEST(LogReader, RefusesWrongContentUnderRightChecksums) {
   EXPECT_TRUE(rejected(ChunkType::end, 16, 1)) << "ticks";
   EXPECT_TRUE(rejected(ChunkType::end, 24, 1)) << "events";
   EXPECT_TRUE(rejected(ChunkType::end, 32, 1)) << "keyframes";
-  EXPECT_TRUE(rejected(ChunkType::end, 36, 99)) << "reason beyond the payload";
+  EXPECT_TRUE(rejected(ChunkType::end, 36, 9)) << "kind of end";
+  EXPECT_TRUE(rejected(ChunkType::end, 40, 9)) << "transcript";
+  EXPECT_TRUE(rejected(ChunkType::end, 69, 99)) << "reason beyond the payload";
   EXPECT_TRUE(rejected(ChunkType::input, 0, 99)) << "a run beyond the last tick";
 }
 

@@ -62,6 +62,37 @@ TEST_F(Signature, TellsWhenTheEndWasCutOff) {
   EXPECT_EQ(report.covered_ticks, 40U);
 }
 
+// A chunk that a reader skips, with a right checksum, sequence number and place in the chain.
+Bytes with_chunk_behind(const Bytes& log, const ChunkHeader& header, std::size_t payload_bytes) {
+  Bytes longer = log;
+  const auto chunks = chunks_of(log);
+  ChunkFrame frame{header, chunks.back().frame.checksum, 0, 0};
+  frame.header.sequence = static_cast<std::uint32_t>(chunks.size());
+  frame.header.raw_bytes = frame.header.stored_bytes = static_cast<std::uint32_t>(payload_bytes);
+  const Bytes payload(payload_bytes);
+  frame.payload_checksum = payload_checksum(payload);
+  longer.resize(log.size() + k_chunk_header_bytes);
+  encode_chunk_frame(frame, std::span(longer).last<k_chunk_header_bytes>());
+  longer.insert(longer.end(), payload.begin(), payload.end());
+  return longer;
+}
+
+TEST_F(Signature, CoversTheWholeFileSoThatNothingMayFollowIt) {
+  for (const ChunkType type : {ChunkType{200}, ChunkType::diag, ChunkType::index, ChunkType::event,
+                               ChunkType::signature, ChunkType::end}) {
+    const Bytes longer = with_chunk_behind(log, {.type = type, .flags = k_flag_may_skip}, 40);
+    const SignatureReport report = check(longer, key.public_key());
+    EXPECT_FALSE(report.state == SignatureState::good && report.covers_end) << to_string(type);
+    EXPECT_EQ(verify_toy(longer).outcome, VerifyOutcome::corrupt) << to_string(type);
+  }
+  for (const std::size_t bytes : {1U, 55U, 56U, 5000U}) {
+    Bytes longer = log;
+    longer.resize(log.size() + bytes);
+    EXPECT_EQ(check(longer, key.public_key()).state, SignatureState::bad) << bytes;
+    EXPECT_EQ(verify_toy(longer).outcome, VerifyOutcome::corrupt) << bytes;
+  }
+}
+
 TEST_F(Signature, OfAnUnsignedLogIsNone) {
   EXPECT_EQ(check(record({})).state, SignatureState::none);
 }

@@ -34,7 +34,7 @@ TEST(SnapshotFile, GivesBackWhatItHolds) {
   }
   EXPECT_EQ(unpack_snapshot(Bytes(100)).status(), Status::malformed);
   if (compression_available()) {
-    EXPECT_LT(pack_snapshot(Bytes(1U << 20)).size(), 1000U);
+    EXPECT_LT(pack_snapshot(canonical()).size(), canonical().size());
   }
 }
 

@@ -60,6 +60,20 @@ TEST(VerifyAll, SaysTheSameOfDamageAnywhere) {
   }
 }
 
+// Its totals and its transcript concern the whole log, of which no part sees all.
+TEST(VerifyAll, SaysTheSameOfAnEndThatIsNotTheLogs) {
+  const Bytes good = record({.ticks = 100});
+  const auto chunks = chunks_of(good);
+  const std::size_t end = chunks[find_chunk(chunks, ChunkType::end)].offset + k_chunk_header_bytes;
+  for (const std::size_t byte : {0U, 8U, 16U, 24U, 32U, 37U, 68U}) {
+    Bytes log = good;
+    log[end + byte] ^= std::byte{1};
+    relink(log);
+    expect_same_verdict(log);
+    EXPECT_EQ(verify_parts({log}, 3).front().outcome, VerifyOutcome::corrupt) << byte;
+  }
+}
+
 TEST(VerifyAll, ReportsEachLog) {
   const Bytes good = record({.ticks = 60});
   Bytes damaged = good;

@@ -6,13 +6,14 @@
 #include <string>
 #include <string_view>
 
+#include <lockstone/replay/transcript.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
 
 namespace lockstone::replay {
 
 /// The version of the file header and of the chunk frame. Each chunk type has its own version too.
-inline constexpr std::uint16_t k_format_version = 1;
+inline constexpr std::uint16_t k_format_version = 2;
 inline constexpr std::uint8_t k_chunk_version = 1;
 
 /// Bounds that hold for every log. Readers refuse more before they allocate anything.
@@ -22,6 +23,9 @@ inline constexpr std::size_t k_max_text_bytes = 256;         ///< an event's tex
 inline constexpr std::size_t k_max_chunk_ticks = 1024;       ///< and never more than one second
 inline constexpr std::size_t k_max_scene_bytes = 16U << 20;  ///< the game's configuration
 inline constexpr std::size_t k_max_keyframe_bytes = 64U << 20;  ///< one canonical snapshot
+/// A compressed payload is at most so many times as long as its stored bytes, so that a reader
+/// needs memory and time in proportion to the file.
+inline constexpr std::size_t k_max_compression_ratio = 32;
 inline constexpr std::uint64_t k_max_start_tick = std::uint64_t{1} << 62;
 
 /// Bytes of the frame in front of every chunk's payload.
@@ -103,6 +107,16 @@ struct LogEvent {
   std::string text = {};          ///< UTF-8 without control characters
 };
 
+/// Whether the log goes on to where the match was recorded to.
+enum class EndKind : std::uint8_t {
+  finished = 0,  ///< by the recorder of the match
+  cut = 1,       ///< cut() took some ticks of another log
+  repaired = 2,  ///< repair() closed what was left
+};
+
+/// "finished", "cut", "repaired".
+[[nodiscard]] std::string_view to_string(EndKind kind);
+
 /// How the recorder closed the log.
 struct LogEnd {
   std::uint64_t final_tick = 0;  ///< the tick that would have come next
@@ -110,6 +124,8 @@ struct LogEnd {
   std::uint64_t ticks = 0;
   std::uint64_t events = 0;
   std::uint32_t keyframes = 0;
+  EndKind kind = EndKind::finished;
+  TranscriptHash transcript{};  ///< of the log's ticks that have a hash
   std::string reason;
 };
 

@@ -33,8 +33,11 @@ struct CutReport {
 };
 
 /// Records the ticks from `begin` up to, not with, `end` as a log of its own, which starts with a
-/// keyframe at `begin`. The inputs and hashes are the recorded ones; the simulation is stepped to
-/// `begin` only, and must agree with the log there: else incompatible. Events are left out.
+/// keyframe at `begin`, and whose END says that it was cut. The inputs and hashes are the recorded
+/// ones; the simulation is stepped to `begin` only, and must agree with the log there: else
+/// incompatible. Events are left out. invalid_argument unless begin < end; not_found when the log
+/// has no tick `begin`; what is wrong with the log where damage stands before `end`. After an error
+/// `sink` may hold the beginning of a log, which is of no use.
 [[nodiscard]] CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t begin,
                             std::uint64_t end, Sink& sink);
 

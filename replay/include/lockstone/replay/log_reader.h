@@ -55,6 +55,10 @@ class LogReader {
   /// the log.
   Status jump(const KeyframePlace& place);
 
+  /// What the simulation's canonical snapshots have at most, from
+  /// Simulation::snapshot_bytes_max: a longer one is malformed, and no memory is taken for it.
+  void bound_snapshots(std::size_t bytes);
+
   /// Reads the next chunk. What the accessors below gave before is no longer valid, except that
   /// tick_inputs() lasts until the next `inputs`.
   [[nodiscard]] LogItem next();
@@ -82,6 +86,10 @@ class LogReader {
   /// The END, once it was read.
   [[nodiscard]] const LogEnd& end() const;
 
+  /// Of the ticks that were delivered with their hashes, since open() or the last jump(). The END's
+  /// is checked against it, except after a jump.
+  [[nodiscard]] TranscriptHash transcript() const;
+
   /// True once the END was read: nothing of the match is missing.
   [[nodiscard]] bool complete() const;
 
@@ -92,10 +100,12 @@ class LogReader {
   struct Parts;
 
   [[nodiscard]] LogItem read_next();
+  [[nodiscard]] LogItem read_behind_end();
   [[nodiscard]] LogItem read_known();
   [[nodiscard]] bool check_frame();
   [[nodiscard]] bool check_end(const LogEnd& end) const;
   [[nodiscard]] bool check_order();
+  [[nodiscard]] bool check_place();
   [[nodiscard]] LogItem read_scene();
   [[nodiscard]] LogItem read_inputs();
   [[nodiscard]] LogItem read_hashes();

@@ -82,7 +82,8 @@ class Recorder {
   [[nodiscard]] bool keyframe_due() const;
 
   /// Writes the state of `simulation`, which stands at next_tick(). invalid_argument when it stands
-  /// elsewhere or its hash is not the recorded one; capacity_exhausted when there is no room.
+  /// elsewhere, when its hash is not the recorded one, or when this tick has a keyframe already;
+  /// capacity_exhausted when there is no room.
   Status keyframe(const Simulation& simulation);
 
   /// The same from a canonical snapshot; `hash` is that of its state.
@@ -96,8 +97,12 @@ class Recorder {
   /// Hands everything pending to the sink. For a match that pauses: otherwise done each second.
   Status flush();
 
-  /// Writes what is pending and the END. `reason` is treated as an event's text.
-  Status finish(std::string_view reason);
+  /// Writes what is pending and the END, signed where there is a key. `reason` is treated as an
+  /// event's text.
+  Status finish(std::string_view reason, EndKind kind = EndKind::finished);
+
+  /// Of the ticks recorded so far, as the END will hold it: for clients to compare with theirs.
+  [[nodiscard]] TranscriptHash transcript() const;
 
   /// The tick that record_tick() expects.
   [[nodiscard]] std::uint64_t next_tick() const { return next_tick_; }

@@ -44,7 +44,8 @@ struct SigningKey {
 enum class SignatureState : std::uint8_t {
   none,      ///< the log has no signature
   good,      ///< every signature fits, all by one key, and it is the expected one
-  bad,       ///< one does not fit what stands before it, or is malformed
+  bad,       ///< one does not fit what stands before it, is malformed, or bytes follow it behind
+             ///< the END
   foreign,   ///< by another key than expected, or by several
   unchecked  ///< this build cannot check
 };
@@ -57,7 +58,7 @@ struct SignatureReport {
   std::uint32_t signatures = 0;     ///< good ones
   std::uint64_t covered_bytes = 0;  ///< up to the last good one
   std::uint64_t covered_ticks = 0;  ///< the log's position there, less its start tick
-  bool covers_end = false;          ///< the END is covered: nothing was cut off
+  bool covers_end = false;          ///< the END is covered and nothing follows: it is the whole log
   PublicKey key;                    ///< whose they are; to be trusted only when it was expected
 };
 

@@ -23,6 +23,9 @@ class TickReader {
   /// Right after open(): reads the keyframe that was asked for; false when it is not good.
   [[nodiscard]] bool read_keyframe();
 
+  /// As LogReader::bound_snapshots.
+  void bound_snapshots(std::size_t bytes) { reader_.bound_snapshots(bytes); }
+
   /// Goes to the next tick; false at the end of what can be read: see reader().damage().
   [[nodiscard]] bool next();
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <lockstone/replay/format.h>
+#include <lockstone/replay/signature.h>
 #include <lockstone/replay/source.h>
 #include <lockstone/simulation.h>
 
@@ -65,13 +66,21 @@ struct VerifyReport {
   bool complete = false;             ///< the END was read
   bool torn_tail = false;            ///< the log ends inside a chunk
   std::string end_reason;            ///< from the END
+  EndKind end_kind = EndKind::finished;
+  /// From the END: for players to compare with their own. Checked against the log's inputs.
+  TranscriptHash transcript{};
   std::optional<Divergence> divergence;
   /// What is damaged, what the simulation refused, or where the tail is torn.
   std::optional<Damage> damage;
   std::vector<FieldMismatch> mismatches;
 
-  /// One line for people, without a final line break.
+  /// One line for people, without a final line break. Of a log that has no end, begins late, or
+  /// was cut or repaired, it says which ticks alone are proved.
   [[nodiscard]] std::string to_line() const;
+
+  /// What a verdict of `same` leaves open, one line each, for people; nothing when the signature by
+  /// an expected key is `good`. Which ticks were verified, to_line() says.
+  [[nodiscard]] std::vector<std::string> not_proved(SignatureState signature) const;
 };
 
 /// Called after each chunk of ticks with the ticks done and the ticks there are, by the frames.
