@@ -11,6 +11,7 @@
 
 #include <lockstone/replay/signature.h>
 #include <lockstone/replay/source.h>
+#include <lockstone/replay/transcript.h>
 #include <lockstone/replay/verifier.h>
 
 #include "tools/lockstone/commands.h"
@@ -41,7 +42,18 @@ ordered_json divergence_json(const replay::Divergence& divergence) {
   return json;
 }
 
-ordered_json report_json(const std::string& file, const VerifyReport& report) {
+/// What a log's signature says, given the key that was asked for or none.
+struct SignatureVerdict {
+  replay::SignatureState state = replay::SignatureState::none;
+  std::string fault;  ///< why it does not pass
+};
+
+std::string text_of(const SignatureVerdict& verdict) {
+  return verdict.fault.empty() ? std::string(to_string(verdict.state)) : verdict.fault;
+}
+
+ordered_json report_json(const std::string& file, const VerifyReport& report,
+                         const SignatureVerdict& signature) {
   ordered_json json{{"file", file},
                     {"outcome", to_string(report.outcome)},
                     {"exit_code", exit_code(report.outcome)},
@@ -49,7 +61,13 @@ ordered_json report_json(const std::string& file, const VerifyReport& report) {
                     {"final_hash", hash_text(report.final_hash)},
                     {"complete", report.complete},
                     {"torn_tail", report.torn_tail},
-                    {"line", report.to_line()}};
+                    {"line", report.to_line()},
+                    {"signature", text_of(signature)},
+                    {"not_proved", report.not_proved(signature.state)}};
+  if (report.complete) {
+    json["end"] = to_string(report.end_kind);
+    json["transcript"] = replay::to_text(report.transcript);
+  }
   if (report.divergence) json["divergence"] = divergence_json(*report.divergence);
   if (report.damage) {
     json["damage"] = {{"offset", report.damage->offset},
@@ -80,17 +98,32 @@ std::vector<VerifyReport> verify_files(const VerifyOptions& options) {
       [&](std::uint64_t ticks, std::uint64_t total) { progress.show("verify", ticks, total); });
 }
 
-// What is wrong with the log's signature, or nothing. A log that must be signed must be so to its
-// end.
-std::string signature_fault(const std::string& file, const replay::PublicKey& key) {
+// A log that must be signed must be so to its end. Without a key to expect, a good signature says
+// nothing; a bad one says that the log was altered.
+SignatureVerdict judge_signature(const std::string& file,
+                                 const std::optional<replay::PublicKey>& key) {
+  using replay::SignatureState;
   const auto source = replay::FileSource::open(file);
   if (!source) return {};
   const replay::SignatureReport report = replay::check_signatures(*source.value(), key);
-  if (report.state != replay::SignatureState::good) {
-    return fmt::format("signature: {}", to_string(report.state));
+  SignatureVerdict verdict{report.state, {}};
+  if (!key) {
+    if (report.state == SignatureState::good) verdict.state = SignatureState::unchecked;
+    if (report.state == SignatureState::bad) verdict.fault = "signature: bad";
+  } else if (report.state != SignatureState::good) {
+    verdict.fault = fmt::format("signature: {}", to_string(report.state));
+  } else if (!report.covers_end) {
+    verdict.fault = fmt::format("signature: covers {} ticks and no end", report.covered_ticks);
   }
-  if (report.covers_end) return {};
-  return fmt::format("signature: covers {} ticks and no end", report.covered_ticks);
+  return verdict;
+}
+
+void print_text(const std::string& file, const VerifyReport& report,
+                const SignatureVerdict& signature) {
+  fmt::print("{}: {}{}{}\n", file, report.to_line(), signature.fault.empty() ? "" : "; ",
+             signature.fault);
+  for (const std::string& line : report.not_proved(signature.state))
+    fmt::print("  {}\n", line);
 }
 
 // The worst file decides: a diverged one is news, but one that cannot be judged is no pass either.
@@ -105,14 +138,13 @@ int verify(const VerifyOptions& options) {
   ordered_json json = ordered_json::array();
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const std::string& file = options.files[i];
-    const std::string fault = key ? signature_fault(file, *key) : std::string();
-    worst = std::max({worst, exit_code(reports[i].outcome),
-                      fault.empty() ? static_cast<int>(k_ok) : static_cast<int>(k_corrupt)});
+    const SignatureVerdict signature = judge_signature(file, key);
+    const int signature_code = signature.fault.empty() ? k_ok : k_corrupt;
+    worst = std::max({worst, exit_code(reports[i].outcome), signature_code});
     if (options.json) {
-      json.push_back(report_json(file, reports[i]));
-      if (key) json.back()["signature"] = fault.empty() ? "good" : fault;
+      json.push_back(report_json(file, reports[i], signature));
     } else {
-      fmt::print("{}: {}{}{}\n", file, reports[i].to_line(), fault.empty() ? "" : "; ", fault);
+      print_text(file, reports[i], signature);
     }
   }
   if (options.json) write_json(json);
