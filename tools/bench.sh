@@ -70,14 +70,14 @@ node_options() {
 # arguments_of BENCHMARK: of `lockstone bench`, a line each.
 arguments_of() {
   case $1 in
-    front) printf '%s\n' accuracy --plot "$results"; node_options ;;
-    accuracy) printf '%s\n' accuracy --sweep --page "$results/accuracy.md" ;;
-    stability) printf '%s\n' stability --page "$results/stability.md" ;;
+    front) printf '%s\n' accuracy --force --plot "$results"; node_options ;;
+    accuracy) printf '%s\n' accuracy --force --sweep --page "$results/accuracy.md" ;;
+    stability) printf '%s\n' stability --force --page "$results/stability.md" ;;
     speed)
       echo speed
       "$quick" || echo --detail
       ;;
-    instructions) printf '%s\n' speed --instructions "$results/instructions.csv" ;;
+    instructions) printf '%s\n' speed --force --instructions "$results/instructions.csv" ;;
     *) echo "$1" ;;
   esac
   "$quick" || return 0

@@ -4,6 +4,8 @@
 #
 # usage: tools/demo.sh [OPTION…]      options go to the command; --help lists them
 #
+# Replaces demo.lks and demo.svg of the run before.
+#
 # Missing Debian packages are installed first (as root or through sudo).
 
 # shellcheck source=lib.sh source-path=SCRIPTDIR
@@ -14,4 +16,4 @@ build_preset demo
 # Paths among the options are the caller's.
 cd "$OLDPWD"
 # exec: Ctrl-C and the exit status belong to the command.
-exec "$root"/build/demo/tools/lockstone demo "$@"
+exec "$root"/build/demo/tools/lockstone demo --force "$@"

@@ -73,7 +73,7 @@ class Case(unittest.TestCase):
     def build(self, source, *options, name="out.lka"):
         """What the command says of the one file that it made."""
         path = self.folder / name
-        done = self.expect(OK, "build", source, "-o", path, "--json", *options)
+        done = self.expect(OK, "build", source, "-o", path, "--force", "--json", *options)
         made = json.loads(done.stdout)
         self.assertEqual(path.stat().st_size, made[0]["bytes"])
         self.assertEqual(json.loads(self.expect(OK, "info", "--json", path).stdout), made)

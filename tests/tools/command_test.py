@@ -15,7 +15,8 @@ import unittest
 LOCKSTONE = SAMPLE_LOGS = ""
 GOLDEN = json.loads(
     (pathlib.Path(__file__).resolve().parents[1] / "golden" / "scenes.json").read_text())
-OK, DIFFERENT, CORRUPT, INCOMPATIBLE, USAGE = 0, 1, 2, 3, 64
+OK, DIFFERENT, CORRUPT, INCOMPATIBLE, USAGE, UNAVAILABLE = 0, 1, 2, 3, 64, 69
+MODELS = pathlib.Path(__file__).resolve().parent / "models"
 
 
 def run(*arguments):
@@ -87,7 +88,7 @@ class Run(Case):
             for frames in (1, 4):
                 path = pathlib.Path(folder) / "picture.svg"
                 self.expect(OK, "run", "--scene", "pile", "--ticks", 20, "--svg", path,
-                            "--frames", frames)
+                            "--frames", frames, "--force")
                 text = path.read_text()
                 self.assertTrue(text.startswith("<svg") and text.endswith("</svg>\n"))
 
@@ -155,6 +156,79 @@ class Usage(Case):
             self.expect(USAGE, *arguments)
 
 
+class Files(Case):
+    """What the command reads and writes."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.log = self.folder / "log.lks"
+        self.expect(OK, "record", self.log, "--scene", "spin", "--ticks", 20)
+
+    def writers(self):
+        """The commands that write, each without its file, which comes last."""
+        return [("record", "--scene", "spin", "--ticks", 3), ("cut", "--from", 3, self.log),
+                ("repair", self.log), ("seek", self.log, 9, "--state"),
+                ("seek", self.log, 9, "--svg"), ("run", "--scene", "spin", "--ticks", 3, "--svg"),
+                ("numerics", "--write"), ("serve", "--insecure", "--record"),
+                ("serve", "--insecure", "--bundle"), ("demo", "--ticks", 1, "--svg"),
+                ("demo", "--ticks", 1, "--record"), ("bench", "accuracy", "--rows", 3, "--page"),
+                ("bench", "accuracy", "--plot"), ("bench", "stability", "--rows", "stack-10", "--page"),
+                ("bench", "speed", "--csv"), ("bench", "speed", "--instructions"),
+                ("asset", "build", MODELS / "cube.obj", "-o")]
+
+    def refuse(self, command, path):
+        done = run(*command, path)
+        self.assertEqual(done.returncode, UNAVAILABLE, f"{command} {path}\n{done.stdout}{done.stderr}")
+        self.assertIn(f"cannot write {path}", done.stderr)
+
+    def test_are_not_replaced_without_force(self):
+        there = self.folder / "there.svg"
+        for command in self.writers():
+            if not self.has(command):
+                continue
+            there.write_text("precious")
+            self.refuse(command, there)
+            self.assertEqual(there.read_text(), "precious")
+        self.assertEqual(set(self.folder.iterdir()), {self.log, there})
+
+    def test_are_replaced_with_force(self):
+        there = self.folder / "there.svg"
+        for command in self.writers()[:7]:
+            there.write_text("precious")
+            self.expect(OK, *command, there, "--force")
+            self.assertNotIn(b"precious", there.read_bytes())
+        self.assertEqual(set(self.folder.iterdir()), {self.log, there})
+
+    def test_fifos_and_devices_are_refused_at_once(self):
+        fifo = self.folder / "fifo.svg"
+        os.mkfifo(fifo)
+        for command in self.writers():
+            if not self.has(command):
+                continue
+            for path in (fifo, "/dev/null"):
+                if path == fifo or "--plot" not in command:
+                    self.refuse(command, path)
+        self.refuse(("record", "--force"), fifo)
+        for path in (fifo, self.folder, "/dev/zero"):
+            for command in (("verify",), ("info",), ("trace",), ("repair",), ("cut",), ("seek",)):
+                rest = {"repair": [self.folder / "o"], "cut": [self.folder / "o"], "seek": [1]}
+                done = run(*command, path, *rest.get(command[0], []))
+                self.assertEqual(done.returncode, CORRUPT, f"{command} {path} {done.stderr}")
+            for arguments in (["diff", path, self.log], ["verify", self.log, "--key", path],
+                              ["numerics", "--check", path], ["asset", "info", path],
+                              ["compare-hashes", path, path], ["record", self.folder / "o", "--sign", path]):
+                self.assertNotEqual(run(*arguments).returncode, OK, arguments)
+
+    @staticmethod
+    def has(command):
+        """Whether this build has the command: an absent one says so."""
+        words = [word for word in command[:2] if not str(word).startswith("-") and word in
+                 ("serve", "demo", "bench", "accuracy", "stability", "speed", "asset", "build")]
+        return "ot in this build" not in run(*words, "--help").stdout
+
+
 class Logs(Case):
     @classmethod
     def setUpClass(cls):
@@ -200,6 +274,42 @@ class Logs(Case):
         self.expect(OK, "repair", torn, saved)
         self.expect(OK, "verify", "--strict", saved)
 
+    def test_a_refused_cut_leaves_no_file(self):
+        path, out = self.record("to_cut.lks"), self.folder / "no_part.lks"
+        before = set(self.folder.iterdir())
+        self.expect(USAGE, "cut", path, out, "--from", 60, "--to", 30)
+        self.expect(USAGE, "cut", path, out, "--from", 60, "--to", 60)
+        self.expect(CORRUPT, "cut", path, out, "--from", 500)
+        self.expect(CORRUPT, "cut", self.folder / "text.lks", out)
+        self.expect(INCOMPATIBLE, "cut", self.folder / "foreign.lks", out)
+        self.expect(CORRUPT, "repair", self.folder / "text.lks", out)
+        self.assertEqual(set(self.folder.iterdir()), before)
+
+    def test_have_a_random_match_number(self):
+        def number(path):
+            return json.loads(self.expect(OK, "info", "--json", path).stdout)["header"]["match_id"]
+        self.assertNotEqual(number(self.record("one.lks")), number(self.record("two.lks")))
+        self.assertEqual(number(self.record("seven.lks", "--match-id", 7)), f"{7:016x}")
+
+    def test_what_is_not_proved_is_said_of_unsigned_ones(self):
+        path = self.record("not_proved.lks")
+        lines = self.expect(OK, "verify", path).stdout.splitlines()
+        self.assertEqual(lines[0], f"{path}: same; 90 ticks verified")
+        self.assertIn("not signed", lines[1])
+        self.assertIn("transcript", lines[2])
+        report = json.loads(self.expect(OK, "verify", "--json", path).stdout)[0]
+        self.assertEqual(report["signature"], "none")
+        self.assertIn("not signed", report["not_proved"][0])
+        self.assertIn(report["transcript"], lines[2])
+
+    def test_that_were_cut_say_so_in_their_first_line(self):
+        path, part, torn = self.record("uncut.lks"), self.folder / "a_part.lks", self.folder / "cut.lks"
+        self.expect(OK, "cut", path, part, "--from", 0, "--to", 70)
+        torn.write_bytes(path.read_bytes()[:-100])
+        for log, ticks in ((part, 70), (torn, 90)):
+            line = self.expect(OK, "verify", log).stdout.splitlines()[0]
+            self.assertIn(f"cut at tick {ticks}: only the first {ticks} ticks are proved", line)
+
     def test_that_differ_are_bisected_to_the_field(self):
         good, plain = self.record("good_one.lks"), self.record("plain.lks", "--plain")
         wrong = self.record("wrong.lks", "--flip-bit-at", 57)
@@ -226,6 +336,12 @@ class Logs(Case):
         info = json.loads(self.expect(OK, "info", "--json", signed).stdout)
         self.assertEqual(info["signature"]["state"], "good")
         self.assertTrue(info["signature"]["covers_end"])
+        self.assertEqual(len(self.expect(OK, "verify", signed, "--key", f"{key}.pub").stdout.splitlines()), 1)
+        self.assertIn("who signed", self.expect(OK, "verify", signed).stdout)
+        longer = self.folder / "longer.lks"
+        longer.write_bytes(signed.read_bytes() + plain.read_bytes()[-200:])
+        self.expect(CORRUPT, "verify", longer, "--key", f"{key}.pub")
+        self.expect(CORRUPT, "verify", longer)
 
     def verify(self, code, name, *options):
         done = self.expect(code, "verify", "--json", *options, self.folder / name)

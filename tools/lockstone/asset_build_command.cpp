@@ -14,6 +14,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 namespace {
@@ -35,6 +36,7 @@ struct BuildOptions {
   std::string base = "0";
   int max_vertices = 64;
   bool z_up = false;
+  bool force = false;
   bool json = false;
 };
 
@@ -111,7 +113,7 @@ std::string hull_file(const std::string& file, const Asset& hull) {
   return (path.parent_path() / name).string();
 }
 
-bool write_asset(const std::string& file, const Asset& asset) {
+bool write_asset(const Output& file, const Asset& asset) {
   const std::vector<std::byte> bytes = asset.canonical_bytes();
   return write_text_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -124,8 +126,12 @@ int write(const BuildOptions& options, const Imported& imported) {
   const AssetSet hulls(imported.hulls);  // each once
   for (const AssetPtr& hull : hulls.all())
     files.emplace_back(hull_file(file, *hull), hull);
+  const auto is_writable = [&](const auto& entry) {
+    return may_write({entry.first, options.force});
+  };
+  if (!std::ranges::all_of(files, is_writable)) return k_unavailable;
   for (const auto& [path, asset] : files) {
-    if (!write_asset(path, *asset)) return k_unavailable;
+    if (!write_asset({path, options.force}, *asset)) return k_unavailable;
     json.push_back(asset_json(path, *asset));
     if (!options.json)
       fmt::print("{}: {} {}\n", path, kind_name(asset->kind()), hash_text(asset->id().value));
@@ -180,6 +186,7 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
   command->add_option("--cell", options->cell, "PNG: metres between samples (default 1)");
   command->add_option("--height", options->height, "PNG: metres from black to white");
   command->add_option("--base", options->base, "PNG: height of black in metres (default 0)");
+  add_force_option(*command, options->force);
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = build(*options); });
 }

@@ -13,6 +13,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 namespace {
@@ -24,6 +25,7 @@ struct BenchAccuracyOptions {
   std::vector<int> rows;  // empty: all
   bool json = false;
   std::string page;  // empty: none
+  bool force = false;
   std::string plot;  // empty: rows instead of charts
   FrontOptions front;
 };
@@ -93,13 +95,17 @@ std::string command_of(const BenchAccuracyOptions& options) {
 
 int plot(const BenchAccuracyOptions& options) {
   const std::string command = fmt::format("lockstone bench accuracy --plot {}", options.plot);
+  const Output output{options.plot, options.force};
+  if (!may_write_front(output)) return k_unavailable;
   const MeasuredFront measured = measure_front(options.front);
-  if (!write_front(measured, options.plot, command)) return k_unavailable;
+  if (!write_front(measured, output, command)) return k_unavailable;
   return measured.other_states.empty() ? k_ok : k_different;
 }
 
 int run(const BenchAccuracyOptions& options) {
   if (!options.plot.empty()) return plot(options);
+  const Output page{options.page, options.force};
+  if (!may_write(page)) return k_unavailable;
   std::vector<MeasuredAccuracy> all;
   bool met = true;
   for (const bench::AccuracyRow& row : bench::accuracy_rows()) {
@@ -110,8 +116,7 @@ int run(const BenchAccuracyOptions& options) {
   }
   if (options.json) print_json(all);
   if (!options.page.empty()) {
-    if (!write_text_file(options.page, accuracy_page(all, command_of(options))))
-      return k_unavailable;
+    if (!write_text_file(page, accuracy_page(all, command_of(options)))) return k_unavailable;
   }
   return met ? k_ok : k_different;
 }
@@ -141,6 +146,7 @@ void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
   command->add_option("--plot", options->plot,
                       "Instead: time against error of all engines as charts, into a folder or one "
                       "file *.svg");
+  add_force_option(*command, options->force);
   add_front_options(*command, options->front);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

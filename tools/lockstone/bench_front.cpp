@@ -13,6 +13,7 @@
 #include "tools/bench/peers/scene_peers.h"
 #include "tools/bench/support/machine.h"
 #include "tools/lockstone/console.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 namespace {
@@ -79,7 +80,7 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
       : path_(std::filesystem::temp_directory_path() / fmt::format("lockstone-{}.json", getpid())) {
-    written_ = write_text_file(path_.string(), text);
+    written_ = write_text_file({path_.string(), true}, text);
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -166,13 +167,13 @@ void measure_node(const FrontOptions& options, Progress& progress, MeasuredFront
   measure_by(runner("jolt"), "Jolt", "collision steps", progress, measured);
 }
 
-bool write_all(const std::filesystem::path& folder, const std::vector<bench::Front>& fronts,
-               const bench::PageFacts& facts) {
+bool write_all(const std::filesystem::path& folder, bool force,
+               const std::vector<bench::Front>& fronts, const bench::PageFacts& facts) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   bool written = true;
   const auto write = [&](const std::string& name, const std::string& text) {
-    if (!write_text_file((folder / name).string(), text)) written = false;
+    if (!write_text_file({(folder / name).string(), force}, text)) written = false;
   };
   for (const bench::Front& front : fronts)
     write(fmt::format("{}.svg", front.error->name), bench::svg_of(bench::chart_of(front)));
@@ -218,8 +219,12 @@ MeasuredFront measure_front(FrontOptions options) {
   return measured;
 }
 
-bool write_front(const MeasuredFront& measured, const std::string& path,
-                 const std::string& command) {
+bool may_write_front(const Output& output) {
+  if (output.path.ends_with(".svg")) return may_write(output);
+  return may_write({(std::filesystem::path(output.path) / "front.md").string(), output.force});
+}
+
+bool write_front(const MeasuredFront& measured, const Output& output, const std::string& command) {
   const std::vector<bench::Front> fronts = bench::fronts_of(measured.engines);
   const bench::PageFacts facts{bench::machine_text(), bench::compiler_text(),
                                bench::commit_text(),  command,
@@ -230,12 +235,12 @@ bool write_front(const MeasuredFront& measured, const std::string& path,
     complain(fmt::format("{}: another state in WebAssembly", other));
   for (const std::string& absent : measured.absent)
     fmt::print("absent: {}\n", absent);
-  if (!path.ends_with(".svg")) return write_all(path, fronts, facts);
+  if (!output.path.ends_with(".svg")) return write_all(output.path, output.force, fronts, facts);
   constexpr int k_columns = 3;
   std::vector<bench::Chart> charts;
   for (const bench::Front& front : fronts)
     charts.push_back(bench::chart_of(front));
-  return write_text_file(path, bench::svg_sheet(charts, k_columns));
+  return write_text_file(output, bench::svg_sheet(charts, k_columns));
 }
 
 }  // namespace lockstone::tool

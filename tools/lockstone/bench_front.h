@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/bench/charts/front.h"
+#include "tools/lockstone/output_file.h"
 
 namespace CLI {
 class App;
@@ -35,9 +36,12 @@ struct MeasuredFront {
 /// Each engine by turns, at each setting; shows how far it is.
 [[nodiscard]] MeasuredFront measure_front(FrontOptions options);
 
+/// Before measuring: true when write_front() may write there, else a complaint.
+[[nodiscard]] bool may_write_front(const Output& output);
+
 /// Writes charts and pages into a folder, or all charts into one file *.svg, and prints the counts.
 /// False, with a complaint, when the system refuses.
-[[nodiscard]] bool write_front(const MeasuredFront& measured, const std::string& path,
+[[nodiscard]] bool write_front(const MeasuredFront& measured, const Output& output,
                                const std::string& command);
 
 }  // namespace lockstone::tool

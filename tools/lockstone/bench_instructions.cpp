@@ -52,7 +52,7 @@ void print_growth(const InstructionCount& before, const InstructionCount& now) {
 }  // namespace
 
 int write_instructions(const std::vector<const bench::SpeedScene*>& scenes, std::uint32_t ticks,
-                       const std::string& path) {
+                       const Output& output) {
   if (!can_count()) return k_unavailable;
   std::vector<InstructionCount> wanted;
   for (const bench::SpeedScene* scene : scenes) {
@@ -60,7 +60,7 @@ int write_instructions(const std::vector<const bench::SpeedScene*>& scenes, std:
     wanted.push_back({std::string(scene->name), ticks != 0 ? ticks : share, 0, {}});
   }
   const std::vector<InstructionCount> counts = count_all(wanted);
-  if (!write_text_file(path, bench::counts_to_csv(counts))) return k_unavailable;
+  if (!write_text_file(output, bench::counts_to_csv(counts))) return k_unavailable;
   return counts.size() == wanted.size() ? k_ok : k_different;
 }
 

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "tools/bench/speed/speed_scene.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 
 /// Counts a hundredth of each scene's ticks, at least three, or `ticks`, into a file. An exit code.
 [[nodiscard]] int write_instructions(const std::vector<const bench::SpeedScene*>& scenes,
-                                     std::uint32_t ticks, const std::string& path);
+                                     std::uint32_t ticks, const Output& output);
 
 /// Counts again what a file holds and prints both: k_different when a scene takes over a fiftieth
 /// more.

@@ -13,6 +13,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/options.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 namespace {
@@ -30,6 +31,7 @@ struct BenchSpeedOptions {
   std::string csv;
   std::string instructions;  // a file to write; empty: times instead
   std::string compare;       // a file that `instructions` wrote
+  bool force = false;
 };
 
 // Empty when a name is unknown.
@@ -110,13 +112,13 @@ int run(const BenchSpeedOptions& options, bool list) {
     list_scenes(scenes);
     return k_ok;
   }
+  const Output csv{options.csv, options.force}, counts{options.instructions, options.force};
+  if (!may_write(csv) || !may_write(counts)) return k_unavailable;
   if (!options.compare.empty()) return compare_instructions(options.compare);
-  if (!options.instructions.empty())
-    return write_instructions(scenes, options.ticks, options.instructions);
+  if (!options.instructions.empty()) return write_instructions(scenes, options.ticks, counts);
   const SpeedReport report = measure(options, scenes);
   options.json ? print_speed_json(report) : print_speed_tables(report);
-  if (!options.csv.empty() && !write_text_file(options.csv, speed_csv(report)))
-    return k_unavailable;
+  if (!options.csv.empty() && !write_text_file(csv, speed_csv(report))) return k_unavailable;
   return verdict(report);
 }
 
@@ -147,6 +149,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
                       "Instead: count instructions by callgrind into this file");
   command->add_option("--compare", options->compare,
                       "Instead: count again what such a file holds; exit code 1 above 2 % more");
+  add_force_option(*command, options->force);
   command->callback([options, list, &exit_code] { exit_code = run(*options, *list); });
 }
 

@@ -11,6 +11,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 namespace {
@@ -20,6 +21,7 @@ struct BenchStabilityOptions {
   std::vector<std::string> rows;
   bool json = false;
   std::string page;  // empty: none
+  bool force = false;
 };
 
 void print_text(const MeasuredStability& measured) {
@@ -64,6 +66,8 @@ std::string command_of(const BenchStabilityOptions& options) {
 }
 
 int run(const BenchStabilityOptions& options) {
+  const Output page{options.page, options.force};
+  if (!may_write(page)) return k_unavailable;
   bool met = true;
   std::vector<MeasuredStability> all;
   for (const bench::StabilityRow& row : bench::stability_rows()) {
@@ -78,8 +82,7 @@ int run(const BenchStabilityOptions& options) {
   }
   if (options.json) print_json(all);
   if (!options.page.empty()) {
-    if (!write_text_file(options.page, stability_page(all, command_of(options))))
-      return k_unavailable;
+    if (!write_text_file(page, stability_page(all, command_of(options)))) return k_unavailable;
   }
   return met ? k_ok : k_different;
 }
@@ -101,6 +104,7 @@ void add_bench_stability_command(CLI::App& bench, int& exit_code) {
   command->add_flag("--json", options->json, "Print JSON");
   command->add_option("--page", options->page,
                       "Also write the figures as a table, into a file *.md");
+  add_force_option(*command, options->force);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -72,7 +72,10 @@ class TemporaryFile {
   TemporaryFile()
       : path_(
             (std::filesystem::temp_directory_path() / fmt::format("lockstone-{}.state", ::getpid()))
-                .string()) {}
+                .string()) {
+    std::error_code ignored;  // of a process of this number that was killed
+    std::filesystem::remove(path_, ignored);
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {

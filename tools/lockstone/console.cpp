@@ -1,12 +1,12 @@
 #include "tools/lockstone/console.h"
 
-#include <cerrno>
+#include <array>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lockstone::tool {
@@ -19,19 +19,21 @@ void complain(const std::string& line) {
   fmt::print(stderr, "lockstone: {}\n", line);
 }
 
+// Without O_NONBLOCK, opening a FIFO would wait for its other end.
 std::optional<std::string> read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) return std::nullopt;
-  return text;
-}
-
-bool write_text_file(const std::string& path, const std::string& text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  bool ok = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (file != nullptr) ok = std::fclose(file) == 0 && ok;
-  if (!ok) complain(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
-  return ok;
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return std::nullopt;
+  struct stat status {};
+  bool good = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  std::string text;
+  std::array<char, 65536> piece{};
+  for (ssize_t got = 1; good && got > 0;) {
+    got = read(file, piece.data(), piece.size());
+    good = got >= 0;
+    if (got > 0) text.append(piece.data(), static_cast<std::size_t>(got));
+  }
+  close(file);
+  return good ? std::optional(std::move(text)) : std::nullopt;
 }
 
 Progress::Progress() : enabled_(isatty(STDERR_FILENO) != 0) {}
@@ -45,7 +47,8 @@ void Progress::show(const std::string& label, std::uint64_t done, std::uint64_t 
   if (!enabled_ || watch_.seconds() < next_seconds_) return;
   if (total == 0) return show(fmt::format("{} {}", label, done));
   const std::uint64_t filled = done >= total ? k_width : done * k_width / total;
-  show(fmt::format("{} [{:<{}}] {}/{}", label, std::string(static_cast<std::size_t>(filled), '#'), k_width, done, total));
+  show(fmt::format("{} [{:<{}}] {}/{}", label, std::string(static_cast<std::size_t>(filled), '#'),
+                   k_width, done, total));
 }
 
 void Progress::show(const std::string& line) {

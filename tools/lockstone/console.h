@@ -14,11 +14,9 @@ namespace lockstone::tool {
 /// A line on the standard error stream.
 void complain(const std::string& line);
 
-/// What the file holds, or nothing when it cannot be read.
+/// What the file holds, or nothing when it cannot be read. A directory, a FIFO or a device cannot,
+/// which is found at once.
 [[nodiscard]] std::optional<std::string> read_file(const std::string& path);
-
-/// False, with a complaint, when the system refuses.
-[[nodiscard]] bool write_text_file(const std::string& path, const std::string& text);
 
 /// Seconds since its creation.
 class Stopwatch {

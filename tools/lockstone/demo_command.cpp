@@ -17,6 +17,7 @@
 #include "tools/lockstone/interrupt.h"
 #include "tools/lockstone/match_host.h"
 #include "tools/lockstone/match_options.h"
+#include "tools/lockstone/output_file.h"
 #include "tools/lockstone/secrets.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
@@ -177,7 +178,8 @@ bool draw_end(const DemoOptions& options, const MatchHost& host) {
   picture.style = render::arena_look;
   picture.caption = fmt::format("tick {}   {}   scores {}", host.simulation().tick(),
                                 hash_text(host.simulation().hash()), scores_of(host.simulation()));
-  return write_text_file(options.svg, render::draw(*scenes::world_of(host.simulation()), picture));
+  return write_text_file({options.svg, options.match.force},
+                         render::draw(*scenes::world_of(host.simulation()), picture));
 }
 
 int exit_code_for(const MatchSummary& summary, const Verification& verification, bool players_ok) {
@@ -190,6 +192,7 @@ int exit_code_for(const MatchSummary& summary, const Verification& verification,
 }
 
 int demo(DemoOptions options) {
+  if (!may_write({options.svg, options.match.force})) return k_unavailable;
   catch_interrupts();
   const PrivateFolder folder;
   if (!options.match.insecure) {

@@ -1,5 +1,7 @@
 #include "tools/lockstone/log_file.h"
 
+#include <random>
+
 #include <fmt/format.h>
 
 #include "tools/lockstone/console.h"
@@ -26,11 +28,17 @@ std::unique_ptr<replay::FileSource> open_log(const std::string& path) {
   return nullptr;
 }
 
-std::unique_ptr<replay::FileSink> create_log(const std::string& path) {
-  auto sink = replay::FileSink::create(path);
+std::unique_ptr<replay::FileSink> create_log(const Output& output) {
+  if (!may_write(output)) return nullptr;
+  auto sink = replay::FileSink::create(output.path, output.force);
   if (sink) return std::move(sink).value();
-  complain(fmt::format("cannot write {}: {}", path, to_string(sink.status())));
+  complain(fmt::format("cannot write {}: {}", output.path, to_string(sink.status())));
   return nullptr;
+}
+
+std::uint64_t random_match_id() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32 | random();
 }
 
 std::optional<replay::SigningKey> read_signing_key(const std::string& path) {

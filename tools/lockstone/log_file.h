@@ -1,6 +1,7 @@
 // What the subcommands that read and write logs share.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <lockstone/status.h>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 
@@ -20,9 +22,14 @@ namespace lockstone::tool {
   return foreign ? k_incompatible : k_corrupt;
 }
 
-/// Null, with a complaint, when it cannot be opened or made.
+/// Null, with a complaint, when it cannot be opened, or may not be made.
 [[nodiscard]] std::unique_ptr<replay::FileSource> open_log(const std::string& path);
-[[nodiscard]] std::unique_ptr<replay::FileSink> create_log(const std::string& path);
+
+/// In its place from the beginning, so that a recorder that is killed leaves a log.
+[[nodiscard]] std::unique_ptr<replay::FileSink> create_log(const Output& output);
+
+/// From the system's randomness: a log is that of one match.
+[[nodiscard]] std::uint64_t random_match_id();
 
 /// What a key file holds, or nothing with a complaint. Made by `lockstone keygen`.
 [[nodiscard]] std::optional<replay::SigningKey> read_signing_key(const std::string& path);

@@ -20,6 +20,7 @@
 #include "tools/arena/config.h"
 #include "tools/lockstone/build_text.h"
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/output_file.h"
 #include "tools/lockstone/resume.h"
 #include "tools/lockstone/secrets.h"
 #include "tools/lockstone/tar.h"
@@ -74,8 +75,9 @@ class MatchLog {
       memory_ = memory.get();
       sink_ = std::move(memory);
     } else {
-      auto sink =
-          replay::FileSink::create(options.record + (options.resume.empty() ? "" : k_unfinished));
+      const bool resumes = !options.resume.empty();
+      auto sink = replay::FileSink::create(options.record + (resumes ? k_unfinished : ""),
+                                           options.force || resumes);
       if (!sink) return sink.status();
       sink_ = std::move(sink).value();
     }
@@ -239,7 +241,9 @@ struct MatchHost::Impl final : net::ServerObserver {
     std::string text;
     for (std::byte byte : archive)
       text.push_back(static_cast<char>(byte));
-    if (write_text_file(options.bundle, text)) say("the desync is written to " + options.bundle);
+    if (write_text_file({options.bundle, options.force}, text)) {
+      say("the desync is written to " + options.bundle);
+    }
   }
   void match_started() override {
     started_seconds = watch.seconds();
@@ -275,8 +279,15 @@ struct MatchHost::Impl final : net::ServerObserver {
     return true;
   }
 
+  // A resumed match goes on in its own log.
+  [[nodiscard]] bool may_write_files() const {
+    const bool own = !options.resume.empty() && options.record == options.resume;
+    return (own || may_write({options.record, options.force})) &&
+           may_write({options.bundle, options.force});
+  }
+
   [[nodiscard]] bool set_up() {
-    if (!make_simulation()) return false;
+    if (!may_write_files() || !make_simulation()) return false;
     net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
     enet.max_connections = connections();
     if (options.fast) enet.limits = net::DatagramLimits::none();

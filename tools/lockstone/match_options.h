@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 
 #include "tools/lockstone/match_host.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 
@@ -21,6 +22,7 @@ inline void add_match_options(CLI::App& command, MatchOptions& options) {
   command.add_option("--input-delay", options.input_delay, "Ticks from a press to its effect")
       ->check(CLI::Range(0, 60))
       ->capture_default_str();
+  add_force_option(command, options.force);
   command.add_flag("--fast", options.fast, "As fast as inputs come, not 60 ticks a second");
 }
 

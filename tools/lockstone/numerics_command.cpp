@@ -9,6 +9,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
+#include "tools/lockstone/output_file.h"
 #include "tools/numerics/vectors.h"
 
 namespace lockstone::tool {
@@ -17,6 +18,7 @@ namespace {
 struct NumericsOptions {
   std::string write_file;
   std::string check_file;
+  bool force = false;
   bool json = false;
 };
 
@@ -55,7 +57,9 @@ int check(const NumericsOptions& options) {
 
 int numerics_command(const NumericsOptions& options) {
   if (options.write_file.empty()) return check(options);
-  return write_text_file(options.write_file, numerics::golden_text()) ? k_ok : k_unavailable;
+  return write_text_file({options.write_file, options.force}, numerics::golden_text())
+             ? k_ok
+             : k_unavailable;
 }
 
 }  // namespace
@@ -68,6 +72,7 @@ void add_numerics_command(CLI::App& app, int& exit_code) {
   command->add_option("--check", options->check_file, "Verify the vectors in this file")
       ->expected(0, 1)
       ->excludes(write);
+  add_force_option(*command, options->force);
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = numerics_command(*options); });
 }

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <lockstone/hash.h>
 #include <lockstone/replay/recorder.h>
 
 #include "tools/lockstone/commands.h"
@@ -29,6 +28,8 @@ struct RecordOptions {
   bool plain = false;
   std::string key;
   std::optional<std::uint64_t> flip_bit_at;
+  std::optional<std::uint64_t> match_id;
+  bool force = false;
 };
 
 bool prepare(const RecordOptions& options, replay::RecorderOptions& recorder) {
@@ -67,12 +68,12 @@ int record(const RecordOptions& options) {
   replay::RecorderOptions recorder_options{
       .keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical)};
   if (!prepare(options, recorder_options)) return k_usage;
-  const std::unique_ptr<replay::FileSink> sink = create_log(options.out);
+  const std::unique_ptr<replay::FileSink> sink = create_log({options.out, options.force});
   if (sink == nullptr) return k_unavailable;
   replay::Recorder recorder(*sink, recorder_options);
   const std::vector<std::byte>& config = match.value().config;
   Status status = recorder.begin(simulation.info(), config,
-                                 {.match_id = hash64(config, options.seed),
+                                 {.match_id = options.match_id.value_or(random_match_id()),
                                   .seed = options.seed,
                                   .build = "lockstone " LOCKSTONE_VERSION});
   if (status == Status::ok) status = play(options, simulation, recorder);
@@ -101,6 +102,9 @@ void add_record_command(CLI::App& app, int& exit_code) {
   command->add_option("--sign", options->key, "Sign with the secret key in this file");
   command->add_option("--flip-bit-at", options->flip_bit_at,
                       "Go wrong by one bit in this tick, for trying out `verify` and `bisect`");
+  command->add_option("--match-id", options->match_id,
+                      "Number of the match; chosen at random when left out");
+  add_force_option(*command, options->force);
   command->callback([options, &exit_code] { exit_code = record(*options); });
 }
 

@@ -17,6 +17,7 @@
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/json_text.h"
 #include "tools/lockstone/options.h"
+#include "tools/lockstone/output_file.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
 
@@ -36,6 +37,7 @@ struct RunOptions {
   bool heavy = false;
   bool overlay = false;
   bool validate = false;
+  bool force = false;
   std::string forget;
 };
 
@@ -212,9 +214,10 @@ class Run {
 
   [[nodiscard]] bool write_picture() const {
     if (options_.svg.empty()) return true;
-    if (frames_.size() == 1) return write_text_file(options_.svg, frames_.front());
+    if (frames_.size() == 1)
+      return write_text_file({options_.svg, options_.force}, frames_.front());
     const int columns = frames_.size() == 4 ? 2 : 3;
-    return write_text_file(options_.svg,
+    return write_text_file({options_.svg, options_.force},
                            render::strip(frames_, picture_of(options_, *play_), columns));
   }
 
@@ -228,6 +231,7 @@ class Run {
 };
 
 int run(RunOptions options) {
+  if (!may_write({options.svg, options.force})) return k_unavailable;
   Result<std::unique_ptr<scenes::ScenePlay>> play =
       scenes::make_play(options.scene, options.seed, options.broad_phase);
   if (!play) {
@@ -254,6 +258,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_broad_phase_option(*command, options->broad_phase);
   add_threads_option(*command, options->threads);
   CLI::Option* svg = command->add_option("--svg", options->svg, "Draw the end into this file");
+  add_force_option(*command, options->force);
   command->add_option("--frames", options->frames, "Draw this many moments instead of one")
       ->check(CLI::Range(1, 60))
       ->needs(svg);

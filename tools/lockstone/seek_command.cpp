@@ -25,6 +25,7 @@ struct SeekOptions {
   std::uint64_t tick = 0;
   std::string state;
   std::string svg;
+  bool force = false;
   bool replay = false;
   bool json = false;
 };
@@ -32,7 +33,7 @@ struct SeekOptions {
 bool write_state(const SeekOptions& options, const Simulation& simulation) {
   if (options.state.empty()) return true;
   const std::vector<std::byte> bytes = replay::pack_snapshot(canonical_bytes(simulation));
-  return write_text_file(options.state,
+  return write_text_file({options.state, options.force},
                          std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
@@ -42,7 +43,7 @@ bool draw(const SeekOptions& options, const Simulation& simulation) {
   render::Picture picture;
   picture.caption = fmt::format("tick {}   {}", simulation.tick(), hash_text(simulation.hash()));
   picture.style = render::arena_look;
-  return write_text_file(options.svg, render::draw(*world, picture));
+  return write_text_file({options.svg, options.force}, render::draw(*world, picture));
 }
 
 void print(const SeekOptions& options, const replay::SeekResult& found) {
@@ -61,6 +62,9 @@ void print(const SeekOptions& options, const replay::SeekResult& found) {
 }
 
 int seek(const SeekOptions& options) {
+  const bool writable =
+      may_write({options.state, options.force}) && may_write({options.svg, options.force});
+  if (!writable) return k_unavailable;
   const auto source = open_log(options.file);
   if (source == nullptr) return k_corrupt;
   const replay::SeekResult found =
@@ -87,6 +91,7 @@ void add_seek_command(CLI::App& app, int& exit_code) {
   command->add_option("--state", options->state,
                       "Write the canonical snapshot into this file, packed");
   command->add_option("--svg", options->svg, "Draw the state into this file");
+  add_force_option(*command, options->force);
   command->add_flag("--replay", options->replay, "Use no keyframe but the first");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = seek(*options); });
