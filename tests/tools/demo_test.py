@@ -119,6 +119,16 @@ class Network(unittest.TestCase):
         self.assertEqual([answer["final_hash"] for answer in answers], [final_hash] * 2)
         self.assertEqual(self.verify("match.lks")["final_hash"], final_hash)
 
+    def test_a_server_signs_its_log(self):
+        if subprocess.run([LOCKSTONE, "keygen", self.folder / "key"], capture_output=True).returncode != 0:
+            self.skipTest("built without libsodium")
+        self.run_command(64, "serve", "--insecure", "--sign", "key")
+        server, port = self.serve("--players", 1, "--ticks", 60, "--fast", "--record", "match.lks",
+                                  "--bodies", 10, "--sign", "key")
+        self.expect(0, self.start("join", "--insecure", "--port", port))
+        self.expect(0, server)
+        self.run_command(0, "verify", "match.lks", "--key", "key.pub")
+
     def test_a_scene_without_players_can_be_served(self):
         server, port = self.serve("--scene", "pile", "--players", 1, "--ticks", 60, "--fast")
         self.expect(0, self.start("join", "--insecure", "--port", port))

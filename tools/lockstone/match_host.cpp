@@ -20,6 +20,7 @@
 #include "tools/arena/config.h"
 #include "tools/lockstone/build_text.h"
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/log_file.h"
 #include "tools/lockstone/output_file.h"
 #include "tools/lockstone/resume.h"
 #include "tools/lockstone/secrets.h"
@@ -83,9 +84,10 @@ class MatchLog {
     }
     replay::RecorderOptions recorder_options;
     recorder_options.keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical);
+    recorder_options.signing_key = options.signing_key;
     background_.emplace(*sink_);
     recorder_.emplace(*background_, recorder_options);
-    const replay::MatchMetadata match{.match_id = hash64(config, options.seed),
+    const replay::MatchMetadata match{.match_id = random_match_id(),
                                       .seed = options.seed,
                                       .start_tick = 0,
                                       .build = "lockstone " LOCKSTONE_VERSION};

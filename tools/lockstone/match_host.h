@@ -43,7 +43,8 @@ struct MatchOptions {
   std::string bundle;              ///< the first desync is written to this file; empty: nowhere
   std::uint16_t metrics_port = 0;  ///< 0: none
   std::string metrics_bind = "127.0.0.1";
-  bool force = false;  ///< replace files that are there
+  bool force = false;                             ///< replace files that are there
+  std::optional<replay::SigningKey> signing_key;  ///< of the log; none: it is not signed
 };
 
 /// What became of a match.

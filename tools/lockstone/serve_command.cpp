@@ -10,6 +10,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/interrupt.h"
+#include "tools/lockstone/log_file.h"
 #include "tools/lockstone/match_host.h"
 #include "tools/lockstone/match_options.h"
 #include "tools/lockstone/secrets.h"
@@ -23,6 +24,7 @@ struct ServeOptions {
   std::string on_desync = "resync";
   unsigned matches = 1;
   std::string key;
+  std::string sign;
   std::vector<std::string> addresses;
 };
 
@@ -42,6 +44,17 @@ int set_security(ServeOptions& options) {
     return k_usage;
   }
   return options.match.key ? k_ok : k_corrupt;
+}
+
+// False, with a complaint, when a log is to be signed and cannot be.
+bool set_signing(ServeOptions& options) {
+  if (options.sign.empty()) return true;
+  if (options.match.record.empty()) {
+    complain("--sign signs the log of --record FILE");
+    return false;
+  }
+  options.match.signing_key = read_signing_key(options.sign);
+  return options.match.signing_key.has_value();
 }
 
 void print_players(const MatchSummary& summary) {
@@ -105,6 +118,7 @@ int serve(ServeOptions options) {
                                                                 : net::DesyncPolicy::end_match;
   if (const int code = set_security(options); code != k_ok) return code;
   if (const int code = check_matches(options); code != k_ok) return code;
+  if (!set_signing(options)) return k_usage;
   catch_interrupts();
   std::vector<std::unique_ptr<MatchHost>> hosts;
   for (unsigned i = 0; i < options.matches; ++i) {
@@ -139,6 +153,8 @@ void add_serve_command(CLI::App& app, int& exit_code) {
                       "Go on with the match of a killed server, from its log; what is played comes "
                       "from there, other options as before. The log goes on in the same file, or "
                       "in that of --record");
+  command->add_option("--sign", options->sign,
+                      "Sign the log with the secret key in this file, see `keygen`");
   command->add_option("--policy", options->policy, "On a late input: replace it, or wait for it")
       ->check(CLI::IsMember({"deadline", "strict"}))
       ->capture_default_str();
