@@ -102,6 +102,28 @@ class Run(Case):
         self.expect(USAGE, "run", "--scene", "stack", "--ticks", 9, "--overlay")
 
 
+class Usage(Case):
+    def test_an_unknown_command_is_named_and_the_nearest_proposed(self):
+        for wrong, right in (("verfy", "verify"), ("rnu", "run"), ("biscet", "bisect"),
+                             ("scene", "scenes"), ("kegen", "keygen")):
+            done = self.expect(USAGE, wrong, "file")
+            self.assertIn(f"unknown command '{wrong}'; did you mean '{right}'?", done.stderr)
+        done = self.expect(USAGE, "teleport")
+        self.assertIn("unknown command 'teleport'", done.stderr)
+        self.assertNotIn("did you mean", done.stderr)
+
+    def test_an_unknown_command_of_a_command_is_named(self):
+        self.assertIn("unknown command 'bild'; did you mean 'build'?",
+                      self.expect(USAGE, "asset", "bild", "file").stderr)
+
+    def test_an_unknown_option_is_named_and_the_nearest_proposed(self):
+        done = self.expect(USAGE, "run", "--scene", "stack", "--tick", 5)
+        self.assertIn("unknown option '--tick'; did you mean '--ticks'?", done.stderr)
+        done = self.expect(USAGE, "run", "--scene", "stack", "--ticks", 5, "--sede=7")
+        self.assertIn("unknown option '--sede'; did you mean '--seed'?", done.stderr)
+        self.assertNotIn("did you mean", self.expect(USAGE, "scenes", "--teleport").stderr)
+
+
 class State(Case):
     def test_a_forgotten_field_is_caught(self):
         for field in ("body.velocity.y", "body.orientation.w", "contact.point[0].normal_impulse",

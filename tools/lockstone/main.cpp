@@ -5,8 +5,10 @@
 #include <CLI/Formatter.hpp>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/console.h"
 #include "tools/lockstone/log_commands.h"
 #include "tools/lockstone/net_commands.h"
+#include "tools/lockstone/suggestion.h"
 
 namespace lockstone::tool {
 namespace {
@@ -57,7 +59,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? k_ok : k_usage;
+    const std::string unknown = error.get_exit_code() == 0 ? "" : unknown_argument(app);
+    if (unknown.empty()) return app.exit(error) == 0 ? k_ok : k_usage;
+    complain(unknown + "\nRun with --help for more information.");
+    return k_usage;
   }
   return exit_code;
 }

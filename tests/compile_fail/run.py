@@ -1,0 +1,91 @@
+"""What must not compile does not, with a message that helps; its neighbour, which is right, does.
+
+usage: run.py COMPILER INCLUDE [--control]
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+FRONT = """#include <lockstone/literals.h>
+#include <lockstone/world.h>
+using namespace lockstone;
+using namespace lockstone::literals;
+"""
+
+# The wrong line, the right one in its place, and a word of the message.
+BARE = "Fixed|no viable"
+PAIRS = [
+    ("BodyDef d; void f() { d.position = {1, 2, 3}; }",
+     "BodyDef d; void f() { d.position = {1_m, 2_m, 3_m}; }", BARE),
+    ("WorldDef d{.gravity = {0, -10, 0}};", "WorldDef d{.gravity = {{}, -10_mps2, {}}};", BARE),
+    ("BodyDef d{.velocity = {1, {}, {}}};", "BodyDef d{.velocity = {1_mps, {}, {}}};", BARE),
+    ("BodyDef d{.gravity_scale = {2}};", "BodyDef d{.gravity_scale = {2_r}};", BARE),
+    ("Shape s = Shape::sphere({1});", "Shape s = Shape::sphere({1_m});", BARE),
+    ("Length l{5};", "Length l{5_m};", BARE),
+    ("Length l(5);", "Length l(5_m);", BARE),
+    ("Length l = 5;", "Length l = 5_m;", BARE),
+    ("Length l = {.raw = 5};", "Length l = Length::from_raw(5);", "raw|initializer"),
+    ("Length l = 0.5;", "Length l = 0.5_m;", BARE),
+    ("bool f(Length l) { return l == 0; }", "bool f(Length l) { return l == 0_m; }", BARE),
+    ("bool f(Length l) { return l > 1; }", "bool f(Length l) { return l > 1_m; }", BARE),
+    ("Length f(Length l) { return l + 1; }", "Length f(Length l) { return l + 1_m; }", BARE),
+    ("RayHit f(World& w) { return w.cast_ray({}, {0, -1, 0}); }",
+     "RayHit f(World& w) { return w.cast_ray({}, {{}, -1_m, {}}); }", BARE),
+    ("Status f(World& w) { return w.apply(ApplyImpulse{{}, {1, 0, 0}}); }",
+     "Status f(World& w) { return w.apply(ApplyImpulse{{}, {1_Ns, {}, {}}}); }", BARE),
+    ("Length l = Length::from_integer(1.5);", "Length l = Length::from_ratio(3, 2);",
+     "deleted|from_integer"),
+    ("Length l = Length::from_ratio(1.5, 2);", "Length l = Length::from_ratio(3, 4);",
+     "deleted|from_ratio"),
+    ("constexpr Length l = Length::from_integer(5000);",
+     "constexpr Position l = Position::from_integer(5000);", "misused|out of range"),
+    ("constexpr Length l = Length::from_ratio(1, 0);",
+     "constexpr Length l = Length::from_ratio(1, 2);", "misused|denominator"),
+    ("constexpr Length l = Length::from_ratio(5000, 1);",
+     "constexpr Length l = Length::from_ratio(5000, 4);", "misused|out of range"),
+    ("constexpr Length l = Length::from_integer(1) / 0;",
+     "constexpr Length l = Length::from_integer(1) / 2;", "misused|divided by 0"),
+    ("Length l = 5000_m;", "Position l = 5000_m;", "conver"),
+    ("Length f(bool b) { return b ? 1_m : 5000_m; }",
+     "Position f(bool b) { return b ? 1_m : 5000_m; }", "conver"),
+    ("Length l = 1_mps;", "Velocity l = 1_mps;", "conver"),
+    ("auto x = 1e3_m;", "auto x = 1000_m;", "decimal literal"),
+    ("Length f(Position p) { return p; }", "Length f(Position p) { return saturated<Length>(p); }",
+     "conver"),
+    ("auto f(Position p, Velocity v) { return p + v; }",
+     "auto f(Position p, Length v) { return p + v; }", "operator"),
+    ("auto f(Unit a) { return to_decimal(a * a); }",
+     "auto f(Unit a) { return to_decimal(a); }", "exact product"),
+]
+
+
+def errors(compiler, include, code):
+    done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-I", include, "-x", "c++", "-"],
+                          input=FRONT + code, capture_output=True, text=True)
+    return "" if done.returncode == 0 else done.stderr or "failed"
+
+
+def main():
+    compiler, include = sys.argv[1:3]
+    # Rights first: all in one translation unit each in a namespace of its own.
+    rights = "\n".join(f"namespace n{i} {{ {right} }}" for i, (_, right, _) in enumerate(PAIRS))
+    faults = []
+    text = errors(compiler, include, rights)
+    if text:
+        faults.append("what is right does not compile:\n" + text)
+    wrongs = [right for _, right, _ in PAIRS] if "--control" in sys.argv else [w for w, _, _ in PAIRS]
+    for wrong, (_, _, message) in zip(wrongs, PAIRS):
+        text = errors(compiler, include, wrong)
+        if not text:
+            faults.append("compiles: " + wrong)
+        elif not re.search(message, text):
+            faults.append(f"{wrong}\n  is refused without a word of {message}:\n{text}")
+    if "--control" in sys.argv:
+        sys.exit(0 if len(faults) == len(PAIRS) else f"the control found {len(faults)} faults only")
+    if faults:
+        sys.exit("\n".join(faults))
+
+
+main()
