@@ -15,6 +15,21 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${scratch_dir}/bui
 run(${CMAKE_COMMAND} --build ${scratch_dir}/build --config ${config})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${scratch_dir}/build --build-config ${config} --output-on-failure)
 
+# The core alone, where nothing else is to be found.
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/core_only -B ${scratch_dir}/core_only -G ${generator}
+  -D CMAKE_PREFIX_PATH=${scratch_dir}/prefix
+  -D CMAKE_BUILD_TYPE=${config}
+  -D CMAKE_CXX_COMPILER=${compiler}
+  -D CMAKE_CXX_FLAGS=${flags}
+  -D needs_libraries=${needs_libraries}
+  -D wanted_version=${version})
+run(${CMAKE_COMMAND} --build ${scratch_dir}/core_only --config ${config})
+
+file(GLOB_RECURSE licences ${scratch_dir}/prefix/share/doc/lockstone/copyright)
+if(NOT licences)
+  message(FATAL_ERROR "the licence is not installed")
+endif()
+
 # The prefix must hold all that its headers need, and must not point back into the sources.
 file(GLOB_RECURSE package_files ${scratch_dir}/prefix/*.cmake)
 foreach(file IN LISTS package_files)

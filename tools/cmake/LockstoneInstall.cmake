@@ -3,10 +3,13 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lockstone)
 
-install(TARGETS lockstone_core lockstone_net lockstone_replay
-  EXPORT lockstone_targets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# Each component has targets of its own, so that the core is found without what net and replay need.
 foreach(room IN ITEMS core net replay)
+  install(TARGETS lockstone_${room}
+    EXPORT lockstone_${room}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT lockstone_${room}
+    NAMESPACE lockstone:: FILE lockstone_${room}.cmake DESTINATION ${package_dir})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 endforeach()
@@ -14,8 +17,9 @@ if(TARGET lockstone)
   install(TARGETS lockstone RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-install(EXPORT lockstone_targets
-  NAMESPACE lockstone:: FILE lockstoneTargets.cmake DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lockstone RENAME copyright)
+
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/tools/cmake/lockstoneConfig.cmake.in
   ${PROJECT_BINARY_DIR}/lockstoneConfig.cmake

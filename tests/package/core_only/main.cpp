@@ -1,0 +1,3 @@
+#include <lockstone/world.h>
+
+int main() { return lockstone::World::create({}).ok() ? 0 : 1; }
