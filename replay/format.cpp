@@ -28,6 +28,11 @@ std::string_view to_string(ChunkType type) {
   return "chunk";
 }
 
+std::string_view to_string(Codec codec) {
+  if (codec == Codec::raw) return "raw";
+  return codec == Codec::zstd ? "zstd" : "unknown";
+}
+
 std::string_view to_string(EventKind kind) {
   switch (kind) {
     case EventKind::join:

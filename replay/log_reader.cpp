@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,14 @@
 #include "replay/record_codec.h"
 
 namespace lockstone::replay {
+
+std::string_view to_string(LogItem item) {
+  constexpr std::array<std::string_view, 10> k_names{"scene",  "inputs", "hashes",  "keyframe",
+                                                     "events", "end",    "skipped", "finished",
+                                                     "torn",   "damaged"};
+  const auto index = static_cast<std::size_t>(item);
+  return index < k_names.size() ? k_names[index] : "unknown";
+}
 
 struct LogReader::Parts {
   explicit Parts(Source& source) : chunks(source) {}

@@ -5,6 +5,11 @@
 #include "replay/verification.h"
 
 namespace lockstone::replay {
+
+std::string_view to_string(SeekFrom from) {
+  if (from == SeekFrom::keyframe) return "keyframe";
+  return from == SeekFrom::beginning ? "beginning" : "unknown";
+}
 namespace {
 
 SeekResult failed(Status status, std::string what) {

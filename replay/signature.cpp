@@ -121,7 +121,7 @@ struct LogDigest::Parts {
 };
 
 LogDigest::LogDigest() : parts_(std::make_unique<Parts>()) {
-  LKS_CHECK(start_library());
+  if (!start_library()) misused("replay::LogDigest: libsodium did not start");
   crypto_generichash_init(&parts_->state, nullptr, 0, k_digest_bytes);
 }
 
@@ -162,7 +162,7 @@ struct LogDigest::Parts {};
 LogDigest::LogDigest() = default;
 void LogDigest::update(ByteView) {}
 void LogDigest::sign(const SigningKey&, std::span<std::byte, k_signature_bytes>) const {
-  LKS_CHECK(false);
+  misused("this build of lockstone::replay cannot sign: ask signing_available() first");
 }
 bool LogDigest::check(std::span<const std::byte, k_signature_bytes>) const {
   return false;

@@ -16,7 +16,8 @@ constexpr std::size_t k_end_bytes = 8;
 }  // namespace
 
 std::vector<std::byte> pack_snapshot(ByteView canonical) {
-  LKS_CHECK(canonical.size() <= k_max_keyframe_bytes);
+  if (canonical.size() > k_max_keyframe_bytes)
+    misused("replay::pack_snapshot: the snapshot is above k_max_keyframe_bytes");
   Compressor compressor(canonical.size());
   const std::span<std::byte> room = compressor.compress(canonical);
   const ByteView stored = room.empty() ? canonical : ByteView(room.subspan(k_chunk_header_bytes));

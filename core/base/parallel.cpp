@@ -19,7 +19,8 @@ void Parallel::set_runner(TaskRunner* runner, TaskPieces pieces) {
   runner_ = runner;
   pieces_ = pieces;
   workers_ = runner == nullptr ? 1 : runner->worker_count();
-  LKS_CHECK(workers_ >= 1 && workers_ <= k_max_workers);
+  if (workers_ < 1 || workers_ > k_max_workers)
+    misused("World::set_task_runner: worker_count() must be 1 … k_max_workers");
 }
 
 // Not what would be done in one piece anyway.

@@ -1,6 +1,20 @@
+#include <cstdio>
+#include <cstdlib>
+
 #include <lockstone/status.h>
 
 namespace lockstone {
+
+void no_value(Status error) {
+  const char* hint = error == Status::invalid_argument || error == Status::capacity_exhausted
+                         ? "; of a world, World::explain says which field"
+                         : "";
+  std::fprintf(stderr,
+               "lockstone: Result::value: there is no value but an error, \"%s\": check "
+               "ok() first%s\n",
+               to_string(error).data(), hint);
+  std::abort();
+}
 
 std::string_view to_string(Status status) {
   switch (status) {

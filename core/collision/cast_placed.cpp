@@ -54,7 +54,7 @@ ShapeCastHit cast_at_half_space(const PosedShape& plane, const PosedShape& shape
   if (start.overlapping || !closes) return hit;
   const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(gap)} << 48;
   const std::uint64_t quotient = divide(numerator, static_cast<std::uint64_t>(way)).quotient;
-  hit.fraction = {static_cast<std::int32_t>(std::min(quotient, std::uint64_t{1} << 30))};
+  hit.fraction.raw = static_cast<std::int32_t>(std::min(quotient, std::uint64_t{1} << 30));
   return hit;
 }
 
@@ -146,8 +146,8 @@ LocalBox local_box(const PlacedShape& placed, const PlacedShape& shape) {
   LocalBox box;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
-    box.middle[i] = {static_cast<std::int32_t>((low + high) >> 1)};
-    box.reach[i] = {raw::saturate<std::int32_t>(((high - low) >> 1) + 1)};
+    box.middle[i].raw = static_cast<std::int32_t>((low + high) >> 1);
+    box.reach[i].raw = raw::saturate<std::int32_t>(((high - low) >> 1) + 1);
   }
   return box;
 }

@@ -13,8 +13,8 @@ Length inner_radius_of(const geometry::Polytope& polytope) {
   std::int64_t least = geometry::fine(k_max_shape_size);
   for (const geometry::PolytopeFace& face : polytope.faces)
     least = std::min(least, face.offset - dot(face.normal, polytope.interior).raw);
-  return {
-      static_cast<std::int32_t>(std::max<std::int64_t>(least, 0) >> geometry::k_fine_per_length)};
+  return Length::from_raw(
+      static_cast<std::int32_t>(std::max<std::int64_t>(least, 0) >> geometry::k_fine_per_length));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ OrientedBox box_of(const geometry::LocalBounds& bounds, const Vec3<Position>& or
   for (int i = 0; i < 3; ++i) {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
     middle[i] = Position::from_raw((low + high) << 11);
-    box.half_extents[i] = {raw::saturate<std::int32_t>((high - low + 1) >> 1)};
+    box.half_extents[i].raw = raw::saturate<std::int32_t>((high - low + 1) >> 1);
   }
   box.centre = origin + rotate(rotation, middle);
   return box;
@@ -50,8 +50,8 @@ geometry::LocalBounds local_region(const PlacedShape& placed, const OrientedBox&
   geometry::LocalBounds bounds;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t reach = std::int64_t{half[i].raw} + margin.raw + k_frame_error.raw;
-    bounds.lower[i] = {raw::saturate<std::int32_t>(centre[i].raw - reach)};
-    bounds.upper[i] = {raw::saturate<std::int32_t>(centre[i].raw + reach)};
+    bounds.lower[i].raw = raw::saturate<std::int32_t>(centre[i].raw - reach);
+    bounds.upper[i].raw = raw::saturate<std::int32_t>(centre[i].raw + reach);
   }
   return bounds;
 }

@@ -100,7 +100,7 @@ Meeting meeting_of_balls(const BouncePair& pair, const Vec3<Velocity>& gain, con
   const Vec3<Position> start = pair.b->position - pair.a->position;
   Meeting meeting;
   for (int i = 0; i < k_iterations; ++i) {
-    const Unit t{static_cast<std::int32_t>(meeting.fraction)};
+    const Unit t = Unit::from_raw(static_cast<std::int32_t>(meeting.fraction));
     const Vec3<Velocity> gained = times(gain, t);
     Vec3<Position> offset = start;
     for (int axis = 0; axis < 3; ++axis) {
@@ -255,7 +255,7 @@ void BounceGroup::run() {
       next = &contact;
     }
     if (next == nullptr) break;
-    const Unit fraction{static_cast<std::int32_t>(first.fraction)};
+    const Unit fraction = Unit::from_raw(static_cast<std::int32_t>(first.fraction));
     advance(fraction);
     left -= fraction;
     answer(*next, first.speed);

@@ -23,7 +23,8 @@ constexpr int k_attempts = 4;
 // r / 2^k, 30 bits, at most 2.
 Vec3<Unit> normalized_arm(const Vec3<Length>& r, int scale_exponent) {
   const auto entry = [&](Length x) {
-    return Unit{raw::saturate<std::int32_t>(std::int64_t{x.raw} << (10 - scale_exponent))};
+    return Unit::from_raw(
+        raw::saturate<std::int32_t>(std::int64_t{x.raw} << (10 - scale_exponent)));
   };
   return {entry(r.x), entry(r.y), entry(r.z)};
 }

@@ -274,7 +274,8 @@ class RowFiller {
   // a = xA·xB, b = t·xB; next to 0 it is b, at ω·(xB × t).
   void add_swing(std::size_t axis, const RawVec3& t, bool limits) {
     const RawVec3 x = raw_of(frame_b_.x);
-    const std::int64_t b = along({Position{x[0]}, Position{x[1]}, Position{x[2]}}, t);
+    const std::int64_t b =
+        along({Position::from_raw(x[0]), Position::from_raw(x[1]), Position::from_raw(x[2])}, t);
     if (is_rigid(axis)) return add_axis(axis, angular_row(cross_raw(x, t)), arc(b * 4));
     const std::int64_t a = cosine(frame_a_.x, frame_b_.x);
     const std::int64_t square = raw::round_shift(a * a, 30) + raw::round_shift(b * b, 30);

@@ -10,7 +10,8 @@ namespace {
 Coefficient combine(CombineRule rule, Coefficient a, Coefficient b) {
   switch (rule) {
     case CombineRule::average:
-      return {static_cast<std::int32_t>(raw::round_shift(std::int64_t{a.raw} + b.raw, 1))};
+      return Coefficient::from_raw(
+          static_cast<std::int32_t>(raw::round_shift(std::int64_t{a.raw} + b.raw, 1)));
     case CombineRule::minimum:
       return min(a, b);
     case CombineRule::multiply:
@@ -22,7 +23,8 @@ Coefficient combine(CombineRule rule, Coefficient a, Coefficient b) {
       break;
   }
   if (a == b) return a;
-  return {static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>((a * b).raw)))};
+  return Coefficient::from_raw(
+      static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>((a * b).raw))));
 }
 
 CombineRule rule_of(CombineRule a, CombineRule b, CombineRule standard) {

@@ -18,7 +18,8 @@ std::uint64_t hash_of(std::span<const AssetPtr> assets) {
 }  // namespace
 
 AssetSet::AssetSet(std::vector<AssetPtr> assets) : assets_(std::move(assets)) {
-  LKS_CHECK(std::ranges::none_of(assets_, [](const AssetPtr& asset) { return asset == nullptr; }));
+  if (std::ranges::find(assets_, nullptr) != assets_.end())
+    misused("AssetSet: an entry is null; look at the result of the builder first");
   const auto id = [](const AssetPtr& asset) { return asset->id(); };
   std::ranges::sort(assets_, {}, id);
   const auto same = [&id](const AssetPtr& a, const AssetPtr& b) { return id(a) == id(b); };

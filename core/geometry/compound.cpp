@@ -63,8 +63,8 @@ LocalBounds bounds_of(const CompoundChild& child, const Mat3& rotation) {
       low += std::min(a, b);
       high += std::max(a, b);
     }
-    result.lower[axis] = {raw::saturate<std::int32_t>((low >> 30) - 2)};
-    result.upper[axis] = {raw::saturate<std::int32_t>((high >> 30) + 2)};
+    result.lower[axis].raw = raw::saturate<std::int32_t>((low >> 30) - 2);
+    result.upper[axis].raw = raw::saturate<std::int32_t>((high >> 30) + 2);
   }
   return result;
 }

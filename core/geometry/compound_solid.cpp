@@ -83,7 +83,8 @@ RawVec mean_centre(Solids solids, const Weights& weights) {
 /// Rounded up.
 Length distance_up(const RawVec& arm) {
   const std::uint64_t distance = norm(arm.x, arm.y, arm.z);
-  return {static_cast<std::int32_t>((distance >> k_fine_per_length) + (distance != 0 ? 2 : 0))};
+  return Length::from_raw(
+      static_cast<std::int32_t>((distance >> k_fine_per_length) + (distance != 0 ? 2 : 0)));
 }
 
 /// A solid's tensor about the common centre, in squares of the scale 2^k, 60 bits.
@@ -145,8 +146,8 @@ Solid combined(Solids solids) {
   Solid result;
   result.volume = weights.total_volume();
   for (int axis = 0; axis < 3; ++axis) {
-    result.centre[axis] = {
-        static_cast<std::int32_t>(raw::round_shift(centre[axis], k_fine_per_length))};
+    result.centre[axis].raw =
+        static_cast<std::int32_t>(raw::round_shift(centre[axis], k_fine_per_length));
   }
   result.rest = centre - fine(result.centre);
   for (const PlacedSolid& solid : solids) {

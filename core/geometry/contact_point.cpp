@@ -8,11 +8,11 @@ namespace {
 /// (a + b) / 2 as a length. |a|, |b| < 2^12 m.
 Length midpoint(Fine a, Fine b) {
   const Fine middle = raw::round_shift(raw::add(a, b), k_fine_per_length + 1);
-  return {raw::saturate<std::int32_t>(middle)};
+  return Length::from_raw(raw::saturate<std::int32_t>(middle));
 }
 
 Length to_length(Fine x) {
-  return {raw::saturate<std::int32_t>(raw::round_shift(x, k_fine_per_length))};
+  return Length::from_raw(raw::saturate<std::int32_t>(raw::round_shift(x, k_fine_per_length)));
 }
 
 }  // namespace

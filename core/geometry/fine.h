@@ -118,7 +118,8 @@ struct RawVec {
 
 /// A fine length as a separation: to nearest, saturating at ±128 m.
 [[nodiscard]] constexpr Displacement to_separation(Fine length) {
-  return {raw::saturate<std::int32_t>(raw::round_shift(length, k_fine_per_displacement))};
+  return Displacement::from_raw(
+      raw::saturate<std::int32_t>(raw::round_shift(length, k_fine_per_displacement)));
 }
 
 }  // namespace lockstone::geometry

@@ -45,7 +45,7 @@ namespace geometry {
 
 /// A fine length as a position's coordinate, to nearest.
 [[nodiscard]] constexpr Position to_position(Fine length) {
-  return {raw::round_shift(length, k_fine_bits - Position::frac_bits)};
+  return Position::from_raw(raw::round_shift(length, k_fine_bits - Position::frac_bits));
 }
 
 /// What GJK ends with on the lattice.

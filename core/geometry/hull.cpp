@@ -288,7 +288,8 @@ int Hull::face_count() const {
 }
 
 std::vector<int> Hull::face_vertices(int face) const {
-  LKS_CHECK(face >= 0 && face < face_count());
+  if (face < 0 || face >= face_count())
+    misused("Hull::face_vertices: the face must be 0 … face_count() - 1");
   const PolytopeFace& loop = data_->faces[static_cast<std::size_t>(face)];
   std::vector<int> indices;
   for (const HalfEdge& edge : std::span(data_->edges).subspan(loop.first_edge, loop.edge_count))

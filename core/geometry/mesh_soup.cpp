@@ -38,7 +38,7 @@ bool is_near(Length a, Length b, Length tolerance) {
 class WeldGrid {
  public:
   WeldGrid(std::span<const Vec3<Length>> vertices, Length tolerance)
-      : vertices_(vertices), tolerance_(tolerance), side_(tolerance + Length{1}) {
+      : vertices_(vertices), tolerance_(tolerance), side_(tolerance + Length::from_raw(1)) {
     for (const Vec3<Length>& v : vertices)
       cells_.push_back(cell(v));
     std::sort(cells_.begin(), cells_.end());

@@ -188,7 +188,7 @@ Segment edge_segment(const Polytope& polytope, int edge, const Mat3& rotation,
   const Direction d = direction(way.x, way.y, way.z);
   const auto half = raw::round_shift(static_cast<Fine>(d.length), k_fine_per_length + 1);
   const RawVec middle{from.x + way.x / 2, from.y + way.y / 2, from.z + way.z / 2};
-  return {origin + middle, d.unit, {static_cast<std::int32_t>(half)}};
+  return {origin + middle, d.unit, Length::from_raw(static_cast<std::int32_t>(half))};
 }
 
 }  // namespace lockstone::geometry

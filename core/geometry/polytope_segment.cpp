@@ -210,7 +210,8 @@ SegmentNearest nearest_to_segment(const PolytopeSegment& segment, const SegmentH
   SegmentNearest best;
   try_end(segment, -segment.half, limit, best);
   try_end(segment, segment.half, best.found ? best.distance : limit, best);
-  const Length half{static_cast<std::int32_t>(raw::round_shift(segment.half, k_fine_per_length))};
+  const Length half = Length::from_raw(
+      static_cast<std::int32_t>(raw::round_shift(segment.half, k_fine_per_length)));
   const Segment core{segment.centre, segment.axis, half};
   for (int edge = 0; edge < static_cast<int>(p.edges.size()); ++edge) {
     const FacePair faces = faces_of(p, edge);

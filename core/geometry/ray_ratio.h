@@ -23,7 +23,7 @@ struct RayRatio {
 [[nodiscard]] constexpr Unit rounded(const RayRatio& ratio) {
   const std::int64_t fraction = round_divide(
       multiply_wide(ratio.numerator, std::int64_t{1} << Unit::frac_bits), ratio.denominator);
-  return {static_cast<std::int32_t>(fraction)};
+  return Unit::from_raw(static_cast<std::int32_t>(fraction));
 }
 
 }  // namespace lockstone::geometry

@@ -49,8 +49,8 @@ RawVec point_on(const RawVec& origin, const RawVec& translation, std::int64_t fr
 
 ShapeRayHit hit_at(std::int64_t fraction, const RawVec& outward) {
   const std::int64_t rounded = raw::round_shift(fraction, k_fraction_bits - Unit::frac_bits);
-  return {
-      true, {static_cast<std::int32_t>(rounded)}, direction_of(outward.x, outward.y, outward.z)};
+  return {true, Unit::from_raw(static_cast<std::int32_t>(rounded)),
+          direction_of(outward.x, outward.y, outward.z)};
 }
 
 /// v without its part along the axis.

@@ -152,7 +152,7 @@ Unit step_by_speed(const Projections& p, Metres reserve, Unit rest) {
   if (room >= speed) return rest;
   const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(room)} << Unit::frac_bits;
   const auto step = divide(numerator, static_cast<std::uint64_t>(speed)).quotient;
-  return min(rest, Unit{static_cast<std::int32_t>(step)});
+  return min(rest, Unit::from_raw(static_cast<std::int32_t>(step)));
 }
 
 /// A step from `low` up to `high` by each vertex' own speed. The bound is concave, so the root of
@@ -170,7 +170,7 @@ Unit step_by_vertices(const Projections& p, Metres reserve, Unit low, Unit high)
     const auto chord = static_cast<std::int64_t>(divide(product, fall).quotient);
     const std::int64_t ahead = i % 2 == 0 ? chord : width / 2;
     if (ahead == 0) continue;
-    const Unit middle{static_cast<std::int32_t>(low.raw + ahead)};
+    const Unit middle = Unit::from_raw(static_cast<std::int32_t>(low.raw + ahead));
     const Metres at_middle = excess_after(p, reserve, middle);
     (at_middle < 0 ? high : low) = middle;
     (at_middle < 0 ? at_high : at_low) = at_middle;

@@ -60,7 +60,8 @@ Fine clearance(const GapQuery& query) {
 ShapeCastHit hit_at(Fraction fraction, const CoreGap& gap, const GapQuery& query) {
   ShapeCastHit hit;
   hit.hit = true;
-  hit.fraction = {static_cast<std::int32_t>(fraction >> (k_cast_fraction_bits - Unit::frac_bits))};
+  hit.fraction.raw =
+      static_cast<std::int32_t>(fraction >> (k_cast_fraction_bits - Unit::frac_bits));
   hit.normal = gap.normal;
   const Witnesses surface =
       inflate(gap.on_a, query.a().radius, gap.on_b, query.b().radius, gap.normal);

@@ -28,13 +28,13 @@ constexpr UInt128 multiply(UInt128 a, std::uint32_t b) {
 Length rounded_up(std::int64_t x) {
   constexpr int shift = Unit::frac_bits;
   constexpr std::int64_t below_one = (std::int64_t{1} << shift) - 1;
-  return {static_cast<std::int32_t>((x + below_one) >> shift)};
+  return Length::from_raw(static_cast<std::int32_t>((x + below_one) >> shift));
 }
 
 Mass saturated_mass(UInt128 x) {
   constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   if (x.high != 0 || x.low > most) return Mass::max();
-  return {static_cast<std::int64_t>(x.low)};
+  return Mass::from_raw(static_cast<std::int64_t>(x.low));
 }
 
 /// volume = 2hx · 2hy · 2hz; 60 + 8 fraction bits with the density, below 2^122.
@@ -58,7 +58,7 @@ Mass mass_of_round(Length radius, Length half_height, Density density) {
 
 /// At least one step: a needle's moment about its own axis must not vanish.
 Unit to_moment(std::uint64_t x) {
-  return {static_cast<std::int32_t>(std::max(x, std::uint64_t{1}))};
+  return Unit::from_raw(static_cast<std::int32_t>(std::max(x, std::uint64_t{1})));
 }
 
 /// x / (divisor · 2^30), rounded, for x with 60 fraction bits.
@@ -87,7 +87,7 @@ Length bounding_radius(const Shape& shape) {
   if (shape.kind == ShapeKind::capsule) return shape.size.x + shape.size.y;
   const std::uint64_t squares = norm_squared(shape.size);
   const std::uint64_t root = isqrt(squares);
-  return {static_cast<std::int32_t>(root + (root * root < squares ? 1 : 0))};
+  return Length::from_raw(static_cast<std::int32_t>(root + (root * root < squares ? 1 : 0)));
 }
 
 Length inner_radius(const Shape& shape) {

@@ -61,7 +61,7 @@ class Advancement {
       return false;
     }
     result.normal = apart ? query.gap().normal : Vec3<Unit>{};
-    result.distance = {std::max(Fine{0}, to_metres(distance))};
+    result.distance = Position::from_raw(std::max(Fine{0}, to_metres(distance)));
     if (distance <= 0) {
       result.state = TimeOfImpactState::overlapping;
       return false;
@@ -105,13 +105,12 @@ class Advancement {
 }  // namespace geometry
 
 Transform pose_at(const Sweep& sweep, Unit fraction) {
-  using geometry::part;
-  const auto& [x, y, z] = sweep.translation;
-  const RotationVector turned{{part(sweep.rotation.x.raw, fraction)},
-                              {part(sweep.rotation.y.raw, fraction)},
-                              {part(sweep.rotation.z.raw, fraction)}};
-  const Vec3<Position> moved{
-      {part(x.raw, fraction)}, {part(y.raw, fraction)}, {part(z.raw, fraction)}};
+  RotationVector turned;
+  Vec3<Position> moved;
+  for (int i = 0; i < 3; ++i) {
+    turned[i].raw = geometry::part(sweep.rotation[i].raw, fraction);
+    moved[i].raw = geometry::part(sweep.translation[i].raw, fraction);
+  }
   return {sweep.start.position + moved, integrate(sweep.start.orientation, turned)};
 }
 

@@ -27,7 +27,7 @@ Fine support(const TriangleVertices& t, const Vec3<Unit>& n) {
 
 Length third(Length a, Length b, Length c) {
   const std::int64_t sum = std::int64_t{a.raw} + b.raw + c.raw;
-  return {static_cast<std::int32_t>(raw::round_divide(sum, 3))};
+  return Length::from_raw(static_cast<std::int32_t>(raw::round_divide(sum, 3)));
 }
 
 }  // namespace

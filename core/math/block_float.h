@@ -62,7 +62,7 @@ struct BlockFloat {
 template <class To, class D, class Rep, int F>
 [[nodiscard]] constexpr To multiply_saturating(Fixed<D, Rep, F> a, BlockFloat x) {
   const std::int64_t scaled = scale_saturating(a.raw, x, To::frac_bits - F);
-  return To{raw::saturate<typename To::Representation>(scaled)};
+  return To::from_raw(raw::saturate<typename To::Representation>(scaled));
 }
 
 /// a / (a + b), correctly rounded. Equal inputs give exactly ½; a = 0 gives 0 (also when both are

@@ -41,18 +41,18 @@ using DimensionQuotient =
 /// a / b to nearest in the format To; the nearest bound of To when it does not fit. b = 0 gives the
 /// bound of a's sign, and 0 for a = 0.
 template <class To, class D1, class R1, int F1, class D2, class R2, int F2>
-  requires(std::same_as<typename To::Unit, DimensionQuotient<D1, D2>>)
-[[nodiscard]] constexpr To divide_saturating(Fixed<D1, R1, F1> a, Fixed<D2, R2, F2> b) {
+requires(std::same_as<typename To::Unit, DimensionQuotient<D1, D2>>) [[nodiscard]] constexpr To
+    divide_saturating(Fixed<D1, R1, F1> a, Fixed<D2, R2, F2> b) {
   constexpr int shift = To::frac_bits + F2 - F1;
   static_assert(shift >= -63 && shift <= 63);
   const std::int64_t quotient = divide_raw_saturating(a.raw, b.raw, shift);
-  return To{raw::saturate<typename To::Representation>(quotient)};
+  return To::from_raw(raw::saturate<typename To::Representation>(quotient));
 }
 
 /// As `divide_saturating`; b ≠ 0, and the result must be within the bounds of To.
 template <class To, class D1, class R1, int F1, class D2, class R2, int F2>
-  requires(std::same_as<typename To::Unit, DimensionQuotient<D1, D2>>)
-[[nodiscard]] constexpr To divide(Fixed<D1, R1, F1> a, Fixed<D2, R2, F2> b) {
+requires(std::same_as<typename To::Unit, DimensionQuotient<D1, D2>>) [[nodiscard]] constexpr To
+    divide(Fixed<D1, R1, F1> a, Fixed<D2, R2, F2> b) {
   LKS_ASSERT(b.raw != 0);
   const To quotient = divide_saturating<To>(a, b);
   LKS_ASSERT(quotient.raw != To::max().raw && quotient.raw != To::min().raw);
@@ -62,13 +62,13 @@ template <class To, class D1, class R1, int F1, class D2, class R2, int F2>
 /// 1 / x to nearest, the nearest bound of To when it does not fit; x = 0 gives the upper bound.
 template <class To, class D, class R, int F>
 [[nodiscard]] constexpr To reciprocal_saturating(Fixed<D, R, F> x) {
-  return divide_saturating<To>(Fixed<Dimension<0, 0, 0>, std::int32_t, 0>{1}, x);
+  return divide_saturating<To>(Fixed<Dimension<0, 0, 0>, std::int32_t, 0>::from_raw(1), x);
 }
 
 /// As `reciprocal_saturating`; x ≠ 0, and the result must be within the bounds of To.
 template <class To, class D, class R, int F>
 [[nodiscard]] constexpr To reciprocal(Fixed<D, R, F> x) {
-  return divide<To>(Fixed<Dimension<0, 0, 0>, std::int32_t, 0>{1}, x);
+  return divide<To>(Fixed<Dimension<0, 0, 0>, std::int32_t, 0>::from_raw(1), x);
 }
 
 }  // namespace lockstone

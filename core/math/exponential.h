@@ -25,7 +25,7 @@ using Logarithm = Fixed<Scalar, std::int32_t, 26>;
 template <class To, int F>
 [[nodiscard]] To exp2_saturating(Fixed<Scalar, std::int32_t, F> x) {
   const auto power = static_cast<std::int64_t>(exp2_raw(x.raw, F, To::frac_bits));
-  return To{raw::saturate<std::int32_t>(power)};
+  return To::from_raw(raw::saturate<std::int32_t>(power));
 }
 
 /// 2^x in the format To; the result must be below the maximum of To.
@@ -39,12 +39,12 @@ template <class To, int F>
 /// log2 x in the format To; x > 0. Error < 0.5001 last places; exact at powers of two. A format To
 /// that could not hold the logarithm of every x does not compile.
 template <class To, class R, int F>
-  requires((std::int64_t{F} << To::frac_bits) < std::int64_t{1} << 31 &&
-           (std::int64_t{sizeof(R) * 8 - 1 - F} << To::frac_bits) < std::int64_t{1} << 31)
-[[nodiscard]] To log2(Fixed<Scalar, R, F> x) {
+requires((std::int64_t{F} << To::frac_bits) < std::int64_t{1} << 31 &&
+         (std::int64_t{sizeof(R) * 8 - 1 - F} << To::frac_bits) < std::int64_t{1} << 31)
+    [[nodiscard]] To log2(Fixed<Scalar, R, F> x) {
   LKS_ASSERT(x.raw > 0);
   if (x.raw <= 0) return To::min();
-  return To{static_cast<std::int32_t>(log2_raw(x.raw, F, To::frac_bits))};
+  return To::from_raw(static_cast<std::int32_t>(log2_raw(x.raw, F, To::frac_bits)));
 }
 
 }  // namespace lockstone

@@ -132,7 +132,7 @@ template <class D, int F>
 template <class D, int F>
 [[nodiscard]] constexpr Fixed<D, std::int32_t, F> length(const Vec3<Fixed<D, std::int32_t, F>>& v) {
   const auto root = static_cast<std::int64_t>(isqrt_rounded(norm_squared(v)));
-  return {raw::saturate<std::int32_t>(root)};
+  return Fixed<D, std::int32_t, F>::from_raw(raw::saturate<std::int32_t>(root));
 }
 
 /// A vector split in two. `length` is in the raw unit of the vector that was split.

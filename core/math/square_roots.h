@@ -25,7 +25,7 @@ template <class To>
 /// To{root}, or its maximum.
 template <class To>
 [[nodiscard]] constexpr To bounded(std::uint64_t root) {
-  return fits<To>(root) ? To{static_cast<typename To::Representation>(root)} : To::max();
+  return fits<To>(root) ? To::from_raw(static_cast<typename To::Representation>(root)) : To::max();
 }
 
 /// The raw of √x in the format To, wide enough for every x.
@@ -82,15 +82,15 @@ inline constexpr int k_rsqrt_scale = 2 * To::frac_bits + F;
 /// √x to nearest (there are no ties) in the format To, whose unit squared is x's; the maximum of To
 /// when it does not fit. Negative x gives 0.
 template <class To, class D, class R, int F>
-  requires(std::same_as<D, DimensionSquare<typename To::Unit>>)
-[[nodiscard]] constexpr To sqrt_saturating(Fixed<D, R, F> x) {
+requires(std::same_as<D, DimensionSquare<typename To::Unit>>) [[nodiscard]] constexpr To
+    sqrt_saturating(Fixed<D, R, F> x) {
   return roots_detail::bounded<To>(roots_detail::root_raw<To>(x));
 }
 
 /// √x to nearest in the format To; x ≥ 0, and the result must fit.
 template <class To, class D, class R, int F>
-  requires(std::same_as<D, DimensionSquare<typename To::Unit>>)
-[[nodiscard]] constexpr To sqrt(Fixed<D, R, F> x) {
+requires(std::same_as<D, DimensionSquare<typename To::Unit>>) [[nodiscard]] constexpr To
+    sqrt(Fixed<D, R, F> x) {
   const std::uint64_t root = roots_detail::root_raw<To>(x);
   LKS_ASSERT(x.raw >= 0 && roots_detail::fits<To>(root));
   return roots_detail::bounded<To>(root);
@@ -105,10 +105,10 @@ template <class R, int F>
 /// 1/√x to nearest (there are no ties) in the format To; the maximum of To when it does not fit,
 /// and for x ≤ 0.
 template <class To, class D, int F>
-  requires(std::same_as<DimensionProduct<D, DimensionSquare<typename To::Unit>>,
-                        Dimension<0, 0, 0>> &&
-           sizeof(typename To::Representation) == 4)
-[[nodiscard]] constexpr To rsqrt_saturating(Fixed<D, std::int32_t, F> x) {
+requires(
+    std::same_as<DimensionProduct<D, DimensionSquare<typename To::Unit>>, Dimension<0, 0, 0>> &&
+    sizeof(typename To::Representation) == 4) [[nodiscard]] constexpr To
+    rsqrt_saturating(Fixed<D, std::int32_t, F> x) {
   if (x.raw <= 0) return To::max();
   const auto size = static_cast<std::uint64_t>(x.raw);
   return roots_detail::bounded<To>(rsqrt_raw(size, roots_detail::k_rsqrt_scale<To, F>));

@@ -1,8 +1,9 @@
 // Symmetric 3×3 matrices: inertia and other tensors.
 //
 // A 3×3 matrix of 32-bit integers has a determinant below 2^96, so its inverse is an exact quotient
-// of whole numbers: every entry here is rounded once from it, however ill-conditioned the matrix is.
-// Scaling each axis by a power of two (equilibration) keeps small and large axes equally precise.
+// of whole numbers: every entry here is rounded once from it, however ill-conditioned the matrix
+// is. Scaling each axis by a power of two (equilibration) keeps small and large axes equally
+// precise.
 #pragma once
 
 #include <array>
@@ -49,8 +50,8 @@ template <class D1, int F1, class D2, int F2>
                        s.xz * v.x + s.yz * v.y + s.zz * v.z};
 }
 
-/// r·s·rᵀ of raws, each entry rounded once. r is a rotation and the result must fit, as it does when
-/// every |entry| of s is at most 2^29.
+/// r·s·rᵀ of raws, each entry rounded once. r is a rotation and the result must fit, as it does
+/// when every |entry| of s is at most 2^29.
 [[nodiscard]] RawSymMat3 rotate_raw(const Mat3& r, const RawSymMat3& s);
 
 /// r·s·rᵀ: the tensor s of body axes in world axes. Each entry is rounded once; |entry| ≤ 2^29 raw.
@@ -58,7 +59,9 @@ template <class D, int F>
 [[nodiscard]] SymMat3<Fixed<D, std::int32_t, F>> rotate(
     const Mat3& r, const SymMat3<Fixed<D, std::int32_t, F>>& s) {
   const RawSymMat3 m = rotate_raw(r, raw_of(s));
-  return {{m.xx}, {m.yy}, {m.zz}, {m.xy}, {m.xz}, {m.yz}};
+  using T = Fixed<D, std::int32_t, F>;
+  return {T::from_raw(m.xx), T::from_raw(m.yy), T::from_raw(m.zz),
+          T::from_raw(m.xy), T::from_raw(m.xz), T::from_raw(m.yz)};
 }
 
 /// Whether every leading minor is positive, exactly (Sylvester's criterion).
@@ -69,8 +72,8 @@ template <class D, int F>
   return is_positive_definite(raw_of(s));
 }
 
-/// Entry (i, j) has the value scaledᵢⱼ · 2^(exponentᵢ + exponentⱼ). Diagonal entries of `scaled` are
-/// in [⅛, 1], the others in [−1, 1].
+/// Entry (i, j) has the value scaledᵢⱼ · 2^(exponentᵢ + exponentⱼ). Diagonal entries of `scaled`
+/// are in [⅛, 1], the others in [−1, 1].
 struct EquilibratedSymMat3 {
   SymMat3<Unit> scaled;
   std::array<std::int8_t, 3> exponent{};
@@ -80,8 +83,8 @@ struct EquilibratedSymMat3 {
 };
 
 /// The inverse of a matrix with `frac_bits` fraction bits. Every entry of `scaled` is the exact one
-/// rounded to nearest, so entry (i, j) errs by at most 2^-28 · √(inverseᵢᵢ · inverseⱼⱼ). A matrix that
-/// is not positive definite is a programmer's error and gives zero.
+/// rounded to nearest, so entry (i, j) errs by at most 2^-28 · √(inverseᵢᵢ · inverseⱼⱼ). A matrix
+/// that is not positive definite is a programmer's error and gives zero.
 [[nodiscard]] EquilibratedSymMat3 inverse_raw(const RawSymMat3& s, int frac_bits);
 
 /// As `inverse_raw`. The unit is one over that of s.
@@ -98,13 +101,14 @@ template <class D, int F>
 /// The x with s·x = b, each component the exact one rounded to nearest in the format To, or the
 /// nearest bound of To. s must be positive definite.
 template <class To, class D1, int F1, class D2, int F2>
-  requires(std::same_as<typename To::Unit, DimensionQuotient<D2, D1>>)
-[[nodiscard]] Vec3<To> solve_saturating(const SymMat3<Fixed<D1, std::int32_t, F1>>& s,
-                                        const Vec3<Fixed<D2, std::int32_t, F2>>& b) {
+requires(std::same_as<typename To::Unit, DimensionQuotient<D2, D1>>)
+    [[nodiscard]] Vec3<To> solve_saturating(const SymMat3<Fixed<D1, std::int32_t, F1>>& s,
+                                            const Vec3<Fixed<D2, std::int32_t, F2>>& b) {
   using Rep = typename To::Representation;
   const Vec3<std::int64_t> x =
       solve_raw_saturating(raw_of(s), {b.x.raw, b.y.raw, b.z.raw}, F1 - F2 + To::frac_bits);
-  return {{raw::saturate<Rep>(x.x)}, {raw::saturate<Rep>(x.y)}, {raw::saturate<Rep>(x.z)}};
+  return {To::from_raw(raw::saturate<Rep>(x.x)), To::from_raw(raw::saturate<Rep>(x.y)),
+          To::from_raw(raw::saturate<Rep>(x.z))};
 }
 
 }  // namespace lockstone

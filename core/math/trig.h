@@ -31,7 +31,7 @@ using RotationVector = Vec3<RotationComponent>;
 template <class To = Number>
 [[nodiscard]] To tan_saturating(Angle x) {
   static_assert(sizeof(typename To::Representation) == 4);
-  return To{tan_raw_saturating(x, To::frac_bits)};
+  return To::from_raw(tan_raw_saturating(x, To::frac_bits));
 }
 
 /// As `tan_saturating`; |tan x| must be below To::max().

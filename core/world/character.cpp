@@ -92,7 +92,8 @@ class Mover {
     const std::int64_t back =
         raw::round_divide(std::int64_t{def_.skin.raw} << Unit::frac_bits, closing.raw);
     const std::int64_t part = std::int64_t{hit.fraction.raw} - back;
-    return part <= 0 ? Vec3<Length>{} : scaled(motion, Unit{static_cast<std::int32_t>(part)});
+    return part <= 0 ? Vec3<Length>{}
+                     : scaled(motion, Unit::from_raw(static_cast<std::int32_t>(part)));
   }
 
   void note(const ShapeHit& hit, const Vec3<Length>& rest) {
@@ -215,8 +216,10 @@ Impulse inelastic(Velocity speed, Mass a, Mass b) {
 CharacterMove move_character(const World& world, const CharacterDef& character,
                              const Vec3<Position>& position, const Vec3<Length>& motion,
                              bool stay_on_ground) {
-  LKS_CHECK(is_within(motion, k_motion_limit));
-  LKS_CHECK(character.skin > Length{} && character.skin <= character.radius);
+  if (!is_within(motion, k_motion_limit))
+    misused("move_character: `motion` is above 8 m along an axis; move in shorter steps");
+  if (character.skin <= Length{} || character.skin > character.radius)
+    misused("move_character: CharacterDef::skin must be above 0 and at most the radius");
   return Mover(world, character, position).run(motion, stay_on_ground);
 }
 

@@ -5,6 +5,7 @@
 
 #include <lockstone/body.h>
 #include <lockstone/command.h>
+#include <lockstone/transform.h>
 
 #include "core/dynamics/body_record.h"
 #include "core/dynamics/limits.h"
@@ -18,6 +19,10 @@ namespace lockstone {
 [[nodiscard]] constexpr bool is_valid(const SpeedLimit& limit) {
   return limit.linear > Velocity{} && limit.angular > AngularVelocity{};
 }
+
+/// The velocities that take a body to a pose in one tick; false beyond the speed limit.
+[[nodiscard]] bool motion_to(const BodyRecord& body, const Transform& target, int tick_rate,
+                             Vec3<Velocity>& velocity, Vec3<Velocity>& spin);
 
 /// BodyLock bits.
 [[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);

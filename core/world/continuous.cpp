@@ -110,7 +110,8 @@ bool World::Impl::went_far(std::uint32_t body) const {
            may_turn_by_half(record, rotations[body], time_step);
   };
   // Most go nowhere near as far, and need no root.
-  const Length reach{raw::saturate<std::int32_t>(sum_of_magnitudes(record.size))};
+  const Length reach =
+      Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
   if (body_assets[body] == nullptr && !goes_far(reach)) return false;
   const Length radius = bounding_radius(record.shape(), body_assets[body]);
   return radius > inner_radii[body] && goes_far(radius);

@@ -9,16 +9,11 @@
 #include "core/math/divide.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
+#include "core/world/joint_checks.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 namespace {
-
-// π in Q27.
-constexpr std::int32_t k_pi = 421657428;
-
-constexpr std::int32_t k_ratio_limit = Number::from_integer(1000).raw;
-constexpr std::int64_t k_effort_limit = std::int64_t{1} << 56;
 
 constexpr std::uint8_t k_last_kind = static_cast<std::uint8_t>(JointKind::rack);
 
@@ -146,14 +141,33 @@ bool can_join(const BodyRecord& a, const BodyRecord& b) {
   return a.exists() && b.exists() && (a.is_dynamic() || b.is_dynamic());
 }
 
-bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor) {
+Length anchor_reach(const BodyRecord& body) {
   const bool turns = body.moves() && body.rotates();
   const std::int64_t limit = turns ? std::int64_t{k_max_anchor_ratio}
                                          << (Length::frac_bits + body.scale_exponent)
                                    : std::int64_t{1024} << Length::frac_bits;
-  const std::int64_t bound = std::min(limit, std::int64_t{1024} << Length::frac_bits);
-  const auto inside = [&](Length x) { return x.raw <= bound && x.raw >= -bound; };
-  return inside(anchor.x) && inside(anchor.y) && inside(anchor.z);
+  return Length::from_raw(
+      static_cast<std::int32_t>(std::min(limit, std::int64_t{1024} << Length::frac_bits)));
+}
+
+bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor) {
+  return is_within(anchor, anchor_reach(body));
+}
+
+bool holds_something(const JointDef& def) {
+  const JointDef made = JointDef::of(def.kind, {}, {});
+  bool locks = false, holds = false;
+  const auto look = [&](const auto& axis, AxisMode wanted) {
+    if (wanted != AxisMode::locked) return;
+    locks = true;
+    holds =
+        holds || axis.mode != AxisMode::free || axis.hertz > Number{} || axis.max_effort.raw > 0;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    look(def.linear[i], made.linear[i].mode);
+    look(def.angular[i], made.angular[i].mode);
+  }
+  return holds || !locks;
 }
 
 Status validate(const JointRecord& joint) {
@@ -174,16 +188,22 @@ Status validate(const JointRecord& joint) {
   return valid ? Status::ok : Status::malformed;
 }
 
+bool make_joint(const JointDef& from, const Asset* asset_a, const Asset* asset_b,
+                JointRecord& joint) {
+  joint = make_joint(from);
+  return set_frame(from.frame_a, asset_a, joint.anchor_a, joint.orientation_a) &&
+         set_frame(from.frame_b, asset_b, joint.anchor_b, joint.orientation_b);
+}
+
 Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
   const BodyRecord* a = find(from.body_a);
   const BodyRecord* b = find(from.body_b);
   if (a == nullptr || b == nullptr) return Status::stale_handle;
-  JointRecord joint = make_joint(from);
+  JointRecord joint;
   const bool framed =
-      set_frame(from.frame_a, body_assets[joint.body_a], joint.anchor_a, joint.orientation_a) &&
-      set_frame(from.frame_b, body_assets[joint.body_b], joint.anchor_b, joint.orientation_b);
-  if (!framed || !joint.exists() || validate(joint) != Status::ok || !can_join(*a, *b) ||
-      !is_anchor(*a, joint.anchor_a) || !is_anchor(*b, joint.anchor_b)) {
+      make_joint(from, body_assets[from.body_a.index], body_assets[from.body_b.index], joint);
+  if (!framed || !joint.exists() || !holds_something(from) || validate(joint) != Status::ok ||
+      !can_join(*a, *b) || !is_anchor(*a, joint.anchor_a) || !is_anchor(*b, joint.anchor_b)) {
     return Status::invalid_argument;
   }
   if (joint.is(JointKind::pulley) && !set_total_length(joint)) return Status::invalid_argument;
@@ -394,7 +414,8 @@ JointView World::Impl::view(const JointRecord& joint) const {
       return Vec3<Position>{within(f.x), within(f.y), within(f.z)};
     };
     const Vec3<Position> along = rotate_inverse(frame_a, raws(view.force));
-    view.force = {{along.x.raw}, {along.y.raw}, {along.z.raw}};
+    view.force = {Force::from_raw(along.x.raw), Force::from_raw(along.y.raw),
+                  Force::from_raw(along.z.raw)};
   }
   return view;
 }
@@ -420,7 +441,9 @@ JointHandle World::joint_at(std::uint32_t index) const {
 }
 JointView World::joint(JointHandle joint) const {
   const JointRecord* record = impl_->find(joint);
-  LKS_CHECK(record != nullptr);
+  if (record == nullptr)
+    misused("World::joint", joint.index, joint.generation,
+            "names no joint (destroyed, or broken?); ask World::exists first");
   return impl_->view(*record);
 }
 

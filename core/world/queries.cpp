@@ -47,7 +47,8 @@ bool is_nearer(const Hit& a, const Hit& b) {
 template <class World, class Found>
 void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, const Unit& limit,
               Found&& found) {
-  LKS_CHECK(is_in_reach(ray.translation));
+  if (!is_in_reach(ray.translation))
+    misused("World::cast_ray…: the translation is above k_max_cast, 512 m, along an axis");
   SegmentProbe probe(ray.origin, ray.translation, {});
   const auto test = [&](const Bounds& bounds) { return probe.meets(bounds); };
   const auto visit = [&](std::uint32_t index) {
@@ -70,7 +71,8 @@ void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, con
 template <class World, class Found>
 void walk_shape(const World& world, const ShapeCast& cast, const QueryFilter& filter,
                 const Unit& limit, Found&& found) {
-  LKS_CHECK(is_in_reach(cast.translation));
+  if (!is_in_reach(cast.translation))
+    misused("World::cast_shape…: the translation is above k_max_cast, 512 m, along an axis");
   const PlacedShape shape = world.placed_query(cast.shape, cast.start);
   const WorldBox box = world_box(shape);
   Vec3<Length> reach;
@@ -156,7 +158,7 @@ std::size_t World::cast_ray_all(const Vec3<Position>& origin, const Vec3<Length>
 
 void World::cast_rays(std::span<const Ray> rays, std::span<RayHit> out,
                       const QueryFilter& filter) const {
-  LKS_CHECK(rays.size() == out.size());
+  if (rays.size() != out.size()) misused("World::cast_rays: `out` must be as long as `rays`");
   for (std::size_t i = 0; i < rays.size(); ++i)
     out[i] = cast_ray(rays[i].origin, rays[i].translation, filter);
 }
@@ -183,7 +185,7 @@ std::size_t World::cast_shape_all(const ShapeCast& cast, std::span<ShapeHit> out
 
 void World::cast_shapes(std::span<const ShapeCast> casts, std::span<ShapeHit> out,
                         const QueryFilter& filter) const {
-  LKS_CHECK(casts.size() == out.size());
+  if (casts.size() != out.size()) misused("World::cast_shapes: `out` must be as long as `casts`");
   for (std::size_t i = 0; i < casts.size(); ++i)
     out[i] = cast_shape(casts[i], filter);
 }
@@ -251,7 +253,8 @@ std::size_t World::bodies_at(const Vec3<Position>& point, std::span<BodyHandle> 
 
 ClosestHit World::closest_point(const Vec3<Position>& point, Length reach,
                                 const QueryFilter& filter) const {
-  LKS_CHECK(reach >= Length{} && reach <= k_max_cast);
+  if (reach < Length{} || reach > k_max_cast)
+    misused("World::closest_point: `reach` must be 0 … k_max_cast, 512 m");
   const Impl& world = *impl_;
   ClosestHit best;
   best.distance = reach;
@@ -278,11 +281,14 @@ ClosestHit World::closest_point(const Vec3<Position>& point, Length reach,
 }
 
 PlacedShape World::Impl::placed_query(const Shape& shape, const Transform& pose) const {
-  LKS_CHECK(validate(shape) == Status::ok);
+  if (validate(shape) != Status::ok)
+    misused("a query of World: a size of the shape is out of range; ask validate(shape) first");
   const Asset* asset = is_asset(shape.kind) ? assets->find(shape.asset) : nullptr;
   const bool convex =
       is_primitive(shape.kind) || (asset != nullptr && asset->polytope() != nullptr);
-  LKS_CHECK(convex);
+  if (!convex)
+    misused(
+        "a query of World: the shape must be a sphere, capsule, box, or a hull of World::assets()");
   return {shape, asset, pose.position, to_matrix(normalized(pose.orientation)), pose.position};
 }
 

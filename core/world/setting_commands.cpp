@@ -63,6 +63,18 @@ void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMot
   record.set_surface_motion(rotate_inverse(axes, at_centre), rotate_inverse(axes, motion.turning));
 }
 
+bool motion_to(const BodyRecord& body, const Transform& target, int tick_rate,
+               Vec3<Velocity>& velocity, Vec3<Velocity>& spin) {
+  const Vec3<RotationComponent> turn = rotation_between(body.orientation, target.orientation);
+  constexpr std::int64_t k_far = std::int64_t{1} << 44;  // 4096 m in a tick
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t way = (target.position[i] - body.position[i]).raw;
+    velocity[i].raw = std::clamp(way, -k_far, k_far) * tick_rate;
+    spin[i].raw = raw::scale_binary(turn[i].raw * tick_rate, body.scale_exponent);
+  }
+  return is_within(velocity, k_speed_limit) && is_within(spin, k_speed_limit);
+}
+
 Status World::Impl::execute(const SetMaterial& command) {
   BodyRecord* record = edit(command.body);
   if (record == nullptr) return Status::stale_handle;
@@ -135,16 +147,8 @@ Status World::Impl::execute(const MoveKinematic& command) {
   }
   const Transform target =
       body_pose(body_assets[command.body.index], {command.position, command.orientation});
-  const Vec3<RotationComponent> turn = rotation_between(record->orientation, target.orientation);
   Vec3<Velocity> velocity, spin;
-  constexpr std::int64_t k_far = std::int64_t{1} << 44;  // 4096 m in a tick
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t way = (target.position[i] - record->position[i]).raw;
-    velocity[i].raw = std::clamp(way, -k_far, k_far) * def.tick_rate;
-    spin[i].raw = raw::scale_binary(turn[i].raw * def.tick_rate, record->scale_exponent);
-  }
-  if (!is_within(velocity, k_speed_limit) || !is_within(spin, k_speed_limit))
-    return Status::invalid_argument;
+  if (!motion_to(*record, target, def.tick_rate, velocity, spin)) return Status::invalid_argument;
   wake(command.body.index);
   record->velocity = velocity;
   record->spin = record->rotates() ? spin : Vec3<Velocity>{};

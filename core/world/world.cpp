@@ -230,14 +230,25 @@ void World::drop_derived() {
   impl_->drop_derived();
 }
 
+namespace {
+
+const BodyRecord* existing(const BodyRecord* record, BodyHandle body, const char* function) {
+  if (record == nullptr) {
+    misused(function, body.index, body.generation,
+            "names no body (destroyed?); ask World::exists first");
+  }
+  return record;
+}
+
+}  // namespace
+
 BodyHandle World::body_at(std::uint32_t index) const {
   if (index >= impl_->header.body_limit || !impl_->bodies[index].exists()) return {};
   return {index, impl_->bodies[index].generation};
 }
 
 BodyView World::body(BodyHandle body) const {
-  const BodyRecord* record = impl_->find(body);
-  LKS_CHECK(record != nullptr);
+  const BodyRecord* record = existing(impl_->find(body), body, "World::body");
   const Vec3<Velocity> w =
       surface_velocity(inverse_inertia(*record, impl_->rotations[body.index]), record->spin);
   const auto angular = [&](Velocity v) {
@@ -263,15 +274,13 @@ BodyView World::body(BodyHandle body) const {
 }
 
 Vec3<Position> World::position(BodyHandle body) const {
-  const BodyRecord* record = impl_->find(body);
-  LKS_CHECK(record != nullptr);
+  const BodyRecord* record = existing(impl_->find(body), body, "World::position");
   return shape_pose(impl_->body_assets[body.index], {record->position, record->orientation})
       .position;
 }
 
 Vec3<Velocity> World::velocity(BodyHandle body) const {
-  const BodyRecord* record = impl_->find(body);
-  LKS_CHECK(record != nullptr);
+  const BodyRecord* record = existing(impl_->find(body), body, "World::velocity");
   return record->velocity;
 }
 
@@ -283,8 +292,7 @@ Mass mass_of(const BodyRecord& record) {
 }
 
 Mass World::mass(BodyHandle body) const {
-  const BodyRecord* record = impl_->find(body);
-  LKS_CHECK(record != nullptr);
+  const BodyRecord* record = existing(impl_->find(body), body, "World::mass");
   return mass_of(*record);
 }
 

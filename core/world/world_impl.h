@@ -70,7 +70,6 @@ struct World::Impl {
   Status push_in_tick(BodyHandle body, const Push& push);
 
   [[nodiscard]] const BodyRecord* find(BodyHandle body) const;
-
   /// The record to be written, or null: the only way for a command to change a body that exists.
   [[nodiscard]] BodyRecord* edit(BodyHandle body);
 
@@ -138,6 +137,7 @@ struct World::Impl {
   void wake(std::uint32_t body);
   void wake_ends(const JointRecord& joint);
   void wake_joined();
+  [[nodiscard]] bool may_island_sleep(std::uint32_t body);
   void find_active_joints();
   void mark_joints();
   void wake_all();

@@ -6,7 +6,7 @@
 namespace lockstone::net {
 
 void SystemRandom::fill(std::span<std::byte>) {
-  LKS_CHECK(false);
+  misused("this build of lockstone::net has no libsodium: build it with LOCKSTONE_WITH_SODIUM");
 }
 
 namespace crypto {
@@ -15,30 +15,30 @@ bool crypto_available() {
   return false;
 }
 void seal_token(const Key&, const TokenNonce&, ByteView, ByteView, std::span<std::byte>) {
-  LKS_CHECK(false);
+  misused("this build of lockstone::net has no libsodium: build it with LOCKSTONE_WITH_SODIUM");
 }
 bool open_token(const Key&, const TokenNonce&, ByteView, ByteView, std::span<std::byte>) {
   return false;
 }
 void seal_packet(const Key&, const PacketNonce&, ByteView, std::span<std::byte>) {
-  LKS_CHECK(false);
+  misused("this build of lockstone::net has no libsodium: build it with LOCKSTONE_WITH_SODIUM");
 }
 bool open_packet(const Key&, const PacketNonce&, ByteView, std::span<std::byte>) {
   return false;
 }
 Key derive(const Key&, std::initializer_list<ByteView>) {
-  LKS_CHECK(false);
+  misused("this build of lockstone::net has no libsodium: build it with LOCKSTONE_WITH_SODIUM");
   return {};
 }
 Key public_half(const Key&) {
-  LKS_CHECK(false);
+  misused("this build of lockstone::net has no libsodium: build it with LOCKSTONE_WITH_SODIUM");
   return {};
 }
 bool agree(const Key&, const Key&, Key&) {
   return false;
 }
 std::uint64_t short_hash(const LinkKey&, ByteView) {
-  LKS_CHECK(false);
+  misused("this build of lockstone::net has no libsodium: build it with LOCKSTONE_WITH_SODIUM");
   return 0;
 }
 void wipe(std::span<std::byte>) {}

@@ -26,7 +26,7 @@ static_assert(crypto_shorthash_siphash24_KEYBYTES == k_link_key_bytes);
 }  // namespace
 
 void SystemRandom::fill(std::span<std::byte> out) {
-  LKS_CHECK(crypto::crypto_available());
+  if (!crypto::crypto_available()) misused("net::SystemRandom: libsodium did not start");
   randombytes_buf(out.data(), out.size());
 }
 

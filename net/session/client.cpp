@@ -18,8 +18,11 @@ static_assert(k_max_input_delay_ticks + 2 * k_max_lead_ticks + 1 < k_input_windo
 }  // namespace
 
 Client::Created Client::create(const ClientConfig& config, ClientParts parts) {
-  LKS_CHECK(parts.transport != nullptr && parts.inputs != nullptr && parts.factory != nullptr);
-  LKS_CHECK(config.max_steps_per_update > 0);
+  if (parts.transport == nullptr) misused("Client::create: ClientParts::transport is null");
+  if (parts.inputs == nullptr) misused("Client::create: ClientParts::inputs is null");
+  if (parts.factory == nullptr) misused("Client::create: ClientParts::factory is empty");
+  if (config.max_steps_per_update == 0)
+    misused("Client::create: ClientConfig::max_steps_per_update must be above 0");
   SetupError error = check_security(config.insecure, *parts.transport);
   if (error != SetupError::none) return {nullptr, error};
   error = check_common(config.history_ticks, config.snapshot_ticks, config.timeouts);

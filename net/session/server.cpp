@@ -44,7 +44,7 @@ std::size_t snapshot_bytes(const Simulation* simulation) {
 }  // namespace
 
 Server::Created Server::create(const ServerConfig& config, const ServerParts& parts) {
-  LKS_CHECK(parts.transport != nullptr);
+  if (parts.transport == nullptr) misused("Server::create: ServerParts::transport is null");
   const bool simulates = parts.simulation != nullptr;
   SetupError error = check_security(config.insecure, *parts.transport);
   if (error != SetupError::none) return {nullptr, error};
@@ -396,7 +396,7 @@ std::uint16_t Server::Impl::present_mask() const {
 }
 
 PlayerStats Server::Impl::stats_of(std::uint8_t slot) const {
-  LKS_CHECK(slot < seats.size());
+  if (slot >= seats.size()) misused("Server: the slot must be below the player count");
   PlayerStats stats = seats[slot].stats;
   stats.hashes_compared = judge.compared(slot);
   stats.hashes_equal = judge.equal(slot);

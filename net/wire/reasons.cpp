@@ -44,6 +44,18 @@ std::string_view name_of(std::span<const std::string_view> names, E value) {
 
 }  // namespace
 
+std::string_view to_string(LatePolicy policy) {
+  constexpr std::array<std::string_view, 2> k_names{"deadline", "strict"};
+  return name_of(k_names, policy);
+}
+std::string_view to_string(Pacing pacing) {
+  constexpr std::array<std::string_view, 2> k_names{"real time", "fast"};
+  return name_of(k_names, pacing);
+}
+std::string_view to_string(AskKind kind) {
+  constexpr std::array<std::string_view, 3> k_names{"pause", "resume", "vote"};
+  return name_of(k_names, kind);
+}
 std::string_view to_string(RefuseReason reason) {
   return name_of(k_refuse_texts, reason);
 }

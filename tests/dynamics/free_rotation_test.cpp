@@ -63,7 +63,7 @@ Vec3<Unit> random_inertia(test::Random& random) {
         random.between(std::int64_t{1} << bits, std::int64_t{2} << bits));
   };
   const std::int32_t x = part(), y = part(), z = part();
-  return {Unit{y + z}, Unit{z + x}, Unit{x + y}};
+  return {Unit::from_raw(y + z), Unit::from_raw(z + x), Unit::from_raw(x + y)};
 }
 
 Vec3<Velocity> random_spin(test::Random& random, Velocity most) {

@@ -190,7 +190,7 @@ TEST(HeightField, TakesSamplesAsStepsAboveItsOrigin) {
   def.columns = 3;
   def.rows = 2;
   def.samples = samples;
-  def.sample_step = Length{1000};
+  def.sample_step = Length::from_raw(1000);
   def.origin.y = metres(-30);
   const auto field = built(def);
   EXPECT_EQ(field->bounds().lower.y, metres(-30));

@@ -122,7 +122,7 @@ class CollectContacts final : public geometry::PartVisitor {
 };
 
 std::vector<TriangleContact> contacts_of(const Asset& mesh, const Pose& pose) {
-  const Length reach = bounding_radius(pose.shape) + pose.margin + Length{4};
+  const Length reach = bounding_radius(pose.shape) + pose.margin + Length::from_raw(4);
   const Vec3<Length> local = rotate_inverse(pose.rotation, pose.at);
   const Vec3<Length> around{reach, reach, reach};
   std::vector<TriangleContact> contacts;
@@ -458,14 +458,15 @@ TEST(MeshContacts, KeepTheDeepestGroupsBeyondTheCapacity) {
     contact.manifold = collide_sphere_front(contact.vertices, pose);
     ASSERT_EQ(contact.manifold.count, 1);
     contact.manifold.points[0].separation =
-        Displacement{-1000 * static_cast<std::int32_t>((i * 7) % 20)};
+        Displacement::from_raw(-1000 * static_cast<std::int32_t>((i * 7) % 20));
     contacts.push_back(contact);
   }
   const MeshManifolds result = joined(contacts, pose);
   ASSERT_EQ(result.count, MeshManifolds::k_capacity);
   EXPECT_EQ(result.left_out, 20 - MeshManifolds::k_capacity);
   for (std::size_t i = 0; i < result.count; ++i) {
-    EXPECT_LE(geometry::least_separation(result.manifolds[i].manifold), Displacement{-12000});
+    EXPECT_LE(geometry::least_separation(result.manifolds[i].manifold),
+              Displacement::from_raw(-12000));
     if (i > 0) {
       EXPECT_LT(result.manifolds[i - 1].key, result.manifolds[i].key);
     }

@@ -73,8 +73,8 @@ TEST(Mesh, MakesTheLeastConvexEdgeActiveWhenTheFlatAngleIsZero) {
     def.flat_angle = {};
     return count_active(*built(def));
   };
-  EXPECT_EQ(with_middle(Length{1}), with_middle({}) + 2);
-  EXPECT_EQ(with_middle(Length{-1}), with_middle({}));
+  EXPECT_EQ(with_middle(Length::from_raw(1)), with_middle({}) + 2);
+  EXPECT_EQ(with_middle(Length::from_raw(-1)), with_middle({}));
 }
 
 TEST(Mesh, MakesEdgesOfThreeTrianglesAndOfASheetActive) {
@@ -104,7 +104,7 @@ TEST(Mesh, WeldsVerticesWithinTheTolerance) {
     loose.triangles.push_back({first, first + 1, first + 2});
   }
   MeshDef def = loose.def();
-  def.weld_tolerance = Length{10};
+  def.weld_tolerance = Length::from_raw(10);
   MeshResult result = Mesh::build(def);
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result.mesh->vertex_count(), 16U);
@@ -146,7 +146,7 @@ TEST(Mesh, DropsAndCountsTrianglesWithoutAreaAndRepeats) {
 
 TEST(Mesh, KeepsATriangleOfTheLeastArea) {
   Triangles soup;
-  soup.vertices = {metres(-512, 0, 0), metres(512, 0, 0), {{}, Length{1}, {}}};
+  soup.vertices = {metres(-512, 0, 0), metres(512, 0, 0), {{}, Length::from_raw(1), {}}};
   soup.triangles = {{0, 1, 2}};
   const auto mesh = built(soup.def());
   const auto parts = all_parts(*mesh);
@@ -163,12 +163,12 @@ TEST(Mesh, RefusesWithAReason) {
   EXPECT_EQ(result.index, 7U);
   EXPECT_FALSE(result.ok());
   bad = good;
-  bad.vertices[3].z = k_max_asset_coordinate + Length{1};
+  bad.vertices[3].z = k_max_asset_coordinate + Length::from_raw(1);
   result = Mesh::build(bad.def());
   EXPECT_EQ(result.fault, MeshFault::coordinate_out_of_range);
   EXPECT_EQ(result.index, 3U);
   MeshDef def = good.def();
-  def.weld_tolerance = Length{-1};
+  def.weld_tolerance = Length::from_raw(-1);
   EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_option);
   def = good.def();
   def.flat_angle = Angle::from_integer(2);
@@ -179,7 +179,7 @@ TEST(Mesh, RefusesWithAReason) {
   def.triangle_surfaces = indices;
   def.surfaces = surfaces;
   EXPECT_EQ(mesh_fault_of(def), MeshFault::surface_out_of_range);
-  const std::vector<Surface> slippery(2, Surface{Coefficient{-1}, {}});
+  const std::vector<Surface> slippery(2, Surface{Coefficient::from_raw(-1), {}});
   def.surfaces = slippery;
   EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_surface);
   const std::vector<TriangleIndices> many(k_max_mesh_triangles + 1);

@@ -19,7 +19,7 @@ inline constexpr Mat3 k_identity{};
 inline constexpr Real k_micrometre = 1e-6L;
 
 inline Length metres(double x) {
-  return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Length::frac_bits)))};
+  return Length::from_raw(static_cast<std::int32_t>(std::lround(std::ldexp(x, Length::frac_bits))));
 }
 inline Vec3<Length> metres(double x, double y, double z) {
   return {metres(x), metres(y), metres(z)};
@@ -28,7 +28,7 @@ inline Vec3<Length> metres(const RealVec& v) {
   return metres(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 inline Unit unit(double x) {
-  return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Unit::frac_bits)))};
+  return Unit::from_raw(static_cast<std::int32_t>(std::lround(std::ldexp(x, Unit::frac_bits))));
 }
 
 inline Quat quat(double x, double y, double z, double w) {

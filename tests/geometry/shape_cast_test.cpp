@@ -111,7 +111,7 @@ TEST(ShapeCast, GrazesWithoutEnd) {
   Convex a = convex(Shape::sphere(metres(1)));
   Convex b = convex(Shape::sphere(metres(1)));
   for (int raw = -8; raw <= 8; ++raw) {
-    const Vec3<Length> offset{metres(-100), Length{metres(2).raw + raw}, {}};
+    const Vec3<Length> offset{metres(-100), Length::from_raw(metres(2).raw + raw), {}};
     const ShapeCastHit hit = cast_shape(a.posed(), b.posed(), offset, metres(200, 0, 0));
     if (raw > 0 && raw < 4) continue;
     EXPECT_EQ(hit.hit, raw <= 0) << raw;
@@ -121,7 +121,7 @@ TEST(ShapeCast, GrazesWithoutEnd) {
 TEST(ShapeCast, LeavesWhatItSlidesAlong) {
   Convex floor = convex(Shape::box(metres(10), metres(1), metres(10)));
   Convex box = convex(Shape::box(metres(1), metres(1), metres(1)));
-  const Vec3<Length> resting{{}, Length{metres(2).raw + 1}, {}};
+  const Vec3<Length> resting{{}, Length::from_raw(metres(2).raw + 1), {}};
   EXPECT_FALSE(cast_shape(floor.posed(), box.posed(), resting, metres(0, 5, 0)).hit);
   const ShapeCastHit down = cast_shape(floor.posed(), box.posed(), resting, metres(0, -5, 0));
   EXPECT_TRUE(down.hit);

@@ -8,7 +8,7 @@ namespace {
 const Real k_pi = std::acos(Real{-1});
 
 Density kilograms_per_metre3(double x) {
-  return {static_cast<std::int32_t>(std::lround(x * 256))};
+  return Density::from_raw(static_cast<std::int32_t>(std::lround(x * 256)));
 }
 
 Real volume_of(const Shape& s) {

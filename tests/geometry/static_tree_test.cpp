@@ -120,9 +120,9 @@ TEST(StaticTree, BoundsItsDepthWhereAllBoxesAreEqual) {
 TEST(StaticTree, BoundsItsDepthWhereSizesGrowGeometrically) {
   std::vector<LocalBounds> boxes;
   for (int i = 0; i < 30; ++i) {
-    const Length x{std::int32_t{1} << i};
+    const Length x = Length::from_raw(std::int32_t{1} << i);
     for (int k = 0; k < 40; ++k)
-      boxes.push_back({{x, {}, Length{k}}, {x, {}, Length{k}}});
+      boxes.push_back({{x, {}, Length::from_raw(k)}, {x, {}, Length::from_raw(k)}});
   }
   std::vector<std::uint32_t> order;
   const StaticTree tree = StaticTree::build(boxes, order);

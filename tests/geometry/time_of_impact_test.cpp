@@ -8,14 +8,15 @@ namespace lockstone::test {
 namespace {
 
 Position position(Real x) {
-  return {static_cast<std::int64_t>(std::llround(std::ldexp(x, Position::frac_bits)))};
+  return Position::from_raw(
+      static_cast<std::int64_t>(std::llround(std::ldexp(x, Position::frac_bits))));
 }
 Vec3<Position> positions(const RealVec& v) {
   return {position(v.x), position(v.y), position(v.z)};
 }
 RotationVector rotation_by(const RealVec& v) {
   const auto lane = [](Real x) {
-    return RotationComponent{static_cast<std::int64_t>(std::llround(std::ldexp(x, 32)))};
+    return RotationComponent::from_raw(static_cast<std::int64_t>(std::llround(std::ldexp(x, 32))));
   };
   return {lane(v.x), lane(v.y), lane(v.z)};
 }
@@ -69,7 +70,8 @@ void expect_lawful(Mover& a, Mover& b, const TimeOfImpact& found, int samples) {
     return;
   }
   for (int i = 0; i < samples; ++i) {
-    const Unit before{static_cast<std::int32_t>(std::int64_t{found.fraction.raw} * i / samples)};
+    const Unit before =
+        Unit::from_raw(static_cast<std::int32_t>(std::int64_t{found.fraction.raw} * i / samples));
     EXPECT_GT(static_cast<double>(distance_at(a, b, before)),
               static_cast<double>(k_target - slack));
   }

@@ -13,10 +13,10 @@ ROOMS = ["base", "math", "geometry", "collision", "dynamics", "world"]
 # The room that each public header of core belongs to: its implementation lives there, and the
 # header may include what that room may.
 PUBLIC_ROOMS = {
-    "base": ["assert.h", "bytes.h", "hash.h", "rng.h", "status.h", "tasks.h",
+    "base": ["assert.h", "bytes.h", "hash.h", "refusal.h", "rng.h", "status.h", "tasks.h",
              "thread_pool.h"],
     "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
-             "transform.h", "trigonometry.h", "units.h", "vec3.h"],
+             "transform.h", "trigonometry.h", "units.h", "vec3.h", "vector_math.h"],
     "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],

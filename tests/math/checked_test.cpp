@@ -88,7 +88,8 @@ TEST(Checked, MatricesTransformsAndPredicatesTrap) {
   EXPECT_TRAP((inverse_raw({1, 1, 1, 1, zero, zero}, 20)));
   EXPECT_TRAP((solve_raw_saturating({zero, 1, 1, 0, 0, 0}, {1, 1, 1}, 0)));
   constexpr std::int32_t big = std::numeric_limits<std::int32_t>::max();
-  const Mat3 diagonal = to_matrix(normalized({Unit::from_raw(opaque(1 << 28)), {}, {}, {1 << 29}}));
+  const Mat3 diagonal =
+      to_matrix(normalized({Unit::from_raw(opaque(1 << 28)), {}, {}, Unit::from_raw(1 << 29)}));
   EXPECT_TRAP((rotate_raw(diagonal, {big, big, big, big, big, big})));
   EXPECT_TRAP((apply(Transform{{Position::max(), {}, {}}, {}},
                      Vec3<Position>{Position::from_raw(opaque(std::int64_t{1})), {}, {}})));

@@ -28,7 +28,7 @@ static_assert(!FitsInto<Length, [] { return 1_kg; }>);
 static_assert(!FitsInto<Velocity, [] { return 1_mps2; }>);
 
 static_assert(Length(1.5_m).raw == 3 << 19);
-static_assert(Acceleration(-9.81_mps2).raw == -42133629174);     // 9.81 · 2^32 = 42133629173.76
+static_assert(Acceleration(-9.81_mps2).raw == -42133629174);  // 9.81 · 2^32 = 42133629173.76
 static_assert(Torque(5_Nm).raw == 5 << 20 && AngularImpulse(-0.5_Nms).raw == -(1 << 23));
 static_assert(Position(1'000'000.5_m).raw == 4294969443483648);  // 1000000.5 · 2^32
 
@@ -46,7 +46,8 @@ void expect_round_trips() {
   expect_round_trip(T::max());
   constexpr int bits = static_cast<int>(sizeof(typename T::Representation)) * 8 - 1;
   for (int i = 0; i < 4000; ++i) {
-    expect_round_trip(T{static_cast<typename T::Representation>(raws.signed_below_bits(bits))});
+    expect_round_trip(
+        T::from_raw(static_cast<typename T::Representation>(raws.signed_below_bits(bits))));
   }
 }
 

@@ -79,9 +79,9 @@ TEST(SquareRoot, OfAreasAndWideNumbersIsTheNearest) {
   for (int i = 0; i < test::share_of(500000); ++i) {
     const auto raw = static_cast<std::int64_t>(raws.below_bits(63));
     const mpz_class n(raw);
-    ASSERT_TRUE(is_root(sqrt(WideNumber{raw}).raw, n << 32));
+    ASSERT_TRUE(is_root(sqrt(WideNumber::from_raw(raw)).raw, n << 32));
     if (raw < std::int64_t{1} << 61) {
-      ASSERT_TRUE(is_root(sqrt<Length>(Area{raw}).raw, n));
+      ASSERT_TRUE(is_root(sqrt<Length>(Area::from_raw(raw)).raw, n));
     }
   }
   EXPECT_EQ(sqrt_saturating<Length>(Area::max()), Length::max());
@@ -96,14 +96,17 @@ TEST(Hypot, IsTheNearestEvenAndSymmetric) {
     const std::int64_t x = raws.signed_below_bits(62), y = raws.signed_below_bits(62),
                        z = i % 2 == 0 ? 0 : raws.signed_below_bits(61);
     const mpz_class n = mpz_class(x) * x + mpz_class(y) * y + mpz_class(z) * z;
-    const Position wide = hypot(Position{x}, Position{y}, Position{z});
+    const Position wide =
+        hypot(Position::from_raw(x), Position::from_raw(y), Position::from_raw(z));
     ASSERT_TRUE(is_root(wide.raw, n));
-    ASSERT_EQ(hypot(Position{-z}, Position{x}, Position{-y}), wide);
-    const auto narrow = [](std::int64_t c) { return Length{static_cast<std::int32_t>(c >> 33)}; };
+    ASSERT_EQ(hypot(Position::from_raw(-z), Position::from_raw(x), Position::from_raw(-y)), wide);
+    const auto narrow = [](std::int64_t c) {
+      return Length::from_raw(static_cast<std::int32_t>(c >> 33));
+    };
     const Length a = narrow(x), b = narrow(y);
     ASSERT_TRUE(is_root(hypot(a, b).raw, mpz_class(a.raw) * a.raw + mpz_class(b.raw) * b.raw));
   }
-  EXPECT_EQ(hypot(Length{3}, Length{-4}).raw, 5);
+  EXPECT_EQ(hypot(Length::from_raw(3), Length::from_raw(-4)).raw, 5);
   EXPECT_EQ(hypot_saturating(Length::min(), Length::min(), Length::min()), Length::max());
   EXPECT_EQ(hypot_saturating(Position::min(), Position::min(), Position::min()), Position::max());
 }
@@ -117,7 +120,7 @@ TEST(Exp2, IsExactAtWholeNumbersAndRisesMonotonically) {
   EXPECT_EQ(exp2_saturating<Number>(Number::from_integer(11)), Number::max());
   std::int32_t last = 0;
   for (std::int32_t raw = -(22 << 20); raw < 11 << 20; raw += 7 * test::k_share) {
-    const std::int32_t power = exp2_saturating<Number>(Number{raw}).raw;
+    const std::int32_t power = exp2_saturating<Number>(Number::from_raw(raw)).raw;
     ASSERT_GE(power, last);
     last = power;
   }
@@ -139,7 +142,7 @@ TEST(Log2, IsExactAtPowersOfTwoAndTakesWideInputs) {
 
 TEST(Log2, UndoesExp2) {
   for (std::int32_t raw = -(1 << 20); raw < 11 << 20; raw += 997) {
-    const Number power = exp2<Number>(Number{raw});
+    const Number power = exp2<Number>(Number::from_raw(raw));
     ASSERT_NEAR(log2<Number>(power).raw, raw, 2) << raw;
   }
 }
@@ -153,7 +156,7 @@ TEST(Tan, IsOddAndSaturatesAtThePoles) {
   EXPECT_EQ(tan_saturating(Angle::from_raw(half_pi + 1)).raw, -Number::max().raw);
   for (std::int64_t raw = 0; raw < std::int64_t{1} << 31; raw += 1021) {
     const auto x = static_cast<std::int32_t>(raw);
-    ASSERT_EQ(tan_saturating(Angle{-x}).raw, -tan_saturating(Angle{x}).raw);
+    ASSERT_EQ(tan_saturating(Angle::from_raw(-x)).raw, -tan_saturating(Angle::from_raw(x)).raw);
   }
   using Slope = Fixed<Scalar, std::int32_t, 30>;
   EXPECT_EQ(tan<Slope>(Angle::from_raw(half_pi / 2)).raw, 1073741823);

@@ -125,7 +125,8 @@ TEST(Quat, MatrixRotatesAsTheQuaternionDoes) {
     const auto unit = [&] { return Unit::from_raw(raws.any32()); };
     const Quat q = normalized({unit(), unit(), unit(), unit()});
     const Mat3 m = to_matrix(q);
-    const Vec3<Length> v{{raws.any32() >> 2}, {raws.any32() >> 2}, {raws.any32() >> 2}};
+    const auto length = [&] { return Length::from_raw(raws.any32() >> 2); };
+    const Vec3<Length> v{length(), length(), length()};
     const Vec3<Length> back = rotate_inverse(m, rotate(m, v));
     for (int axis = 0; axis < 3; ++axis)
       ASSERT_NEAR(back[axis].raw, v[axis].raw, 5);

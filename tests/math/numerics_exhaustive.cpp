@@ -76,7 +76,9 @@ double error_of(std::int64_t ours, double value) {
 
 /// libm decides unless the error is ½ but for a few of its own last places: results stay below 2^31
 /// of ours, so one of its is at most 2^-22 of ours.
-bool needs_proof(double error) { return std::fabs(error - 0.5) < 0x1p-19; }
+bool needs_proof(double error) {
+  return std::fabs(error - 0.5) < 0x1p-19;
+}
 
 enum class Symmetry { none, odd, even };
 
@@ -135,7 +137,7 @@ bool is_root(std::int64_t r, UWide n, UWide d) {
 template <class T>
 Case sqrt_case(const char* name) {
   return decided(name, {0, k_high, 1}, [](std::int32_t raw) {
-    return is_root(sqrt(T{raw}).raw, static_cast<UWide>(raw) << T::frac_bits, 1);
+    return is_root(sqrt(T::from_raw(raw)).raw, static_cast<UWide>(raw) << T::frac_bits, 1);
   });
 }
 
@@ -143,7 +145,7 @@ template <class T>
 Case rsqrt_case(const char* name) {
   return decided(name, {1, k_high, 1}, [](std::int32_t raw) {
     const auto n = UWide{1} << (3 * T::frac_bits);
-    return is_root(rsqrt_saturating<T>(T{raw}).raw, n, static_cast<UWide>(raw));
+    return is_root(rsqrt_saturating<T>(T::from_raw(raw)).raw, n, static_cast<UWide>(raw));
   });
 }
 
@@ -151,7 +153,7 @@ Case rsqrt_case(const char* name) {
 template <class T>
 Case reciprocal_case(const char* name) {
   return decided(name, {k_low, k_high, 1}, [](std::int32_t raw) {
-    const Wide q = reciprocal_saturating<T>(T{raw}).raw;
+    const Wide q = reciprocal_saturating<T>(T::from_raw(raw)).raw;
     if (raw == 0) return q == k_high;
     const Wide sign = raw < 0 ? -1 : 1;
     const Wide d = sign * raw, n = Wide{1} << (2 * T::frac_bits);
@@ -196,17 +198,20 @@ std::vector<Case> exponentials() {
   return {
       measured(
           "exp2_number", {k_low, k_high, 1}, none, 20, 20, 0.5001,
-          [](std::int32_t x) { return exp2_saturating<Number>(Number{x}).raw; }, power,
+          [](std::int32_t x) { return exp2_saturating<Number>(Number::from_raw(x)).raw; }, power,
           exact_power),
       measured(
           "exp2_unit", {k_low, k_high, 1}, none, 30, 30, 0.5001,
-          [](std::int32_t x) { return exp2_saturating<Unit>(Unit{x}).raw; }, power, exact_power),
+          [](std::int32_t x) { return exp2_saturating<Unit>(Unit::from_raw(x)).raw; }, power,
+          exact_power),
       measured(
           "log2_number", {1, k_high, 1}, none, 20, 20, 0.5001,
-          [](std::int32_t x) { return log2<Number>(Number{x}).raw; }, logarithm, exact_logarithm),
+          [](std::int32_t x) { return log2<Number>(Number::from_raw(x)).raw; }, logarithm,
+          exact_logarithm),
       measured(
           "log2_unit", {1, k_high, 1}, none, 30, 26, 0.5001,
-          [](std::int32_t x) { return log2<Logarithm>(Unit{x}).raw; }, logarithm, exact_logarithm),
+          [](std::int32_t x) { return log2<Logarithm>(Unit::from_raw(x)).raw; }, logarithm,
+          exact_logarithm),
   };
 }
 

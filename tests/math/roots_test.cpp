@@ -123,7 +123,8 @@ TEST(Norm, IsRoundedCorrectlyForVectorsOfAnyScale) {
     ASSERT_EQ(direction(x, y, z).length, ours);
   }
   EXPECT_LE(worst, 0.5);
-  EXPECT_EQ(length(Vec3<Length>{{3}, {4}, {12}}), Length::from_raw(13));
+  EXPECT_EQ(length(Vec3<Length>{Length::from_raw(3), Length::from_raw(4), Length::from_raw(12)}),
+            Length::from_raw(13));
   EXPECT_EQ(length(Vec3<Length>{Length::min(), {}, {}}), Length::max());
 }
 

@@ -185,8 +185,10 @@ TEST(SymMat3Rotate, RoundsTheExactTensorOnce) {
 }
 
 TEST(SymMat3Product, IsExact) {
-  const Tensor s{{1}, {2}, {3}, {4}, {5}, {6}};
-  const Vec3<Length> v{{10}, {20}, {30}};
+  using Entry = decltype(Tensor::xx);
+  const auto entry = [](std::int32_t raw) { return Entry::from_raw(raw); };
+  const Tensor s{entry(1), entry(2), entry(3), entry(4), entry(5), entry(6)};
+  const Vec3<Length> v{Length::from_raw(10), Length::from_raw(20), Length::from_raw(30)};
   const auto product = s * v;
   EXPECT_EQ(product.x.raw, 10 + 80 + 150);
   EXPECT_EQ(product.y.raw, 40 + 40 + 180);

@@ -32,11 +32,14 @@ TEST(Transform, IdentityChangesNothing) {
 
 TEST(Transform, QuarterTurnsAreExact) {
   const Unit half = Unit::from_raw(1 << 29);
-  const Transform turn{{{5}, {6}, {7}}, {half, half, half, half}};  // x → y → z → x
-  EXPECT_EQ(apply(turn, Vec3<Position>{{1}, {2}, {3}}), (Vec3<Position>{{8}, {7}, {9}}));
-  EXPECT_EQ(apply(turn, Vec3<Length>{{1}, {2}, {3}}),
-            (Vec3<Position>{{5 + (3 << 12)}, {6 + (1 << 12)}, {7 + (2 << 12)}}));
-  EXPECT_EQ(apply_inverse(turn, {{8}, {7}, {9}}), (Vec3<Position>{{1}, {2}, {3}}));
+  const auto raws = [](std::int64_t x, std::int64_t y, std::int64_t z) {
+    return Vec3<Position>{Position::from_raw(x), Position::from_raw(y), Position::from_raw(z)};
+  };
+  const Vec3<Length> lengths{Length::from_raw(1), Length::from_raw(2), Length::from_raw(3)};
+  const Transform turn{raws(5, 6, 7), {half, half, half, half}};  // x → y → z → x
+  EXPECT_EQ(apply(turn, raws(1, 2, 3)), raws(8, 7, 9));
+  EXPECT_EQ(apply(turn, lengths), raws(5 + (3 << 12), 6 + (1 << 12), 7 + (2 << 12)));
+  EXPECT_EQ(apply_inverse(turn, raws(8, 7, 9)), raws(1, 2, 3));
   EXPECT_EQ(compose(turn, compose(turn, turn)).orientation,
             (Quat{{}, {}, {}, -Unit::from_integer(1)}));
 }
@@ -68,8 +71,8 @@ TEST(Transform, RotationOfWidePositionsIsRoundedOnce) {
   Raws raws;
   for (int i = 0; i < test::share_of(20000); ++i) {
     const Mat3 m = to_matrix(random_transform(raws).orientation);
-    const Vec3<Position> v{
-        {raws.signed_below_bits(60)}, {raws.signed_below_bits(60)}, {raws.signed_below_bits(60)}};
+    const auto far = [&] { return Position::from_raw(raws.signed_below_bits(60)); };
+    const Vec3<Position> v{far(), far(), far()};
     const Vec3<Position> turned = rotate(m, v), back = rotate_inverse(m, v);
     for (int axis = 0; axis < 3; ++axis) {
       const auto exact = [&](auto entry) {

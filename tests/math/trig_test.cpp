@@ -16,7 +16,8 @@ using test::Real;
 using test::worst_of;
 
 RotationVector rotation_vector(std::int64_t x, std::int64_t y, std::int64_t z) {
-  return {{x}, {y}, {z}};
+  using T = RotationComponent;
+  return {T::from_raw(x), T::from_raw(y), T::from_raw(z)};
 }
 
 double worst_component(const Quat& q, const Real (&expected)[4]) {
@@ -173,7 +174,8 @@ TEST(Integrate, ReturnsTheSameBitsForNoRotation) {
 TEST(Integrate, DriftsLittleOverAMillionSteps) {
   constexpr int steps = 1000000;
   const RotationVector theta = rotation_vector(123456789, -98765432, 55555555);  // 0.04 rad
-  const Quat start = normalized({{300000000}, {-500000000}, {100000000}, {700000000}});
+  const Quat start = normalized({Unit::from_raw(300000000), Unit::from_raw(-500000000),
+                                 Unit::from_raw(100000000), Unit::from_raw(700000000)});
   Quat q = start;
   double worst_norm = 0;
   for (int i = 0; i < steps; ++i) {
@@ -202,10 +204,11 @@ TEST(Integrate, MakesATurnOfManyRoundingsAUnitAgain) {
   Raws raws;
   double worst = 0;
   for (int i = 0; i < test::share_of(100000); ++i) {
-    const Quat q = normalized({{static_cast<std::int32_t>(raws.signed_below_bits(30))},
-                               {static_cast<std::int32_t>(raws.signed_below_bits(30))},
-                               {static_cast<std::int32_t>(raws.signed_below_bits(30))},
-                               {1 << 29}});
+    const auto unit = [&] {
+      return Unit::from_raw(static_cast<std::int32_t>(raws.signed_below_bits(30)));
+    };
+    const Unit x = unit(), y = unit(), z = unit();
+    const Quat q = normalized({x, y, z, Unit::from_raw(1 << 29)});
     const FineQuat off{{raws.signed_below_bits(9), raws.signed_below_bits(9), 0},
                        (std::int64_t{1} << 31) + raws.signed_below_bits(9)};
     const RotationVector theta = rotation_vector(raws.signed_below_bits(30), 0, 0);

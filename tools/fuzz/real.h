@@ -56,13 +56,13 @@ template <class T>
 }
 
 [[nodiscard]] inline Length to_length(double x) {
-  return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Length::frac_bits)))};
+  return Length::from_raw(static_cast<std::int32_t>(std::lround(std::ldexp(x, Length::frac_bits))));
 }
 [[nodiscard]] inline Vec3<Length> to_length(const Real3& v) {
   return {to_length(v.x), to_length(v.y), to_length(v.z)};
 }
 [[nodiscard]] inline Unit to_unit(double x) {
-  return {static_cast<std::int32_t>(std::lround(std::ldexp(x, Unit::frac_bits)))};
+  return Unit::from_raw(static_cast<std::int32_t>(std::lround(std::ldexp(x, Unit::frac_bits))));
 }
 [[nodiscard]] inline Vec3<Unit> to_unit(const Real3& v) {
   return {to_unit(v.x), to_unit(v.y), to_unit(v.z)};

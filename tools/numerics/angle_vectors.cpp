@@ -28,18 +28,18 @@ std::vector<Function> angle_functions() {
       {"sin_cos",
        {k_any32},
        [](W in) -> Words {
-         const SinCos both = sin_cos(Angle{i32(in[0])});
+         const SinCos both = sin_cos(Angle::from_raw(i32(in[0])));
          return {both.sin.raw, both.cos.raw};
        }},
       {"tan",
        {k_any32, {0, 31}},
-       [](W in) -> Words { return {tan_raw_saturating(Angle{i32(in[0])}, i32(in[1]))}; }},
+       [](W in) -> Words { return {tan_raw_saturating(Angle::from_raw(i32(in[0])), i32(in[1]))}; }},
       {"atan2", {k_any64, k_any64}, [](W in) -> Words { return {atan2_raw(in[0], in[1]).raw}; }},
       {"atan2_near",
        {below(33), below(33)},
        [](W in) -> Words { return {atan2_raw(in[0], in[1]).raw}; }},
-      {"asin", {k_any32}, [](W in) -> Words { return {asin(Unit{i32(in[0])}).raw}; }},
-      {"acos", {k_any32}, [](W in) -> Words { return {acos(Unit{i32(in[0])}).raw}; }},
+      {"asin", {k_any32}, [](W in) -> Words { return {asin(Unit::from_raw(i32(in[0]))).raw}; }},
+      {"acos", {k_any32}, [](W in) -> Words { return {acos(Unit::from_raw(i32(in[0]))).raw}; }},
       {"rotation_from_vector",
        {k_turn, k_turn, k_turn},
        [](W in) -> Words { return words(rotation_from_vector(rotation_at(in, 0))); }},
@@ -49,7 +49,7 @@ std::vector<Function> angle_functions() {
       {"from_axis_angle",
        {k_any32, k_any32, k_any32, k_any32},
        [](W in) -> Words {
-         return words(from_axis_angle(vec3_at<Unit>(in, 0), Angle{i32(in[3])}));
+         return words(from_axis_angle(vec3_at<Unit>(in, 0), Angle::from_raw(i32(in[3]))));
        },
        make_axis},
       {"integrate", inputs({{k_any32, 4}, {k_turn, 3}}),

@@ -42,8 +42,8 @@ inline constexpr Domain k_positive32{1, k_max32};
 template <class T>
 [[nodiscard]] Vec3<T> vec3_at(const Words& in, std::size_t at) {
   using Rep = typename T::Representation;
-  return {T{static_cast<Rep>(in[at])}, T{static_cast<Rep>(in[at + 1])},
-          T{static_cast<Rep>(in[at + 2])}};
+  return {T::from_raw(static_cast<Rep>(in[at])), T::from_raw(static_cast<Rep>(in[at + 1])),
+          T::from_raw(static_cast<Rep>(in[at + 2]))};
 }
 
 [[nodiscard]] inline Quat quat_at(const Words& in, std::size_t at) {

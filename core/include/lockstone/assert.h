@@ -3,10 +3,19 @@
 // The level never changes a result: a check reads state and writes nothing.
 #pragma once
 
+#include <cstdint>
+
 namespace lockstone {
 
 /// Prints `expression` with its place to the standard error stream and aborts.
 [[noreturn]] void check_failed(const char* expression, const char* file, int line);
+
+/// Prints `text`, which names the public function that was misused and the remedy, and aborts.
+[[noreturn]] void misused(const char* text);
+
+/// The same of a handle: "World::position: handle {3, 1} names no body; …".
+[[noreturn]] void misused(const char* function, std::uint32_t index, std::uint32_t generation,
+                          const char* text);
 
 }  // namespace lockstone
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/collision.h>
 #include <lockstone/material.h>
@@ -33,6 +34,7 @@ enum class MotionType : std::uint8_t {
   kinematic = 2,    ///< moves as its velocity says, pushed by nothing
   dynamic = 3,      ///< moved by forces, impulses and contacts
 };
+[[nodiscard]] std::string_view to_string(MotionType motion);
 
 /// World axes that a dynamic body does not move along, or does not turn about, whatever pushes it.
 struct AxisLocks {

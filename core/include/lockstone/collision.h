@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace lockstone {
 
@@ -11,6 +12,7 @@ enum class BroadPhaseKind : std::uint8_t {
   tree = 0,             ///< bounding-volume trees, of use to queries too
   sweep_and_prune = 1,  ///< a list sorted along one axis; often faster when all is in flight
 };
+[[nodiscard]] std::string_view to_string(BroadPhaseKind kind);
 
 /// Which bodies meet. With an equal non-zero group the sign decides: positive always, negative
 /// never. Else both must find the other's category in their mask.

@@ -2,6 +2,7 @@
 // and drives dispatch, so that a command cannot be half added.
 #pragma once
 
+#include <string_view>
 #include <variant>
 
 #include <lockstone/body.h>
@@ -14,72 +15,164 @@ enum class Frame : std::uint8_t {
   world = 0,  ///< world axes, points relative to the centre of mass
   body = 1,   ///< the frame of the body's shape
 };
+[[nodiscard]] std::string_view to_string(Frame frame);
 
-struct CreateBody { BodyDef def{}; };
-struct DestroyBody { BodyHandle body{}; };
+struct CreateBody {
+  BodyDef def{};
+};
+struct DestroyBody {
+  BodyHandle body{};
+};
 
 /// Moves a body at once; its contacts end. Orientation is normalised.
-struct Teleport { BodyHandle body{}; Vec3<Position> position{}; Quat orientation{}; };
+struct Teleport {
+  BodyHandle body{};
+  Vec3<Position> position{};
+  Quat orientation{};
+};
 
-struct SetVelocity { BodyHandle body{}; Vec3<Velocity> velocity{}; };
-struct SetAngularVelocity { BodyHandle body{}; Vec3<AngularVelocity> angular_velocity{}; };
+struct SetVelocity {
+  BodyHandle body{};
+  Vec3<Velocity> velocity{};
+};
+struct SetAngularVelocity {
+  BodyHandle body{};
+  Vec3<AngularVelocity> angular_velocity{};
+};
 
 /// At the centre of mass. Impulses leave velocity, and angular momentum over mass and size, within
 /// ±500 m/s an axis: what is beyond is lost.
-struct ApplyImpulse { BodyHandle body{}; Vec3<Impulse> impulse{}; Frame frame{}; };
+struct ApplyImpulse {
+  BodyHandle body{};
+  Vec3<Impulse> impulse{};
+  Frame frame{};
+};
 
 /// At a point within twice the body's radius of its centre of mass.
-struct ApplyImpulseAt { BodyHandle body{}; Vec3<Impulse> impulse{}; Vec3<Length> point{}; Frame frame{}; };
+struct ApplyImpulseAt {
+  BodyHandle body{};
+  Vec3<Impulse> impulse{};
+  Vec3<Length> point{};
+  Frame frame{};
+};
 
-struct ApplyAngularImpulse { BodyHandle body{}; Vec3<AngularImpulse> impulse{}; Frame frame{}; };
+struct ApplyAngularImpulse {
+  BodyHandle body{};
+  Vec3<AngularImpulse> impulse{};
+  Frame frame{};
+};
 
 /// At the centre of mass. A force works evenly over the coming tick and is then gone, a torque too;
 /// those of a tick add up, each axis to at most ±1000 m/s.
-struct ApplyForce { BodyHandle body{}; Vec3<Force> force{}; Frame frame{}; };
+struct ApplyForce {
+  BodyHandle body{};
+  Vec3<Force> force{};
+  Frame frame{};
+};
 
-/// At a point as that of an impulse. Both turn with the body in the tick no more than the world does.
-struct ApplyForceAt { BodyHandle body{}; Vec3<Force> force{}; Vec3<Length> point{}; Frame frame{}; };
+/// At a point as that of an impulse. Both turn with the body in the tick no more than the world
+/// does.
+struct ApplyForceAt {
+  BodyHandle body{};
+  Vec3<Force> force{};
+  Vec3<Length> point{};
+  Frame frame{};
+};
 
-struct ApplyTorque { BodyHandle body{}; Vec3<Torque> torque{}; Frame frame{}; };
+struct ApplyTorque {
+  BodyHandle body{};
+  Vec3<Torque> torque{};
+  Frame frame{};
+};
 
 /// Gives a kinematic body the velocities that take it to a pose in one tick. It keeps them until it
 /// is told otherwise. invalid_argument where they exceed the speed limit.
-struct MoveKinematic { BodyHandle body{}; Vec3<Position> position{}; Quat orientation{}; };
+struct MoveKinematic {
+  BodyHandle body{};
+  Vec3<Position> position{};
+  Quat orientation{};
+};
 
 /// Of the body itself; parts of assets keep theirs.
-struct SetMaterial { BodyHandle body{}; Surface surface{}; };
+struct SetMaterial {
+  BodyHandle body{};
+  Surface surface{};
+};
 
 /// Of a body that is not dynamic.
-struct SetSurfaceMotion { BodyHandle body{}; SurfaceMotion motion{}; };
-struct SetGravityScale { BodyHandle body{}; Number scale{}; };
-struct SetDamping { BodyHandle body{}; Rate linear{}; Rate angular{}; };
+struct SetSurfaceMotion {
+  BodyHandle body{};
+  SurfaceMotion motion{};
+};
+struct SetGravityScale {
+  BodyHandle body{};
+  Number scale{};
+};
+struct SetDamping {
+  BodyHandle body{};
+  Rate linear{};
+  Rate angular{};
+};
 
 /// Stops the body along and about the axes that are locked. Contacts keep what they carry. Refused
 /// where a joint sits too far away for a body that turns.
-struct SetAxisLocks { BodyHandle body{}; AxisLocks locks{}; };
-struct SetSpeedLimit { BodyHandle body{}; SpeedLimit limit{}; };
-struct SetFilter { BodyHandle body{}; CollisionFilter filter{}; };
-struct SetUserData { BodyHandle body{}; std::uint64_t user_data = 0; };
+struct SetAxisLocks {
+  BodyHandle body{};
+  AxisLocks locks{};
+};
+struct SetSpeedLimit {
+  BodyHandle body{};
+  SpeedLimit limit{};
+};
+struct SetFilter {
+  BodyHandle body{};
+  CollisionFilter filter{};
+};
+struct SetUserData {
+  BodyHandle body{};
+  std::uint64_t user_data = 0;
+};
 /// Wakes a dynamic or kinematic body, and the island that it sleeps in. Commands that push, move or
 /// change a body do so by themselves.
-struct WakeBody { BodyHandle body{}; };
+struct WakeBody {
+  BodyHandle body{};
+};
 
 /// Puts the island of a dynamic body to sleep as it stands; velocities are lost. invalid_argument
 /// when the world or a body of the island never sleeps. What is in contact with an awake body of
 /// another kind wakes again in the next step.
-struct SleepBody { BodyHandle body{}; };
+struct SleepBody {
+  BodyHandle body{};
+};
 
 /// A body that is not allowed to sleep wakes, and keeps its island awake.
-struct SetAllowSleep { BodyHandle body{}; bool allow = true; };
+struct SetAllowSleep {
+  BodyHandle body{};
+  bool allow = true;
+};
 
-struct CreateJoint { JointDef def{}; };
-struct DestroyJoint { JointHandle joint{}; };
+struct CreateJoint {
+  JointDef def{};
+};
+struct DestroyJoint {
+  JointHandle joint{};
+};
 
 /// New settings for one axis, limits and drive alike: axis 0 … 2.
-struct SetLinearAxis { JointHandle joint{}; std::uint8_t axis = 0; LinearAxis settings{}; };
-struct SetAngularAxis { JointHandle joint{}; std::uint8_t axis = 0; AngularAxis settings{}; };
+struct SetLinearAxis {
+  JointHandle joint{};
+  std::uint8_t axis = 0;
+  LinearAxis settings{};
+};
+struct SetAngularAxis {
+  JointHandle joint{};
+  std::uint8_t axis = 0;
+  AngularAxis settings{};
+};
 
-struct SetGravity { Vec3<Acceleration> gravity{}; };
+struct SetGravity {
+  Vec3<Acceleration> gravity{};
+};
 
 // clang-format off
 #define LKS_COMMANDS(X) \
@@ -94,5 +187,8 @@ struct SetGravity { Vec3<Acceleration> gravity{}; };
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name
 using Command = std::variant<std::monostate LKS_COMMANDS(LKS_COMMAND_ALTERNATIVE)>;
 #undef LKS_COMMAND_ALTERNATIVE
+
+/// "CreateBody", …; "no command" of one that holds none.
+[[nodiscard]] std::string_view name_of(const Command& command);
 
 }  // namespace lockstone

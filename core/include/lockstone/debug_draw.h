@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/asset.h>
 #include <lockstone/body.h>
@@ -23,6 +24,7 @@ enum class DebugState : std::uint8_t {
   asleep,
   trigger,
 };
+[[nodiscard]] std::string_view to_string(DebugState state);
 
 /// A body's shape where it is. Hulls, meshes, height fields and compounds name their asset, whose
 /// geometry `Hull::vertices` and `Compound::children` tell, or `Asset::canonical_bytes` of any.

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
 #include <lockstone/fixed.h>
 #include <lockstone/status.h>
+#include <lockstone/vec3.h>
 
 namespace lockstone {
 
@@ -104,15 +106,35 @@ template <class T>
   if (!parsed.ok) return Status::malformed;
   const ScaledDecimal scaled = scale_decimal(parsed.value, T::frac_bits);
   if (!scaled.fits_in(sizeof(typename T::Representation) * 8)) return Status::invalid_argument;
-  return T{static_cast<typename T::Representation>(scaled.value)};
+  return T::from_raw(static_cast<typename T::Representation>(scaled.value));
 }
 
 /// The shortest decimal that parses back to the same value of a format with `frac_bits` ≤ 44.
 [[nodiscard]] std::string format_decimal(std::int64_t raw, int frac_bits);
 
+/// The number without its unit: "-0.25". Parses back to the same value.
 template <class T>
 [[nodiscard]] std::string to_decimal(T value) {
+  static_assert(T::frac_bits <= 44, "an exact product has no short decimal: use rounded<To> first");
   return format_decimal(value.raw, T::frac_bits);
+}
+
+/// "(1, -0.25, 3)".
+template <class T>
+[[nodiscard]] std::string to_decimal(const Vec3<T>& v) {
+  return '(' + to_decimal(v.x) + ", " + to_decimal(v.y) + ", " + to_decimal(v.z) + ')';
+}
+
+/// As `to_decimal`.
+template <class Traits, class D, class Rep, int F>
+std::basic_ostream<char, Traits>& operator<<(std::basic_ostream<char, Traits>& out,
+                                             Fixed<D, Rep, F> value) {
+  return out << std::string_view(to_decimal(value));
+}
+template <class Traits, class T>
+std::basic_ostream<char, Traits>& operator<<(std::basic_ostream<char, Traits>& out,
+                                             const Vec3<T>& v) {
+  return out << std::string_view(to_decimal(v));
 }
 
 }  // namespace lockstone

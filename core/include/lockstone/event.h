@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/body.h>
 
@@ -17,6 +18,7 @@ enum class EventKind : std::uint8_t {
   sleep = 6,   ///< dynamic body `a` fell asleep; `b` is null
   wake = 7,    ///< dynamic body `a` woke in this step or by a command before it; `b` is null
 };
+[[nodiscard]] std::string_view to_string(EventKind kind);
 
 /// Contacts and triggers come first, by pair; then impacts; then sleep and wake, by body.
 /// Destroying or teleporting a body drops its contacts without an event. While neither body of a

@@ -9,8 +9,12 @@
 #include <bit>
 #include <compare>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #include <lockstone/assert.h>
 
@@ -103,6 +107,49 @@ template <std::signed_integral T>
   return numerator < 0 ? quotient - 1 : quotient + 1;
 }
 
+/// x · 2^shift for either sign of `shift`: rounded, and clamped to the range of int64.
+[[nodiscard]] constexpr std::int64_t scale_saturating(std::int64_t x, int shift) {
+  if (shift <= 0) return round_shift_any(x, -shift);
+  LKS_ASSERT(shift <= 62);
+  const auto grown = static_cast<std::int64_t>(static_cast<std::uint64_t>(x) << shift);
+  if (grown >> shift == x) return grown;
+  return x < 0 ? std::numeric_limits<std::int64_t>::min()
+               : std::numeric_limits<std::int64_t>::max();
+}
+
+/// The result of `divide`; `value` says nothing where it does not fit in int64.
+struct Ratio {
+  bool fits = false;
+  std::int64_t value = 0;
+};
+
+/// numerator · 2^frac_bits / denominator to nearest, ties away from zero, for all numerators and
+/// all denominators but 0; 0 ≤ frac_bits ≤ 62. Long division where the product would leave 62 bits.
+[[nodiscard]] constexpr Ratio divide(std::int64_t numerator, std::int64_t denominator,
+                                     int frac_bits) {
+  const std::int64_t bound = std::int64_t{1} << (62 - frac_bits);
+  if (denominator > 0 && numerator > -bound && numerator < bound)
+    return {true, round_divide(numerator * (std::int64_t{1} << frac_bits), denominator)};
+  const auto size = [](std::int64_t x) {
+    return x < 0 ? 0 - static_cast<std::uint64_t>(x) : static_cast<std::uint64_t>(x);
+  };
+  const std::uint64_t divisor = size(denominator);
+  std::uint64_t quotient = size(numerator) / divisor;
+  std::uint64_t remainder = size(numerator) % divisor;  // below 2^63: twice it fits
+  bool fits = true;
+  for (int i = 0; i < frac_bits; ++i) {
+    remainder *= 2;
+    const std::uint64_t bit = remainder >= divisor ? 1 : 0;
+    remainder -= bit * divisor;
+    fits = fits && quotient < std::uint64_t{1} << 63;
+    quotient = quotient * 2 + bit;
+  }
+  if (remainder >= divisor - remainder) ++quotient;
+  const bool negative = (numerator < 0) != (denominator < 0);
+  const std::uint64_t most = std::uint64_t{0x7fffffffffffffff} + (negative ? 1 : 0);
+  return {fits && quotient <= most, static_cast<std::int64_t>(negative ? 0 - quotient : quotient)};
+}
+
 /// a · b · 2^-shift to nearest, ties away from zero, without a 128-bit product.
 /// 1 ≤ shift ≤ 62; the result must fit in int64, and |a · b| < 2^(62 + shift).
 [[nodiscard]] constexpr std::int64_t multiply_shift(std::int64_t a, std::int32_t b, int shift) {
@@ -133,7 +180,21 @@ template <std::signed_integral T>
 
 }  // namespace raw
 
+/// Whether every value of one format is a value of the other: as many bits before and behind the
+/// point.
+template <class FromRep, int FromBits, class ToRep, int ToBits>
+concept HoldsAll = FromBits <= ToBits && sizeof(FromRep) * 8 + static_cast<std::size_t>(ToBits) <=
+                                             sizeof(ToRep) * 8 + static_cast<std::size_t>(FromBits);
+
 /// One quantity: unit, representation and binary point. Plain data; zero by default.
+///
+/// A bare number has no unit, so it does not convert: write `1.5_m`, `from_integer`, `from_ratio`,
+/// or `from_raw` for the raw integer. Formats convert by themselves where no value can be lost (a
+/// Length is a Position); elsewhere by `rounded`, `saturated` or `try_rounded`.
+///
+/// Leaving the range: `from_integer` and `from_ratio` do not compile in a constant expression and
+/// stop the program at run time; operators and `rounded` assert, and wrap where assertions are off;
+/// `saturated` clamps; the functions that begin with `try_` return nothing. None is undefined.
 template <class Dim, std::signed_integral Rep, int FracBits>
 struct Fixed {
   using Unit = Dim;
@@ -142,26 +203,70 @@ struct Fixed {
 
   Rep raw = 0;
 
-  [[nodiscard]] static constexpr Fixed from_raw(Rep value) { return Fixed{value}; }
+  constexpr Fixed() = default;
 
-  /// `value` whole units; must fit.
-  [[nodiscard]] static constexpr Fixed from_integer(std::int64_t value) {
-    return narrow(raw::scale_binary(value, FracBits));
+  /// Write 1.5_m, Length::from_integer(2) or Length::from_raw(…) instead of a bare number.
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Fixed(Number)
+  = delete;  // a bare number has no unit: write 1.5_m
+
+  /// From a format whose every value this one holds.
+  template <class OtherRep, int OtherBits>
+  requires HoldsAll<OtherRep, OtherBits, Rep, FracBits>
+  constexpr Fixed(Fixed<Dim, OtherRep, OtherBits> other)  // NOLINT(google-explicit-constructor)
+      : Fixed(Raw{static_cast<Rep>(Rep{other.raw} * (Rep{1} << (FracBits - OtherBits)))}) {}
+
+  [[nodiscard]] static constexpr Fixed from_raw(Rep value) { return Fixed(Raw{value}); }
+
+  /// `value` whole units. Must fit: stops the program otherwise.
+  template <std::integral Integer>
+  [[nodiscard]] static constexpr Fixed from_integer(Integer value) {
+    if (!holds(value))
+      misused("Fixed::from_integer: out of range; use a wider format, or try_from_integer");
+    return from_raw(
+        static_cast<Rep>(static_cast<std::int64_t>(value) * (std::int64_t{1} << FracBits)));
+  }
+  template <class Other>
+  requires(!std::integral<Other>) static Fixed from_integer(Other) = delete;
+
+  /// `value` whole units, or nothing where they do not fit.
+  template <std::integral Integer>
+  [[nodiscard]] static constexpr std::optional<Fixed> try_from_integer(Integer value) {
+    if (!holds(value)) return std::nullopt;
+    return from_integer(value);
   }
 
-  /// numerator / denominator units, correctly rounded. |numerator| < 2^(62 − FracBits).
+  /// numerator / denominator units, correctly rounded. The denominator must not be 0 and the result
+  /// must fit: stops the program otherwise.
   [[nodiscard]] static constexpr Fixed from_ratio(std::int64_t numerator,
                                                   std::int64_t denominator) {
-    return narrow(raw::round_divide(raw::scale_binary(numerator, FracBits), denominator));
+    if (denominator == 0) misused("Fixed::from_ratio: the denominator is 0");
+    const raw::Ratio ratio = raw::divide(numerator, denominator, FracBits);
+    if (!holds_raw(ratio))
+      misused("Fixed::from_ratio: out of range; use a wider format, or try_from_ratio");
+    return from_raw(static_cast<Rep>(ratio.value));
+  }
+  template <class A, class B>
+  requires(!std::integral<A> || !std::integral<B>) static Fixed from_ratio(A, B) = delete;
+
+  /// The same, or nothing where the denominator is 0 or the result does not fit.
+  [[nodiscard]] static constexpr std::optional<Fixed> try_from_ratio(std::int64_t numerator,
+                                                                     std::int64_t denominator) {
+    if (denominator == 0) return std::nullopt;
+    const raw::Ratio ratio = raw::divide(numerator, denominator, FracBits);
+    if (!holds_raw(ratio)) return std::nullopt;
+    return from_raw(static_cast<Rep>(ratio.value));
   }
 
-  [[nodiscard]] static constexpr Fixed max() { return {std::numeric_limits<Rep>::max()}; }
-  [[nodiscard]] static constexpr Fixed min() { return {std::numeric_limits<Rep>::min()}; }
+  [[nodiscard]] static constexpr Fixed max() { return from_raw(std::numeric_limits<Rep>::max()); }
+  [[nodiscard]] static constexpr Fixed min() { return from_raw(std::numeric_limits<Rep>::min()); }
 
   friend constexpr auto operator<=>(Fixed, Fixed) = default;
 
-  friend constexpr Fixed operator+(Fixed a, Fixed b) { return {raw::add(a.raw, b.raw)}; }
-  friend constexpr Fixed operator-(Fixed a, Fixed b) { return {raw::subtract(a.raw, b.raw)}; }
+  friend constexpr Fixed operator+(Fixed a, Fixed b) { return from_raw(raw::add(a.raw, b.raw)); }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) {
+    return from_raw(raw::subtract(a.raw, b.raw));
+  }
   constexpr Fixed operator-() const { return Fixed{} - *this; }
   constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
   constexpr Fixed& operator-=(Fixed b) { return *this = *this - b; }
@@ -175,25 +280,61 @@ struct Fixed {
                             : factor == 0 || (product / factor == a.raw && product % factor == 0));
     return narrow(product);
   }
+  friend constexpr Fixed operator*(int factor, Fixed a) { return a * factor; }
+  constexpr Fixed& operator*=(int factor) { return *this = *this * factor; }
 
-  /// Divided by a positive whole number, rounded.
+  /// Divided by a whole number, rounded. Stops the program where that is 0.
   friend constexpr Fixed operator/(Fixed a, int divisor) {
-    return narrow(raw::round_divide(a.raw, divisor));
+    if (divisor > 0) return narrow(raw::round_divide(a.raw, divisor));
+    if (divisor == 0) misused("a quantity divided by 0");
+    return narrow(raw::subtract(std::int64_t{0}, raw::round_divide(a.raw, -std::int64_t{divisor})));
+  }
+  constexpr Fixed& operator/=(int divisor) { return *this = *this / divisor; }
+
+  [[nodiscard]] friend constexpr Fixed abs(Fixed x) { return x.raw < 0 ? -x : x; }
+  [[nodiscard]] friend constexpr Fixed min(Fixed a, Fixed b) { return a < b ? a : b; }
+  [[nodiscard]] friend constexpr Fixed max(Fixed a, Fixed b) { return a < b ? b : a; }
+  [[nodiscard]] friend constexpr Fixed clamp(Fixed x, Fixed low, Fixed high) {
+    const Fixed raised = x < low ? low : x;
+    return raised < high ? raised : high;
   }
 
  private:
+  struct Raw {
+    Rep value;
+  };
+  constexpr explicit Fixed(Raw from) : raw(from.value) {}
+
+  template <std::integral Integer>
+  [[nodiscard]] static constexpr bool holds(Integer value) {
+    return std::cmp_less_equal(value, std::int64_t{std::numeric_limits<Rep>::max()} >> FracBits) &&
+           std::cmp_greater_equal(value, std::int64_t{std::numeric_limits<Rep>::min()} >> FracBits);
+  }
+  [[nodiscard]] static constexpr bool holds_raw(const raw::Ratio& ratio) {
+    return ratio.fits && ratio.value >= std::numeric_limits<Rep>::min() &&
+           ratio.value <= std::numeric_limits<Rep>::max();
+  }
+
   [[nodiscard]] static constexpr Fixed narrow(std::int64_t value) {
     LKS_ASSERT(value >= std::numeric_limits<Rep>::min());
     LKS_ASSERT(value <= std::numeric_limits<Rep>::max());
-    return {static_cast<Rep>(value)};
+    return from_raw(static_cast<Rep>(value));
   }
 };
+
+/// Whether a Fixed is another one by itself.
+template <class From, class To>
+inline constexpr bool k_widens = false;
+template <class D, class R1, int F1, class R2, int F2>
+inline constexpr bool k_widens<Fixed<D, R1, F1>, Fixed<D, R2, F2>> =
+    HoldsAll<R1, F1, R2, F2> && !std::is_same_v<Fixed<D, R1, F1>, Fixed<D, R2, F2>>;
 
 /// The exact product of two 32-bit quantities.
 template <class D1, int F1, class D2, int F2>
 [[nodiscard]] constexpr auto operator*(Fixed<D1, std::int32_t, F1> a,
                                        Fixed<D2, std::int32_t, F2> b) {
-  return Fixed<DimensionProduct<D1, D2>, std::int64_t, F1 + F2>{std::int64_t{a.raw} * b.raw};
+  return Fixed<DimensionProduct<D1, D2>, std::int64_t, F1 + F2>::from_raw(std::int64_t{a.raw} *
+                                                                          b.raw);
 }
 
 /// `value` in another format of the same unit, to nearest; must fit.
@@ -201,15 +342,26 @@ template <class To, class Rep, int FracBits>
 [[nodiscard]] constexpr To rounded(Fixed<typename To::Unit, Rep, FracBits> value) {
   const std::int64_t scaled = raw::scale_binary(value.raw, To::frac_bits - FracBits);
   LKS_ASSERT(scaled >= To::min().raw && scaled <= To::max().raw);
-  return To{static_cast<typename To::Representation>(scaled)};
+  return To::from_raw(static_cast<typename To::Representation>(scaled));
 }
 
-/// As `rounded` to a coarser or equal format, but what does not fit becomes the nearest bound.
+/// As `rounded`, but nothing where it does not fit.
 template <class To, class Rep, int FracBits>
-requires(FracBits >= To::frac_bits) [[nodiscard]] constexpr To
-    saturated(Fixed<typename To::Unit, Rep, FracBits> value) {
-  const std::int64_t scaled = raw::round_shift_any(value.raw, FracBits - To::frac_bits);
-  return To{raw::saturate<typename To::Representation>(scaled)};
+[[nodiscard]] constexpr std::optional<To> try_rounded(
+    Fixed<typename To::Unit, Rep, FracBits> value) {
+  const std::int64_t scaled = raw::scale_saturating(value.raw, To::frac_bits - FracBits);
+  if (scaled < To::min().raw || scaled > To::max().raw) return std::nullopt;
+  if constexpr (To::frac_bits > FracBits) {
+    if (scaled >> (To::frac_bits - FracBits) != value.raw) return std::nullopt;
+  }
+  return To::from_raw(static_cast<typename To::Representation>(scaled));
+}
+
+/// As `rounded`, but what does not fit becomes the nearest bound.
+template <class To, class Rep, int FracBits>
+[[nodiscard]] constexpr To saturated(Fixed<typename To::Unit, Rep, FracBits> value) {
+  const std::int64_t scaled = raw::scale_saturating(value.raw, To::frac_bits - FracBits);
+  return To::from_raw(raw::saturate<typename To::Representation>(scaled));
 }
 
 /// A 64-bit quantity times a 32-bit one, rounded once; the result must fit.
@@ -219,28 +371,30 @@ requires(std::same_as<typename To::Unit, DimensionProduct<D1, D2>>&& F1 + F2 > T
     multiply(Fixed<D1, std::int64_t, F1> a, Fixed<D2, std::int32_t, F2> b) {
   const std::int64_t product = raw::multiply_shift(a.raw, b.raw, F1 + F2 - To::frac_bits);
   LKS_ASSERT(product >= To::min().raw && product <= To::max().raw);
-  return To{static_cast<typename To::Representation>(product)};
+  return To::from_raw(static_cast<typename To::Representation>(product));
 }
 
-template <class D, class R, int F>
-[[nodiscard]] constexpr Fixed<D, R, F> abs(Fixed<D, R, F> x) {
-  return x.raw < 0 ? -x : x;
+/// A 64-bit quantity times a plain number: the same quantity, rounded once; must fit.
+template <class D, int F, int F2>
+[[nodiscard]] constexpr Fixed<D, std::int64_t, F> operator*(
+    Fixed<D, std::int64_t, F> a, Fixed<Dimension<0, 0, 0>, std::int32_t, F2> factor) {
+  return multiply<Fixed<D, std::int64_t, F>>(a, factor);
+}
+template <class D, int F, int F2>
+[[nodiscard]] constexpr Fixed<D, std::int64_t, F> operator*(
+    Fixed<Dimension<0, 0, 0>, std::int32_t, F2> factor, Fixed<D, std::int64_t, F> a) {
+  return a * factor;
 }
 
-template <class D, class R, int F>
-[[nodiscard]] constexpr Fixed<D, R, F> min(Fixed<D, R, F> a, Fixed<D, R, F> b) {
-  return a < b ? a : b;
-}
-
-template <class D, class R, int F>
-[[nodiscard]] constexpr Fixed<D, R, F> max(Fixed<D, R, F> a, Fixed<D, R, F> b) {
-  return a < b ? b : a;
-}
-
-template <class D, class R, int F>
-[[nodiscard]] constexpr Fixed<D, R, F> clamp(Fixed<D, R, F> x, Fixed<D, R, F> low,
-                                             Fixed<D, R, F> high) {
-  return min(max(x, low), high);
+/// A quantity of either width times a plain number, in its own format: rounded once, must fit. The
+/// operator gives the exact product of two 32-bit quantities instead.
+template <class D, class Rep, int F, int F2>
+[[nodiscard]] constexpr Fixed<D, Rep, F> scaled(
+    Fixed<D, Rep, F> a, Fixed<Dimension<0, 0, 0>, std::int32_t, F2> factor) {
+  if constexpr (sizeof(Rep) == 8)
+    return a * factor;
+  else
+    return rounded<Fixed<D, Rep, F>>(a * factor);
 }
 
 }  // namespace lockstone

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/body.h>
 #include <lockstone/quat.h>
@@ -37,12 +38,14 @@ enum class JointKind : std::uint8_t {
   gear = 10,   ///< turning about x of frame a + ratio · that about x of frame b stays 0
   rack = 11,   ///< turning about x of frame a + ratio · motion along x of frame b stays 0
 };
+[[nodiscard]] std::string_view to_string(JointKind kind);
 
 enum class AxisMode : std::uint8_t {
   locked = 0,   ///< stays at 0; with a spring (hertz > 0) softly
   free = 1,     ///< moves as it likes, or as its drive does
   limited = 2,  ///< stays within lower … upper
 };
+[[nodiscard]] std::string_view to_string(AxisMode mode);
 
 /// One way to move. `Value` is a length or an angle.
 ///
@@ -100,7 +103,8 @@ struct JointDef {
   bool collide = false;  ///< whether the two bodies may touch
   std::uint64_t user_data = 0;
 
-  /// A joint of a kind with its axes locked and free as the kind says, and no drives.
+  /// A joint of a kind with its axes locked and free as the kind says, and no drives. Begin with
+  /// it: a ball, hinge, slider, weld or wheel whose axes are all free holds nothing and is refused.
   [[nodiscard]] static JointDef of(JointKind kind, BodyHandle a, BodyHandle b);
 };
 

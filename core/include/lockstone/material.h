@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
@@ -18,6 +19,7 @@ enum class CombineRule : std::uint8_t {
   multiply = 4,
   maximum = 5,
 };
+[[nodiscard]] std::string_view to_string(CombineRule rule);
 
 /// The surface of a body, or of a part of an asset where that differs from the body's own.
 struct Surface {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/shape.h>
 
@@ -47,6 +48,10 @@ inline constexpr std::size_t k_step_stages = 0 LKS_STEP_STAGES(LKS_COUNT_STAGE);
   return k_names[static_cast<std::size_t>(stage)];
 }
 
+[[nodiscard]] constexpr std::string_view to_string(StepStage stage) {
+  return name_of(stage);
+}
+
 /// What each stage of a step left behind, as a hash: equal in equal steps, and in steps that part
 /// different from the first stage on that saw a difference.
 struct StageDigests {
@@ -62,6 +67,7 @@ enum class ProfileDetail : std::uint8_t {
   stages,  ///< two calls of the clock a stage
   pairs,   ///< and two a pair of bodies, which are then collided on the calling thread alone
 };
+[[nodiscard]] std::string_view to_string(ProfileDetail detail);
 
 /// What the narrow phase did for pairs of two kinds of shape.
 struct PairProfile {

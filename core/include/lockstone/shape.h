@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/status.h>
 #include <lockstone/units.h>
@@ -20,6 +21,7 @@ enum class ShapeKind : std::uint8_t {
   height_field = 6,  ///< a terrain (asset); never on a dynamic body
   compound = 7,      ///< several convex shapes (asset)
 };
+[[nodiscard]] std::string_view to_string(ShapeKind kind);
 
 /// Whether shapes of this kind name an asset.
 [[nodiscard]] constexpr bool is_asset(ShapeKind kind) {

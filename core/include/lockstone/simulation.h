@@ -44,6 +44,7 @@ enum class InputOrigin : std::uint8_t {
   neutral = 2,   ///< late: the server used an all-zero input
   absent = 3,    ///< nobody sits in this slot; the bytes are all zero
 };
+[[nodiscard]] std::string_view to_string(InputOrigin origin);
 
 /// One player's input for one tick; `bytes` always has SimulationInfo::input_bytes bytes. They come
 /// from outside: a simulation accepts any values.
@@ -56,6 +57,7 @@ enum class SnapshotKind : std::uint8_t {
   native,     ///< for rollback: this process only, as fast as a copy
   canonical,  ///< little-endian and versioned: for other machines, late joiners, logs
 };
+[[nodiscard]] std::string_view to_string(SnapshotKind kind);
 
 /// An integer as differences show it: "0x", and two digits for each byte of its type.
 template <class T>

@@ -28,6 +28,9 @@ enum class [[nodiscard]] Status : std::uint8_t{
 /// A short lower-case English name, for logs.
 [[nodiscard]] std::string_view to_string(Status status);
 
+/// Prints the status and aborts: `Result::value` was called on an error.
+[[noreturn]] void no_value(Status error);
+
 /// A value or the reason why there is none.
 template <class T>
 class [[nodiscard]] Result {
@@ -39,17 +42,18 @@ class [[nodiscard]] Result {
   [[nodiscard]] explicit operator bool() const { return ok(); }
   [[nodiscard]] Status status() const { return error_; }
 
-  /// The value. Calling it on an error is a programmer's error.
+  /// The value. Calling it on an error is a programmer's error: the program prints the status and
+  /// aborts.
   [[nodiscard]] T& value() & {
-    LKS_CHECK(ok());
+    if (!ok()) no_value(error_);
     return *value_;
   }
   [[nodiscard]] const T& value() const& {
-    LKS_CHECK(ok());
+    if (!ok()) no_value(error_);
     return *value_;
   }
   [[nodiscard]] T&& value() && {
-    LKS_CHECK(ok());
+    if (!ok()) no_value(error_);
     return std::move(*value_);
   }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace lockstone {
 
@@ -20,6 +21,7 @@ enum class TaskPieces : std::uint8_t {
   worthwhile,  ///< a microsecond of work or more; little work is not shared at all
   smallest,    ///< for tests: whatever can be shared is
 };
+[[nodiscard]] std::string_view to_string(TaskPieces pieces);
 
 /// Calls functions side by side. One runner may serve several worlds, one after the other or, if
 /// its `run` allows that, at the same time.

@@ -2,7 +2,7 @@
 //
 // A result depends only on state, commands and tick. Everything that can change the future is saved
 // and hashed; all else (trees, bounds, scratch) may be dropped at any time. Of a world's functions
-// `create`, `set_task_runner` and `describe_difference` alone allocate.
+// `create`, `set_task_runner`, `explain` and `describe_difference` alone allocate.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,11 @@
 #include <lockstone/joint.h>
 #include <lockstone/profile.h>
 #include <lockstone/query.h>
+#include <lockstone/refusal.h>
 #include <lockstone/simulation.h>
 #include <lockstone/status.h>
 #include <lockstone/tasks.h>
+#include <lockstone/vector_math.h>
 
 namespace lockstone {
 
@@ -105,11 +107,15 @@ struct WorldFault {
 
 /// The stores of a state, in the order of snapshots.
 enum class StateStore : std::uint8_t { bodies, contacts, joints };
+[[nodiscard]] std::string_view to_string(StateStore store);
+
+class CommandExplainer;
 
 class World {
  public:
-  /// invalid_argument when a value of `def` is outside its range. Takes all memory that steps need,
-  /// by the capacities. Bodies may use the assets of the set; worlds may share one.
+  /// invalid_argument when a value of `def` is outside its range: `explain` says which. Takes all
+  /// memory that steps need, by the capacities. Bodies may use the assets of the set; worlds may
+  /// share one.
   static Result<World> create(const WorldDef& def,
                               std::shared_ptr<const AssetSet> assets = nullptr);
 
@@ -133,6 +139,14 @@ class World {
 
   /// Applies one command now. On any status but ok nothing has changed.
   Status apply(const Command& command);
+
+  /// Why `create`, `create_body`, `create_joint` or `apply` would refuse this now: the field, its
+  /// value and what it must be. Empty where they would not. Allocates text: for logs and editors.
+  /// Not from two threads at once.
+  static Refusal explain(const WorldDef& def);
+  Refusal explain(const BodyDef& def) const;
+  Refusal explain(const JointDef& def) const;
+  Refusal explain(const Command& command) const;
 
   // The tick --------------------------------------------------------------------------------------
 
@@ -302,6 +316,7 @@ class World {
   void drop_derived();
 
  private:
+  friend class CommandExplainer;
   struct Impl;
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

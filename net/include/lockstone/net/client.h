@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <lockstone/net/session.h>
 #include <lockstone/net/transport.h>
@@ -24,6 +25,7 @@ enum class ClientState : std::uint8_t {
   refused,   ///< see Client::refusal
   failed,    ///< see Client::failure
 };
+[[nodiscard]] std::string_view to_string(ClientState state);
 
 /// Why a client failed.
 enum class ClientFailure : std::uint8_t {
@@ -36,6 +38,7 @@ enum class ClientFailure : std::uint8_t {
   dropped,                ///< the server said good-bye before the match was over; see leave_reason
   not_deterministic,      ///< stepping the same ticks again gave another state (sync_test)
 };
+[[nodiscard]] std::string_view to_string(ClientFailure failure);
 
 struct ClientConfig {
   /// For a transport that does not encrypt; the server must ask for this too.

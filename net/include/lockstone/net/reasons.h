@@ -91,6 +91,9 @@ inline constexpr std::size_t k_leave_reasons = static_cast<std::size_t>(k_last_l
 enum class AskKind : std::uint8_t { pause = 0, resume = 1, vote = 2 };
 
 /// Short lower-case English names, for logs.
+[[nodiscard]] std::string_view to_string(LatePolicy policy);
+[[nodiscard]] std::string_view to_string(Pacing pacing);
+[[nodiscard]] std::string_view to_string(AskKind kind);
 [[nodiscard]] std::string_view to_string(RefuseReason reason);
 [[nodiscard]] std::string_view to_string(RefuseField field);
 [[nodiscard]] std::string_view to_string(Verdict verdict);

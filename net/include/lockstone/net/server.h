@@ -21,6 +21,7 @@ enum class Substitute : std::uint8_t {
   repeat,   ///< the slot's input of the tick before
   neutral,  ///< all zero
 };
+[[nodiscard]] std::string_view to_string(Substitute substitute);
 
 /// What becomes of a player whose state is wrong. Without a judge and a majority the match always
 /// ends. Where it goes on, it goes on at once: the player is absent from the verdict on.
@@ -48,6 +49,7 @@ struct ConnectionCounts {
   std::size_t condemned = 0;  ///< players whose state was wrong, about to be kicked or corrected
   std::size_t spectators = 0;
 };
+[[nodiscard]] std::string_view to_string(DesyncPolicy policy);
 
 enum class ServerState : std::uint8_t {
   lobby,      ///< waits for all players
@@ -56,6 +58,7 @@ enum class ServerState : std::uint8_t {
   closing,    ///< says good-bye
   over,       ///< nothing more will happen
 };
+[[nodiscard]] std::string_view to_string(ServerState state);
 
 struct ServerConfig {
   /// Set this, and only this, for a transport that does not encrypt: anybody may then join, listen

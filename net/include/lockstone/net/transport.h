@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include <lockstone/bytes.h>
 #include <lockstone/net/reasons.h>
@@ -28,6 +29,7 @@ enum class Channel : std::uint8_t {
   reliable = 0,    ///< arrives once, whole and in order, or the connection ends
   unreliable = 1,  ///< may be lost, doubled or overtaken
 };
+[[nodiscard]] std::string_view to_string(Channel channel);
 
 /// The slot of somebody who only watches.
 inline constexpr std::uint8_t k_spectator_slot = 254;
@@ -41,6 +43,7 @@ struct PeerIdentity {
 };
 
 enum class TransportEventKind : std::uint8_t { connected, disconnected, received };
+[[nodiscard]] std::string_view to_string(TransportEventKind kind);
 
 /// Something that happened. `bytes` is valid until the next call of `poll`.
 struct TransportEvent {

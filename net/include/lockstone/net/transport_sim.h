@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <lockstone/net/transport.h>
@@ -37,6 +38,7 @@ class SimTransport;
 
 /// Which way an endpoint is cut off.
 enum class Cut : std::uint8_t { both, sending, receiving };
+[[nodiscard]] std::string_view to_string(Cut cut);
 
 /// Owns the endpoints and the packets in flight. One thread.
 class SimNetwork {

@@ -57,6 +57,7 @@ enum class MessageType : std::uint8_t {
   paused = 19,
   parts = 20,
 };
+[[nodiscard]] std::string_view to_string(MessageType type);
 
 /// Text of bounded length: printable ASCII on the wire.
 template <std::size_t k_capacity>
@@ -109,6 +110,7 @@ enum class Entry : std::uint8_t {
   ticks = 1,     ///< where it was: the ticks since then follow
   snapshot = 2,  ///< at a state that follows in pieces
 };
+[[nodiscard]] std::string_view to_string(Entry entry);
 
 /// Server: the client sits in `slot`.
 struct Welcome {

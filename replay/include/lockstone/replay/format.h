@@ -54,6 +54,7 @@ enum class Codec : std::uint8_t {
   raw = 0,   ///< the stored bytes are the payload
   zstd = 1,  ///< one Zstandard frame (RFC 8878)
 };
+[[nodiscard]] std::string_view to_string(Codec codec);
 
 /// Whether this build reads and writes compressed chunks. One that does not refuses logs that hold
 /// them, with unsupported_version.

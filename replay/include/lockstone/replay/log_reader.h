@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <lockstone/replay/format.h>
@@ -28,6 +29,7 @@ enum class LogItem : std::uint8_t {
   torn,      ///< no more: the log ends inside a chunk. damage() tells where; not an error as such
   damaged,   ///< no more: damage() tells where and how
 };
+[[nodiscard]] std::string_view to_string(LogItem item);
 
 /// True for finished, torn and damaged, after which next() repeats itself.
 [[nodiscard]] constexpr bool is_last(LogItem item) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <lockstone/replay/source.h>
 #include <lockstone/replay/tick_reader.h>
@@ -28,6 +29,7 @@ enum class SeekFrom : std::uint8_t {
   keyframe,   ///< the last one at or before the tick
   beginning,  ///< the log's, so that no recorded state but the first is used
 };
+[[nodiscard]] std::string_view to_string(SeekFrom from);
 
 /// The state at `tick`: loads the last keyframe at or before it and steps on with the log's inputs.
 /// not_found when the log does not reach so far; incompatible when it is of another simulation. Only
