@@ -44,10 +44,11 @@ Result<std::FILE*> open_regular(const std::string& path, OpenFor purpose) {
 #else
 Result<std::FILE*> open_regular(const std::string& path, OpenFor purpose) {
   errno = 0;
-  const char* mode = purpose == OpenFor::reading    ? "rb"
-                     : purpose == OpenFor::creating ? "wbx"
-                                                    : "wb";
-  std::FILE* file = std::fopen(path.c_str(), mode);
+  std::FILE* file = std::fopen(path.c_str(), purpose == OpenFor::replacing ? "wb" : "rb");
+  if (purpose == OpenFor::creating) {
+    if (file != nullptr) std::fclose(file);
+    file = file == nullptr ? std::fopen(path.c_str(), "wb") : nullptr;
+  }
   if (file != nullptr) return file;
   return purpose == OpenFor::reading && errno == ENOENT ? Status::not_found : Status::io_error;
 }

@@ -1,12 +1,11 @@
 #include "tools/lockstone/console.h"
 
-#include <array>
 #include <cstdio>
-#include <utility>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lockstone::tool {
@@ -19,21 +18,14 @@ void complain(const std::string& line) {
   fmt::print(stderr, "lockstone: {}\n", line);
 }
 
-// Without O_NONBLOCK, opening a FIFO would wait for its other end.
+// Opening a FIFO would wait for its other end.
 std::optional<std::string> read_file(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return std::nullopt;
-  struct stat status {};
-  bool good = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
-  std::string text;
-  std::array<char, 65536> piece{};
-  for (ssize_t got = 1; good && got > 0;) {
-    got = read(file, piece.data(), piece.size());
-    good = got >= 0;
-    if (got > 0) text.append(piece.data(), static_cast<std::size_t>(got));
-  }
-  close(file);
-  return good ? std::optional(std::move(text)) : std::nullopt;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file) return std::nullopt;
+  return text;
 }
 
 Progress::Progress() : enabled_(isatty(STDERR_FILENO) != 0) {}

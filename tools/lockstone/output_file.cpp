@@ -2,10 +2,12 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <span>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tools/lockstone/console.h"
@@ -13,7 +15,7 @@
 namespace lockstone::tool {
 namespace {
 
-bool refuse(const std::string& path, const char* why) {
+bool refuse(const std::string& path, const std::string& why) {
   complain(fmt::format("cannot write {}: {}", path, why));
   return false;
 }
@@ -24,14 +26,17 @@ std::string pending_name(const std::string& path) {
 }
 
 // Puts a finished file into its place. A link, other than a rename, replaces nothing.
-bool put_in_place(const std::string& pending, const Output& output) {
-  const char* from = pending.c_str();
-  const char* to = output.path.c_str();
-  if (output.force) return std::rename(from, to) == 0;
-  if (link(from, to) == 0) return unlink(from) == 0;
-  if (errno == EEXIST) return false;
-  // Not every file system has links.
-  return may_write(output) && std::rename(from, to) == 0;
+std::error_code put_in_place(const std::string& pending, const Output& output) {
+  std::error_code error;
+  if (!output.force) {
+    std::filesystem::create_hard_link(pending, output.path, error);
+    if (!error) std::filesystem::remove(pending, error);
+    if (!error || error == std::errc::file_exists) return error;
+    // Not every file system has links.
+    if (std::filesystem::exists(output.path)) return error;
+  }
+  std::filesystem::rename(pending, output.path, error);
+  return error;
 }
 
 }  // namespace
@@ -41,9 +46,10 @@ void add_force_option(CLI::App& command, bool& force) {
 }
 
 bool may_write(const Output& output) {
-  struct stat status {};
-  if (output.path.empty() || stat(output.path.c_str(), &status) != 0) return true;
-  if (!S_ISREG(status.st_mode)) return refuse(output.path, "it is no file");
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(output.path, ignored);
+  if (output.path.empty() || !std::filesystem::exists(status)) return true;
+  if (!std::filesystem::is_regular_file(status)) return refuse(output.path, "it is no file");
   return output.force || refuse(output.path, "it is there already; --force replaces it");
 }
 
@@ -60,6 +66,7 @@ std::unique_ptr<PendingLog> PendingLog::create(const Output& output) {
   std::unique_ptr<PendingLog> log(new PendingLog(output, pending_name(output.path)));
   auto sink = replay::FileSink::create(log->pending_);
   if (!sink) {
+    log->pending_.clear();
     refuse(output.path, std::strerror(errno));
     return nullptr;
   }
@@ -68,11 +75,16 @@ std::unique_ptr<PendingLog> PendingLog::create(const Output& output) {
 }
 
 PendingLog::~PendingLog() {
-  if (!pending_.empty() && sink_ != nullptr) unlink(pending_.c_str());
+  if (pending_.empty()) return;
+  sink_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(pending_, ignored);
 }
 
 bool PendingLog::keep() {
-  if (!put_in_place(pending_, output_)) return refuse(output_.path, std::strerror(errno));
+  sink_.reset();  // not every system renames an open file
+  const std::error_code error = put_in_place(pending_, output_);
+  if (error) return refuse(output_.path, error.message());
   pending_.clear();
   return true;
 }
