@@ -162,7 +162,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
       direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
-      first_loads_(contact_capacity) {
+      first_loads_(contact_capacity),
+      islands_(body_capacity + contact_capacity + joint_capacity + 1) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
   bodies_.reserve(most_rows);
@@ -174,6 +175,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);
+  entry_islands_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
       std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
@@ -217,7 +219,9 @@ void ContactSolver::fill_member(const ContactScene& scene, std::size_t index) {
     rows_[index].velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
     rows_[index].spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
   }
-  bodies_[index].rests = has_heap_ && is_slower(rows_[index], bodies_[index], k_rigid_shift);
+  bodies_[index].rests = has_heap_ &&
+                         islands_.load(islands_.of(static_cast<std::uint32_t>(index))).is_heap() &&
+                         is_slower(rows_[index], bodies_[index], k_rigid_shift);
 }
 
 const ManifoldKernels& ContactSolver::kernels_of(std::size_t color) const {
@@ -254,8 +258,7 @@ const ContactSolver::Entry* ContactSolver::look_ahead(
 // Answers how many points the block has.
 std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
                                         Scratch& scratch) {
-  std::uint32_t points = 0, loaded = 0;
-  const bool asks_for_load = few_are_loaded();
+  std::uint32_t points = 0;
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const std::uint32_t slot = slots_[block * k_block_lanes + lane];
     restitution_[block][lane] = 0;
@@ -292,15 +295,15 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface};
     kept_[block * k_block_lanes + lane] =
         fill_source(input, softness_, sources.lanes[lane]) ? 1 : 0;
-    if (has_heap_ && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
+    IslandLoad& island = island_of(slot);
+    if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
-    if (asks_for_load && is_loaded(scene, entry, source.share_b)) ++loaded;
-    if (DirectContacts::is_uneven(source.share_b)) uneven_.store(true, std::memory_order_relaxed);
+    if (island.asks_for_load() && is_loaded(scene, entry, source.share_b)) island.count_loaded();
+    if (DirectContacts::is_uneven(source.share_b)) island.note_uneven();
     restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);
   }
-  if (loaded != 0) loaded_.fetch_add(loaded, std::memory_order_relaxed);
   return points;
 }
 

@@ -23,6 +23,7 @@
 #include "core/dynamics/joint_net.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/solver_body.h"
+#include "core/dynamics/tick_islands.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
 #include "core/math/wide/manifold_block.h"
@@ -86,8 +87,11 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
-  /// Whether more contacts bear loads in this tick than are solved at once.
-  [[nodiscard]] bool leaves_loads_to_sweeps() const { return !few_are_loaded(); }
+  /// Whether the body's island is too large to be solved directly.
+  [[nodiscard]] bool is_iterated(std::uint32_t body) const {
+    const std::uint32_t index = solver_index_[body];
+    return index != 0 && islands_.load(islands_.of(index)).is_iterated();
+  }
   [[nodiscard]] std::size_t solved_at_once() const { return direct_.contacts(); }
 
   /// Values that were clamped to their range.
@@ -98,9 +102,6 @@ class ContactSolver {
 
   // Added to the number of a body that never moves.
   static constexpr std::uint32_t k_immovable = 0x80000000;
-
-  // More loaded contacts than these are left to the sweeps; no more are counted.
-  static constexpr std::uint32_t k_most_loaded = 128;
 
   // A heap finds what it carries anew every so many ticks.
   static constexpr std::uint64_t k_heap_ticks = 64;
@@ -166,6 +167,8 @@ class ContactSolver {
   };
   struct Sides {
     Side a, b;
+    bool is_new = false;      // a contact of this tick between what moves
+    bool is_bearing = false;  // its load is several times a weight
   };
 
   // What `store` reads and writes of a world.
@@ -199,11 +202,14 @@ class ContactSolver {
   void take_up_net(const ContactScene& scene);
   void take_up_direct(const ContactScene& scene);
   void find_first_loads(const ContactScene& scene, Parallel& parallel);
-  void add_supports(const ContactScene& scene, bool only_of_free);
-  [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
-  [[nodiscard]] bool few_are_loaded() const {
-    return loaded_.load(std::memory_order_relaxed) <= k_most_loaded;
+  template <class Takes>
+  void add_supports(const ContactScene& scene, const Takes& takes);
+  [[nodiscard]] bool is_free(std::uint32_t index) const;
+  void count_islands(const ContactScene& scene);
+  [[nodiscard]] IslandLoad& island_of(std::size_t entry) {
+    return islands_.load(entry_islands_[entry]);
   }
+  [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
   [[nodiscard]] bool is_loaded(const ContactScene& scene, const Entry& entry,
                                std::int64_t share_b) const;
   [[nodiscard]] ContactRun direct_run();
@@ -293,6 +299,8 @@ class ContactSolver {
 
   std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
+  TickIslands islands_;
+  std::vector<std::uint32_t> entry_islands_;  // by entry
   Range ranges_[k_graph_colors + 1];
   const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact
@@ -301,17 +309,14 @@ class ContactSolver {
   std::vector<lanes::ManifoldBlock> blocks_;
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
-  bool is_idle_ = false;                   // neither contacts nor joints in this tick
-  bool has_heap_ = false;                  // more contacts bear loads than are solved at once
-  std::atomic<std::uint32_t> bearing_{0};  // contacts whose load is several times a weight
-  std::int64_t heap_push_ = 0;             // from which on one does, of all its points, m/s, Q20
-  std::atomic<bool> bounces_{false};       // any restitution at all
-  std::atomic<bool> holds_{false};         // any locked axis of moving
-  std::atomic<bool> uneven_{false};        // any contact of a light body and a heavy one
-  std::atomic<std::uint32_t> loaded_{0};   // contacts at rest under several times a body's weight
-  std::atomic<std::uint32_t> new_{0};      // contacts of this tick between what moves
-  std::vector<Loop> loops_;                // of the sequence at hand
-  std::vector<Stage> stages_;              // what they are
+  bool is_idle_ = false;              // neither contacts nor joints in this tick
+  bool has_heap_ = false;             // an island bears more loads than are solved at once
+  std::int64_t heap_push_ = 0;        // from which on a contact bears several times a weight,
+                                      // of all its points, m/s, Q20
+  std::atomic<bool> bounces_{false};  // any restitution at all
+  std::atomic<bool> holds_{false};    // any locked axis of moving
+  std::vector<Loop> loops_;           // of the sequence at hand
+  std::vector<Stage> stages_;         // what they are
 };
 
 }  // namespace lockstone

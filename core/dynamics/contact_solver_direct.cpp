@@ -52,9 +52,10 @@ bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
 // the sweeps, which know of both.
 void ContactSolver::take_up_direct(const ContactScene& scene) {
   direct_.clear();
-  const bool takes_loaded = loaded_ > 0 && few_are_loaded();
-  if (!uneven_ && !takes_loaded) return;
+  if (!islands_.any(&IslandLoad::needs_direct_solve)) return;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const IslandLoad& island = island_of(i);
+    if (!island.needs_direct_solve()) continue;
     const Entry& entry = entries_[i];
     const std::uint32_t slot = slot_of(i);
     const lanes::ManifoldBlock& block = blocks_[slot / lanes::k_block_lanes];
@@ -65,7 +66,7 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
                  row_of(entry.body_a),
                  row_of(entry.body_b),
                  share_b,
-                 takes_loaded && is_loaded(scene, entry, share_b)});
+                 island.few_are_loaded() && is_loaded(scene, entry, share_b)});
   }
   for (std::uint32_t i = 1; i < members_.size(); ++i)
     if (bodies_[i].held != 0 || joints_->find(members_[i]) != nullptr) direct_.leave_out(i);
@@ -77,25 +78,35 @@ void ContactSolver::take_up_direct(const ContactScene& scene) {
 // time.
 void ContactSolver::find_first_loads(const ContactScene& scene, Parallel& parallel) {
   first_loads_.clear();
-  if (!few_are_loaded() && new_ > k_most_loaded && new_ >= entries_.size() / 4) {
-    add_supports(scene, false);
-    first_loads_.find(supports_, direct_run(), before_, parallel);
-  } else if (has_heap_ && scene.tick % k_heap_ticks == 0) {
-    add_supports(scene, true);
+  if (has_heap_ && scene.tick % k_heap_ticks == 0) {
+    add_supports(scene, [&](std::size_t i) {
+      const IslandLoad& island = island_of(i);
+      return island.is_heap() && !island.needs_first_loads() && is_free(entries_[i].body_a) &&
+             is_free(entries_[i].body_b);
+    });
     heap_loads_.find(supports_, direct_run(), before_, parallel);
+  }
+  // Last, since `store` reads its supports.
+  if (islands_.any(&IslandLoad::needs_first_loads)) {
+    add_supports(scene, [&](std::size_t i) { return island_of(i).needs_first_loads(); });
+    first_loads_.find(supports_, direct_run(), before_, parallel);
   }
 }
 
-void ContactSolver::add_supports(const ContactScene& scene, bool only_of_free) {
+// Neither joints nor locked axes hold it.
+bool ContactSolver::is_free(std::uint32_t index) const {
+  if ((index & k_immovable) != 0) return true;
+  return bodies_[index].held == 0 && joints_->find(members_[index]) == nullptr;
+}
+
+// Of the entries that `takes` chooses, those that touch.
+template <class Takes>
+void ContactSolver::add_supports(const ContactScene& scene, const Takes& takes) {
   supports_.clear();
-  const auto is_free = [&](std::uint32_t index) {
-    if ((index & k_immovable) != 0) return true;
-    return bodies_[index].held == 0 && joints_->find(members_[index]) == nullptr;
-  };
   for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!takes(i)) continue;
     const Entry& entry = entries_[i];
     if (!is_touching(scene.manifolds[entry.slot], Displacement::from_raw(rules_.skin))) continue;
-    if (only_of_free && (!is_free(entry.body_a) || !is_free(entry.body_b))) continue;
     const ContactPair pair{slot_of(i), pushed_number(entry.body_a), pushed_number(entry.body_b)};
     const ContactSurface& surface = scene.surfaces[entry.slot];
     const bool is_driven = surface.drive != Vec3<SolverVelocity>{} || surface.twist_drive != Rate{};

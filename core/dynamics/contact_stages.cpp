@@ -45,10 +45,10 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   if (is_idle_ && was_idle) return;
   take_up_contacts(scene, parallel);
   lay_out(parallel);
-  points_ = saturations_ = loaded_ = 0;
+  points_ = saturations_ = 0;
   first_substep_ =
       static_cast<std::uint32_t>(scene.tick) * static_cast<std::uint32_t>(step_.substeps);
-  bounces_ = holds_ = uneven_ = false;
+  bounces_ = holds_ = false;
   loops_.clear();
   stages_.clear();
   const std::uint32_t joints = joints_->empty() ? 0 : 1;

@@ -36,12 +36,12 @@ std::uint32_t ContactSolver::take_up(Side side) {
   if (known == 0) solver_index_[body] = index;
   members_.push_back(body);
   graph_.add_body();
+  islands_.add_body();
   return index;
 }
 
 // What taking up reads of large records, side by side.
 void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std::size_t end) {
-  std::uint32_t fresh = 0, bearing = 0;
   for (std::size_t i = first; i < end; ++i) {
     const ContactRecord& record = scene.records[i];
     const bool left_out = record.is_trigger() || scene.surfaces[scene.slots[i]].bounces;
@@ -51,23 +51,20 @@ void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std
       return {body, static_cast<MotionType>(scene.bodies[body].motion)};
     };
     sides_[i] = {side_of(record.body_a), side_of(record.body_b)};
-    if (record.count == 0 && sides_[i].a.is_dynamic() && sides_[i].b.is_dynamic()) ++fresh;
-    if (std::int64_t{record.load.raw} * record.count > heap_push_) ++bearing;
+    sides_[i].is_new = record.count == 0 && sides_[i].a.is_dynamic() && sides_[i].b.is_dynamic();
+    sides_[i].is_bearing = std::int64_t{record.load.raw} * record.count > heap_push_;
   }
-  if (bearing != 0) bearing_.fetch_add(bearing, std::memory_order_relaxed);
-  if (fresh != 0) new_.fetch_add(fresh, std::memory_order_relaxed);
 }
 
 // In the order of the records: bodies, colours and lanes follow from the state alone.
 void ContactSolver::take_up_contacts(const ContactScene& scene, Parallel& parallel) {
   sides_.resize(scene.records.size());
-  new_ = bearing_ = 0;
   heap_push_ = heap_push(scene.gravity, step_);
   parallel.for_each(
       {static_cast<std::uint32_t>(sides_.size()), k_side_grain},
       [&](std::size_t first, std::size_t end, std::uint32_t) { find_sides(scene, first, end); });
-  has_heap_ = bearing_ > k_most_loaded;
   graph_.clear();
+  islands_.clear();
   for (const std::uint32_t body : members_)
     solver_index_[body] = 0;
   members_.assign(1, 0);
@@ -79,12 +76,35 @@ void ContactSolver::take_up_contacts(const ContactScene& scene, Parallel& parall
     if (sides.a.is_left_out()) continue;
     const std::uint32_t a = number_of(sides.a), b = number_of(sides.b);
     graph_.add(a, sides.a.is_dynamic(), b, sides.b.is_dynamic());
+    if (sides.a.is_dynamic() && sides.b.is_dynamic()) islands_.join(a, b);
     entries_[count++] = {static_cast<std::uint32_t>(i), scene.slots[i], a, b};
   }
   entries_.resize(count);
   first_without_contacts_ = static_cast<std::uint32_t>(members_.size());
   take_up_joints(scene);
+  count_islands(scene);
   reserve_rows();
+}
+
+// Once contacts and joints have named all bodies.
+void ContactSolver::count_islands(const ContactScene& scene) {
+  for (const JointLink& link : scene.joint_links) {
+    const std::uint32_t a = solver_index_[link.body_a], b = solver_index_[link.body_b];
+    const bool both_move =
+        scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic();
+    if (both_move) islands_.join(a, b);
+  }
+  islands_.settle();
+  entry_islands_.resize(entries_.size());
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Sides& sides = sides_[entries_[i].record];
+    entry_islands_[i] = islands_.of(sides.a.is_dynamic() ? entries_[i].body_a : entries_[i].body_b);
+    IslandLoad& load = island_of(i);
+    ++load.contacts;
+    load.fresh += sides.is_new ? 1 : 0;
+    load.bearing += sides.is_bearing ? 1 : 0;
+  }
+  has_heap_ = islands_.any(&IslandLoad::is_heap);
 }
 
 void ContactSolver::reserve_rows() {

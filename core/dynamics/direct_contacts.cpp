@@ -20,7 +20,7 @@ constexpr std::size_t k_most_of_loaded = 128;
 constexpr std::size_t k_most_of_group = 160;
 
 // All systems of a world.
-constexpr std::size_t k_most_contacts = 512;
+constexpr std::size_t k_most_contacts = 4096;
 
 // Where friction carries, what is farther apart is left to the sweeps, Q24: 1 mm.
 constexpr std::int64_t k_most_apart = (std::int64_t{1} << 24) / 1000;

@@ -169,13 +169,14 @@ Loop World::Impl::each_moved() const {
   return {static_cast<std::uint32_t>(moved.size()), k_body_grain};
 }
 
-// What left its contact pose takes another. Poses that drift are for heaps, which sweeps hold and
-// which have many contacts to find: the motion that is left in what is solved at once is finer.
+// A body that left its contact pose takes another. Only in islands that iterations solve, which
+// have many contacts to find, may a body drift from its pose: what is left of motion where contacts
+// are solved directly is finer.
 void World::Impl::follow_with_contacts() {
-  const bool may_drift = solver.leaves_loads_to_sweeps();
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
-      if (!may_drift || !is_near_contact_pose(bodies[moved[i]])) take_contact_pose(moved[i]);
+      if (!solver.is_iterated(moved[i]) || !is_near_contact_pose(bodies[moved[i]]))
+        take_contact_pose(moved[i]);
   });
 }
 

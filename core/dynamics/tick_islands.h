@@ -1,0 +1,95 @@
+// The islands of a tick: dynamic bodies that contacts or joints connect, and what each island asks
+// of the solver. Every budget of the solver counts within one island, so that what becomes of an
+// island does not depend on others (law 9, docs/locality.md).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+namespace lockstone {
+
+/// Counts of one island, and what the solver decides by them.
+struct IslandLoad {
+  /// An island with more contacts of a kind than these leaves them to the iterations.
+  static constexpr std::uint32_t k_most_loaded = 128;
+
+  std::uint32_t contacts = 0;
+  std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
+  std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
+  std::uint32_t loaded = 0;   ///< contacts at rest under several times a body's weight; from
+                              ///< k_most_loaded + 1 on it may be any greater number
+  std::uint32_t uneven = 0;   ///< 1: a contact joins a light body and a heavy one
+
+  [[nodiscard]] bool is_heap() const { return bearing > k_most_loaded; }
+  [[nodiscard]] bool few_are_loaded() const { return loaded <= k_most_loaded; }
+  /// Too large for a direct solve of all its contacts.
+  [[nodiscard]] bool is_iterated() const { return contacts > k_most_loaded; }
+  [[nodiscard]] bool needs_direct_solve() const {
+    return uneven != 0 || (loaded != 0 && few_are_loaded());
+  }
+  /// More contacts are loaded than are solved at once, and a good part of all are new: nobody knows
+  /// yet what they carry.
+  [[nodiscard]] bool needs_first_loads() const {
+    return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
+  }
+
+  // Several threads count at the same time.
+  [[nodiscard]] bool asks_for_load() {
+    return std::atomic_ref(loaded).load(std::memory_order_relaxed) <= k_most_loaded;
+  }
+  void count_loaded() { std::atomic_ref(loaded).fetch_add(1, std::memory_order_relaxed); }
+  void note_uneven() { std::atomic_ref(uneven).store(1, std::memory_order_relaxed); }
+};
+
+/// Union-find over the solver's numbers of bodies, with path halving (R. Tarjan, J. van Leeuwen,
+/// "Worst-case analysis of set union algorithms", 1984).
+class TickIslands {
+ public:
+  /// No function but this allocates.
+  explicit TickIslands(std::size_t body_capacity);
+
+  /// Leaves body 0 alone.
+  void clear();
+
+  /// Bodies are named 0, 1, 2, … in the order of adding.
+  void add_body() { parents_.push_back(static_cast<std::uint32_t>(parents_.size())); }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t root_a = root(a), root_b = root(b);
+    if (root_a < root_b) parents_[root_b] = root_a;
+    if (root_b < root_a) parents_[root_a] = root_b;
+  }
+
+  /// After the last `join`: gives islands their numbers, in the order of their first bodies, and
+  /// clears their loads.
+  void settle();
+
+  /// The island of a body, after `settle`.
+  [[nodiscard]] std::uint32_t of(std::uint32_t body) const { return island_[body]; }
+  [[nodiscard]] IslandLoad& load(std::uint32_t island) { return loads_[island]; }
+  [[nodiscard]] const IslandLoad& load(std::uint32_t island) const { return loads_[island]; }
+
+  /// Whether the test holds for any island.
+  template <class Test>
+  [[nodiscard]] bool any(Test test) const {
+    for (const IslandLoad& load : loads_)
+      if ((load.*test)()) return true;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t root(std::uint32_t body) {
+    while (parents_[body] != body) {
+      parents_[body] = parents_[parents_[body]];
+      body = parents_[body];
+    }
+    return body;
+  }
+
+  std::vector<std::uint32_t> parents_;
+  std::vector<std::uint32_t> island_;
+  std::vector<IslandLoad> loads_;
+};
+
+}  // namespace lockstone

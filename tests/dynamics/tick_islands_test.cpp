@@ -1,0 +1,65 @@
+#include "core/dynamics/tick_islands.h"
+
+#include <gtest/gtest.h>
+
+namespace lockstone {
+namespace {
+
+TickIslands islands_of(std::uint32_t bodies) {
+  TickIslands islands(bodies + 1);
+  islands.clear();
+  for (std::uint32_t i = 0; i < bodies; ++i)
+    islands.add_body();
+  return islands;
+}
+
+TEST(TickIslands, AreNumberedInTheOrderOfTheirFirstBodies) {
+  TickIslands islands = islands_of(6);
+  islands.join(6, 2);
+  islands.join(5, 3);
+  islands.join(3, 6);
+  islands.settle();
+  EXPECT_EQ(islands.of(1), 1U);
+  for (const std::uint32_t body : {2U, 3U, 5U, 6U})
+    EXPECT_EQ(islands.of(body), 2U);
+  EXPECT_EQ(islands.of(4), 3U);
+}
+
+TEST(TickIslands, ForgetTheTickBefore) {
+  TickIslands islands = islands_of(2);
+  islands.join(1, 2);
+  islands.settle();
+  islands.load(islands.of(1)).contacts = 7;
+  islands.clear();
+  islands.add_body();
+  islands.add_body();
+  islands.settle();
+  EXPECT_NE(islands.of(1), islands.of(2));
+  EXPECT_EQ(islands.load(islands.of(1)).contacts, 0U);
+}
+
+TEST(IslandLoad, IsSolvedDirectlyUpToItsBudget) {
+  IslandLoad load;
+  EXPECT_FALSE(load.needs_direct_solve());
+  for (std::uint32_t i = 0; i < IslandLoad::k_most_loaded; ++i)
+    load.count_loaded();
+  EXPECT_TRUE(load.asks_for_load());
+  EXPECT_TRUE(load.needs_direct_solve());
+  load.count_loaded();
+  EXPECT_FALSE(load.asks_for_load());
+  EXPECT_FALSE(load.needs_direct_solve());
+  load.note_uneven();
+  EXPECT_TRUE(load.needs_direct_solve());
+}
+
+TEST(IslandLoad, NeedsFirstLoadsWhereManyAreLoadedAndAQuarterIsNew) {
+  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200, .uneven = 0};
+  EXPECT_TRUE(load.needs_first_loads());
+  load.fresh = 249;
+  EXPECT_FALSE(load.needs_first_loads());
+  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128, .uneven = 0};
+  EXPECT_FALSE(load.needs_first_loads());
+}
+
+}  // namespace
+}  // namespace lockstone
