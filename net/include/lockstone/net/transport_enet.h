@@ -30,11 +30,12 @@ struct DatagramLimits {
 };
 
 struct EnetOptions {
-  std::string bind_address = "127.0.0.1";  ///< numeric IPv4
-  std::uint16_t port = 0;                  ///< 0: the system chooses, see EnetTransport::port
-  std::size_t max_connections = 32;        ///< 1 … 1024
-  std::size_t max_connections_per_address = 1024;
-  std::size_t max_waiting_bytes = 1 << 20;  ///< received but not yet polled, per connection
+  std::string bind_address = "127.0.0.1";       ///< numeric IPv4
+  std::uint16_t port = 0;                       ///< 0: the system chooses, see EnetTransport::port
+  std::size_t max_connections = 32;             ///< 1 … 1024
+  std::size_t max_connections_per_address = 8;  ///< players behind one router share an address
+  std::size_t max_strangers_per_address = 4;    ///< of these, before `trust`
+  std::size_t max_waiting_bytes = 1 << 20;      ///< received but not yet polled, per connection
   /// Without an answer to any reliable packet a connection ends. Well above the session's drop
   /// time: on a bad line ENet may send only three times in 5 s, and all three may be lost.
   std::uint32_t timeout_ms = 20000;
@@ -53,14 +54,19 @@ struct EnetCounters {
   std::uint64_t refusals = 0;           ///< answers to peers of the other kind, at most 20 a second
   std::uint64_t limited = 0;            ///< beyond a peer's limits
   std::uint64_t floods = 0;             ///< peers disconnected for that
+  std::uint64_t too_far_ahead = 0;      ///< more reliable packets behind a gap than may wait
+  std::uint64_t crowded = 0;            ///< requests from an address that has all its places
+  std::uint64_t oversized = 0;          ///< longer than any datagram of ENet
 };
 
 /// One UDP socket. Use it from one thread.
 class EnetTransport final : public Transport {
  public:
   /// Opens a socket that accepts connections. invalid_argument: address or limits; io_error: the
-  /// system refused the address or port; incompatible: a link key without libsodium.
-  [[nodiscard]] static Result<std::unique_ptr<EnetTransport>> listen(const EnetOptions& options);
+  /// system refused the address or port; incompatible: a link key without libsodium. An error
+  /// writes a line for people into `problem`, with the address, the port and the reason.
+  [[nodiscard]] static Result<std::unique_ptr<EnetTransport>> listen(
+      const EnetOptions& options, std::string* problem = nullptr);
 
   /// Opens a socket that only calls others; address, port and limits of `options` are not used.
   [[nodiscard]] static Result<std::unique_ptr<EnetTransport>> open(const EnetOptions& options);
@@ -80,8 +86,9 @@ class EnetTransport final : public Transport {
   Status send(ConnectionId connection, Channel channel, ByteView bytes) override;
   void flush() override;
 
-  /// Sleeps until a datagram has come, at most `limit_us`, rounded up to milliseconds. For a program
-  /// whose loop has nothing else to do; all else here returns at once. True if one has come.
+  /// Sleeps until a datagram has come, at most `limit_us`, rounded up to milliseconds. For a
+  /// program whose loop has nothing else to do; all else here returns at once. True if one has
+  /// come.
   bool wait(std::int64_t limit_us);
 
   void disconnect(ConnectionId connection) override;

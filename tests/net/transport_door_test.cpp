@@ -1,0 +1,116 @@
+// Who gets a place of a listening socket, for how long, and what cannot keep it from working.
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include <lockstone/net/transport_enet.h>
+
+#include "net/transport/enet_datagram.h"
+#include "tests/support/await.h"
+#include "tools/relay/udp_socket.h"
+
+namespace lockstone::net::test {
+namespace {
+
+using relay::Endpoint;
+using relay::UdpSocket;
+
+std::unique_ptr<EnetTransport> listening(EnetOptions options) {
+  return std::move(EnetTransport::listen(options)).value();
+}
+
+// Asks for a connection and never says anything else. True if the server answers.
+bool is_answered(EnetTransport& server, const UdpSocket& socket, std::byte id,
+                 std::int64_t now_us) {
+  std::vector<std::byte> bytes(56);
+  const std::array<std::uint8_t, 40> command{
+      0x82, 0xff, 0, 1, 0, 0, 0xff, 0xff, 0, 0, 5,    0x78, 0, 1, 0, 0, 0, 0, 0, 2,
+      0,    0,    0, 0, 0, 0, 0,    0,    0, 0, 0x13, 0x88, 0, 0, 0, 2, 0, 0, 0, 2};
+  bytes[0] = std::byte{0x8f};
+  bytes[1] = std::byte{0xff};
+  std::transform(command.begin(), command.end(), bytes.begin() + 8,
+                 [](std::uint8_t value) { return std::byte{value}; });
+  bytes[48] = id;
+  const Word sum = LinkChecksum(std::nullopt).of(bytes);
+  std::copy(sum.begin(), sum.end(), bytes.begin() + 4);
+  const std::uint64_t before = server.counters().datagrams;
+  EXPECT_TRUE(socket.send(Endpoint::loopback(server.port()), bytes));
+  TransportEvent event;
+  lockstone::test::await([&] {
+    static_cast<void>(server.poll(now_us, event));
+    return server.counters().datagrams > before;
+  });
+  static_cast<void>(server.poll(now_us, event));
+  std::array<std::byte, 2048> buffer{};
+  Endpoint from;
+  return socket.receive(from, buffer).has_value();
+}
+
+std::unique_ptr<UdpSocket> caller(std::uint32_t last = 1) {
+  return std::move(UdpSocket::open({0x7f000000 + last, 0})).value();
+}
+
+TEST(EnetDoor, OneAddressCannotTakeAllPlaces) {
+  const auto server = listening({.max_connections = 32});
+  std::vector<std::unique_ptr<UdpSocket>> sockets;
+  unsigned taken = 0;
+  for (unsigned i = 0; i < 17; ++i) {
+    sockets.push_back(caller());
+    if (is_answered(*server, *sockets.back(), static_cast<std::byte>(i + 1), 0)) ++taken;
+  }
+  EXPECT_EQ(taken, EnetOptions{}.max_strangers_per_address);
+  EXPECT_GT(server->counters().crowded, 0U);
+  EXPECT_TRUE(is_answered(*server, *caller(2), std::byte{99}, 0));
+}
+
+TEST(EnetDoor, WhoNeverConfirmsHoldsAPlaceForTwoSeconds) {
+  const auto server = listening({.max_connections = 1});
+  const auto first = caller(), second = caller(2);
+  ASSERT_TRUE(is_answered(*server, *first, std::byte{1}, 0));
+  EXPECT_FALSE(is_answered(*server, *second, std::byte{2}, 1'999'999));
+  TransportEvent event;
+  static_cast<void>(server->poll(2'000'000, event));
+  EXPECT_TRUE(is_answered(*server, *second, std::byte{2}, 2'000'001));
+}
+
+TEST(EnetDoor, ThePlaceOfWhoWasSentAwayIsFreeAtOnce) {
+  const auto server = listening({.max_connections = 1});
+  const auto client = std::move(EnetTransport::open({})).value();
+  ASSERT_TRUE(client->connect("127.0.0.1", server->port()).ok());
+  TransportEvent event, heard;
+  lockstone::test::await([&] {
+    static_cast<void>(client->poll(0, heard));
+    return server->poll(0, event);
+  });
+  const std::array<std::byte, 4> no{};
+  EXPECT_EQ(server->send(event.connection, Channel::reliable, no), Status::ok);
+  server->disconnect(event.connection);  // the client never confirms
+  EXPECT_TRUE(is_answered(*server, *caller(2), std::byte{2}, 0));
+}
+
+TEST(EnetDoor, OversizedDatagramsDoNotEndAPoll) {
+  const auto server = listening({});
+  const auto rude = caller(2), polite = caller();
+  const std::vector<std::byte> huge(9000);
+  for (int i = 0; i < 20; ++i)
+    ASSERT_TRUE(rude->send(Endpoint::loopback(server->port()), huge));
+  std::vector<std::byte> bytes(60);
+  ASSERT_TRUE(polite->send(Endpoint::loopback(server->port()), bytes));
+  TransportEvent event;
+  EXPECT_FALSE(server->poll(0, event));
+  EXPECT_EQ(server->counters().oversized, 20U);
+  EXPECT_EQ(server->counters().datagrams, 1U);
+}
+
+TEST(EnetDoor, APortInUseIsNamed) {
+  const auto first = listening({});
+  EnetOptions options;
+  options.port = first->port();
+  std::string problem;
+  EXPECT_EQ(EnetTransport::listen(options, &problem).status(), Status::io_error);
+  EXPECT_EQ(problem, "127.0.0.1:" + std::to_string(first->port()) + ": Address already in use");
+}
+
+}  // namespace
+}  // namespace lockstone::net::test
