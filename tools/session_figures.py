@@ -33,7 +33,8 @@ class Match:
 
     def __init__(self, lockstone, folder, *arguments):
         self.lockstone, self.folder = lockstone, folder
-        self.server = self.start("serve", "--insecure", "--ticks", 0, *arguments)
+        self.server = self.start("serve", "--insecure", "--ticks", 0,
+                                 "--max-connections-per-address", 64, *arguments)
         self.port = self.listening(self.server)
         self.players = []
 

@@ -44,7 +44,9 @@ TEST(Siege, ForgedConnectsAreAnsweredWhereThereIsNoKey) {
   net::Random random(1);
   unsigned answered = 0;
   for (int i = 0; i < 8; ++i) {
-    const auto socket = UdpSocket::open(Endpoint::loopback(0)).value();
+    // Each from an address of its own.
+    const auto number = static_cast<std::uint32_t>(i);
+    const auto socket = UdpSocket::open({0x7f000001 + number, 0}).value();
     std::vector<std::byte> bytes = connect_datagram(random, true);
     const net::Word sum = net::LinkChecksum(std::nullopt).of(bytes);
     std::copy(sum.begin(), sum.end(), bytes.begin() + 4);

@@ -292,13 +292,12 @@ struct MatchHost::Impl final : net::ServerObserver {
     if (!may_write_files() || !make_simulation()) return false;
     net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
     enet.max_connections = connections();
+    enet.max_connections_per_address = options.max_per_address;
     if (options.fast) enet.limits = net::DatagramLimits::none();
     if (options.key) enet.link_key = net::make_link_key(*options.key, options.match);
-    auto listening = net::EnetTransport::listen(enet);
-    if (!listening) {
-      return refuse(fmt::format("cannot listen on {}:{}: {}", options.bind, options.port,
-                                to_string(listening.status())));
-    }
+    std::string problem;
+    auto listening = net::EnetTransport::listen(enet, &problem);
+    if (!listening) return refuse("cannot listen on " + problem);
     transport = std::move(listening).value();
     if (options.key && !encrypt()) return false;
     const Status status = log.open(options, *simulation, config);

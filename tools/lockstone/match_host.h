@@ -26,6 +26,7 @@ struct MatchOptions {
   std::uint16_t bodies = 216;  ///< loose bodies of the arena
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: the system chooses
+  std::size_t max_per_address = net::EnetOptions{}.max_connections_per_address;
   unsigned input_delay = 4;
   double drop_after_s = 5;  ///< of silence
   bool strict = false;

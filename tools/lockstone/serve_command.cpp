@@ -146,6 +146,11 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--bind", options->match.bind, "Numeric IPv4 address")->capture_default_str();
   command->add_option("--port", options->match.port, "UDP port; 0: the system chooses")
       ->capture_default_str();
+  command
+      ->add_option("--max-connections-per-address", options->match.max_per_address,
+                   "Players and spectators behind one router share an address")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->add_option("--scene", options->match.scene, "What is simulated, see `scenes`")
       ->capture_default_str();
   command->add_option("--record", options->match.record, "Write the log to this file");

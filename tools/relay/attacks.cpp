@@ -8,16 +8,18 @@
 
 namespace lockstone::relay {
 
-// ENet's CONNECT command for two channels, with random numbers, after a head with the time.
+// ENet's CONNECT command with a random number of the connection, after a head with the time.
 std::vector<std::byte> connect_datagram(net::Random& random, bool with_checksum) {
   std::vector<std::byte> bytes{std::byte{0x8f}, std::byte{0xff}, std::byte{1}, std::byte{2}};
   if (with_checksum) bytes.resize(8);
-  const std::array<std::uint8_t, 24> command{0x82, 0xff, 0, 1, 0, 0, 0xff, 0xff, 0, 0, 5, 0x78,
-                                             0,    1,    0, 0, 0, 0, 0,    2,    0, 0, 0, 0};
+  const std::array<std::uint8_t, 40> command{
+      0x82, 0xff, 0, 1, 0, 0, 0xff, 0xff, 0, 0, 5,    0x78, 0, 1, 0, 0, 0, 0, 0, 2,
+      0,    0,    0, 0, 0, 0, 0,    0,    0, 0, 0x13, 0x88, 0, 0, 0, 2, 0, 0, 0, 2};
   for (const std::uint8_t byte : command)
     bytes.push_back(std::byte{byte});
-  while (bytes.size() < (with_checksum ? 56U : 52U))
+  for (int i = 0; i < 4; ++i)
     bytes.push_back(static_cast<std::byte>(random.below(256)));
+  bytes.resize(bytes.size() + 4);
   return bytes;
 }
 

@@ -98,6 +98,7 @@ struct TrialMatch::Impl {
     net::EnetOptions enet_options;
     enet_options.link_key = net::make_link_key(key, k_match);
     enet_options.limits = options.limits;
+    enet_options.max_connections_per_address = 64;  // all are on this machine
     auto listening = net::EnetTransport::listen(enet_options);
     if (!listening) return false;
     enet = std::move(listening).value();
