@@ -201,6 +201,7 @@ int demo(DemoOptions options) {
     options.match.key = net::make_key(random);
     if (folder.path().empty() || !issue_tokens(options, folder.path())) return k_unavailable;
   }
+  options.match.max_per_address = 64;  // all are on this machine
   const std::unique_ptr<MatchHost> host = MatchHost::create(options.match);
   if (host == nullptr) return k_unavailable;
   std::vector<ChildProcess> players = start_players(options, folder.path(), host->port());
