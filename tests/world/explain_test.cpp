@@ -111,7 +111,7 @@ TEST(ExplainBody, NamesEachFieldThatCreateBodyRefuses) {
 TEST(ExplainBody, GivesValueUnitAndRange) {
   const World world = test::make_world();
   EXPECT_EQ(world.explain(BodyDef{.shape = Shape::sphere({})}).to_line(),
-            "body.shape.radius: 0 m, must be 0.0009765625 … 512 m");
+            "body.shape.radius: 0 m, must be 0.000977 … 512 m");
   EXPECT_EQ(World::explain(WorldDef{.tick_rate = 5}).to_line(),
             "world.tick_rate: 5 ticks/s, must be 10 … 480 ticks/s");
 }
