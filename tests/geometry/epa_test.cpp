@@ -67,14 +67,22 @@ TEST(Penetration, IsNeverMoreThanTheLeastOverlapAndSeparates) {
   EXPECT_GT(deep, 500);
 }
 
+Length steps(std::int32_t raw) {
+  return Length::from_raw(raw);
+}
+
+Vec3<Unit> unit_vector(std::int32_t x, std::int32_t y, std::int32_t z) {
+  return {Unit::from_raw(x), Unit::from_raw(y), Unit::from_raw(z)};
+}
+
 // Faces in one plane, whose vertices the lattice puts beside it: 3.93 µm of 120 m.
 TEST(Penetration, OfLargeBoxesAlongOneAxisIsExactToTheStepsOfTheLattice) {
-  const Mat3 rotation{{{-780719991}, {734938744}, {-57121321}},
-                      {{718970772}, {740804695}, {-295314980}},
-                      {{-162723174}, {-252972234}, {-1030751049}}};
-  ConvexPair pair{convex(Shape::box({65847650}, {348923425}, {337760698}), rotation),
-                  convex(Shape::box({163009998}, {54017659}, {89818382}), rotation),
-                  {{211474311}, {224600743}, {71277810}}};
+  const Mat3 rotation{unit_vector(-780719991, 734938744, -57121321),
+                      unit_vector(718970772, 740804695, -295314980),
+                      unit_vector(-162723174, -252972234, -1030751049)};
+  ConvexPair pair{convex(Shape::box(steps(65847650), steps(348923425), steps(337760698)), rotation),
+                  convex(Shape::box(steps(163009998), steps(54017659), steps(89818382)), rotation),
+                  {steps(211474311), steps(224600743), steps(71277810)}};
   const Penetration found = penetration_of(pair);
   EXPECT_TRUE(found.overlapping);
   expect_depth_along_normal(pair, found);

@@ -109,13 +109,17 @@ template <class T>
   return T::from_raw(static_cast<typename T::Representation>(scaled.value));
 }
 
+/// Formats with more fraction bits, those of exact products, have no short decimals.
+inline constexpr int k_most_decimal_bits = 44;
+
 /// The shortest decimal that parses back to the same value of a format with `frac_bits` ≤ 44.
 [[nodiscard]] std::string format_decimal(std::int64_t raw, int frac_bits);
 
 /// The number without its unit: "-0.25". Parses back to the same value.
 template <class T>
 [[nodiscard]] std::string to_decimal(T value) {
-  static_assert(T::frac_bits <= 44, "an exact product has no short decimal: use rounded<To> first");
+  static_assert(T::frac_bits <= k_most_decimal_bits,
+                "an exact product has no short decimal: use rounded<To> first");
   return format_decimal(value.raw, T::frac_bits);
 }
 
@@ -127,13 +131,13 @@ template <class T>
 
 /// As `to_decimal`.
 template <class Traits, class D, class Rep, int F>
-std::basic_ostream<char, Traits>& operator<<(std::basic_ostream<char, Traits>& out,
-                                             Fixed<D, Rep, F> value) {
+requires(F <= k_most_decimal_bits) std::basic_ostream<char, Traits>
+&operator<<(std::basic_ostream<char, Traits>& out, Fixed<D, Rep, F> value) {
   return out << std::string_view(to_decimal(value));
 }
 template <class Traits, class T>
-std::basic_ostream<char, Traits>& operator<<(std::basic_ostream<char, Traits>& out,
-                                             const Vec3<T>& v) {
+requires(T::frac_bits <= k_most_decimal_bits) std::basic_ostream<char, Traits>
+&operator<<(std::basic_ostream<char, Traits>& out, const Vec3<T>& v) {
   return out << std::string_view(to_decimal(v));
 }
 
