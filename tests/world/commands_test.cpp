@@ -32,7 +32,8 @@ TEST(CreateBody, RefusesValuesOutsideTheirRange) {
   EXPECT_EQ(refused([](BodyDef& d) { d.material.friction = -0.1_r; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.material.restitution = 1.1_r; }), Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.material.density = {}; }), Status::invalid_argument);
-  EXPECT_EQ(refused([](BodyDef& d) { d.linear_damping = Rate::from_raw(-1); }), Status::invalid_argument);
+  EXPECT_EQ(refused([](BodyDef& d) { d.linear_damping = Rate::from_raw(-1); }),
+            Status::invalid_argument);
   EXPECT_EQ(refused([](BodyDef& d) { d.motion = static_cast<MotionType>(0); }),
             Status::invalid_argument);
 }

@@ -127,7 +127,9 @@ std::vector<BenchRow> bench_algebra(int repeats) {
   return {
       measure(
           "mul", {-40, 40, -40, 40}, 20, 20, repeats,
-          [](Raw x, Raw y) { return rounded<Number>(Number::from_raw(x) * Number::from_raw(y)).raw; },
+          [](Raw x, Raw y) {
+            return rounded<Number>(Number::from_raw(x) * Number::from_raw(y)).raw;
+          },
           [](Q16 x, Q16 y) { return x * y; }, [](auto x, auto y) { return x * y; }),
       measure(
           "div", {-100, 100, 0.1, 10}, 20, 20, repeats,
@@ -138,7 +140,8 @@ std::vector<BenchRow> bench_algebra(int repeats) {
           [](Raw x, Raw) { return reciprocal<Number>(Number::from_raw(x)).raw; },
           [](Q16 x, Q16) { return k_q16_one / x; }, [](auto x, auto) { return 1 / x; }),
       measure(
-          "sqrt", {0, 1000}, 20, 20, repeats, [](Raw x, Raw) { return sqrt(Number::from_raw(x)).raw; },
+          "sqrt", {0, 1000}, 20, 20, repeats,
+          [](Raw x, Raw) { return sqrt(Number::from_raw(x)).raw; },
           [](Q16 x, Q16) { return sqrt(x); }, [](auto x, auto) { return std::sqrt(x); }),
       measure(
           "rsqrt", {0.01, 1000}, 20, 20, repeats,
@@ -164,14 +167,17 @@ std::vector<BenchRow> bench_algebra(int repeats) {
 std::vector<BenchRow> bench_angles(int repeats) {
   return {
       measure(
-          "sin", {-8, 8}, 27, 30, repeats, [](Raw x, Raw) { return sin_cos(Angle::from_raw(x)).sin.raw; },
+          "sin", {-8, 8}, 27, 30, repeats,
+          [](Raw x, Raw) { return sin_cos(Angle::from_raw(x)).sin.raw; },
           [](Q16 x, Q16) { return sin(x); }, [](auto x, auto) { return std::sin(x); }),
       measure(
-          "cos", {-8, 8}, 27, 30, repeats, [](Raw x, Raw) { return sin_cos(Angle::from_raw(x)).cos.raw; },
+          "cos", {-8, 8}, 27, 30, repeats,
+          [](Raw x, Raw) { return sin_cos(Angle::from_raw(x)).cos.raw; },
           [](Q16 x, Q16) { return cos(x); }, [](auto x, auto) { return std::cos(x); }),
       measure(
-          "tan", {-1.5, 1.5}, 27, 20, repeats, [](Raw x, Raw) { return tan(Angle::from_raw(x)).raw; },
-          [](Q16 x, Q16) { return tan(x); }, [](auto x, auto) { return std::tan(x); }),
+          "tan", {-1.5, 1.5}, 27, 20, repeats,
+          [](Raw x, Raw) { return tan(Angle::from_raw(x)).raw; }, [](Q16 x, Q16) { return tan(x); },
+          [](auto x, auto) { return std::tan(x); }),
       measure(
           "asin", {-1, 1}, 30, 27, repeats, [](Raw x, Raw) { return asin(Unit::from_raw(x)).raw; },
           [](Q16 x, Q16) { return asin(x); }, [](auto x, auto) { return std::asin(x); }),

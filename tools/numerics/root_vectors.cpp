@@ -48,20 +48,28 @@ std::vector<Function> root_functions() {
       {"normalized",
        {k_any32, k_any32, k_any32, k_any32},
        [](W in) -> Words { return words(normalized(quat_at(in, 0))); }},
-      {"sqrt_q20", {{0, k_max32}}, [](W in) -> Words { return {sqrt(Number::from_raw(i32(in[0]))).raw}; }},
-      {"sqrt_q30", {{0, k_max32}}, [](W in) -> Words { return {sqrt(Unit::from_raw(i32(in[0]))).raw}; }},
+      {"sqrt_q20",
+       {{0, k_max32}},
+       [](W in) -> Words { return {sqrt(Number::from_raw(i32(in[0]))).raw}; }},
+      {"sqrt_q30",
+       {{0, k_max32}},
+       [](W in) -> Words { return {sqrt(Unit::from_raw(i32(in[0]))).raw}; }},
       {"rsqrt",
        {{1, 0xffffffff}, {30, 126}},
        [](W in) -> Words { return {i64(rsqrt_raw(u64(in[0]), i32(in[1])))}; }},
       {"hypot",
        {k_any32, k_any32, k_any32},
        [](W in) -> Words {
-         return {hypot_saturating(Length::from_raw(i32(in[0])), Length::from_raw(i32(in[1])), Length::from_raw(i32(in[2]))).raw};
+         return {hypot_saturating(Length::from_raw(i32(in[0])), Length::from_raw(i32(in[1])),
+                                  Length::from_raw(i32(in[2])))
+                     .raw};
        }},
       {"hypot_wide",
        {k_any64, k_any64, k_any64},
        [](W in) -> Words {
-         return {hypot_saturating(Position::from_raw(in[0]), Position::from_raw(in[1]), Position::from_raw(in[2])).raw};
+         return {hypot_saturating(Position::from_raw(in[0]), Position::from_raw(in[1]),
+                                  Position::from_raw(in[2]))
+                     .raw};
        }},
   };
 }

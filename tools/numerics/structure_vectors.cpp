@@ -71,7 +71,9 @@ void make_two_units(Words& in) {
 /// Exact products are summed in 64 bits.
 Words product(const Words& in) {
   const RawSymMat3 s = sym_at(in, 0);
-  const SymMat3<Length> typed{{s.xx}, {s.yy}, {s.zz}, {s.xy}, {s.xz}, {s.yz}};
+  const auto entry = [](std::int32_t raw) { return Length::from_raw(raw); };
+  const SymMat3<Length> typed{entry(s.xx), entry(s.yy), entry(s.zz),
+                              entry(s.xy), entry(s.xz), entry(s.yz)};
   return words(typed * vec3_at<Length>(in, 6));
 }
 

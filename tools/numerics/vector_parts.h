@@ -47,7 +47,8 @@ template <class T>
 }
 
 [[nodiscard]] inline Quat quat_at(const Words& in, std::size_t at) {
-  return {{i32(in[at])}, {i32(in[at + 1])}, {i32(in[at + 2])}, {i32(in[at + 3])}};
+  const auto unit = [&](std::size_t i) { return Unit::from_raw(i32(in[at + i])); };
+  return {unit(0), unit(1), unit(2), unit(3)};
 }
 
 [[nodiscard]] inline Transform transform_at(const Words& in, std::size_t at) {

@@ -1,3 +1,5 @@
 #include <lockstone/world.h>
 
-int main() { return lockstone::World::create({}).ok() ? 0 : 1; }
+int main() {
+  return lockstone::World::create({}).ok() ? 0 : 1;
+}
