@@ -51,6 +51,7 @@ PAIRS = [
     ("Length f(bool b) { return b ? 1_m : 5000_m; }",
      "Position f(bool b) { return b ? 1_m : 5000_m; }", "conver"),
     ("Length l = 1_mps;", "Velocity l = 1_mps;", "conver"),
+    ("auto f(int i) { return 2_m * i; }", "auto f(int i) { return Length(2_m) * i; }", "deleted"),
     ("auto x = 1e3_m;", "auto x = 1000_m;", "decimal literal"),
     ("Length f(Position p) { return p; }", "Length f(Position p) { return saturated<Length>(p); }",
      "conver"),

@@ -132,6 +132,8 @@ TEST(Vector, ScalesAndMixes) {
   EXPECT_EQ(2 * v / 2, v);
   EXPECT_EQ(v * 0.5_r, (Vec3<Velocity>{0.5_mps, -1_mps, 0.25_mps}));
   EXPECT_EQ(v * Number(2_r), v * 2);
+  const Vec3<Unit> up{{}, 1_r, {}};
+  EXPECT_EQ(up * Force(400_N), (Vec3<Force>{{}, 400_N, {}}));
   Vec3<Position> p{1_m, 2_m, 3_m};
   p += Vec3<Length>{0.5_m, {}, -1_m};
   EXPECT_EQ(p, (Vec3<Position>{1.5_m, 2_m, 2_m}));

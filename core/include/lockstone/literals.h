@@ -129,6 +129,12 @@ template <class T, int Extent, int Mirror>
   return v * factor;
 }
 
+/// A literal has no format to compute in: give it one first, as in Length(2_m) * i.
+template <class Dim, int Extent, int Mirror>
+auto operator*(DecimalLiteral<Dim, Extent, Mirror>, int) = delete;  // Length(2_m) * i, say
+template <class Dim, int Extent, int Mirror>
+auto operator*(int, DecimalLiteral<Dim, Extent, Mirror>) = delete;  // i * Length(2_m), say
+
 namespace literals {
 
 template <char... Text>

@@ -66,6 +66,14 @@ template <class D, class Rep, int F>
   return vector_detail::direction(vector_detail::words(v));
 }
 
+/// So much along a direction: normalized(v) * Force(400_N). Each component is rounded once; must
+/// fit.
+template <class D, int F, int F2>
+[[nodiscard]] constexpr Vec3<Fixed<D, std::int64_t, F>> operator*(
+    const Vec3<Fixed<Scalar, std::int32_t, F2>>& direction, Fixed<D, std::int64_t, F> size) {
+  return {size * direction.x, size * direction.y, size * direction.z};
+}
+
 /// The dot product where a vector has 64 bits: each product rounded, clamped to its format, which
 /// is that of the 64-bit vector, or has 16 fraction bits where both are (15 µ of a square unit,
 /// ±2^47).
