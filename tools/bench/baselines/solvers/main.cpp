@@ -110,7 +110,9 @@ const std::map<std::string, double Options::*>& real_settings() {
       {"give", &Options::give},
       {"joint-give", &Options::joint_give},
       {"keep", &Options::keep_normal},
+      {"soft-leak", &Options::soft_leak},
       {"leak", &Options::leak},
+      {"overload", &Options::overload},
       {"keep-tangent", &Options::keep_tangent},
       {"tolerance", &Options::tolerance},
       {"least-gain", &Options::least_gain},
@@ -128,11 +130,17 @@ const std::map<std::string, double Options::*>& real_settings() {
 
 const std::map<std::string, int Options::*>& whole_settings() {
   static const std::map<std::string, int Options::*> list{
-      {"substeps", &Options::substeps},         {"iterations", &Options::iterations},
-      {"relaxations", &Options::relaxations},   {"newton", &Options::newton},
-      {"first-sweeps", &Options::first_sweeps}, {"sweeps", &Options::sweeps},
-      {"largest", &Options::largest_direct},    {"round-impulse", &Options::round_impulse},
-      {"round-factor", &Options::round_factor}, {"round-pose", &Options::round_pose},
+      {"substeps", &Options::substeps},
+      {"iterations", &Options::iterations},
+      {"relaxations", &Options::relaxations},
+      {"newton", &Options::newton},
+      {"joint-steps", &Options::joint_steps},
+      {"first-sweeps", &Options::first_sweeps},
+      {"sweeps", &Options::sweeps},
+      {"largest", &Options::largest_direct},
+      {"round-impulse", &Options::round_impulse},
+      {"round-factor", &Options::round_factor},
+      {"round-pose", &Options::round_pose},
       {"descents", &Options::descents},
   };
   return list;
@@ -140,9 +148,8 @@ const std::map<std::string, int Options::*>& whole_settings() {
 
 const std::map<std::string, bool Options::*>& switches() {
   static const std::map<std::string, bool Options::*> list{
-      {"reuse", &Options::reuse},
-      {"geometric", &Options::geometric},
-      {"scale", &Options::scale_warm_start},
+      {"reuse", &Options::reuse},         {"half-kick", &Options::half_kick},
+      {"geometric", &Options::geometric}, {"scale", &Options::scale_warm_start},
       {"nonlinear", &Options::nonlinear},
   };
   return list;

@@ -53,6 +53,8 @@ class Proximal {
   void substep();
 
  private:
+  void fall(double seconds);
+  void set_gives();
   void set_centres();
   void scale_warm_start();
   void set_biases(bool bias);

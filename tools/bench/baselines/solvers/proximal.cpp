@@ -35,22 +35,31 @@ Proximal::Proximal(System& system, Problem& problem, BlockFactor& factor, const 
     if (row.a >= 0 && row.b >= 0)
       pairs.emplace_back(std::min(row.a, row.b), std::max(row.a, row.b));
   factor_.analyse(static_cast<int>(problem.bodies.size()), std::move(pairs));
+  set_gives();
   for (const int body : problem.bodies)
     mass_ += system.bodies[body].mass;
   counts_.blocks = std::max<long>(counts_.blocks, factor_.blocks());
+}
+
+// Once a tick, so that factors stay: contacts that carry many times the lighter body give less, by
+// powers of two.
+void Proximal::set_gives() {
+  for (int i = 0; i < problem_.contact_rows; i += 3) {
+    Row* rows = &problem_.rows[i];
+    const double load = rows->impulse * rows->weight / (k_gravity * h_ * options_.overload);
+    const double share = std::exp2(-std::clamp(std::floor(std::log2(load + 1e-9)), 0.0, 4.0));
+    const double give = options_.give * share * std::max(rows[0].weight, rows[1].step);
+    for (int k = 0; k < 3; ++k)
+      rows[k].give = give;
+  }
 }
 
 // What the substep's impulses are pulled towards, and by how much.
 void Proximal::set_centres() {
   for (std::size_t i = 0; i < problem_.rows.size(); ++i) {
     Row& row = problem_.rows[i];
-    const bool contact = i < static_cast<std::size_t>(problem_.contact_rows);
-    double weight = row.weight;
-    if (contact) {
-      const std::size_t first = i - i % 3;
-      weight = std::max(problem_.rows[first].weight, problem_.rows[first + 1].step);
-    }
-    row.give = (contact ? options_.give : options_.joint_give) * weight;
+    if (i >= static_cast<std::size_t>(problem_.contact_rows))
+      row.give = options_.joint_give * row.weight;
     row.centre = row.impulse;
     if (row.kind == RowKind::normal || row.kind == RowKind::limit) {
       const double weight_impulse = k_gravity * h_ / row.weight;
@@ -257,7 +266,7 @@ void Proximal::phase(bool bias) {
     const int most = step == 0 ? options_.first_sweeps : options_.sweeps;
     for (int i = 0; i < most; ++i)
       if ((change = sweep()) < options_.tolerance) break;
-    const bool done = change < options_.tolerance && (step > 0 || !jointed_);
+    const bool done = change < options_.tolerance && (!jointed_ || step >= options_.joint_steps);
     if (!done && step >= options_.newton) ++counts_.unconverged;
     if (done || step >= options_.newton) break;
     if (step > 0 && bias && jointed_ && options_.nonlinear) set_joint_errors();
@@ -309,9 +318,16 @@ void Proximal::round_impulses() {
     row.impulse = rounded(row.impulse * row.weight, options_.round_impulse) / row.weight;
 }
 
-void Proximal::substep() {
+void Proximal::fall(double seconds) {
   for (const int body : problem_.bodies)
-    system_.bodies[body].velocity = system_.bodies[body].velocity + h_ * system_.gravity;
+    system_.bodies[body].velocity = system_.bodies[body].velocity + seconds * system_.gravity;
+}
+
+// Without contacts gravity acts half before and half after the move, so that energy is that of the
+// substep's end; what rests on a contact needs all of it in the first phase.
+void Proximal::substep() {
+  const double first = options_.half_kick && problem_.contact_rows == 0 ? h_ / 2 : h_;
+  fall(first);
   if (jointed_) {
     if (options_.geometric) stiffen();
     refresh(system_, h_, problem_);
@@ -334,6 +350,7 @@ void Proximal::substep() {
     }
     factored_.clear();
   }
+  fall(h_ - first);
   gather(system_, problem_);
   phase(false);
   round_impulses();

@@ -132,7 +132,8 @@ void SoftSteps::substep() {
   gather(system_, problem_);
   make_groups();
   for (Row& row : problem_.rows) {
-    row.centre = row.impulse;
+    row.centre = std::max(0.0, row.impulse - options_.soft_leak * k_gravity * h_ / row.weight);
+    if (row.kind != RowKind::normal) row.centre = row.impulse;
     if (row.kind == RowKind::motor || row.kind == RowKind::spring)
       set_drive(row, system_.joints[row.source], h_);
     apply(problem_, row, row.impulse);
