@@ -138,7 +138,6 @@ void set_limits(Joint& joint, double lower, double upper) {
 
 // Trunk, head, and two arms and legs of two parts each.
 void ragdoll(System& s, const Vec3& at, const Quat& turn) {
-  const int first = static_cast<int>(s.bodies.size());
   const auto part = [&](const Vec3& p, double half, double radius) {
     return s.add_capsule(half, radius, at + matrix(turn) * p, 1000, turn);
   };
@@ -159,7 +158,6 @@ void ragdoll(System& s, const Vec3& at, const Quat& turn) {
     joint(JointKind::ball, trunk, thigh, {side * 0.09, -0.27, 0});
     joint(JointKind::hinge, thigh, shin, {side * 0.09, -0.64, 0});
   }
-  (void)first;
 }
 
 void ragdolls(Scene& scene, Random& r, double count) {

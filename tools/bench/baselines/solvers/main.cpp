@@ -21,7 +21,7 @@ struct Outcome {
   int ticks = 0;
 };
 
-double Random_next(unsigned long long& state) {
+double next_uniform(unsigned long long& state) {
   state = state * 6364136223846793005ull + 1442695040888963407ull;
   return static_cast<double>(state >> 11) * 0x1p-53;
 }
@@ -230,7 +230,7 @@ int usage() {
 }  // namespace
 
 double Random::operator()(double low, double high) {
-  return low + (high - low) * Random_next(state_);
+  return low + (high - low) * next_uniform(state_);
 }
 
 int run(int count, char** arguments) {
