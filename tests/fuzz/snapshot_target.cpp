@@ -19,10 +19,8 @@ World sample_world() {
   World world = test::make_world(k_def);
   test::fill_with_random_bodies(world, 7, 16);
   for (std::uint32_t i = 0; i < 4; ++i) {
-    JointDef def;
-    def.kind = static_cast<JointKind>(i % 2 + 1);
-    def.body_a = world.body_at(1 + i);
-    def.body_b = world.body_at(2 + i);
+    const auto kind = static_cast<JointKind>(i % 2 + 1);
+    const JointDef def = JointDef::of(kind, world.body_at(1 + i), world.body_at(2 + i));
     LKS_CHECK(world.create_joint(def).ok());
   }
   BodyDef trigger;

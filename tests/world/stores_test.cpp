@@ -158,10 +158,7 @@ World full_world() {
   test::step(world, 400);
   for (int i = 0; i < 3; ++i)
     test::add(world, test::dynamic_body(Shape::sphere(0.5_m), 10_m, Position::from_integer(i), {}));
-  JointDef joint;
-  joint.kind = JointKind::ball;
-  joint.body_a = world.body_at(21);
-  joint.body_b = world.body_at(22);
+  const JointDef joint = JointDef::of(JointKind::ball, world.body_at(21), world.body_at(22));
   EXPECT_TRUE(world.create_joint(joint).ok());
   test::step(world, 30);
   return world;

@@ -124,8 +124,8 @@ template <class T>
 }
 
 /// "(1, -0.25, 3)".
-template <class T>
-[[nodiscard]] std::string to_decimal(const Vec3<T>& v) {
+template <class D, class Rep, int F>
+[[nodiscard]] std::string to_decimal(const Vec3<Fixed<D, Rep, F>>& v) {
   return '(' + to_decimal(v.x) + ", " + to_decimal(v.y) + ", " + to_decimal(v.z) + ')';
 }
 
@@ -135,9 +135,9 @@ requires(F <= k_most_decimal_bits) std::basic_ostream<char, Traits>
 &operator<<(std::basic_ostream<char, Traits>& out, Fixed<D, Rep, F> value) {
   return out << std::string_view(to_decimal(value));
 }
-template <class Traits, class T>
-requires(T::frac_bits <= k_most_decimal_bits) std::basic_ostream<char, Traits>
-&operator<<(std::basic_ostream<char, Traits>& out, const Vec3<T>& v) {
+template <class Traits, class D, class Rep, int F>
+requires(F <= k_most_decimal_bits) std::basic_ostream<char, Traits>
+&operator<<(std::basic_ostream<char, Traits>& out, const Vec3<Fixed<D, Rep, F>>& v) {
   return out << std::string_view(to_decimal(v));
 }
 
