@@ -1,0 +1,167 @@
+// Heaps, which must come to rest and sleep.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tools/bench/general/maker.h"
+
+namespace lockstone::bench {
+namespace {
+
+using namespace general;
+
+void heap(SceneMaker& m, double seconds) {
+  m.scene.may_sleep = true;
+  m.scene.must_rest = true;
+  m.judge(Judge::awake, 0, seconds);
+}
+
+std::vector<Triple> stone(SceneMaker& m, double size) {
+  std::vector<Triple> points;
+  const int n = m.random.count(6, 16);
+  for (int i = 0; i < n; ++i)
+    points.push_back(size * m.random.between(0.8, 1) * m.direction());
+  for (std::size_t axis = 0; axis < 3; ++axis) {  // never flat
+    Triple point{};
+    point[axis] = size;
+    points.push_back(point);
+    point[axis] = -size;
+    points.push_back(point);
+  }
+  return points;
+}
+
+Triple place(SceneMaker& m, int i, double pitch, int side) {
+  const int layer = i / (side * side), cell = i % (side * side);
+  const double middle = 0.5 * (side - 1);
+  return Triple{pitch * (cell % side - middle), pitch * (layer + 1.0),
+                pitch * (cell / side - middle)} +
+         m.jitter(0.1 * pitch);
+}
+
+void walls(SceneMaker& m, double half, double high) {
+  for (const double side : {-1.0, 1.0}) {
+    m.fix(m.box({0.5, high, half + 1}, {side * (half + 0.5), high, 0}));
+    m.fix(m.box({half + 1, high, 0.5}, {0, high, side * (half + 0.5)}));
+  }
+}
+
+// Random hulls fall through a funnel of four slanted slabs into a pit.
+void fill_funnel(SceneMaker& m) {
+  const int n = m.count(20, 200);
+  const double size = m.random.between(0.12, 0.25);
+  m.ground();
+  walls(m, 1.5, 1.5);
+  for (int side = 0; side < 4; ++side) {
+    const Turn about = turn_about({0, 1, 0}, side * std::numbers::pi / 2);
+    const Turn tilt = about * turn_about({0, 0, 1}, 0.7);
+    const int slab = m.box({2.5, 0.1, 5}, turned(about, {3, 4.5, 0}));
+    m.fix(slab);
+    m.turn(slab, tilt);
+  }
+  for (int i = 0; i < n; ++i) {
+    Triple at = place(m, i, 2.4 * size, 6);
+    at[1] += 5;
+    m.turn(m.hull(stone(m, size), at, 2000), m.any_turn());
+  }
+  heap(m, 20);
+}
+
+// Stones on a floor.
+void fill_gravel(SceneMaker& m) {
+  const int n = m.count(10, 150);
+  const double size = m.random.between(0.05, 0.2);
+  m.ground();
+  for (int i = 0; i < n; ++i)
+    m.turn(m.hull(stone(m, size * m.random.between(0.6, 1)), place(m, i, 2.2 * size, 5), 2000),
+           m.any_turn());
+  m.set_friction(m.random.between(0.3, 0.9));
+  heap(m, 12);
+}
+
+// Balls in a box.
+void fill_balls(SceneMaker& m) {
+  const int n = m.count(10, 250), side = m.random.count(3, 6);
+  const double r = m.random.between(0.1, 0.4);
+  m.ground();
+  walls(m, 2.1 * r * side / 2 + r, 10 * r);
+  const double spread = m.random.chance(0.5) ? 1 : 0.6;
+  for (int i = 0; i < n; ++i)
+    m.ball(r * m.random.between(spread, 1), place(m, i, 2.1 * r, side));
+  heap(m, 15);
+}
+
+// Boxes and capsules in a heap, 10 to 150.
+void fill_crates(SceneMaker& m) {
+  const int n = m.count(10, 150), side = m.random.count(2, 5);
+  m.ground();
+  for (int i = 0; i < n; ++i) {
+    const Triple at = place(m, i, 0.9, side);
+    const Triple half{m.random.between(0.1, 0.4), m.random.between(0.1, 0.4),
+                      m.random.between(0.1, 0.4)};
+    const int body = m.random.chance(0.7) ? m.box(half, at) : m.capsule(half[0], 0.3, at);
+    m.turn(body, m.any_turn());
+  }
+  heap(m, 15);
+}
+
+// A trunk, a head and four limbs of two parts each.
+void ragdoll(SceneMaker& m, const Triple& at) {
+  const int trunk = m.box({0.2, 0.3, 0.12}, at);
+  const int head = m.ball(0.13, at + Triple{0, 0.45, 0});
+  m.join(Link::ball, trunk, head, at + Triple{0, 0.31, 0});
+  for (const double side : {-1.0, 1.0}) {
+    for (const double low : {0.0, 1.0}) {
+      const Triple top = at + Triple{side * (low > 0 ? 0.12 : 0.28), low > 0 ? -0.35 : 0.25, 0};
+      const int upper = m.capsule(0.06, 0.1, top + Triple{0, -0.16, 0});
+      const int lower = m.capsule(0.05, 0.1, top + Triple{0, -0.45, 0});
+      m.join(Link::ball, trunk, upper, top);
+      GeneralJoint& knee = m.join(Link::hinge, upper, lower, top + Triple{0, -0.3, 0}, {1, 0, 0});
+      knee.limited = true;
+      knee.lower = 0;
+      knee.upper = 2.4;
+    }
+  }
+}
+
+void fill_ragdolls(SceneMaker& m) {
+  const int n = m.count(1, 12);
+  m.ground();
+  for (int i = 0; i < n; ++i)
+    ragdoll(m, Triple{0.7 * (i % 2), 1.3 + 1.5 * (i / 2), 0} + m.jitter(0.2));
+  m.set_friction(0.6);
+  heap(m, 15);
+}
+
+// Stones stacked as a pyramid of hulls with flat faces: eight-sided prisms.
+void fill_hull_pyramid(SceneMaker& m) {
+  const int rows = m.count(2, 12);
+  const double r = m.random.between(0.2, 0.4), half = m.random.between(0.1, 0.3);
+  const int corners = m.random.count(5, 9);
+  std::vector<Triple> prism;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    for (const double y : {-half, half})
+      prism.push_back({r * std::cos(angle), y, r * std::sin(angle)});
+  }
+  m.ground();
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < rows - row; ++i)
+      m.hull(prism, {2.02 * r * (i + 0.5 * row), half * (2 * row + 1), 0});
+  }
+  heap(m, 12);
+}
+
+}  // namespace
+
+void add_rest_families(std::vector<Family>& all) {
+  all.insert(all.end(), {{"funnel", "20-200 random hulls through a funnel into a pit", fill_funnel},
+                         {"gravel", "10-150 random hulls on a floor", fill_gravel},
+                         {"balls", "10-250 balls in a box", fill_balls},
+                         {"crates", "10-150 boxes and capsules in a heap", fill_crates},
+                         {"ragdolls", "1-12 ragdolls in a heap", fill_ragdolls},
+                         {"hull-pyramid", "2-12 rows of prisms", fill_hull_pyramid}});
+}
+
+}  // namespace lockstone::bench
