@@ -3,6 +3,7 @@
 namespace lockstone::tool {
 
 void add_bench_accuracy_command(CLI::App& bench, int& exit_code);
+void add_bench_general_command(CLI::App& bench, int& exit_code);
 void add_bench_numerics_command(CLI::App& bench, int& exit_code);
 void add_bench_queries_command(CLI::App& bench, int& exit_code);
 void add_bench_rollback_command(CLI::App& bench, int& exit_code);
@@ -16,6 +17,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* bench = app.add_subcommand("bench", "Measure the core and its parts");
   bench->require_subcommand(1);
   add_bench_accuracy_command(*bench, exit_code);
+  add_bench_general_command(*bench, exit_code);
   add_bench_numerics_command(*bench, exit_code);
   add_bench_queries_command(*bench, exit_code);
   add_bench_rollback_command(*bench, exit_code);

@@ -1,0 +1,37 @@
+// What an engine did with a scene, as figures.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/bench/general/engine.h"
+
+namespace lockstone::bench {
+
+/// What a figure is when a body or a number is lost; no figure is greater.
+inline constexpr double k_lost_figure = 1e6;
+
+struct GeneralFigures {
+  double error = 0;  ///< as the scene's judge says
+  double gap = 0;    ///< m, the widest of a joint at any time
+  double gain = 0;  ///< the most energy regained over that of the beginning; 0 where none is judged
+  double speed = 0;        ///< m/s, of the fastest centre at any time
+  double rest = 0;         ///< s, until nothing moved any more; beyond the end when something does
+  double asleep = 0;       ///< share of dynamic bodies at the end
+  double tick_micros = 0;  ///< processor time, mean
+  std::uint64_t hash = 0;
+  bool failed = false;  ///< what the scene expects did not happen
+};
+
+/// Energy that may be regained: what rounding and pushing out may add.
+inline constexpr double k_gain_bound = 0.05;
+
+/// Plays the scene to its end; nothing when the engine cannot.
+[[nodiscard]] std::optional<GeneralFigures> play_general(const GeneralMaker& maker,
+                                                         const GeneralScene& scene, int substeps);
+
+/// Pictures of the scene through its time, as SVG; empty when the engine draws nothing.
+[[nodiscard]] std::string draw_general(const GeneralMaker& maker, const GeneralScene& scene,
+                                       int substeps);
+
+}  // namespace lockstone::bench

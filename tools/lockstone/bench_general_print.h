@@ -1,0 +1,28 @@
+// What `lockstone bench general` prints and writes.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "tools/bench/general/run.h"
+
+namespace lockstone::tool {
+
+/// A line a family and engine.
+[[nodiscard]] std::string general_table(std::span<const bench::FamilyRun> runs);
+
+/// How each of our failing seeds is played again, a line each.
+[[nodiscard]] std::string general_failures(std::span<const bench::FamilyRun> runs,
+                                           std::uint64_t first_seed);
+
+/// The table as Markdown, with a head that says what it is.
+[[nodiscard]] std::string general_page(std::span<const bench::FamilyRun> runs,
+                                       std::string_view command);
+
+/// A chart a family into a folder: the errors of each engine, in order. False when the system
+/// refuses.
+[[nodiscard]] bool plot_general(std::span<const bench::FamilyRun> runs, const std::string& folder);
+
+void print_general_json(std::span<const bench::FamilyRun> runs, std::uint64_t first_seed);
+
+}  // namespace lockstone::tool
