@@ -30,6 +30,31 @@ class Case(unittest.TestCase):
         return json.loads(self.expect(OK, *arguments, "--json"))
 
 
+class General(Case):
+    def test_replays_a_seed_to_the_same_state(self):
+        row, = json.loads(self.expect(OK, "general", "--alone", "--family", "house", "--first-seed", 3, "--seeds", 1,
+                                      "--json"))
+        text = self.expect(OK, "general", "--alone", "--replay", "house:3")
+        self.assertIn(row["seeds"][0]["hash"], text)
+
+    def test_draws_and_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            self.expect(OK, "general", "--alone", "--replay", "ladder:1", "--svg", path / "a.svg")
+            self.expect(OK, "general", "--alone", "--family", "arch,house", "--seeds", 2, "--plot", path / "plots",
+                        "--page", path / "page.md")
+            for svg in [path / "a.svg", path / "plots" / "arch.svg", path / "plots" / "house.svg"]:
+                xml.etree.ElementTree.parse(svg)
+            self.assertIn("| house | lockstone |", (path / "page.md").read_text(encoding="utf-8"))
+
+    def test_refuses_what_is_no_seed(self):
+        for seed in ("house", "house:", "house:x", "no:1"):
+            self.expect(USAGE, "general", "--replay", seed)
+
+    def test_lists_families(self):
+        self.assertIn("four-bar", self.expect(OK, "general", "--list"))
+
+
 class Speed(Case):
     @classmethod
     def setUpClass(cls):

@@ -71,7 +71,7 @@ void fill_slope(SceneMaker& m) {
   }
   m.scene.low = -20;
   m.set_friction(friction);
-  m.judge(Judge::displacement, 0.003, 10);
+  m.judge(Judge::displacement, 0.01, 10);
 }
 
 // A ladder against a wall, with someone on a rung.

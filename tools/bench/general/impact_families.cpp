@@ -29,8 +29,8 @@ void fill_falling_stack(SceneMaker& m) {
   m.ground();
   for (int i = 0; i < n; ++i) {
     const double x = half * m.random.between(-0.5, 0.5);
-    m.box({half, half, half}, {x, half * (2 * i + 1), half * m.random.between(-0.5, 0.5)},
-          200 * m.random.log_between(1, spread));
+    const double z = half * m.random.between(-0.5, 0.5);
+    m.box({half, half, half}, {x, half * (2 * i + 1), z}, 200 * m.random.log_between(1, spread));
   }
   m.judge(Judge::gain, 0.05, 8);
 }
@@ -72,7 +72,7 @@ void fill_bullets(SceneMaker& m) {
   const int n = m.count(1, 20);
   const double thick = m.random.log_between(0.002, 0.1);
   m.ground();
-  m.fix(m.box({20, thick, 20}, {0, 3, 0}));
+  m.fix(m.box({450, thick, 450}, {0, 3, 0}));
   for (int i = 0; i < n; ++i) {
     const Triple at{2.0 * (i % 5 - 2), 8, 2.0 * (i / 5 - 2)};
     const double r = m.random.between(0.03, 0.2);

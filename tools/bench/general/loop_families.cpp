@@ -160,9 +160,10 @@ void fill_cradle(SceneMaker& m) {
     const int ball = m.ball(r, top + length * Triple{std::sin(turn), -std::cos(turn), 0}, 2000);
     m.body(ball).restitution = 1;
     m.body(ball).friction = 0;
+    const Triple at = m.body(ball).position;
     for (const double side : {-0.5, 0.5}) {
       const Triple hook = top + Triple{0, 0, side * length};
-      m.rod(m.anchor(hook), ball, hook, m.body(ball).position);
+      m.rod(m.anchor(hook), ball, hook, at);
     }
   }
   m.scene.low = -length;

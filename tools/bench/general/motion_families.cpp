@@ -118,7 +118,7 @@ void fill_turntable(SceneMaker& m) {
   const int table = m.box({3, 0.2, 3}, {0, -0.2, 0});
   kinematic(m, table, {0, 0, 0});
   for (int i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n, r = radius * m.random.between(0.3, 1);
+    const double angle = 2 * std::numbers::pi * i / n, r = radius * m.random.between(0.55, 1);
     m.box({0.15, m.random.between(0.05, 0.2), 0.15},
           {r * std::cos(angle), 0.2, r * std::sin(angle)});
     GeneralBody& crate = m.scene.bodies.back();

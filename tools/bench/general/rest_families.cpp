@@ -20,8 +20,10 @@ void heap(SceneMaker& m, double seconds) {
 std::vector<Triple> stone(SceneMaker& m, double size) {
   std::vector<Triple> points;
   const int n = m.random.count(6, 16);
-  for (int i = 0; i < n; ++i)
-    points.push_back(size * m.random.between(0.8, 1) * m.direction());
+  for (int i = 0; i < n; ++i) {
+    const double far = size * m.random.between(0.8, 1);
+    points.push_back(far * m.direction());
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {  // never flat
     Triple point{};
     point[axis] = size;
@@ -63,7 +65,8 @@ void fill_funnel(SceneMaker& m) {
   for (int i = 0; i < n; ++i) {
     Triple at = place(m, i, 2.4 * size, 6);
     at[1] += 5;
-    m.turn(m.hull(stone(m, size), at, 2000), m.any_turn());
+    const int hull = m.hull(stone(m, size), at, 2000);
+    m.turn(hull, m.any_turn());
   }
   heap(m, 20);
 }
@@ -73,26 +76,30 @@ void fill_gravel(SceneMaker& m) {
   const int n = m.count(10, 150);
   const double size = m.random.between(0.05, 0.2);
   m.ground();
-  for (int i = 0; i < n; ++i)
-    m.turn(m.hull(stone(m, size * m.random.between(0.6, 1)), place(m, i, 2.2 * size, 5), 2000),
-           m.any_turn());
+  for (int i = 0; i < n; ++i) {
+    const Triple at = place(m, i, 2.2 * size, 5);
+    const int hull = m.hull(stone(m, size * m.random.between(0.6, 1)), at, 2000);
+    m.turn(hull, m.any_turn());
+  }
   m.set_friction(m.random.between(0.3, 0.9));
   heap(m, 12);
 }
 
 // Balls in a box.
 void fill_balls(SceneMaker& m) {
-  const int n = m.count(10, 250), side = m.random.count(3, 6);
+  const int n = m.count(40, 250), side = m.random.count(3, 6);
   const double r = m.random.between(0.1, 0.4);
   m.ground();
   walls(m, 2.1 * r * side / 2 + r, 10 * r);
   const double spread = m.random.chance(0.5) ? 1 : 0.6;
-  for (int i = 0; i < n; ++i)
-    m.ball(r * m.random.between(spread, 1), place(m, i, 2.1 * r, side));
+  for (int i = 0; i < n; ++i) {
+    const Triple at = place(m, i, 2.1 * r, side);
+    m.ball(r * m.random.between(spread, 1), at);
+  }
   heap(m, 15);
 }
 
-// Boxes and capsules in a heap, 10 to 150.
+// Boxes in a heap.
 void fill_crates(SceneMaker& m) {
   const int n = m.count(10, 150), side = m.random.count(2, 5);
   m.ground();
@@ -100,8 +107,7 @@ void fill_crates(SceneMaker& m) {
     const Triple at = place(m, i, 0.9, side);
     const Triple half{m.random.between(0.1, 0.4), m.random.between(0.1, 0.4),
                       m.random.between(0.1, 0.4)};
-    const int body = m.random.chance(0.7) ? m.box(half, at) : m.capsule(half[0], 0.3, at);
-    m.turn(body, m.any_turn());
+    m.turn(m.box(half, at), m.any_turn());
   }
   heap(m, 15);
 }
@@ -158,8 +164,8 @@ void fill_hull_pyramid(SceneMaker& m) {
 void add_rest_families(std::vector<Family>& all) {
   all.insert(all.end(), {{"funnel", "20-200 random hulls through a funnel into a pit", fill_funnel},
                          {"gravel", "10-150 random hulls on a floor", fill_gravel},
-                         {"balls", "10-250 balls in a box", fill_balls},
-                         {"crates", "10-150 boxes and capsules in a heap", fill_crates},
+                         {"balls", "40-250 balls in a box", fill_balls},
+                         {"crates", "10-150 boxes in a heap", fill_crates},
                          {"ragdolls", "1-12 ragdolls in a heap", fill_ragdolls},
                          {"hull-pyramid", "2-12 rows of prisms", fill_hull_pyramid}});
 }

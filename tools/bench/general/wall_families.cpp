@@ -16,9 +16,13 @@ void fill_wall(SceneMaker& m) {
   const double off = m.random.between(0, 1e-3);
   m.ground();
   for (int row = 0; row < high; ++row) {
-    for (int i = 0; i < wide; ++i)
-      m.box({0.25, 0.1, 0.125}, {0.5 * i + 0.25 * (row % 2) + m.random.between(-off, off),
-                                 0.1 * (2 * row + 1), m.random.between(-off, off)});
+    const bool odd = row % 2 == 1;  // half a brick at each end
+    for (int i = 0; i < wide + (odd ? 1 : 0); ++i) {
+      const bool end = odd && (i == 0 || i == wide);
+      const double x = 0.5 * i - (odd ? 0.25 : 0) + (end ? (i == 0 ? 0.125 : -0.125) : 0);
+      m.box({end ? 0.125 : 0.25, 0.1, 0.125},
+            {x + m.random.between(-off, off), 0.1 * (2 * row + 1), m.random.between(-off, off)});
+    }
   }
   m.set_friction(m.random.between(0.4, 0.8));
   m.scene.must_rest = true;

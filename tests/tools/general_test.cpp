@@ -1,0 +1,105 @@
+// The machinery of `lockstone bench general`: seeds make the same scenes, scenes the same states.
+// What our engine does not hold yet is measured by the command, not asserted here.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tools/bench/general/run.h"
+
+namespace lockstone::bench {
+namespace {
+
+constexpr int k_substeps = 4;
+
+GeneralFigures play(std::string_view family, std::uint64_t seed) {
+  return *play_general(lockstone_general(), make_scene(*find_family(family), seed), k_substeps);
+}
+
+TEST(GeneralScenes, AreTheSameForTheSameSeed) {
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+      EXPECT_EQ(bytes_of(make_scene(family, seed)), bytes_of(make_scene(family, seed)));
+  }
+}
+
+TEST(GeneralScenes, DifferFromSeedToSeed) {
+  for (const Family& family : families())
+    EXPECT_NE(bytes_of(make_scene(family, 1)), bytes_of(make_scene(family, 2))) << family.name;
+}
+
+TEST(GeneralScenes, NameFamiliesOnce) {
+  std::set<std::string_view> names;
+  for (const Family& family : families()) {
+    EXPECT_TRUE(names.insert(family.name).second) << family.name;
+    EXPECT_EQ(find_family(family.name), &family);
+  }
+  EXPECT_EQ(find_family("none of them"), nullptr);
+}
+
+TEST(GeneralScenes, ArePlainNumbersWithinTheirOwnBodies) {
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const GeneralScene scene = make_scene(family, seed);
+      const auto bodies = static_cast<int>(scene.bodies.size());
+      EXPECT_FALSE(scene.watched.empty()) << family.name;
+      for (const GeneralJoint& joint : scene.joints)
+        EXPECT_TRUE(joint.a >= 0 && joint.a < bodies && joint.b >= 0 && joint.b < bodies);
+      for (const GeneralBody& body : scene.bodies)
+        EXPECT_TRUE(body.density > 0 && volume_of(body) > 0) << family.name;
+    }
+  }
+}
+
+TEST(GeneralScenes, ShrinkByTheirCap) {
+  const Family& wall = *find_family("wall");
+  EXPECT_LT(make_scene(wall, 1, 3).bodies.size(), make_scene(wall, 1).bodies.size());
+}
+
+TEST(GeneralRun, EndsInTheSameStateOnAnyNumberOfThreads) {
+  GeneralOptions options;
+  for (const std::string_view name : {"pendulum", "cairn", "clatter", "trigger"})
+    options.families.push_back(find_family(name));
+  options.engines = {lockstone_general()};
+  options.seeds = 3;
+  const std::vector<FamilyRun> alone = run_general(options, nullptr);
+  options.threads = 4;
+  const std::vector<FamilyRun> together = run_general(options, nullptr);
+  ASSERT_EQ(alone.size(), together.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    for (std::size_t seed = 0; seed < alone[i].figures.size(); ++seed) {
+      EXPECT_EQ(alone[i].figures[seed]->hash, together[i].figures[seed]->hash);
+      EXPECT_EQ(alone[i].figures[seed]->error, together[i].figures[seed]->error);
+    }
+  }
+}
+
+// A body that flies off is a great figure, not one that is none.
+TEST(GeneralRun, HasFiniteFiguresEvenOfWhatFliesApart) {
+  for (const std::string_view name : {"span", "door", "fast-paddle", "tiles-roll"}) {
+    const GeneralFigures figures = play(name, 1);
+    for (const double figure : {figures.error, figures.gap, figures.gain, figures.speed})
+      EXPECT_LE(figure, k_lost_figure) << name;
+    EXPECT_GT(figures.tick_micros, 0);
+  }
+}
+
+TEST(GeneralRun, HoldsTheFamiliesThatAreKnownToHold) {
+  for (const std::string_view name : {"pendulum", "house", "arch", "door", "seesaw", "cairn"}) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed)
+      EXPECT_FALSE(play(name, seed).failed) << name << ":" << seed;
+  }
+}
+
+// A pendulum that a wrong moment of inertia or height would show.
+TEST(GeneralRun, SeesThatAPendulumKeepsItsEnergy) {
+  EXPECT_LT(play("pendulum", 1).gain, 0.02);
+}
+
+TEST(GeneralRun, DrawsAScene) {
+  const std::string picture =
+      draw_general(lockstone_general(), make_scene(*find_family("ladder"), 1), k_substeps);
+  EXPECT_NE(picture.find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lockstone::bench
