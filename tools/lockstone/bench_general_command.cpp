@@ -18,6 +18,7 @@ struct BenchGeneralOptions {
   std::vector<std::string> families;
   std::vector<std::string> peers;
   std::string replay, svg, plot, page;
+  bool force = false;
   std::uint64_t first_seed = 1;
   int seeds = 20;
   int threads = 1;
@@ -89,7 +90,7 @@ int replay(const BenchGeneralOptions& options) {
         hash_text(f->hash), f->failed ? "FAILED" : "as expected");
   }
   if (!options.svg.empty() &&
-      !write_text_file(options.svg,
+      !write_text_file({options.svg, options.force},
                        bench::draw_general(bench::lockstone_general(), scene, options.substeps)))
     return k_unavailable;
   return failed ? k_different : k_ok;
@@ -128,9 +129,9 @@ int measure(const BenchGeneralOptions& options) {
   } else {
     fmt::print("{}{}", general_table(runs), general_failures(runs, options.first_seed));
   }
-  bool written = options.page.empty() ||
-                 write_text_file(options.page, general_page(runs, command_of(options)));
-  if (!options.plot.empty()) written = plot_general(runs, options.plot) && written;
+  bool written = options.page.empty() || write_text_file({options.page, options.force},
+                                                         general_page(runs, command_of(options)));
+  if (!options.plot.empty()) written = plot_general(runs, {options.plot, options.force}) && written;
   if (!written) return k_unavailable;
   const bool failed = std::ranges::any_of(runs, [](const bench::FamilyRun& family) {
     return family.engine == "lockstone" && family.failures() > 0;
@@ -192,6 +193,7 @@ void add_bench_general_command(CLI::App& bench, int& exit_code) {
   command->add_option("--plot", options->plot, "Also draw a chart a family into a folder");
   command->add_option("--page", options->page, "Also write the table into a file *.md");
   add_replay_options(*command, *options);
+  add_force_option(*command, options->force);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

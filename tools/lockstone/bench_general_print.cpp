@@ -115,9 +115,9 @@ std::string general_page(std::span<const FamilyRun> runs, std::string_view comma
   return text;
 }
 
-bool plot_general(std::span<const FamilyRun> runs, const std::string& folder) {
+bool plot_general(std::span<const FamilyRun> runs, const Output& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  std::filesystem::create_directories(folder.path, error);
   std::map<std::string, bench::Chart> charts;
   std::map<std::string, int> colours;
   for (const FamilyRun& run : runs) {
@@ -133,8 +133,9 @@ bool plot_general(std::span<const FamilyRun> runs, const std::string& folder) {
   }
   bool written = true;
   for (const auto& [name, chart] : charts)
-    written =
-        write_text_file(fmt::format("{}/{}.svg", folder, name), bench::svg_of(chart)) && written;
+    written = write_text_file({fmt::format("{}/{}.svg", folder.path, name), folder.force},
+                              bench::svg_of(chart)) &&
+              written;
   return written;
 }
 

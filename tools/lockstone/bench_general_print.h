@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/bench/general/run.h"
+#include "tools/lockstone/output_file.h"
 
 namespace lockstone::tool {
 
@@ -21,7 +22,7 @@ namespace lockstone::tool {
 
 /// A chart a family into a folder: the errors of each engine, in order. False when the system
 /// refuses.
-[[nodiscard]] bool plot_general(std::span<const bench::FamilyRun> runs, const std::string& folder);
+[[nodiscard]] bool plot_general(std::span<const bench::FamilyRun> runs, const Output& folder);
 
 void print_general_json(std::span<const bench::FamilyRun> runs, std::uint64_t first_seed);
 
