@@ -97,7 +97,7 @@ TEST_P(FuzzTest, SurvivesItsCorpus) {
 }
 
 TEST(FuzzCorpus, IsThereForWhatStrangersSend) {
-  for (const char* name : {"log", "secure", "token", "wire"})
+  for (const char* name : {"enet", "log", "secure", "token", "wire"})
     EXPECT_FALSE(read_corpus(name).empty()) << name;
 }
 
