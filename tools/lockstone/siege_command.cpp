@@ -7,6 +7,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/net_commands.h"
+#include "tools/relay/datagram_rate.h"
 #include "tools/relay/siege.h"
 
 namespace lockstone::tool {
@@ -50,12 +51,26 @@ int siege(const relay::SiegeOptions& options) {
   return report->withstood() ? k_ok : k_different;
 }
 
+int print_rates() {
+  constexpr std::uint64_t k_datagrams = 200'000;
+  const auto rates = relay::measure_rates(k_datagrams);
+  if (!rates) {
+    complain("no measurement: no socket, or no libsodium");
+    return k_unavailable;
+  }
+  fmt::print("{:<20} {:>9} {:>30}\n", "datagrams", "taken", "per second of processor time");
+  for (const relay::DatagramRate& rate : *rates)
+    fmt::print("{:<20} {:>9} {:>30}\n", rate.name, rate.datagrams, rate.per_second);
+  return k_ok;
+}
+
 }  // namespace
 
 void add_siege_command(CLI::App& app, int& exit_code) {
   struct Options {
     relay::SiegeOptions siege;
     unsigned seconds = 20;
+    bool rate = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
@@ -67,7 +82,13 @@ void add_siege_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1U, 15U))
       ->capture_default_str();
   command->add_option("--seed", options->siege.seed, "Of the attackers")->capture_default_str();
+  command->add_flag("--rate", options->rate,
+                    "Measure instead how many datagrams of each kind one core gets through");
   command->callback([options, &exit_code] {
+    if (options->rate) {
+      exit_code = print_rates();
+      return;
+    }
     options->siege.duration_us = std::int64_t{options->seconds} * 1'000'000;
     exit_code = siege(options->siege);
   });

@@ -27,6 +27,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
+constexpr Endpoint k_elsewhere{0x7f000002, 0};  // on this machine, but not the players' address
+
 // What all attackers with sockets of their own share.
 class SocketAttack : public Attack {
  public:
@@ -34,7 +36,7 @@ class SocketAttack : public Attack {
       : target_(Endpoint::loopback(match.port())), random_(seed) {
     report_.name = name;
     for (std::size_t i = 0; i < sockets; ++i) {
-      auto socket = UdpSocket::open(Endpoint::loopback(0));
+      auto socket = UdpSocket::open(k_elsewhere);
       if (socket) sockets_.push_back(std::move(socket).value());
     }
   }
@@ -99,6 +101,21 @@ class Garbage final : public SocketAttack {
       bytes[1] = static_cast<std::byte>(random_.below(4));
     }
     send(bytes);
+  }
+};
+
+class Oversized final : public SocketAttack {
+ public:
+  Oversized(const TrialMatch& match, std::uint64_t seed)
+      : SocketAttack("oversized", match, seed, 4) {}
+
+ private:
+  void attack() override {
+    constexpr int k_at_once = 10;  // 5000 a second
+    Bytes bytes(5000);
+    fill(bytes);
+    for (int i = 0; i < k_at_once; ++i)
+      send(bytes);
   }
 };
 
@@ -235,6 +252,9 @@ std::unique_ptr<Attack> forged_connects(const TrialMatch& match, std::uint64_t s
 }
 std::unique_ptr<Attack> garbage(const TrialMatch& match, std::uint64_t seed) {
   return std::make_unique<Garbage>(match, seed);
+}
+std::unique_ptr<Attack> oversized(const TrialMatch& match, std::uint64_t seed) {
+  return std::make_unique<Oversized>(match, seed);
 }
 std::unique_ptr<Attack> repeated_connects(const TrialMatch& match, std::uint64_t seed) {
   return std::make_unique<RepeatedConnects>(match, seed);

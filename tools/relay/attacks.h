@@ -30,6 +30,9 @@ class Attack {
 /// From outside: random bytes, short, long and beyond any limit, some to connections that exist.
 [[nodiscard]] std::unique_ptr<Attack> garbage(const TrialMatch& match, std::uint64_t seed);
 
+/// From outside: datagrams of 5000 bytes, which are longer than ENet's buffer.
+[[nodiscard]] std::unique_ptr<Attack> oversized(const TrialMatch& match, std::uint64_t seed);
+
 /// From within the match's keys: a good request for a connection, recorded and sent from elsewhere.
 [[nodiscard]] std::unique_ptr<Attack> repeated_connects(const TrialMatch& match,
                                                         std::uint64_t seed);

@@ -15,6 +15,7 @@ std::vector<std::unique_ptr<Attack>> attacks_on(TrialMatch& match, const SiegeOp
   std::vector<std::unique_ptr<Attack>> attacks;
   attacks.push_back(forged_connects(match, options.seed));
   attacks.push_back(garbage(match, options.seed + 1));
+  attacks.push_back(oversized(match, options.seed + 4));
   attacks.push_back(repeated_connects(match, options.seed + 2));
   attacks.push_back(bad_tokens(match, options.seed + 3));
   attacks.push_back(flood(match, options.honest, options.flood_per_second));
@@ -47,10 +48,12 @@ bool SiegeReport::withstood() const {
   const bool nobody_in =
       std::all_of(attacks.begin(), attacks.end(),
                   [](const AttackReport& attack) { return attack.admitted == 0; });
-  // The first two come from outside.
-  const bool silent = attacks[0].answered == 0 && attacks[1].answered == 0;
+  // The first three come from outside.
+  const bool silent =
+      attacks[0].answered == 0 && attacks[1].answered == 0 && attacks[2].answered == 0;
   const bool unharmed = std::all_of(honest.begin(), honest.end(), [this](const PlayerOutcome& one) {
-    return one.equal && one.ticks == ticks && one.state == net::ClientState::finished;
+    return one.substituted == 0 && one.equal && one.ticks == ticks &&
+           one.state == net::ClientState::finished;
   });
   return nobody_in && silent && unharmed && traitor_dropped;
 }

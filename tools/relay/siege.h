@@ -37,7 +37,8 @@ struct SiegeReport {
   net::SecurityCounters security;
 
   /// True if nobody was let in, nothing was answered to strangers, the traitor was dropped, and
-  /// every honest player stayed with the server's hashes in each tick.
+  /// every honest player was admitted, stayed with the server's hashes in each tick, and had no
+  /// input replaced.
   [[nodiscard]] bool withstood() const;
 };
 
