@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::string_view k_client_domain = "lockstone client 1";
 constexpr std::string_view k_server_domain = "lockstone server 1";
+constexpr std::string_view k_client_datagram_domain = "lockstone client datagrams 1";
+constexpr std::string_view k_server_datagram_domain = "lockstone server datagrams 1";
 
 crypto::PacketNonce nonce_of(Channel channel, std::uint64_t counter) {
   crypto::PacketNonce nonce{};
@@ -75,8 +77,17 @@ ConnectionKeys derive_keys(const Agreement& agreement) {
     return crypto::derive(key, {std::as_bytes(std::span(domain)), agreement.shared.bytes,
                                 agreement.hello, agreement.challenge});
   };
+  const auto derive_short = [&derive](const Key& key, std::string_view domain) {
+    Key whole = derive(key, domain);
+    LinkKey first;
+    std::copy_n(whole.bytes.begin(), first.bytes.size(), first.bytes.begin());
+    crypto::wipe(whole.bytes);
+    return first;
+  };
   return {derive(agreement.client_token_key, k_client_domain),
-          derive(agreement.server_token_key, k_server_domain)};
+          derive(agreement.server_token_key, k_server_domain),
+          derive_short(agreement.client_token_key, k_client_datagram_domain),
+          derive_short(agreement.server_token_key, k_server_datagram_domain)};
 }
 
 void PacketSealer::prove(std::span<std::byte> tag) {

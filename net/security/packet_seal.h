@@ -14,7 +14,8 @@
 
 namespace lockstone::net {
 
-inline constexpr std::uint16_t k_secure_version = 1;
+/// 2: datagrams are sealed under keys of the connection from the confirm on.
+inline constexpr std::uint16_t k_secure_version = 2;
 
 /// The first byte of a packet; no session message begins with one of them.
 enum class SecureKind : std::uint8_t {
@@ -54,6 +55,8 @@ void encode_refusal(RefuseReason reason, std::span<std::byte> out);
 struct ConnectionKeys {
   Key client;  ///< of what the client sends
   Key server;
+  LinkKey client_datagrams;  ///< of the seals around what the client sends
+  LinkKey server_datagrams;
 };
 
 /// What both sides know after challenge and hello.

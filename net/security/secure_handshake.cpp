@@ -92,6 +92,7 @@ bool SecureTransport::Impl::challenge(Link& link, const SecureHello& hello,
       derive_keys({grant.client_key, grant.server_key, shared, packet, half.bytes});
   link.sealer = PacketSealer(keys.server);
   link.opener = PacketOpener(keys.client);
+  carrier.protect(link.connection, {keys.server_datagrams, keys.client_datagrams}, false);
   link.identity = {true, grant.grant.match, grant.grant.player, grant.grant.slot};
   link.stage = Stage::proving;
   std::array<std::byte, k_challenge_bytes> answer{};
@@ -126,6 +127,7 @@ bool SecureTransport::Impl::on_challenge(Link& link, ByteView packet, TransportE
   if (!link.opener.check_proof(packet.last(crypto::k_tag_bytes))) {
     return close(link, RefuseReason::token_refused, event);
   }
+  carrier.protect(link.connection, {keys.client_datagrams, keys.server_datagrams}, true);
   std::array<std::byte, k_confirm_bytes> answer{};
   answer[0] = static_cast<std::byte>(SecureKind::confirm);
   link.sealer.prove(std::span(answer).last(crypto::k_tag_bytes));

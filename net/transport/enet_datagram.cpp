@@ -76,6 +76,42 @@ bool LinkChecksum::verify(std::span<std::byte> datagram, const DatagramHead& hea
   return right;
 }
 
+Word DatagramSeal::seal(std::span<std::byte> datagram) {
+  const std::span<std::byte> trailer = datagram.last(k_bytes);
+  ByteWriter(trailer).put(next_);
+  const std::uint64_t hash = crypto::short_hash(keys_.send, datagram);
+  ByteWriter writer(trailer);
+  writer.put(static_cast<std::uint32_t>(next_++ & 0xffffffff));
+  writer.put(static_cast<std::uint32_t>(hash >> 32));
+  Word word;
+  ByteWriter(word).put(static_cast<std::uint32_t>(hash & 0xffffffff));
+  return word;
+}
+
+DatagramSeal::Outcome DatagramSeal::open(std::span<std::byte> datagram, const DatagramHead& head,
+                                         const Word& connection) {
+  const std::size_t commands = head.checksum_offset + k_word_bytes;
+  if (datagram.size() < commands + k_command_head_bytes + k_bytes) return Outcome::forged;
+  const std::span<std::byte> place = datagram.subspan(head.checksum_offset, k_word_bytes);
+  const std::span<std::byte> trailer = datagram.last(k_bytes);
+  const Word low = word_at(datagram, head.checksum_offset);
+  const Word count = word_at(trailer, 0), high = word_at(trailer, k_word_bytes);
+  const std::uint64_t counter = window_.expand(ByteReader(count).get<std::uint32_t>());
+  std::copy(connection.begin(), connection.end(), place.begin());
+  ByteWriter(trailer).put(counter);
+  std::array<std::byte, k_bytes> hash;
+  ByteWriter(hash).put(crypto::short_hash(keys_.receive, datagram));
+  std::copy(low.begin(), low.end(), place.begin());
+  ByteWriter restored(trailer);
+  restored.put_bytes(count);
+  restored.put_bytes(high);
+  if (word_at(hash, 0) != low || word_at(hash, k_word_bytes) != high) return Outcome::forged;
+  if (!window_.accepts(counter)) return Outcome::replayed;
+  window_.mark(counter);
+  sends_ = required_ = true;
+  return Outcome::ok;
+}
+
 bool ConnectMemory::admit(const Word& id, const DatagramSource& source) {
   const auto known = std::find_if(entries_.begin(), entries_.end(), [&id](const Entry& entry) {
     return entry.used && entry.id == id;

@@ -14,6 +14,8 @@
 #include <lockstone/net/keys.h>
 #include <lockstone/net/reasons.h>
 
+#include "net/security/replay_window.h"
+
 namespace lockstone::net {
 
 /// Four bytes that are compared and copied, never computed with.
@@ -48,6 +50,41 @@ class LinkChecksum {
 
  private:
   std::optional<LinkKey> key_;
+};
+
+/// The seal of one connection's datagrams, once both ends have keys for it. All players of a match
+/// know the link key; these keys nobody else knows, and no sealed datagram counts twice.
+class DatagramSeal {
+ public:
+  static constexpr std::size_t k_bytes = 8;  ///< behind the commands
+  enum class Outcome : std::uint8_t { ok, forged, replayed };
+
+  DatagramSeal() = default;
+  DatagramSeal(const DatagramKeys& keys, bool at_once)
+      : keys_(keys), present_(true), sends_(at_once) {}
+
+  /// This side has the keys.
+  [[nodiscard]] bool present() const { return present_; }
+  /// What this side sends is to be sealed.
+  [[nodiscard]] bool sends() const { return sends_; }
+  /// The peer has sent a sealed datagram: all that it sends is sealed from there on.
+  [[nodiscard]] bool required() const { return required_; }
+
+  /// Seals a datagram whose last k_bytes are free and which has the connection's id in the
+  /// checksum's place. Returns the checksum.
+  [[nodiscard]] Word seal(std::span<std::byte> datagram);
+
+  /// Judges a datagram of the peer's, which is as before afterwards.
+  [[nodiscard]] Outcome open(std::span<std::byte> datagram, const DatagramHead& head,
+                             const Word& connection);
+
+ private:
+  DatagramKeys keys_;
+  bool present_ = false;
+  bool sends_ = false;
+  bool required_ = false;
+  std::uint64_t next_ = 0;
+  ReplayWindow window_;
 };
 
 /// Where a datagram comes from.

@@ -66,6 +66,7 @@ struct EnetTransport::State {
     std::int64_t since_us = 0;  ///< when it was asked for, or when it began to close
     RefuseReason ending = RefuseReason::none;  ///< the session is about to hear of this
     CommandFilter commands;
+    DatagramSeal seal;
     FloodWatch datagrams;
     FloodWatch packets;  ///< of which one datagram may hold many
     TransportStats stats;
@@ -91,6 +92,7 @@ struct EnetTransport::State {
   bool any_ending = false;
   EnetCounters counters;
   std::array<std::byte, ENET_PROTOCOL_MAXIMUM_MTU> gathered{};
+  Word admitted{};  // checksum of the datagram that ENet is about to read
 
   explicit State(const EnetOptions& options)
       : timeout_ms(options.timeout_ms),
@@ -257,19 +259,38 @@ struct EnetTransport::State {
       return false;
     }
     const DatagramSource source{host->receivedAddress.host, host->receivedAddress.port};
-    if (!connects.admit(*connect, source)) {
+    if (!connects.admit(*connect, source) || is_taken_elsewhere(raw_value(*connect))) {
       ++counters.repeated_connects;
       return false;
     }
+    admitted = word_of(datagram, head);
     return holds_place(raw_value(*connect)) || make_place();
+  }
+
+  static Word word_of(ByteView datagram, const DatagramHead& head) {
+    Word word;
+    std::memcpy(word.data(), datagram.data() + head.checksum_offset, word.size());
+    return word;
+  }
+
+  [[nodiscard]] bool comes_from(const ENetPeer& peer) const {
+    return peer.address.host == host->receivedAddress.host &&
+           peer.address.port == host->receivedAddress.port;
+  }
+
+  // An id names one connection, since the keys of what is sent are found by it.
+  [[nodiscard]] bool is_taken_elsewhere(enet_uint32 connect) const {
+    return std::any_of(host->peers, host->peers + host->peerCount, [&](const ENetPeer& peer) {
+      return peer.state != ENET_PEER_STATE_DISCONNECTED && peer.connectID == connect &&
+             !comes_from(peer);
+    });
   }
 
   // A request that ENet has taken already: its answer was lost.
   [[nodiscard]] bool holds_place(enet_uint32 connect) const {
     return std::any_of(host->peers, host->peers + host->peerCount, [&](const ENetPeer& peer) {
       return peer.state != ENET_PEER_STATE_DISCONNECTED && peer.connectID == connect &&
-             peer.address.host == host->receivedAddress.host &&
-             peer.address.port == host->receivedAddress.port;
+             comes_from(peer);
     });
   }
 
@@ -304,6 +325,7 @@ struct EnetTransport::State {
     entry.trusted = entry.closing = false;
     entry.since_us = now_us;
     entry.commands = {};
+    entry.seal = {};
     entry.datagrams = entry.packets = {};
     if (listens) limit(entry, limits.stranger_packets_per_second, limits.stranger_bytes_per_second);
   }
@@ -311,18 +333,14 @@ struct EnetTransport::State {
   [[nodiscard]] bool admit_peer(std::span<std::byte> datagram, const DatagramHead& head) {
     const ENetPeer* peer = head.peer < host->peerCount ? &host->peers[head.peer] : nullptr;
     const bool known = peer != nullptr && peer->state != ENET_PEER_STATE_DISCONNECTED &&
-                       peer->state != ENET_PEER_STATE_ZOMBIE &&
-                       peer->address.host == host->receivedAddress.host &&
-                       peer->address.port == host->receivedAddress.port;
+                       peer->state != ENET_PEER_STATE_ZOMBIE && comes_from(*peer);
     if (!known) {
       ++counters.strays;
       return false;
     }
-    if (!checksum.verify(datagram, head, raw_word(peer->connectID))) {
-      ++counters.forged;
-      return false;
-    }
     Entry& entry = entries[head.peer];
+    if (!authenticate(entry, datagram, head)) return false;
+    admitted = word_of(datagram, head);
     const auto bytes = static_cast<std::uint32_t>(datagram.size());
     if (!entry.datagrams.admit(now_us, bytes)) return beyond_limits(entry, entry.datagrams);
     const std::uint16_t delivered =
@@ -340,6 +358,12 @@ struct EnetTransport::State {
     }
     return false;
   }
+
+  // transport_enet.cpp: the seals of connections that have keys of their own.
+  [[nodiscard]] bool authenticate(Entry& entry, std::span<std::byte>& datagram,
+                                  const DatagramHead& head);
+  [[nodiscard]] Word finish(std::size_t size);
+  [[nodiscard]] Entry* entry_of(enet_uint32 connection);
 
   static void limit(Entry& entry, std::uint32_t packets_per_second,
                     std::uint32_t bytes_per_second) {
@@ -397,13 +421,14 @@ struct EnetTransport::State {
     const std::size_t offset = sent ? offsetof(ENetHost, buffers) : offsetof(ENetHost, packetData);
     const void* begin = static_cast<const std::byte*>(inside) - offset;
     State& state = of(static_cast<const ENetHost*>(begin));
+    if (!sent) return raw_value(state.admitted);  // the gate has judged it
     std::size_t size = 0;
     for (const ENetBuffer& buffer : std::span(buffers, count)) {
       if (buffer.dataLength > state.gathered.size() - size) return 0;  // longer than any datagram
       std::memcpy(state.gathered.data() + size, buffer.data, buffer.dataLength);
       size += buffer.dataLength;
     }
-    return raw_value(state.checksum.of(ByteView(state.gathered).first(size)));
+    return raw_value(state.finish(size));
   }
 
   void configure(const EnetOptions& options) {

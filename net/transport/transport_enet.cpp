@@ -125,8 +125,59 @@ void EnetTransport::trust(ConnectionId connection) {
   State::limit(*entry, limits.packets_per_second, limits.bytes_per_second);
 }
 
+void EnetTransport::protect(ConnectionId connection, const DatagramKeys& keys, bool peer_has_them) {
+  if (State::Entry* entry = state_->find(connection)) entry->seal = {keys, peer_has_them};
+}
+
 const EnetCounters& EnetTransport::counters() const {
   return state_->counters;
+}
+
+// Nothing of a datagram counts for or against the peer before this. Takes the seal off.
+bool EnetTransport::State::authenticate(Entry& entry, std::span<std::byte>& datagram,
+                                        const DatagramHead& head) {
+  const Word connection = raw_word(host->peers[head.peer].connectID);
+  DatagramSeal::Outcome outcome = DatagramSeal::Outcome::forged;
+  if (entry.seal.present()) outcome = entry.seal.open(datagram, head, connection);
+  if (outcome == DatagramSeal::Outcome::ok) {
+    datagram = datagram.first(datagram.size() - DatagramSeal::k_bytes);
+    host->receivedDataLength = datagram.size();
+    return true;
+  }
+  if (outcome == DatagramSeal::Outcome::replayed) {
+    ++counters.replayed;
+    return false;
+  }
+  if (!entry.seal.required() && checksum.verify(datagram, head, connection)) return true;
+  ++counters.forged;
+  return false;
+}
+
+// The checksum of the gathered datagram, which is sent instead of ENet's buffers if it is sealed:
+// ENet reads them after its call of compute_checksum.
+Word EnetTransport::State::finish(std::size_t size) {
+  const std::span<std::byte> datagram = std::span(gathered).first(size);
+  const std::optional<DatagramHead> head = read_head(datagram);
+  Entry* entry = head ? entry_of(raw_value(word_of(datagram, *head))) : nullptr;
+  const std::size_t sealed_size = size + DatagramSeal::k_bytes;
+  if (entry == nullptr || !entry->seal.sends() || sealed_size > gathered.size()) {
+    return checksum.of(datagram);
+  }
+  const Word word = entry->seal.seal(std::span(gathered).first(sealed_size));
+  std::memcpy(gathered.data() + head->checksum_offset, word.data(), word.size());
+  host->buffers[0].data = gathered.data();
+  host->buffers[0].dataLength = sealed_size;
+  host->bufferCount = 1;
+  return word;
+}
+
+EnetTransport::State::Entry* EnetTransport::State::entry_of(enet_uint32 connection) {
+  for (std::size_t i = 0; i < host->peerCount; ++i) {
+    const ENetPeer& peer = host->peers[i];
+    const bool used = peer.state != ENET_PEER_STATE_DISCONNECTED;
+    if (used && peer.connectID == connection) return &entries[i];
+  }
+  return nullptr;
 }
 
 }  // namespace lockstone::net

@@ -62,6 +62,9 @@ class TapTransport final : public Transport {
   }
   void flush() override { carrier_.flush(); }
   void disconnect(ConnectionId connection) override { carrier_.disconnect(connection); }
+  void protect(ConnectionId connection, const DatagramKeys& keys, bool peer_has_them) override {
+    carrier_.protect(connection, keys, peer_has_them);
+  }
   [[nodiscard]] TransportStats stats(ConnectionId connection) const override {
     return carrier_.stats(connection);
   }

@@ -31,6 +31,12 @@ struct LinkKey {
   friend bool operator==(const LinkKey&, const LinkKey&) = default;
 };
 
+/// What only the two ends of one connection know: the keys of the datagrams in either direction.
+struct DatagramKeys {
+  LinkKey send;
+  LinkKey receive;
+};
+
 /// Where secrets and nonces are drawn from. Anything but SystemRandom is for tests.
 class RandomSource {
  public:

@@ -64,6 +64,8 @@ struct TransportStats {
   std::int64_t round_trip_us = -1;  ///< smoothed; -1 while unknown
 };
 
+struct DatagramKeys;
+
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -92,6 +94,12 @@ class Transport {
 
   /// The peer plays: limits that are narrower for strangers no longer hold for it.
   virtual void trust(ConnectionId /*connection*/) {}
+
+  /// Both ends have keys of their own now, under which a transport of datagrams seals them. What
+  /// comes without a seal is dropped from the first sealed datagram on. `peer_has_them`: this side
+  /// seals at once; else it begins after that datagram.
+  virtual void protect(ConnectionId /*connection*/, const DatagramKeys& /*keys*/,
+                       bool /*peer_has_them*/) {}
 };
 
 }  // namespace lockstone::net

@@ -56,6 +56,7 @@ struct EnetCounters {
   std::uint64_t floods = 0;             ///< peers disconnected for that
   std::uint64_t too_far_ahead = 0;      ///< more reliable packets behind a gap than may wait
   std::uint64_t crowded = 0;            ///< requests from an address that has all its places
+  std::uint64_t replayed = 0;           ///< sealed ones that came before, or are too old to know
   std::uint64_t oversized = 0;          ///< longer than any datagram of ENet
 };
 
@@ -94,6 +95,7 @@ class EnetTransport final : public Transport {
   void disconnect(ConnectionId connection) override;
   [[nodiscard]] TransportStats stats(ConnectionId connection) const override;
   void trust(ConnectionId connection) override;
+  void protect(ConnectionId connection, const DatagramKeys& keys, bool peer_has_them) override;
 
   [[nodiscard]] const EnetCounters& counters() const;
 
