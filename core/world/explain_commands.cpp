@@ -188,6 +188,7 @@ class CommandExplainer {
 // Whether every body of the island may.
 bool World::Impl::may_island_sleep(std::uint32_t body) {
   join_islands();
+  are_active_joints_current = false;  // nothing was woken across joints: that is for the next step
   const std::uint32_t island = islands.root(body);
   return std::ranges::all_of(awake.list(), [&](std::uint32_t other) {
     const BodyRecord& record = bodies[other];
