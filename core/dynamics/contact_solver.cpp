@@ -160,10 +160,10 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       solver_index_(body_capacity),
       joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity)),
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
-      direct_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
+      direct_(body_capacity + contact_capacity + joint_capacity, body_capacity, contact_capacity),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
       first_loads_(contact_capacity),
-      islands_(body_capacity + contact_capacity + joint_capacity + 1) {
+      islands_(body_capacity + contact_capacity + joint_capacity + 1, body_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
   bodies_.reserve(most_rows);
@@ -175,7 +175,6 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);
-  entry_islands_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
       std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
@@ -298,8 +297,8 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     IslandLoad& island = island_of(slot);
     if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
-    if (island.asks_for_load() && is_loaded(scene, entry, source.share_b)) island.count_loaded();
-    if (DirectContacts::is_uneven(source.share_b)) island.note_uneven();
+    if (island.few_are_loaded() && is_loaded(scene, entry, source.share_b)) island.loaded.raise();
+    if (DirectContacts::is_uneven(source.share_b)) island.uneven.raise();
     restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);

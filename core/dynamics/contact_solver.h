@@ -5,6 +5,7 @@
 // What differs is told in docs/solver.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -150,7 +151,7 @@ class ContactSolver {
   // A record's bodies, and what of them decides who enters the solver: the motion in the upper two
   // bits, none of a record that is left out.
   struct Side {
-    static constexpr int k_motion_bit = 30;
+    static constexpr int k_motion_bit = 30, k_mark_bit = 29;
 
     std::uint32_t word = 0;
 
@@ -158,17 +159,22 @@ class ContactSolver {
     Side(std::uint32_t body, MotionType motion)
         : word(body | static_cast<std::uint32_t>(motion) << k_motion_bit) {}
 
-    [[nodiscard]] std::uint32_t body() const { return word & ((1U << k_motion_bit) - 1); }
+    [[nodiscard]] std::uint32_t body() const { return word & ((1U << k_mark_bit) - 1); }
     [[nodiscard]] MotionType motion() const {
       return static_cast<MotionType>(word >> k_motion_bit);
     }
     [[nodiscard]] bool is_left_out() const { return word == 0; }
+    // Of side A: a contact of this tick between what moves. Of side B: a contact whose load is
+    // several times a weight.
+    [[nodiscard]] bool is_marked() const { return (word >> k_mark_bit & 1) != 0; }
+    void mark() { word |= 1U << k_mark_bit; }
     [[nodiscard]] bool is_dynamic() const { return motion() == MotionType::dynamic; }
   };
   struct Sides {
     Side a, b;
-    bool is_new = false;      // a contact of this tick between what moves
-    bool is_bearing = false;  // its load is several times a weight
+
+    [[nodiscard]] bool is_new() const { return a.is_marked(); }
+    [[nodiscard]] bool is_bearing() const { return b.is_marked(); }
   };
 
   // What `store` reads and writes of a world.
@@ -206,8 +212,12 @@ class ContactSolver {
   void add_supports(const ContactScene& scene, const Takes& takes);
   [[nodiscard]] bool is_free(std::uint32_t index) const;
   void count_islands(const ContactScene& scene);
+  // An entry has at least one dynamic body; all others are of island 0.
   [[nodiscard]] IslandLoad& island_of(std::size_t entry) {
-    return islands_.load(entry_islands_[entry]);
+    const auto of = [this](std::uint32_t index) {
+      return (index & k_immovable) != 0 ? 0 : islands_.of(index);
+    };
+    return islands_.load(std::max(of(entries_[entry].body_a), of(entries_[entry].body_b)));
   }
   [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
   [[nodiscard]] bool is_loaded(const ContactScene& scene, const Entry& entry,
@@ -300,7 +310,6 @@ class ContactSolver {
   std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
   TickIslands islands_;
-  std::vector<std::uint32_t> entry_islands_;  // by entry
   Range ranges_[k_graph_colors + 1];
   const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most
   std::vector<std::uint32_t> slots_;  // by lane of each block: an entry, or k_no_contact

@@ -36,7 +36,7 @@ std::uint32_t ContactSolver::take_up(Side side) {
   if (known == 0) solver_index_[body] = index;
   members_.push_back(body);
   graph_.add_body();
-  islands_.add_body();
+  islands_.add_body(side.is_dynamic());
   return index;
 }
 
@@ -51,8 +51,9 @@ void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std
       return {body, static_cast<MotionType>(scene.bodies[body].motion)};
     };
     sides_[i] = {side_of(record.body_a), side_of(record.body_b)};
-    sides_[i].is_new = record.count == 0 && sides_[i].a.is_dynamic() && sides_[i].b.is_dynamic();
-    sides_[i].is_bearing = std::int64_t{record.load.raw} * record.count > heap_push_;
+    if (record.count == 0 && sides_[i].a.is_dynamic() && sides_[i].b.is_dynamic())
+      sides_[i].a.mark();
+    if (std::int64_t{record.load.raw} * record.count > heap_push_) sides_[i].b.mark();
   }
 }
 
@@ -95,14 +96,12 @@ void ContactSolver::count_islands(const ContactScene& scene) {
     if (both_move) islands_.join(a, b);
   }
   islands_.settle();
-  entry_islands_.resize(entries_.size());
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Sides& sides = sides_[entries_[i].record];
-    entry_islands_[i] = islands_.of(sides.a.is_dynamic() ? entries_[i].body_a : entries_[i].body_b);
     IslandLoad& load = island_of(i);
     ++load.contacts;
-    load.fresh += sides.is_new ? 1 : 0;
-    load.bearing += sides.is_bearing ? 1 : 0;
+    load.fresh += sides.is_new() ? 1 : 0;
+    load.bearing += sides.is_bearing() ? 1 : 0;
   }
   has_heap_ = islands_.any(&IslandLoad::is_heap);
 }

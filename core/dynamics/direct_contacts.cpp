@@ -20,7 +20,7 @@ constexpr std::size_t k_most_of_loaded = 128;
 constexpr std::size_t k_most_of_group = 160;
 
 // All systems of a world.
-constexpr std::size_t k_most_contacts = 4096;
+constexpr std::size_t k_most_contacts = 1024;
 
 // Where friction carries, what is farther apart is left to the sweeps, Q24: 1 mm.
 constexpr std::int64_t k_most_apart = (std::int64_t{1} << 24) / 1000;
@@ -33,7 +33,8 @@ bool is_heavy_beside(const DirectContacts::Link& link, std::uint32_t body) {
 
 }  // namespace
 
-DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_capacity)
+DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t pushed_capacity,
+                               std::size_t contact_capacity)
     : by_body_(body_capacity, contact_capacity),
       factors_{JointFactor(std::min(contact_capacity, k_most_contacts)),
                JointFactor(std::min(contact_capacity, k_most_contacts))} {
@@ -42,7 +43,7 @@ DirectContacts::DirectContacts(std::size_t body_capacity, std::size_t contact_ca
   left_out_.reserve(body_capacity);
   marks_.reserve(body_capacity + 1);
   link_marks_.reserve(contact_capacity);
-  queue_.reserve(body_capacity + 1);
+  queue_.reserve(pushed_capacity + 1);
   chosen_.reserve(contact_capacity);
   order_.reserve(contact_capacity);
   place_.reserve(contact_capacity);

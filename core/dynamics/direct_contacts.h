@@ -31,8 +31,10 @@ class DirectContacts {
     bool is_loaded = false;              // carries several times the weight of its lighter body
   };
 
-  /// No function but this allocates.
-  [[gnu::cold]] DirectContacts(std::size_t body_capacity, std::size_t contact_capacity);
+  /// Room for so many numbers of bodies, of which so many can be pushed. No function but this
+  /// allocates.
+  [[gnu::cold]] DirectContacts(std::size_t body_capacity, std::size_t pushed_capacity,
+                               std::size_t contact_capacity);
 
   void clear();
 

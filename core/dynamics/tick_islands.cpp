@@ -2,10 +2,9 @@
 
 namespace lockstone {
 
-TickIslands::TickIslands(std::size_t body_capacity) {
-  parents_.reserve(body_capacity);
-  island_.reserve(body_capacity);
-  loads_.reserve(body_capacity);
+TickIslands::TickIslands(std::size_t row_capacity, std::size_t body_capacity) {
+  parents_.reserve(row_capacity);
+  loads_.reserve(body_capacity + 1);
 }
 
 void TickIslands::clear() {
@@ -13,12 +12,11 @@ void TickIslands::clear() {
 }
 
 void TickIslands::settle() {
-  island_.resize(parents_.size());
   std::uint32_t count = 0;
-  // The root of an island is its first body, so it has its number when others ask for it.
+  // A parent comes before its children, so it has its island when they ask for it.
   for (std::uint32_t body = 0; body < parents_.size(); ++body) {
-    const std::uint32_t first = root(body);
-    island_[body] = first == body ? count++ : island_[first];
+    const std::uint32_t parent = parents_[body];
+    parents_[body] = parent == body ? count++ : parents_[parent];
   }
   loads_.assign(count, {});
 }

@@ -9,6 +9,23 @@
 
 namespace lockstone {
 
+/// A count that several threads raise, and that is copied while none does.
+class SharedCount {
+ public:
+  SharedCount(std::uint32_t count = 0) : count_(count) {}
+  SharedCount(const SharedCount& other) : count_(other.get()) {}
+  SharedCount& operator=(const SharedCount& other) {
+    count_.store(other.get(), std::memory_order_relaxed);
+    return *this;
+  }
+
+  [[nodiscard]] std::uint32_t get() const { return count_.load(std::memory_order_relaxed); }
+  void raise() { count_.fetch_add(1, std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint32_t> count_;
+};
+
 /// Counts of one island, and what the solver decides by them.
 struct IslandLoad {
   /// An island with more contacts of a kind than these leaves them to the iterations.
@@ -17,43 +34,39 @@ struct IslandLoad {
   std::uint32_t contacts = 0;
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
-  std::uint32_t loaded = 0;   ///< contacts at rest under several times a body's weight; from
+  SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
                               ///< k_most_loaded + 1 on it may be any greater number
-  std::uint32_t uneven = 0;   ///< 1: a contact joins a light body and a heavy one
+  SharedCount uneven;         ///< contacts of a light body and a heavy one
 
   [[nodiscard]] bool is_heap() const { return bearing > k_most_loaded; }
-  [[nodiscard]] bool few_are_loaded() const { return loaded <= k_most_loaded; }
+  [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
   /// Too large for a direct solve of all its contacts.
   [[nodiscard]] bool is_iterated() const { return contacts > k_most_loaded; }
   [[nodiscard]] bool needs_direct_solve() const {
-    return uneven != 0 || (loaded != 0 && few_are_loaded());
+    return uneven.get() != 0 || (loaded.get() != 0 && few_are_loaded());
   }
   /// More contacts are loaded than are solved at once, and a good part of all are new: nobody knows
   /// yet what they carry.
   [[nodiscard]] bool needs_first_loads() const {
     return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
   }
-
-  // Several threads count at the same time.
-  [[nodiscard]] bool asks_for_load() {
-    return std::atomic_ref(loaded).load(std::memory_order_relaxed) <= k_most_loaded;
-  }
-  void count_loaded() { std::atomic_ref(loaded).fetch_add(1, std::memory_order_relaxed); }
-  void note_uneven() { std::atomic_ref(uneven).store(1, std::memory_order_relaxed); }
 };
 
 /// Union-find over the solver's numbers of bodies, with path halving (R. Tarjan, J. van Leeuwen,
 /// "Worst-case analysis of set union algorithms", 1984).
 class TickIslands {
  public:
-  /// No function but this allocates.
-  explicit TickIslands(std::size_t body_capacity);
+  /// Room for so many numbers, of which so many are dynamic bodies. No function but this allocates.
+  TickIslands(std::size_t row_capacity, std::size_t body_capacity);
 
   /// Leaves body 0 alone.
   void clear();
 
-  /// Bodies are named 0, 1, 2, … in the order of adding.
-  void add_body() { parents_.push_back(static_cast<std::uint32_t>(parents_.size())); }
+  /// Bodies are named 0, 1, 2, … in the order of adding. One that is not dynamic belongs to island
+  /// 0, which is none.
+  void add_body(bool is_dynamic) {
+    parents_.push_back(is_dynamic ? static_cast<std::uint32_t>(parents_.size()) : 0);
+  }
 
   void join(std::uint32_t a, std::uint32_t b) {
     const std::uint32_t root_a = root(a), root_b = root(b);
@@ -66,7 +79,7 @@ class TickIslands {
   void settle();
 
   /// The island of a body, after `settle`.
-  [[nodiscard]] std::uint32_t of(std::uint32_t body) const { return island_[body]; }
+  [[nodiscard]] std::uint32_t of(std::uint32_t body) const { return parents_[body]; }
   [[nodiscard]] IslandLoad& load(std::uint32_t island) { return loads_[island]; }
   [[nodiscard]] const IslandLoad& load(std::uint32_t island) const { return loads_[island]; }
 
@@ -87,8 +100,7 @@ class TickIslands {
     return body;
   }
 
-  std::vector<std::uint32_t> parents_;
-  std::vector<std::uint32_t> island_;
+  std::vector<std::uint32_t> parents_;  // by body: one before it, or itself; its island in the end
   std::vector<IslandLoad> loads_;
 };
 

@@ -6,10 +6,10 @@ namespace lockstone {
 namespace {
 
 TickIslands islands_of(std::uint32_t bodies) {
-  TickIslands islands(bodies + 1);
+  TickIslands islands(bodies + 1, bodies);
   islands.clear();
   for (std::uint32_t i = 0; i < bodies; ++i)
-    islands.add_body();
+    islands.add_body(true);
   return islands;
 }
 
@@ -25,14 +25,26 @@ TEST(TickIslands, AreNumberedInTheOrderOfTheirFirstBodies) {
   EXPECT_EQ(islands.of(4), 3U);
 }
 
+TEST(TickIslands, LeaveOutBodiesThatAreNotDynamic) {
+  TickIslands islands(4, 2);
+  islands.clear();
+  islands.add_body(true);
+  islands.add_body(false);
+  islands.add_body(true);
+  islands.settle();
+  EXPECT_EQ(islands.of(1), 1U);
+  EXPECT_EQ(islands.of(2), 0U);
+  EXPECT_EQ(islands.of(3), 2U);
+}
+
 TEST(TickIslands, ForgetTheTickBefore) {
   TickIslands islands = islands_of(2);
   islands.join(1, 2);
   islands.settle();
   islands.load(islands.of(1)).contacts = 7;
   islands.clear();
-  islands.add_body();
-  islands.add_body();
+  islands.add_body(true);
+  islands.add_body(true);
   islands.settle();
   EXPECT_NE(islands.of(1), islands.of(2));
   EXPECT_EQ(islands.load(islands.of(1)).contacts, 0U);
@@ -42,22 +54,22 @@ TEST(IslandLoad, IsSolvedDirectlyUpToItsBudget) {
   IslandLoad load;
   EXPECT_FALSE(load.needs_direct_solve());
   for (std::uint32_t i = 0; i < IslandLoad::k_most_loaded; ++i)
-    load.count_loaded();
-  EXPECT_TRUE(load.asks_for_load());
+    load.loaded.raise();
+  EXPECT_TRUE(load.few_are_loaded());
   EXPECT_TRUE(load.needs_direct_solve());
-  load.count_loaded();
-  EXPECT_FALSE(load.asks_for_load());
+  load.loaded.raise();
+  EXPECT_FALSE(load.few_are_loaded());
   EXPECT_FALSE(load.needs_direct_solve());
-  load.note_uneven();
+  load.uneven.raise();
   EXPECT_TRUE(load.needs_direct_solve());
 }
 
 TEST(IslandLoad, NeedsFirstLoadsWhereManyAreLoadedAndAQuarterIsNew) {
-  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200, .uneven = 0};
+  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200, .uneven = {}};
   EXPECT_TRUE(load.needs_first_loads());
   load.fresh = 249;
   EXPECT_FALSE(load.needs_first_loads());
-  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128, .uneven = 0};
+  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128, .uneven = {}};
   EXPECT_FALSE(load.needs_first_loads());
 }
 

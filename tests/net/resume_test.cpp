@@ -42,7 +42,8 @@ void replace_server(Match& match, std::size_t lost) {
 
 void reconnect_lost(Match& match) {
   for (Match::Player& player : match.players) {
-    if (player.client->may_reconnect()) EXPECT_TRUE(match.reconnect(player));
+    if (!player.client->may_reconnect()) continue;
+    EXPECT_TRUE(match.reconnect(player));
   }
 }
 

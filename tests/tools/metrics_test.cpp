@@ -17,8 +17,11 @@ namespace lockstone::tool {
 namespace {
 
 MatchMetrics some_metrics() {
-  MatchMetrics metrics{
-      .port = 7777, .ticks = 60, .spectators = 1, .present_mask = 0b10, .players = {}};
+  MatchMetrics metrics;
+  metrics.port = 7777;
+  metrics.ticks = 60;
+  metrics.spectators = 1;
+  metrics.present_mask = 0b10;
   metrics.players.resize(2);
   metrics.players[1].late_inputs = 3;
   return metrics;

@@ -19,6 +19,11 @@ using Bytes = std::vector<std::byte>;
 constexpr std::size_t k_batch = 32;  // fits into any socket's buffer
 constexpr std::size_t k_head_bytes = 8;
 
+void append(Bytes& bytes, std::span<const std::byte> more) {
+  for (const std::byte byte : more)
+    bytes.push_back(byte);
+}
+
 void put(Bytes& bytes, std::initializer_list<unsigned> values) {
   for (const unsigned value : values)
     bytes.push_back(static_cast<std::byte>(value));
@@ -132,8 +137,8 @@ class Range {
                 std::to_integer<unsigned>(verify[5]), 0, 0});
     Bytes confirm;
     put(confirm, {1, 0xff, 0, 0});
-    confirm.insert(confirm.end(), verify.begin() + 2, verify.begin() + 4);
-    confirm.insert(confirm.end(), answer->begin() + 2, answer->begin() + 4);
+    append(confirm, std::span(verify).subspan(2, 2));
+    append(confirm, std::span(*answer).subspan(2, 2));
     send(sealed(confirm));
     serve();
     drain();

@@ -54,7 +54,7 @@ Color kind_color(arena::Kind kind) {
 }  // namespace
 
 Look plain_look(BodyHandle handle, const BodyView& view) {
-  constexpr std::array<Color, 5> k_colors{
+  constexpr std::array<Color, 5> k_body_colors{
       {{214, 140, 80}, {96, 150, 200}, {120, 176, 110}, {200, 110, 120}, {160, 130, 190}}};
   const int variation = static_cast<int>(handle.index * 37 % 31) - 15;
   if (view.is_trigger) return {{255, 210, 60}, true, {}};
@@ -63,7 +63,7 @@ Look plain_look(BodyHandle handle, const BodyView& view) {
   if (triangles && view.motion == MotionType::static_body) return {{188, 164, 128}, true, {}};
   if (view.motion == MotionType::static_body) return {{158, 166, 152}, true, {}};
   if (view.motion == MotionType::kinematic) return {{150, 110, 180}, true, {}};
-  return {shade(k_colors[handle.index % k_colors.size()], variation), true, {}};
+  return {shade(k_body_colors[handle.index % k_body_colors.size()], variation), true, {}};
 }
 
 Look arena_look(BodyHandle handle, const BodyView& view) {

@@ -1,6 +1,5 @@
 // Motors and springs in linkages.
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "tools/bench/general/maker.h"
@@ -9,7 +8,6 @@ namespace lockstone::bench {
 namespace {
 
 using namespace general;
-constexpr double k_pi = std::numbers::pi;
 
 void free_of_contacts(SceneMaker& m) {
   for (GeneralBody& body : m.scene.bodies)
