@@ -100,8 +100,8 @@ void ContactSolver::count_islands(const ContactScene& scene) {
     const Sides& sides = sides_[entries_[i].record];
     IslandLoad& load = island_of(i);
     ++load.contacts;
-    load.fresh += sides.is_new() ? 1 : 0;
-    load.bearing += sides.is_bearing() ? 1 : 0;
+    load.fresh += sides.is_new() ? 1U : 0U;
+    load.bearing += sides.is_bearing() ? 1U : 0U;
   }
   has_heap_ = islands_.any(&IslandLoad::is_heap);
 }
