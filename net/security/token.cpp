@@ -1,6 +1,7 @@
 // Issues, codes and opens tokens. Layouts: docs/wire-format.md, "Connect token".
 #include <algorithm>
 
+#include <lockstone/hash.h>
 #include <lockstone/simulation.h>
 
 #include "net/security/hexadecimal.h"
@@ -17,6 +18,8 @@ static_assert(crypto::k_token_nonce_bytes == k_token_nonce_bytes);
 // Domains: what a key derives for one purpose is of no use for another.
 constexpr std::string_view k_seal_domain = "lockstone token seal 1";
 constexpr std::string_view k_link_domain = "lockstone token link 1";
+
+constexpr std::uint64_t k_tag_seed = 0x6d61746368746167;  // "gathctam"
 
 ByteView bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text));
@@ -114,6 +117,13 @@ LinkKey make_link_key(const Key& backend_key, std::uint64_t match) {
   LinkKey key;
   std::copy_n(derived.bytes.begin(), key.bytes.size(), key.bytes.begin());
   return key;
+}
+
+std::uint32_t make_match_tag(std::uint64_t match) {
+  std::array<std::byte, 8> number{};
+  ByteWriter(number).put(match);
+  const auto tag = static_cast<std::uint32_t>(hash64(number, k_tag_seed) & 0xffffffff);
+  return tag == 0 ? 1 : tag;
 }
 
 Status open_sealed(const Key& backend_key, const ShownToken& token, SealedGrant& opened) {

@@ -113,7 +113,11 @@ SecureTransport::Impl::Link* SecureTransport::Impl::find(ConnectionId connection
 bool SecureTransport::Impl::translate(const TransportEvent& source, TransportEvent& event) {
   if (source.kind == TransportEventKind::connected) return accept(source.connection, event);
   Link* link = find(source.connection);
-  if (link == nullptr) return false;
+  if (link == nullptr) {
+    // A client whose call was refused before there was a connection.
+    event = source;
+    return !server && source.kind == TransportEventKind::disconnected;
+  }
   if (source.kind == TransportEventKind::received) return receive(*link, source, event);
   // A server's session hears of those alone who came in.
   const bool known = link->stage == Stage::open || !server;

@@ -122,7 +122,7 @@ bool is_usual_fragment(ByteView bytes, std::uint32_t data_bytes) {
 
 bool is_usual_connect(ByteView command) {
   return number32(command, 8) == k_enet_mtu && number32(command, 12) == k_enet_window_bytes &&
-         has_usual_terms(command.subspan(16)) && number32(command, 44) == 0;
+         has_usual_terms(command.subspan(16));
 }
 
 CommandFilter::Verdict CommandFilter::admit(ByteView commands, std::uint16_t delivered,

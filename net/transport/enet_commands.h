@@ -21,7 +21,8 @@ inline constexpr std::uint32_t k_enet_throttle_acceleration = 2;
 inline constexpr std::uint32_t k_enet_throttle_deceleration = 2;  ///< until a connection stands
 inline constexpr std::uint32_t k_enet_fragment_bytes = k_enet_mtu - 4 - 4 - 24;
 
-/// True if these 48 bytes are ENet's request for a connection as this transport makes it.
+/// True if these 48 bytes are ENet's request for a connection as this transport makes it. The last
+/// four may be anything.
 [[nodiscard]] bool is_usual_connect(ByteView command);
 
 /// The commands of one peer's datagrams. Knows which reliable packets wait for an earlier one.

@@ -58,6 +58,13 @@ std::optional<Word> read_connect(ByteView datagram, const DatagramHead& head) {
   return word_at(datagram, command + k_connect_id_offset);
 }
 
+std::uint32_t read_match_tag(ByteView datagram) {
+  std::uint32_t tag = 0;
+  for (const std::byte byte : datagram.last(k_word_bytes))
+    tag = tag << 8 | std::to_integer<std::uint32_t>(byte);
+  return tag;
+}
+
 Word LinkChecksum::of(ByteView datagram) const {
   const std::uint64_t hash =
       key_ ? crypto::short_hash(*key_, datagram) : hash64(datagram, k_open_seed);

@@ -34,6 +34,9 @@ inline constexpr std::uint16_t k_no_peer = 0xfff;
 /// The connection's id, if the datagram is one that asks for a connection and nothing else.
 [[nodiscard]] std::optional<Word> read_connect(ByteView datagram, const DatagramHead& head);
 
+/// The tag of the match that the caller means. Only where read_connect returns something.
+[[nodiscard]] std::uint32_t read_match_tag(ByteView datagram);
+
 /// The checksum of one match's datagrams: SipHash-2-4 under the link key, or, without one, a hash
 /// that anybody can compute and that finds damage only.
 class LinkChecksum {

@@ -16,6 +16,7 @@
 #include "net/transport/enet_commands.h"
 #include "net/transport/enet_datagram.h"
 #include "net/transport/flood_watch.h"
+#include "net/transport/refusal_limit.h"
 
 namespace lockstone::net {
 
@@ -42,7 +43,9 @@ inline constexpr unsigned k_max_oversized_a_poll = 64;
 inline constexpr std::int64_t k_longest_wait_us = 3'600'000'000;
 
 inline constexpr std::size_t k_remembered_connects = 1024;
-inline constexpr std::uint32_t k_refusals_per_second = 20;
+// Anybody who sees a request can refuse it: that counts where the server says nothing for so long.
+// ENet asks again after 0.5 s and 1.5 s.
+inline constexpr std::int64_t k_refusal_patience_us = 2'000'000;
 
 inline Word raw_word(enet_uint32 value) {
   Word word;
@@ -64,7 +67,9 @@ struct EnetTransport::State {
     bool trusted = false;
     bool closing = false;       ///< this side has ended it; the peer has yet to confirm that
     std::int64_t since_us = 0;  ///< when it was asked for, or when it began to close
-    RefuseReason ending = RefuseReason::none;  ///< the session is about to hear of this
+    RefuseReason ending = RefuseReason::none;   ///< the session is about to hear of this
+    RefuseReason hearsay = RefuseReason::none;  ///< what refuses it, by a word of unknown origin
+    std::int64_t hearsay_us = 0;                ///< when that came
     CommandFilter commands;
     DatagramSeal seal;
     FloodWatch datagrams;
@@ -83,11 +88,12 @@ struct EnetTransport::State {
   LinkChecksum checksum;
   LinkChecksum open_checksum{std::nullopt};
   DatagramLimits limits;
+  std::uint32_t match_tag;
   std::size_t places_per_address;
   std::size_t strangers_per_address;
   bool listens = false;
   ConnectMemory connects{k_remembered_connects};
-  RateLimit refusals{k_refusals_per_second, k_refusals_per_second};
+  RefusalLimit refusals;
   std::int64_t now_us = 0;
   bool any_ending = false;
   EnetCounters counters;
@@ -99,6 +105,7 @@ struct EnetTransport::State {
         entries(options.max_connections),
         checksum(options.link_key),
         limits(options.limits),
+        match_tag(options.match_tag),
         places_per_address(options.max_connections_per_address),
         strangers_per_address(options.max_strangers_per_address) {}
   State(const State&) = delete;
@@ -209,7 +216,7 @@ struct EnetTransport::State {
   // ENet would keep what was asked for and never confirmed for 30 s, and who does not confirm the
   // end of a connection for timeout_ms.
   void let_go_of_the_silent() {
-    if (!listens) return;
+    if (!listens) return believe_refusals();
     for (std::size_t i = 0; i < host->peerCount; ++i) {
       ENetPeer& peer = host->peers[i];
       Entry& entry = entries[i];
@@ -250,8 +257,7 @@ struct EnetTransport::State {
     }
     if (!checksum.verify(datagram, head, Word{})) {
       ++counters.forged;
-      // Of the other kind? Without a key, anything that has not the open checksum may be.
-      if (!checksum.keyed() || open_checksum.verify(datagram, head, Word{})) refuse(*connect);
+      refuse(*connect, reason_against(datagram, head));
       return false;
     }
     if (!is_usual_connect(datagram.subspan(head.checksum_offset + sizeof(Word)))) {
@@ -324,6 +330,7 @@ struct EnetTransport::State {
   void prepare(Entry& entry) const {
     entry.trusted = entry.closing = false;
     entry.since_us = now_us;
+    entry.hearsay = RefuseReason::none;
     entry.commands = {};
     entry.seal = {};
     entry.datagrams = entry.packets = {};
@@ -359,7 +366,12 @@ struct EnetTransport::State {
     return false;
   }
 
-  // transport_enet.cpp: the seals of connections that have keys of their own.
+  // transport_enet.cpp: refusals, and the seals of connections that have keys of their own.
+  void refuse(const Word& connect, RefuseReason reason);
+  [[nodiscard]] RefuseReason reason_against(std::span<std::byte> request,
+                                            const DatagramHead& head) const;
+  void take_refusal(const LinkRefusal& refusal);
+  void believe_refusals();
   [[nodiscard]] bool authenticate(Entry& entry, std::span<std::byte>& datagram,
                                   const DatagramHead& head);
   [[nodiscard]] Word finish(std::size_t size);
@@ -380,26 +392,6 @@ struct EnetTransport::State {
       ++counters.floods;
     }
     return false;
-  }
-
-  void refuse(const Word& connect) {
-    if (!refusals.take(now_us, 1)) return;
-    ++counters.refusals;
-    auto bytes = encode(LinkRefusal{RefuseReason::insecure_not_allowed, connect});
-    ENetBuffer buffer{};
-    buffer.data = bytes.data();
-    buffer.dataLength = bytes.size();
-    enet_socket_send(host->socket, &host->receivedAddress, &buffer, 1);
-  }
-
-  void take_refusal(const LinkRefusal& refusal) {
-    for (Entry& entry : entries) {
-      const bool meant = entry.open && entry.peer->state == ENET_PEER_STATE_CONNECTING &&
-                         raw_word(entry.peer->connectID) == refusal.connection;
-      if (!meant) continue;
-      entry.ending = refusal.reason;
-      any_ending = true;
-    }
   }
 
   // ENet's callbacks. It has no room for a user's pointer in a host, but the compressor's context,

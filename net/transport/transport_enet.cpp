@@ -38,7 +38,7 @@ Result<ConnectionId> EnetTransport::connect(const std::string& address, std::uin
   ENetAddress target{};
   if (enet_address_set_host_ip(&target, address.c_str()) != 0) return Status::invalid_argument;
   target.port = port;
-  ENetPeer* peer = enet_host_connect(state_->host, &target, k_channels, 0);
+  ENetPeer* peer = enet_host_connect(state_->host, &target, k_channels, state_->match_tag);
   if (peer == nullptr) return Status::capacity_exhausted;
   return state_->adopt(peer);
 }
@@ -131,6 +131,50 @@ void EnetTransport::protect(ConnectionId connection, const DatagramKeys& keys, b
 
 const EnetCounters& EnetTransport::counters() const {
   return state_->counters;
+}
+
+// Shorter than the request, and seldom: no use for drowning the one whose address it bears.
+void EnetTransport::State::refuse(const Word& connect, RefuseReason reason) {
+  if (reason == RefuseReason::none) return;
+  if (!refusals.take(host->receivedAddress.host, now_us)) return;
+  ++counters.refusals;
+  auto bytes = encode(LinkRefusal{reason, connect});
+  ENetBuffer buffer{};
+  buffer.data = bytes.data();
+  buffer.dataLength = bytes.size();
+  enet_socket_send(host->socket, &host->receivedAddress, &buffer, 1);
+}
+
+// Why the sender of a request with a wrong checksum cannot come in, if that can be told.
+RefuseReason EnetTransport::State::reason_against(std::span<std::byte> request,
+                                                  const DatagramHead& head) const {
+  // Without a key, anything that has not the open checksum may be of the other kind.
+  if (!checksum.keyed() || open_checksum.verify(request, head, Word{})) {
+    return RefuseReason::insecure_not_allowed;
+  }
+  const std::uint32_t tag = read_match_tag(request);
+  const bool other = match_tag != 0 && tag != 0 && tag != match_tag;
+  return other ? RefuseReason::wrong_match : RefuseReason::none;
+}
+
+void EnetTransport::State::take_refusal(const LinkRefusal& refusal) {
+  for (Entry& entry : entries) {
+    const bool meant = entry.open && entry.peer->state == ENET_PEER_STATE_CONNECTING &&
+                       raw_word(entry.peer->connectID) == refusal.connection;
+    if (!meant || entry.hearsay != RefuseReason::none) continue;
+    entry.hearsay = refusal.reason;
+    entry.hearsay_us = now_us;
+  }
+}
+
+void EnetTransport::State::believe_refusals() {
+  for (Entry& entry : entries) {
+    const bool waited = entry.open && entry.hearsay != RefuseReason::none &&
+                        now_us - entry.hearsay_us >= k_refusal_patience_us;
+    if (!waited || entry.peer->state != ENET_PEER_STATE_CONNECTING) continue;
+    entry.ending = entry.hearsay;
+    any_ending = true;
+  }
 }
 
 // Nothing of a datagram counts for or against the peer before this. Takes the seal off.

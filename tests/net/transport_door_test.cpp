@@ -7,6 +7,7 @@
 #include <lockstone/net/transport_enet.h>
 
 #include "net/transport/enet_datagram.h"
+#include "net/transport/refusal_limit.h"
 #include "tests/support/await.h"
 #include "tools/relay/udp_socket.h"
 
@@ -101,6 +102,92 @@ TEST(EnetDoor, OversizedDatagramsDoNotEndAPoll) {
   EXPECT_FALSE(server->poll(0, event));
   EXPECT_EQ(server->counters().oversized, 20U);
   EXPECT_EQ(server->counters().datagrams, 1U);
+}
+
+// A client, and somebody between it and the server.
+struct Eavesdropped {
+  // The client's request for a connection, which has come to the one between.
+  std::vector<std::byte> request() {
+    std::array<std::byte, 2048> buffer{};
+    std::vector<std::byte> bytes;
+    lockstone::test::await([&] {
+      EXPECT_FALSE(client->poll(0, event));
+      if (const auto datagram = middle->receive(client_end, buffer))
+        bytes.assign(datagram->begin(), datagram->end());
+      return !bytes.empty();
+    });
+    return bytes;
+  }
+
+  // The true server's answer is on its way to the client after this.
+  void pass_on(ByteView request) {
+    EXPECT_TRUE(middle->send(Endpoint::loopback(server->port()), request));
+    std::array<std::byte, 2048> buffer{};
+    Endpoint from;
+    lockstone::test::await([&] {
+      static_cast<void>(server->poll(0, event));
+      const auto answer = middle->receive(from, buffer);
+      return answer && from.port == server->port() && middle->send(client_end, *answer);
+    });
+  }
+
+  void refuse(ByteView request, RefuseReason reason) {
+    Word id;
+    std::copy_n(request.begin() + 48, id.size(), id.begin());
+    EXPECT_TRUE(middle->send(client_end, encode(LinkRefusal{reason, id})));
+    const std::uint64_t before = client->counters().datagrams;
+    lockstone::test::await([&] {
+      EXPECT_FALSE(client->poll(0, event));
+      return client->counters().datagrams > before;
+    });
+  }
+
+  std::unique_ptr<EnetTransport> server = listening({});
+  std::unique_ptr<EnetTransport> client = std::move(EnetTransport::open({})).value();
+  std::unique_ptr<UdpSocket> middle = caller();
+  ConnectionId connection = client->connect("127.0.0.1", middle->port()).value();
+  Endpoint client_end;
+  TransportEvent event;
+};
+
+TEST(EnetDoor, AForgedRefusalDoesNotKeepAClientOut) {
+  for (const RefuseReason reason :
+       {RefuseReason::insecure_not_allowed, RefuseReason::wrong_match}) {
+    Eavesdropped pair;
+    const std::vector<std::byte> request = pair.request();
+    pair.refuse(request, reason);
+    EXPECT_FALSE(pair.client->poll(1'999'999, pair.event));
+    pair.pass_on(request);
+    lockstone::test::await([&] { return pair.client->poll(1'999'999, pair.event); });
+    EXPECT_EQ(pair.event.kind, TransportEventKind::connected);
+    EXPECT_FALSE(pair.client->poll(9'000'000, pair.event));
+  }
+}
+
+TEST(EnetDoor, ARefusalIsTheCauseWhereTheServerSaysNothingForTwoSeconds) {
+  Eavesdropped pair;
+  pair.refuse(pair.request(), RefuseReason::wrong_match);
+  ASSERT_TRUE(pair.client->poll(2'000'000, pair.event));
+  EXPECT_EQ(pair.event.kind, TransportEventKind::disconnected);
+  EXPECT_EQ(pair.event.reason, RefuseReason::wrong_match);
+}
+
+TEST(RefusalLimit, OneAddressDoesNotUseUpWhatOthersHear) {
+  RefusalLimit limit;
+  unsigned taken = 0;
+  for (int i = 0; i < 1000; ++i)
+    taken += limit.take(1, 0) ? 1U : 0U;
+  EXPECT_EQ(taken, RefusalLimit::k_source_burst);
+  EXPECT_TRUE(limit.take(2, 0));
+  EXPECT_TRUE(limit.take(1, 1'000'000));
+}
+
+TEST(RefusalLimit, AllAddressesTogetherAreLimited) {
+  RefusalLimit limit;
+  unsigned taken = 0;
+  for (std::uint32_t address = 0; address < 1000; ++address)
+    taken += limit.take(address, 0) ? 1U : 0U;
+  EXPECT_EQ(taken, RefusalLimit::k_per_second);
 }
 
 TEST(EnetDoor, APortInUseIsNamed) {

@@ -130,23 +130,28 @@ TEST(EnetTransport, PlaysAnEncryptedMatch) {
   EXPECT_EQ(match.server_transport->counters().forged, 0U);
 }
 
-// What a client without the right key hears of a server, if anything.
+// What a client without the right key hears of a server, if anything, with 10 ms for each round.
 TransportEvent first_word(const std::optional<LinkKey>& server_key,
-                          const std::optional<LinkKey>& client_key) {
+                          const std::optional<LinkKey>& client_key, std::uint32_t server_tag = 0,
+                          std::uint32_t client_tag = 0) {
   EnetOptions server_options, client_options;
   server_options.link_key = server_key;
+  server_options.match_tag = server_tag;
   client_options.link_key = client_key;
+  client_options.match_tag = client_tag;
   const auto server = std::move(EnetTransport::listen(server_options)).value();
   const auto client = std::move(EnetTransport::open(client_options)).value();
   EXPECT_TRUE(client->connect("127.0.0.1", server->port()).ok());
   TransportEvent event;
-  // Without an answer, a hundred rounds more after the server has seen the request.
+  // Without an answer, some seconds more after the server has seen the request.
   bool answered = false;
   int rounds = 0;
+  std::int64_t now_us = 0;
   lockstone::test::await([&] {
-    EXPECT_FALSE(server->poll(clock_us(), event));
-    answered = client->poll(clock_us(), event);
-    return answered || (server->counters().forged > 0 && ++rounds > 100);
+    now_us += 10'000;
+    EXPECT_FALSE(server->poll(now_us, event));
+    answered = client->poll(now_us, event);
+    return answered || (server->counters().forged > 0 && ++rounds > 400);
   });
   if (answered) return event;
   EXPECT_EQ(server->counters().refusals, 0U);
@@ -171,6 +176,41 @@ TEST(EnetTransport, AnswersNothingToAnotherKey) {
   const TransportEvent event =
       first_word(make_link_key(backend_key(), k_match), make_link_key(backend_key(), k_match + 1));
   EXPECT_EQ(event.connection, k_no_connection);
+}
+
+TEST(EnetTransport, TellsAPeerOfAnotherMatch) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  const TransportEvent event =
+      first_word(make_link_key(backend_key(), k_match), make_link_key(backend_key(), k_match + 1),
+                 make_match_tag(k_match), make_match_tag(k_match + 1));
+  EXPECT_EQ(event.kind, TransportEventKind::disconnected);
+  EXPECT_EQ(event.reason, RefuseReason::wrong_match);
+}
+
+TEST(EnetTransport, TellsAClientWithATokenWhyThereIsNoConnection) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  for (const bool server_open : {false, true}) {
+    EnetOptions options;
+    if (!server_open) options.link_key = make_link_key(backend_key(), k_match + 1);
+    options.match_tag = make_match_tag(k_match + 1);
+    const auto server = std::move(EnetTransport::listen(options)).value();
+    options.link_key = make_link_key(backend_key(), k_match);
+    options.match_tag = make_match_tag(k_match);
+    const auto socket = std::move(EnetTransport::open(options)).value();
+    TestRandom random(6);
+    const auto client = join_securely(*socket, 0, random);
+    EXPECT_TRUE(socket->connect("127.0.0.1", server->port()).ok());
+    TransportEvent event;
+    std::int64_t now_us = 0;
+    lockstone::test::await([&] {
+      now_us += 10'000;
+      static_cast<void>(server->poll(now_us, event));
+      return client->poll(now_us, event);
+    });
+    EXPECT_EQ(event.kind, TransportEventKind::disconnected);
+    EXPECT_EQ(event.reason,
+              server_open ? RefuseReason::insecure_not_allowed : RefuseReason::wrong_match);
+  }
 }
 
 TEST(EnetTransport, PlaysInRealTime) {

@@ -166,6 +166,9 @@ class Network(unittest.TestCase):
             69, "join", "--port", port, "--token", "late"))
         self.assertIn("insecure not allowed", self.run_command(
             69, "join", "--port", port, "--insecure"))
+        self.issue("elsewhere", 0, match=6)
+        self.assertIn("token of another match", self.run_command(
+            69, "join", "--port", port, "--token", "elsewhere"))
         self.issue("first", 0, "--server", f"127.0.0.1:{port}")
         self.issue("second", 1)
         self.assertIn("token of another slot", self.run_command(

@@ -204,7 +204,10 @@ std::unique_ptr<Caller> call(const std::string& host, std::uint16_t port,
                              const std::optional<net::ConnectToken>& token) {
   auto caller = std::make_unique<Caller>();
   net::EnetOptions enet;
-  if (token) enet.link_key = token->link_key;
+  if (token) {
+    enet.link_key = token->link_key;
+    enet.match_tag = net::make_match_tag(token->grant.match);
+  }
   auto opened = net::EnetTransport::open(enet);
   if (!opened) {
     complain(fmt::format("no socket: {}", to_string(opened.status())));

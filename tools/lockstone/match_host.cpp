@@ -294,7 +294,10 @@ struct MatchHost::Impl final : net::ServerObserver {
     enet.max_connections = connections();
     enet.max_connections_per_address = options.max_per_address;
     if (options.fast) enet.limits = net::DatagramLimits::none();
-    if (options.key) enet.link_key = net::make_link_key(*options.key, options.match);
+    if (options.key) {
+      enet.link_key = net::make_link_key(*options.key, options.match);
+      enet.match_tag = net::make_match_tag(options.match);
+    }
     std::string problem;
     auto listening = net::EnetTransport::listen(enet, &problem);
     if (!listening) return refuse("cannot listen on " + problem);

@@ -97,6 +97,7 @@ struct TrialMatch::Impl {
   [[nodiscard]] bool start_server() {
     net::EnetOptions enet_options;
     enet_options.link_key = net::make_link_key(key, k_match);
+    enet_options.match_tag = net::make_match_tag(k_match);
     enet_options.limits = options.limits;
     enet_options.max_connections_per_address = 64;  // all are on this machine
     auto listening = net::EnetTransport::listen(enet_options);
@@ -121,6 +122,7 @@ struct TrialMatch::Impl {
     const net::ConnectToken token = token_for(slot, static_cast<std::uint8_t>(slot), k_unix_s + 60);
     net::EnetOptions enet_options;
     enet_options.link_key = token.link_key;
+    enet_options.match_tag = net::make_match_tag(token.grant.match);
     auto opened = net::EnetTransport::open(enet_options);
     if (!opened) return false;
     player.enet = std::move(opened).value();

@@ -82,6 +82,9 @@ struct ConnectToken {
 /// security_available.
 [[nodiscard]] LinkKey make_link_key(const Key& backend_key, std::uint64_t match);
 
+/// A number for the match that is no secret, for EnetOptions::match_tag. Never 0.
+[[nodiscard]] std::uint32_t make_match_tag(std::uint64_t match);
+
 void encode_token(const ConnectToken& token, std::span<std::byte, k_token_bytes> out);
 /// Checks all but the sealed part, which needs the backend's key. The token is unspecified unless
 /// ok.

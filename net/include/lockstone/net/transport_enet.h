@@ -40,7 +40,9 @@ struct EnetOptions {
   /// time: on a bad line ENet may send only three times in 5 s, and all three may be lost.
   std::uint32_t timeout_ms = 20000;
   std::optional<LinkKey> link_key = std::nullopt;  ///< none: open to everybody
-  DatagramLimits limits = {};                      ///< of those who call a listening socket
+  /// make_match_tag of the match: a client of another match is told so. 0: it hears nothing.
+  std::uint32_t match_tag = 0;
+  DatagramLimits limits = {};      ///< of those who call a listening socket
   RandomSource* random = nullptr;  ///< for numbers of connections; null: the system's
 };
 
@@ -51,7 +53,7 @@ struct EnetCounters {
   std::uint64_t strays = 0;             ///< of no connection that exists
   std::uint64_t forged = 0;             ///< wrong checksum
   std::uint64_t repeated_connects = 0;  ///< a request for a connection, sent again from elsewhere
-  std::uint64_t refusals = 0;           ///< answers to peers of the other kind, at most 20 a second
+  std::uint64_t refusals = 0;           ///< answers to peers of another kind or match, 20 a second
   std::uint64_t limited = 0;            ///< beyond a peer's limits
   std::uint64_t floods = 0;             ///< peers disconnected for that
   std::uint64_t too_far_ahead = 0;      ///< more reliable packets behind a gap than may wait
