@@ -17,6 +17,7 @@ SecureTransport::Impl::Impl(Transport& wrapped, RandomSource& random_source,
     : carrier(wrapped),
       secrets(random_source),
       links(max_connections),
+      entries(max_connections),
       sealed(k_max_reliable_bytes + k_carrier_reserve_bytes),
       opened(k_max_reliable_bytes + k_carrier_reserve_bytes) {}
 

@@ -179,6 +179,92 @@ TEST(SecureTransport, ANewerConnectionOfTheSamePlayerHasOtherKeysAndTakesOver) {
   EXPECT_EQ(server->send(1, Channel::reliable, word), Status::stale_handle);
 }
 
+// Shows its token and never proves that it has the keys.
+class HalfWay final : public Transport {
+ public:
+  explicit HalfWay(Transport& carrier) : carrier_(carrier) {}
+  bool poll(std::int64_t now_us, TransportEvent& event) override {
+    return carrier_.poll(now_us, event);
+  }
+  Status send(ConnectionId connection, Channel channel, ByteView bytes) override {
+    return sent_++ > 0 ? Status::ok : carrier_.send(connection, channel, bytes);
+  }
+  void flush() override { carrier_.flush(); }
+  void disconnect(ConnectionId connection) override { carrier_.disconnect(connection); }
+  [[nodiscard]] TransportStats stats(ConnectionId connection) const override {
+    return carrier_.stats(connection);
+  }
+
+ private:
+  Transport& carrier_;
+  unsigned sent_ = 0;
+};
+
+TEST(SecureTransport, HandshakesWithOneTokenHoldOnePlace) {
+  SimNetwork network(1);
+  TestRandom random(4);
+  SimTransport& server_end = network.add_endpoint();
+  SecureServerOptions options = server_options();
+  options.max_connections = 4;
+  const auto server = SecureTransport::serve(server_end, options, random);
+  const ConnectToken token = token_for(3, random);
+  std::int64_t now_us = 0;
+  TransportEvent event;
+  for (int i = 0; i < 12; ++i) {
+    SimTransport& end = network.add_endpoint();
+    network.connect(end, server_end, {});
+    HalfWay carrier(end);
+    const auto client = SecureTransport::join(carrier, token, random);
+    for (int round = 0; round < 5; ++round) {
+      static_cast<void>(client.value()->poll(++now_us, event));
+      EXPECT_FALSE(server.value()->poll(++now_us, event));
+    }
+  }
+  EXPECT_EQ(server.value()->counters().handshakes_replaced, 11U);
+  // Everybody else comes in beside it.
+  for (std::size_t slot = 0; slot < 3; ++slot) {
+    SimTransport& end = network.add_endpoint();
+    network.connect(end, server_end, {});
+    const auto client = join_securely(end, slot, random);
+    unsigned connected = 0;
+    for (int round = 0; round < 5; ++round) {
+      static_cast<void>(client->poll(++now_us, event));
+      while (server.value()->poll(++now_us, event))
+        connected += event.kind == TransportEventKind::connected ? 1U : 0U;
+    }
+    EXPECT_EQ(connected, 1U) << slot;
+  }
+}
+
+TEST(SecureTransport, APlayerWhoConnectsAgainAndAgainComesInOnceASecond) {
+  SimNetwork network(1);
+  TestRandom random(4);
+  SimTransport& server_end = network.add_endpoint();
+  const auto server = serve_securely(server_end, random);
+  const ConnectToken token = token_for(3, random);
+  std::int64_t now_us = 0;
+  const auto entries_of = [&](const ConnectToken& shown, int calls) {
+    unsigned entries = 0;
+    for (int i = 0; i < calls; ++i) {
+      SimTransport& end = network.add_endpoint();
+      network.connect(end, server_end, {});
+      const auto client = SecureTransport::join(end, shown, random);
+      TransportEvent event;
+      for (int round = 0; round < 5; ++round) {
+        static_cast<void>(client.value()->poll(++now_us, event));
+        while (server->poll(++now_us, event))
+          entries += event.kind == TransportEventKind::connected ? 1U : 0U;
+      }
+    }
+    return entries;
+  };
+  EXPECT_EQ(entries_of(token, 50), 10U);
+  EXPECT_EQ(server->counters().handshakes_limited, 40U);
+  EXPECT_EQ(entries_of(token_for(2, random), 5), 5U);  // another player's
+  now_us += 3 * k_second_us;
+  EXPECT_EQ(entries_of(token, 50), 3U);
+}
+
 TEST(SecureTransport, CarriesTheLongestPacketsOfASessionAndNoLonger) {
   Pair pair;
   const auto server = serve_securely(pair.server_end, pair.random);

@@ -65,6 +65,28 @@ bool has(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
+// A counter that is kept is also told, each by its own name.
+TEST(Metrics, TellEveryCounterOfTheSocketAndOfTheHandshakes) {
+  MatchMetrics metrics;
+  metrics.port = 1;
+  metrics.socket = {1001, 1002, 1003, 1004, 1005, 1006, 1007, 1008, 1009, 1010, 1011, 1012};
+  metrics.security = {2001, 2002, 2003, 2004, 2005, 2006, 2007};
+  static_assert(sizeof metrics.socket == 12 * sizeof(std::uint64_t));
+  static_assert(sizeof metrics.security == 7 * sizeof(std::uint64_t));
+  const std::string json = metrics_as_json(metrics);
+  const std::string prometheus = metrics_for_prometheus(metrics);
+  for (const unsigned first : {1001U, 2001U}) {
+    for (unsigned value = first; value < first + (first == 1001 ? 12U : 7U); ++value) {
+      EXPECT_TRUE(has(json, ": " + std::to_string(value) + ",")) << value;
+      EXPECT_TRUE(has(prometheus, "\"} " + std::to_string(value) + "\n")) << value;
+    }
+  }
+  EXPECT_TRUE(has(prometheus, "lockstone_datagrams_too_far_ahead{match=\"1\"} 1009"));
+  EXPECT_TRUE(has(prometheus, "lockstone_connects_crowded{match=\"1\"} 1010"));
+  EXPECT_TRUE(has(prometheus, "lockstone_datagrams_replayed{match=\"1\"} 1011"));
+  EXPECT_TRUE(has(prometheus, "lockstone_datagrams_oversized{match=\"1\"} 1012"));
+}
+
 TEST(Metrics, AreAnsweredInTheFormatOfEachPath) {
   const auto port = MetricsPort::open(0);
   ASSERT_NE(port, nullptr);

@@ -54,7 +54,7 @@ struct MatchFigure {
 };
 
 using M = MatchMetrics;
-constexpr std::array<MatchFigure, 23> k_match_figures{
+constexpr std::array<MatchFigure, 29> k_match_figures{
     {{"ticks", "counter", [](const M& m) { return m.ticks; }},
      {"spectators", "gauge", [](const M& m) { return std::uint64_t{m.spectators}; }},
      {"desyncs", "counter", [](const M& m) { return m.desyncs; }},
@@ -73,6 +73,10 @@ constexpr std::array<MatchFigure, 23> k_match_figures{
      {"datagrams_stray", "counter", [](const M& m) { return m.socket.strays; }},
      {"datagrams_forged", "counter", [](const M& m) { return m.socket.forged; }},
      {"datagrams_limited", "counter", [](const M& m) { return m.socket.limited; }},
+     {"datagrams_too_far_ahead", "counter", [](const M& m) { return m.socket.too_far_ahead; }},
+     {"datagrams_replayed", "counter", [](const M& m) { return m.socket.replayed; }},
+     {"datagrams_oversized", "counter", [](const M& m) { return m.socket.oversized; }},
+     {"connects_crowded", "counter", [](const M& m) { return m.socket.crowded; }},
      {"connects_repeated", "counter", [](const M& m) { return m.socket.repeated_connects; }},
      {"connects_refused", "counter", [](const M& m) { return m.socket.refusals; }},
      {"floods", "counter", [](const M& m) { return m.socket.floods; }},
@@ -81,6 +85,8 @@ constexpr std::array<MatchFigure, 23> k_match_figures{
      {"handshakes_refused", "counter", [](const M& m) { return m.security.handshakes_refused; }},
      {"handshakes_timed_out", "counter",
       [](const M& m) { return m.security.handshakes_timed_out; }},
+     {"handshakes_replaced", "counter", [](const M& m) { return m.security.handshakes_replaced; }},
+     {"handshakes_limited", "counter", [](const M& m) { return m.security.handshakes_limited; }},
      {"packets_forged", "counter", [](const M& m) { return m.security.packets_forged; }},
      {"packets_replayed", "counter", [](const M& m) { return m.security.packets_replayed; }}}};
 

@@ -29,8 +29,10 @@ struct SecurityCounters {
   std::uint64_t handshakes_completed = 0;
   std::uint64_t handshakes_refused = 0;  ///< a token or a proof was not good
   std::uint64_t handshakes_timed_out = 0;
-  std::uint64_t packets_forged = 0;    ///< not sealed under the connection's key, or altered
-  std::uint64_t packets_replayed = 0;  ///< seen before, or too old to know
+  std::uint64_t handshakes_replaced = 0;  ///< the same token was shown again before its proof
+  std::uint64_t handshakes_limited = 0;   ///< one player came in too often
+  std::uint64_t packets_forged = 0;       ///< not sealed under the connection's key, or altered
+  std::uint64_t packets_replayed = 0;     ///< seen before, or too old to know
 };
 
 /// Driven like the transport that it wraps, which it must not outlive and nobody else may poll. A
