@@ -1,4 +1,5 @@
 // siege: an attacked match on this machine.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -14,30 +15,38 @@ namespace lockstone::tool {
 namespace {
 
 void print_report(const relay::SiegeReport& report) {
-  fmt::print("{:<20} {:>8} {:>9} {:>9}\n", "attack", "sent", "answered", "admitted");
+  fmt::print("{:<22} {:>8} {:>9} {:>9}\n", "attack", "sent", "answered", "admitted");
   for (const relay::AttackReport& attack : report.attacks)
-    fmt::print("{:<20} {:>8} {:>9} {:>9}\n", attack.name, attack.sent, attack.answered,
+    fmt::print("{:<22} {:>8} {:>9} {:>9}\n", attack.name, attack.sent, attack.answered,
                attack.admitted);
   const net::EnetCounters& socket = report.socket;
   fmt::print(
       "\ndatagrams {}: {} malformed, {} of no connection, {} forged, {} repeated connects, "
-      "{} beyond limits\n",
+      "{} oversized, {} replayed, {} too far ahead, {} beyond limits, {} of a crowd\n",
       socket.datagrams, socket.malformed, socket.strays, socket.forged, socket.repeated_connects,
-      socket.limited);
+      socket.oversized, socket.replayed, socket.too_far_ahead, socket.limited, socket.crowded);
   const net::SecurityCounters& security = report.security;
-  fmt::print("handshakes {} completed, {} refused, {} timed out; packets {} forged, {} replayed\n",
-             security.handshakes_completed, security.handshakes_refused,
-             security.handshakes_timed_out, security.packets_forged, security.packets_replayed);
-  fmt::print("server {} ticks, longest between two {:.1f} ms\n", report.ticks,
-             static_cast<double>(report.longest_server_gap_us) / 1000);
+  fmt::print(
+      "handshakes {} completed, {} refused, {} timed out, {} replaced, {} too often; packets {} "
+      "forged, {} replayed\n",
+      security.handshakes_completed, security.handshakes_refused, security.handshakes_timed_out,
+      security.handshakes_replaced, security.handshakes_limited, security.packets_forged,
+      security.packets_replayed);
+  fmt::print("server {} ticks, {} stalls, longest between two {:.1f} ms, {:.1f} % of a core\n",
+             report.ticks, report.server_stalls,
+             static_cast<double>(report.longest_server_gap_us) / 1000,
+             100 * static_cast<double>(report.server_busy_us) /
+                 static_cast<double>(std::max<std::int64_t>(report.duration_us, 1)));
   for (std::size_t i = 0; i < report.honest.size(); ++i) {
     const relay::PlayerOutcome& player = report.honest[i];
     fmt::print("player {}: {} ticks, {} inputs replaced, longest between two {:.1f} ms, {}\n", i,
                player.ticks, player.substituted, static_cast<double>(player.longest_us) / 1000,
                player.equal ? "all hashes equal" : "hashes DIFFER");
   }
-  fmt::print("the flooding player {}\n",
-             report.traitor_dropped ? "was dropped" : "was NOT dropped");
+  fmt::print("visitors {} of {} let in\n", report.visitors_seated, report.visitors);
+  fmt::print("the flooding player {}, the lying one {}\n",
+             report.traitor_dropped ? "was dropped" : "was NOT dropped",
+             report.liar_expelled ? "was sent away" : "was NOT sent away");
 }
 
 int siege(const relay::SiegeOptions& options) {
@@ -79,7 +88,7 @@ void add_siege_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1U, 3600U))
       ->capture_default_str();
   command->add_option("--players", options->siege.honest, "Honest ones")
-      ->check(CLI::Range(1U, 15U))
+      ->check(CLI::Range(1U, 14U))
       ->capture_default_str();
   command->add_option("--seed", options->siege.seed, "Of the attackers")->capture_default_str();
   command->add_flag("--rate", options->rate,

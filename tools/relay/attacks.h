@@ -43,4 +43,36 @@ class Attack {
 /// From within: a player who sends much more than its session does.
 [[nodiscard]] std::unique_ptr<Attack> flood(TrialMatch& match, unsigned slot, unsigned per_second);
 
+/// From within: datagrams for which ENet walks through a list. Packets wait behind a gap, then the
+/// lowest of them comes again, 32 times a datagram, 48 kB/s. By a player with a token of its own,
+/// or by `strangers` connections, each from its own address, before they have shown a token.
+[[nodiscard]] std::unique_ptr<Attack> walk_of_a_player(const TrialMatch& match);
+[[nodiscard]] std::unique_ptr<Attack> walk_of_strangers(const TrialMatch& match,
+                                                        std::size_t strangers);
+
+/// From within: one address asks for connection after connection and says nothing.
+[[nodiscard]] std::unique_ptr<Attack> shut_door(const TrialMatch& match, std::size_t connections);
+
+/// From within: one good token, from eight addresses, again and again. Every second handshake stops
+/// half-way.
+[[nodiscard]] std::unique_ptr<Attack> reconnect_storm(const TrialMatch& match);
+inline constexpr std::uint64_t k_storming_player = 91;
+
+/// Honest people who come to watch, each from an address of its own, and leave once seated.
+class Visitors {
+ public:
+  /// They come one after the other, spread over `span_us`.
+  Visitors(const TrialMatch& match, unsigned count, std::int64_t span_us);
+  ~Visitors();
+  void step(std::int64_t now_us);
+  [[nodiscard]] bool over() const;
+  [[nodiscard]] unsigned seated() const;
+
+ private:
+  struct One;
+  const TrialMatch& match_;
+  std::int64_t span_us_;
+  std::vector<std::unique_ptr<One>> visitors_;
+};
+
 }  // namespace lockstone::relay

@@ -11,11 +11,16 @@ namespace lockstone::relay {
 
 struct SiegeOptions {
   std::uint64_t seed = 1;
-  std::int64_t duration_us = 10'000'000;  ///< at least; up to 20 s more …
-  std::uint64_t least_sent = 4;  ///< … until every attacker has done so much, and the flood is over
-  unsigned honest = 3;           ///< players; one more holds a good token and attacks from within
+  std::int64_t duration_us = 10'000'000;  ///< at least …
+  std::int64_t patience_us = 20'000'000;  ///< … and at most so much more, until
+  std::uint64_t least_sent = 4;  ///< every attacker has done so much and those within are found
+  unsigned honest = 3;           ///< players; two more seats are a flooding and a lying one's
   net::DatagramLimits limits = {};
   unsigned flood_per_second = 600;  ///< packets of the attacker from within, beside its session's
+  unsigned visitors = 25;           ///< honest ones who come to watch while the door is attacked
+  std::uint8_t input_delay = 4;
+  std::size_t max_connections = 64;  ///< of the server
+  std::size_t strangers_per_address = net::EnetOptions{}.max_strangers_per_address;
 };
 
 /// One kind of attack: what was sent, and what came back.
@@ -24,6 +29,7 @@ struct AttackReport {
   std::uint64_t sent = 0;      ///< datagrams, or connections tried
   std::uint64_t answered = 0;  ///< datagrams received for them
   std::uint64_t admitted = 0;  ///< connections that the server took for players
+  std::uint64_t entitled = 0;  ///< of these, as many as the rules give the attacker's own token
 };
 
 struct SiegeReport {
@@ -31,14 +37,21 @@ struct SiegeReport {
   std::vector<PlayerOutcome> honest;
   PlayerOutcome traitor;
   bool traitor_dropped = false;
+  bool liar_expelled = false;
+  unsigned visitors = 0;         ///< who came
+  unsigned visitors_seated = 0;  ///< who were let in
+  unsigned server_stalls = 0;    ///< see TrialMatch::server_stalls
+  std::int64_t server_busy_us = 0;
+  std::int64_t duration_us = 0;
   std::uint64_t ticks = 0;
   std::int64_t longest_server_gap_us = 0;
   net::EnetCounters socket;
   net::SecurityCounters security;
 
-  /// True if nobody was let in, nothing was answered to strangers, the traitor was dropped, and
-  /// every honest player was admitted, stayed with the server's hashes in each tick, and had no
-  /// input replaced.
+  /// True if nobody was let in beyond the rules, nothing was answered to strangers, the flooding
+  /// player was dropped and the lying one expelled, the server never stalled, every visitor was
+  /// seated, and every honest player was admitted, stayed with the server's hashes in each tick,
+  /// and had no input replaced.
   [[nodiscard]] bool withstood() const;
 };
 

@@ -1,8 +1,13 @@
 #include "tools/relay/trial_match.h"
 
 #include <algorithm>
+#include <ctime>
+#include <map>
+
+#include <lockstone/net/wire.h>
 
 #include "tools/arena/config.h"
+#include "tools/arena/input.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::relay {
@@ -46,9 +51,72 @@ struct ClientTrace final : net::ClientObserver {
   StallWatch stalls;
 };
 
+// Passes everything on.
+class Passage : public net::Transport {
+ public:
+  explicit Passage(net::Transport& carrier) : carrier_(carrier) {}
+  bool poll(std::int64_t now_us, net::TransportEvent& event) override {
+    return carrier_.poll(now_us, event);
+  }
+  Status send(net::ConnectionId connection, net::Channel channel, ByteView bytes) override {
+    return carrier_.send(connection, channel, bytes);
+  }
+  void flush() override { carrier_.flush(); }
+  void disconnect(net::ConnectionId connection) override { carrier_.disconnect(connection); }
+  void trust(net::ConnectionId connection) override { carrier_.trust(connection); }
+  [[nodiscard]] net::TransportStats stats(net::ConnectionId connection) const override {
+    return carrier_.stats(connection);
+  }
+  [[nodiscard]] bool secure() const override { return carrier_.secure(); }
+  [[nodiscard]] net::PeerIdentity identity(net::ConnectionId connection) const override {
+    return carrier_.identity(connection);
+  }
+
+ protected:
+  net::Transport& carrier_;
+};
+
+// Counts who comes to the server's session.
+class Doorkeeper final : public Passage {
+ public:
+  using Passage::Passage;
+  bool poll(std::int64_t now_us, net::TransportEvent& event) override {
+    if (!carrier_.poll(now_us, event)) return false;
+    if (event.kind == net::TransportEventKind::connected)
+      ++entries[identity(event.connection).player];
+    return true;
+  }
+  std::map<std::uint64_t, unsigned> entries;
+};
+
+// A changed client: every hash that it reports is wrong.
+class Liar final : public Passage {
+ public:
+  using Passage::Passage;
+  Status send(net::ConnectionId connection, net::Channel channel, ByteView bytes) override {
+    net::Inputs message;
+    if (decode(bytes, arena::k_input_bytes, message) != Status::ok)
+      return carrier_.send(connection, channel, bytes);
+    for (std::size_t i = 0; i < message.hash_count; ++i)
+      message.hashes[i] ^= 1;
+    const std::size_t size = encode(message, out_);
+    return carrier_.send(connection, channel, ByteView(out_).first(size));
+  }
+
+ private:
+  std::array<std::byte, net::k_max_message_bytes> out_{};
+};
+
+std::int64_t thread_us() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000 + time.tv_nsec / 1000;
+}
+
 struct Player {
   std::unique_ptr<net::EnetTransport> enet;
   std::unique_ptr<net::SecureTransport> secure;
+  std::unique_ptr<Liar> liar;
   std::unique_ptr<AnyInputs> inputs;
   ClientTrace trace;
   net::ConnectionId connection = net::k_no_connection;
@@ -68,10 +136,13 @@ struct TrialMatch::Impl {
   std::unique_ptr<Simulation> simulation;
   std::unique_ptr<net::EnetTransport> enet;
   std::unique_ptr<net::SecureTransport> secure;
+  std::unique_ptr<Doorkeeper> door;
   ServerTrace trace;
   std::unique_ptr<net::Server> server;
   std::unique_ptr<LossyRelay> relay;
   std::vector<Player> players;
+  unsigned stalls = 0;
+  std::int64_t busy_us = 0;
 
   [[nodiscard]] bool set_up() {
     arena::ArenaConfig arena_config;
@@ -99,21 +170,26 @@ struct TrialMatch::Impl {
     enet_options.link_key = net::make_link_key(key, k_match);
     enet_options.match_tag = net::make_match_tag(k_match);
     enet_options.limits = options.limits;
+    enet_options.max_connections = options.max_connections;
     enet_options.max_connections_per_address = 64;  // all are on this machine
+    enet_options.max_strangers_per_address = options.strangers_per_address;
     auto listening = net::EnetTransport::listen(enet_options);
     if (!listening) return false;
     enet = std::move(listening).value();
     net::SecureServerOptions security;
     security.backend_key = key;
     security.match = k_match;
+    security.max_connections = options.max_connections;
     security.unix_us_at_zero = static_cast<std::int64_t>(k_unix_s) * 1'000'000;
     secure = std::move(net::SecureTransport::serve(*enet, security, random)).value();
     net::ServerConfig server_config;
     server_config.match_config = config;
     server_config.tick_count = options.ticks;
     server_config.input_delay_ticks = options.input_delay;
-    server = net::Server::create(server_config, {secure.get(), simulation.get(), nullptr, &trace})
-                 .server;
+    server_config.max_spectators = options.spectators;
+    door = std::make_unique<Doorkeeper>(*secure);
+    server =
+        net::Server::create(server_config, {door.get(), simulation.get(), nullptr, &trace}).server;
     return server != nullptr;
   }
 
@@ -130,10 +206,14 @@ struct TrialMatch::Impl {
     const std::uint16_t port = relay == nullptr ? enet->port() : relay->port();
     player.connection = player.enet->connect("127.0.0.1", port).value();
     player.inputs = std::make_unique<AnyInputs>(options.seed + slot);
-    player.client =
-        net::Client::create({}, {player.secure.get(), player.connection, scenes::make_simulation,
-                                 player.inputs.get(), &player.trace})
-            .client;
+    net::Transport* transport = player.secure.get();
+    if (options.liar == slot) {
+      player.liar = std::make_unique<Liar>(*player.secure);
+      transport = player.liar.get();
+    }
+    player.client = net::Client::create({}, {transport, player.connection, scenes::make_simulation,
+                                             player.inputs.get(), &player.trace})
+                        .client;
     return player.client != nullptr;
   }
 
@@ -149,7 +229,11 @@ struct TrialMatch::Impl {
 
   [[nodiscard]] bool update(std::int64_t now_us) {
     trace.now_us = now_us;
+    const std::int64_t from_us = thread_us();
     server->update(now_us);
+    const std::int64_t took_us = thread_us() - from_us;
+    busy_us += took_us;
+    if (took_us > k_stall_us) ++stalls;
     if (relay != nullptr) relay->pump(now_us);
     bool over = server->state() == net::ServerState::over;
     for (Player& player : players) {
@@ -189,6 +273,19 @@ std::uint16_t TrialMatch::present_mask() const {
 }
 std::int64_t TrialMatch::longest_server_gap_us() const {
   return impl_->trace.stalls.longest_us();
+}
+unsigned TrialMatch::server_stalls() const {
+  return impl_->stalls;
+}
+std::int64_t TrialMatch::server_busy_us() const {
+  return impl_->busy_us;
+}
+const net::ServerCounters& TrialMatch::server_counters() const {
+  return impl_->server->counters();
+}
+unsigned TrialMatch::entries_of(std::uint64_t player) const {
+  const auto found = impl_->door->entries.find(player);
+  return found == impl_->door->entries.end() ? 0 : found->second;
 }
 std::uint16_t TrialMatch::port() const {
   return impl_->enet->port();

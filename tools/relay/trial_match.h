@@ -25,6 +25,10 @@ struct TrialOptions {
   std::uint8_t input_delay = 4;
   net::DatagramLimits limits = {};
   std::optional<Faults> faults = std::nullopt;  ///< between every player and the server
+  std::size_t max_connections = 32;             ///< of the server
+  std::size_t strangers_per_address = net::EnetOptions{}.max_strangers_per_address;
+  std::uint16_t spectators = 0;
+  std::optional<unsigned> liar = std::nullopt;  ///< slot of a player who reports wrong hashes
 };
 
 /// What one player noticed.
@@ -56,6 +60,12 @@ class TrialMatch {
   [[nodiscard]] std::uint64_t ticks_closed() const;
   [[nodiscard]] std::uint16_t present_mask() const;
   [[nodiscard]] std::int64_t longest_server_gap_us() const;  ///< between two closed ticks
+  /// How often the server was busy for more than k_stall_us at a stretch: its own processor time.
+  [[nodiscard]] unsigned server_stalls() const;
+  [[nodiscard]] std::int64_t server_busy_us() const;  ///< its processor time, all together
+  [[nodiscard]] const net::ServerCounters& server_counters() const;
+  /// Connections that the server's session was told of for this player of a token.
+  [[nodiscard]] unsigned entries_of(std::uint64_t player) const;
 
   /// Of the server's socket, which attackers call.
   [[nodiscard]] std::uint16_t port() const;

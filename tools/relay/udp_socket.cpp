@@ -36,6 +36,13 @@ Result<Endpoint> Endpoint::from_text(const std::string& address, std::uint16_t p
   return Endpoint{ntohl(parsed.s_addr), port};
 }
 
+std::string to_text(std::uint32_t address) {
+  std::string text;
+  for (int shift = 24; shift >= 0; shift -= 8)
+    text += (shift < 24 ? "." : "") + std::to_string(address >> shift & 255);
+  return text;
+}
+
 Result<std::unique_ptr<UdpSocket>> UdpSocket::open(const Endpoint& local) {
   const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
   if (descriptor < 0) return Status::io_error;

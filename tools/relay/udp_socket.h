@@ -23,6 +23,9 @@ struct Endpoint {
   [[nodiscard]] static Endpoint loopback(std::uint16_t port) { return {0x7f000001, port}; }
 };
 
+/// `127.0.0.1` of 0x7f000001.
+[[nodiscard]] std::string to_text(std::uint32_t address);
+
 class UdpSocket {
  public:
   /// Bound to this address; port 0: the system chooses. io_error: it refused.
