@@ -141,6 +141,7 @@ CommandFilter::Verdict CommandFilter::judge(const Command& command, std::uint16_
                                             bool called) {
   const auto pass_if = [](bool good) { return good ? Verdict::pass : Verdict::malformed; };
   const ByteView bytes = command.bytes;
+  const std::size_t limit = called ? k_max_waiting_of_server : k_max_waiting;
   if (!has_usual_flags(command.kind(), command.flags(), command.channel())) {
     return Verdict::malformed;
   }
@@ -150,10 +151,10 @@ CommandFilter::Verdict CommandFilter::judge(const Command& command, std::uint16_
                      has_usual_terms(bytes.subspan(16)));
     case k_send_reliable:
       if (command.data_bytes == 0) return Verdict::malformed;
-      return reserve({command.sequence(), 1}, delivered);
+      return reserve({command.sequence(), 1}, delivered, limit);
     case k_send_fragment:
       if (!is_usual_fragment(bytes, command.data_bytes)) return Verdict::malformed;
-      return reserve({number16(bytes, 4), number16(bytes, 10)}, delivered);
+      return reserve({number16(bytes, 4), number16(bytes, 10)}, delivered, limit);
     case k_send_unsequenced:
       return pass_if(command.data_bytes > 0);
     case k_bandwidth_limit:
@@ -168,7 +169,8 @@ CommandFilter::Verdict CommandFilter::judge(const Command& command, std::uint16_
 }
 
 // ENet acknowledges what it has delivered before and does not store it again.
-CommandFilter::Verdict CommandFilter::reserve(Packet packet, std::uint16_t delivered) {
+CommandFilter::Verdict CommandFilter::reserve(Packet packet, std::uint16_t delivered,
+                                              std::size_t limit) {
   const std::uint16_t first = ahead_of(delivered, packet.first);
   if (first == 0 || first >= k_half_circle) return Verdict::pass;
   if (first + packet.count > k_max_ahead) return Verdict::too_far;
@@ -179,7 +181,7 @@ CommandFilter::Verdict CommandFilter::reserve(Packet packet, std::uint16_t deliv
       return Verdict::malformed;
     }
   }
-  if (waiting_count_ == k_max_waiting) return Verdict::too_far;
+  if (waiting_count_ == limit) return Verdict::too_far;
   waiting_[waiting_count_++] = packet;
   return Verdict::pass;
 }

@@ -28,8 +28,13 @@ inline constexpr std::uint32_t k_enet_fragment_bytes = k_enet_mtu - 4 - 4 - 24;
 /// The commands of one peer's datagrams. Knows which reliable packets wait for an earlier one.
 class CommandFilter {
  public:
-  static constexpr std::size_t k_max_commands = 32;   ///< ENet puts no more into a datagram
-  static constexpr std::size_t k_max_waiting = 64;    ///< packets behind a gap
+  static constexpr std::size_t k_max_commands = 32;  ///< ENet puts no more into a datagram
+  /// Packets of a caller behind a gap. At most 8 pieces of a dump are under way within ENet's
+  /// window of 64 KiB, 16 reports of parts while a client catches up with 1024 ticks, and single
+  /// messages.
+  static constexpr std::size_t k_max_waiting = 32;
+  /// Of the side that was called: 54 messages of ticks fit into the window.
+  static constexpr std::size_t k_max_waiting_of_server = 64;
   static constexpr std::uint16_t k_max_ahead = 4096;  ///< sequence numbers beyond the gap
 
   enum class Verdict : std::uint8_t {
@@ -55,10 +60,10 @@ class CommandFilter {
   struct Command;
 
   [[nodiscard]] Verdict judge(const Command& command, std::uint16_t delivered, bool called);
-  [[nodiscard]] Verdict reserve(Packet packet, std::uint16_t delivered);
+  [[nodiscard]] Verdict reserve(Packet packet, std::uint16_t delivered, std::size_t limit);
   void forget_delivered(std::uint16_t delivered);
 
-  std::array<Packet, k_max_waiting> waiting_{};
+  std::array<Packet, k_max_waiting_of_server> waiting_{};
   std::size_t waiting_count_ = 0;
 };
 

@@ -197,20 +197,20 @@ bool EnetTransport::State::authenticate(Entry& entry, std::span<std::byte>& data
   return false;
 }
 
-// The checksum of the gathered datagram, which is sent instead of ENet's buffers if it is sealed:
-// ENet reads them after its call of compute_checksum.
+// The checksum of the gathered datagram, which is sent instead of ENet's buffers: ENet reads them
+// after its call of compute_checksum. The system takes one buffer in much less time than 33.
 Word EnetTransport::State::finish(std::size_t size) {
   const std::span<std::byte> datagram = std::span(gathered).first(size);
   const std::optional<DatagramHead> head = read_head(datagram);
   Entry* entry = head ? entry_of(raw_value(word_of(datagram, *head))) : nullptr;
+  if (!head) return checksum.of(datagram);
   const std::size_t sealed_size = size + DatagramSeal::k_bytes;
-  if (entry == nullptr || !entry->seal.sends() || sealed_size > gathered.size()) {
-    return checksum.of(datagram);
-  }
-  const Word word = entry->seal.seal(std::span(gathered).first(sealed_size));
+  const bool seals = entry != nullptr && entry->seal.sends() && sealed_size <= gathered.size();
+  const Word word =
+      seals ? entry->seal.seal(std::span(gathered).first(sealed_size)) : checksum.of(datagram);
   std::memcpy(gathered.data() + head->checksum_offset, word.data(), word.size());
   host->buffers[0].data = gathered.data();
-  host->buffers[0].dataLength = sealed_size;
+  host->buffers[0].dataLength = seals ? sealed_size : size;
   host->bufferCount = 1;
   return word;
 }

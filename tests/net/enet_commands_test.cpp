@@ -139,6 +139,24 @@ TEST(CommandFilter, LetsFewPacketsWaitBehindAGap) {
   }
 }
 
+// Of a server's ticks, as many as fit into ENet's window of 64 KiB.
+TEST(CommandFilter, LetsAWindowOfTicksWaitWhereThisSideCalled) {
+  CommandFilter filter;
+  constexpr std::uint16_t k_bytes = 1200;
+  constexpr unsigned k_window = k_enet_window_bytes / k_bytes;
+  for (unsigned i = 0; i < k_window; ++i) {
+    const auto sequence = static_cast<std::uint16_t>(2 + i);
+    ASSERT_EQ(filter.admit(reliable(sequence, k_bytes), 0, true), Verdict::pass) << i;
+  }
+  CommandFilter of_caller;
+  std::size_t passed = 0;
+  for (unsigned i = 0; i < 100; ++i) {
+    const auto sequence = static_cast<std::uint16_t>(2 + i);
+    if (of_caller.admit(reliable(sequence), 0, false) == Verdict::pass) ++passed;
+  }
+  EXPECT_EQ(passed, 32U);
+}
+
 TEST(CommandFilter, RefusesPacketsThatShareSequenceNumbers) {
   CommandFilter filter;
   EXPECT_EQ(filter.admit(fragment(10, 1, 5000), 0, false), Verdict::pass);  // 10 … 13

@@ -67,9 +67,9 @@ int print_rates() {
     complain("no measurement: no socket, or no libsodium");
     return k_unavailable;
   }
-  fmt::print("{:<20} {:>9} {:>30}\n", "datagrams", "taken", "per second of processor time");
+  fmt::print("{:<22} {:>9} {:>30}\n", "datagrams", "taken", "per second of processor time");
   for (const relay::DatagramRate& rate : *rates)
-    fmt::print("{:<20} {:>9} {:>30}\n", rate.name, rate.datagrams, rate.per_second);
+    fmt::print("{:<22} {:>9} {:>30}\n", rate.name, rate.datagrams, rate.per_second);
   return k_ok;
 }
 

@@ -159,11 +159,23 @@ Bytes reliable(unsigned sequence) {
   return bytes;
 }
 
-Bytes many(unsigned first, unsigned step) {
+Bytes many(unsigned first, unsigned step, unsigned count = net::CommandFilter::k_max_commands) {
   Bytes bytes;
-  for (unsigned i = 0; i < net::CommandFilter::k_max_commands; ++i) {
+  for (unsigned i = 0; i < count; ++i) {
     const Bytes one = reliable(first + i * step);
     bytes.insert(bytes.end(), one.begin(), one.end());
+  }
+  return bytes;
+}
+
+Bytes last_fragments(unsigned first, unsigned count) {
+  constexpr unsigned k_full = net::k_enet_fragment_bytes;
+  constexpr unsigned k_total = k_full + 1;
+  Bytes bytes;
+  for (unsigned i = 0; i < count; ++i) {
+    put(bytes, {0x88, 0, (first + 1) >> 8, (first + 1) & 0xff, first >> 8, first & 0xff, 0, 1});
+    put(bytes, {0, 0, 0, 2, 0, 0, 0, 1});
+    put(bytes, {0, 0, k_total >> 8, k_total & 0xff, 0, 0, k_full >> 8, k_full & 0xff, 7});
   }
   return bytes;
 }
@@ -183,9 +195,7 @@ Bytes empty_commands() {
   return bytes;
 }
 
-}  // namespace
-
-std::optional<std::vector<DatagramRate>> measure_rates(std::uint64_t datagrams) {
+std::optional<std::vector<DatagramRate>> measure_one_server(std::uint64_t datagrams) {
   Range range;
   if (!range.open()) return std::nullopt;
   net::Random random(2);
@@ -206,6 +216,29 @@ std::optional<std::vector<DatagramRate>> measure_rates(std::uint64_t datagrams) 
   range.serve();
 
   rates.push_back(range.measure("lowest again", {range.sealed(many(2, 0))}, datagrams));
+  return rates;
+}
+
+// The same with the shortest fragment there is, the last of a packet that is one byte too long.
+std::optional<DatagramRate> measure_fragments(std::uint64_t datagrams) {
+  Range range;
+  if (!range.open()) return std::nullopt;
+  constexpr unsigned k_others = net::CommandFilter::k_max_waiting - 1;
+  range.send(range.sealed(last_fragments(2, 1)));
+  range.send(range.sealed(many(4, 1, k_others)));
+  range.serve();
+  return range.measure("lowest fragment again",
+                       {range.sealed(last_fragments(2, net::CommandFilter::k_max_commands))},
+                       datagrams);
+}
+
+}  // namespace
+
+std::optional<std::vector<DatagramRate>> measure_rates(std::uint64_t datagrams) {
+  std::optional<std::vector<DatagramRate>> rates = measure_one_server(datagrams);
+  const std::optional<DatagramRate> fragments = measure_fragments(datagrams);
+  if (!rates || !fragments) return std::nullopt;
+  rates->push_back(*fragments);
   return rates;
 }
 

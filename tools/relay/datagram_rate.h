@@ -17,8 +17,8 @@ struct DatagramRate {
 
 /// One server, one attacker after another, each with `datagrams` of its kind: forged, garbage,
 /// oversized from outside; and from a peer of the match, 3 kB of commands without data, and the
-/// lowest of the packets that wait behind a gap, again and again. Limits are off. Nothing: no
-/// socket, or no libsodium.
+/// lowest of the packets, and of the fragments, that wait behind a gap, again and again. Limits are
+/// off. Nothing: no socket, or no libsodium.
 [[nodiscard]] std::optional<std::vector<DatagramRate>> measure_rates(std::uint64_t datagrams);
 
 }  // namespace lockstone::relay

@@ -38,8 +38,10 @@ Result<Endpoint> Endpoint::from_text(const std::string& address, std::uint16_t p
 
 std::string to_text(std::uint32_t address) {
   std::string text;
-  for (int shift = 24; shift >= 0; shift -= 8)
-    text += (shift < 24 ? "." : "") + std::to_string(address >> shift & 255);
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    if (shift < 24) text += '.';
+    text += std::to_string(address >> shift & 255);
+  }
   return text;
 }
 
