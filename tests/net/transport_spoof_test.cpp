@@ -70,6 +70,7 @@ struct Wire {
         forward(down, *datagram, client_end);
       } else {
         client_end = from;
+        if (cut && caught.empty()) caught.assign(datagram->begin(), datagram->end());
         if (!cut) forward(up, *datagram, to_server);
       }
     }
@@ -143,6 +144,7 @@ struct Wire {
   Random faults{1};
   unsigned loss_percent = 0;
   bool cut = false;  // nothing of the client's gets through
+  Bytes caught;      // of that, the first
   LinkKey link_key = make_link_key(backend_key(), k_match);
   std::unique_ptr<UdpSocket> middle = std::move(UdpSocket::open({0x7f000001, 0})).value();
   std::unique_ptr<EnetTransport> server_socket, client_socket;
@@ -203,6 +205,56 @@ TEST(EnetSpoof, RecordedDatagramsCountOnce) {
   EXPECT_TRUE(wire.exchange(20));
   EXPECT_GT(wire.server_socket->counters().replayed, 0U);
   EXPECT_GT(wire.client_socket->counters().replayed, 0U);
+}
+
+// Every bit of a datagram that has not come yet, one at a time; then the datagram itself.
+void expect_flips_are_dropped(Wire& wire, const Bytes& sealed, const EnetTransport& receiver,
+                              const Endpoint& to) {
+  const auto dropped = [&receiver] {
+    const EnetCounters& all = receiver.counters();
+    return all.forged + all.malformed + all.strays + all.replayed;
+  };
+  const std::uint64_t forged = receiver.counters().forged;
+  const std::uint64_t before = dropped();
+  for (std::size_t bit = 0; bit < sealed.size() * 8; ++bit) {
+    Bytes altered = sealed;
+    altered[bit / 8] ^= static_cast<std::byte>(1U << bit % 8);
+    EXPECT_TRUE(wire.middle->send(to, altered));
+    lockstone::test::await([&] {
+      wire.step();
+      return dropped() > before + bit;
+    });
+  }
+  EXPECT_EQ(dropped() - before, sealed.size() * 8);
+  // All but those of the two bytes that say whose it is.
+  EXPECT_GE(receiver.counters().forged - forged, sealed.size() * 8 - 16);
+  EXPECT_EQ(wire.ended, 0U);
+}
+
+TEST(EnetSpoof, EveryFlippedBitOfASealedDatagramIsDroppedAndEndsNothing) {
+  Wire wire;
+  ASSERT_TRUE(wire.connect());
+  const Bytes word = bytes_of({1, 2, 3});
+  wire.cut = true;
+  wire.heard_by_server.clear();
+  ASSERT_EQ(wire.client->send(wire.at_client, Channel::unreliable, word), Status::ok);
+  wire.step();
+  const Bytes up = wire.caught;
+  ASSERT_FALSE(up.empty());
+  const Endpoint to_server = Endpoint::loopback(wire.server_socket->port());
+  expect_flips_are_dropped(wire, up, *wire.server_socket, to_server);
+  EXPECT_TRUE(wire.heard_by_server.empty());
+  EXPECT_TRUE(wire.middle->send(to_server, up));
+  lockstone::test::await([&] {
+    wire.step();
+    return !wire.heard_by_server.empty();
+  });
+  EXPECT_EQ(wire.heard_by_server, std::vector<Bytes>{word});
+  wire.cut = false;
+
+  // The other way the datagrams have come already, and would count as replayed.
+  expect_flips_are_dropped(wire, wire.down.last, *wire.client_socket, wire.client_end);
+  EXPECT_TRUE(wire.exchange(20));
 }
 
 TEST(EnetSpoof, LossAndReorderingDuringTheHandshakeLoseNoConnection) {
