@@ -20,7 +20,7 @@ std::vector<std::unique_ptr<Attack>> attacks_on(TrialMatch& match, const SiegeOp
   attacks.push_back(bad_tokens(match, options.seed + 3));
   attacks.push_back(flood(match, options.honest, options.flood_per_second));
   attacks.push_back(walk_of_a_player(match));
-  attacks.push_back(walk_of_strangers(match, 14));
+  attacks.push_back(walk_of_strangers(match, options.walkers));
   attacks.push_back(shut_door(match, 20));
   attacks.push_back(reconnect_storm(match));
   return attacks;

@@ -17,6 +17,7 @@ struct SiegeOptions {
   unsigned honest = 3;           ///< players; two more seats are a flooding and a lying one's
   net::DatagramLimits limits = {};
   unsigned flood_per_second = 600;  ///< packets of the attacker from within, beside its session's
+  unsigned walkers = 14;            ///< connections that walk before they show a token
   unsigned visitors = 25;           ///< honest ones who come to watch while the door is attacked
   std::uint8_t input_delay = 4;
   std::size_t max_connections = 64;  ///< of the server
