@@ -57,7 +57,7 @@ TEST(Siege, IsWithstood) {
   EXPECT_GT(report->attacks[9].admitted, 0U);
 }
 
-// The check of the visitors can fail: one address takes all places where it may.
+// The siege can be lost: one address takes places that players or visitors want, where it may.
 TEST(Siege, IsLostWhereOneAddressMayShutTheDoor) {
   SiegeOptions options = short_siege();
   options.max_connections = 8;
@@ -65,7 +65,6 @@ TEST(Siege, IsLostWhereOneAddressMayShutTheDoor) {
   options.strangers_per_address = 64;
   const auto report = run_siege(options);
   if (!report) GTEST_SKIP() << "no libsodium";
-  EXPECT_LT(report->visitors_seated, 4U);
   EXPECT_FALSE(report->withstood());
 }
 
