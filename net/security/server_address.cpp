@@ -3,60 +3,68 @@
 
 #include <lockstone/net/token.h>
 
-#include "net/security/hexadecimal.h"
+#include "net/security/ipv6_text.h"
 
 namespace lockstone::net {
 namespace {
 
-constexpr std::size_t k_mapped_prefix_bytes = 12;  // ten zeros and two ones before an IPv4 address
-
-bool is_mapped(const std::array<std::byte, 16>& address) {
-  for (std::size_t i = 0; i < k_mapped_prefix_bytes; ++i) {
-    if (address[i] != (i < 10 ? std::byte{0} : std::byte{0xff})) return false;
-  }
-  return true;
-}
-
-// Takes a decimal number of at most `last` and the character `end` after it ('\0': end of text).
-bool take_number(std::string_view& text, unsigned last, char end, unsigned& value) {
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || value > last) return false;
-  const auto digits = static_cast<std::size_t>(stop - text.data());
-  if (digits > 1 && text[0] == '0') return false;  // some read that as octal
-  text.remove_prefix(digits);
-  if (end == '\0') return text.empty();
-  if (text.empty() || text[0] != end) return false;
-  text.remove_prefix(1);
-  return true;
+// 1 … 65535 in decimal digits, without zeros in front; 0: another text.
+std::uint16_t port_from_text(std::string_view text) {
+  std::uint16_t port = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, port);
+  const bool whole = error == std::errc() && stop == end && text[0] != '0';
+  return whole ? port : std::uint16_t{0};
 }
 
 }  // namespace
 
+Result<HostPort> HostPort::from_text(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return Status::malformed;
+  std::string_view host = text.substr(0, colon);
+  const std::uint16_t port = port_from_text(text.substr(colon + 1));
+  const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+  if (bracketed) host = host.substr(1, host.size() - 2);
+  // A colon is what the brackets are for.
+  const bool has_colon = host.find(':') != std::string_view::npos;
+  if (host.empty() || port == 0 || has_colon != bracketed) return Status::malformed;
+  if (host.find_first_of("[] \t") != std::string_view::npos) return Status::malformed;
+  return HostPort{std::string(host), port};
+}
+
+std::string HostPort::to_text() const {
+  const bool bracketed = host.find(':') != std::string::npos;
+  return (bracketed ? "[" + host + "]:" : host + ":") + std::to_string(port);
+}
+
 Result<ServerAddress> ServerAddress::from_text(std::string_view text) {
+  const Result<HostPort> parts = HostPort::from_text(text);
+  if (!parts) return parts.status();
   ServerAddress result;
-  result.address[10] = result.address[11] = std::byte{0xff};
-  for (std::size_t i = 0; i < 4; ++i) {
-    unsigned value = 0;
-    if (!take_number(text, 255, i < 3 ? '.' : ':', value)) return Status::malformed;
-    result.address[k_mapped_prefix_bytes + i] = static_cast<std::byte>(value);
+  result.port = parts.value().port;
+  if (const auto ipv4 = ipv4_from_text(parts.value().host)) {
+    result.address = map_ipv4(*ipv4);
+    return result;
   }
-  unsigned port = 0;
-  if (!take_number(text, 65535, '\0', port) || port == 0) return Status::malformed;
-  result.port = static_cast<std::uint16_t>(port);
+  const auto ipv6 = ipv6_from_text(parts.value().host);
+  if (!ipv6) return Status::malformed;
+  result.address = *ipv6;
+  return result;
+}
+
+HostPort ServerAddress::to_host_port() const {
+  if (!is_mapped_ipv4(address)) return {ipv6_to_text(address), port};
+  HostPort result{{}, port};
+  for (std::size_t i = address.size() - 4; i < address.size(); ++i) {
+    if (!result.host.empty()) result.host += '.';
+    result.host += std::to_string(std::to_integer<unsigned>(address[i]));
+  }
   return result;
 }
 
 std::string ServerAddress::to_text() const {
-  std::string text;
-  if (!is_mapped(address)) {
-    text.append("[").append(hexadecimal(address)).append("]:");
-    return text.append(std::to_string(port));
-  }
-  for (std::size_t i = k_mapped_prefix_bytes; i < address.size(); ++i) {
-    text += std::to_string(std::to_integer<unsigned>(address[i]));
-    text += i + 1 < address.size() ? '.' : ':';
-  }
-  return text + std::to_string(port);
+  return to_host_port().to_text();
 }
 
 bool ServerList::add(const ServerAddress& address) {

@@ -42,6 +42,10 @@ bool run(ByteView bytes) {
     encode_token(token, again);
     LKS_CHECK(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()));
     LKS_CHECK(ConnectToken::from_text(token.to_text()).value() == token);
+    for (std::size_t i = 0; i < token.grant.servers.count; ++i) {
+      const ServerAddress& server = token.grant.servers.entries[i];
+      LKS_CHECK(ServerAddress::from_text(server.to_text()).value() == server);
+    }
   }
   // The private part has the layout of the public one from its player on, without the time.
   if (bytes.size() < k_token_bytes) return good;

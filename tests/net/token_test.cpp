@@ -124,9 +124,73 @@ TEST(ServerAddress, ReadsAndWritesIpv4) {
                            "01.2.3.4:5", "1.2.3.4:5 ", "1.2.3.4.5:6", "-1.2.3.4:5", "a.b.c.d:1"}) {
     EXPECT_EQ(ServerAddress::from_text(text).status(), Status::malformed) << text;
   }
-  ServerAddress address;
-  address.port = 9;
-  EXPECT_EQ(address.to_text(), "[00000000000000000000000000000000]:9");
+}
+
+TEST(ServerAddress, ReadsAndWritesIpv6) {
+  for (const char* text :
+       {"[::]:9", "[::1]:27015", "[2001:db8::]:1", "[2001:db8::1]:65535", "[1:2:3:4:5:6:7:8]:9",
+        "[fe80::1:0:0:1]:7", "[1:0:2::3]:7", "[1::2:0:0:3:4]:7", "[::fffe:0:1]:7", "[0:1::]:7",
+        "[0:2:0:3:4:5:6:7]:7"}) {
+    const Result<ServerAddress> read = ServerAddress::from_text(text);
+    ASSERT_TRUE(read.ok()) << text;
+    EXPECT_EQ(read.value().to_text(), text);
+  }
+}
+
+TEST(ServerAddress, WritesIpv6InOneForm) {
+  const auto rewritten = [](const char* text) {
+    return ServerAddress::from_text(text).value().to_text();
+  };
+  EXPECT_EQ(rewritten("[2001:0DB8:0:0:0:0:0:1]:7"), "[2001:db8::1]:7");
+  EXPECT_EQ(rewritten("[1:0:0:2:0:0:0:3]:7"), "[1:0:0:2::3]:7");      // the longest run
+  EXPECT_EQ(rewritten("[1:0:0:2:0:0:3:4]:7"), "[1::2:0:0:3:4]:7");    // of two, the first
+  EXPECT_EQ(rewritten("[1::3:4:5:6:7:8]:7"), "[1:0:3:4:5:6:7:8]:7");  // a single zero stays
+  EXPECT_EQ(rewritten("[64:ff9b::10.0.0.1]:7"), "[64:ff9b::a00:1]:7");
+  EXPECT_EQ(rewritten("[::ffff:10.0.0.1]:7"), "10.0.0.1:7");  // the same server
+}
+
+TEST(ServerAddress, RefusesWhatIsNoIpv6Address) {
+  for (const char* text : {"::1:7",
+                           "[::1]",
+                           "[::1]:",
+                           "[::1]:0",
+                           "[::1]:65536",
+                           "[::1] :7",
+                           "[::1:7",
+                           "::1]:7",
+                           "[]:7",
+                           "[:]:7",
+                           "[:::]:7",
+                           "[1::2::3]:7",
+                           "[1:2:3:4:5:6:7]:7",
+                           "[1:2:3:4:5:6:7:8:9]:7",
+                           "[1:2:3:4:5:6:7::8:9]:7",
+                           "[::1:2:3:4:5:6:7:8]:7",
+                           "[12345::]:7",
+                           "[g::]:7",
+                           "[:1::]:7",
+                           "[1:]:7",
+                           "[fe80::1%eth0]:7",
+                           "[1.2.3.4::]:7",
+                           "[::1.2.3]:7",
+                           "[::1.2.3.4:5]:7",
+                           "[1.2.3.4]:7",
+                           "[::+1]:7",
+                           "[::1]:+7",
+                           "[::1]:07",
+                           "[[::1]]:7"}) {
+    EXPECT_EQ(ServerAddress::from_text(text).status(), Status::malformed) << text;
+  }
+}
+
+TEST(HostPort, TakesNamesAndAddresses) {
+  for (const char* text : {"localhost:7", "game.example:7777", "10.0.0.1:7", "[::1]:7"})
+    EXPECT_EQ(HostPort::from_text(text).value().to_text(), text);
+  EXPECT_EQ(HostPort::from_text("[::1]:7").value(), (HostPort{"::1", 7}));
+  for (const char* text : {"", ":", "localhost", "localhost:", ":7", "localhost:0", "localhost:x",
+                           "::1:7", "[localhost]:7", "a b:7", "localhost:7 "}) {
+    EXPECT_EQ(HostPort::from_text(text).status(), Status::malformed) << text;
+  }
 }
 
 }  // namespace

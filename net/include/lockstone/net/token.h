@@ -18,16 +18,30 @@
 
 namespace lockstone::net {
 
+/// A host's name, or its numeric address, and a port.
+struct HostPort {
+  std::string host;  ///< an IPv6 address without brackets
+  std::uint16_t port = 0;
+  friend bool operator==(const HostPort&, const HostPort&) = default;
+
+  /// From `game.example:7777`, `127.0.0.1:7777` or `[::1]:7777`; the name is not looked up.
+  /// malformed: anything else, and port 0.
+  [[nodiscard]] static Result<HostPort> from_text(std::string_view text);
+  [[nodiscard]] std::string to_text() const;
+};
+
 /// Where a server listens: an IPv6 address, or an IPv4 one mapped into ::ffff:0:0/96.
 struct ServerAddress {
   std::array<std::byte, 16> address{};
   std::uint16_t port = 0;
   friend bool operator==(const ServerAddress&, const ServerAddress&) = default;
 
-  /// From `127.0.0.1:7777`. malformed: anything else.
+  /// From `127.0.0.1:7777` or `[2001:db8::1]:7777`. malformed: anything else, such as a name or a
+  /// zone.
   [[nodiscard]] static Result<ServerAddress> from_text(std::string_view text);
-  /// `127.0.0.1:7777`; 32 hexadecimal digits in brackets and the port for an IPv6 address.
+  /// As from_text reads it, in the one form of RFC 5952.
   [[nodiscard]] std::string to_text() const;
+  [[nodiscard]] HostPort to_host_port() const;
 };
 
 inline constexpr std::size_t k_max_token_servers = 8;
