@@ -15,6 +15,7 @@
 #include <lockstone/net/reasons.h>
 
 #include "net/security/replay_window.h"
+#include "net/transport/datagram_source.h"
 
 namespace lockstone::net {
 
@@ -88,13 +89,6 @@ class DatagramSeal {
   bool required_ = false;
   std::uint64_t next_ = 0;
   ReplayWindow window_;
-};
-
-/// Where a datagram comes from.
-struct DatagramSource {
-  std::uint32_t address = 0;
-  std::uint16_t port = 0;
-  friend bool operator==(const DatagramSource&, const DatagramSource&) = default;
 };
 
 /// Who asked for which connection: a recorded request cannot be sent again from elsewhere.

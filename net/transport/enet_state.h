@@ -1,5 +1,4 @@
-// The inside of EnetTransport: the gate in front of ENet, and what becomes of its events. Only this
-// file and transport_enet.cpp include ENet.
+// The inside of EnetTransport: the gate in front of ENet, and what becomes of its events.
 // Behaviour relied upon: http://enet.bespin.org/ (1.3.17), "Features and Architecture".
 #pragma once
 
@@ -16,6 +15,7 @@
 #include "net/transport/enet_commands.h"
 #include "net/transport/enet_datagram.h"
 #include "net/transport/flood_watch.h"
+#include "net/transport/ipv6_side.h"
 #include "net/transport/refusal_limit.h"
 
 namespace lockstone::net {
@@ -59,9 +59,15 @@ inline enet_uint32 raw_value(const Word& word) {
   return value;
 }
 
+[[nodiscard]] DatagramSource source_of(const ENetAddress& address);
+
+/// Reads `127.0.0.1` and `::ffff:127.0.0.1`. False for another text.
+[[nodiscard]] bool read_ipv4(const std::string& text, std::uint16_t port, ENetAddress& address);
+
 struct EnetTransport::State {
   struct Entry {
     ENetPeer* peer = nullptr;
+    DatagramSource remote;  ///< the peer's address; ENet's own record of it holds IPv4 only
     std::uint32_t generation = 1;
     bool open = false;
     bool trusted = false;
@@ -77,9 +83,7 @@ struct EnetTransport::State {
     TransportStats stats;
   };
 
-  // ENet counts start-ups per process where the system needs it (Windows), so each transport pairs
-  // its own call with one shutdown.
-  bool initialized = enet_initialize() == 0;
+  SocketLibrary library;
   ENetHost* host = nullptr;
   ENetPacket* current = nullptr;
   std::uint32_t timeout_ms = 0;
@@ -98,7 +102,10 @@ struct EnetTransport::State {
   bool any_ending = false;
   EnetCounters counters;
   std::array<std::byte, ENET_PROTOCOL_MAXIMUM_MTU> gathered{};
-  Word admitted{};  // checksum of the datagram that ENet is about to read
+  Word admitted{};                 // checksum of the datagram that ENet is about to read
+  DatagramSource source;           // of the datagram that the gate judges
+  std::unique_ptr<Ipv6Side> ipv6;  // null: IPv4 only
+  bool takes_ipv4 = true;          // false: bound to an IPv6 address
 
   explicit State(const EnetOptions& options)
       : timeout_ms(options.timeout_ms),
@@ -114,7 +121,6 @@ struct EnetTransport::State {
   ~State() {
     release_current();
     if (host != nullptr) enet_host_destroy(host);
-    if (initialized) enet_deinitialize();
   }
 
   void release_current() {
@@ -151,33 +157,33 @@ struct EnetTransport::State {
   }
 
   // False for what the session shall not see, such as the end of a connection that it ended.
-  bool translate(const ENetEvent& source, TransportEvent& event) {
-    const std::size_t index = index_of(source.peer);
+  bool translate(const ENetEvent& from, TransportEvent& event) {
+    const std::size_t index = index_of(from.peer);
     Entry& entry = entries[index];
     event = {};
-    if (source.type == ENET_EVENT_TYPE_CONNECT) {
+    if (from.type == ENET_EVENT_TYPE_CONNECT) {
       event.kind = TransportEventKind::connected;
-      event.connection = entry.open ? id_of(index) : adopt(source.peer);
+      event.connection = entry.open ? id_of(index) : adopt(from.peer);
       // Not before: ENet refuses a connection whose first datagram carries this as well.
-      enet_peer_throttle_configure(source.peer, ENET_PEER_PACKET_THROTTLE_INTERVAL,
+      enet_peer_throttle_configure(from.peer, ENET_PEER_PACKET_THROTTLE_INTERVAL,
                                    ENET_PEER_PACKET_THROTTLE_ACCELERATION, 0);
       return true;
     }
-    if (source.type == ENET_EVENT_TYPE_RECEIVE) current = source.packet;
-    if (source.type == ENET_EVENT_TYPE_DISCONNECT) entry.closing = false;
+    if (from.type == ENET_EVENT_TYPE_RECEIVE) current = from.packet;
+    if (from.type == ENET_EVENT_TYPE_DISCONNECT) entry.closing = false;
     if (!entry.open) return false;
     event.connection = id_of(index);
-    if (source.type == ENET_EVENT_TYPE_DISCONNECT) {
+    if (from.type == ENET_EVENT_TYPE_DISCONNECT) {
       entry.open = false;
       event.kind = TransportEventKind::disconnected;
-      if (source.data <= static_cast<enet_uint32>(k_last_refuse_reason)) {
-        event.reason = static_cast<RefuseReason>(source.data);
+      if (from.data <= static_cast<enet_uint32>(k_last_refuse_reason)) {
+        event.reason = static_cast<RefuseReason>(from.data);
       }
       return true;
     }
     if (!entry.packets.admit(now_us, 0)) return beyond_limits(entry, entry.packets);
     event.kind = TransportEventKind::received;
-    event.channel = source.channelID == 0 ? Channel::reliable : Channel::unreliable;
+    event.channel = from.channelID == 0 ? Channel::reliable : Channel::unreliable;
     event.bytes = std::as_bytes(std::span(current->data, current->dataLength));
     ++entry.stats.packets_received;
     entry.stats.bytes_received += current->dataLength;
@@ -264,7 +270,6 @@ struct EnetTransport::State {
       ++counters.malformed;
       return false;
     }
-    const DatagramSource source{host->receivedAddress.host, host->receivedAddress.port};
     if (!connects.admit(*connect, source) || is_taken_elsewhere(raw_value(*connect))) {
       ++counters.repeated_connects;
       return false;
@@ -280,8 +285,7 @@ struct EnetTransport::State {
   }
 
   [[nodiscard]] bool comes_from(const ENetPeer& peer) const {
-    return peer.address.host == host->receivedAddress.host &&
-           peer.address.port == host->receivedAddress.port;
+    return entries[index_of(&peer)].remote == source;
   }
 
   // An id names one connection, since the keys of what is sent are found by it.
@@ -313,7 +317,7 @@ struct EnetTransport::State {
         const bool older =
             oldest == entries.size() || entries[i].since_us < entries[oldest].since_us;
         if (older) oldest = i;
-      } else if (peer.address.host == host->receivedAddress.host) {
+      } else if (from_one_site(entries[i].remote, source)) {
         ++neighbours;
         if (!entries[i].trusted) ++strangers;
       }
@@ -323,7 +327,10 @@ struct EnetTransport::State {
       return false;
     }
     if (free == entries.size() && oldest < entries.size()) free_place(free = oldest);
-    if (free < entries.size()) prepare(entries[free]);
+    if (free < entries.size()) {
+      prepare(entries[free]);
+      entries[free].remote = source;
+    }
     return true;
   }
 
@@ -375,6 +382,7 @@ struct EnetTransport::State {
   [[nodiscard]] bool authenticate(Entry& entry, std::span<std::byte>& datagram,
                                   const DatagramHead& head);
   [[nodiscard]] Word finish(std::size_t size);
+  [[nodiscard]] Entry* receiver_of(ByteView datagram, const DatagramHead& head);
   [[nodiscard]] Entry* entry_of(enet_uint32 connection);
 
   static void limit(Entry& entry, std::uint32_t packets_per_second,
@@ -394,70 +402,28 @@ struct EnetTransport::State {
     return false;
   }
 
-  // ENet's callbacks. It has no room for a user's pointer in a host, but the compressor's context,
-  // which is not used while there are no functions beside it.
-
-  static State& of(const ENetHost* host) { return *static_cast<State*>(host->compressor.context); }
-
-  static int ENET_CALLBACK intercept(ENetHost* host, ENetEvent*) {
-    const auto datagram =
-        std::as_writable_bytes(std::span(host->receivedData, host->receivedDataLength));
-    return of(host).admit(datagram) ? 0 : 1;
-  }
-
-  // What is sent lies in the host's own buffers, of which there are at least two, the header and a
-  // command; what was received, in the host's memory for one datagram.
-  static enet_uint32 ENET_CALLBACK compute_checksum(const ENetBuffer* buffers, std::size_t count) {
-    const bool sent = count > 1;
-    const void* inside = sent ? static_cast<const void*>(buffers) : buffers->data;
-    const std::size_t offset = sent ? offsetof(ENetHost, buffers) : offsetof(ENetHost, packetData);
-    const void* begin = static_cast<const std::byte*>(inside) - offset;
-    State& state = of(static_cast<const ENetHost*>(begin));
-    if (!sent) return raw_value(state.admitted);  // the gate has judged it
-    std::size_t size = 0;
-    for (const ENetBuffer& buffer : std::span(buffers, count)) {
-      if (buffer.dataLength > state.gathered.size() - size) return 0;  // longer than any datagram
-      std::memcpy(state.gathered.data() + size, buffer.data, buffer.dataLength);
-      size += buffer.dataLength;
-    }
-    return raw_value(state.finish(size));
-  }
-
-  void configure(const EnetOptions& options) {
-    host->maximumPacketSize = k_max_reliable_bytes + k_carrier_reserve_bytes;
-    host->maximumWaitingData = options.max_waiting_bytes;
-    host->compressor.context = this;
-    host->checksum = compute_checksum;
-    host->intercept = intercept;
-    // ENet's own seed is the time and an address, which others may guess.
-    SystemRandom system;
-    RandomSource* random = options.random;
-    if (random == nullptr && security_available()) random = &system;
-    if (random == nullptr) return;
-    Word seed;
-    random->fill(seed);
-    host->randomSeed = raw_value(seed);
-  }
-
+  // enet_setup.cpp: ENet's callbacks, and the making of it.
+  static State& of(const ENetHost* host);
+  static int ENET_CALLBACK intercept(ENetHost* host, ENetEvent*);
+  static enet_uint32 ENET_CALLBACK compute_checksum(const ENetBuffer* buffers, std::size_t count);
+  void configure(const EnetOptions& options);
   static Result<std::unique_ptr<State>> create(const EnetOptions& options,
                                                const ENetAddress* address,
-                                               std::string* problem = nullptr) {
-    if (options.max_connections < 1 || options.max_connections > k_max_connections) {
-      return Status::invalid_argument;
-    }
-    if (options.link_key && !security_available()) return Status::incompatible;
-    auto state = std::make_unique<State>(options);
-    if (!state->initialized) return Status::io_error;
-    state->listens = address != nullptr;
-    errno = 0;
-    state->host = enet_host_create(address, options.max_connections, k_channels, 0, 0);
-    if (state->host == nullptr) {
-      if (problem != nullptr) *problem = std::strerror(errno);
-      return Status::io_error;
-    }
-    state->configure(options);
-    return state;
-  }
+                                               std::string* problem = nullptr);
+  static Result<std::unique_ptr<State>> listen(const EnetOptions& options, std::string* problem);
+  static Result<std::unique_ptr<State>> create_ipv6(const EnetOptions& options,
+                                                    const DatagramSource& local,
+                                                    std::string* problem);
+
+  [[nodiscard]] std::uint16_t port() const;
+
+  // enet_ipv6.cpp
+  [[nodiscard]] bool add_ipv6(const DatagramSource* local);
+  [[nodiscard]] bool admit_ipv6();
+  void wake_for_ipv6();
+  [[nodiscard]] bool is_wake() const;
+  void send_over_ipv6(const Entry& entry, ByteView datagram);
+  [[nodiscard]] bool wait(enet_uint32 limit_ms) const;  ///< with IPv6
 };
 
 }  // namespace lockstone::net

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <string>
 
+#include <lockstone/net/token.h>
+
 #include "net/transport/enet_state.h"
 
 namespace lockstone::net {
@@ -11,18 +13,12 @@ EnetTransport::~EnetTransport() = default;
 
 Result<std::unique_ptr<EnetTransport>> EnetTransport::listen(const EnetOptions& options,
                                                              std::string* problem) {
-  const std::string where = options.bind_address + ":" + std::to_string(options.port) + ": ";
-  ENetAddress address{};
-  if (enet_address_set_host_ip(&address, options.bind_address.c_str()) != 0) {
-    if (problem != nullptr) *problem = where + "not a numeric IPv4 address";
-    return Status::invalid_argument;
-  }
-  address.port = options.port;
   std::string reason;
-  Result<std::unique_ptr<State>> state = State::create(options, &address, &reason);
+  Result<std::unique_ptr<State>> state = State::listen(options, &reason);
   if (!state) {
     if (reason.empty()) reason = to_string(state.status());
-    if (problem != nullptr) *problem = where + reason;
+    const HostPort where{options.bind_address, options.port};
+    if (problem != nullptr) *problem = where.to_text() + ": " + reason;
     return state.status();
   }
   return std::unique_ptr<EnetTransport>(new EnetTransport(std::move(state).value()));
@@ -36,24 +32,34 @@ Result<std::unique_ptr<EnetTransport>> EnetTransport::open(const EnetOptions& op
 
 Result<ConnectionId> EnetTransport::connect(const std::string& address, std::uint16_t port) {
   ENetAddress target{};
-  if (enet_address_set_host_ip(&target, address.c_str()) != 0) return Status::invalid_argument;
-  target.port = port;
+  DatagramSource remote;
+  if (read_ipv4(address, port, target)) {
+    remote = source_of(target);
+  } else {
+    const std::optional<DatagramSource> ipv6 = read_ipv6(address, port);
+    if (!ipv6) return Status::invalid_argument;
+    if (!state_->add_ipv6(nullptr)) return Status::io_error;
+    remote = *ipv6;
+    target = state_->ipv6->own();
+  }
   ENetPeer* peer = enet_host_connect(state_->host, &target, k_channels, state_->match_tag);
   if (peer == nullptr) return Status::capacity_exhausted;
-  return state_->adopt(peer);
+  const ConnectionId connection = state_->adopt(peer);
+  state_->entries[state_->index_of(peer)].remote = remote;
+  return connection;
 }
 
 std::uint16_t EnetTransport::port() const {
-  ENetAddress address{};
-  if (enet_socket_get_address(state_->host->socket, &address) != 0) return 0;
-  return address.port;
+  return state_->port();
 }
 
 bool EnetTransport::poll(std::int64_t now_us, TransportEvent& event) {
   state_->release_current();
   state_->now_us = now_us;
   ENetEvent source{};
+  if (state_->ipv6 != nullptr) state_->ipv6->begin_poll();
   for (unsigned oversized = 0; oversized < k_max_oversized_a_poll;) {
+    if (state_->ipv6 != nullptr && state_->ipv6->fetch(state_->counters)) state_->wake_for_ipv6();
     const int result = enet_host_service(state_->host, &source, 0);
     if (result == 0) break;
     if (result < 0) {
@@ -94,10 +100,10 @@ void EnetTransport::flush() {
 
 bool EnetTransport::wait(std::int64_t limit_us) {
   enet_uint32 condition = ENET_SOCKET_WAIT_RECEIVE | ENET_SOCKET_WAIT_INTERRUPT;
-  const std::int64_t limit_ms =
-      (std::clamp<std::int64_t>(limit_us, 0, k_longest_wait_us) + 999) / 1000;
-  const int result =
-      enet_socket_wait(state_->host->socket, &condition, static_cast<enet_uint32>(limit_ms));
+  const auto limit_ms = static_cast<enet_uint32>(
+      (std::clamp<std::int64_t>(limit_us, 0, k_longest_wait_us) + 999) / 1000);
+  if (state_->ipv6 != nullptr) return state_->wait(limit_ms);
+  const int result = enet_socket_wait(state_->host->socket, &condition, limit_ms);
   return result == 0 && (condition & ENET_SOCKET_WAIT_RECEIVE) != 0;
 }
 
@@ -136,9 +142,10 @@ const EnetCounters& EnetTransport::counters() const {
 // Shorter than the request, and seldom: no use for drowning the one whose address it bears.
 void EnetTransport::State::refuse(const Word& connect, RefuseReason reason) {
   if (reason == RefuseReason::none) return;
-  if (!refusals.take(host->receivedAddress.host, now_us)) return;
+  if (!refusals.take(source, now_us)) return;
   ++counters.refusals;
   auto bytes = encode(LinkRefusal{reason, connect});
+  if (!source.is_ipv4()) return ipv6->send(source, bytes);
   ENetBuffer buffer{};
   buffer.data = bytes.data();
   buffer.dataLength = bytes.size();
@@ -202,17 +209,28 @@ bool EnetTransport::State::authenticate(Entry& entry, std::span<std::byte>& data
 Word EnetTransport::State::finish(std::size_t size) {
   const std::span<std::byte> datagram = std::span(gathered).first(size);
   const std::optional<DatagramHead> head = read_head(datagram);
-  Entry* entry = head ? entry_of(raw_value(word_of(datagram, *head))) : nullptr;
   if (!head) return checksum.of(datagram);
+  Entry* entry = receiver_of(datagram, *head);
   const std::size_t sealed_size = size + DatagramSeal::k_bytes;
   const bool seals = entry != nullptr && entry->seal.sends() && sealed_size <= gathered.size();
-  const Word word =
-      seals ? entry->seal.seal(std::span(gathered).first(sealed_size)) : checksum.of(datagram);
+  const std::span<std::byte> whole = std::span(gathered).first(seals ? sealed_size : size);
+  const Word word = seals ? entry->seal.seal(whole) : checksum.of(whole);
   std::memcpy(gathered.data() + head->checksum_offset, word.data(), word.size());
-  host->buffers[0].data = gathered.data();
-  host->buffers[0].dataLength = seals ? sealed_size : size;
+  if (ipv6 != nullptr && entry != nullptr && !entry->remote.is_ipv4()) {
+    send_over_ipv6(*entry, whole);
+    return word;
+  }
+  host->buffers[0].data = whole.data();
+  host->buffers[0].dataLength = whole.size();
   host->bufferCount = 1;
   return word;
+}
+
+// Null for a call that is given up before an answer: nobody would take that datagram.
+EnetTransport::State::Entry* EnetTransport::State::receiver_of(ByteView datagram,
+                                                               const DatagramHead& head) {
+  const std::optional<Word> connect = read_connect(datagram, head);
+  return entry_of(raw_value(connect ? *connect : word_of(datagram, head)));
 }
 
 EnetTransport::State::Entry* EnetTransport::State::entry_of(enet_uint32 connection) {

@@ -81,7 +81,7 @@ TEST(EnetDatagram, ARefusalSurvivesBytesAndIsNoDatagramOfEnet) {
 
 TEST(ConnectMemory, KnowsWhoAskedFirst) {
   ConnectMemory memory(2);
-  const DatagramSource here{1, 2}, there{1, 3};
+  const DatagramSource here{.address = {}, .port = 2}, there{.address = {}, .port = 3};
   const Word a{std::byte{1}}, b{std::byte{2}}, c{std::byte{3}};
   EXPECT_TRUE(memory.admit(a, here));
   EXPECT_TRUE(memory.admit(a, here));

@@ -6,8 +6,8 @@
 
 #include <lockstone/net/transport_enet.h>
 
-#include "net/transport/enet_datagram.h"
 #include "net/transport/refusal_limit.h"
+#include "tests/net/door_support.h"
 #include "tests/support/await.h"
 #include "tools/relay/udp_socket.h"
 
@@ -17,32 +17,12 @@ namespace {
 using relay::Endpoint;
 using relay::UdpSocket;
 
-std::unique_ptr<EnetTransport> listening(EnetOptions options) {
-  return std::move(EnetTransport::listen(options)).value();
-}
-
 // Asks for a connection and never says anything else. True if the server answers.
 bool is_answered(EnetTransport& server, const UdpSocket& socket, std::byte id,
                  std::int64_t now_us) {
-  std::vector<std::byte> bytes(56);
-  const std::array<std::uint8_t, 40> command{
-      0x82, 0xff, 0, 1, 0, 0, 0xff, 0xff, 0, 0, 5,    0x78, 0, 1, 0, 0, 0, 0, 0, 2,
-      0,    0,    0, 0, 0, 0, 0,    0,    0, 0, 0x13, 0x88, 0, 0, 0, 2, 0, 0, 0, 2};
-  bytes[0] = std::byte{0x8f};
-  bytes[1] = std::byte{0xff};
-  std::transform(command.begin(), command.end(), bytes.begin() + 8,
-                 [](std::uint8_t value) { return std::byte{value}; });
-  bytes[48] = id;
-  const Word sum = LinkChecksum(std::nullopt).of(bytes);
-  std::copy(sum.begin(), sum.end(), bytes.begin() + 4);
   const std::uint64_t before = server.counters().datagrams;
-  EXPECT_TRUE(socket.send(Endpoint::loopback(server.port()), bytes));
-  TransportEvent event;
-  lockstone::test::await([&] {
-    static_cast<void>(server.poll(now_us, event));
-    return server.counters().datagrams > before;
-  });
-  static_cast<void>(server.poll(now_us, event));
+  EXPECT_TRUE(socket.send(Endpoint::loopback(server.port()), open_connect(id)));
+  poll_until_judged(server, before, now_us);
   std::array<std::byte, 2048> buffer{};
   Endpoint from;
   return socket.receive(from, buffer).has_value();
@@ -172,22 +152,41 @@ TEST(EnetDoor, ARefusalIsTheCauseWhereTheServerSaysNothingForTwoSeconds) {
   EXPECT_EQ(pair.event.reason, RefuseReason::wrong_match);
 }
 
+DatagramSource source_at(const char* text, std::uint16_t port = 7) {
+  const auto ipv4 = ipv4_from_text(text);
+  return {.address = ipv4 ? map_ipv4(*ipv4) : *ipv6_from_text(text), .port = port};
+}
+
 TEST(RefusalLimit, OneAddressDoesNotUseUpWhatOthersHear) {
   RefusalLimit limit;
   unsigned taken = 0;
   for (int i = 0; i < 1000; ++i)
-    taken += limit.take(1, 0) ? 1U : 0U;
+    taken += limit.take(source_at("10.0.0.1", static_cast<std::uint16_t>(i)), 0) ? 1U : 0U;
   EXPECT_EQ(taken, RefusalLimit::k_source_burst);
-  EXPECT_TRUE(limit.take(2, 0));
-  EXPECT_TRUE(limit.take(1, 1'000'000));
+  EXPECT_TRUE(limit.take(source_at("10.0.0.2"), 0));
+  EXPECT_TRUE(limit.take(source_at("10.0.0.1"), 1'000'000));
 }
 
 TEST(RefusalLimit, AllAddressesTogetherAreLimited) {
   RefusalLimit limit;
   unsigned taken = 0;
-  for (std::uint32_t address = 0; address < 1000; ++address)
-    taken += limit.take(address, 0) ? 1U : 0U;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string text = "10.0." + std::to_string(i / 250) + "." + std::to_string(i % 250);
+    taken += limit.take(source_at(text.c_str()), 0) ? 1U : 0U;
+  }
   EXPECT_EQ(taken, RefusalLimit::k_per_second);
+}
+
+TEST(RefusalLimit, ANetworkOfIpv6CountsAsOneAddress) {
+  RefusalLimit limit;
+  unsigned taken = 0;
+  for (int i = 1; i < 1000; ++i) {
+    const std::string text = "2001:db8:1:2:" + std::to_string(i) + "::" + std::to_string(i);
+    taken += limit.take(source_at(text.c_str()), 0) ? 1U : 0U;
+  }
+  EXPECT_EQ(taken, RefusalLimit::k_source_burst);
+  EXPECT_TRUE(limit.take(source_at("2001:db8:1:3::1"), 0));
+  EXPECT_TRUE(limit.take(source_at("10.0.0.1"), 0));
 }
 
 TEST(EnetDoor, APortInUseIsNamed) {

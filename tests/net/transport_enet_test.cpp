@@ -5,6 +5,7 @@
 
 #include <lockstone/net/transport_enet.h>
 
+#include "tests/net/ipv6_support.h"
 #include "tests/net/match_fixture.h"
 #include "tests/support/await.h"
 
@@ -18,6 +19,11 @@ std::int64_t clock_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
 }
 
+struct Addresses {
+  std::string server = "127.0.0.1";
+  std::array<std::string, 2> called = {"127.0.0.1", "127.0.0.1"};  ///< by each player
+};
+
 // A server and two clients over UDP on the loopback, polled in turn.
 struct LoopbackMatch {
   struct Player {
@@ -28,9 +34,11 @@ struct LoopbackMatch {
     std::unique_ptr<Client> client;
   };
 
-  LoopbackMatch(ServerConfig config, const std::vector<Flip>& flips, bool with_tokens = false)
-      : secure(with_tokens) {
+  LoopbackMatch(ServerConfig config, const std::vector<Flip>& flips, bool with_tokens = false,
+                Addresses where = {})
+      : secure(with_tokens), addresses(std::move(where)) {
     EnetOptions options;
+    options.bind_address = addresses.server;
     if (secure) options.link_key = make_link_key(backend_key(), k_match);
     if (config.pacing == Pacing::fast) options.limits = DatagramLimits::none();
     server_transport = std::move(EnetTransport::listen(options).value());
@@ -65,7 +73,8 @@ struct LoopbackMatch {
       player.secure = join_securely(*player.transport, slot, random);
       parts.transport = player.secure.get();
     }
-    parts.connection = player.transport->connect("127.0.0.1", server_transport->port()).value();
+    parts.connection =
+        player.transport->connect(addresses.called[slot], server_transport->port()).value();
     parts.factory = [flips](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
       return std::unique_ptr<Simulation>(
           std::make_unique<FaultySimulation>(ToyConfig::decode(bytes).value(), flips));
@@ -91,6 +100,7 @@ struct LoopbackMatch {
   ToySimulation simulation{toy};
   ServerLog log;
   bool secure;
+  Addresses addresses;
   TestRandom random{3};
   std::unique_ptr<EnetTransport> server_transport;
   std::unique_ptr<SecureTransport> server_secure;
@@ -128,6 +138,50 @@ TEST(EnetTransport, PlaysAnEncryptedMatch) {
     EXPECT_EQ(match.players[slot].log->seen.hashes, match.log.seen.hashes);
   EXPECT_EQ(match.server_secure->counters().packets_forged, 0U);
   EXPECT_EQ(match.server_transport->counters().forged, 0U);
+}
+
+// A match of 300 ticks between players who call these addresses.
+void expect_equal_match(const Addresses& addresses, bool with_tokens) {
+  ServerConfig config;
+  config.tick_count = 300;
+  config.pacing = Pacing::fast;
+  LoopbackMatch match(config, {}, with_tokens, addresses);
+  ASSERT_TRUE(match.run(60'000'000));
+  EXPECT_EQ(match.server->finish_reason(), FinishReason::completed);
+  for (std::uint8_t slot = 0; slot < 2; ++slot) {
+    EXPECT_EQ(match.players[slot].log->seen.hashes, match.log.seen.hashes);
+    EXPECT_EQ(match.server->stats(slot).hashes_equal, 300U);
+  }
+  EXPECT_EQ(match.server_transport->counters().forged, 0U);
+  EXPECT_EQ(match.server_transport->counters().strays, 0U);
+}
+
+TEST(EnetTransport, PlaysAMatchOverIpv6) {
+  LKS_NEEDS_IPV6();
+  expect_equal_match({"::1", {"::1", "::1"}}, false);
+}
+
+TEST(EnetTransport, PlaysAnEncryptedMatchOverIpv6) {
+  LKS_NEEDS_IPV6();
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  expect_equal_match({"::1", {"::1", "::1"}}, true);
+}
+
+TEST(EnetTransport, PlayersOverIpv4AndIpv6MeetInOneMatch) {
+  LKS_NEEDS_IPV6();
+  expect_equal_match({"::", {"127.0.0.1", "::1"}}, security_available());
+}
+
+TEST(EnetTransport, CarriesLargePacketsOverIpv6) {
+  LKS_NEEDS_IPV6();
+  const Flip flip{40, "body", "spin", 5, 9};
+  ServerConfig config;
+  config.tick_count = 300;
+  config.pacing = Pacing::fast;
+  LoopbackMatch match(config, {flip}, false, {"::1", {"::1", "::1"}});
+  ASSERT_TRUE(match.run(60'000'000));
+  ASSERT_EQ(match.log.reports.size(), 1U);
+  EXPECT_EQ(match.log.reports[0].difference.field, "spin");
 }
 
 // What a client without the right key hears of a server, if anything, with 10 ms for each round.

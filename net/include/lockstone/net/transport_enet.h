@@ -30,12 +30,14 @@ struct DatagramLimits {
 };
 
 struct EnetOptions {
-  std::string bind_address = "127.0.0.1";       ///< numeric IPv4
-  std::uint16_t port = 0;                       ///< 0: the system chooses, see EnetTransport::port
-  std::size_t max_connections = 32;             ///< 1 … 1024
-  std::size_t max_connections_per_address = 8;  ///< players behind one router share an address
-  std::size_t max_strangers_per_address = 4;    ///< of these, before `trust`
-  std::size_t max_waiting_bytes = 1 << 20;      ///< received but not yet polled, per connection
+  /// Numeric, IPv4 or IPv6. `::` stands for all addresses of both, `0.0.0.0` for those of IPv4.
+  std::string bind_address = "127.0.0.1";
+  std::uint16_t port = 0;            ///< 0: the system chooses, see EnetTransport::port
+  std::size_t max_connections = 32;  ///< 1 … 1024
+  /// Players behind one router share an address. IPv6 addresses of one /64 count as one.
+  std::size_t max_connections_per_address = 8;
+  std::size_t max_strangers_per_address = 4;  ///< of these, before `trust`
+  std::size_t max_waiting_bytes = 1 << 20;    ///< received but not yet polled, per connection
   /// Without an answer to any reliable packet a connection ends. Well above the session's drop
   /// time: on a bad line ENet may send only three times in 5 s, and all three may be lost.
   std::uint32_t timeout_ms = 20000;
@@ -62,7 +64,7 @@ struct EnetCounters {
   std::uint64_t oversized = 0;          ///< longer than any datagram of ENet
 };
 
-/// One UDP socket. Use it from one thread.
+/// A UDP socket, and one more where IPv6 is used. Use it from one thread.
 class EnetTransport final : public Transport {
  public:
   /// Opens a socket that accepts connections. invalid_argument: address or limits; io_error: the
@@ -78,7 +80,9 @@ class EnetTransport final : public Transport {
   EnetTransport(const EnetTransport&) = delete;
   EnetTransport& operator=(const EnetTransport&) = delete;
 
-  /// Begins to connect; `connected` or `disconnected` follows as an event. `address` is numeric.
+  /// Begins to connect; `connected` or `disconnected` follows as an event. `address` is numeric,
+  /// IPv4 or IPv6 (`fe80::1%eth0` for one that is valid on one line only). invalid_argument: it is
+  /// not; io_error: the system has no IPv6.
   [[nodiscard]] Result<ConnectionId> connect(const std::string& address, std::uint16_t port);
 
   /// The UDP port that this side is bound to; 0 before anything was sent by an `open` socket.
