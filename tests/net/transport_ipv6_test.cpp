@@ -56,6 +56,19 @@ TEST(Ipv6, ALinkLocalSiteIsOneInterfaces) {
   EXPECT_FALSE(from_one_site(from(2, 7), from(3, 7)));
 }
 
+TEST(ResolveHost, GivesTheAddressesOfANameAndAnAddressItself) {
+  using Addresses = std::vector<std::string>;
+  EXPECT_EQ(resolve_host("127.0.0.1"), Addresses{"127.0.0.1"});
+  EXPECT_EQ(resolve_host("::1"), Addresses{"::1"});
+  EXPECT_EQ(resolve_host("2001:DB8:0::1"), Addresses{"2001:db8::1"});
+  const Addresses found = resolve_host("localhost");
+  EXPECT_FALSE(found.empty());
+  for (const std::string& address : found)
+    EXPECT_TRUE(address == "::1" || address.rfind("127.", 0) == 0) << address;
+  for (const char* text : {"", "[::1]", "::1::", "a b"})
+    EXPECT_TRUE(resolve_host(text).empty()) << text;
+}
+
 TEST(Ipv6, OneSiteCannotTakeAllPlaces) {
   LKS_NEEDS_IPV6();
   const auto server = listening({.bind_address = "::"});

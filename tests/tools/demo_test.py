@@ -9,6 +9,7 @@ lines that a server prints and the ticks in its log.
 import json
 import pathlib
 import re
+import socket
 import signal
 import subprocess
 import sys
@@ -19,6 +20,16 @@ import unittest
 
 LOCKSTONE = ""
 PATIENCE_SECONDS = 120
+
+
+def has_ipv6():
+    """Whether ::1 can be bound."""
+    try:
+        with socket.socket(socket.AF_INET6, socket.SOCK_DGRAM) as probe:
+            probe.bind(("::1", 0))
+        return True
+    except OSError:
+        return False
 
 
 class Network(unittest.TestCase):
@@ -179,6 +190,34 @@ class Network(unittest.TestCase):
         self.assertEqual([answer["slot"] for answer in answers], [0, 1])
         final_hash = re.search(r"final hash ([0-9a-f]{16})", self.expect(0, server))[1]
         self.assertEqual([answer["final_hash"] for answer in answers], [final_hash] * 2)
+
+    def test_a_server_can_be_named_and_called_over_ipv6(self):
+        bind, calls = ("::", ["localhost", "[::1]"]) if has_ipv6() else ("0.0.0.0", ["localhost", "127.0.0.1"])
+        server = self.start("serve", "--bind", bind, "--players", 2, "--ticks", 60, "--fast",
+                            "--bodies", 20, "--insecure")
+        line = self.read_until("listening", server)
+        self.assertIn("listening on [::]:" if has_ipv6() else "listening on 0.0.0.0:", line)
+        port = re.search(r":(\d+)\s*$", line)[1]
+        players = [self.start("join", "--server", f"{host}:{port}", "--insecure", "--json")
+                   for host in calls]
+        hashes = {json.loads(self.expect(0, player))["final_hash"] for player in players}
+        self.assertEqual(hashes, {re.search(r"final hash ([0-9a-f]{16})", self.expect(0, server))[1]})
+
+    def test_the_servers_of_a_token_are_tried_in_turn(self):
+        server, port = self.serve_for_tokens("--players", 1, "--ticks", 60, "--fast", "--bodies", 20)
+        self.issue("token", 0, "--server", "127.0.0.1:9", "--server", f"localhost:{port}")
+        self.assertIn(f"server   127.0.0.1:{port}", self.run_command(0, "token", "show", "token"))
+        player = self.run_command(0, "join", "--token", "token")
+        self.assertIn(f"calling 127.0.0.1:{port}", player)
+        self.assertIn("the match is over", player)
+        self.expect(0, server)
+
+    def test_what_is_no_server_is_refused(self):
+        for server in ["::1:7", "[::1]", "localhost", "localhost:0", "a b:7"]:
+            self.assertIn("is no server like", self.run_command(
+                64, "join", "--insecure", "--server", server))
+        self.assertIn("not a numeric address", self.run_command(
+            69, "serve", "--insecure", "--bind", "localhost"))
 
     def test_tokens_can_be_looked_at(self):
         self.run_command(0, "token", "key", "key")

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@
 #include "tools/lockstone/interrupt.h"
 #include "tools/lockstone/json_text.h"
 #include "tools/lockstone/secrets.h"
+#include "tools/lockstone/servers.h"
 #include "tools/relay/stall_watch.h"
 #include "tools/scenes/play.h"
 
@@ -30,6 +32,7 @@ namespace lockstone::tool {
 namespace {
 
 struct JoinOptions {
+  std::string server;
   std::string host = "127.0.0.1";
   std::uint16_t port = 0;
   std::string token;
@@ -199,9 +202,32 @@ struct Caller {
   }
 };
 
+/// Where the server may be: the addresses of its name, or of the token's servers.
+class Targets {
+ public:
+  explicit Targets(std::vector<net::HostPort> list) : list_(std::move(list)) {}
+
+  [[nodiscard]] std::size_t count() const { return list_.size(); }
+  [[nodiscard]] const net::HostPort& current() const { return list_[at_]; }
+  void go_on() { at_ = (at_ + 1) % list_.size(); }
+
+ private:
+  std::vector<net::HostPort> list_;
+  std::size_t at_ = 0;
+};
+
+// Goes on from targets that the system cannot call, such as IPv6 where it has none.
+Result<net::ConnectionId> call_next(net::EnetTransport& enet, Targets& targets) {
+  for (std::size_t tries = 1;; ++tries) {
+    const net::HostPort& target = targets.current();
+    const Result<net::ConnectionId> connection = enet.connect(target.host, target.port);
+    if (connection || tries == targets.count()) return connection;
+    targets.go_on();
+  }
+}
+
 // Null, with a complaint, when the system refuses.
-std::unique_ptr<Caller> call(const std::string& host, std::uint16_t port,
-                             const std::optional<net::ConnectToken>& token) {
+std::unique_ptr<Caller> call(Targets& targets, const std::optional<net::ConnectToken>& token) {
   auto caller = std::make_unique<Caller>();
   net::EnetOptions enet;
   if (token) {
@@ -218,20 +244,27 @@ std::unique_ptr<Caller> call(const std::string& host, std::uint16_t port,
     caller->secure =
         std::move(net::SecureTransport::join(*caller->enet, *token, caller->random)).value();
   }
-  const Result<net::ConnectionId> connection = caller->enet->connect(host, port);
+  const Result<net::ConnectionId> connection = call_next(*caller->enet, targets);
   if (!connection) {
-    complain(fmt::format("cannot call {}:{}: {}", host, port, to_string(connection.status())));
+    complain(fmt::format("cannot call {}: {}", targets.current().to_text(),
+                         to_string(connection.status())));
     return nullptr;
   }
   caller->connection = connection.value();
   return caller;
 }
 
-/// Plays to the end. A lost connection is made anew, for a while.
+/// Plays to the end. A lost connection is made anew, for a while; until it is in, by the next
+/// target.
 class Play {
  public:
-  Play(const JoinOptions& options, Caller& caller, net::Client& client, JoinObserver& observer)
-      : options_(options), caller_(caller), client_(client), observer_(observer) {}
+  Play(const JoinOptions& options, Targets& targets, Caller& caller, net::Client& client,
+       JoinObserver& observer)
+      : options_(options),
+        targets_(targets),
+        caller_(caller),
+        client_(client),
+        observer_(observer) {}
 
   void run() {
     using namespace std::chrono_literals;
@@ -260,29 +293,35 @@ class Play {
     if (pause_seconds_ == 0) return plan_call(now);
     if (now < call_seconds_) return true;
     pause_seconds_ = 0;
-    const Result<net::ConnectionId> connection =
-        caller_.enet->connect(options_.host, options_.port);
+    const Result<net::ConnectionId> connection = call_next(*caller_.enet, targets_);
     if (!connection || !client_.reconnect(connection.value())) return connection.ok();
     ++observer_.reconnects;
     return true;
   }
 
-  // The first pause is short, each further one twice as long.
+  // Strangers call one target after the other, twice each at least. The pause between two rounds is
+  // short at first, then twice as long each time.
   [[nodiscard]] bool plan_call(double now) {
+    constexpr double k_next_target_seconds = 0.01;
     constexpr double k_first_pause_seconds = 0.25;
     constexpr double k_longest_pause_seconds = 4;
-    constexpr unsigned k_calls_of_strangers = 3;
+    constexpr std::size_t k_calls_of_strangers = 3;
     if (lost_seconds_ < 0) lost_seconds_ = now;
     const bool stranger = client_.rejoin_key() == 0;
-    if (stranger && calls_ >= k_calls_of_strangers) return false;
-    pause_seconds_ =
-        std::min(k_first_pause_seconds * static_cast<double>(1U << std::min(calls_, 8U)),
-                 k_longest_pause_seconds);
-    if (now + pause_seconds_ - lost_seconds_ > options_.reconnect) return false;
+    const std::size_t round = stranger ? targets_.count() : 1;
+    if (stranger && calls_ >= std::max(k_calls_of_strangers, 2 * round - 1)) return false;
+    if (stranger) targets_.go_on();
     ++calls_;
+    const std::size_t rounds = std::min<std::size_t>(calls_ / round, 8);
+    pause_seconds_ = calls_ % round != 0
+                         ? k_next_target_seconds
+                         : std::min(k_first_pause_seconds * static_cast<double>(1U << (rounds - 1)),
+                                    k_longest_pause_seconds);
+    if (now + pause_seconds_ - lost_seconds_ > options_.reconnect) return false;
     call_seconds_ = now + pause_seconds_;
     if (!options_.quiet) {
-      fmt::print(stderr, "{}: calling again in {} s\n", why(), pause_seconds_);
+      const std::string where = round > 1 ? targets_.current().to_text() : "again";
+      fmt::print(stderr, "{}: calling {} in {} s\n", why(), where, pause_seconds_);
     }
     return true;
   }
@@ -293,47 +332,68 @@ class Play {
   }
 
   const JoinOptions& options_;
+  Targets& targets_;
   Caller& caller_;
   net::Client& client_;
   JoinObserver& observer_;
   Stopwatch watch_;
   bool leaving_ = false;
   double lost_seconds_ = -1;  ///< since when; below 0: it is not
-  unsigned calls_ = 0;        ///< since then
+  std::size_t calls_ = 0;     ///< since then
   double pause_seconds_ = 0;  ///< before the next call; 0: none is planned
   double call_seconds_ = 0;   ///< when it is due
 };
 
-// Reads the token and takes the server from it where none is given. Not k_ok, with a complaint.
-int set_security(JoinOptions& options, std::optional<net::ConnectToken>& token) {
+// Reads the token, if there is to be one. Not k_ok, with a complaint.
+int set_security(const JoinOptions& options, std::optional<net::ConnectToken>& token) {
   if (options.insecure == !options.token.empty()) {
     complain("give --token FILE, or say --insecure");
     return k_usage;
   }
-  if (!options.insecure) {
-    if (!require_security()) return k_unavailable;
-    token = read_token(options.token);
-    if (!token) return k_corrupt;
+  if (options.insecure) return k_ok;
+  if (!require_security()) return k_unavailable;
+  token = read_token(options.token);
+  return token ? k_ok : k_corrupt;
+}
+
+// Not k_ok, with a complaint, if nothing says where the server is.
+int find_targets(const JoinOptions& options, const std::optional<net::ConnectToken>& token,
+                 std::vector<net::HostPort>& targets) {
+  net::HostPort server{options.host, options.port};
+  if (!options.server.empty()) {
+    const Result<net::HostPort> read = net::HostPort::from_text(options.server);
+    if (!read) {
+      complain(fmt::format("{} is no server like 1.2.3.4:7777, [::1]:7777 or localhost:7777",
+                           options.server));
+      return k_usage;
+    }
+    server = read.value();
   }
-  if (options.port == 0 && token && token->grant.servers.count > 0) {
-    const std::string address = token->grant.servers.entries[0].to_text();
-    options.host = address.substr(0, address.rfind(':'));
-    options.port = token->grant.servers.entries[0].port;
+  if (server.port != 0) {
+    targets = look_up(server);
+    return targets.empty() ? k_unavailable : k_ok;
   }
-  if (options.port != 0) return k_ok;
-  complain("--port is not given, and no token names a server");
+  for (std::size_t i = 0; token && i < token->grant.servers.count; ++i)
+    targets.push_back(token->grant.servers.entries[i].to_host_port());
+  if (!targets.empty()) return k_ok;
+  complain("neither --server nor --port is given, and no token names a server");
   return k_usage;
 }
 
-int join(JoinOptions options) {
+int join(const JoinOptions& options) {
+  constexpr std::int64_t k_patience_us = 2'000'000;  // with a server that may be elsewhere
   catch_interrupts();
   std::optional<net::ConnectToken> token;
   if (const int code = set_security(options, token); code != k_ok) return code;
-  const std::unique_ptr<Caller> caller = call(options.host, options.port, token);
+  std::vector<net::HostPort> found;
+  if (const int code = find_targets(options, token, found); code != k_ok) return code;
+  Targets targets(std::move(found));
+  const std::unique_ptr<Caller> caller = call(targets, token);
   if (caller == nullptr) return k_unavailable;
   BotInputs inputs(options.bot_seed);
   JoinObserver observer(options.quiet);
   net::ClientConfig config;
+  if (targets.count() > 1) config.timeouts.handshake_us = k_patience_us;
   config.insecure = options.insecure;
   config.name = options.name;
   config.wanted_slot =
@@ -347,7 +407,7 @@ int join(JoinOptions options) {
     return k_usage;
   }
   inputs.watch(*created.client);
-  Play(options, *caller, *created.client, observer).run();
+  Play(options, targets, *caller, *created.client, observer).run();
   return conclude(options, *created.client, observer);
 }
 
@@ -356,8 +416,13 @@ int join(JoinOptions options) {
 void add_join_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<JoinOptions>();
   CLI::App* command = app.add_subcommand("join", "Play in a match over UDP, as a bot");
-  command->add_option("--host", options->host, "Numeric IPv4 address")->capture_default_str();
-  command->add_option("--port", options->port, "UDP port; default: the token's first server");
+  CLI::Option* server = command->add_option(
+      "--server", options->server,
+      "Like game.example:7777, 1.2.3.4:7777 or [::1]:7777; default: the token's servers in turn");
+  command->add_option("--host", options->host, "Name or numeric address, beside --port")
+      ->capture_default_str()
+      ->excludes(server);
+  command->add_option("--port", options->port, "UDP port of --host")->excludes(server);
   command->add_option("--token", options->token, "File with a token of `token issue`");
   command->add_option("--bot-seed", options->bot_seed, "What the bot feels like")
       ->capture_default_str();

@@ -14,6 +14,7 @@
 #include "tools/lockstone/match_host.h"
 #include "tools/lockstone/match_options.h"
 #include "tools/lockstone/secrets.h"
+#include "tools/lockstone/servers.h"
 
 namespace lockstone::tool {
 namespace {
@@ -37,12 +38,7 @@ int set_security(ServeOptions& options) {
   if (options.match.insecure) return k_ok;
   if (!require_security()) return k_unavailable;
   options.match.key = read_key(options.key);
-  for (const std::string& text : options.addresses) {
-    const Result<net::ServerAddress> address = net::ServerAddress::from_text(text);
-    if (address && options.match.addresses.add(address.value())) continue;
-    complain(fmt::format("{}: not an address like 1.2.3.4:7777, or too many", text));
-    return k_usage;
-  }
+  if (!add_servers(options.addresses, options.match.addresses)) return k_usage;
   return options.match.key ? k_ok : k_corrupt;
 }
 
@@ -124,7 +120,8 @@ int serve(ServeOptions options) {
   for (unsigned i = 0; i < options.matches; ++i) {
     hosts.push_back(MatchHost::create(options_of(options, i)));
     if (hosts.back() == nullptr) return k_unavailable;
-    fmt::print("listening on {}:{}\n", options.match.bind, hosts.back()->port());
+    const net::HostPort where{options.match.bind, hosts.back()->port()};
+    fmt::print("listening on {}\n", where.to_text());
   }
   std::fflush(stdout);
   std::vector<int> exits(hosts.size());
@@ -137,18 +134,33 @@ int serve(ServeOptions options) {
   return *std::max_element(exits.begin(), exits.end());
 }
 
+void add_security_options(CLI::App& command, ServeOptions& options) {
+  command.add_option("--key", options.key, "File with the key of `token key`");
+  command.add_option("--match", options.match.match, "The number that the tokens are for")
+      ->capture_default_str();
+  command.add_option(
+      "--address", options.addresses,
+      "Take only tokens that name this server, like 1.2.3.4:7777, [2001:db8::1]:7777 or "
+      "game.example:7777, or any server");
+  command.add_flag("--insecure", options.match.insecure,
+                   "No tokens and no encryption: anybody may join, listen and forge");
+}
+
 }  // namespace
 
 void add_serve_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ServeOptions>();
   CLI::App* command = app.add_subcommand("serve", "Host a match over UDP");
   add_match_options(*command, options->match);
-  command->add_option("--bind", options->match.bind, "Numeric IPv4 address")->capture_default_str();
+  command
+      ->add_option("--bind", options->match.bind,
+                   "Numeric address; :: for all of IPv6 and IPv4, 0.0.0.0 for all of IPv4")
+      ->capture_default_str();
   command->add_option("--port", options->match.port, "UDP port; 0: the system chooses")
       ->capture_default_str();
   command
       ->add_option("--max-connections-per-address", options->match.max_per_address,
-                   "Players and spectators behind one router share an address")
+                   "Players and spectators behind one router share an address; IPv6: a /64")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--scene", options->match.scene, "What is simulated, see `scenes`")
@@ -197,13 +209,7 @@ void add_serve_command(CLI::App& app, int& exit_code) {
   command->add_option("--matches", options->matches, "Host so many, on ports that follow")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->add_option("--key", options->key, "File with the key of `token key`");
-  command->add_option("--match", options->match.match, "The number that the tokens are for")
-      ->capture_default_str();
-  command->add_option("--address", options->addresses,
-                      "Take only tokens that name this server, like 1.2.3.4:7777, or any server");
-  command->add_flag("--insecure", options->match.insecure,
-                    "No tokens and no encryption: anybody may join, listen and forge");
+  add_security_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = serve(*options); });
 }
 

@@ -10,6 +10,7 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/console.h"
 #include "tools/lockstone/secrets.h"
+#include "tools/lockstone/servers.h"
 
 namespace lockstone::tool {
 namespace {
@@ -38,17 +39,6 @@ int make_backend_key(const std::string& path) {
 
 std::string slot_text(std::uint8_t slot) {
   return slot == net::k_spectator_slot ? "spectator" : std::to_string(slot);
-}
-
-bool add_servers(const std::vector<std::string>& texts, net::ServerList& servers) {
-  for (const std::string& text : texts) {
-    const Result<net::ServerAddress> address = net::ServerAddress::from_text(text);
-    if (address && servers.add(address.value())) continue;
-    complain(address ? "too many servers"
-                     : fmt::format("{} is no address like 1.2.3.4:7777", text));
-    return false;
-  }
-  return true;
 }
 
 int issue(const IssueOptions& options) {
@@ -120,7 +110,9 @@ void add_issue_command(CLI::App& parent, int& exit_code) {
   command->add_option("--minutes", options->minutes, "Until it expires")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  command->add_option("--server", options->servers, "Address like 1.2.3.4:7777; up to 8, or any");
+  command->add_option("--server", options->servers,
+                      "Like 1.2.3.4:7777, [2001:db8::1]:7777 or game.example:7777, a name with all "
+                      "addresses that it has now; up to 8 addresses. None: any server");
   command->add_option("--out", options->out, "Write it to this file, not to the terminal");
   command->callback([options, &exit_code] { exit_code = issue(*options); });
 }

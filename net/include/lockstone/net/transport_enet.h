@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <lockstone/net/keys.h>
 #include <lockstone/net/transport.h>
@@ -63,6 +64,11 @@ struct EnetCounters {
   std::uint64_t replayed = 0;           ///< sealed ones that came before, or are too old to know
   std::uint64_t oversized = 0;          ///< longer than any datagram of ENet
 };
+
+/// The numeric addresses of a host, IPv4 and IPv6, each once, in the order in which the system
+/// would try them; a numeric address gives itself. Empty: no such host. Asks the system's resolver
+/// and blocks as long as that does.
+[[nodiscard]] std::vector<std::string> resolve_host(const std::string& host);
 
 /// A UDP socket, and one more where IPv6 is used. Use it from one thread.
 class EnetTransport final : public Transport {
