@@ -36,6 +36,7 @@ EnetTransport::State& EnetTransport::State::of(const ENetHost* host) {
 
 int ENET_CALLBACK EnetTransport::State::intercept(ENetHost* host, ENetEvent*) {
   State& state = of(host);
+  ++state.datagrams_a_round;
   if (state.is_wake()) return state.admit_ipv6() ? 0 : 1;
   const auto datagram =
       std::as_writable_bytes(std::span(host->receivedData, host->receivedDataLength));

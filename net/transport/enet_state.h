@@ -37,8 +37,10 @@ inline constexpr std::uint32_t k_timeout_doublings = 32;
 inline constexpr std::int64_t k_half_open_us = 2'000'000;
 // A stranger that was sent away need not confirm that it heard why.
 inline constexpr std::int64_t k_farewell_us = 2'000'000;
-// ENet ends a round of receiving at each datagram that is longer than its buffer.
-inline constexpr unsigned k_max_oversized_a_poll = 64;
+// ENet ends a round of receiving after so many datagrams, and at each that is empty or longer than
+// its buffer.
+inline constexpr unsigned k_enet_datagrams_a_round = 256;
+inline constexpr unsigned k_max_cut_rounds_a_poll = 64;
 
 inline constexpr std::int64_t k_longest_wait_us = 3'600'000'000;
 
@@ -103,6 +105,7 @@ struct EnetTransport::State {
   EnetCounters counters;
   std::array<std::byte, ENET_PROTOCOL_MAXIMUM_MTU> gathered{};
   Word admitted{};                 // checksum of the datagram that ENet is about to read
+  unsigned datagrams_a_round = 0;  // that ENet has taken
   DatagramSource source;           // of the datagram that the gate judges
   std::unique_ptr<Ipv6Side> ipv6;  // null: IPv4 only
   bool takes_ipv4 = true;          // false: bound to an IPv6 address
@@ -416,6 +419,7 @@ struct EnetTransport::State {
                                                     std::string* problem);
 
   [[nodiscard]] std::uint16_t port() const;
+  [[nodiscard]] bool was_cut_short() const;
 
   // enet_ipv6.cpp
   [[nodiscard]] bool add_ipv6(const DatagramSource* local);

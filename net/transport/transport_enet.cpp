@@ -58,20 +58,29 @@ bool EnetTransport::poll(std::int64_t now_us, TransportEvent& event) {
   state_->now_us = now_us;
   ENetEvent source{};
   if (state_->ipv6 != nullptr) state_->ipv6->begin_poll();
-  for (unsigned oversized = 0; oversized < k_max_oversized_a_poll;) {
+  for (unsigned cut = 0; cut < k_max_cut_rounds_a_poll;) {
     if (state_->ipv6 != nullptr && state_->ipv6->fetch(state_->counters)) state_->wake_for_ipv6();
+    state_->datagrams_a_round = 0;
     const int result = enet_host_service(state_->host, &source, 0);
-    if (result == 0) break;
-    if (result < 0) {
-      ++oversized;
-      ++state_->counters.oversized;
+    if (result > 0) {
+      if (state_->translate(source, event)) return true;
+      state_->release_current();
       continue;
     }
-    if (state_->translate(source, event)) return true;
-    state_->release_current();
+    if (result == 0 && !state_->was_cut_short()) break;
+    ++cut;
+    if (result < 0) ++state_->counters.oversized;
   }
   state_->let_go_of_the_silent();
   return state_->end_one(event);
+}
+
+// ENet takes an empty datagram for the end of what has come.
+bool EnetTransport::State::was_cut_short() const {
+  if (datagrams_a_round >= k_enet_datagrams_a_round) return false;
+  enet_uint32 condition = ENET_SOCKET_WAIT_RECEIVE;
+  return enet_socket_wait(host->socket, &condition, 0) == 0 &&
+         (condition & ENET_SOCKET_WAIT_RECEIVE) != 0;
 }
 
 Status EnetTransport::send(ConnectionId connection, Channel channel, ByteView bytes) {

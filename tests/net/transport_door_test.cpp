@@ -84,6 +84,30 @@ TEST(EnetDoor, OversizedDatagramsDoNotEndAPoll) {
   EXPECT_EQ(server->counters().datagrams, 1U);
 }
 
+TEST(EnetDoor, EmptyDatagramsDoNotEndAPoll) {
+  const auto server = listening({});
+  const auto rude = caller(2), polite = caller();
+  for (int i = 0; i < 20; ++i)
+    ASSERT_TRUE(rude->send(Endpoint::loopback(server->port()), {}));
+  const std::vector<std::byte> bytes(60);
+  ASSERT_TRUE(polite->send(Endpoint::loopback(server->port()), bytes));
+  TransportEvent event;
+  EXPECT_FALSE(server->poll(0, event));
+  EXPECT_EQ(server->counters().datagrams, 1U);
+}
+
+TEST(EnetDoor, APollTakesABoundedNumberOfDatagrams) {
+  const auto server = listening({});
+  const auto rude = caller(2);
+  const std::array<std::byte, 1> byte{};
+  for (int i = 0; i < 270; ++i)
+    ASSERT_TRUE(rude->send(Endpoint::loopback(server->port()), byte));
+  TransportEvent event;
+  EXPECT_FALSE(server->poll(0, event));
+  EXPECT_LE(server->counters().datagrams, 256U);
+  EXPECT_FALSE(server->poll(0, event));
+}
+
 // A client, and somebody between it and the server.
 struct Eavesdropped {
   // The client's request for a connection, which has come to the one between.

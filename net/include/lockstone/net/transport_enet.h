@@ -51,7 +51,7 @@ struct EnetOptions {
 
 /// What came to a socket and what was kept out, since its creation.
 struct EnetCounters {
-  std::uint64_t datagrams = 0;          ///< all
+  std::uint64_t datagrams = 0;          ///< all but empty ones over IPv4
   std::uint64_t malformed = 0;          ///< no datagram of ENet
   std::uint64_t strays = 0;             ///< of no connection that exists
   std::uint64_t forged = 0;             ///< wrong checksum
