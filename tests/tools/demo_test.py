@@ -191,6 +191,11 @@ class Network(unittest.TestCase):
         final_hash = re.search(r"final hash ([0-9a-f]{16})", self.expect(0, server))[1]
         self.assertEqual([answer["final_hash"] for answer in answers], [final_hash] * 2)
 
+    @unittest.skipUnless(has_ipv6(), "no address ::1: this machine has no IPv6")
+    def test_an_address_to_listen_at_may_have_brackets(self):
+        server = self.start("serve", "--bind", "[::1]", "--insecure")
+        self.assertIn("listening on [::1]:", self.read_until("listening", server))
+
     def test_a_server_can_be_named_and_called_over_ipv6(self):
         bind, calls = ("::", ["localhost", "[::1]"]) if has_ipv6() else ("0.0.0.0", ["localhost", "127.0.0.1"])
         server = self.start("serve", "--bind", bind, "--players", 2, "--ticks", 60, "--fast",

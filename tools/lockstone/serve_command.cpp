@@ -107,7 +107,16 @@ int check_matches(const ServeOptions& options) {
   return k_usage;
 }
 
+// `[::1]`, as addresses with a port have it, means `::1`.
+void remove_brackets(std::string& address) {
+  const bool bracketed = address.size() > 2 && address.front() == '[' && address.back() == ']';
+  const bool ipv6 = address.find(':') != std::string::npos;
+  if (bracketed && ipv6) address = address.substr(1, address.size() - 2);
+}
+
 int serve(ServeOptions options) {
+  remove_brackets(options.match.bind);
+  remove_brackets(options.match.metrics_bind);
   options.match.strict = options.policy == "strict";
   options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
                                 : options.on_desync == "resync" ? net::DesyncPolicy::resync
