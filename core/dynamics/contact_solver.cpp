@@ -98,7 +98,7 @@ void prefetch(const T& object) {
 
 // Loops of a substep: eight of bodies, joints and direct contacts; the colours of contacts twice,
 // of nets four times.
-constexpr std::size_t k_most_substep_loops = 8 + 6 * (k_graph_colors + 1);
+constexpr std::size_t k_most_substep_loops = 11 + 6 * (k_graph_colors + 1);
 
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 12;
@@ -183,6 +183,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
   kept_.reserve(most * k_block_lanes);
+  reserve_islands(most_rows, body_capacity, contact_capacity);
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
 }

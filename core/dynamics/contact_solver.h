@@ -23,6 +23,7 @@
 #include "core/dynamics/heap_loads.h"
 #include "core/dynamics/joint_net.h"
 #include "core/dynamics/joint_record.h"
+#include "core/dynamics/proximal_solver.h"
 #include "core/dynamics/solver_body.h"
 #include "core/dynamics/tick_islands.h"
 #include "core/dynamics/time_step.h"
@@ -118,6 +119,7 @@ class ContactSolver {
     warm_joints,
     solve,
     push_direct,
+    push_islands,
     lift_net,
     solve_joints,
     positions,
@@ -127,6 +129,8 @@ class ContactSolver {
     relax_net,
     relax,
     relax_direct,
+    relax_islands,
+    end_islands,
     bounce,
     store,
   };
@@ -207,6 +211,16 @@ class ContactSolver {
   void begin_joints();
   void take_up_net(const ContactScene& scene);
   void take_up_direct(const ContactScene& scene);
+  void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts);
+  void bar_islands(const ContactScene& scene);
+  void list_island(std::uint32_t island);
+  [[nodiscard]] bool is_pinched(const ContactScene& scene);
+  void chain_islands();
+  [[nodiscard]] ProximalContact converged_contact(std::uint32_t index) const;
+  [[nodiscard]] std::uint32_t converged_islands() const;
+  void plan_converged(const ContactScene& scene);
+  void begin_converged(const ContactScene& scene);
+  void run_converged(StageKind kind, std::size_t first, std::size_t end);
   void find_first_loads(const ContactScene& scene, Parallel& parallel);
   template <class Takes>
   void add_supports(const ContactScene& scene, const Takes& takes);
@@ -302,6 +316,18 @@ class ContactSolver {
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
   DirectContacts direct_;
+  std::unique_ptr<ProximalSolver> proximal_;  // null without LOCKSTONE_CONVERGED_ISLANDS
+  std::vector<std::uint32_t> first_of_;  // of an island: its first body, then its first entry, + 1
+  std::vector<std::uint32_t> next_of_;   // of a body, then of an entry: the next, + 1
+  std::vector<std::uint32_t> island_bodies_;
+  std::vector<ProximalContact> island_contacts_;
+  // Where something that no impulse moves pushes an island.
+  struct Hold {
+    Vec3<Unit> normal{};
+    std::uint32_t body = 0;
+    bool moves = false;
+  };
+  std::vector<Hold> holds_found_;
   SupportOrder supports_;
   FirstLoads first_loads_;
   HeapLoads heap_loads_;

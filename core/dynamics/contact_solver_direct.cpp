@@ -116,7 +116,7 @@ void ContactSolver::add_supports(const ContactScene& scene, const Takes& takes) 
 }
 
 ContactRun ContactSolver::direct_run() {
-  return {rows_, std::span(bodies_).first(members_.size()), blocks_, rules_};
+  return {rows_, before_, std::span(bodies_).first(members_.size()), blocks_, rules_};
 }
 
 }  // namespace lockstone

@@ -63,6 +63,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       joints_->prepare(joint_run(), first, end);
                     });
+  begin_converged(scene);
   take_up_direct(scene);
   find_first_loads(scene, parallel);
 }
@@ -118,6 +119,7 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
   add_loop_of_each_color(StageKind::solve);
   add_loop({StageKind::push_direct}, direct, 1, true);
+  add_loop({StageKind::push_islands}, converged_islands(), 1);
   for (int i = 0; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::lift_net);
   add_loop({StageKind::solve_joints}, clusters, k_cluster_grain);
@@ -129,6 +131,7 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
     add_net_loops(StageKind::relax_net);
   add_loop_of_each_color(StageKind::relax, substep);
   add_loop({StageKind::relax_direct}, direct, 1, true);
+  add_loop({StageKind::relax_islands}, converged_islands(), 1);
 }
 
 // All substeps; then colours that bounce.
@@ -138,6 +141,7 @@ void ContactSolver::run(Parallel& parallel) {
   stages_.clear();
   for (int substep = 0; substep < step_.substeps; ++substep)
     add_loops_of_substep(static_cast<std::uint8_t>(substep));
+  add_loop({StageKind::end_islands}, converged_islands(), 1);
   if (bounces_) add_loop_of_each_color(StageKind::bounce);
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { run_piece(stages_[loop], first, end); });
@@ -156,6 +160,10 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return direct_.solve(direct_run(), true);
     case StageKind::relax_direct:
       return direct_.solve(direct_run(), false);
+    case StageKind::push_islands:
+    case StageKind::relax_islands:
+    case StageKind::end_islands:
+      return run_converged(stage.kind, first, end);
     case StageKind::solve_joints:
       return joints_->solve(joint_run(), first, end);
     case StageKind::positions:

@@ -27,6 +27,7 @@ inline constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 /// What the contact solver lends.
 struct ContactRun {
   std::span<lanes::RowBody> rows;
+  std::span<const lanes::RowBody> before;  // as the substep began
   std::span<const SolverBody> bodies;
   std::span<lanes::ManifoldBlock> blocks;
   const lanes::SweepRules& rules;

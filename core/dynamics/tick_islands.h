@@ -9,6 +9,13 @@
 
 namespace lockstone {
 
+/// Whether small islands are solved to convergence: the option LOCKSTONE_CONVERGED_ISLANDS.
+#if defined(LKS_CONVERGED_ISLANDS)
+inline constexpr bool k_converges_islands = true;
+#else
+inline constexpr bool k_converges_islands = false;
+#endif
+
 /// A count that several threads raise, and that is copied while none does.
 class SharedCount {
  public:
@@ -31,6 +38,9 @@ struct IslandLoad {
   /// An island with more contacts of a kind than these leaves them to the iterations.
   static constexpr std::uint32_t k_most_loaded = 128;
 
+  bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
+  bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
+  std::uint32_t bodies = 0;   ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
@@ -38,16 +48,18 @@ struct IslandLoad {
                               ///< k_most_loaded + 1 on it may be any greater number
   SharedCount uneven;         ///< contacts of a light body and a heavy one
 
-  [[nodiscard]] bool is_heap() const { return bearing > k_most_loaded; }
+  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_loaded; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
   /// Too large for a direct solve of all its contacts.
-  [[nodiscard]] bool is_iterated() const { return contacts > k_most_loaded; }
+  [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
   [[nodiscard]] bool needs_direct_solve() const {
+    if (is_converged) return false;
     return uneven.get() != 0 || (loaded.get() != 0 && few_are_loaded());
   }
   /// More contacts are loaded than are solved at once, and a good part of all are new: nobody knows
   /// yet what they carry.
   [[nodiscard]] bool needs_first_loads() const {
+    if (is_converged) return false;
     return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
   }
 };
@@ -77,6 +89,9 @@ class TickIslands {
   /// After the last `join`: gives islands their numbers, in the order of their first bodies, and
   /// clears their loads.
   void settle();
+
+  /// Islands, with the one that is none.
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(loads_.size()); }
 
   /// The island of a body, after `settle`.
   [[nodiscard]] std::uint32_t of(std::uint32_t body) const { return parents_[body]; }

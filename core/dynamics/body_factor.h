@@ -1,0 +1,129 @@
+// Block-sparse Cholesky factors of matrices with six rows a body: one matrix an island.
+//
+// An island's matrix is K = γ·1 + Σ k·Jᵀ·J with rows |J| ≤ 1 and 0 < k ≤ 1, γ = 2^-14: symmetric,
+// and at least γ. Each body's rows and columns are scaled by a power of two such that no entry
+// exceeds 1, so all entries of the factor lie within ±1. They have 30 fraction bits; sums have 60.
+// The order of elimination is one of least degree (W. Tinney, J. Walker, "Direct solutions of
+// sparse network equations by optimally ordered triangular factorization", 1967).
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lockstone {
+
+/// The six velocities of a body in an island's problem, or what is added to them.
+using BodyVector = std::array<std::int64_t, 6>;
+
+/// One side of a row, Q30.
+using RowSide = std::array<std::int32_t, 6>;
+
+class BodyFactor {
+ public:
+  /// No island has more bodies.
+  static constexpr std::uint32_t k_most_bodies = 256;
+
+  /// No island costs more than so many products of blocks.
+  static constexpr std::uint32_t k_most_products = 20000;
+
+  /// The matrix's least eigenvalue is 2^-k_least_bits at least.
+  static constexpr int k_least_bits = 14;
+
+  /// An island's place in the pools.
+  struct Plan {
+    std::uint32_t first_column = 0;
+    std::uint32_t bodies = 0;
+    std::uint32_t first_block = 0;  // diagonal blocks first, in the order of elimination
+    std::uint32_t blocks = 0;
+    std::uint32_t first_target = 0;
+  };
+
+  /// Room for the islands of so many bodies. No function but this allocates.
+  [[gnu::cold]] explicit BodyFactor(std::size_t body_capacity);
+
+  void clear();
+
+  /// Plans the factor of an island whose bodies are named 0 … bodies − 1, and which has an entry
+  /// for each of the pairs. False if it would be too large; then nothing has been planned.
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;
+  [[nodiscard]] bool plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& plan);
+
+  /// The block of bodies a ≠ b, and whether a's rows are its rows.
+  struct Place {
+    std::uint32_t block = 0;
+    bool a_is_row = false;
+  };
+  [[nodiscard]] Place find(const Plan& plan, std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::uint32_t diagonal(const Plan& plan, std::uint32_t body) const {
+    return plan.first_block + places_[plan.first_column + body];
+  }
+
+  /// Sets the matrix to γ·1.
+  void reset(const Plan& plan);
+
+  /// Adds k·xᵀ·y to a block, k in Q30; of a diagonal block only as far as the diagonal.
+  void add(std::uint32_t block, const RowSide& x, const RowSide& y, std::int32_t k);
+
+  void factor(const Plan& plan);
+
+  /// Solves K·x = b, by body. Returns whether all of it fits in 31 bits; what does not is clamped.
+  [[nodiscard]] bool solve(const Plan& plan, std::span<BodyVector> b);
+
+ private:
+  static constexpr std::size_t k_side = 6, k_entries = k_side * k_side;
+
+  // Sums, Q50, until they are factored; Q30 after.
+  struct Block {
+    std::array<std::int64_t, k_entries> sums{};
+    std::array<std::int32_t, k_entries> factor{};
+  };
+  struct Column {
+    std::uint32_t first = 0;  // of below_
+    std::uint32_t count = 0;  // of blocks under its diagonal
+    std::uint32_t body = 0;
+    int scale = 0;  // its rows and columns are multiplied by 2^-scale
+    // One over each pivot's root: mantissa · 2^-shift.
+    std::array<std::int32_t, k_side> mantissas{};
+    std::array<std::int32_t, k_side> shifts{};
+  };
+  struct Below {
+    std::uint32_t row = 0;    // column of the row's body
+    std::uint32_t block = 0;  // in blocks_
+  };
+  using Set = std::bitset<k_most_bodies>;
+
+  [[nodiscard]] std::uint32_t eliminate_next(std::uint32_t bodies);
+  [[nodiscard]] std::uint32_t find_block(const Plan& plan, std::uint32_t row,
+                                         std::uint32_t column) const;
+  [[nodiscard]] std::size_t find_order(const Plan& plan, std::size_t& blocks);
+  void add_columns(const Plan& plan);
+  void add_targets(const Plan& plan);
+  void scale(const Plan& plan);
+  static void factor_diagonal(Column& column, Block& block);
+  static void set_pivot(Column& column, std::size_t j, std::int64_t sum, Block& block);
+  [[nodiscard]] static std::int32_t entry(const Column& column, std::size_t j, std::int64_t sum);
+  static void divide_by(const Block& diagonal, const Column& column, Block& block);
+  static void subtract_product(const Block& x, const Block& y, bool is_diagonal, Block& from);
+  [[nodiscard]] static std::int64_t times_pivot(const Column& column, std::size_t i,
+                                                std::int64_t x);
+  void solve_down(const Plan& plan, bool& fits);
+  void solve_up(const Plan& plan, bool& fits);
+
+  std::vector<Column> columns_;
+  std::vector<std::uint32_t> places_;  // of a body in the order
+  std::vector<Below> below_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> targets_;  // blocks that each pair of blocks of a column changes
+  std::vector<Set> neighbours_;         // of bodies not yet eliminated
+  std::vector<Set> under_;              // by place: bodies under the diagonal
+  std::vector<std::uint32_t> order_;
+  std::array<std::uint32_t, k_most_bodies> degrees_{};
+  std::vector<BodyVector> x_;  // by place, island by island
+  std::size_t block_capacity_, target_capacity_;
+};
+
+}  // namespace lockstone

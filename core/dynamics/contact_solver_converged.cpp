@@ -1,0 +1,178 @@
+// Chooses the islands that are solved to convergence, and runs their solver.
+
+#include <algorithm>
+
+#include "core/dynamics/contact_solver.h"
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace {
+
+// No island has more contacts.
+constexpr std::uint32_t k_most_contacts = 1024;
+
+// The velocity that gravity adds in a substep, m/s, Q32.
+std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
+  const auto size = static_cast<std::int64_t>(norm(gravity.x.raw, gravity.y.raw, gravity.z.raw));
+  return step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
+}
+
+// Whether impulses would need more bits than there are beside speeds: above 20,000 : 1.
+bool is_too_uneven(BlockFloat a, BlockFloat b) {
+  constexpr std::int32_t k_least_share = (1 << 30) / 20'000;
+  if (a.mantissa == 0 || b.mantissa == 0) return false;
+  return std::min(ratio(a, b), ratio(b, a)).raw < k_least_share;
+}
+
+}  // namespace
+
+// Where islands are not solved to convergence, no program has the code for it.
+void ContactSolver::reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts) {
+  if constexpr (k_converges_islands) {
+    const std::size_t most = std::min<std::size_t>(contacts, k_most_contacts);
+    proximal_ = std::make_unique<ProximalSolver>(bodies, contacts);
+    first_of_.reserve(2 * bodies + 2);
+    next_of_.reserve(rows + contacts);
+    island_bodies_.reserve(BodyFactor::k_most_bodies);
+    island_contacts_.reserve(most);
+    holds_found_.reserve(most);
+  }
+}
+
+std::uint32_t ContactSolver::converged_islands() const {
+  return proximal_ == nullptr ? 0 : proximal_->count();
+}
+
+// Joints, locked axes and rolling resistance have no rows here yet.
+void ContactSolver::bar_islands(const ContactScene& scene) {
+  const auto bar = [this](std::uint32_t body) {
+    islands_.load(islands_.of(solver_index_[body])).is_barred = true;
+  };
+  for (const JointLink& link : scene.joint_links)
+    for (const std::uint32_t body : {link.body_a, link.body_b})
+      if (scene.bodies[body].is_dynamic()) bar(body);
+  for (std::uint32_t i = 1; i < members_.size(); ++i)
+    if (islands_.of(i) != 0 && (scene.bodies[members_[i]].locks & k_lock_moving) != 0)
+      bar(members_[i]);
+  const auto mass = [&](std::uint32_t number) {
+    return (number & k_immovable) == 0 ? scene.bodies[members_[number]].inverse_mass_value()
+                                       : BlockFloat{};
+  };
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    const bool rolls = scene.surfaces[entry.slot].rolling_arm != Length{};
+    if (rolls || is_too_uneven(mass(entry.body_a), mass(entry.body_b)))
+      island_of(i).is_barred = true;
+  }
+}
+
+// Chains the bodies and the contacts of each island, in their order.
+void ContactSolver::chain_islands() {
+  const std::uint32_t islands = islands_.count();
+  const auto bodies = static_cast<std::uint32_t>(members_.size());
+  first_of_.assign(std::size_t{2} * islands, 0);
+  next_of_.assign(bodies + entries_.size(), 0);
+  for (std::uint32_t i = bodies; i-- > 1;) {
+    const std::uint32_t island = islands_.of(i);
+    if (island == 0) continue;
+    ++islands_.load(island).bodies;
+    next_of_[i] = first_of_[island];
+    first_of_[island] = i;
+  }
+  for (auto i = static_cast<std::uint32_t>(entries_.size()); i-- > 0;) {
+    const auto island = static_cast<std::uint32_t>(&island_of(i) - &islands_.load(0));
+    next_of_[bodies + i] = first_of_[islands + island];
+    first_of_[islands + island] = i + 1;
+  }
+}
+
+// Whether a kinematic body presses what stands in `island_contacts_` against something else that no
+// impulse moves: no impulse could part them, and none would be great enough.
+bool ContactSolver::is_pinched(const ContactScene& scene) {
+  constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of −1/8, Q60
+  holds_found_.clear();
+  for (const ProximalContact& contact : island_contacts_) {
+    if (contact.a != 0 && contact.b != 0) continue;
+    const Entry& entry = entries_[contact.slot];
+    const ContactRecord& record = scene.records[entry.record];
+    const std::uint32_t body = contact.a == 0 ? record.body_a : record.body_b;
+    const Vec3<Unit> normal = scene.manifolds[entry.slot].normal;
+    const BodyRecord& holder = scene.bodies[body];
+    const bool moves = holder.velocity != Vec3<Velocity>{} || holder.spin != Vec3<Velocity>{};
+    const Hold hold{contact.a == 0 ? normal : -normal, body, moves};
+    for (const Hold& other : holds_found_)
+      if ((hold.moves || other.moves) && hold.body != other.body &&
+          dot(hold.normal, other.normal).raw < k_against)
+        return true;
+    holds_found_.push_back(hold);
+  }
+  return false;
+}
+
+// A contact as it is known before the blocks are laid out: `slot` is the entry, and the rows are
+// the numbers of the bodies.
+ProximalContact ContactSolver::converged_contact(std::uint32_t index) const {
+  const Entry& entry = entries_[index];
+  const auto pushed = [this](std::uint32_t number) {
+    return (number & k_immovable) == 0 && islands_.of(number) != 0 ? number : 0;
+  };
+  ProximalContact contact;
+  contact.slot = index;
+  contact.a = pushed(entry.body_a);
+  contact.b = pushed(entry.body_b);
+  contact.row_a = entry.body_a;
+  contact.row_b = entry.body_b;
+  return contact;
+}
+
+void ContactSolver::plan_converged(const ContactScene& scene) {
+  if constexpr (k_converges_islands) {
+    proximal_->clear();
+    bar_islands(scene);
+    chain_islands();
+    for (std::uint32_t island = 1; island < islands_.count(); ++island) {
+      IslandLoad& load = islands_.load(island);
+      const bool is_small = load.contacts != 0 && load.contacts <= k_most_contacts &&
+                            load.bodies <= BodyFactor::k_most_bodies;
+      if (load.is_barred || !is_small) continue;
+      list_island(island);
+      load.is_converged = !is_pinched(scene) && proximal_->add(island_bodies_, island_contacts_);
+    }
+  }
+}
+
+void ContactSolver::list_island(std::uint32_t island) {
+  island_bodies_.clear();
+  island_contacts_.clear();
+  for (std::uint32_t i = first_of_[island]; i != 0; i = next_of_[i])
+    island_bodies_.push_back(i);
+  for (std::uint32_t i = first_of_[islands_.count() + island]; i != 0;
+       i = next_of_[members_.size() + i - 1])
+    island_contacts_.push_back(converged_contact(i - 1));
+}
+
+void ContactSolver::begin_converged(const ContactScene& scene) {
+  if constexpr (k_converges_islands) {
+    for (ProximalContact& contact : proximal_->contacts()) {
+      contact.slot = slot_of(contact.slot);
+      contact.row_a = row_of(contact.row_a);
+      contact.row_b = row_of(contact.row_b);
+    }
+    const std::int64_t weight = weight_of(scene.gravity, step_);
+    for (std::uint32_t i = 0; i < proximal_->count(); ++i)
+      proximal_->begin(direct_run(), i, weight);
+  }
+}
+
+void ContactSolver::run_converged(StageKind kind, std::size_t first, std::size_t end) {
+  if constexpr (k_converges_islands) {
+    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) {
+      if (kind == StageKind::end_islands)
+        proximal_->end(direct_run(), i);
+      else
+        proximal_->solve(direct_run(), i, kind == StageKind::push_islands);
+    }
+  }
+}
+
+}  // namespace lockstone

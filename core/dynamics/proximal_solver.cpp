@@ -1,0 +1,415 @@
+#include "core/dynamics/proximal_solver.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/dynamics/block_words.h"
+#include "core/dynamics/proximal_words.h"
+#include "core/math/wide/scalar_lanes.h"
+
+namespace lockstone {
+namespace {
+
+using namespace proximal;
+using lanes::ManifoldBlock;
+using lanes::RowBody;
+using lanes::scalar::pack;
+
+// Units are such that what a phase begins with is below 2^27 of them, of the 2^31 there are. Where
+// that does not do, coarser ones are tried.
+constexpr int k_start_bits = 27;
+constexpr int k_most_bits = k_row_unit_bits;
+constexpr int k_coarser_bits = 5;
+// A change of speed is none below this, m/s, Q50.
+constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
+
+// The leak of a normal's centre, at most: a tenth of its impulse, and half of the row's own weight.
+constexpr std::int64_t k_leak_part = 10;
+
+// Overlap goes at this rate, 1/s.
+constexpr std::int64_t k_push_rate = 9;
+
+// Bounds of a body's velocity and spin, Q50, and of a total impulse.
+constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
+constexpr std::int64_t k_most_total = std::int64_t{1} << (k_row_impulse_bits + 16);
+
+}  // namespace
+
+ProximalSolver::ProximalSolver(std::size_t body_capacity, std::size_t contact_capacity)
+    : factor_(body_capacity) {
+  islands_.reserve(body_capacity);
+  bodies_.reserve(body_capacity);
+  contacts_.reserve(contact_capacity);
+  blocks_.reserve(contact_capacity);
+  velocities_.reserve(2 * body_capacity);
+  changes_.reserve(2 * body_capacity);
+  gains_.reserve(2 * body_capacity);
+  local_.reserve(body_capacity + contact_capacity + 1);
+  pairs_.reserve(contact_capacity);
+}
+
+void ProximalSolver::clear() {
+  islands_.clear();
+  bodies_.clear();
+  contacts_.clear();
+  blocks_.clear();
+  velocities_.clear();
+  changes_.clear();
+  gains_.clear();
+  factor_.clear();
+}
+
+bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
+                         std::span<const ProximalContact> contacts) {
+  Island island;
+  island.first_body = static_cast<std::uint32_t>(bodies_.size());
+  island.bodies = static_cast<std::uint32_t>(bodies.size());
+  island.first_vector = static_cast<std::uint32_t>(velocities_.size());
+  island.first_contact = static_cast<std::uint32_t>(contacts_.size());
+  island.contacts = static_cast<std::uint32_t>(contacts.size());
+  const std::uint32_t last = *std::ranges::max_element(bodies);
+  if (local_.size() <= last) local_.resize(last + 1);
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    local_[bodies[i]] = i;
+  pairs_.clear();
+  for (const ProximalContact& contact : contacts)
+    if (contact.a != 0 && contact.b != 0) pairs_.emplace_back(local_[contact.a], local_[contact.b]);
+  if (!factor_.plan(island.bodies, pairs_, island.plan)) return false;
+  bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
+  for (ProximalContact contact : contacts) {
+    contact.local_a = contact.a != 0 ? local_[contact.a] : island.bodies;
+    contact.local_b = contact.b != 0 ? local_[contact.b] : island.bodies;
+    contacts_.push_back(contact);
+    Blocks blocks;
+    if (contact.a != 0) blocks.a = factor_.diagonal(island.plan, contact.local_a);
+    if (contact.b != 0) blocks.b = factor_.diagonal(island.plan, contact.local_b);
+    if (contact.a != 0 && contact.b != 0)
+      blocks.both = factor_.find(island.plan, contact.local_a, contact.local_b);
+    blocks_.push_back(blocks);
+  }
+  const std::size_t vectors = velocities_.size() + bodies.size() + 1;
+  velocities_.resize(vectors);
+  changes_.resize(vectors);
+  gains_.resize(vectors);
+  islands_.push_back(island);
+  return true;
+}
+
+// From here on the sweeps leave the contact alone, but for its separations.
+void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) {
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  contact.words = {block.mass_01[lane],
+                   block.mass_23[lane],
+                   block.common[lane],
+                   block.tangent_mass[0][lane],
+                   block.tangent_mass[1][lane],
+                   block.twist_row[1][lane],
+                   block.rest[lane],
+                   block.soft[lane]};
+  block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
+  block.rest[lane] = 0;
+  block.mass_01[lane] = block.mass_23[lane] = 0;
+  block.common[lane] -= low_word(block.common[lane]);
+  block.friction[lane] = 0;
+  block.twist[lane] = pack(0, contact.radius);
+  block.tangent_mass[0][lane] = block.tangent_mass[1][lane] = 0;
+  block.twist_row[1][lane] = pack(block.twist_row[1][lane], 0);
+}
+
+void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t weight) {
+  Island& island = islands_[index];
+  BlockFloat unit{};
+  for (const ProximalContact& contact : contacts_of(island)) {
+    const BlockFloat inverse =
+        lockstone::add(run.bodies[contact.a].inverse_mass, run.bodies[contact.b].inverse_mass);
+    const auto is_less = [](BlockFloat x, BlockFloat y) {
+      return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
+    };
+    if (unit.mantissa == 0 || is_less(inverse, unit)) unit = inverse;
+  }
+  for (ProximalContact& contact : contacts_of(island)) {
+    const InertiaRoot a = inertia_root(run.bodies[contact.a].inverse_inertia);
+    const InertiaRoot b = inertia_root(run.bodies[contact.b].inverse_inertia);
+    PreparedRows prepared;
+    find_proximal_rows(run, a, b, unit, contact, prepared);
+    take_over(run, contact);
+    set_gives(weight, prepared, contact);
+    begin_rows(prepared, weight, contact);
+    measure(run, prepared, contact);
+    set_drives(run, contact);
+  }
+}
+
+// Sets the parts of rows that stay for the tick.
+void ProximalSolver::begin_rows(const PreparedRows& prepared, std::int64_t weight,
+                                ProximalContact& contact) {
+  constexpr int k_down = k_row_impulse_bits - k_row_unit_bits;
+  for (std::size_t i = 0; i < contact.rows; ++i) {
+    ProximalRow& row = contact.all[i];
+    const RowScale& scale = prepared.from_impulse[i];
+    row.held = kept(scale.times(row.total, k_down));
+    row.least_change = row.to_speed.times(k_tolerance, 50 - k_row_unit_bits);
+    if (i < contact.points)
+      row.weight_leak = scale.times(raw::round_divide(weight << 29, prepared.own[i]), k_down);
+  }
+}
+
+// Moving surfaces add to the speeds of friction.
+void ProximalSolver::set_drives(const ContactRun& run, ProximalContact& contact) {
+  const ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  if (block.is_plain(lane)) return;
+  const std::int64_t drives[] = {low_word(block.drive[lane]) * (std::int64_t{1} << 30),
+                                 high_word(block.drive[lane]) * (std::int64_t{1} << 30),
+                                 low_word(block.turn[lane]) * contact.radius};
+  for (std::size_t i = contact.points; i < contact.rows; ++i) {
+    ProximalRow& row = contact.all[i];
+    row.bias = row.to_speed.times(drives[i - contact.points], 50 - k_row_unit_bits);
+  }
+}
+
+// Velocity and spin of A and B, Q50.
+struct ProximalSolver::Motion {
+  RawVec3 along{}, spin_a{}, spin_b{};
+};
+
+std::int64_t ProximalSolver::speed_along(const RawVec3* linear, const RawVec3& response_a,
+                                         const RawVec3& response_b, const Motion& motion) {
+  ProductSum sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (linear != nullptr) sum.add((*linear)[k], motion.along[k]);
+    sum.add(response_b[k], motion.spin_b[k]);
+    sum.subtract(response_a[k], motion.spin_a[k]);
+  }
+  return sum.rounded(30);
+}
+
+// Speeds of all rows as the tick begins, and once gravity, forces and the last impulses have acted:
+// these wait in `before`.
+void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared,
+                             ProximalContact& contact) {
+  Motion start, gained;
+  const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
+                            RawVec3& gained_spin, std::int64_t sign) {
+    const RowBody &row = run.rows[index], &warm = run.before[index];
+    for (std::size_t k = 0; k < 3; ++k) {
+      start.along[k] += sign * row.velocity[k];
+      spin[k] = row.spin[k];
+      if (body == 0) continue;
+      const SolverBody& constants = run.bodies[body];
+      gained.along[k] += sign * (constants.gain[k] * k_to_row + warm.velocity[k]);
+      gained_spin[k] = constants.spin_gain[k] * k_to_row + warm.spin[k];
+    }
+  };
+  add_side(contact.row_a, contact.a, start.spin_a, gained.spin_a, -1);
+  add_side(contact.row_b, contact.b, start.spin_b, gained.spin_b, 1);
+  const RawVec3* linear[k_contact_rows] = {};
+  std::fill_n(linear, contact.points, &contact.normal);
+  if (contact.rows > contact.points) {
+    linear[contact.points] = &contact.tangent;
+    linear[contact.points + 1] = &contact.binormal;
+  }
+  for (std::size_t i = 0; i < contact.rows; ++i) {
+    ProximalRow& row = contact.all[i];
+    const auto read = [&](const Motion& motion) {
+      const std::int64_t speed =
+          speed_along(linear[i], prepared.response_a[i], prepared.response_b[i], motion);
+      return kept(row.to_speed.times(speed, 50 - k_row_unit_bits));
+    };
+    row.moved = read(start);
+    row.moving = kept(row.moved + read(gained));
+  }
+}
+
+// Rows do not change in a tick, and each substep but the first begins by repeating what bodies
+// gained in the one before: so do their speeds.
+void ProximalSolver::begin_substep(Island& island) {
+  for (ProximalContact& contact : contacts_of(island)) {
+    for (std::size_t i = 0; i < contact.rows; ++i) {
+      ProximalRow& row = contact.all[i];
+      if (!island.is_first) {
+        const std::int64_t start = row.moving;
+        row.moving = kept(2 * start - row.moved);
+        row.moved = start;
+      }
+      row.held_centre = row.held;
+      if (i < contact.points) row.held_centre -= std::min(row.held / k_leak_part, row.weight_leak);
+    }
+  }
+  island.is_first = false;
+}
+
+// Sets the speeds at which separations close, or overlap is pushed out.
+void ProximalSolver::set_bias(const ContactRun& run, ProximalContact& contact, bool pushes_out) {
+  const ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  for (std::size_t i = 0; i < contact.points; ++i) {
+    ProximalRow& row = contact.all[i];
+    const std::int64_t apart = high_word(block.points[i].separation[lane]) + run.rules.overlap;
+    if (apart > 0) {
+      row.bias = kept(row.to_speed.times(apart * run.rules.substep_rate, 24 - k_row_unit_bits));
+    } else if (pushes_out) {
+      const std::int64_t out =
+          std::max(apart * k_push_rate, -std::int64_t{run.rules.push_out} * (1 << 4));
+      row.bias = row.to_speed.times(out, 24 - k_row_unit_bits);
+    } else {
+      row.bias = 0;
+    }
+  }
+}
+
+// Chooses the phase's units. Returns false where nothing moves or pushes.
+bool ProximalSolver::set_units(Island& island) {
+  std::uint64_t most = 0;
+  for (const ProximalContact& contact : contacts_of(island)) {
+    for (std::size_t i = 0; i < contact.rows; ++i) {
+      const ProximalRow& row = contact.all[i];
+      most |= magnitude(row.moving + row.bias) | magnitude(row.held);
+    }
+  }
+  if (most == 0) return false;
+  island.bits =
+      std::min(k_most_bits, k_most_bits + k_start_bits - static_cast<int>(std::bit_width(most)));
+  return true;
+}
+
+void ProximalSolver::convert(const Island& island, ProximalContact& contact) {
+  const int down = k_row_unit_bits - island.bits;
+  for (std::size_t i = 0; i < contact.rows; ++i) {
+    ProximalRow& row = contact.all[i];
+    row.speed = within(raw::round_shift(row.moving + row.bias, down));
+    row.impulse = row.start = within(raw::round_shift(row.held, down));
+    row.centre = within(raw::round_shift(row.held_centre, down));
+    row.tolerance = std::max<std::int64_t>(row.least_change >> down, 1);
+  }
+}
+
+// Of a contact: what its impulses gained in the phase, at its centre; bodies gain what gives them.
+void ProximalSolver::give_contact(const ContactRun& run, int bits, ProximalContact& contact,
+                                  Gain& a, Gain& b) {
+  ManifoldBlock& block = run.blocks[contact.block()];
+  const std::size_t lane = contact.lane();
+  std::array<std::int64_t, k_contact_rows> moved{};
+  bool changes = false;
+  for (std::size_t i = 0; i < contact.rows; ++i) {
+    ProximalRow& row = contact.all[i];
+    if (row.impulse == row.start) continue;
+    const std::int64_t gained =
+        raw::scale_saturating(row.impulse - row.start, k_row_unit_bits - bits);
+    row.held = row.impulse == 0 ? 0 : kept(row.held + kept(gained));
+    changes = true;
+    const std::int64_t least = i < contact.points ? 0 : -k_most_total;
+    const std::int64_t next =
+        row.impulse == 0
+            ? 0
+            : row.total + row.to_impulse.times(row.impulse - row.start, bits - k_row_impulse_bits);
+    moved[i] = std::clamp(next, least, k_most_total) - row.total;
+    row.total += moved[i];
+  }
+  if (!changes) return;
+  std::int64_t push = 0;
+  ProductSum about_b, about_t;
+  for (std::size_t i = 0; i < contact.points; ++i) {
+    const std::int64_t seen = std::min<std::int64_t>(
+        raw::round_shift(contact.all[i].total, k_row_more_bits), lanes::k_most_impulse);
+    std::int64_t& word = block.points[i].impulse[lane];
+    word = std::max<std::int64_t>(high_word(word), seen) * (std::int64_t{1} << 32) + seen;
+    push += moved[i];
+    about_b.subtract(contact.x[i], moved[i]);
+    about_t.add(contact.y[i], moved[i]);
+  }
+  const std::int64_t* friction = &moved[contact.points];
+  const std::int64_t turn = product_rounded(friction[2], contact.radius, 30);
+  RawVec3 force = mixed(contact.tangent, friction[0], contact.binormal, friction[1]);
+  RawVec3 torque =
+      mixed(contact.tangent, about_t.rounded(30), contact.binormal, about_b.rounded(30));
+  const RawVec3 along = mixed(contact.normal, push, {}, 0),
+                about = mixed(contact.normal, turn, {}, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    force[i] += along[i];
+    torque[i] += about[i];
+  }
+  const std::int64_t turns = block.gain_turn[lane], share = low_word(block.share[lane]);
+  const RawVec3 spin_a = moment_of(low_words(block.gain_arm, lane), force, torque, low_word(turns));
+  const RawVec3 spin_b =
+      moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turns));
+  for (std::size_t i = 0; i < 3; ++i) {
+    a.velocity[i] -= product_rounded(force[i], k_one - share, 30);
+    a.spin[i] -= spin_a[i];
+    b.velocity[i] += product_rounded(force[i], share, 30);
+    b.spin[i] += spin_b[i];
+  }
+}
+
+// Gains are summed first: a partial sum may leave the range of a velocity.
+void ProximalSolver::give(const ContactRun& run, Island& island) {
+  const std::span<Gain> gains = std::span(gains_).subspan(island.first_vector, island.bodies + 1);
+  for (Gain& gain : gains)
+    gain = {};
+  for (ProximalContact& contact : contacts_of(island))
+    give_contact(run, island.bits, contact, gains[contact.local_a], gains[contact.local_b]);
+  const auto add = [](std::int64_t& to, std::int64_t by) {
+    constexpr std::int64_t k_most = k_body_bound >> k_row_shift;
+    to = std::clamp(to + std::clamp(by, -k_most, k_most) * k_to_row, -k_body_bound, k_body_bound);
+  };
+  for (std::uint32_t k = 0; k < island.bodies; ++k) {
+    RowBody& row = run.rows[bodies_[island.first_body + k]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      add(row.velocity[i], gains[k].velocity[i]);
+      add(row.spin[i], gains[k].spin[i]);
+    }
+  }
+}
+
+// Speeds follow what the phase gave to bodies.
+void ProximalSolver::follow(Island& island) {
+  const std::span<const BodyVector> velocities = of(velocities_, island);
+  const int shift = 30 + island.bits - k_row_unit_bits;
+  for (ProximalContact& contact : contacts_of(island)) {
+    for (std::size_t i = 0; i < contact.rows; ++i) {
+      ProximalRow& row = contact.all[i];
+      const std::int64_t change =
+          dot(row.a, velocities[contact.local_a]) + dot(row.b, velocities[contact.local_b]);
+      row.moving = kept(row.moving + kept(raw::scale_saturating(change, -shift)));
+    }
+  }
+}
+
+void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool pushes_out) {
+  Island& island = islands_[index];
+  if (pushes_out) begin_substep(island);
+  for (ProximalContact& contact : contacts_of(island))
+    set_bias(run, contact, pushes_out);
+  if (!set_units(island)) return;
+  while (!converge(island, pushes_out) && island.bits > k_coarser_bits)
+    island.bits -= k_coarser_bits;
+  give(run, island);
+  follow(island);
+}
+
+void ProximalSolver::end(const ContactRun& run, std::uint32_t index) const {
+  const Island& island = islands_[index];
+  for (const ProximalContact& contact :
+       std::span(contacts_).subspan(island.first_contact, island.contacts)) {
+    ManifoldBlock& block = run.blocks[contact.block()];
+    const std::size_t lane = contact.lane();
+    std::array<std::int64_t, 3> seen{};
+    for (std::size_t i = contact.points; i < contact.rows; ++i)
+      seen[i - contact.points] =
+          std::clamp<std::int64_t>(raw::round_shift(contact.all[i].total, k_row_more_bits),
+                                   -lanes::k_most_impulse, lanes::k_most_impulse);
+    block.friction[lane] = pack(seen[0], seen[1]);
+    block.twist[lane] = pack(seen[2], contact.radius);
+    block.mass_01[lane] = contact.words[0];
+    block.mass_23[lane] = contact.words[1];
+    block.common[lane] = contact.words[2];
+    block.tangent_mass[0][lane] = contact.words[3];
+    block.tangent_mass[1][lane] = contact.words[4];
+    block.twist_row[1][lane] = contact.words[5];
+    block.rest[lane] = contact.words[6];
+    block.soft[lane] = contact.words[7];
+  }
+}
+
+}  // namespace lockstone

@@ -1,0 +1,129 @@
+// Solves each small island's contacts to convergence: one proximal problem a phase.
+//
+// A phase finds impulses λ and velocities v = v* + M⁻¹Jᵀλ such that J·v + b + γ(λ − c) = 0 for
+// every row that is neither separating nor sliding, with λ ≥ 0 along normals and friction within
+// its limit: the least of D(λ) = |M⁻¹Jᵀλ|²/2 + λ·(J·v* + b) + Σ γ(λ − c)²/2 over those λ. Passes of
+// projected Gauss-Seidel find which rows those are; direct steps solve for them by a factor of
+// 1 + JᵀJ/γ, and go towards its solution only as far as D falls. The compliance γ is small, and the
+// centre c, the last substep's impulse less a bounded leak, carries the load: the solution is that
+// of rigid contacts but for a damping of the order of γ.
+//
+// Sources: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
+// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, what was
+// compared). Kinetic energy after the warm start is at most that of the free motion, since its
+// impulses are scaled to the least of D.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/body_factor.h"
+#include "core/dynamics/proximal_rows.h"
+
+namespace lockstone {
+
+class ProximalSolver {
+ public:
+  /// Room for so many bodies that impulses move, and so many contacts. No function but this
+  /// allocates.
+  [[gnu::cold]] ProximalSolver(std::size_t body_capacity, std::size_t contact_capacity);
+
+  void clear();
+
+  /// An island whose bodies and contacts are given in their order; false if it is too large. Bodies
+  /// are numbers in the solver; of a contact the pair's numbers are read, 0 for what nothing moves.
+  [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
+                         std::span<const ProximalContact> contacts);
+
+  [[nodiscard]] std::span<ProximalContact> contacts() { return contacts_; }
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
+
+  /// Once blocks are prepared: takes contacts over from the iterations. `weight` is gravity's gain
+  /// in a substep, m/s, Q32.
+  void begin(const ContactRun& run, std::uint32_t island, std::int64_t weight);
+
+  /// One phase. With `pushes_out` overlap goes.
+  void solve(const ContactRun& run, std::uint32_t island, bool pushes_out);
+
+  /// After the last phase: blocks have what was found, and the sweeps their contacts again.
+  void end(const ContactRun& run, std::uint32_t island) const;
+
+ private:
+  struct Island {
+    BodyFactor::Plan plan;
+    std::uint32_t first_body = 0;  // in bodies_
+    std::uint32_t bodies = 0;
+    std::uint32_t first_vector = 0;  // in velocities_ … : one more than bodies
+    std::uint32_t first_contact = 0;
+    std::uint32_t contacts = 0;
+    int bits = 0;               // fraction bits of the phase's units
+    int drop = 0;               // bits of residuals that the direct step at hand leaves out
+    bool fits = true;           // so far nothing in the phase had to be clamped
+    bool is_solved = false;     // by the last direct step
+    bool is_first = true;       // substep of the tick
+    bool was_factored = false;  // in this tick
+    bool is_factored = false;   // for the rows that are active
+  };
+  // Where blocks of a contact's bodies are in the factor.
+  struct Blocks {
+    std::uint32_t a = 0, b = 0;
+    BodyFactor::Place both;
+  };
+  // A body's change of velocity in a phase, m/s, Q32.
+  struct Gain {
+    RawVec3 velocity{}, spin{};
+  };
+
+  static void take_over(const ContactRun& run, ProximalContact& contact);
+  struct Motion;
+  static void begin_rows(const PreparedRows& prepared, std::int64_t weight,
+                         ProximalContact& contact);
+  static void set_drives(const ContactRun& run, ProximalContact& contact);
+  [[nodiscard]] static std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
+                                                const RawVec3& response_b, const Motion& motion);
+  static void measure(const ContactRun& run, const PreparedRows& prepared,
+                      ProximalContact& contact);
+  void begin_substep(Island& island);
+  static void set_bias(const ContactRun& run, ProximalContact& contact, bool pushes_out);
+  [[nodiscard]] bool set_units(Island& island);
+  static void convert(const Island& island, ProximalContact& contact);
+  void scale_warm_start(Island& island);
+  [[nodiscard]] bool pass(Island& island);
+  [[nodiscard]] static bool pass_contact(ProximalContact& contact, BodyVector& a, BodyVector& b,
+                                         bool& fits);
+  void mark_active(Island& island);
+  void factor(Island& island);
+  [[nodiscard]] bool direct_step(Island& island);
+  void find_residuals(Island& island);
+  [[nodiscard]] bool solve_for_changes(Island& island);
+  void propose(Island& island);
+  [[nodiscard]] bool search(Island& island);
+  void go(Island& island, std::int64_t part);
+  [[nodiscard]] bool converge(Island& island, bool scales);
+  void give(const ContactRun& run, Island& island);
+  void follow(Island& island);
+  static void give_contact(const ContactRun& run, int bits, ProximalContact& contact, Gain& a,
+                           Gain& b);
+
+  [[nodiscard]] std::span<ProximalContact> contacts_of(const Island& island) {
+    return std::span(contacts_).subspan(island.first_contact, island.contacts);
+  }
+  [[nodiscard]] std::span<BodyVector> of(std::vector<BodyVector>& all, const Island& island) {
+    return std::span(all).subspan(island.first_vector, island.bodies + 1);
+  }
+
+  std::vector<Island> islands_;
+  std::vector<std::uint32_t> bodies_;  // numbers in the solver, island by island
+  std::vector<ProximalContact> contacts_;
+  std::vector<Blocks> blocks_;          // by contact
+  std::vector<BodyVector> velocities_;  // changes since the phase began
+  std::vector<BodyVector> changes_;
+  std::vector<Gain> gains_;
+  std::vector<std::uint32_t> local_;  // by number in the solver
+  std::vector<BodyFactor::Pair> pairs_;
+  BodyFactor factor_;
+};
+
+}  // namespace lockstone
