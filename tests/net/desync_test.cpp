@@ -94,6 +94,19 @@ TEST(Desync, PartsShowWhatTheHashIsBlindTo) {
   }
 }
 
+TEST(Desync, PartsAreJudgedByTheMajorityWhicheverSlotIsWrong) {
+  for (std::uint8_t slot = 0; slot < 3; ++slot) {
+    MatchOptions options = match_with_flip(3, 64, slot, {100, "body", "spin", 5, 9});
+    options.authoritative = false;
+    options.blind = true;
+    Match match(options);
+    ASSERT_TRUE(match.run(60 * k_second_us));
+    ASSERT_EQ(match.server_log.reports.size(), 1U) << int{slot};
+    EXPECT_EQ(match.server_log.reports[0].slot, slot);
+    EXPECT_EQ(match.server_log.reports[0].verdict, Verdict::minority);
+  }
+}
+
 TEST(Desync, PartsAreComparedEvery64Ticks) {
   for (const bool authoritative : {true, false}) {
     for (const std::uint8_t prediction : {std::uint8_t{0}, std::uint8_t{6}}) {
