@@ -150,9 +150,10 @@ struct BodyRecord {
 };
 
 // clang-format off
-#define LKS_BODY_FIELDS(X) \
+// X: a field in the unit of its type; B: one that holds bits without a unit.
+#define LKS_BODY_FIELDS(X, B) \
   X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) \
-  X(contact_orientation) X(contact_place) X(size) X(inertia) X(note_a) X(note_b) X(note_c) X(inverse_mass) \
+  X(contact_orientation) B(contact_place) X(size) X(inertia) B(note_a) B(note_b) B(note_c) X(inverse_mass) \
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
   X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
   X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
@@ -162,7 +163,9 @@ struct BodyRecord {
 template <class F>
 constexpr void visit_fields(BodyRecord& record, F&& f) {
 #define LKS_VISIT(field) visit_value(#field, "", record.field, f);
-  LKS_BODY_FIELDS(LKS_VISIT)
+#define LKS_VISIT_BITS(field) visit_bits(#field, "", record.field, f);
+  LKS_BODY_FIELDS(LKS_VISIT, LKS_VISIT_BITS)
+#undef LKS_VISIT_BITS
 #undef LKS_VISIT
 }
 

@@ -7,14 +7,61 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 #include <type_traits>
 
 #include <lockstone/fixed.h>
 #include <lockstone/quat.h>
 #include <lockstone/shape.h>
+#include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
 namespace lockstone {
+
+/// A raw value as people read it: raw · 2^-frac_bits, in `unit`. A plain number has no unit.
+struct FieldFormat {
+  int frac_bits = 0;
+  std::string_view unit;
+};
+
+/// The unit of a quantity, in ASCII as a wire carries it. A new dimension must be named here.
+template <class D>
+[[nodiscard]] constexpr std::string_view unit_of(D) = delete;
+constexpr std::string_view unit_of(Scalar) {
+  return "";
+}
+constexpr std::string_view unit_of(Metre) {
+  return "m";
+}
+constexpr std::string_view unit_of(PerSecond) {
+  return "1/s";
+}
+constexpr std::string_view unit_of(MetrePerSecond) {
+  return "m/s";
+}
+constexpr std::string_view unit_of(MetrePerSecond2) {
+  return "m/s^2";
+}
+constexpr std::string_view unit_of(Newton) {
+  return "N";
+}
+constexpr std::string_view unit_of(NewtonMetre) {
+  return "N m";
+}
+
+template <class T>
+inline constexpr FieldFormat k_format_of{T::frac_bits, unit_of(typename T::Unit{})};
+
+/// Calls `f(name, suffix, integer, format)` where f takes a format, else without it.
+template <class Integer, class F>
+constexpr void visit_in(const FieldFormat& format, const char* name, const char* suffix,
+                        Integer& integer, F&& f) {
+  if constexpr (requires { f(name, suffix, integer, format); }) {
+    f(name, suffix, integer, format);
+  } else {
+    f(name, suffix, integer);
+  }
+}
 
 /// Calls `f` for each integer of `value`. `name` is the field's, `suffix` says which part.
 template <class T, class F>
@@ -30,7 +77,7 @@ constexpr void visit_value(const char* name, const char* suffix, AssetId& value,
 
 template <class D, class R, int N, class F>
 constexpr void visit_value(const char* name, const char* suffix, Fixed<D, R, N>& value, F&& f) {
-  f(name, suffix, value.raw);
+  visit_in(k_format_of<Fixed<D, R, N>>, name, suffix, value.raw, f);
 }
 
 template <class T, class F>
@@ -46,6 +93,19 @@ constexpr void visit_value(const char* name, const char*, Quat& value, F&& f) {
   visit_value(name, ".y", value.y, f);
   visit_value(name, ".z", value.z, f);
   visit_value(name, ".w", value.w, f);
+}
+
+/// Of fields that do not hold what their type says: integers without a unit.
+template <class D, class R, int N, class F>
+constexpr void visit_bits(const char* name, const char* suffix, Fixed<D, R, N>& value, F&& f) {
+  f(name, suffix, value.raw);
+}
+
+template <class T, class F>
+constexpr void visit_bits(const char* name, const char*, Vec3<T>& value, F&& f) {
+  visit_bits(name, ".x", value.x, f);
+  visit_bits(name, ".y", value.y, f);
+  visit_bits(name, ".z", value.z, f);
 }
 
 /// The number of bytes that visiting a record touches.

@@ -72,21 +72,32 @@ struct JointRecord {
   [[nodiscard]] AxisMode mode(std::size_t axis) const { return static_cast<AxisMode>(modes[axis]); }
 };
 
+/// Of an axis's raws.
+struct JointAxisFormats {
+  FieldFormat value, speed, effort;
+};
+inline constexpr JointAxisFormats k_linear_formats{k_format_of<Length>, k_format_of<SolverVelocity>,
+                                                   k_format_of<Force>};
+inline constexpr JointAxisFormats k_angular_formats{
+    {Angle::frac_bits, "rad"}, {Rate::frac_bits, "rad/s"}, k_format_of<Torque>};
+
 template <class F>
 constexpr void visit_fields(JointRecord& record, F&& f) {
   constexpr const char* k_axis_names[] = {"linear[0]",  "linear[1]",  "linear[2]",
                                           "angular[0]", "angular[1]", "angular[2]"};
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     JointAxisRecord& axis = record.axes[i];
-    visit_value(k_axis_names[i], ".max_effort", axis.max_effort, f);
-    visit_value(k_axis_names[i], ".lower", axis.lower, f);
-    visit_value(k_axis_names[i], ".upper", axis.upper, f);
-    visit_value(k_axis_names[i], ".target", axis.target, f);
-    visit_value(k_axis_names[i], ".speed", axis.speed, f);
-    visit_value(k_axis_names[i], ".hertz", axis.hertz.raw, f);
-    visit_value(k_axis_names[i], ".damping_ratio", axis.damping_ratio.raw, f);
-    visit_value(k_axis_names[i], ".impulse", axis.impulse.raw, f);
-    visit_value(k_axis_names[i], ".drive_impulse", axis.drive_impulse.raw, f);
+    const char* name = k_axis_names[i];
+    const JointAxisFormats& formats = i < 3 ? k_linear_formats : k_angular_formats;
+    visit_in(formats.effort, name, ".max_effort", axis.max_effort, f);
+    visit_in(formats.value, name, ".lower", axis.lower, f);
+    visit_in(formats.value, name, ".upper", axis.upper, f);
+    visit_in(formats.value, name, ".target", axis.target, f);
+    visit_in(formats.speed, name, ".speed", axis.speed, f);
+    visit_in({Number::frac_bits, "Hz"}, name, ".hertz", axis.hertz.raw, f);
+    visit_value(name, ".damping_ratio", axis.damping_ratio, f);
+    visit_value(name, ".impulse", axis.impulse, f);
+    visit_value(name, ".drive_impulse", axis.drive_impulse, f);
   }
   visit_value("ground_a", "", record.ground_a, f);
   visit_value("ground_b", "", record.ground_b, f);

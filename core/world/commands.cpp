@@ -148,7 +148,8 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   begin_rest(record, rest_rules);
   refresh(slot);
   disturb_around(slot);
-  return BodyHandle{slot, record.generation};
+  names.forget(handle_of(slot));
+  return handle_of(slot);
 }
 
 Status World::Impl::execute(const CreateBody& command) {

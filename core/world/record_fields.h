@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <lockstone/decimal.h>
 #include <lockstone/simulation.h>
 
 #include "core/dynamics/fields.h"
@@ -18,13 +19,29 @@ struct FieldText {
   std::string value;
 };
 
+/// Notes the fields of a record: "0x0003a2f1", or "0x3a1cac08 (0.227 m/s)" of a quantity.
+class FieldLister {
+ public:
+  template <class Integer>
+  void operator()(const char* name, const char* suffix, Integer& integer) {
+    fields.push_back({std::string(name) + suffix, hexadecimal(integer)});
+  }
+  template <class Integer>
+  void operator()(const char* name, const char* suffix, Integer& integer,
+                  const FieldFormat& format) {
+    std::string value = hexadecimal(integer) + " (" + format_decimal(integer, format.frac_bits);
+    if (!format.unit.empty()) value.append(1, ' ').append(format.unit);
+    fields.push_back({std::string(name) + suffix, value + ')'});
+  }
+
+  std::vector<FieldText> fields;
+};
+
 template <class Record>
 [[nodiscard]] std::vector<FieldText> fields_of(Record record) {
-  std::vector<FieldText> fields;
-  visit_fields(record, [&](const char* name, const char* suffix, auto& integer) {
-    fields.push_back({std::string(name) + suffix, hexadecimal(integer)});
-  });
-  return fields;
+  FieldLister lister;
+  visit_fields(record, lister);
+  return lister.fields;
 }
 
 template <class Record>

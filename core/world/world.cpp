@@ -60,6 +60,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       contact_store(definition.contact_capacity),
       frozen(definition.body_capacity, definition.contact_capacity),
       joints(definition.joint_capacity),
+      names(definition.body_capacity),
       awake(definition.body_capacity),
       joint_edges(definition.body_capacity, definition.joint_capacity),
       rotations(definition.body_capacity),
@@ -271,6 +272,16 @@ BodyView World::body(BodyHandle body) const {
           .is_asleep = record->is_asleep(),
           .allow_sleep = record->may_sleep(),
           .user_data = record->user_data};
+}
+
+Status World::set_name(BodyHandle body, std::string_view name) {
+  if (!exists(body)) return Status::stale_handle;
+  impl_->names.set(body, name);
+  return Status::ok;
+}
+
+std::string_view World::name(BodyHandle body) const {
+  return exists(body) ? impl_->names.of(body) : std::string_view{};
 }
 
 Vec3<Position> World::position(BodyHandle body) const {

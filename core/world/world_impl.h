@@ -26,6 +26,7 @@
 #include "core/dynamics/tick_gain.h"
 #include "core/dynamics/time_step.h"
 #include "core/geometry/manifold.h"
+#include "core/world/body_names.h"
 #include "core/world/frozen_contacts.h"
 #include "core/world/index_set.h"
 #include "core/world/joint_edges.h"
@@ -193,11 +194,11 @@ struct World::Impl {
   FrozenContacts frozen;                     // the others
   std::vector<JointRecord> joints;           // by index; size: joint capacity
 
+  BodyNames names;                // for people: neither state nor derived from it
   bool is_derived_stale = false;  // bits of the state were flipped: what is below may not fit it
 
   // Derived from flags of bodies.
-  std::uint32_t active_contacts = 0;
-  std::uint32_t asleep_count = 0;
+  std::uint32_t active_contacts = 0, asleep_count = 0;
   IndexSet awake;  // bodies that move
 
   // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
@@ -230,10 +231,9 @@ struct World::Impl {
 
   Profiler profiler;
   bool traces_stages = false;
+  bool validates = false;
   StageDigests stage_digests{};
   Parallel parallel;  // changes no result
-
-  bool validates = false;
 
   /// What a stage left behind (stage_digests.cpp).
   [[nodiscard]] std::uint64_t digest_of(StepStage stage) const;

@@ -56,6 +56,7 @@ void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullp
     (void)world.cast_ray({{}, 5_m, {}}, {{}, -10_m, {}});
     (void)world.overlap_sphere({}, 3_m, found);
     const BodyHandle extra = world.create_body({}).value();
+    ASSERT_EQ(world.set_name(extra, "extra"), Status::ok);
     ASSERT_EQ(world.apply(DestroyBody{extra}), Status::ok);
     DebugDraw nothing;
     world.draw(nothing, {true, true, true, true, true});

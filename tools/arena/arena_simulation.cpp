@@ -138,7 +138,9 @@ StateDifference ArenaSimulation::describe(ByteView here, ByteView there) const {
   StateDifference difference = first_difference(state, right.value().state, arena_.config.players);
   if (difference.differs) return difference;
   difference = arena_.world.describe_difference(world, right.value().world);
-  if (difference.store == "body") difference.name = name_of_body(world, difference.object);
+  // A simulation that did not step itself made no snowballs, and has no names of them.
+  if (difference.store == "body" && difference.name.empty())
+    difference.name = name_of_body(world, difference.object);
   return difference;
 }
 

@@ -15,6 +15,7 @@ constexpr Vec3<Unit> k_z_axis{{}, {}, Unit::from_integer(1)};
 BodyHandle add(World& world, const BodyDef& def) {
   Result<BodyHandle> body = world.create_body(def);
   LKS_CHECK(body.ok());  // the capacities cover the level
+  (void)world.set_name(body.value(), Tag::unpack(def.user_data).name());
   return body.value();
 }
 

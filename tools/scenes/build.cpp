@@ -1,5 +1,7 @@
 #include "tools/scenes/build.h"
 
+#include <string>
+
 namespace lockstone::scenes {
 
 using namespace lockstone::literals;
@@ -26,6 +28,7 @@ WorldDef small_world() {
 BodyHandle add(World& world, const BodyDef& def) {
   const Result<BodyHandle> body = world.create_body(def);
   LKS_CHECK(body.ok());
+  (void)world.set_name(body.value(), to_string(def.shape.kind));
   return body.value();
 }
 
@@ -60,13 +63,17 @@ void count_in_triggers(World& world) {
 }
 
 void add_ground(World& world, Length half_width) {
-  add(world, fixed_box({{}, -0.5_m, {}}, {half_width, 0.5_m, half_width}));
+  const BodyHandle ground =
+      add(world, fixed_box({{}, -0.5_m, {}}, {half_width, 0.5_m, half_width}));
+  (void)world.set_name(ground, "ground");
 }
 
 void add_stack(World& world, const Vec3<Position>& base, int count) {
   const Shape box = Shape::box(0.5_m, 0.5_m, 0.5_m);
   for (int i = 0; i < count; ++i) {
-    add(world, loose(box, base + Vec3<Position>{{}, Position::from_ratio(2 * i + 1, 2), {}}));
+    const Position height = Position::from_ratio(2 * i + 1, 2);
+    const BodyHandle body = add(world, loose(box, base + Vec3<Position>{{}, height, {}}));
+    (void)world.set_name(body, "box " + std::to_string(i));
   }
 }
 

@@ -1,6 +1,7 @@
 // What a body is made of: definitions going in, values coming out.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -19,6 +20,7 @@ inline constexpr Position k_world_limit = Position::from_integer(1 << 20);
 inline constexpr Mass k_min_mass = Mass::from_ratio(1, 1'000'000);
 inline constexpr Mass k_max_mass = Mass::from_integer(1'000'000'000);
 inline constexpr Velocity k_speed_limit = Velocity::from_integer(500);
+inline constexpr std::size_t k_max_body_name = 28;  ///< bytes: World::set_name
 
 /// Names a body. A handle whose body was destroyed never names another one. Default: no body.
 struct BodyHandle {

@@ -198,6 +198,16 @@ class World {
   [[nodiscard]] Vec3<Position> position(BodyHandle body) const;  ///< of the shape's frame
   [[nodiscard]] Vec3<Velocity> velocity(BodyHandle body) const;
 
+  /// Names a body for people, as `describe_difference` prints it. A name is not state: it is
+  /// neither hashed nor saved, changes no result, and a world that loads a snapshot knows the names
+  /// that were set in it alone. There a name stays with its handle, over `load` too. Holds
+  /// k_max_body_name bytes and cuts what is longer; a control character or a quotation mark becomes
+  /// '?'. stale_handle when there is no such body. Does not allocate.
+  Status set_name(BodyHandle body, std::string_view name);
+
+  /// Empty without a name or a body. Valid until the slot's next body is made or named.
+  [[nodiscard]] std::string_view name(BodyHandle body) const;
+
   /// Mass in kilograms, error ≤ 2^-30 relative; 0 for static and kinematic bodies.
   [[nodiscard]] Mass mass(BodyHandle body) const;
 
@@ -304,7 +314,8 @@ class World {
   [[nodiscard]] std::size_t save_delta(ByteView base, std::span<std::byte> out) const;
   Status load_delta(ByteView base, ByteView delta);
 
-  /// The first difference between two canonical snapshots of worlds with this definition.
+  /// The first difference between two canonical snapshots of worlds with this definition. Bodies,
+  /// and those of contacts and joints, are called by the names that they have in this world.
   [[nodiscard]] StateDifference describe_difference(ByteView here, ByteView there) const;
 
   /// Flips a bit of a field in memory, as a fault would: a control for what is to find it. Stores,
@@ -312,7 +323,8 @@ class World {
   /// may then be hashed, saved and compared, and must be loaded before anything else.
   bool flip_bit(std::string_view store, std::uint64_t object, std::string_view field, unsigned bit);
 
-  /// Forgets everything that is not state. Tests call it every tick: the future must not change.
+  /// Forgets everything that is not state, but for names. Tests call it every tick: the future must
+  /// not change.
   void drop_derived();
 
  private:
