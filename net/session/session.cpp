@@ -46,8 +46,10 @@ std::string Refusal::to_line() const {
 std::string DesyncReport::to_line() const {
   // "player 2, player 0, score" would not say which of them has the other state.
   const bool about_players = difference.differs && difference.store == "player";
-  const std::string whose = about_players ? ", state of player " : ", player ";
-  const std::string line = "tick " + std::to_string(tick) + whose + std::to_string(slot) + ", ";
+  const std::string at = "tick " + std::to_string(tick) + ", ";
+  if (about_players && difference.object == slot) return at + difference.to_line();
+  const std::string line =
+      at + (about_players ? "state of player " : "player ") + std::to_string(slot) + ", ";
   if (difference.differs) return line + difference.to_line();
   return line + (part.empty() ? "hash" : part) + ": " + lockstone::hexadecimal(hash_here) +
          " here, " + lockstone::hexadecimal(hash_there) + " there";

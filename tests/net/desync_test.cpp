@@ -240,6 +240,14 @@ TEST(Desync, LineDoesNotNameTwoPlayersAlike) {
   EXPECT_EQ(report.to_line(), "tick 90, state of player 3, player 0, score: 0x01 here, 0x02 there");
 }
 
+TEST(Desync, LineNamesAPlayerOnceWhoseOwnFieldsDiffer) {
+  DesyncReport report;
+  report.tick = 90;
+  report.slot = 3;
+  report.difference = {true, "player", 3, "", "score", "0x01", "0x02"};
+  EXPECT_EQ(report.to_line(), "tick 90, player 3, score: 0x01 here, 0x02 there");
+}
+
 TEST(Desync, WithoutSnapshotsStillNamesTickAndPlayer) {
   MatchOptions options = match_with_flip(2, 9, 1, {33, "body", "spin", 2, 3});
   options.client.snapshot_ticks = 0;
