@@ -8,6 +8,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -191,6 +192,23 @@ class Pages(Case):
         self.assertGreaterEqual(len(figures), 2)
         for figure in figures:
             self.assertIn("| met |", figure)
+
+    def test_the_command_on_a_page_writes_it_again(self):
+        runs = {"page.md": ("stability", "--rows", "stack-10", "--seconds", 1, "--page"),
+                "accuracy.md": ("accuracy", "--rows", 3, "--tries", 2, "--page"),
+                "general.md": ("general", "--alone", "--family", "arch", "--seeds", 1, "--substeps", 2, "--page"),
+                "front": ("accuracy", "--scenes", "throw", "--settings", 1, "--repeats", 1, "--alone", "--plot")}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, run in runs.items():
+                path = pathlib.Path(folder) / name
+                self.expect(OK, *run, path)
+                page = path / "front.md" if path.is_dir() else path
+                command = re.search("Made by `lockstone bench ([^`]*)`", page.read_text()).group(1).split()
+                self.assertIn("--force", command)
+                if path.is_dir():
+                    continue
+                self.assertLessEqual({word for word in run if str(word).startswith("--")}, set(command))
+                self.expect(OK, *command)
 
     def test_a_page_that_cannot_be_written_is_a_failure(self):
         self.expect(UNAVAILABLE, "accuracy", "--rows", 3, "--page", "/nowhere/page.md")

@@ -82,7 +82,7 @@ bool is_chosen(const BenchAccuracyOptions& options, int number) {
   return options.rows.empty() || std::ranges::count(options.rows, number) > 0;
 }
 
-// That makes the same page again.
+// That makes the same page again, in the place of this one.
 std::string command_of(const BenchAccuracyOptions& options) {
   std::string command = "lockstone bench accuracy";
   if (!options.rows.empty()) command += fmt::format(" --rows {}", fmt::join(options.rows, ","));
@@ -90,11 +90,12 @@ std::string command_of(const BenchAccuracyOptions& options) {
   if (options.measure.first != 0) command += fmt::format(" --first {}", options.measure.first);
   if (options.measure.seed != 1) command += fmt::format(" --seed {}", options.measure.seed);
   if (options.measure.sweep) command += " --sweep";
-  return command + " --page " + options.page;
+  return command + " --page " + options.page + " --force";
 }
 
 int plot(const BenchAccuracyOptions& options) {
-  const std::string command = fmt::format("lockstone bench accuracy --plot {}", options.plot);
+  const std::string command =
+      fmt::format("lockstone bench accuracy --plot {} --force", options.plot);
   const Output output{options.plot, options.force};
   if (!may_write_front(output)) return k_unavailable;
   const MeasuredFront measured = measure_front(options.front);

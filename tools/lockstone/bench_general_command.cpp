@@ -96,11 +96,15 @@ int replay(const BenchGeneralOptions& options) {
   return failed ? k_different : k_ok;
 }
 
+// That makes the same page again, in the place of this one.
 std::string command_of(const BenchGeneralOptions& options) {
   std::string command = "lockstone bench general";
   if (!options.families.empty())
     command += fmt::format(" --family {}", fmt::join(options.families, ","));
-  return command + fmt::format(" --first-seed {} --seeds {} --page {}", options.first_seed,
+  if (options.alone) command += " --alone";
+  if (!options.peers.empty()) command += fmt::format(" --peers {}", fmt::join(options.peers, ","));
+  if (options.substeps != 4) command += fmt::format(" --substeps {}", options.substeps);
+  return command + fmt::format(" --first-seed {} --seeds {} --page {} --force", options.first_seed,
                                options.seeds, options.page);
 }
 

@@ -57,12 +57,12 @@ void print_json(const std::vector<MeasuredStability>& all) {
   write_json(rows);
 }
 
-// That makes the same page again.
+// That makes the same page again, in the place of this one.
 std::string command_of(const BenchStabilityOptions& options) {
   std::string command = "lockstone bench stability";
   if (!options.rows.empty()) command += fmt::format(" --rows {}", fmt::join(options.rows, " "));
   if (options.measure.seconds > 0) command += fmt::format(" --seconds {}", options.measure.seconds);
-  return command + " --page " + options.page;
+  return command + " --page " + options.page + " --force";
 }
 
 int run(const BenchStabilityOptions& options) {
