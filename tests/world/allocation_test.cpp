@@ -6,8 +6,14 @@
 
 #include <gtest/gtest.h>
 
+#include <lockstone/compound.h>
+#include <lockstone/height_field.h>
+#include <lockstone/hull.h>
+#include <lockstone/load_asset.h>
+#include <lockstone/mesh.h>
 #include <lockstone/thread_pool.h>
 
+#include "core/geometry/asset_frame.h"
 #include "tests/world/world_fixture.h"
 
 namespace {
@@ -73,6 +79,63 @@ TEST(World, AllocatesNothingAfterCreation) {
 TEST(World, AllocatesNothingOnThreads) {
   ThreadPool pool(4);
   expect_no_allocation(BroadPhaseKind::tree, &pool);
+}
+
+// Bytes that end behind the counts say how many records would follow.
+void expect_truncated_without_allocation(World& world, SnapshotKind kind, std::size_t size) {
+  const std::vector<std::byte> whole = test::save(world, kind);
+  ASSERT_LT(size, whole.size());
+  const std::size_t before = g_allocations;
+  EXPECT_EQ(world.load(kind, ByteView(whole).first(size)), Status::truncated);
+  EXPECT_EQ(g_allocations, before) << to_string(kind);
+}
+
+TEST(World, AllocatesNothingForTinySnapshotsThatClaimMuch) {
+  World world = test::make_world();
+  const std::size_t empty = test::save(world, SnapshotKind::native).size();
+  const std::size_t empty_canonical = test::save(world, SnapshotKind::canonical).size();
+  test::fill_with_random_bodies(world, 1, 100);
+  expect_truncated_without_allocation(world, SnapshotKind::native, empty);
+  expect_truncated_without_allocation(world, SnapshotKind::canonical, empty_canonical);
+}
+
+// A head that claims as much as its kind may hold, and nothing behind it.
+class TinyAsset {
+ public:
+  TinyAsset(ShapeKind kind, std::uint16_t version) {
+    geometry::put_asset_header(writer_, kind, version);
+  }
+  template <class... T>
+  Status load_with(T... counts) {
+    (writer_.put(counts), ...);
+    const std::size_t before = g_allocations;
+    const Status status = load_asset(writer_.written()).status();
+    EXPECT_EQ(g_allocations, before);
+    return status;
+  }
+
+ private:
+  std::array<std::byte, 64> bytes_{};
+  ByteWriter writer_{bytes_};
+};
+
+TEST(LoadAsset, AllocatesNothingForTinyFilesThatClaimMuch) {
+  using U8 = std::uint8_t;
+  using U16 = std::uint16_t;
+  using U32 = std::uint32_t;
+  constexpr auto side = static_cast<U16>(k_max_height_field_samples);
+  EXPECT_EQ(TinyAsset(ShapeKind::hull, 1).load_with(U32{0}, U16{k_max_hull_vertices}),
+            Status::truncated);
+  EXPECT_EQ(
+      TinyAsset(ShapeKind::mesh, 2)
+          .load_with(U32{0}, k_max_mesh_vertices, k_max_mesh_triangles, U16{k_max_surfaces}, U8{1}),
+      Status::truncated);
+  EXPECT_EQ(TinyAsset(ShapeKind::height_field, 2)
+                .load_with(U32{0}, U32{0}, U32{0}, U32{0}, U32{0}, side, side, U16{k_max_surfaces},
+                           U8{3}),
+            Status::truncated);
+  EXPECT_EQ(TinyAsset(ShapeKind::compound, 2).load_with(U32{k_max_compound_children}),
+            Status::truncated);
 }
 
 TEST(AllocationCounter, CountsAnAllocation) {
