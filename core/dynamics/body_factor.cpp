@@ -10,22 +10,22 @@
 namespace lockstone {
 namespace {
 
-constexpr int k_sum_bits = 50, k_entry_bits = 30;
+constexpr int k_matrix_sum_bits = 50, k_entry_bits = 30;
 
 // A pivot is not taken to be smaller, Q60: rounding may leave it below what it is.
-constexpr std::int64_t k_least_pivot = std::int64_t{1} << 34;
+constexpr std::int64_t k_least_factor_pivot = std::int64_t{1} << 34;
 
 constexpr std::uint32_t k_eliminated = 0xffffffff;
 
-constexpr std::int64_t k_most_value = (std::int64_t{1} << 31) - 1;
+constexpr std::int64_t k_most_word = (std::int64_t{1} << 31) - 1;
 
-std::int64_t within(std::int64_t x) {
-  return std::clamp(x, -k_most_value, k_most_value);
+std::int64_t within_word(std::int64_t x) {
+  return std::clamp(x, -k_most_word, k_most_word);
 }
 
-// As `within`, and tells when it had to.
+// As `within_word`, and tells when it had to.
 std::int64_t held(std::int64_t x, bool& fits) {
-  const std::int64_t result = within(x);
+  const std::int64_t result = within_word(x);
   fits = fits && result == x;
   return result;
 }
@@ -160,7 +160,7 @@ void BodyFactor::reset(const Plan& plan) {
   for (std::uint32_t k = 0; k < plan.bodies; ++k)
     for (std::size_t i = 0; i < k_side; ++i)
       blocks_[plan.first_block + k].sums[i * (k_side + 1)] = std::int64_t{1}
-                                                             << (k_sum_bits - k_least_bits);
+                                                             << (k_matrix_sum_bits - k_least_bits);
 }
 
 void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, std::int32_t k) {
@@ -170,7 +170,7 @@ void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, st
     const std::int64_t kx = raw::round_shift(std::int64_t{k} * x[i], k_entry_bits);
     const std::size_t end = is_diagonal ? i + 1 : k_side;
     for (std::size_t j = 0; j < end; ++j)
-      sums[i * k_side + j] += raw::round_shift(kx * y[j], 2 * k_entry_bits - k_sum_bits);
+      sums[i * k_side + j] += raw::round_shift(kx * y[j], 2 * k_entry_bits - k_matrix_sum_bits);
   }
 }
 
@@ -182,11 +182,11 @@ void BodyFactor::scale(const Plan& plan) {
     for (std::size_t i = 0; i < k_side; ++i)
       most = std::max(most, blocks_[plan.first_block + k].sums[i * (k_side + 1)]);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
-    columns_[plan.first_column + k].scale = (width - k_sum_bits + 1) >> 1;
+    columns_[plan.first_column + k].scale = (width - k_matrix_sum_bits + 1) >> 1;
   }
   const auto grow = [&](std::uint32_t block, int down) {
     for (std::int64_t& sum : blocks_[block].sums)
-      sum = raw::scale_saturating(sum, 60 - k_sum_bits - down);
+      sum = raw::scale_saturating(sum, 60 - k_matrix_sum_bits - down);
   };
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];
@@ -201,19 +201,19 @@ std::int64_t BodyFactor::times_pivot(const Column& column, std::size_t i, std::i
 }
 
 void BodyFactor::set_pivot(Column& column, std::size_t j, std::int64_t sum, Block& block) {
-  const auto pivot = static_cast<std::uint64_t>(std::max(sum, k_least_pivot));
+  const auto pivot = static_cast<std::uint64_t>(std::max(sum, k_least_factor_pivot));
   const auto root = static_cast<std::int64_t>(isqrt_rounded(pivot));  // 2^17 … 2^30
   const int shift = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(root)));
   column.shifts[j] = shift;
   const std::int64_t inverse = raw::round_divide(std::int64_t{1} << (k_entry_bits + shift), root);
-  column.mantissas[j] = static_cast<std::int32_t>(std::min(inverse, k_most_value));
+  column.mantissas[j] = static_cast<std::int32_t>(std::min(inverse, k_most_word));
   block.factor[j * (k_side + 1)] = static_cast<std::int32_t>(root);
 }
 
 // An entry of the factor from its sum, less what columns before it take.
 std::int32_t BodyFactor::entry(const Column& column, std::size_t j, std::int64_t sum) {
   return static_cast<std::int32_t>(
-      within(times_pivot(column, j, within(raw::round_shift(sum, 60 - k_entry_bits)))));
+      within_word(times_pivot(column, j, within_word(raw::round_shift(sum, 60 - k_entry_bits)))));
 }
 
 // Cholesky within the block.

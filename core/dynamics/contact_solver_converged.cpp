@@ -9,7 +9,7 @@ namespace lockstone {
 namespace {
 
 // No island has more contacts.
-constexpr std::uint32_t k_most_contacts = 1024;
+constexpr std::uint32_t k_most_island_contacts = 1024;
 
 // The velocity that gravity adds in a substep, m/s, Q32.
 std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
@@ -29,7 +29,7 @@ bool is_too_uneven(BlockFloat a, BlockFloat b) {
 // Where islands are not solved to convergence, no program has the code for it.
 void ContactSolver::reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts) {
   if constexpr (k_converges_islands) {
-    const std::size_t most = std::min<std::size_t>(contacts, k_most_contacts);
+    const std::size_t most = std::min<std::size_t>(contacts, k_most_island_contacts);
     proximal_ = std::make_unique<ProximalSolver>(bodies, contacts);
     first_of_.reserve(2 * bodies + 2);
     next_of_.reserve(rows + contacts);
@@ -132,7 +132,7 @@ void ContactSolver::plan_converged(const ContactScene& scene) {
     chain_islands();
     for (std::uint32_t island = 1; island < islands_.count(); ++island) {
       IslandLoad& load = islands_.load(island);
-      const bool is_small = load.contacts != 0 && load.contacts <= k_most_contacts &&
+      const bool is_small = load.contacts != 0 && load.contacts <= k_most_island_contacts &&
                             load.bodies <= BodyFactor::k_most_bodies;
       if (load.is_barred || !is_small) continue;
       list_island(island);

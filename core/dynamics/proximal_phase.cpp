@@ -33,7 +33,7 @@ std::uint64_t friction_size(const ProximalContact& contact, std::int64_t Proxima
   for (std::size_t i = contact.points; i < contact.rows; ++i) {
     std::int64_t x = contact.all[i].*impulse;
     if (i == contact.points + 2)
-      x = within(raw::round_shift(x * contact.twist_ratio, k_limit_bits));
+      x = within_units(raw::round_shift(x * contact.twist_ratio, k_limit_bits));
     square += static_cast<std::uint64_t>(x * x);
   }
   return square;
@@ -52,7 +52,7 @@ bool project(ProximalContact& contact, std::int64_t ProximalRow::*impulse) {
 }
 
 // θ = −slope / curve within 0 … 1, Q30.
-std::int64_t part_of(const ProductSum& slope, const ProductSum& curve) {
+std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
   constexpr std::int64_t k_fits = std::int64_t{1} << 60;
   int shift = 1;
   while (shift < 120 &&
@@ -60,10 +60,10 @@ std::int64_t part_of(const ProductSum& slope, const ProductSum& curve) {
     shift += 4;
   const std::int64_t down = -slope.rounded(shift), total = curve.rounded(shift);
   if (down <= 0 || total <= 0) return 0;
-  if (down >= total) return k_one;
+  if (down >= total) return k_whole;
   const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(total)));
   const int drop = std::max(0, width - 31);
-  return std::min((down >> drop) * k_one / std::max<std::int64_t>(total >> drop, 1), k_one);
+  return std::min((down >> drop) * k_whole / std::max<std::int64_t>(total >> drop, 1), k_whole);
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ void ProximalSolver::scale_warm_start(Island& island) {
   for (std::size_t k = 0; k < island.bodies; ++k)
     for (const std::int64_t x : sums[k])
       curve.add(x, x);
-  const std::int64_t part = part_of(slope, curve);
+  const std::int64_t part = dual_part(slope, curve);
   if (part == 0) return;
   for (ProximalContact& contact : contacts_of(island)) {
     for (std::size_t i = 0; i < contact.rows; ++i) {
@@ -102,7 +102,7 @@ void ProximalSolver::scale_warm_start(Island& island) {
   const std::span<BodyVector> velocities = of(velocities_, island);
   for (std::size_t k = 0; k < island.bodies; ++k)
     for (std::size_t i = 0; i < 6; ++i)
-      velocities[k][i] = within(velocities[k][i] - raw::round_shift(sums[k][i] * part, 30));
+      velocities[k][i] = within_units(velocities[k][i] - raw::round_shift(sums[k][i] * part, 30));
 }
 
 // Returns whether no speed changed by as much as the tolerance.
@@ -112,13 +112,13 @@ bool ProximalSolver::pass_contact(ProximalContact& contact, BodyVector& a, BodyV
   Clamp clamp;
   const auto wanted = [&](const ProximalRow& row) {
     const std::int64_t soft = raw::round_shift(row.give * (row.impulse - row.centre), 30);
-    const std::int64_t error = clamp(row.speed + speed_of(row, a, b) + soft);
+    const std::int64_t error = clamp(row.speed + row_speed(row, a, b) + soft);
     return clamp(row.impulse - raw::round_shift(error * row.own_part, 30));
   };
   const auto change = [&](ProximalRow& row, std::int64_t next) {
     const std::int64_t moved = next - row.impulse;
     row.impulse = next;
-    apply(row, moved, a, b, clamp);
+    apply_row(row, moved, a, b, clamp);
     done = done && moved < row.tolerance && moved > -row.tolerance;
   };
   for (std::size_t i = 0; i < contact.points; ++i) {
@@ -201,7 +201,7 @@ void ProximalSolver::find_residuals(Island& island) {
     for (std::size_t i = 0; i < contact.rows; ++i) {
       ProximalRow& row = contact.all[i];
       const std::int64_t moved =
-          dot(row.a, velocities[contact.local_a]) + dot(row.b, velocities[contact.local_b]);
+          row_dot(row.a, velocities[contact.local_a]) + row_dot(row.b, velocities[contact.local_b]);
       const std::int64_t soft = row.give * (row.impulse - row.centre);
       row.residual = row.speed * (std::int64_t{1} << k_exact_bits) +
                      raw::round_shift(moved, k_drop) + raw::round_shift(soft, k_drop);
@@ -239,7 +239,7 @@ void ProximalSolver::propose(Island& island) {
       ProximalRow& row = contact.all[i];
       const bool is_normal = i < contact.points;
       const std::int64_t left = raw::round_shift(row.residual, island.drop) +
-                                speed_of(row, changes[contact.local_a], changes[contact.local_b]);
+                                row_speed(row, changes[contact.local_a], changes[contact.local_b]);
       row.next = is_normal ? 0 : row.impulse;
       if (!row.is_active) {
         island.is_solved = island.is_solved && (is_normal ? left >= 0 : row.impulse == 0);
@@ -248,7 +248,7 @@ void ProximalSolver::propose(Island& island) {
       // left / γ = left · weight · 2^14.
       const std::int64_t moved = product_rounded(
           left, row.weight, 30 + k_exact_bits - BodyFactor::k_least_bits - island.drop);
-      row.next = within(row.impulse - moved);
+      row.next = within_units(row.impulse - moved);
       island.fits = island.fits && row.next == row.impulse - moved;
       if (!is_normal || row.next >= 0) continue;
       row.next = 0;
@@ -268,7 +268,7 @@ bool ProximalSolver::search(Island& island) {
   for (const ProximalContact& contact : contacts_of(island)) {
     for (std::size_t i = 0; i < contact.rows; ++i) {
       const ProximalRow& row = contact.all[i];
-      const std::int64_t change = within(row.next - row.impulse);
+      const std::int64_t change = within_units(row.next - row.impulse);
       if (change == 0) continue;
       slope.add(change, row.residual);
       curve.add(raw::round_shift(row.give * change, 30 - k_exact_bits), change);
@@ -279,7 +279,7 @@ bool ProximalSolver::search(Island& island) {
   for (std::size_t k = 0; k < island.bodies; ++k)
     for (const std::int64_t x : sums[k])
       curve.add(x * k_scale, x);
-  const std::int64_t part = part_of(slope, curve);
+  const std::int64_t part = dual_part(slope, curve);
   if (part == 0) return false;
   go(island, part);
   return true;
@@ -288,11 +288,11 @@ bool ProximalSolver::search(Island& island) {
 // By a part of what `search` has at hand, Q30.
 void ProximalSolver::go(Island& island, std::int64_t part) {
   const auto of_part = [part](std::int64_t x) { return raw::round_shift(x * part, 30); };
-  island.is_solved = island.is_solved && part == k_one;
+  island.is_solved = island.is_solved && part == k_whole;
   for (ProximalContact& contact : contacts_of(island))
     for (std::size_t i = 0; i < contact.rows; ++i) {
       ProximalRow& row = contact.all[i];
-      row.impulse = part == k_one ? row.next : row.impulse + of_part(row.next - row.impulse);
+      row.impulse = part == k_whole ? row.next : row.impulse + of_part(row.next - row.impulse);
     }
   Clamp clamp;
   const std::span<const BodyVector> sums = of(changes_, island);
@@ -300,7 +300,7 @@ void ProximalSolver::go(Island& island, std::int64_t part) {
   for (std::size_t k = 0; k < island.bodies; ++k)
     for (std::size_t i = 0; i < 6; ++i)
       velocities[k][i] =
-          clamp(velocities[k][i] + (part == k_one ? sums[k][i] : of_part(sums[k][i])));
+          clamp(velocities[k][i] + (part == k_whole ? sums[k][i] : of_part(sums[k][i])));
   island.fits = island.fits && !clamp.hit();
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using lanes::ManifoldBlock;
 
-constexpr std::int64_t k_one = std::int64_t{1} << 30;
+constexpr std::int64_t k_whole_q30 = std::int64_t{1} << 30;
 
 // ε: compliance over the row's response to itself, 2^-10.
 constexpr int k_give_bits = 10;
@@ -21,7 +21,7 @@ constexpr std::int64_t k_overload = 200;
 constexpr int k_most_overload = 4;
 
 // Of an inertia that is not locked pivots are 2^-12 at least; Q60.
-constexpr std::int64_t k_least_pivot = std::int64_t{1} << 40;
+constexpr std::int64_t k_least_root_pivot = std::int64_t{1} << 40;
 
 std::int64_t root_of(std::int64_t square) {
   return static_cast<std::int64_t>(isqrt_rounded(static_cast<std::uint64_t>(square)));
@@ -44,8 +44,8 @@ struct Sides {
   std::array<std::int64_t, 6> a{}, b{};
 };
 
-std::array<std::int64_t, 6> side_of(const RawVec3& linear, const RawVec3& angular,
-                                    const InertiaRoot& root, std::int64_t share, bool is_a) {
+std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& angular,
+                                        const InertiaRoot& root, std::int64_t share, bool is_a) {
   std::array<std::int64_t, 6> side{};
   if (share == 0) return side;
   const std::int64_t part = root_of(share << 30);
@@ -72,8 +72,8 @@ std::int64_t length_of(const Sides& sides) {
 
 void scale_side(const std::array<std::int64_t, 6>& from, std::int64_t inverse, RowSide& to) {
   for (std::size_t i = 0; i < 6; ++i)
-    to[i] =
-        static_cast<std::int32_t>(std::clamp(product_rounded(from[i], inverse, 32), -k_one, k_one));
+    to[i] = static_cast<std::int32_t>(
+        std::clamp(product_rounded(from[i], inverse, 32), -k_whole_q30, k_whole_q30));
 }
 
 // The pair that rows are found for.
@@ -85,8 +85,8 @@ struct Pair {
   RowScale mass;
 
   [[nodiscard]] Sides sides(const ContactRow& row) const {
-    return {side_of(row.linear, row.angular_a, root_a, share_a, true),
-            side_of(row.linear, row.angular_b, root_b, share_b, false)};
+    return {scaled_side(row.linear, row.angular_a, root_a, share_a, true),
+            scaled_side(row.linear, row.angular_b, root_b, share_b, false)};
   }
 };
 
@@ -126,7 +126,7 @@ std::int64_t greatest_length(const Sides& t, const Sides& b) {
   const std::int64_t most =
       raw::round_shift(p + q, 1) + root_of(square.rounded(20)) * (std::int64_t{1} << 10);
   return static_cast<std::int64_t>(
-      isqrt128_rounded(multiply_wide(magnitude(most), static_cast<std::uint64_t>(k_one))));
+      isqrt128_rounded(multiply_wide(magnitude(most), static_cast<std::uint64_t>(k_whole_q30))));
 }
 
 void add_friction(const Pair& pair, ProximalContact& contact, const ManifoldBlock& block) {
@@ -149,13 +149,13 @@ void add_friction(const Pair& pair, ProximalContact& contact, const ManifoldBloc
     find_responses(pair.run, contact, rows[i]);
   }
   const Sides t = pair.sides(rows[0]), b = pair.sides(rows[1]), n = pair.sides(rows[2]);
-  const std::int64_t length = std::max<std::int64_t>(greatest_length(t, b), k_one / 2);
+  const std::int64_t length = std::max<std::int64_t>(greatest_length(t, b), k_whole_q30 / 2);
   const std::size_t first = contact.points;
   set_row(pair, rows[0], t, length, first, contact.all[first]);
   set_row(pair, rows[1], b, length, first + 1, contact.all[first + 1]);
   contact.rows = contact.points + 2;
   const std::int64_t twist = length_of(n);
-  if (twist < k_one >> 16) return;  // neither body turns about the normal
+  if (twist < k_whole_q30 >> 16) return;  // neither body turns about the normal
   set_row(pair, rows[2], n, twist, first + 2, contact.all[first + 2]);
   ++contact.rows;
   contact.twist_ratio =
@@ -176,10 +176,10 @@ InertiaRoot inertia_root(const InverseInertia& m) {
     std::int64_t pivot = entry[k][k] << 30;
     for (std::size_t j = 0; j < k; ++j)
       pivot -= root.c[k][j] * root.c[k][j];
-    if (pivot < k_least_pivot) continue;  // it does not turn about this axis
+    if (pivot < k_least_root_pivot) continue;  // it does not turn about this axis
     root.c[k][k] = root_of(pivot);
     for (std::size_t i = k + 1; i < 3; ++i) {
-      std::int64_t sum = entry[i][k] * k_one;
+      std::int64_t sum = entry[i][k] * k_whole_q30;
       for (std::size_t j = 0; j < k; ++j)
         sum -= root.c[i][j] * root.c[k][j];
       root.c[i][k] = raw::round_divide(sum, root.c[k][k]);
@@ -206,13 +206,13 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
                   prepared,
                   root_a,
                   root_b,
-                  contact.a == 0 ? 0 : k_one - share_b,
+                  contact.a == 0 ? 0 : k_whole_q30 - share_b,
                   contact.b == 0 ? 0 : share_b,
                   mass_scale(unit, rows.inverse_mass)};
   for (std::size_t i = 0; i < rows.count; ++i) {
     const Sides sides = pair.sides(rows.points[i]);
-    set_row(pair, rows.points[i], sides, std::max<std::int64_t>(length_of(sides), k_one / 2), i,
-            contact.all[i]);
+    set_row(pair, rows.points[i], sides, std::max<std::int64_t>(length_of(sides), k_whole_q30 / 2),
+            i, contact.all[i]);
     contact.x[i] = rows.points[i].x;
     contact.y[i] = rows.points[i].y;
   }
@@ -242,9 +242,10 @@ void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContac
   for (std::size_t i = 0; i < contact.rows; ++i) {
     ProximalRow& row = contact.all[i];
     const std::int64_t ratio = raw::round_divide(most << 16, prepared.own[i]);  // 1 or more, Q16
-    const std::int64_t give = std::min(ratio << (30 - 16 - k_give_bits - overload), k_one);
+    const std::int64_t give = std::min(ratio << (30 - 16 - k_give_bits - overload), k_whole_q30);
     row.give = static_cast<std::int32_t>(give);
-    row.own_part = static_cast<std::int32_t>(raw::round_divide(k_one << 30, k_one + give));
+    row.own_part =
+        static_cast<std::int32_t>(raw::round_divide(k_whole_q30 << 30, k_whole_q30 + give));
     row.weight = static_cast<std::int32_t>(
         raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give));
   }

@@ -30,7 +30,7 @@ constexpr std::int64_t k_leak_part = 10;
 constexpr std::int64_t k_push_rate = 9;
 
 // Bounds of a body's velocity and spin, Q50, and of a total impulse.
-constexpr std::int64_t k_body_bound = std::int64_t{1} << 61;
+constexpr std::int64_t k_motion_bound = std::int64_t{1} << 61;
 constexpr std::int64_t k_most_total = std::int64_t{1} << (k_row_impulse_bits + 16);
 
 }  // namespace
@@ -148,7 +148,7 @@ void ProximalSolver::begin_rows(const PreparedRows& prepared, std::int64_t weigh
   for (std::size_t i = 0; i < contact.rows; ++i) {
     ProximalRow& row = contact.all[i];
     const RowScale& scale = prepared.from_impulse[i];
-    row.held = kept(scale.times(row.total, k_down));
+    row.held = within_row(scale.times(row.total, k_down));
     row.least_change = row.to_speed.times(k_tolerance, 50 - k_row_unit_bits);
     if (i < contact.points)
       row.weight_leak = scale.times(raw::round_divide(weight << 29, prepared.own[i]), k_down);
@@ -215,10 +215,10 @@ void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared
     const auto read = [&](const Motion& motion) {
       const std::int64_t speed =
           speed_along(linear[i], prepared.response_a[i], prepared.response_b[i], motion);
-      return kept(row.to_speed.times(speed, 50 - k_row_unit_bits));
+      return within_row(row.to_speed.times(speed, 50 - k_row_unit_bits));
     };
     row.moved = read(start);
-    row.moving = kept(row.moved + read(gained));
+    row.moving = within_row(row.moved + read(gained));
   }
 }
 
@@ -230,7 +230,7 @@ void ProximalSolver::begin_substep(Island& island) {
       ProximalRow& row = contact.all[i];
       if (!island.is_first) {
         const std::int64_t start = row.moving;
-        row.moving = kept(2 * start - row.moved);
+        row.moving = within_row(2 * start - row.moved);
         row.moved = start;
       }
       row.held_centre = row.held;
@@ -248,7 +248,8 @@ void ProximalSolver::set_bias(const ContactRun& run, ProximalContact& contact, b
     ProximalRow& row = contact.all[i];
     const std::int64_t apart = high_word(block.points[i].separation[lane]) + run.rules.overlap;
     if (apart > 0) {
-      row.bias = kept(row.to_speed.times(apart * run.rules.substep_rate, 24 - k_row_unit_bits));
+      row.bias =
+          within_row(row.to_speed.times(apart * run.rules.substep_rate, 24 - k_row_unit_bits));
     } else if (pushes_out) {
       const std::int64_t out =
           std::max(apart * k_push_rate, -std::int64_t{run.rules.push_out} * (1 << 4));
@@ -278,9 +279,9 @@ void ProximalSolver::convert(const Island& island, ProximalContact& contact) {
   const int down = k_row_unit_bits - island.bits;
   for (std::size_t i = 0; i < contact.rows; ++i) {
     ProximalRow& row = contact.all[i];
-    row.speed = within(raw::round_shift(row.moving + row.bias, down));
-    row.impulse = row.start = within(raw::round_shift(row.held, down));
-    row.centre = within(raw::round_shift(row.held_centre, down));
+    row.speed = within_units(raw::round_shift(row.moving + row.bias, down));
+    row.impulse = row.start = within_units(raw::round_shift(row.held, down));
+    row.centre = within_units(raw::round_shift(row.held_centre, down));
     row.tolerance = std::max<std::int64_t>(row.least_change >> down, 1);
   }
 }
@@ -297,7 +298,7 @@ void ProximalSolver::give_contact(const ContactRun& run, int bits, ProximalConta
     if (row.impulse == row.start) continue;
     const std::int64_t gained =
         raw::scale_saturating(row.impulse - row.start, k_row_unit_bits - bits);
-    row.held = row.impulse == 0 ? 0 : kept(row.held + kept(gained));
+    row.held = row.impulse == 0 ? 0 : within_row(row.held + within_row(gained));
     changes = true;
     const std::int64_t least = i < contact.points ? 0 : -k_most_total;
     const std::int64_t next =
@@ -335,7 +336,7 @@ void ProximalSolver::give_contact(const ContactRun& run, int bits, ProximalConta
   const RawVec3 spin_b =
       moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turns));
   for (std::size_t i = 0; i < 3; ++i) {
-    a.velocity[i] -= product_rounded(force[i], k_one - share, 30);
+    a.velocity[i] -= product_rounded(force[i], k_whole - share, 30);
     a.spin[i] -= spin_a[i];
     b.velocity[i] += product_rounded(force[i], share, 30);
     b.spin[i] += spin_b[i];
@@ -350,8 +351,9 @@ void ProximalSolver::give(const ContactRun& run, Island& island) {
   for (ProximalContact& contact : contacts_of(island))
     give_contact(run, island.bits, contact, gains[contact.local_a], gains[contact.local_b]);
   const auto add = [](std::int64_t& to, std::int64_t by) {
-    constexpr std::int64_t k_most = k_body_bound >> k_row_shift;
-    to = std::clamp(to + std::clamp(by, -k_most, k_most) * k_to_row, -k_body_bound, k_body_bound);
+    constexpr std::int64_t k_most = k_motion_bound >> k_row_shift;
+    to = std::clamp(to + std::clamp(by, -k_most, k_most) * k_to_row, -k_motion_bound,
+                    k_motion_bound);
   };
   for (std::uint32_t k = 0; k < island.bodies; ++k) {
     RowBody& row = run.rows[bodies_[island.first_body + k]];
@@ -370,8 +372,8 @@ void ProximalSolver::follow(Island& island) {
     for (std::size_t i = 0; i < contact.rows; ++i) {
       ProximalRow& row = contact.all[i];
       const std::int64_t change =
-          dot(row.a, velocities[contact.local_a]) + dot(row.b, velocities[contact.local_b]);
-      row.moving = kept(row.moving + kept(raw::scale_saturating(change, -shift)));
+          row_dot(row.a, velocities[contact.local_a]) + row_dot(row.b, velocities[contact.local_b]);
+      row.moving = within_row(row.moving + within_row(raw::scale_saturating(change, -shift)));
     }
   }
 }
