@@ -9,10 +9,10 @@ namespace lockstone {
 namespace {
 
 // No island has more contacts.
-constexpr std::uint32_t k_most_island_contacts = 1024;
+[[maybe_unused]] constexpr std::uint32_t k_most_island_contacts = 1024;
 
 // The velocity that gravity adds in a substep, m/s, Q32.
-std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
+[[maybe_unused]] std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
   const auto size = static_cast<std::int64_t>(norm(gravity.x.raw, gravity.y.raw, gravity.z.raw));
   return step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
 }
