@@ -62,53 +62,58 @@ class ProximalSolver {
     int drop = 0;               // bits of residuals that the direct step at hand leaves out
     bool fits = true;           // so far nothing in the phase had to be clamped
     bool is_solved = false;     // by the last direct step
+    bool pushed = false;
     bool is_first = true;       // substep of the tick
     bool was_factored = false;  // in this tick
     bool is_factored = false;   // for the rows that are active
   };
+  static constexpr std::uint32_t k_no_block = 0xffffffff;
   // Where blocks of a contact's bodies are in the factor.
   struct Blocks {
-    std::uint32_t a = 0, b = 0;
-    BodyFactor::Place both;
+    std::uint32_t a = k_no_block, b = k_no_block;
+    BodyFactor::Place both{k_no_block, false};
   };
   // A body's change of velocity in a phase, m/s, Q32.
   struct Gain {
     RawVec3 velocity{}, spin{};
   };
 
+  using Problem = lanes::ProximalBlock;
   static void take_over(const ContactRun& run, ProximalContact& contact);
   struct Motion;
+  [[nodiscard]] BlockFloat find_unit(const ContactRun& run, const Island& island);
   static void begin_rows(const PreparedRows& prepared, std::int64_t weight,
-                         ProximalContact& contact);
-  static void set_drives(const ContactRun& run, ProximalContact& contact);
+                         ProximalContact& contact, Problem& problem);
+  static void set_drives(const ContactRun& run, const ProximalContact& contact, Problem& problem);
   [[nodiscard]] static std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
                                                 const RawVec3& response_b, const Motion& motion);
   static void measure(const ContactRun& run, const PreparedRows& prepared,
-                      ProximalContact& contact);
+                      const ProximalContact& contact, Problem& problem);
   void begin_substep(Island& island);
-  static void set_bias(const ContactRun& run, ProximalContact& contact, bool pushes_out);
+  static void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
+                       bool pushes_out, bool& pushed);
   [[nodiscard]] bool set_units(Island& island);
-  static void convert(const Island& island, ProximalContact& contact);
   void scale_warm_start(Island& island);
   [[nodiscard]] bool pass(Island& island);
-  [[nodiscard]] static bool pass_contact(ProximalContact& contact, BodyVector& a, BodyVector& b,
-                                         bool& fits);
   void mark_active(Island& island);
   void factor(Island& island);
   [[nodiscard]] bool direct_step(Island& island);
   void find_residuals(Island& island);
   [[nodiscard]] bool solve_for_changes(Island& island);
-  void propose(Island& island);
-  [[nodiscard]] bool search(Island& island);
+  void sum_changes(Island& island);
+  [[nodiscard]] std::int64_t search(const Island& island);
   void go(Island& island, std::int64_t part);
   [[nodiscard]] bool converge(Island& island, bool scales);
   void give(const ContactRun& run, Island& island);
   void follow(Island& island);
-  static void give_contact(const ContactRun& run, int bits, ProximalContact& contact, Gain& a,
-                           Gain& b);
+  static void give_contact(const ContactRun& run, int bits, ProximalContact& contact,
+                           Problem& problem, Gain& a, Gain& b);
 
   [[nodiscard]] std::span<ProximalContact> contacts_of(const Island& island) {
     return std::span(contacts_).subspan(island.first_contact, island.contacts);
+  }
+  [[nodiscard]] std::span<Problem> problems_of(const Island& island) {
+    return std::span(problems_).subspan(island.first_contact, island.contacts);
   }
   [[nodiscard]] std::span<BodyVector> of(std::vector<BodyVector>& all, const Island& island) {
     return std::span(all).subspan(island.first_vector, island.bodies + 1);
@@ -117,10 +122,12 @@ class ProximalSolver {
   std::vector<Island> islands_;
   std::vector<std::uint32_t> bodies_;  // numbers in the solver, island by island
   std::vector<ProximalContact> contacts_;
+  std::vector<Problem> problems_;       // by contact: its rows
   std::vector<Blocks> blocks_;          // by contact
   std::vector<BodyVector> velocities_;  // changes since the phase began
   std::vector<BodyVector> changes_;
   std::vector<Gain> gains_;
+  std::vector<InertiaRoot> roots_;
   std::vector<std::uint32_t> local_;  // by number in the solver
   std::vector<BodyFactor::Pair> pairs_;
   BodyFactor factor_;

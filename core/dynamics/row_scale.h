@@ -31,6 +31,14 @@ struct RowScale {
     return of((std::uint64_t{1} << 62) / static_cast<std::uint64_t>(mantissa), 62 - shift);
   }
 
+  /// As `times`, for |x| < 2^32.
+  [[nodiscard]] constexpr std::int64_t times_word(std::int64_t x, int more) const {
+    LKS_ASSERT(magnitude(x) >> 32 == 0);
+    const int right = shift + more;
+    if (right < 0) return times(x, more);
+    return right > 62 ? 0 : raw::round_shift_any(x * mantissa, right);
+  }
+
   /// x · scale · 2^-more, rounded; within ±k_product_bound.
   [[nodiscard]] constexpr std::int64_t times(std::int64_t x, int more) const {
     const int right = shift + more;

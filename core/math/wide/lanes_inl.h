@@ -167,6 +167,36 @@ HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
   return hn::BitCast(k_words, shift_right_each(moved, hn::BitCast(Bits(), shift)));
 }
 
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift(Lanes x) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
+  const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
+  return hn::ShiftRight<shift>(hn::BitCast(k_words, moved));
+}
+
+/// Every lane by a shift of its own; `half` is 2^(shift − 1). AVX2 has no arithmetic shift.
+HWY_INLINE HWY_ATTR Lanes round_shift(Lanes x, Lanes shift, Lanes half) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto moved = hn::Sub(hn::Add(u, hn::BitCast(Bits(), half)), hn::ShiftRight<63>(u));
+  const auto sign = hn::BitCast(Bits(), hn::BroadcastSignBit(hn::BitCast(k_words, moved)));
+  const auto size = shift_right_each(hn::Xor(moved, sign), hn::BitCast(Bits(), shift));
+  return hn::BitCast(k_words, hn::Xor(size, sign));
+}
+
+HWY_INLINE HWY_ATTR Lanes bit_and(Lanes a, Lanes b) {
+  return hn::And(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes bit_or(Lanes a, Lanes b) {
+  return hn::Or(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes bit_and_not(Lanes a, Lanes b) {
+  return hn::AndNot(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes without_sign(Lanes x) {
+  return hn::Xor(x, hn::BroadcastSignBit(x));
+}
+
 HWY_INLINE HWY_ATTR Lanes zero_if_negative(Lanes x) {
 #if HWY_TARGET == HWY_AVX3
   return hn::Max(x, hn::Zero(k_words));

@@ -22,6 +22,9 @@ inline constexpr std::size_t k_lanes = 1;
 
 using scalar::add;
 using scalar::any_less;
+using scalar::bit_and;
+using scalar::bit_and_not;
+using scalar::bit_or;
 using scalar::bits_of_less;
 using scalar::clamp;
 using scalar::max;
@@ -36,6 +39,7 @@ using scalar::select_equal;
 using scalar::select_less;
 using scalar::subtract;
 using scalar::with_upper_of;
+using scalar::without_sign;
 
 inline Lanes load(const std::int64_t* from) {
   return *from;
@@ -82,6 +86,13 @@ inline Lanes round_shift_low(Lanes x, Lanes shift, Lanes) {
 template <int shift>
 Lanes round_shift_far(Lanes x) {
   return scalar::round_shift_far(x, shift);
+}
+template <int shift>
+Lanes round_shift(Lanes x) {
+  return scalar::round_shift(x, shift);
+}
+inline Lanes round_shift(Lanes x, Lanes shift, Lanes) {
+  return scalar::round_shift(x, static_cast<int>(shift));
 }
 template <int shift>
 Lanes round_shift_unsigned(Lanes x) {

@@ -18,7 +18,12 @@ constexpr Kernels k_scalar{"scalar",
                            mark_at_least_scalar,
                            &k_scalar_manifolds,
                            &k_scalar_balls,
-                           &k_scalar_boxes};
+                           &k_scalar_boxes,
+#if defined(LKS_CONVERGED_ISLANDS)
+                           &k_scalar_proximal};
+#else
+                           nullptr};
+#endif
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -114,6 +119,14 @@ const BallKernels& ball_kernels(std::size_t balls) {
 
 const BoxKernels& box_kernels() {
   return *current().boxes;
+}
+
+const ProximalKernels& proximal_kernels() {
+#if defined(LKS_CONVERGED_ISLANDS)
+  return *current().proximal;
+#else
+  return k_scalar_proximal;
+#endif
 }
 
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {
