@@ -26,8 +26,6 @@ constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
 // The leak of a normal's centre, at most: a tenth of its impulse, and half of the row's own weight.
 constexpr std::int64_t k_leak_part = 10;
 
-constexpr std::int64_t k_least_push = (1 << 24) / 10000;
-
 // Overlap goes at this rate, 1/s.
 constexpr std::int64_t k_push_rate = 9;
 
@@ -268,7 +266,7 @@ void ProximalSolver::begin_substep(Island& island) {
 
 // Sets the speeds at which separations close, or overlap is pushed out.
 void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& contact,
-                              Problem& problem, bool pushes_out, bool& pushed) {
+                              Problem& problem, bool pushes_out) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   for (std::size_t i = 0; i < contact.points; ++i) {
@@ -281,7 +279,6 @@ void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& cont
       const std::int64_t out =
           std::max(apart * k_push_rate, -std::int64_t{run.rules.push_out} * (1 << 4));
       problem.bias[i] = to_speed.times(out, 24 - k_row_unit_bits);
-      pushed = pushed || (out < -k_least_push);
     } else {
       problem.bias[i] = 0;
     }
@@ -387,14 +384,9 @@ void ProximalSolver::follow(Island& island) {
 
 void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool pushes_out) {
   Island& island = islands_[index];
-  if (pushes_out) {
-    begin_substep(island);
-    island.pushed = false;
-  } else if (!island.pushed) {
-    return;
-  }
+  if (pushes_out) begin_substep(island);
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
-    set_bias(run, contacts_[c], problems_[c], pushes_out, island.pushed);
+    set_bias(run, contacts_[c], problems_[c], pushes_out);
   if (!set_units(island)) return;
   while (!converge(island, pushes_out) && island.bits >= k_least_bits + k_coarser_bits)
     island.bits -= k_coarser_bits;

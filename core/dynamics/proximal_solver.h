@@ -62,7 +62,6 @@ class ProximalSolver {
     int drop = 0;               // bits of residuals that the direct step at hand leaves out
     bool fits = true;           // so far nothing in the phase had to be clamped
     bool is_solved = false;     // by the last direct step
-    bool pushed = false;
     bool is_first = true;       // substep of the tick
     bool was_factored = false;  // in this tick
     bool is_factored = false;   // for the rows that are active
@@ -91,7 +90,7 @@ class ProximalSolver {
                       const ProximalContact& contact, Problem& problem);
   void begin_substep(Island& island);
   static void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
-                       bool pushes_out, bool& pushed);
+                       bool pushes_out);
   [[nodiscard]] bool set_units(Island& island);
   void scale_warm_start(Island& island);
   [[nodiscard]] bool pass(Island& island);
