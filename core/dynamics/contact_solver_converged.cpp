@@ -158,6 +158,10 @@ void ContactSolver::begin_converged(const ContactScene& scene) {
       contact.row_a = row_of(contact.row_a);
       contact.row_b = row_of(contact.row_b);
     }
+    // The first phase brings the impulses of the tick before back, as far as they do good: what
+    // they give to bodies one by one may be beyond any velocity.
+    for (const std::uint32_t body : proximal_->bodies())
+      before_[body] = {};
     const std::int64_t weight = weight_of(scene.gravity, step_);
     for (std::uint32_t i = 0; i < proximal_->count(); ++i)
       proximal_->begin(direct_run(), i, weight);

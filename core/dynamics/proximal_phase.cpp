@@ -36,8 +36,9 @@ std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
 
 }  // namespace
 
-// To the least of D along the last impulses: kinetic energy after the warm start is at most that of
-// the free motion. What overlaps is not yet pushed out.
+// To the least of D along the last impulses, from 0 in a tick's first phase and down from all of
+// them in others: kinetic energy after the warm start is at most that of the free motion. What
+// overlaps is not yet pushed out.
 void ProximalSolver::scale_warm_start(Island& island) {
   const int down = k_row_unit_bits - island.bits;
   ProductSum slope, curve;
@@ -45,8 +46,8 @@ void ProximalSolver::scale_warm_start(Island& island) {
     for (std::size_t i = 0; i < problem.rows; ++i) {
       const bool pushes_out = i < problem.points && problem.bias[i] < 0;
       const std::int64_t out = pushes_out ? raw::round_shift(problem.bias[i], down) : 0;
-      slope.subtract(problem.impulse[i], problem.speed[i] - out);
-      problem.next[i] = 0;
+      problem.next[i] = island.warms ? within_units(raw::round_shift(problem.warm[i], down)) : 0;
+      slope.add(problem.next[i] - problem.impulse[i], problem.speed[i] - out);
     }
   }
   if (slope.rounded(1) >= 0) return;

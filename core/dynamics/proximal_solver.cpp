@@ -18,7 +18,7 @@ using lanes::scalar::pack;
 // Units are such that what a phase begins with is below 2^27 of them, of the 2^31 there are. Where
 // that does not do, coarser ones are tried.
 constexpr int k_start_bits = 27;
-constexpr int k_most_bits = k_row_unit_bits - 1, k_least_bits = 15;
+constexpr int k_most_bits = k_row_unit_bits - 1, k_least_bits = 2;
 constexpr int k_coarser_bits = 5;
 // A change of speed is none below this, m/s, Q50.
 constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
@@ -113,6 +113,8 @@ void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) 
                    block.twist_row[1][lane],
                    block.rest[lane],
                    block.soft[lane]};
+  for (std::size_t i = 0; i < contact.points; ++i)
+    block.points[i].impulse[lane] = 0;
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
   block.rest[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;
@@ -168,7 +170,8 @@ void ProximalSolver::begin_rows(const PreparedRows& prepared, std::int64_t weigh
   for (std::size_t i = 0; i < contact.rows; ++i) {
     ProximalRow& row = contact.all[i];
     const RowScale& scale = prepared.from_impulse[i];
-    problem.held[i] = within_row(scale.times(row.total, k_down));
+    problem.warm[i] = within_row(scale.times(row.total, k_down));
+    row.total = 0;
     problem.least_change[i] = row.to_speed.times(k_tolerance, 50 - k_row_unit_bits);
     if (i < contact.points)
       row.weight_leak = scale.times(raw::round_divide(weight << 29, prepared.own[i]), k_down);
@@ -206,21 +209,20 @@ std::int64_t ProximalSolver::speed_along(const RawVec3* linear, const RawVec3& r
   return sum.rounded(30);
 }
 
-// Speeds of all rows as the tick begins, and once gravity, forces and the last impulses have acted:
-// these wait in `before`.
+// Speeds of all rows as the tick begins, and once gravity and forces have acted.
 void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared,
                              const ProximalContact& contact, Problem& problem) {
   Motion start, gained;
   const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
                             RawVec3& gained_spin, std::int64_t sign) {
-    const RowBody &row = run.rows[index], &warm = run.before[index];
+    const RowBody& row = run.rows[index];
     for (std::size_t k = 0; k < 3; ++k) {
       start.along[k] += sign * row.velocity[k];
       spin[k] = row.spin[k];
       if (body == 0) continue;
       const SolverBody& constants = run.bodies[body];
-      gained.along[k] += sign * (constants.gain[k] * k_to_row + warm.velocity[k]);
-      gained_spin[k] = constants.spin_gain[k] * k_to_row + warm.spin[k];
+      gained.along[k] += sign * constants.gain[k] * k_to_row;
+      gained_spin[k] = constants.spin_gain[k] * k_to_row;
     }
   };
   add_side(contact.row_a, contact.a, start.spin_a, gained.spin_a, -1);
@@ -255,12 +257,13 @@ void ProximalSolver::begin_substep(Island& island) {
         problem.moving[i] = within_row(2 * start - problem.moved[i]);
         problem.moved[i] = start;
       }
-      const std::int64_t held = problem.held[i];
+      const std::int64_t held = island.is_first ? problem.warm[i] : problem.held[i];
       problem.held_centre[i] = held;
       if (i < contact.points)
         problem.held_centre[i] -= std::min(held / k_leak_part, contact.all[i].weight_leak);
     }
   }
+  island.warms = island.is_first;
   island.is_first = false;
 }
 
@@ -390,6 +393,7 @@ void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool push
   if (!set_units(island)) return;
   while (!converge(island, pushes_out) && island.bits >= k_least_bits + k_coarser_bits)
     island.bits -= k_coarser_bits;
+  island.warms = false;
   give(run, island);
   follow(island);
 }

@@ -40,6 +40,9 @@ class ProximalSolver {
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
 
+  /// Bodies of all islands.
+  [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
+
   /// Once blocks are prepared: takes contacts over from the iterations. `weight` is gravity's gain
   /// in a substep, m/s, Q32.
   void begin(const ContactRun& run, std::uint32_t island, std::int64_t weight);
@@ -63,6 +66,7 @@ class ProximalSolver {
     bool fits = true;           // so far nothing in the phase had to be clamped
     bool is_solved = false;     // by the last direct step
     bool is_first = true;       // substep of the tick
+    bool warms = false;         // this phase begins with the impulses of the tick before
     bool was_factored = false;  // in this tick
     bool is_factored = false;   // for the rows that are active
   };

@@ -49,6 +49,7 @@ struct alignas(64) ProximalBlock {
   BlockWord residual{};   // as of the direct step at hand, k_residual_point bits more
   BlockWord next{};       // impulse that the direct step proposes
 
+  BlockWord warm{};         // kept: impulse as the tick before ended
   BlockWord held{};         // kept: impulse
   BlockWord held_centre{};  // kept: centre
   BlockWord moving{};       // kept: speed
@@ -118,7 +119,7 @@ struct ProximalKernels {
                          const BlockWord* changes);
   /// Adds Jᵀ·(next − impulse). Returns whether these fit.
   bool (*add_changes)(const ProximalBlock* blocks, std::size_t count, BlockWord* sums);
-  /// Kept speeds follow what bodies gained, Q`shift` finer than kept ones; 1 ≤ shift ≤ 62.
+  /// Adds J·u · 2^-shift to kept speeds; −16 ≤ shift ≤ 62.
   void (*follow)(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies, int shift);
   /// Sets the coupling of the rows.
   void (*couple)(ProximalBlock& block);

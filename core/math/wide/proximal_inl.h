@@ -266,11 +266,14 @@ HWY_ATTR bool add_changes(const ProximalBlock* blocks, std::size_t count, BlockW
 HWY_ATTR void follow(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies,
                      int shift) {
   constexpr std::int64_t k_most_kept = std::int64_t{1} << 58;
-  const Shift finer(shift);
+  const Shift rounded(shift > 0 ? shift : 1);
   for (ProximalBlock* block = blocks; block != blocks + count; ++block) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
       const Lanes dots = row_dots(*block, lane, bodies[block->a], bodies[block->b]);
-      const Lanes moving = add(load(&block->moving[lane]), within(finer(dots), k_most_kept));
+      Lanes change = shift > 0 ? rounded(dots) : within(dots, k_most_kept >> -shift);
+      for (int i = shift; i < 0; ++i)
+        change = add(change, change);
+      const Lanes moving = add(load(&block->moving[lane]), within(change, k_most_kept));
       store(within(moving, k_most_kept), &block->moving[lane]);
     }
   }
