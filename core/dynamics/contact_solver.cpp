@@ -151,7 +151,8 @@ Vec3<Unit> unit_normal_of(const ManifoldBlock& block, std::size_t lane) {
 }  // namespace
 
 ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
-                             std::size_t contact_capacity, std::size_t joint_capacity)
+                             std::size_t contact_capacity, std::size_t joint_capacity,
+                             std::size_t converged_contacts)
     : step_(step),
       softness_(ContactSoftness::of(step)),
       rules_(rules_of(step)),
@@ -183,7 +184,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
   kept_.reserve(most * k_block_lanes);
-  reserve_islands(most_rows, body_capacity, contact_capacity);
+  reserve_islands(most_rows, body_capacity, contact_capacity,
+                  std::min(converged_contacts, contact_capacity));
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
 }

@@ -54,7 +54,8 @@ class ContactSolver {
  public:
   /// No functions but this and `make_room` allocate.
   [[gnu::cold]] ContactSolver(const TimeStep& step, std::size_t body_capacity,
-                              std::size_t contact_capacity, std::size_t joint_capacity);
+                              std::size_t contact_capacity, std::size_t joint_capacity,
+                              std::size_t converged_contacts);
   [[gnu::cold]] ~ContactSolver();
 
   /// For so many workers.
@@ -211,7 +212,8 @@ class ContactSolver {
   void begin_joints();
   void take_up_net(const ContactScene& scene);
   void take_up_direct(const ContactScene& scene);
-  void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts);
+  void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
+                       std::size_t converged);
   void bar_islands(const ContactScene& scene);
   void list_island(std::uint32_t island);
   [[nodiscard]] bool is_pinched(const ContactScene& scene);
@@ -316,7 +318,8 @@ class ContactSolver {
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
   DirectContacts direct_;
-  std::unique_ptr<ProximalSolver> proximal_;  // null without LOCKSTONE_CONVERGED_ISLANDS
+  std::unique_ptr<ProximalSolver> proximal_;  // null where no island is solved to convergence
+  std::uint32_t most_island_contacts_ = 0;    // of an island that is
   std::vector<std::uint32_t> first_of_;  // of an island: its first body, then its first entry, + 1
   std::vector<std::uint32_t> next_of_;   // of a body, then of an entry: the next, + 1
   std::vector<std::uint32_t> island_bodies_;

@@ -35,8 +35,12 @@ constexpr std::int64_t k_most_total = std::int64_t{1} << (k_row_impulse_bits + 1
 
 }  // namespace
 
-ProximalSolver::ProximalSolver(std::size_t body_capacity, std::size_t contact_capacity)
-    : factor_(body_capacity) {
+ProximalSolver::ProximalSolver(std::size_t rows, std::size_t body_capacity,
+                               std::size_t contact_capacity)
+    : local_(rows),
+      body_capacity_(body_capacity),
+      contact_capacity_(contact_capacity),
+      factor_(body_capacity) {
   islands_.reserve(body_capacity);
   bodies_.reserve(body_capacity);
   contacts_.reserve(contact_capacity);
@@ -46,7 +50,6 @@ ProximalSolver::ProximalSolver(std::size_t body_capacity, std::size_t contact_ca
   changes_.reserve(2 * body_capacity);
   gains_.reserve(2 * body_capacity);
   roots_.reserve(2 * body_capacity);
-  local_.reserve(body_capacity + contact_capacity + 1);
   pairs_.reserve(contact_capacity);
 }
 
@@ -71,8 +74,9 @@ bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
   island.first_vector = static_cast<std::uint32_t>(velocities_.size());
   island.first_contact = static_cast<std::uint32_t>(contacts_.size());
   island.contacts = static_cast<std::uint32_t>(contacts.size());
-  const std::uint32_t last = *std::ranges::max_element(bodies);
-  if (local_.size() <= last) local_.resize(last + 1);
+  if (bodies_.size() + bodies.size() > body_capacity_ ||
+      contacts_.size() + contacts.size() > contact_capacity_)
+    return false;
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
     local_[bodies[i]] = i;
   pairs_.clear();

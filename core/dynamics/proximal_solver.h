@@ -25,9 +25,10 @@ namespace lockstone {
 
 class ProximalSolver {
  public:
-  /// Room for so many bodies that impulses move, and so many contacts. No function but this
-  /// allocates.
-  [[gnu::cold]] ProximalSolver(std::size_t body_capacity, std::size_t contact_capacity);
+  /// Room for so many bodies and contacts of islands, whose bodies are among the first `rows` of the
+  /// solver. No function but this allocates.
+  [[gnu::cold]] ProximalSolver(std::size_t rows, std::size_t body_capacity,
+                               std::size_t contact_capacity);
 
   void clear();
 
@@ -132,6 +133,7 @@ class ProximalSolver {
   std::vector<Gain> gains_;
   std::vector<InertiaRoot> roots_;
   std::vector<std::uint32_t> local_;  // by number in the solver
+  std::size_t body_capacity_, contact_capacity_;
   std::vector<BodyFactor::Pair> pairs_;
   BodyFactor factor_;
 };

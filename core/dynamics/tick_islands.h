@@ -9,13 +9,6 @@
 
 namespace lockstone {
 
-/// Whether small islands are solved to convergence: the option LOCKSTONE_CONVERGED_ISLANDS.
-#if defined(LKS_CONVERGED_ISLANDS)
-inline constexpr bool k_converges_islands = true;
-#else
-inline constexpr bool k_converges_islands = false;
-#endif
-
 /// A count that several threads raise, and that is copied while none does.
 class SharedCount {
  public:

@@ -40,6 +40,10 @@ struct WorldDef {
   std::uint32_t pair_capacity = 16384;    ///< pairs with overlapping bounds, 1 … 2^24
   std::uint32_t contact_capacity = 8192;  ///< touching pairs, 1 … 2^24
   std::uint32_t joint_capacity = 1024;    ///< 0 … 2^20
+  /// Contacts that islands solved to convergence may have in all, 0 … 2^16; 0: none is. Islands
+  /// that fit take their places in the order of their bodies' ids, the others are iterated:
+  /// docs/solver.md. Each takes about 5 kB.
+  std::uint32_t converged_contacts = 2048;
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
   std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does

@@ -19,28 +19,14 @@
 #include "core/math/wide/manifold_relax_inl.h"
 #include "core/math/wide/manifold_sweep_inl.h"
 #include "core/math/wide/points_inl.h"
-#if defined(LKS_CONVERGED_ISLANDS)
 #include "core/math/wide/proximal_inl.h"
 #include "core/math/wide/proximal_matrix_inl.h"
-#endif
 #include "core/math/wide/rotations_inl.h"
 #endif
 
 #if HWY_ONCE
 namespace lockstone::lanes {
 namespace {
-
-#if defined(LKS_CONVERGED_ISLANDS)
-#define LKS_PROXIMAL_KERNELS(target)                                                            \
-  constexpr ProximalKernels k_proximal_of_##target{                                             \
-      target::magnitudes,      target::begin_phase, target::pass,        target::find_residuals, \
-      target::add_right_sides, target::propose,     target::add_changes, target::follow,         \
-      target::couple,          target::add_to_matrix, target::eliminate, target::solve_down,     \
-      target::solve_up};                                                                        \
-  constexpr const ProximalKernels* k_proximal_##target = &k_proximal_of_##target;
-#else
-#define LKS_PROXIMAL_KERNELS(target) constexpr const ProximalKernels* k_proximal_##target = nullptr;
-#endif
 
 #define LKS_BLOCK_KERNELS(target)                                                                  \
   constexpr ManifoldKernels k_manifolds_##target{target::prepare_manifolds,                        \
@@ -49,7 +35,11 @@ namespace {
   constexpr BallKernels k_balls_##target{target::begin_balls, target::lift_balls,                  \
                                          target::follow_balls, target::relax_balls};               \
   constexpr BoxKernels k_boxes_##target{target::meet_boxes, target::place_points};               \
-  LKS_PROXIMAL_KERNELS(target)
+  constexpr ProximalKernels k_proximal_##target{                                                  \
+      target::magnitudes,      target::begin_phase,   target::pass,        target::find_residuals, \
+      target::add_right_sides, target::propose,       target::add_changes, target::follow,         \
+      target::couple,          target::add_to_matrix, target::eliminate,   target::solve_down,     \
+      target::solve_up};
 
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
@@ -72,26 +62,26 @@ constexpr Kernels k_tables[] = {
 #if HWY_TARGETS & HWY_SSE4
     {"sse4", N_SSE4::k_lanes, N_SSE4::solve_contact_rows, N_SSE4::compute_rotations,
      N_SSE4::farthest_point, N_SSE4::heights_above, N_SSE4::mark_at_least, &k_manifolds_N_SSE4,
-     &k_balls_N_SSE4, &k_boxes_N_SSE4, k_proximal_N_SSE4},
+     &k_balls_N_SSE4, &k_boxes_N_SSE4, &k_proximal_N_SSE4},
 #endif
 #if HWY_TARGETS & HWY_AVX2
     {"avx2", N_AVX2::k_lanes, N_AVX2::solve_contact_rows, N_AVX2::compute_rotations,
      N_AVX2::farthest_point, N_AVX2::heights_above, N_AVX2::mark_at_least, &k_manifolds_N_AVX2,
-     &k_balls_N_AVX2, &k_boxes_N_AVX2, k_proximal_N_AVX2},
+     &k_balls_N_AVX2, &k_boxes_N_AVX2, &k_proximal_N_AVX2},
 #endif
 #if HWY_TARGETS & HWY_AVX3
     {"avx512", N_AVX3::k_lanes, N_AVX3::solve_contact_rows, N_AVX3::compute_rotations,
      N_AVX3::farthest_point, N_AVX3::heights_above, N_AVX3::mark_at_least, &k_manifolds_N_AVX3,
-     &k_balls_N_AVX3, &k_boxes_N_AVX3, k_proximal_N_AVX3},
+     &k_balls_N_AVX3, &k_boxes_N_AVX3, &k_proximal_N_AVX3},
 #endif
 #elif HWY_TARGETS & HWY_NEON
     {"neon", N_NEON::k_lanes, N_NEON::solve_contact_rows, N_NEON::compute_rotations,
      N_NEON::farthest_point, N_NEON::heights_above, N_NEON::mark_at_least, &k_manifolds_N_NEON,
-     &k_balls_N_NEON, &k_boxes_N_NEON, k_proximal_N_NEON},
+     &k_balls_N_NEON, &k_boxes_N_NEON, &k_proximal_N_NEON},
 #elif HWY_TARGETS & HWY_WASM
     {"wasm", N_WASM::k_lanes, N_WASM::solve_contact_rows, N_WASM::compute_rotations,
      N_WASM::farthest_point, N_WASM::heights_above, N_WASM::mark_at_least, &k_manifolds_N_WASM,
-     &k_balls_N_WASM, &k_boxes_N_WASM, k_proximal_N_WASM},
+     &k_balls_N_WASM, &k_boxes_N_WASM, &k_proximal_N_WASM},
 #endif
     {},
 };

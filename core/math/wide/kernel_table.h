@@ -29,7 +29,7 @@ struct Kernels {
   const ManifoldKernels* manifolds;
   const BallKernels* balls;
   const BoxKernels* boxes;
-  const ProximalKernels* proximal;  // null without converged islands
+  const ProximalKernels* proximal;
 };
 
 #if defined(LOCKSTONE_WITH_HIGHWAY)

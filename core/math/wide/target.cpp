@@ -19,11 +19,7 @@ constexpr Kernels k_scalar{"scalar",
                            &k_scalar_manifolds,
                            &k_scalar_balls,
                            &k_scalar_boxes,
-#if defined(LKS_CONVERGED_ISLANDS)
                            &k_scalar_proximal};
-#else
-                           nullptr};
-#endif
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -122,11 +118,7 @@ const BoxKernels& box_kernels() {
 }
 
 const ProximalKernels& proximal_kernels() {
-#if defined(LKS_CONVERGED_ISLANDS)
   return *current().proximal;
-#else
-  return k_scalar_proximal;
-#endif
 }
 
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {
