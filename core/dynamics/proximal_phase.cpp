@@ -19,6 +19,9 @@ constexpr int k_residual_bits = 27, k_fewer_bits = 4, k_most_drop = 42;
 // Passes before the first direct step, and after each; direct steps.
 constexpr int k_first_passes = 2, k_passes = 4, k_direct_steps = 3;
 
+// How often centres move in a phase.
+constexpr int k_most_centres = 3;
+
 // θ = −slope / curve within 0 … 1, Q30.
 std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
   constexpr std::int64_t k_fits = std::int64_t{1} << 60;
@@ -202,6 +205,31 @@ bool ProximalSolver::converge(Island& island, bool scales) {
                                         k_row_unit_bits - island.bits);
   std::ranges::fill(of(velocities_, island), BodyVector{});
   if (scales) scale_warm_start(island);
+  iterate(island);
+  for (int i = 0; i < k_most_centres && island.fits && move_centres(island); ++i)
+    iterate(island);
+  return island.fits;
+}
+
+// Where rows give by more than a centimetre a second, for a load that nobody knew, the last impulses
+// become their centres. Returns whether any did.
+bool ProximalSolver::move_centres(Island& island) {
+  constexpr std::int64_t k_most_give = 100;  // tolerances
+  bool moves = false;
+  for (Problem& problem : problems_of(island)) {
+    for (std::size_t i = 0; i < problem.points && !moves; ++i) {
+      const std::int64_t give = problem.give[i] * (problem.impulse[i] - problem.centre[i]);
+      moves = raw::round_shift(give, 30) > k_most_give * problem.tolerance[i];
+    }
+  }
+  if (moves)
+    for (Problem& problem : problems_of(island))
+      problem.centre = problem.impulse;
+  return moves;
+}
+
+// Until no row changes, or the steps are used up.
+void ProximalSolver::iterate(Island& island) {
   // Resting bodies are solved by the factor at hand: passes alone would leave them creeping.
   mark_active(island);
   island.is_solved = false;
@@ -215,7 +243,6 @@ bool ProximalSolver::converge(Island& island, bool scales) {
     if (!direct_step(island)) break;
     done = island.is_solved;
   }
-  return island.fits;
 }
 
 }  // namespace lockstone

@@ -32,6 +32,7 @@ inline constexpr std::size_t k_contact_rows = lanes::k_most_rows;
 struct ProximalRow {
   RowScale to_speed, to_impulse;
   std::int64_t weight_leak = 0;  // most that a normal's centre leaks, in units of the row
+  std::int64_t leak = 0;         // what it leaks in this substep
   std::int64_t total = 0;        // impulse as the pair's velocity jump, m/s, Q32
 };
 

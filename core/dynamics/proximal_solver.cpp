@@ -253,7 +253,7 @@ void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared
 // gained in the one before: so do their speeds.
 void ProximalSolver::begin_substep(Island& island) {
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    const ProximalContact& contact = contacts_[c];
+    ProximalContact& contact = contacts_[c];
     Problem& problem = problems_[c];
     for (std::size_t i = 0; i < contact.rows; ++i) {
       if (!island.is_first) {
@@ -264,7 +264,7 @@ void ProximalSolver::begin_substep(Island& island) {
       const std::int64_t held = island.is_first ? problem.warm[i] : problem.held[i];
       problem.held_centre[i] = held;
       if (i < contact.points)
-        problem.held_centre[i] -= std::min(held / k_leak_part, contact.all[i].weight_leak);
+        problem.held_centre[i] -= contact.all[i].leak = std::min(held / k_leak_part, contact.all[i].weight_leak);
     }
   }
   island.warms = island.is_first;
@@ -391,7 +391,11 @@ void ProximalSolver::follow(Island& island) {
 
 void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool pushes_out) {
   Island& island = islands_[index];
-  if (pushes_out) begin_substep(island);
+  if (pushes_out)
+    begin_substep(island);
+  else
+    for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
+      for (std::size_t i = 0; i < contacts_[c].points; ++i) problems_[c].held_centre[i] += contacts_[c].all[i].leak;
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
     set_bias(run, contacts_[c], problems_[c], pushes_out);
   if (!set_units(island)) return;

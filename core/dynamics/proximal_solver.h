@@ -108,6 +108,8 @@ class ProximalSolver {
   [[nodiscard]] std::int64_t search(const Island& island);
   void go(Island& island, std::int64_t part);
   [[nodiscard]] bool converge(Island& island, bool scales);
+  [[nodiscard]] bool move_centres(Island& island);
+  void iterate(Island& island);
   void give(const ContactRun& run, Island& island);
   void follow(Island& island);
   static void give_contact(const ContactRun& run, int bits, ProximalContact& contact,
