@@ -14,6 +14,10 @@
 #include "core/math/wide/lanes_inl.h"
 #endif
 
+// An island's rows are eight at most, and each set of these kernels is 20 kB of every program: on x86
+// that of AVX2 serves wider processors too, and narrower ones have the scalar twins.
+#if defined(LKS_SCALAR_TWIN) || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_NEON || \
+    HWY_TARGET == HWY_WASM
 HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
@@ -282,5 +286,6 @@ HWY_ATTR void follow(ProximalBlock* blocks, std::size_t count, const BlockWord* 
 }  // namespace HWY_NAMESPACE
 }  // namespace lockstone::lanes
 HWY_AFTER_NAMESPACE();
+#endif  // the targets
 
 #endif  // the guard

@@ -9,6 +9,9 @@
 #include "core/math/wide/proximal_inl.h"
 #include "core/math/wide/scalar_lanes.h"
 
+// As in proximal_inl.h.
+#if defined(LKS_SCALAR_TWIN) || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_NEON || \
+    HWY_TARGET == HWY_WASM
 HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
@@ -156,5 +159,6 @@ HWY_ATTR void solve_up(const BodyBlock* blocks, const FactorColumn& column,
 }  // namespace HWY_NAMESPACE
 }  // namespace lockstone::lanes
 HWY_AFTER_NAMESPACE();
+#endif  // the targets
 
 #endif  // the guard
