@@ -8,7 +8,7 @@ namespace lockstone {
 namespace {
 
 // Of solves for velocities.
-constexpr int k_velocity_solves = 2;
+constexpr int k_velocity_solves = 2, k_loop_velocity_solves = 5;
 
 // Of sweeps over drives and limits before positions move.
 constexpr int k_sweeps = 2;
@@ -22,6 +22,8 @@ JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
                          std::size_t joint_capacity)
     : step_(step), place_(body_capacity), factor_(joint_capacity) {
   const std::size_t bodies = std::min(body_capacity, 2 * joint_capacity);
+  if constexpr (k_converges_islands)
+    loops_ = std::make_unique<ProximalLocks>(bodies, joint_capacity);
   bodies_.reserve(bodies);
   placed_.reserve(bodies);
   group_bodies_.reserve(bodies);
@@ -131,6 +133,7 @@ void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t
     const bool is_last = ++cluster.substep == step_.substeps;
     if (cluster.free) set_rate(cluster, std::int64_t{step_.substep_rate()} * (is_last ? 2 : 1));
     begin_pushes(run, cluster);
+    if constexpr (k_converges_islands) forget_locks(cluster);
     for (Joint& joint : joints_of(cluster))
       warm_start(run, joint);
     end_pushes(run, cluster);
@@ -203,7 +206,9 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
   }
   linearize(cluster);
   begin_pushes(run, cluster);
-  for (int i = 0; i < k_velocity_solves; ++i) {
+  const int solves =
+      has_solved_loops(groups_of(cluster)[0]) ? k_loop_velocity_solves : k_velocity_solves;
+  for (int i = 0; i < solves; ++i) {
     for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);
     for (Group& group : groups_of(cluster)) {
