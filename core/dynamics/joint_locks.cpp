@@ -77,7 +77,10 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
   }
   if (!turn) return;
   if constexpr (k_converges_islands)
-    if (has_solved_loops(group)) return factor_loops(group, true);
+    if (has_solved_loops(group)) {
+      (void)mark_left_out(run, group);
+      return factor_loops(group, true);
+    }
   factor_group(group);
 }
 

@@ -8,14 +8,18 @@
 namespace lockstone {
 namespace {
 
-// γ, of a row's response to itself, 2^-12, and 2^-14 / γ, Q30.
-constexpr int k_lock_give_bits = 12;
-constexpr std::int32_t k_lock_weight = 1 << (30 - BodyFactor::k_least_bits + k_lock_give_bits);
+// γ, of a row's response to itself: the factor's least eigenvalue, so that rows are its terms as
+// they are.
+constexpr int k_give_bits = BodyFactor::k_least_bits;
+constexpr std::int32_t k_weight = 1 << 30;
 
 // Right-hand sides are below 2^27 units at first; where what is solved for does not fit in 31 bits,
 // units are coarser.
 constexpr int k_first_bits = 27, k_fewer_bits = 4, k_least_bits = 7;
 constexpr int k_finest_bits = 44;
+
+// Of a group: sums of the factor have room for the rows of so many.
+constexpr std::uint32_t k_most_joints = 512;
 
 void add_along(BodyVector& u, const RowSide& j, std::int64_t x) {
   for (std::size_t i = 0; i < 6; ++i)
@@ -66,7 +70,8 @@ void ProximalLocks::add_joint(const End& a, const End& b) {
 
 std::uint32_t ProximalLocks::end_group(std::uint32_t bodies) {
   Group& group = groups_.back();
-  if (group.unit.mantissa != 0 && factor_.plan(bodies, pairs_, group.plan))
+  if (group.unit.mantissa != 0 && group.joints <= k_most_joints &&
+      factor_.plan(bodies, pairs_, group.plan))
     return static_cast<std::uint32_t>(groups_.size() - 1);
   joints_.resize(group.first_joint);
   groups_.pop_back();
@@ -79,7 +84,7 @@ void ProximalLocks::set_inertia(std::uint32_t group, std::uint32_t body,
 }
 
 void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
-                             std::span<const JointRow> locks) {
+                             std::span<const JointRow> rows, std::uint32_t left_out) {
   static constexpr InertiaRoot k_none{};
   const Group& group = groups_[index];
   Joint& joint = joints_[group.first_joint + place];
@@ -88,23 +93,27 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
   };
   const ProximalJoint pair{root_of(joint.a), root_of(joint.b), joint.share_a, joint.share_b,
                            mass_scale(group.unit, joint.inverse_mass)};
-  joint.count = locks.size();
-  for (std::size_t i = 0; i < locks.size(); ++i)
-    find_proximal_lock(locks[i], pair, joint.locks[i]);
+  joint.count = rows.size();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((left_out >> i & 1) == 0)
+      find_proximal_lock(rows[i], pair, joint.rows[i]);
+    else
+      joint.rows[i].is_void = true;
+  }
 }
 
 void ProximalLocks::add_to_factor(const Group& group, const Joint& joint) {
   const bool has_a = joint.a != End::k_unpushed, has_b = joint.b != End::k_unpushed;
   const BodyFactor::Place place =
       has_a && has_b ? factor_.find(group.plan, joint.a, joint.b) : BodyFactor::Place{};
-  for (const ProximalLock& lock : std::span(joint.locks).first(joint.count)) {
+  for (const ProximalLock& lock : std::span(joint.rows).first(joint.count)) {
     if (lock.is_void) continue;
-    if (has_a) factor_.add(factor_.diagonal(group.plan, joint.a), lock.a, lock.a, k_lock_weight);
-    if (has_b) factor_.add(factor_.diagonal(group.plan, joint.b), lock.b, lock.b, k_lock_weight);
+    if (has_a) factor_.add(factor_.diagonal(group.plan, joint.a), lock.a, lock.a, k_weight);
+    if (has_b) factor_.add(factor_.diagonal(group.plan, joint.b), lock.b, lock.b, k_weight);
     if (!has_a || !has_b) continue;
     const RowSide &row = place.a_is_row ? lock.a : lock.b,
                   &column = place.a_is_row ? lock.b : lock.a;
-    factor_.add(place.block, row, column, k_lock_weight);
+    factor_.add(place.block, row, column, k_weight);
   }
 }
 
@@ -116,20 +125,19 @@ void ProximalLocks::factor(std::uint32_t index) {
   factor_.factor(group.plan);
 }
 
-void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t lock,
+void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t row,
                          std::int64_t impulse) {
   Joint& on = joints_[groups_[group].first_joint + joint];
-  on.errors[lock] +=
-      bounded(product_rounded(impulse, on.locks[lock].own, 30 + k_lock_give_bits), k_row_bound);
+  on.errors[row] +=
+      bounded(product_rounded(impulse, on.rows[row].own, 30 + k_give_bits), k_row_bound);
 }
 
 // −Jᵀ·r/γ, times 2^-14.
 void ProximalLocks::add_changes(const Group& group, const Joint& joint, int bits) {
   for (std::size_t i = 0; i < joint.count; ++i) {
-    const ProximalLock& lock = joint.locks[i];
+    const ProximalLock& lock = joint.rows[i];
     if (lock.is_void) continue;
-    const std::int64_t x =
-        -raw::round_shift(lock.to_speed.times(joint.errors[i], 50 - bits) * k_lock_weight, 30);
+    const std::int64_t x = -lock.to_speed.times(joint.errors[i], 50 - bits);
     if (joint.a != End::k_unpushed)
       add_along(changes_[group.plan.first_column + joint.a], lock.a, x);
     if (joint.b != End::k_unpushed)
@@ -150,7 +158,7 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
 // −(r + J·x)/γ
 void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) const {
   for (std::size_t i = 0; i < joint.count; ++i) {
-    ProximalLock& lock = joint.locks[i];
+    ProximalLock& lock = joint.rows[i];
     lock.impulse = 0;
     if (lock.is_void) continue;
     std::int64_t left = lock.to_speed.times(joint.errors[i], 50 - bits) * k_one;
@@ -158,7 +166,7 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) con
       left += proximal::row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
     if (joint.b != End::k_unpushed)
       left += proximal::row_dot(lock.b, changes_[group.plan.first_column + joint.b]);
-    const std::int64_t impulse = -raw::round_shift(left, 30 - k_lock_give_bits);
+    const std::int64_t impulse = -raw::round_shift(left, 30 - k_give_bits);
     lock.impulse = bounded(lock.to_impulse.times(impulse, bits - 50), k_row_bound);
   }
 }
@@ -168,8 +176,8 @@ int ProximalLocks::coarsest_bits(const Group& group) {
   std::uint64_t most = 0;
   for (const Joint& joint : joints_of(group))
     for (std::size_t i = 0; i < joint.count; ++i)
-      if (!joint.locks[i].is_void)
-        most |= magnitude(joint.locks[i].to_speed.times(joint.errors[i], 50 - k_finest_bits));
+      if (!joint.rows[i].is_void)
+        most |= magnitude(joint.rows[i].to_speed.times(joint.errors[i], 50 - k_finest_bits));
   return k_finest_bits - static_cast<int>(std::bit_width(most));
 }
 

@@ -1,4 +1,4 @@
-// Solves the locks of groups of joints with loops, by a factor with six rows a body.
+// Solves the locks and motors of groups of joints with loops, by a factor with six rows a body.
 //
 // In a loop some locks repeat others. With a compliance γ there is one solution for the errors r:
 // λ = −(A + γ)⁻¹·r, A = J·M⁻¹·Jᵀ. It is found by way of velocities: (1 + Jᵀ·J/γ)·x = −Jᵀ·r/γ and
@@ -44,26 +44,28 @@ class ProximalLocks {
   static constexpr std::uint32_t k_too_large = 0xffffffff;
   [[nodiscard]] std::uint32_t end_group(std::uint32_t bodies);
 
-  /// Before a factor: how a body of a group turns, and the locks of a joint of it.
+  /// Before a factor: how a body of a group turns, and the rows of a joint of it; `left_out` has a
+  /// bit for each that gets no impulse.
   void set_inertia(std::uint32_t group, std::uint32_t body, const InverseInertia& inertia);
-  void set_rows(std::uint32_t group, std::uint32_t joint, std::span<const JointRow> locks);
+  void set_rows(std::uint32_t group, std::uint32_t joint, std::span<const JointRow> rows,
+                std::uint32_t left_out);
   void factor(std::uint32_t group);
 
-  /// What the impulses of a joint's locks are to take away, m/s, Q50.
+  /// What the impulses of a joint's rows are to take away, m/s, Q50.
   [[nodiscard]] std::span<std::int64_t> errors(std::uint32_t group, std::uint32_t joint) {
     return joints_[groups_[group].first_joint + joint].errors;
   }
 
-  /// Adds what a lock gives under all of its impulse so far (the pair's velocity jump, Q50), so
-  /// that what locks hold against each other does not grow.
-  void give(std::uint32_t group, std::uint32_t joint, std::size_t lock, std::int64_t impulse);
+  /// Adds to an error what the row gives under all of its impulse so far (the pair's velocity jump,
+  /// Q50), so that what rows hold against each other does not grow.
+  void give(std::uint32_t group, std::uint32_t joint, std::size_t row, std::int64_t impulse);
 
-  /// Takes the errors away, as far as one solve does: finds the impulses of all locks.
+  /// Takes the errors away, as far as one solve does: finds the impulses of all rows.
   void solve(std::uint32_t group);
 
   /// The pair's velocity jump, Q50.
-  [[nodiscard]] std::int64_t impulse(std::uint32_t group, std::uint32_t joint, std::size_t lock) {
-    return joints_[groups_[group].first_joint + joint].locks[lock].impulse;
+  [[nodiscard]] std::int64_t impulse(std::uint32_t group, std::uint32_t joint, std::size_t row) {
+    return joints_[groups_[group].first_joint + joint].rows[row].impulse;
   }
 
  private:
@@ -71,9 +73,9 @@ class ProximalLocks {
     std::uint32_t a = End::k_unpushed, b = End::k_unpushed;
     std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
     BlockFloat inverse_mass{};              // of the pair
-    std::size_t count = 0;                  // of locks
-    std::array<ProximalLock, k_joint_axes> locks{};
-    std::array<std::int64_t, k_joint_axes> errors{};
+    std::size_t count = 0;                  // of rows
+    std::array<ProximalLock, k_max_joint_rows> rows{};
+    std::array<std::int64_t, k_max_joint_rows> errors{};
   };
   struct Group {
     BodyFactor::Plan plan;

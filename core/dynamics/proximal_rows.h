@@ -90,7 +90,7 @@ struct PreparedRows {
 void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const InertiaRoot& root_b,
                         BlockFloat unit, ProximalContact& contact, PreparedRows& prepared);
 
-/// A lock of a joint, as its island's problem has it.
+/// A lock or motor of a joint, as its island's problem has it.
 struct ProximalLock {
   RowSide a{}, b{};               // Q30; 0 of what nothing pushes
   RowScale to_speed, to_impulse;  // as ProximalRow's
@@ -99,7 +99,7 @@ struct ProximalLock {
   std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
 };
 
-/// What the locks of a joint have in common.
+/// What the rows of a joint have in common.
 struct ProximalJoint {
   const InertiaRoot &root_a, &root_b;
   std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
@@ -109,7 +109,7 @@ struct ProximalJoint {
 /// √(mass of the pair / m₀), from both inverse masses.
 [[nodiscard]] RowScale mass_scale(BlockFloat unit, BlockFloat inverse);
 
-/// Reads a lock's row and its scales.
+/// Reads a joint's row and its scales.
 void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock);
 
 /// How soft the rows are: overloaded contacts, by more than 400 times `weight` (a body's impulse in

@@ -261,5 +261,71 @@ TEST(ConvergedJoints, ACraneCarriesAHeavyLoadOnALightRope) {
   EXPECT_LT(crane.fastest_load(), 0.8);
 }
 
+// A motor turns a crank of 0.3 m, whose rod of 1 m pushes a box of 8 kg to and fro.
+class SliderCrank {
+ public:
+  SliderCrank(World& world, Torque effort) : world_(world) {
+    const BodyHandle frame = add_hook(world, {});
+    const BodyHandle crank = add(Shape::box(0.15_m, 0.03_m, 0.03_m), 0.15_m);
+    const BodyHandle rod = add(Shape::box(0.5_m, 0.03_m, 0.03_m), 0.8_m);
+    const BodyHandle slide = add(Shape::box(0.1_m, 0.1_m, 0.1_m), 1.3_m);
+    JointDef motor = hinge(frame, {}, crank, -0.15_m);
+    motor.angular[0].speed = 5_rps;
+    motor.angular[0].max_effort = effort;
+    motor_ = world.create_joint(motor).value();
+    (void)world.create_joint(hinge(crank, 0.15_m, rod, -0.5_m)).value();
+    (void)world.create_joint(hinge(rod, 0.5_m, slide, {})).value();
+    JointDef slider = JointDef::of(JointKind::slider, frame, slide);
+    slider.frame_a.position.x = 1.3_m;
+    (void)world.create_joint(slider).value();
+    crank_ = crank;
+  }
+
+  [[nodiscard]] double speed() const { return number(world_.body(crank_).angular_velocity.z); }
+  [[nodiscard]] double torque() const { return std::abs(number(world_.joint(motor_).torque.x)); }
+
+ private:
+  static JointDef hinge(BodyHandle a, Length at_a, BodyHandle b, Length at_b) {
+    JointDef def = hinge_about_z(a, b);
+    def.frame_a.position.x = at_a;
+    def.frame_b.position.x = at_b;
+    return def;
+  }
+  BodyHandle add(const Shape& shape, Position x) {
+    BodyDef def = test::dynamic_body(shape, x, {}, {});
+    def.filter.mask = 0;
+    return test::add(world_, def);
+  }
+
+  World& world_;
+  BodyHandle crank_{};
+  JointHandle motor_{};
+};
+
+TEST(ConvergedJoints, AMotorKeepsTheSpeedOfASliderCrank) {
+  World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
+  const SliderCrank machine(world, Torque::from_integer(5000));
+  test::step(world, 10);
+  for (int tick = 0; tick < 480; ++tick) {
+    (void)world.step();
+    ASSERT_NEAR(machine.speed(), 5, 0.01) << tick;
+  }
+}
+
+TEST(ConvergedJoints, AMotorOfASliderCrankPushesNoHarderThanItMay) {
+  World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});
+  const SliderCrank machine(world, Torque::from_integer(20));
+  double fastest = 0, greatest = 0;
+  for (int tick = 0; tick < 480; ++tick) {
+    (void)world.step();
+    fastest = std::max(fastest, machine.speed());
+    greatest = std::max(greatest, machine.torque());
+  }
+  EXPECT_LT(greatest, 20.1);
+  EXPECT_GT(greatest, 19.9);
+  EXPECT_GT(fastest, 4);
+  EXPECT_LT(fastest, 5.5);
+}
+
 }  // namespace
 }  // namespace lockstone
