@@ -70,12 +70,13 @@ void JointSolver::leave_out_far(const JointRun& run, Joint& joint) const {
 }
 
 // Answers whether anything was pushed.
-bool JointSolver::solve_drives(const JointRun& run, Joint& joint) {
+bool JointSolver::solve_drives(const JointRun& run, Joint& joint, bool motors) {
   bool pushed = false;
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind != RowKind::drive) continue;
     const Drive& drive = joint.drives[row.axis];
+    if (!motors && !drive.is_spring) continue;
     const Solved& solved = joint.solved[i];
     std::int64_t& total = joint.driven[row.axis];
     std::int64_t target = row.speed;

@@ -75,21 +75,34 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
     std::copy_n(ahead.rows.begin(), ahead.locks, joint.rows.rows.begin());
     respond(joint, joint.rows.locks, true);
   }
-  if (turn) factor_group(group);
+  if (!turn) return;
+  if constexpr (k_converges_islands)
+    if (has_solved_loops(group)) {
+      (void)mark_left_out(run, group);
+      return factor_loops(group, true);
+    }
+  factor_group(group);
+}
+
+// Where the right-hand side of a joint's locks stands, by its place in the group.
+std::int64_t* JointSolver::errors_at(const Group& group, std::uint32_t joint) {
+  if constexpr (k_converges_islands)
+    if (has_solved_loops(group)) return loops_->errors(group.loops, joint).data();
+  return &factor_.rhs(factor_.columns(group.column, group.count)[joint].first_row);
 }
 
 // What is left open after the substep as it stands, per substep. Answers the
 // widest opening, Q32.
 std::int64_t JointSolver::set_position_errors(const Group& group) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   std::int64_t widest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
+    if (joint.rows.locks == 0) continue;
+    std::int64_t* errors = errors_at(group, k);
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const std::int64_t error = joint.rows.rows[r].error;
       widest = std::max(widest, std::abs(error));
-      factor_.rhs(columns[k].first_row + static_cast<std::uint32_t>(r)) =
-          bounded(closing_speed(error, group.rate), k_close_speed);
+      errors[r] = bounded(closing_speed(error, group.rate), k_close_speed);
     }
   }
   return widest;
@@ -98,10 +111,11 @@ std::int64_t JointSolver::set_position_errors(const Group& group) {
 // Answers the greatest of them, Q50.
 std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& group,
                                            bool positions) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   std::int64_t greatest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
+    if (joint.rows.locks == 0) continue;
+    std::int64_t* errors = errors_at(group, k);
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const JointRow& row = joint.rows.rows[r];
       std::int64_t error = speed(run, joint, row);
@@ -110,7 +124,7 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
                          k_close_speed / 2);
       }
       greatest = std::max(greatest, std::abs(error));
-      factor_.rhs(columns[k].first_row + static_cast<std::uint32_t>(r)) = error;
+      errors[r] = error;
     }
   }
   return greatest;
@@ -120,6 +134,8 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
 // now, as RATTLE wants them, while that converges. Where links swing fast it does not, and Newton's
 // method with the directions after the substep takes its place.
 void JointSolver::solve_positions(const JointRun& run, Group& group) {
+  if constexpr (k_converges_islands)
+    if (has_solved_loops(group)) return close_loops(run, group);
   if (!is_stiff(group)) {
     save(run, group);
     if (close(run, group)) return;
@@ -195,6 +211,8 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
 
 // Solves for the errors that stand on the right-hand side, and pushes.
 void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions) {
+  if constexpr (k_converges_islands)
+    if (has_solved_loops(group)) return solve_loops(run, group, positions);
   if (!group.is_factored) factor_group(group);
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   for (std::uint32_t k = 0; k < group.count; ++k) {

@@ -1,7 +1,8 @@
 // The joints of one tick, inside the substeps of the contact solver.
 //
 // Joints that hang together by pushed bodies form a cluster. In one that is a tree, or nearly one,
-// all locks are solved at once (`JointFactor`). Of other clusters, balls are left to `JointNet`,
+// all locks are solved at once (`JointFactor`); with LOCKSTONE_CONVERGED_ISLANDS so are the locks
+// and motors of one with loops (`ProximalLocks`). Of other clusters, balls are left to `JointNet`,
 // and other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
 // beginning of the substep such that locks hold at its end, and at the end such that they do not
 // open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). What this does
@@ -11,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +21,9 @@
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/joint_rows.h"
 #include "core/dynamics/principal_inverse.h"
+#include "core/dynamics/proximal_locks.h"
 #include "core/dynamics/solver_body.h"
+#include "core/dynamics/tick_islands.h"
 #include "core/dynamics/time_step.h"
 #include "core/math/round_divisor.h"
 #include "core/math/wide/ball_block.h"
@@ -129,6 +133,7 @@ class JointSolver {
     bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
+    std::uint32_t local = 0;  // in its group
   };
   static constexpr std::uint32_t k_in_net = 0xffffffff;
 
@@ -168,13 +173,15 @@ class JointSolver {
     std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
-    std::uint32_t a = 0, b = 0;  // bodies of this solver
+    std::array<std::int64_t, k_joint_axes> driven_later{};  // by motors of loops, as `relaxed`
+    std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
     int exponent = 0;
     std::int64_t lever_a = 0, lever_b = 0;  // to the anchors, m, Q20: sums of their components
     std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
     bool holds_a_point = false;  // and nothing else has rows in this tick
+    std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -186,8 +193,9 @@ class JointSolver {
     bool drifts = false;
     bool is_plain = false;  // neither limits nor drives
     bool is_factored = false;
-    std::int64_t rate = 0;  // 1 / what its bodies drift for
-    int exponent = 0;       // least of its rows
+    std::int64_t rate = 0;                             // 1 / what its bodies drift for
+    int exponent = 0;                                  // least of its rows
+    std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
   };
   // Joints that hang together, by index: one exact group, or a group for each joint.
   struct Cluster {
@@ -207,6 +215,27 @@ class JointSolver {
   void plan_group(Group group);
   void add_cluster(const Group& group, std::uint32_t first_group);
   void plan_singles(const Group& group);
+  // Without LOCKSTONE_CONVERGED_ISLANDS no program has the code for loops.
+  [[nodiscard]] static bool has_solved_loops(const Group& group) {
+    return k_converges_islands && group.loops != ProximalLocks::k_too_large;
+  }
+  [[nodiscard]] bool has_loops(const Group& group) const;
+  [[nodiscard]] bool plan_loops(Group& group);
+  void factor_loops(Group& group, bool ahead);
+  [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
+  void solve_loops(const JointRun& run, Group& group, bool positions);
+  void close_loops(const JointRun& run, Group& group);
+  void forget_impulses(const Cluster& cluster);
+  [[nodiscard]] bool mark_left_out(const JointRun& run, const Group& group);
+  [[nodiscard]] bool hold_motors(const JointRun& run, const Group& group, bool positions);
+  void add_loop_speeds(const JointRun& run, const Group& group, int sign);
+  [[nodiscard]] std::int64_t motor_impulse(const Group& group, std::uint32_t joint, std::size_t row,
+                                           bool positions);
+  void find_loop_errors(const JointRun& run, const Group& group, bool positions);
+  void push_loops(const JointRun& run, const Group& group, bool positions);
+  [[nodiscard]] static std::int64_t& loop_impulse(Joint& joint, const JointRow& row,
+                                                  bool positions);
+  [[nodiscard]] std::int64_t* errors_at(const Group& group, std::uint32_t joint);
   [[nodiscard]] bool fits_net(const Link& link) const;
   void add_to_net(Link& link);
   void make_joint(Link& link);
@@ -249,7 +278,7 @@ class JointSolver {
   void relax(const JointRun& run, const Cluster& cluster);
   void leave_out_far(const JointRun& run, Joint& joint) const;
   [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
-  bool solve_drives(const JointRun& run, Joint& joint);
+  bool solve_drives(const JointRun& run, Joint& joint, bool motors);
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);
@@ -298,6 +327,7 @@ class JointSolver {
   std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale
   std::vector<JointPose> after_;     // by body: where it will be after the substep
   JointFactor factor_;
+  std::unique_ptr<ProximalLocks> loops_;  // null without LOCKSTONE_CONVERGED_ISLANDS
   std::atomic<std::uint32_t> clamps_{0};
 };
 

@@ -28,18 +28,6 @@ std::int64_t root_of(std::int64_t square) {
   return static_cast<std::int64_t>(isqrt_rounded(static_cast<std::uint64_t>(square)));
 }
 
-// √(mass of the pair / m₀).
-RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
-  std::uint64_t ratio = (static_cast<std::uint64_t>(unit.mantissa) << 31) /
-                        static_cast<std::uint64_t>(inverse.mantissa);  // 2^30 … 2^32
-  int shift = 31 + inverse.exponent - unit.exponent;
-  if ((shift & 1) != 0) {
-    ratio <<= 1;
-    ++shift;
-  }
-  return RowScale::of(isqrt_rounded(ratio << 30), (shift + 30) / 2);
-}
-
 // Both sides of a row, each times the root of its share in the pair's inverse mass, Q30.
 struct Sides {
   std::array<std::int64_t, 6> a{}, b{};
@@ -170,6 +158,33 @@ void add_friction(const Pair& pair, const ManifoldBlock& block) {
 }
 
 }  // namespace
+
+RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
+  std::uint64_t ratio = (static_cast<std::uint64_t>(unit.mantissa) << 31) /
+                        static_cast<std::uint64_t>(inverse.mantissa);  // 2^30 … 2^32
+  int shift = 31 + inverse.exponent - unit.exponent;
+  if ((shift & 1) != 0) {
+    ratio <<= 1;
+    ++shift;
+  }
+  return RowScale::of(isqrt_rounded(ratio << 30), (shift + 30) / 2);
+}
+
+void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
+  constexpr std::int64_t k_least_length = k_whole_q30 >> 16;
+  const Sides sides{scaled_side(row.linear_a, row.angular_a, joint.root_a, joint.share_a, false),
+                    scaled_side(row.linear_b, row.angular_b, joint.root_b, joint.share_b, false)};
+  const std::int64_t length = length_of(sides);
+  lock.is_void = length < k_least_length;
+  if (lock.is_void) return;
+  const std::int64_t inverse = (std::int64_t{1} << 62) / length;
+  scale_side(sides.a, inverse, lock.a);
+  scale_side(sides.b, inverse, lock.b);
+  const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
+  lock.own = product_rounded(length, length, 30);
+  lock.to_speed = joint.mass * norm.reciprocal();
+  lock.to_impulse = (joint.mass * norm).reciprocal();
+}
 
 InertiaRoot inertia_root(const InverseInertia& m) {
   InertiaRoot root;

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "core/dynamics/body_factor.h"
+#include "core/dynamics/joint_rows.h"
 #include "core/dynamics/row_geometry.h"
 #include "core/dynamics/row_scale.h"
 #include "core/math/wide/proximal_block.h"
@@ -64,6 +65,28 @@ struct PreparedRows {
 void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const InertiaRoot& root_b,
                         BlockFloat unit, ProximalContact& contact, lanes::ProximalBlock& problem,
                         PreparedRows& prepared);
+
+/// A lock or motor of a joint, as its island's problem has it.
+struct ProximalLock {
+  RowSide a{}, b{};               // Q30; 0 of what nothing pushes
+  RowScale to_speed, to_impulse;  // as ProximalRow's
+  bool is_void = false;           // nothing moves along it
+  std::int64_t own = 0;           // response to itself, Q30
+  std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
+};
+
+/// What the rows of a joint have in common.
+struct ProximalJoint {
+  const InertiaRoot &root_a, &root_b;
+  std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
+  RowScale mass;                          // √(mass of the pair / m₀)
+};
+
+/// √(mass of the pair / m₀), from both inverse masses.
+[[nodiscard]] RowScale mass_scale(BlockFloat unit, BlockFloat inverse);
+
+/// Reads a joint's row and its scales.
+void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock);
 
 /// How soft the rows are: overloaded contacts, by more than 400 times `weight` (a body's impulse in
 /// a substep, m/s, Q32), give less.
