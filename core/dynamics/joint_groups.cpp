@@ -18,7 +18,7 @@ constexpr std::uint32_t k_most_loops = 2;
 std::span<const std::uint32_t> JointSolver::plan() {
   link_bodies();
   factor_.clear();
-  if constexpr (k_converges_islands) loops_->clear();
+  if (loops_ != nullptr) loops_->clear();
   groups_.clear();
   clusters_.clear();
   order_.clear();
@@ -135,9 +135,7 @@ void JointSolver::plan_group(Group group) {
   const auto rows = [&](std::uint32_t k) { return most_locks(*joint_at(k).record); };
   // The pushed bodies of a tree on the ground are as many as its joints.
   const bool has_few_loops = group.count <= group.body_count + k_most_loops;
-  if constexpr (k_converges_islands) {
-    if (has_loops(group) && plan_loops(group)) return groups_.push_back(group);
-  }
+  if (loops_ != nullptr && has_loops(group) && plan_loops(group)) return groups_.push_back(group);
   if (has_few_loops && factor_.plan(group.count, neighbours, rows)) {
     group.exact = true;
     group.column = factor_.first();

@@ -76,18 +76,16 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
     respond(joint, joint.rows.locks, true);
   }
   if (!turn) return;
-  if constexpr (k_converges_islands)
-    if (has_solved_loops(group)) {
-      (void)mark_left_out(run, group);
-      return factor_loops(group, true);
-    }
+  if (has_solved_loops(group)) {
+    (void)mark_left_out(run, group);
+    return factor_loops(group, true);
+  }
   factor_group(group);
 }
 
 // Where the right-hand side of a joint's locks stands, by its place in the group.
 std::int64_t* JointSolver::errors_at(const Group& group, std::uint32_t joint) {
-  if constexpr (k_converges_islands)
-    if (has_solved_loops(group)) return loops_->errors(group.loops, joint).data();
+  if (has_solved_loops(group)) return loops_->errors(group.loops, joint).data();
   return &factor_.rhs(factor_.columns(group.column, group.count)[joint].first_row);
 }
 
@@ -134,8 +132,7 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
 // now, as RATTLE wants them, while that converges. Where links swing fast it does not, and Newton's
 // method with the directions after the substep takes its place.
 void JointSolver::solve_positions(const JointRun& run, Group& group) {
-  if constexpr (k_converges_islands)
-    if (has_solved_loops(group)) return close_loops(run, group);
+  if (has_solved_loops(group)) return close_loops(run, group);
   if (!is_stiff(group)) {
     save(run, group);
     if (close(run, group)) return;
@@ -211,8 +208,7 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
 
 // Solves for the errors that stand on the right-hand side, and pushes.
 void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions) {
-  if constexpr (k_converges_islands)
-    if (has_solved_loops(group)) return solve_loops(run, group, positions);
+  if (has_solved_loops(group)) return solve_loops(run, group, positions);
   if (!group.is_factored) factor_group(group);
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   for (std::uint32_t k = 0; k < group.count; ++k) {

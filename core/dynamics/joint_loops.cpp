@@ -13,7 +13,7 @@ constexpr int k_least_solves = 3, k_most_solves = 8;
 constexpr std::int64_t k_nearly_closed = 1 << 22;
 
 // Of times in a solve that motors are found to push harder than they may.
-[[maybe_unused]] constexpr int k_most_holds = 3;
+constexpr int k_most_holds = 3;
 
 }  // namespace
 
@@ -28,20 +28,18 @@ bool JointSolver::has_loops(const Group& group) const {
 }
 
 bool JointSolver::plan_loops(Group& group) {
-  if constexpr (k_converges_islands) {
-    for (std::uint32_t i = 0; i < group.body_count; ++i)
-      bodies_[group_bodies_[group.first_body + i]].local = i;
-    const auto end_of = [this](std::uint32_t index) -> ProximalLocks::End {
-      const Body& body = bodies_[index];
-      return {body.pushed ? body.local : ProximalLocks::End::k_unpushed,
-              body.record->inverse_mass_value()};
-    };
-    loops_->begin_group();
-    for (const std::uint32_t index : joints_of(group))
-      loops_->add_joint(end_of(links_[index].a), end_of(links_[index].b));
-    group.loops = loops_->end_group(group.body_count);
-    group.exact = has_solved_loops(group);
-  }
+  for (std::uint32_t i = 0; i < group.body_count; ++i)
+    bodies_[group_bodies_[group.first_body + i]].local = i;
+  const auto end_of = [this](std::uint32_t index) -> ProximalLocks::End {
+    const Body& body = bodies_[index];
+    return {body.pushed ? body.local : ProximalLocks::End::k_unpushed,
+            body.record->inverse_mass_value()};
+  };
+  loops_->begin_group();
+  for (const std::uint32_t index : joints_of(group))
+    loops_->add_joint(end_of(links_[index].a), end_of(links_[index].b));
+  group.loops = loops_->end_group(group.body_count);
+  group.exact = has_solved_loops(group);
   return group.exact;
 }
 
@@ -87,18 +85,16 @@ bool JointSolver::mark_left_out(const JointRun& run, const Group& group) {
 }
 
 void JointSolver::factor_loops(Group& group, bool ahead) {
-  if constexpr (k_converges_islands) {
-    for (std::uint32_t i = 0; i < group.body_count; ++i) {
-      const Body& body = bodies_[group_bodies_[group.first_body + i]];
-      loops_->set_inertia(group.loops, i, ahead ? body.inertia_ahead : body.inverse_inertia);
-    }
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      const Joint& joint = joints_[joints_of(group)[k]];
-      loops_->set_rows(group.loops, k, joint.rows.rows.first(joint.rows.count), joint.left_out);
-    }
-    loops_->factor(group.loops);
-    group.is_factored = true;
+  for (std::uint32_t i = 0; i < group.body_count; ++i) {
+    const Body& body = bodies_[group_bodies_[group.first_body + i]];
+    loops_->set_inertia(group.loops, i, ahead ? body.inertia_ahead : body.inverse_inertia);
   }
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    const Joint& joint = joints_[joints_of(group)[k]];
+    loops_->set_rows(group.loops, k, joint.rows.rows.first(joint.rows.count), joint.left_out);
+  }
+  loops_->factor(group.loops);
+  group.is_factored = true;
 }
 
 // Velocities such that locks hold after the substep. Where links swing faster than the substep
@@ -119,32 +115,28 @@ std::int64_t& JointSolver::loop_impulse(Joint& joint, const JointRow& row, bool 
 
 // Those of locks are there but for what they give.
 void JointSolver::find_loop_errors(const JointRun& run, const Group& group, bool positions) {
-  if constexpr (k_converges_islands) {
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      Joint& joint = joints_[joints_of(group)[k]];
-      for (std::size_t r = 0; r < joint.rows.count; ++r) {
-        if ((joint.left_out >> r & 1) != 0) continue;
-        const JointRow& row = joint.rows.rows[r];
-        if (row.kind == RowKind::drive)
-          loops_->errors(group.loops, k)[r] =
-              bounded(speed(run, joint, row), k_row_bound) - bounded(row.speed, k_row_bound);
-        loops_->give(group.loops, k, r, loop_impulse(joint, row, positions));
-      }
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    Joint& joint = joints_[joints_of(group)[k]];
+    for (std::size_t r = 0; r < joint.rows.count; ++r) {
+      if ((joint.left_out >> r & 1) != 0) continue;
+      const JointRow& row = joint.rows.rows[r];
+      if (row.kind == RowKind::drive)
+        loops_->errors(group.loops, k)[r] =
+            bounded(speed(run, joint, row), k_row_bound) - bounded(row.speed, k_row_bound);
+      loops_->give(group.loops, k, r, loop_impulse(joint, row, positions));
     }
   }
 }
 
 // Adds or takes away the speeds of rows as they are, to or from what is to be taken away.
 void JointSolver::add_loop_speeds(const JointRun& run, const Group& group, int sign) {
-  if constexpr (k_converges_islands) {
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      const Joint& joint = joints_[joints_of(group)[k]];
-      for (std::size_t r = 0; r < joint.rows.count; ++r) {
-        if ((joint.left_out >> r & 1) != 0) continue;
-        std::int64_t& error = loops_->errors(group.loops, k)[r];
-        const std::int64_t now = bounded(speed(run, joint, joint.rows.rows[r]), k_row_bound);
-        error = bounded(error + sign * now, 2 * k_row_bound);
-      }
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    const Joint& joint = joints_[joints_of(group)[k]];
+    for (std::size_t r = 0; r < joint.rows.count; ++r) {
+      if ((joint.left_out >> r & 1) != 0) continue;
+      std::int64_t& error = loops_->errors(group.loops, k)[r];
+      const std::int64_t now = bounded(speed(run, joint, joint.rows.rows[r]), k_row_bound);
+      error = bounded(error + sign * now, 2 * k_row_bound);
     }
   }
 }
@@ -152,14 +144,11 @@ void JointSolver::add_loop_speeds(const JointRun& run, const Group& group, int s
 // The motor's impulse, as far as it may push.
 std::int64_t JointSolver::motor_impulse(const Group& group, std::uint32_t place, std::size_t row,
                                         bool positions) {
-  if constexpr (k_converges_islands) {
-    const Joint& joint = joints_[joints_of(group)[place]];
-    const std::uint8_t axis = joint.rows.rows[row].axis;
-    const std::int64_t bound = joint.drives[axis].bound;
-    const std::int64_t before = joint.driven[axis] + (positions ? 0 : joint.driven_later[axis]);
-    return bounded(before + loops_->impulse(group.loops, place, row), bound) - before;
-  }
-  return 0;
+  const Joint& joint = joints_[joints_of(group)[place]];
+  const std::uint8_t axis = joint.rows.rows[row].axis;
+  const std::int64_t bound = joint.drives[axis].bound;
+  const std::int64_t before = joint.driven[axis] + (positions ? 0 : joint.driven_later[axis]);
+  return bounded(before + loops_->impulse(group.loops, place, row), bound) - before;
 }
 
 // Motors that would have to push harder than they may push as hard as they may, and the others are
@@ -167,56 +156,50 @@ std::int64_t JointSolver::motor_impulse(const Group& group, std::uint32_t place,
 // motor back. Returns whether there are such.
 bool JointSolver::hold_motors(const JointRun& run, const Group& group, bool positions) {
   bool holds = false;
-  if constexpr (k_converges_islands) {
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      Joint& joint = joints_[joints_of(group)[k]];
-      for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
-        if ((joint.left_out >> r & 1) != 0) continue;
-        const std::int64_t impulse = motor_impulse(group, k, r, positions);
-        if (impulse == loops_->impulse(group.loops, k, r)) continue;
-        if (!holds) add_loop_speeds(run, group, -1);
-        holds = true;
-        loop_impulse(joint, joint.rows.rows[r], positions) += impulse;
-        push(run, joint, r, impulse);
-        joint.left_out |= std::uint32_t{1} << r;
-      }
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    Joint& joint = joints_[joints_of(group)[k]];
+    for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
+      if ((joint.left_out >> r & 1) != 0) continue;
+      const std::int64_t impulse = motor_impulse(group, k, r, positions);
+      if (impulse == loops_->impulse(group.loops, k, r)) continue;
+      if (!holds) add_loop_speeds(run, group, -1);
+      holds = true;
+      loop_impulse(joint, joint.rows.rows[r], positions) += impulse;
+      push(run, joint, r, impulse);
+      joint.left_out |= std::uint32_t{1} << r;
     }
-    if (holds) add_loop_speeds(run, group, 1);
   }
+  if (holds) add_loop_speeds(run, group, 1);
   return holds;
 }
 
 void JointSolver::push_loops(const JointRun& run, const Group& group, bool positions) {
-  if constexpr (k_converges_islands) {
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      Joint& joint = joints_[joints_of(group)[k]];
-      RowImpulses impulses{};
-      for (std::size_t r = 0; r < joint.rows.count; ++r) {
-        if ((joint.left_out >> r & 1) != 0) continue;
-        const JointRow& row = joint.rows.rows[r];
-        impulses[r] = row.kind == RowKind::drive ? motor_impulse(group, k, r, positions)
-                                                 : loops_->impulse(group.loops, k, r);
-        std::int64_t& total = loop_impulse(joint, row, positions);
-        total = bounded(total + impulses[r], k_product_bound);
-      }
-      push(run, joint, 0, joint.rows.count, impulses);
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    Joint& joint = joints_[joints_of(group)[k]];
+    RowImpulses impulses{};
+    for (std::size_t r = 0; r < joint.rows.count; ++r) {
+      if ((joint.left_out >> r & 1) != 0) continue;
+      const JointRow& row = joint.rows.rows[r];
+      impulses[r] = row.kind == RowKind::drive ? motor_impulse(group, k, r, positions)
+                                               : loops_->impulse(group.loops, k, r);
+      std::int64_t& total = loop_impulse(joint, row, positions);
+      total = bounded(total + impulses[r], k_product_bound);
     }
+    push(run, joint, 0, joint.rows.count, impulses);
   }
 }
 
 // Takes away the errors of locks and of motors, as far as one solve does.
 void JointSolver::solve_loops(const JointRun& run, Group& group, bool positions) {
-  if constexpr (k_converges_islands) {
-    const bool changes = mark_left_out(run, group);
-    if (changes || !group.is_factored) factor_loops(group, false);
-    find_loop_errors(run, group, positions);
+  const bool changes = mark_left_out(run, group);
+  if (changes || !group.is_factored) factor_loops(group, false);
+  find_loop_errors(run, group, positions);
+  loops_->solve(group.loops);
+  for (int i = 0; i < k_most_holds && hold_motors(run, group, positions); ++i) {
+    factor_loops(group, false);
     loops_->solve(group.loops);
-    for (int i = 0; i < k_most_holds && hold_motors(run, group, positions); ++i) {
-      factor_loops(group, false);
-      loops_->solve(group.loops);
-    }
-    push_loops(run, group, positions);
   }
+  push_loops(run, group, positions);
 }
 
 }  // namespace lockstone

@@ -19,11 +19,10 @@ constexpr std::int64_t k_still = std::int64_t{1} << 18;
 }  // namespace
 
 JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
-                         std::size_t joint_capacity)
+                         std::size_t joint_capacity, bool solves_loops)
     : step_(step), place_(body_capacity), factor_(joint_capacity) {
   const std::size_t bodies = std::min(body_capacity, 2 * joint_capacity);
-  if constexpr (k_converges_islands)
-    loops_ = std::make_unique<ProximalLocks>(bodies, joint_capacity);
+  if (solves_loops) loops_ = std::make_unique<ProximalLocks>(bodies, joint_capacity);
   bodies_.reserve(bodies);
   placed_.reserve(bodies);
   group_bodies_.reserve(bodies);
@@ -133,7 +132,7 @@ void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t
     const bool is_last = ++cluster.substep == step_.substeps;
     if (cluster.free) set_rate(cluster, std::int64_t{step_.substep_rate()} * (is_last ? 2 : 1));
     begin_pushes(run, cluster);
-    if constexpr (k_converges_islands) forget_impulses(cluster);
+    forget_impulses(cluster);
     for (Joint& joint : joints_of(cluster))
       warm_start(run, joint);
     end_pushes(run, cluster);

@@ -1,7 +1,7 @@
 // The joints of one tick, inside the substeps of the contact solver.
 //
 // Joints that hang together by pushed bodies form a cluster. In one that is a tree, or nearly one,
-// all locks are solved at once (`JointFactor`); with LOCKSTONE_CONVERGED_ISLANDS so are the locks
+// all locks are solved at once (`JointFactor`); in worlds with converged contacts so are the locks
 // and motors of one with loops (`ProximalLocks`). Of other clusters, balls are left to `JointNet`,
 // and other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
 // beginning of the substep such that locks hold at its end, and at the end such that they do not
@@ -43,9 +43,9 @@ struct JointRun {
 
 class JointSolver {
  public:
-  /// No function but this allocates.
+  /// Groups with loops are solved at once only if `solves_loops`. No function but this allocates.
   [[gnu::cold]] JointSolver(const TimeStep& step, std::size_t body_capacity,
-                            std::size_t joint_capacity);
+                            std::size_t joint_capacity, bool solves_loops);
 
   void clear();
 
@@ -215,9 +215,8 @@ class JointSolver {
   void plan_group(Group group);
   void add_cluster(const Group& group, std::uint32_t first_group);
   void plan_singles(const Group& group);
-  // Without LOCKSTONE_CONVERGED_ISLANDS no program has the code for loops.
   [[nodiscard]] static bool has_solved_loops(const Group& group) {
-    return k_converges_islands && group.loops != ProximalLocks::k_too_large;
+    return group.loops != ProximalLocks::k_too_large;
   }
   [[nodiscard]] bool has_loops(const Group& group) const;
   [[nodiscard]] bool plan_loops(Group& group);
@@ -327,7 +326,7 @@ class JointSolver {
   std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale
   std::vector<JointPose> after_;     // by body: where it will be after the substep
   JointFactor factor_;
-  std::unique_ptr<ProximalLocks> loops_;  // null without LOCKSTONE_CONVERGED_ISLANDS
+  std::unique_ptr<ProximalLocks> loops_;  // null unless it solves loops
   std::atomic<std::uint32_t> clamps_{0};
 };
 

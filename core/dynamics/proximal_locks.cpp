@@ -3,7 +3,6 @@
 #include <bit>
 
 #include "core/dynamics/joint_numbers.h"
-#include "core/dynamics/proximal_words.h"
 
 namespace lockstone {
 namespace {
@@ -24,6 +23,14 @@ constexpr std::uint32_t k_most_joints = 512;
 void add_along(BodyVector& u, const RowSide& j, std::int64_t x) {
   for (std::size_t i = 0; i < 6; ++i)
     u[i] += raw::round_shift(j[i] * x, 30);
+}
+
+// Q30, of vectors that are within ±2^31: |row| ≤ 1, so the sum fits.
+std::int64_t row_dot(const RowSide& j, const BodyVector& u) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < 6; ++i)
+    sum += j[i] * u[i];
+  return sum;
 }
 
 bool is_heavier(BlockFloat x, BlockFloat y) {
@@ -163,9 +170,9 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) con
     if (lock.is_void) continue;
     std::int64_t left = lock.to_speed.times(joint.errors[i], 50 - bits) * k_one;
     if (joint.a != End::k_unpushed)
-      left += proximal::row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
+      left += row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
     if (joint.b != End::k_unpushed)
-      left += proximal::row_dot(lock.b, changes_[group.plan.first_column + joint.b]);
+      left += row_dot(lock.b, changes_[group.plan.first_column + joint.b]);
     const std::int64_t impulse = -raw::round_shift(left, 30 - k_give_bits);
     lock.impulse = bounded(lock.to_impulse.times(impulse, bits - 50), k_row_bound);
   }

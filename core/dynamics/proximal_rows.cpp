@@ -85,8 +85,8 @@ void set_row(const Pair& pair, const ContactRow& from, const Sides& sides, std::
              std::size_t index) {
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
   for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
-    const std::int64_t both = lanes::scalar::pack(scaled_entry(sides.a[i], inverse),
-                                                  scaled_entry(sides.b[i], inverse));
+    const std::int64_t both =
+        lanes::scalar::pack(scaled_entry(sides.a[i], inverse), scaled_entry(sides.b[i], inverse));
     pair.problem.sides[i][index] = pair.problem.by_row[index][i] = both;
   }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
@@ -172,14 +172,17 @@ RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
 
 void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
   constexpr std::int64_t k_least_length = k_whole_q30 >> 16;
-  const Sides sides{scaled_side(row.linear_a, row.angular_a, joint.root_a, joint.share_a, false),
-                    scaled_side(row.linear_b, row.angular_b, joint.root_b, joint.share_b, false)};
+  const Sides sides{
+      scaled_side(row.linear_a, row.angular_a, joint.root_a, root_of(joint.share_a << 30)),
+      scaled_side(row.linear_b, row.angular_b, joint.root_b, root_of(joint.share_b << 30))};
   const std::int64_t length = length_of(sides);
   lock.is_void = length < k_least_length;
   if (lock.is_void) return;
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
-  scale_side(sides.a, inverse, lock.a);
-  scale_side(sides.b, inverse, lock.b);
+  for (std::size_t i = 0; i < 6; ++i) {
+    lock.a[i] = static_cast<std::int32_t>(scaled_entry(sides.a[i], inverse));
+    lock.b[i] = static_cast<std::int32_t>(scaled_entry(sides.b[i], inverse));
+  }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
   lock.own = product_rounded(length, length, 30);
   lock.to_speed = joint.mass * norm.reciprocal();
@@ -271,8 +274,7 @@ void set_gives(std::int64_t weight, const PreparedRows& prepared, const Proximal
     const std::int64_t give = std::min(ratio << (30 - 16 - k_give_bits - overload), k_whole_q30);
     problem.give[i] = give;
     problem.own_part[i] = raw::round_divide(k_whole_q30 << 30, k_whole_q30 + give);
-    problem.weight[i] =
-        raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give);
+    problem.weight[i] = raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give);
   }
 }
 

@@ -60,8 +60,8 @@ struct PreparedRows {
   std::array<RowScale, k_contact_rows> from_impulse{};
 };
 
-/// Reads a contact's rows and their scales from its manifold. `root_a` and `root_b` are those of its
-/// bodies, `unit` the island's 1/m₀.
+/// Reads a contact's rows and their scales from its manifold. `root_a` and `root_b` are those of
+/// its bodies, `unit` the island's 1/m₀.
 void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const InertiaRoot& root_b,
                         BlockFloat unit, ProximalContact& contact, lanes::ProximalBlock& problem,
                         PreparedRows& prepared);
