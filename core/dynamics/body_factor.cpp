@@ -18,6 +18,11 @@ constexpr std::int64_t k_least_factor_pivot = std::int64_t{1} << 34;
 
 constexpr std::uint32_t k_eliminated = 0xffffffff;
 
+// Room in the pools, for each pair of bodies that share a block, and besides: elimination fills
+// blocks in, in heaps about as many as there are.
+constexpr std::size_t k_blocks_a_pair = 3, k_more_blocks = 256;
+constexpr std::size_t k_targets_a_pair = 16, k_more_targets = 4096;
+
 constexpr std::int64_t k_most_word = (std::int64_t{1} << 31) - 1;
 
 std::int64_t within_word(std::int64_t x) {
@@ -40,9 +45,9 @@ void grow(lanes::BodyBlock& block, int bits) {
 
 }  // namespace
 
-BodyFactor::BodyFactor(std::size_t body_capacity)
-    : block_capacity_(body_capacity == 0 ? 0 : body_capacity * 12 + k_most_products),
-      target_capacity_(body_capacity == 0 ? 0 : body_capacity * 60 + k_most_products) {
+BodyFactor::BodyFactor(std::size_t body_capacity, std::size_t pair_capacity)
+    : block_capacity_(body_capacity + k_blocks_a_pair * pair_capacity + k_more_blocks),
+      target_capacity_(k_targets_a_pair * pair_capacity + k_more_targets) {
   columns_.reserve(body_capacity);
   places_.reserve(body_capacity);
   below_.reserve(block_capacity_);

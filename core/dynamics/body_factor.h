@@ -45,8 +45,8 @@ class BodyFactor {
     std::uint32_t first_target = 0;
   };
 
-  /// Room for the islands of so many bodies. No function but this allocates.
-  [[gnu::cold]] explicit BodyFactor(std::size_t body_capacity);
+  /// Room for islands of so many bodies and pairs in all. No function but this allocates.
+  [[gnu::cold]] BodyFactor(std::size_t body_capacity, std::size_t pair_capacity);
 
   void clear();
 

@@ -162,7 +162,6 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity,
                                             converged_contacts != 0)),
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
-      direct_(body_capacity + contact_capacity + joint_capacity, body_capacity, contact_capacity),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
       first_loads_(contact_capacity),
       islands_(body_capacity + contact_capacity + joint_capacity + 1, body_capacity) {
@@ -302,7 +301,6 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
     if (island.few_are_loaded() && is_loaded(scene, entry, source.share_b)) island.loaded.raise();
-    if (DirectContacts::is_uneven(source.share_b)) island.uneven.raise();
     restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);
@@ -395,7 +393,6 @@ void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, st
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (is_idle_) return;
-  if (!direct_.empty()) direct_.store(direct_run());
   first_loads_.store(supports_, records);
   loops_.clear();
   stages_.clear();

@@ -18,7 +18,6 @@
 #include "core/dynamics/constraint_graph.h"
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
-#include "core/dynamics/direct_contacts.h"
 #include "core/dynamics/first_loads.h"
 #include "core/dynamics/heap_loads.h"
 #include "core/dynamics/joint_net.h"
@@ -90,12 +89,11 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
-  /// Whether the body's island is too large to be solved directly.
+  /// Whether the body's island is large, and left to the iterations.
   [[nodiscard]] bool is_iterated(std::uint32_t body) const {
     const std::uint32_t index = solver_index_[body];
     return index != 0 && islands_.load(islands_.of(index)).is_iterated();
   }
-  [[nodiscard]] std::size_t solved_at_once() const { return direct_.contacts(); }
 
   /// Values that were clamped to their range.
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }
@@ -119,7 +117,6 @@ class ContactSolver {
     velocities,
     warm_joints,
     solve,
-    push_direct,
     push_islands,
     lift_net,
     solve_joints,
@@ -129,7 +126,6 @@ class ContactSolver {
     relax_joints,
     relax_net,
     relax,
-    relax_direct,
     relax_islands,
     end_islands,
     bounce,
@@ -211,7 +207,6 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
-  void take_up_direct(const ContactScene& scene);
   void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
                        std::size_t converged);
   void bar_islands(const ContactScene& scene);
@@ -238,7 +233,7 @@ class ContactSolver {
   [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
   [[nodiscard]] bool is_loaded(const ContactScene& scene, const Entry& entry,
                                std::int64_t share_b) const;
-  [[nodiscard]] ContactRun direct_run();
+  [[nodiscard]] ContactRun contact_run();
   [[nodiscard]] JointRun joint_run();
   [[nodiscard]] NetRun net_run() {
     return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};
@@ -249,7 +244,7 @@ class ContactSolver {
     if ((index & k_immovable) == 0) return index;
     return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
   }
-  // As the direct contacts know a body; 0: what no impulse moves.
+  // 0: what no impulse moves.
   [[nodiscard]] std::uint32_t pushed_number(std::uint32_t index) const {
     return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
   }
@@ -317,7 +312,6 @@ class ContactSolver {
 
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
-  DirectContacts direct_;
   std::unique_ptr<ProximalSolver> proximal_;  // null where no island is solved to convergence
   std::uint32_t most_island_contacts_ = 0;    // of an island that is
   std::vector<std::uint32_t> first_of_;  // of an island: its first body, then its first entry, + 1
@@ -348,7 +342,7 @@ class ContactSolver {
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
   bool is_idle_ = false;              // neither contacts nor joints in this tick
-  bool has_heap_ = false;             // an island bears more loads than are solved at once
+  bool has_heap_ = false;             // an island bears many loads
   std::int64_t heap_push_ = 0;        // from which on a contact bears several times a weight,
                                       // of all its points, m/s, Q20
   std::atomic<bool> bounces_{false};  // any restitution at all

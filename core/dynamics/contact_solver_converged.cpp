@@ -31,7 +31,7 @@ void ContactSolver::reserve_islands(std::size_t rows, std::size_t bodies, std::s
   if (converged == 0) return;
   const std::size_t most = std::min<std::size_t>(converged, k_most_island_contacts);
   most_island_contacts_ = static_cast<std::uint32_t>(most);
-  proximal_ = std::make_unique<ProximalSolver>(rows, std::min(bodies, 2 * converged), converged);
+  proximal_ = std::make_unique<ProximalSolver>(rows, std::min(bodies, converged), converged);
   first_of_.reserve(2 * bodies + 2);
   next_of_.reserve(rows + contacts);
   island_bodies_.reserve(BodyFactor::k_most_bodies);
@@ -163,15 +163,15 @@ void ContactSolver::begin_converged(const ContactScene& scene) {
     before_[body] = {};
   const std::int64_t weight = weight_of(scene.gravity, step_);
   for (std::uint32_t i = 0; i < proximal_->count(); ++i)
-    proximal_->begin(direct_run(), i, weight);
+    proximal_->begin(contact_run(), i, weight);
 }
 
 void ContactSolver::run_converged(StageKind kind, std::size_t first, std::size_t end) {
   for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) {
     if (kind == StageKind::end_islands)
-      proximal_->end(direct_run(), i);
+      proximal_->end(contact_run(), i);
     else
-      proximal_->solve(direct_run(), i, kind == StageKind::push_islands);
+      proximal_->solve(contact_run(), i, kind == StageKind::push_islands);
   }
 }
 

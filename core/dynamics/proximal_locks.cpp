@@ -40,7 +40,7 @@ bool is_heavier(BlockFloat x, BlockFloat y) {
 }  // namespace
 
 ProximalLocks::ProximalLocks(std::size_t body_capacity, std::size_t joint_capacity)
-    : factor_(body_capacity) {
+    : factor_(body_capacity, joint_capacity) {
   groups_.reserve(joint_capacity);
   joints_.reserve(joint_capacity);
   pairs_.reserve(joint_capacity);

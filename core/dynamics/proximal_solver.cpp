@@ -40,7 +40,7 @@ ProximalSolver::ProximalSolver(std::size_t rows, std::size_t body_capacity,
     : local_(rows),
       body_capacity_(body_capacity),
       contact_capacity_(contact_capacity),
-      factor_(body_capacity) {
+      factor_(body_capacity, contact_capacity) {
   islands_.reserve(body_capacity);
   bodies_.reserve(body_capacity);
   contacts_.reserve(contact_capacity);

@@ -28,7 +28,7 @@ class SharedCount {
 
 /// Counts of one island, and what the solver decides by them.
 struct IslandLoad {
-  /// An island with more contacts of a kind than these leaves them to the iterations.
+  /// An island with more contacts of a kind is a large one: its loads take long to spread.
   static constexpr std::uint32_t k_most_loaded = 128;
 
   bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
@@ -39,18 +39,12 @@ struct IslandLoad {
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
                               ///< k_most_loaded + 1 on it may be any greater number
-  SharedCount uneven;         ///< contacts of a light body and a heavy one
 
   [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_loaded; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
-  /// Too large for a direct solve of all its contacts.
+  /// Left to the iterations, and large.
   [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
-  [[nodiscard]] bool needs_direct_solve() const {
-    if (is_converged) return false;
-    return uneven.get() != 0 || (loaded.get() != 0 && few_are_loaded());
-  }
-  /// More contacts are loaded than are solved at once, and a good part of all are new: nobody knows
-  /// yet what they carry.
+  /// Many contacts are loaded, and a good part of all are new: what they carry is not known yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;
     return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
