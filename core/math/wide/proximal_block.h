@@ -32,8 +32,8 @@ inline constexpr int k_friction_point = 20;
 /// A contact of the problem. Words that end a sentence with Qn have n fraction bits; those of the
 /// phase are in its units; kept ones are in units of their rows, Q44.
 struct alignas(64) ProximalBlock {
-  BlockWord sides[k_body_words]{};  // by component; low: of A, high: of B, Q30
-  BlockWord by_row[k_most_rows]{};  // the same by row, components in lanes
+  BlockWord sides[k_body_words]{};    // by component; low: of A, high: of B, Q30
+  BlockWord by_row[k_most_rows]{};    // the same by row, components in lanes
   BlockWord coupling[k_most_rows]{};  // by row r: J_r·J_i, and 1 + γ at itself, Q30
   BlockWord give{};                   // γ, Q30
   BlockWord own_part{};               // 1 / (1 + γ), Q30
@@ -49,12 +49,12 @@ struct alignas(64) ProximalBlock {
   BlockWord residual{};   // as of the direct step at hand, k_residual_point bits more
   BlockWord next{};       // impulse that the direct step proposes
 
-  BlockWord warm{};         // kept: impulse as the tick before ended
-  BlockWord held{};         // kept: impulse
-  BlockWord held_centre{};  // kept: centre
-  BlockWord moving{};       // kept: speed
-  BlockWord moved{};        // kept: speed as the substep began
-  BlockWord bias{};         // kept
+  BlockWord warm{};          // kept: impulse as the tick before ended
+  BlockWord held{};          // kept: impulse
+  BlockWord held_centre{};   // kept: centre
+  BlockWord moving{};        // kept: speed
+  BlockWord moved{};         // kept: speed as the substep began
+  BlockWord bias{};          // kept
   BlockWord least_change{};  // kept: of speed
 
   std::array<std::int32_t, 4> limits{};  // friction's, of a normal's, Q20
@@ -62,6 +62,7 @@ struct alignas(64) ProximalBlock {
   std::uint32_t points = 0;              // normal rows
   std::uint32_t rows = 0;                // all of them
   std::uint32_t a = 0, b = 0;            // bodies in the island
+  bool slides = false;                   // friction's last pass wanted more than its limit
 
   [[nodiscard]] bool has_friction() const { return limits[0] != 0; }
 };
@@ -81,7 +82,7 @@ struct BelowDiagonal {
 /// A column of the factor: the reciprocals of its pivots are mantissa · 2^-shift.
 struct FactorColumn {
   std::uint32_t body = 0;
-  int scale = 0;  // bits that its body's rows are scaled by
+  int scale = 0;                       // bits that its body's rows are scaled by
   std::uint32_t first = 0, count = 0;  // of the blocks below
   std::array<std::int32_t, k_body_words> mantissas{};
   std::array<std::int32_t, k_body_words> shifts{};

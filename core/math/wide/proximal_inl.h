@@ -149,7 +149,7 @@ struct RowPass {
     BlockWord next = block.impulse;
     for (std::size_t i = block.points; i < block.rows; ++i)
       next[i] = wanted(i);
-    (void)shorten_friction(block, next);
+    block.slides = shorten_friction(block, next) != 0;
     for (std::size_t i = block.points; i < block.rows; ++i)
       push(i, next[i]);
   }
