@@ -17,9 +17,9 @@ std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) 
   return step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
 }
 
-// Whether impulses would need more bits than there are beside speeds: above 20,000 : 1.
+// Whether impulses would need more bits than there are beside speeds: above 200,000 : 1.
 bool is_too_uneven(BlockFloat a, BlockFloat b) {
-  constexpr std::int32_t k_least_share = (1 << 30) / 20'000;
+  constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
   if (a.mantissa == 0 || b.mantissa == 0) return false;
   return std::min(ratio(a, b), ratio(b, a)).raw < k_least_share;
 }
