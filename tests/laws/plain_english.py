@@ -1,7 +1,7 @@
 """Plain English in comments, pages, help texts and messages. The law counts, for each folder,
 
   what     noun clauses with "what" ("What rests is skipped", "pays for what it uses")
-  answers  "Answers" where a comment means "Returns"
+  answers  "Answers" where a comment in code means "Returns"
   words    private words that the field has a better term for
 
 Questions may say "what". plain_english_words.txt beside this file lists the idioms that may stand and
@@ -138,12 +138,12 @@ def is_idiom(prose, start, idioms):
     return any(idiom in around for idiom in idioms)
 
 
-def findings_in(prose, words):
+def findings_in(prose, words, is_page=False):
     """[(position, kind, advice)] of a text."""
     idioms, banned = words
     found = [(m.start(), "what", "name the subject") for m in _WHAT.finditer(prose)
              if not _QUESTION.match(prose, m.end()) and not is_idiom(prose, m.start(), idioms)]
-    found += [(m.start(), "answers", "Returns") for m in _ANSWERS.finditer(prose)]
+    found += [(m.start(), "answers", "Returns") for m in _ANSWERS.finditer(prose) if not is_page]
     for pattern, better in banned.values():
         found += [(m.start(), "words", f"{' '.join(m[0].split())} -> {better}") for m in pattern.finditer(prose)]
     return sorted(found)
@@ -158,7 +158,7 @@ def find(tree, words):
     found = []
     for file, text in tree.items():
         path, prose, lines = file.as_posix(), prose_of(file, text), text.split("\n")
-        for position, kind, advice in findings_in(prose, words):
+        for position, kind, advice in findings_in(prose, words, file.suffix == ".md"):
             line = prose.count("\n", 0, position) + 1
             found.append((folder_of(path), kind, f"{path}:{line}: {kind}: {advice}: {lines[line - 1].strip()}"))
     return found
