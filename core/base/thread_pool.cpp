@@ -14,7 +14,7 @@ namespace lockstone {
 namespace {
 
 // Some 200 µs on today's processors, and then as long again or more while others may have the
-// processor: longer than what a tick leaves to one thread at a time, for waking up takes tens of
+// processor: longer than a tick's single-threaded stretches, for waking up takes tens of
 // microseconds.
 constexpr int k_looks_before_yield = 4000;
 constexpr int k_yields_before_sleep = 400;
