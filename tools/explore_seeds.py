@@ -2,7 +2,7 @@
 
 usage: explore_seeds.py --tests JSON --report XML --seconds N [--jobs N] [--first-seed N] [--longest N]
 
-JSON is what `ctest --show-only=json-v1` prints, XML the JUnit report of a run: the tests whose output
+JSON is the output of `ctest --show-only=json-v1`, XML the JUnit report of a run: the tests whose output
 there names the seed depend on it. Each gets the same share of the time, and one run at least. A test
 that fails is a finding: it is printed with the command that repeats it, and not tried again. So is one
 that twice runs with one seed for longer than --longest (60 s) and ten times its time in the report;

@@ -86,8 +86,8 @@ void World::Impl::take(const WorldHeader& loaded, State&& state) {
   if (!same_bodies || !same_links) rebuild_joint_links();
 }
 
-// Returns whether the bodies differ at most in fields from which no more than their bounds and
-// rotations follow. Bodies that moved are left in `moved`.
+// Returns whether every changed body keeps its make (`same_make`), so that only the data of its
+// pose is derived again. `moved` lists these bodies.
 template <class State>
 bool World::Impl::take_bodies(std::uint32_t limit, State& state) {
   const std::uint32_t old_limit = std::min(header.body_limit, def.body_capacity);

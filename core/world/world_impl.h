@@ -401,8 +401,7 @@ struct World::Impl {
     Pair bodies;
     bool exists = false, trigger = false, touching = false;  // touching of a trigger: overlapping
     SolverVelocity approach{};
-    std::uint32_t contacts = 0, tag_a = 0,
-                  tag_b = 0;  // tags of the contact with the highest approach speed
+    std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of the fastest contact
   };
   PairState take_pair(std::span<const ContactRecord>& records,
                       std::span<const SolverVelocity> approaches) const;

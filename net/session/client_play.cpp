@@ -32,8 +32,7 @@ bool Client::Impl::on_ticks(ByteView packet) {
   if (!sane) return false;
   waiting = message.waiting_mask;
   inputs_acked = std::max(inputs_acked, message.inputs_received);
-  sampled =
-      std::max(sampled, inputs_acked);  // inputs that the server replaced are not sampled any more
+  sampled = std::max(sampled, inputs_acked);  // no inputs for ticks that the server has replaced
   hashes_acked = std::max(hashes_acked, message.hashes_received);
   if (message.margin_quarters != k_no_margin && config.adapt_lead) {
     lead.note(message.margin_quarters, message.inputs_received, sampled, now_us);

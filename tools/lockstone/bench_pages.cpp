@@ -46,7 +46,7 @@ std::vector<Figure> figures_of(std::span<const MeasuredAccuracy> rows) {
   return figures;
 }
 
-// What several settings share is no column.
+// Columns that are the same for all settings are left out.
 std::vector<std::vector<std::string>> columns_of(const std::vector<Figure>& figures) {
   std::vector<std::vector<std::string>> all;
   for (const Figure& figure : figures) {

@@ -27,7 +27,7 @@ constexpr std::int64_t k_base_delay_us = 5'000;
 constexpr std::size_t k_bytes_in_flight_max = 32U << 20;
 constexpr std::int64_t k_reorder_us = 100'000;
 
-/// A disk that takes what it is given, until it is full.
+/// A disk that stores all bytes it is given, until it is full.
 class LimitedSink final : public replay::Sink {
  public:
   Status append(ByteView bytes) override { return full ? Status::io_error : memory.append(bytes); }
@@ -432,7 +432,7 @@ void SimMatch::check_control() {
   if (!right) oracle_.fail("the report names something else: " + report.to_line());
 }
 
-// What was written before the disk was full, or until the end, is a good log.
+// The part written before the disk was full, or until the end, is a good log.
 void SimMatch::check_log() {
   replay::MemorySource source(disk_.memory.bytes());
   const replay::VerifyReport report = replay::verify(source, game_.factory);

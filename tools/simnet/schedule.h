@@ -1,4 +1,4 @@
-// The faults of one simulated match: what goes wrong, for whom, when, how much.
+// The faults of one simulated match: the kind, the victim, the time and the amount of each.
 #pragma once
 
 #include <cstdint>

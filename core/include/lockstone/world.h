@@ -43,9 +43,8 @@ struct WorldDef {
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
   std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does
-  Length sleep_distance =
-      Length::from_ratio(1, 200);  ///< a body that moves less is at rest, 1 mm … 1 m
-  BroadPhaseKind broad_phase{};    ///< changes no result, so peers may differ in it
+  Length sleep_distance = Length::from_ratio(1, 200);  ///< a body at rest moves less, 1 mm … 1 m
+  BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
   Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
 
