@@ -35,7 +35,7 @@ inline std::vector<RealVec> incident_corners(const Placed& own, int axis, const 
   return corners;
 }
 
-/// What of the polygon has sign · lane ≤ limit.
+/// The part of the polygon where sign · lane ≤ limit.
 inline std::vector<RealVec> clipped(const std::vector<RealVec>& polygon, int lane, int sign,
                                     Real limit) {
   std::vector<RealVec> result;

@@ -89,7 +89,7 @@ bool has_only_triangles(const Polytope& p) {
 
 constexpr Real k_step = 1 / Real{1 << 30};
 
-/// Covariance errors over what is allowed.
+/// Covariance errors over their bound.
 Real worst_error(const Solid& solid, const Reference& truth) {
   const Real s = std::ldexp(Real{1}, solid.scale_exponent);
   const auto found = covariance_of(solid);

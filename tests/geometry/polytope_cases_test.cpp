@@ -102,7 +102,7 @@ TEST(CollidePolytope, ABoxAsAPolytopeAgreesWithTheBox) {
                   static_cast<double>(limit));
       return;
     }
-    if (m.count < 2 || p.count < 2 || range.greatest > 1e29L) return;  // not what the sides hold
+    if (m.count < 2 || p.count < 2 || range.greatest > 1e29L) return;  // not between the sides
     if (range.least < -127) return;                                    // separations saturate
     ++clipped;
     for (const Manifold& manifold : {m, p}) {

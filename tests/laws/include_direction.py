@@ -11,7 +11,7 @@ FOLDERS = ["core", "net", "replay"]
 ROOMS = ["base", "math", "geometry", "collision", "dynamics", "world"]
 
 # The room that each public header of core belongs to: its implementation lives there, and the
-# header may include what that room may.
+# header may include the same rooms.
 PUBLIC_ROOMS = {
     "base": ["assert.h", "bytes.h", "hash.h", "refusal.h", "rng.h", "status.h", "tasks.h",
              "thread_pool.h"],
@@ -136,7 +136,7 @@ def control():
     expect_only(found("core/world/a.cpp", "<lockstone/testing/floating.h>"), "tools and tests only")
     expect_only(found("core/world/a.cpp", "<lockstone/gone.h>"), "no such public header")
     expect_only(found("core/world/a.cpp", "<enet/enet.h>"), "only net/ uses it")
-    # What must pass.
+    # Must pass.
     expect_only(found("core/world/a.cpp", '"core/base/a.h"', "<lockstone/shape.h>", "<xxhash_like.h>"))
     expect_only(found("net/a.cpp", "<lockstone/simulation.h>", '"net/b.h"', "<lockstone/session.h>", "<enet/enet.h>"))
     expect_only(check(Tree(headers | {"core/base/a.cpp": "// #include <lockstone/world.h>\n"})))
