@@ -26,9 +26,9 @@ std::uint32_t chosen_workers(std::uint32_t workers) {
 
 }  // namespace
 
-// A job is open while the caller is in `run`. Who enters says so first and then looks whether it is
-// open; the caller closes it first and then looks who is inside, and waits. So nobody reads a job
-// that is being exchanged.
+// A job is open while the caller is in `run`. A thread that enters says so first and then looks
+// whether it is open; the caller closes it first and then looks who is inside, and waits. So nobody
+// reads a job that is being exchanged.
 struct ThreadPool::Impl {
   explicit Impl(std::uint32_t workers) {
     for (std::uint32_t worker = 1; worker < workers; ++worker)

@@ -126,7 +126,7 @@ class NarrowSlots {
     return first;
   }
 
-  /// Takes back the last slot that `take` gave, or the wish for one.
+  /// Takes back the last slot that `take` gave, or the request for one.
   static void give_back(PairScratch& scratch, std::uint32_t slot) {
     --scratch.taken;
     if (slot != k_none) --scratch.next;

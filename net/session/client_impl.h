@@ -41,7 +41,7 @@ struct Client::Impl {
   [[nodiscard]] bool active() const { return state < ClientState::finished; }
   [[nodiscard]] ClientStats current_stats() const;
 
-  // client_entry.cpp: entering a match that runs, pausing, wishes.
+  // client_entry.cpp: entering a match that runs, pausing, requests.
   [[nodiscard]] bool reconnect(ConnectionId connection);
   [[nodiscard]] bool knows_state(ByteView offered_config) const;
   void begin_running(std::uint64_t ticks);

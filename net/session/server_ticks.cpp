@@ -132,8 +132,8 @@ bool Server::Impl::anybody_plays() const {
 }
 
 // Where the match may wait, it does so before a player loses ticks or snapshots. For newcomers it
-// waits only if nothing else would slow it down. Who holds it without a sign of progress is dropped
-// in the end, as one that sends no inputs is.
+// waits only if nothing else would slow it down. A player that holds it without a sign of progress
+// is dropped in the end, as one that sends no inputs is.
 std::uint16_t Server::Impl::laggards_mask() const {
   unsigned mask = 0;
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {

@@ -46,7 +46,7 @@ double fastest(const World& world, const std::vector<BodyHandle>& bodies) {
   return most;
 }
 
-// By sweeps alone it is off by up to 22 mm after a second.
+// By iterations alone it is off by up to 22 mm after a second.
 TEST(FirstLoads, HoldAWallFromItsFirstTick) {
   World world = test::make_world();
   test::add_ground(world);

@@ -46,7 +46,7 @@ BodyHandle add_moving(World& world, const Shape& shape, Position z, Velocity spe
   return test::add(world, def);
 }
 
-// Half a millimetre at the top; by sweeps alone it has grown by 2 mm after five seconds.
+// Half a millimetre at the top; by iterations alone it has grown by 2 mm after five seconds.
 TEST(HeapLoads, KeepAWallFromBendingOn) {
   World world = heap_world();
   test::add_ground(world);

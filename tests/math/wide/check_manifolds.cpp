@@ -1,4 +1,4 @@
-// Manifold sweeps: every target against the scalar twin.
+// Iterations over manifolds: every target against the scalar twin.
 #include <cstddef>
 #include <cstring>
 #include <vector>

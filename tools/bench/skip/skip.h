@@ -6,7 +6,7 @@
 
 namespace lockstone::bench {
 
-/// One line. Times hang on the machine; counters and sizes do not.
+/// One line. Times depend on the machine; counters and sizes do not.
 struct SkipFigure {
   std::string claim;
   std::string figure;  ///< the measured quantity

@@ -74,7 +74,7 @@ enum class FinishReason : std::uint8_t {
 };
 
 enum class LeaveReason : std::uint8_t {
-  left = 0,            ///< by its own wish
+  left = 0,            ///< by its own decision
   disconnected = 1,    ///< the transport lost it
   timed_out = 2,       ///< silent, or waited for, beyond the drop time-out
   malformed = 3,       ///< too many packets that break the format

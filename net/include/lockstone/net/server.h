@@ -111,7 +111,7 @@ class ServerObserver {
   virtual void match_started();
   /// A player came into a match that runs, or came back: from `tick` on it plays.
   virtual void player_active(std::uint8_t slot, std::uint64_t tick);
-  /// A player's wish: answer it by calling the server after `update`, or not at all.
+  /// A player's request: answer it by calling the server after `update`, or not at all.
   virtual void player_asks(std::uint8_t slot, AskKind kind, std::uint8_t topic,
                            std::uint8_t choice);
   virtual void match_finished(FinishReason reason, std::uint64_t ticks,
