@@ -239,8 +239,7 @@ void SimMatch::start_late() {
   }
 }
 
-// A client that died before it had heard of its key finds its seat taken, until the server misses
-// it.
+// A client that died before it heard of its key finds its seat taken, until the server misses it.
 bool SimMatch::must_ask_again(std::size_t client) const {
   constexpr std::int64_t k_pause_us = 1'000'000;
   const net::Client& one = nodes_[client].client();
