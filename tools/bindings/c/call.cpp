@@ -1,15 +1,8 @@
 #include "tools/bindings/c/call.h"
 
 #include <algorithm>
-#include <array>
 
 namespace lockstone::c {
-namespace {
-
-thread_local std::array<char, 512> last_error{};
-
-}  // namespace
-
 Failure failure(Status status, const Refusal& refusal) {
   return {static_cast<lks_status>(status),
           refusal ? refusal.to_line() : std::string(to_string(status))};
@@ -17,11 +10,6 @@ Failure failure(Status status, const Refusal& refusal) {
 
 Failure invalid(std::string_view field, std::string_view rule) {
   return {LKS_INVALID_ARGUMENT, std::string(field) + ": " + std::string(rule)};
-}
-
-lks_status remember(lks_status status, std::string_view message) noexcept {
-  write_text(message, last_error.data(), last_error.size());
-  return status;
 }
 
 bool flag(std::uint32_t number, std::string_view field) {
@@ -54,7 +42,3 @@ void write_text(std::string_view text, char* out, std::size_t capacity) {
 }
 
 }  // namespace lockstone::c
-
-const char* lks_last_error(void) {
-  return lockstone::c::last_error.data();
-}

@@ -178,12 +178,14 @@ static inline lks_rate lks_rate_milli(int64_t thousandths) {
 static inline lks_density lks_density_kg_m3(int64_t kg_m3) {
   return lks_raw32(kg_m3, 1, LKS_DENSITY_BITS);
 }
-/* 39301320845 is π / 180000 · 2^51; right to the last bit for whole degrees within ±16 rad. */
+/* 5030569068109 is π / 180000 · 2^58. Clamped to ±16 rad. */
 static inline lks_angle lks_angle_mdeg(int32_t thousandths) {
-  const int64_t most = 916732; /* 16 rad */
-  const int64_t mdeg = thousandths > most ? most : thousandths < -most ? -most : thousandths;
-  const int64_t size = ((mdeg < 0 ? -mdeg : mdeg) * 39301320845 + (1 << 23)) / (1 << 24);
-  return (lks_angle)(mdeg < 0 ? -size : size < INT32_MAX ? size : INT32_MAX);
+  const uint64_t most = 916732;
+  const uint64_t wanted =
+      thousandths < 0 ? 0 - (uint64_t)(int64_t)thousandths : (uint64_t)thousandths;
+  const uint64_t size = wanted < most ? wanted : most;
+  const int64_t raw = (int64_t)((size * 5030569068109u + ((uint64_t)1 << 30)) >> 31);
+  return (lks_angle)(thousandths < 0 ? -raw : raw);
 }
 
 static inline lks_quat lks_quat_identity(void) {
