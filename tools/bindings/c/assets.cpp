@@ -25,7 +25,10 @@ std::vector<Vec3<Length>> points_of(const lks_length3* points, std::size_t count
 }  // namespace
 
 lks_status lks_assets_create(lks_assets** out) {
-  return call([&] { required(out, "out") = std::make_unique<lks_assets>().release(); });
+  return call([&] {
+    required(out, "out");
+    *out = std::make_unique<lks_assets>().release();
+  });
 }
 
 void lks_assets_destroy(lks_assets* assets) {
