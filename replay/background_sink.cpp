@@ -39,7 +39,7 @@ ByteView BackgroundSink::next_piece() const {
   return std::span(ring_).subspan(first_, std::min(waiting_, ring_.size() - first_));
 }
 
-// What waits is written without the lock: append() only writes where nothing waits.
+// Waiting bytes are written without the lock: append() only writes where nothing waits.
 void BackgroundSink::run() {
   std::unique_lock lock(mutex_);
   for (;;) {

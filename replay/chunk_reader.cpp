@@ -78,7 +78,7 @@ Walk ChunkReader::check_place() {
   }
   if (frame_.previous != previous_) {
     return reject(Status::checksum_mismatch,
-                  name_chunk() + " does not follow what stands before it: it is from another log");
+                  name_chunk() + " does not follow the chunk before it: it is from another log");
   }
   if (remaining() - k_chunk_header_bytes < frame_.header.stored_bytes) {
     return torn(frame_.header.type, "the log ends inside " + name_chunk());

@@ -37,7 +37,7 @@ class ChunkReader {
   /// are. malformed for an offset beyond the log.
   Status jump(std::uint64_t offset);
 
-  /// What the simulation's snapshots have at most: longer ones are refused from here on.
+  /// Sets the greatest size of the simulation's snapshots: longer ones are refused from here on.
   void bound_snapshots(std::size_t bytes) { snapshot_bytes_max_ = bytes; }
 
   /// Reads the stored payload of the chunk whose frame was read: good or damaged.
@@ -58,12 +58,12 @@ class ChunkReader {
   [[nodiscard]] const LogHeader& log() const { return log_; }
   [[nodiscard]] const ChunkHeader& chunk() const { return frame_.header; }
   [[nodiscard]] std::uint64_t chunk_offset() const { return chunk_offset_; }
-  /// Where the next chunk begins, and what it must name as its predecessor's checksum.
+  /// Where the next chunk begins, and the predecessor's checksum that it must name.
   [[nodiscard]] std::uint64_t next_offset() const { return cursor_; }
   [[nodiscard]] std::uint64_t last_checksum() const { return previous_; }
   [[nodiscard]] ByteView payload() const { return payload_; }
 
-  /// What was complained about last; Status::ok before that.
+  /// The last damage that was reported; Status::ok before that.
   [[nodiscard]] const Damage& damage() const { return damage_; }
 
  private:

@@ -25,7 +25,7 @@ class ChunkWriter {
   [[nodiscard]] bool signs() const { return key_.has_value(); }
 
   /// Goes on behind a log's last chunk, whose frame has this sequence number and checksum. Without
-  /// a key: what stands there was not seen.
+  /// a key: the earlier bytes were not seen.
   void continue_at(std::uint64_t offset, std::uint32_t next_sequence, std::uint64_t previous) {
     offset_ = offset;
     sequence_ = next_sequence;

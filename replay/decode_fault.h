@@ -1,4 +1,4 @@
-// What a decoder answers: ok, or what is wrong with the bytes and where.
+// The result of a decoder: ok, or the fault in the bytes and its place.
 #pragma once
 
 #include <cstddef>

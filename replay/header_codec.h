@@ -33,7 +33,7 @@ std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> o
 [[nodiscard]] DecodeFault decode_file_header(ByteView bytes, LogHeader& header,
                                              std::uint64_t& checksum);
 
-/// A chunk's frame with what ties it to its payload and to the chunk before it.
+/// A chunk's frame with the checksums of its payload and of the chunk before it.
 struct ChunkFrame {
   ChunkHeader header;
   std::uint64_t previous = 0;  ///< checksum of the frame before, or of the file header
@@ -54,7 +54,7 @@ std::uint64_t seal_chunk_frame(std::span<std::byte, k_chunk_header_bytes> frame)
 std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
                                  std::span<std::byte, k_chunk_header_bytes> out);
 
-/// Checks sync word, checksum, flags, and lengths by what any log may hold.
+/// Checks sync word, checksum, flags, and lengths by the limits of any log.
 [[nodiscard]] DecodeFault decode_chunk_frame(std::span<const std::byte, k_chunk_header_bytes> bytes,
                                              ChunkFrame& frame);
 
@@ -66,7 +66,7 @@ std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
 /// The most ticks of a chunk: one second, and at most k_max_chunk_ticks.
 [[nodiscard]] std::size_t max_chunk_ticks(const SimulationInfo& info);
 
-/// Checks lengths and codec by what a log with this header may hold.
+/// Checks lengths and codec by the limits of a log with this header.
 [[nodiscard]] DecodeFault check_bounds(const ChunkHeader& chunk, const SimulationInfo& info);
 
 [[nodiscard]] bool is_known(ChunkType type);

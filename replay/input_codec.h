@@ -15,7 +15,7 @@
 
 namespace lockstone::replay {
 
-/// What one player did in one tick, held by value. The default is what "silence" means.
+/// One player's input of one tick, held by value. The default is silence.
 struct SlotState {
   std::array<std::byte, k_max_input_bytes> bytes{};
   InputOrigin origin = InputOrigin::received;

@@ -1,4 +1,4 @@
-// What a signature is over: every byte of a log before it.
+// The digest that a signature signs: of every byte of a log before it.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,10 @@ class LogDigest {
 
   void update(ByteView bytes);
 
-  /// Signs what came so far.
+  /// Signs the bytes so far.
   void sign(const SigningKey& key, std::span<std::byte, k_signature_bytes> payload) const;
 
-  /// Whether `payload` is a signature over what came so far, by the key that it names.
+  /// Whether `payload` is a signature over the bytes so far, by the key that it names.
   [[nodiscard]] bool check(std::span<const std::byte, k_signature_bytes> payload) const;
 
  private:

@@ -16,7 +16,7 @@
 namespace lockstone::replay {
 namespace {
 
-// What the good beginning of a log holds, up to where a tick is complete.
+// The good beginning of a log, up to its last complete tick.
 struct GoodPart {
   bool has_scene = false;
   std::uint64_t bytes = 0;
@@ -26,7 +26,7 @@ struct GoodPart {
 };
 
 // Reads as far as the log is good. `part` follows each item but INPUT, which is nothing without its
-// hashes, and what stands between the two.
+// hashes, and the items between the two.
 LogItem measure(LogReader& reader, GoodPart& part) {
   bool awaits_hashes = false;
   LogItem item = reader.next();
@@ -128,7 +128,7 @@ RepairReport repair(Source& damaged, Sink& sink) {
 
 namespace {
 
-// Records the ticks before `end`, and what stands between them.
+// Records the ticks before `end`, and the items between them.
 void copy_ticks(TickReader& ticks, std::uint64_t end, Recorder& recorder, CutReport& report) {
   std::uint64_t hash = 0;
   while (report.status == Status::ok && ticks.next() && ticks.tick() < end) {

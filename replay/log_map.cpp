@@ -23,7 +23,7 @@ std::optional<ChunkFrame> frame_at(Source& source, std::uint64_t offset) {
   return good ? std::optional(frame) : std::nullopt;
 }
 
-// Where the END begins: the checksum of its frame tells it from what only looks like one.
+// Where the END begins: the checksum of its frame tells it from bytes that only look like one.
 std::optional<std::uint64_t> find_end(Source& source) {
   const std::uint64_t size = source.size();
   const std::uint64_t from = size > k_tail_bytes ? size - k_tail_bytes : 0;

@@ -40,7 +40,7 @@ struct LogReader::Parts {
   bool complete = false;
   bool signed_end = false;  // a SIGNATURE stands behind the END
   bool arrives = false;     // the next chunk is the keyframe that was jumped to
-  bool jumped = false;      // `seen` does not count what stands before
+  bool jumped = false;      // `seen` does not count earlier items
 
   LogItem reject(Status status, const char* what) {
     chunks.reject_chunk(status, what);

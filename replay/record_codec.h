@@ -27,7 +27,7 @@ void put_text(ByteWriter& writer, std::string_view text);
 void encode_event(ByteWriter& writer, std::uint64_t tick, EventKind kind, std::uint8_t slot,
                   std::string_view text);
 
-/// Replaces `events`. `count` is what the chunk announces and is not trusted.
+/// Replaces `events`. `count` is the chunk's claim and is not trusted.
 [[nodiscard]] DecodeFault decode_events(ByteView payload, std::uint32_t count,
                                         std::size_t player_count, std::vector<LogEvent>& events);
 

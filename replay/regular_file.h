@@ -11,7 +11,7 @@ namespace lockstone::replay {
 
 enum class OpenFor : std::uint8_t {
   reading,
-  replacing,  ///< what is there is emptied
+  replacing,  ///< an existing file is emptied
   creating,   ///< nothing may be there
 };
 

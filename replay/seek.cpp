@@ -38,8 +38,8 @@ std::optional<KeyframePlace> start_of(Source& source, std::uint64_t tick, SeekFr
   return start_tick > 0 && first.tick <= tick ? std::optional(first) : std::nullopt;
 }
 
-// What of the header keeps the log from being stepped at all. Another canary does not: it says that
-// hashes will differ, and where they do is what one looks for.
+// The field of the header that keeps the log from being stepped at all. Another canary does not: it
+// says that hashes will differ, and the caller looks for the tick where they do.
 std::optional<FieldMismatch> obstacle(const SimulationInfo& log, const SimulationInfo& here) {
   SimulationInfo comparable = here;
   comparable.canary = log.canary;

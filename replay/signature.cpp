@@ -240,7 +240,7 @@ SignatureReport check_signatures(Source& source, const std::optional<PublicKey>&
     report.covered_ticks = ticks;
     report.covers_end = ended;
   }
-  // One signature may follow the END, and nothing else: what stands behind it is not covered.
+  // One signature may follow the END, and nothing else: it does not cover bytes behind it.
   if (ended && walk != Walk::finished && report.state == SignatureState::good) {
     report.state = SignatureState::bad;
     report.covers_end = false;

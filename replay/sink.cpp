@@ -20,7 +20,7 @@ FileSink::~FileSink() {
 }
 
 Status FileSink::append(ByteView bytes) {
-  // A signal may cut a write short; what is left is then simply written next.
+  // A signal may cut a write short; the rest is then simply written next.
   while (!bytes.empty()) {
     errno = 0;
     bytes = bytes.subspan(std::fwrite(bytes.data(), 1, bytes.size(), file_));

@@ -16,7 +16,7 @@ Result<std::unique_ptr<FileSource>> FileSource::open(const std::string& path) {
   std::FILE* file = opened.value();
   const auto end = ::fseeko(file, 0, SEEK_END) == 0 ? ::ftello(file) : -1;
   const bool rewound = end >= 0 && ::fseeko(file, 0, SEEK_SET) == 0;
-  // Where the system did not say what it opened, a directory opens and seeks; only reading it
+  // Where the system did not report the file's type, a directory opens and seeks; only reading it
   // fails.
   const bool readable = rewound && (end == 0 || std::fgetc(file) != EOF);
   if (!readable || ::fseeko(file, 0, SEEK_SET) != 0) {

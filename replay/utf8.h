@@ -1,4 +1,4 @@
-// UTF-8: what the texts of a log are, so that they can be printed and put into JSON.
+// UTF-8: all texts of a log must be valid, so that they can be printed and put into JSON.
 #pragma once
 
 #include <cstddef>

@@ -122,8 +122,8 @@ void Verification::start_from_keyframe() {
   report_.divergence->in_keyframe = true;
 }
 
-// The ticks so far agree; does the snapshot hold the same state? This is what catches a field that
-// the hash covers and the snapshot forgets.
+// The ticks so far agree; does the snapshot hold the same state? This catches a field that the hash
+// covers and the snapshot forgets.
 void Verification::check_keyframe() {
   if (scratch_ == nullptr) {
     Result<std::unique_ptr<Simulation>> made = factory_(config_);

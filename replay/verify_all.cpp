@@ -25,7 +25,7 @@ VerifyReport unreadable(Status status) {
 // More parts than this for each thread gain nothing, and each makes a simulation of its own.
 constexpr std::size_t k_parts_per_thread = 8;
 
-// What reading a log from its beginning to its end finds, without simulating.
+// The findings of reading a log from its beginning to its end, without simulating.
 struct Reading {
   LogMap map;
   std::optional<Damage> damage;
@@ -60,7 +60,7 @@ std::vector<KeyframePlace> choose_parts(const LogMap& map, std::size_t parts) {
   return chosen;
 }
 
-// One task of a worker, and what came of it.
+// One task of a worker, and its result.
 struct Task {
   std::size_t log = 0;
   LogSegment segment;
@@ -129,8 +129,8 @@ class ParallelVerification {
     progress_(done_ += ticks, total_);
   }
 
-  // The first finding in the order of the file decides; what is said about the end of the log
-  // comes from the segment that reached it.
+  // The first finding in the order of the file decides; the findings about the end of the log come
+  // from the segment that reached it.
   std::vector<VerifyReport> merge() {
     std::vector<VerifyReport> reports(logs_.size());
     std::vector<bool> begun(logs_.size());

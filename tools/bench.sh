@@ -15,8 +15,7 @@
 # LOCKSTONE_JOBS bounds the number of parallel compilers; the benchmarks themselves use one thread
 # unless they compare several, so let nothing else run beside them. Where the engines under Node are
 # there, ours is built for WebAssembly too, by Emscripten, to be timed beside them.
-#
-# What each benchmark prints is kept in a file NAME.txt beside charts and tables.
+# The output of each benchmark is kept in a file NAME.txt beside charts and tables.
 
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -58,7 +57,7 @@ wasm_player() {
   echo "$folder/tools/bench/player/lockstone_scene_player"
 }
 
-# node_options: what tells `lockstone` of engines under Node; nothing without them.
+# node_options: the options that name engines under Node to `lockstone`; nothing without them.
 node_options() {
   local player
   command -v node >/dev/null && [[ -e $node/package.json ]] || return 0

@@ -59,7 +59,7 @@ lacking() {
   done
 }
 
-# preset_of TARGET: what it is built as.
+# preset_of TARGET: the preset that builds it.
 preset_of() {
   case $1 in
     simd-*) echo gcc-O3 ;;

@@ -3,8 +3,8 @@ check the golden vectors of the numerics and verify a recorded match.
 
 usage: cross_table.py [--jobs N] [--junit FILE] TARGET=COMMAND…
 
-COMMAND may begin with an emulator: `s390x=qemu-s390x build/cross/s390x/tools/lockstone`; what follows a
-` :: ` is added to each run of a scene. The first target lists the scenes, records the match and is the
+COMMAND may begin with an emulator: `s390x=qemu-s390x build/cross/s390x/tools/lockstone`; options behind
+` :: ` are added to each run of a scene. The first target lists the scenes, records the match and is the
 one that the others are compared with. Exits 1 on a difference.
 """
 
@@ -23,7 +23,7 @@ MATCH_TICKS = 300
 
 
 class Target:
-    """A command, and what is added to it when it runs a scene."""
+    """A command, and the options that are added when it runs a scene."""
 
     def __init__(self, text):
         command, _, options = text.partition(" :: ")
@@ -123,7 +123,7 @@ def print_table(rows):
 
 
 def report(targets, scenes, results, checks):
-    """Prints the table and what is wrong; answers {(target, case): complaint or None}."""
+    """Prints the table and the complaints; returns {(target, case): complaint or None}."""
     rows = [["scene", "ticks", *targets]]
     cases = {}
 

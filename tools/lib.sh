@@ -4,7 +4,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
-# LOCKSTONE_JOBS bounds what runs at the same time: compilers, tests, emulators.
+# LOCKSTONE_JOBS bounds how many processes run at the same time: compilers, tests, emulators.
 jobs=${LOCKSTONE_JOBS:-$(nproc)}
 
 say() { printf '\n== %s\n' "$*" >&2; }
@@ -64,10 +64,10 @@ install_possible() {
   ((${#possible[@]} == $# || ${#possible[@]} == 0)) || apt_install "${possible[@]}" || true
 }
 
-# require_packages SECTION…: installs what is missing. apt is not touched when nothing is.
+# require_packages SECTION…: installs missing packages. apt is not touched when none is.
 require_packages() {
   local wanted missing log
-  command -v dpkg-query >/dev/null || die "needs Debian's apt; elsewhere, install by hand what tools/packages.txt lists"
+  command -v dpkg-query >/dev/null || die "needs Debian's apt; elsewhere, install the packages of tools/packages.txt by hand"
   mapfile -t wanted < <(packages_of "$@")
   mapfile -t missing < <(missing_of "${wanted[@]}")
   ((${#missing[@]})) || return 0
@@ -84,7 +84,7 @@ require_packages() {
   rm -f "$log"
 }
 
-# What build_preset builds: these targets, or everything.
+# The targets that build_preset builds; none: everything.
 build_targets=()
 
 # build_preset PRESET [CMAKE-OPTION…]: configures and builds a preset.

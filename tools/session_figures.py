@@ -12,7 +12,7 @@ usage: tools/session_figures.py LOCKSTONE [--part PART]… [--seconds N] [--minu
           player is active; then kill -9 of a player and, 5 s later, of the server, and
           whether its log verifies, up to which tick
 
-Without --part all of them. What is printed is Markdown. `docs/network-session.md` has the figures
+Without --part all of them. The output is Markdown. `docs/network-session.md` has the figures
 of one run.
 """
 
@@ -58,7 +58,7 @@ class Match:
         sys.exit(f"the server never said: {text}")
 
     def finish(self):
-        """What the players and the server say, and the server's processor seconds."""
+        """Returns the output of the players and the server, and the server's processor seconds."""
         self.server.terminate()
         answers = [json.loads(player.stdout.read()) for player in self.players]
         text = self.server.stdout.read()

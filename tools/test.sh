@@ -13,7 +13,7 @@
 #   --cross      also compare the golden scenes between processors, see tools/cross.sh
 #                (default aarch64,s390x)
 #   --explore    also run the tests that draw from a seed with new ones (default 60 s), after all
-#                others. What that finds is counted in a line of its own and printed with the
+#                others. Its findings are counted in a line of their own and printed with the
 #                command that repeats it; the status is then 3, if nothing else failed
 #   --werror     compiler warnings are errors
 #   --help       print this
@@ -25,7 +25,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 passed=0 failed=0 skipped=0
-# What failed, said again at the end, where readers of a long log look first.
+# The failures, printed again at the end, where readers of a long log look first.
 failures=$(mktemp)
 trap 'rm -f "$failures"' EXIT
 

@@ -1,9 +1,9 @@
-"""Counts one test run's report of CTest (JUnit XML) and says what failed, with the end of its output.
+"""Counts one test run's report of CTest (JUnit XML) and prints each failure, with the end of its output.
 
 usage: test_report.py REPORT TITLE FAILURES
 
 Prints "passed failed skipped"; appends to the file FAILURES. A test that could not be started has
-failed: only what says itself that it was skipped is skipped.
+failed: a test counts as skipped only if it reports that itself.
 """
 
 import sys

@@ -5,8 +5,8 @@
 namespace lockstone {
 namespace {
 
-// A piece is this part of what is left of a worker's part of a loop: large at first, small in the
-// end, so that others can help and nobody waits long for the last piece.
+// A piece is this fraction of the remainder of a worker's part of a loop: large at first, small in
+// the end, so that others can help and nobody waits long for the last piece.
 constexpr std::uint32_t k_share_of_rest = 3;
 
 constexpr std::uint64_t cursor(std::size_t loop, std::uint32_t grain) {
@@ -23,7 +23,7 @@ void Parallel::set_runner(TaskRunner* runner, TaskPieces pieces) {
     misused("World::set_task_runner: worker_count() must be 1 … k_max_workers");
 }
 
-// Not what would be done in one piece anyway.
+// Not worth it for loops that would be done in one piece anyway.
 bool Parallel::is_worth_sharing(std::span<const Loop> loops) const {
   return workers_ > 1 &&
          std::ranges::any_of(loops, [&](const Loop& loop) { return loop.count > grain_of(loop); });
@@ -44,7 +44,7 @@ void Parallel::share(std::span<const Loop> loops) {
   LKS_CHECK(done_ == all);
 }
 
-// Whoever runs alone does all of it. Who comes late goes to the loop at hand.
+// Whoever runs alone does all of it. A worker that comes late joins the present loop.
 void Parallel::work(std::uint32_t worker) {
   std::uint64_t end = 0;
   for (std::size_t loop = 0; loop < loops_.size(); ++loop) {
@@ -56,8 +56,8 @@ void Parallel::work(std::uint32_t worker) {
   }
 }
 
-// Tells what it did once, at its end: each time is a wait for the other processors. Parts are whole
-// grains.
+// Reports its finished work once, at its end: each report waits for the other processors. Parts are
+// whole grains.
 void Parallel::work_on(std::size_t index, std::uint32_t worker) {
   const Loop& loop = loops_[index];
   const std::uint32_t grain = grain_of(loop);

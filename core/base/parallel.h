@@ -1,6 +1,6 @@
 // Loops whose pieces run side by side, and sequences of such loops.
 //
-// How a loop is cut depends on the number of workers; what is computed must not.
+// How a loop is cut depends on the number of workers; its results must not.
 #pragma once
 
 #include <algorithm>

@@ -15,8 +15,8 @@ inline void relax_processor() {
 }
 
 /// Each call waits a moment; after many of them, some 20 to 100 µs, the thread makes way for
-/// others: what it waits for takes longer only when another was put aside, and who makes way too
-/// early may get the processor back much later.
+/// others: the wait takes longer only when another thread was descheduled, and a thread that yields
+/// too early may get the processor back much later.
 class Pause {
  public:
   void operator()() {

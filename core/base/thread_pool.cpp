@@ -14,7 +14,7 @@ namespace lockstone {
 namespace {
 
 // Some 200 µs on today's processors, and then as long again or more while others may have the
-// processor: longer than what a tick leaves to one thread at a time, for waking up takes tens of
+// processor: longer than a tick's single-threaded stretches, for waking up takes tens of
 // microseconds.
 constexpr int k_looks_before_yield = 4000;
 constexpr int k_yields_before_sleep = 400;
@@ -26,9 +26,9 @@ std::uint32_t chosen_workers(std::uint32_t workers) {
 
 }  // namespace
 
-// A job is open while the caller is in `run`. Who enters says so first and then looks whether it is
-// open; the caller closes it first and then looks who is inside, and waits. So nobody reads a job
-// that is being exchanged.
+// A job is open while the caller is in `run`. A thread that enters says so first and then looks
+// whether it is open; the caller closes it first and then looks who is inside, and waits. So nobody
+// reads a job that is being exchanged.
 struct ThreadPool::Impl {
   explicit Impl(std::uint32_t workers) {
     for (std::uint32_t worker = 1; worker < workers; ++worker)

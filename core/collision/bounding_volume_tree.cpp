@@ -185,7 +185,7 @@ void BoundingVolumeTree::swap_nodes(std::uint32_t index, int high, int grandchil
   nodes_[lift].parent = index;
   nodes_[tall].child[grandchild] = low;
   nodes_[low].parent = tall;
-  balance(tall);  // the low side may be much lower than what stayed
+  balance(tall);  // the low side may be much lower than the rest
   refit(tall);
 }
 

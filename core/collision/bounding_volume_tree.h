@@ -36,7 +36,7 @@ class BoundingVolumeTree {
   void build(std::span<Item> items);
 
   /// Calls `visit(body)` for every leaf whose bounds and layers pass `test(bounds, layers)`, in no
-  /// promised order. What fails for a box must fail for all that it contains.
+  /// promised order. A test that fails for a box must fail for every box inside it.
   template <class Test, class Visit>
   void traverse(Test&& test, Visit&& visit) const {
     std::uint32_t stack[k_stack_capacity];

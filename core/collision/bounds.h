@@ -48,7 +48,7 @@ struct Bounds {
           {max(a.upper.x, b.upper.x), max(a.upper.y, b.upper.y), max(a.upper.z, b.upper.z)}};
 }
 
-/// What a ball passes on a straight way.
+/// The bounds of a ball on a straight path.
 [[nodiscard]] constexpr Bounds bounds_of_way(const Vec3<Position>& from, const Vec3<Position>& to,
                                              Length radius) {
   const Position reach = rounded<Position>(radius);

@@ -8,7 +8,8 @@ namespace {
 
 // How far a body may go before its fat box is put anew: an eighth of its length on every side, but
 // no more than an eighth of a metre, and ahead as far as it goes in the next ticks at its present
-// speed, but no farther than half its length: what is packed closely meets few that it never meets.
+// speed, but no farther than half its length: so closely packed bodies get few candidates that
+// never touch.
 constexpr BoundsCoordinate k_most_margin = BoundsCoordinate::from_ratio(1, 8);
 constexpr int k_margin_shift = 3;
 constexpr std::int64_t k_ticks_ahead = 8;
@@ -176,7 +177,8 @@ std::span<const Pair> BroadPhase::find_pairs(Parallel& parallel) {
   return pairs_.pairs();
 }
 
-// Calls `emit(pair)` for what may meet and overlaps in fat boxes, if one of the two is touched.
+// Calls `emit(pair)` for each two bodies that may collide and whose fat boxes overlap, if one of
+// them is touched.
 template <class Emit>
 bool BroadPhase::search(Emit&& emit) {
   effort_.searched = static_cast<std::uint32_t>(touched_.size());
@@ -198,7 +200,7 @@ void BroadPhase::settle() {
   if (auto* trees = std::get_if<TreeSearch>(&search_)) trees->refresh(proxies);
 }
 
-// Answers whether the candidates are all there.
+// Returns whether the candidates are complete.
 bool BroadPhase::update_candidates() {
   if (ticks_without_candidates_ > 0) {
     --ticks_without_candidates_;

@@ -3,8 +3,8 @@
 // The pair set is a function of the tight bounds and the traits of the bodies alone. All else is
 // derived: each body has a fat box around its bounds; the pairs whose fat boxes overlap are kept as
 // candidates, and only a body that left its fat box is searched for anew (the move buffer of
-// E. Catto, Box2D and Box3D). What a tick pays when no body does is one test for each candidate,
-// and nothing at all when no bounds changed.
+// E. Catto, Box2D and Box3D). When no body does, a tick costs one test for each candidate, and
+// nothing at all when no bounds changed.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,8 @@ class BroadPhase {
   [[nodiscard]] bool overflowed() const { return pairs_.overflowed(); }
 
   /// Calls `visit(body)` for every body whose category is in `mask` and whose bounds pass
-  /// `test(bounds)`, in no promised order. What fails for a box must fail for all that it contains.
+  /// `test(bounds)`, in no promised order. A test that fails for a box must fail for every box
+  /// inside it.
   template <class Test, class Visit>
   void traverse(std::uint32_t mask, Test&& test, Visit&& visit) const {
     traverse_some(mask, true, test, visit);

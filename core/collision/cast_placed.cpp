@@ -9,7 +9,7 @@
 namespace lockstone {
 namespace {
 
-// What rounding the frames of shape, way and asset may take from boxes. 8 µm
+// Boxes grow by this much, for the rounding of the frames of shape, path and asset. 8 µm
 constexpr Length k_frame_margin = Length::from_raw(8);
 
 class RayPieces final : public geometry::WayPartVisitor {

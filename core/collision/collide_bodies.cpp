@@ -34,7 +34,7 @@ Manifold collide_pieces(const BodyPair& pair, const Piece& a, const Piece& b) {
   return collide(a.posed(), b.posed(), saturated<Length>(b.origin - a.origin), pair.margin);
 }
 
-constexpr Length k_inside_slack = Length::from_ratio(1, 1000);  // far above what anything rounds
+constexpr Length k_inside_slack = Length::from_ratio(1, 1000);  // far above all rounding errors
 
 // Whether A is a ball that clearly holds a point inside B: then they overlap, whatever their
 // surfaces do.

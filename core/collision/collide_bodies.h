@@ -22,8 +22,8 @@ struct PartContact {
   Manifold manifold;
 };
 
-/// Manifolds of one pair of bodies, ascending by parts. What does not fit is left out, the last
-/// first, and `overflowed` says so.
+/// Manifolds of one pair of bodies, ascending by parts. Manifolds that do not fit are left out, the
+/// last first, and `overflowed` says so.
 struct PartContacts {
   static constexpr int k_capacity = 64;
 
@@ -46,7 +46,7 @@ struct PartContacts {
   }
 };
 
-/// What colliding with triangles needs room for; only worlds that know such assets have it.
+/// Scratch memory for colliding with triangles; only worlds that know such assets have it.
 struct TriangleScratch {
   geometry::TriangleContacts contacts;
   geometry::MeshManifolds manifolds;

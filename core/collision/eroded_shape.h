@@ -10,7 +10,7 @@ namespace lockstone {
 
 /// A piece whose surface lies deeper by about `depth`, less than its inner radius. Of a polytope
 /// each vertex goes inward by that much along the mean normal of its faces; the faces are not to be
-/// used. Then it is shortened by the factor `share` about its middle; what is round keeps its
+/// used. Then it is shortened by the factor `share` about its middle; a round shape keeps its
 /// radius.
 struct ErodedShape {
   ErodedShape(const Piece& piece, Length depth, Unit share = Unit::from_integer(1));

@@ -103,8 +103,8 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
 constexpr int k_half_depth = 4;
 constexpr int k_last_depth = 7;
 
-// A triangle's front lets nothing through: what has sunk in beside it, and is nearest to a rim from
-// below, is held by the front as well.
+// Nothing passes a triangle from its front: a shape that has sunk in beside it, and is nearest to a
+// rim from below, is held by the front as well.
 Vec3<Unit> crossing_from_front(const Piece& b, const Vec3<Unit>& crossing) {
   if (!b.triangle.is_triangle || crossing == Vec3<Unit>{}) return crossing;
   const Vec3<Unit> front = rotate(b.rotation, b.polytope->faces.front().normal);
@@ -155,8 +155,8 @@ class PiecesOfB final : public PieceVisitor {
     return {deep, {}};
   }
 
-  // When the middle of what is deep in B already comes there too: a rod may pass through a wall
-  // that its tip was in.
+  // The moment at which the middle of A, deep in B from the beginning, runs into it too: or a rod
+  // would pass through a wall that its tip was in.
   [[nodiscard]] Meeting cross(const SweptShape& b) const {
     for (const int share : {4, 2, 1}) {
       const TimeOfImpact found = find(k_last_depth, b, Unit::from_ratio(share, 8));
@@ -166,7 +166,7 @@ class PiecesOfB final : public PieceVisitor {
     return {};
   }
 
-  // When A, eroded to a depth, comes to B; 0 when it is there from the beginning.
+  // When A, shrunk by a depth, reaches B; 0 when it overlaps from the beginning.
   [[nodiscard]] Unit time_at(int depth, const SweptShape& b) const {
     const TimeOfImpact found = find(depth, b, Unit::from_integer(1));
     return found.state == TimeOfImpactState::separated ? k_never : found.fraction;

@@ -29,13 +29,13 @@ struct Impact {
   Vec3<Unit> crossing{};
 };
 
-/// The gap that is left at an impact, or a part of the thickness of what is thinner.
+/// The gap that is left at an impact, or a part of the thickness of the thinner shape.
 inline constexpr Length k_impact_gap = Length::from_ratio(1, 2000);
 
-/// The first moment at which A would run into B by more than half of A's thickness. What touches or
-/// overlaps at the beginning and only slides along, or sinks in less than that, is no impact: that
-/// is the contact solver's. Of a mesh only the fronts are met. Every part of B near A's way is
-/// tried; ties go to the lower parts.
+/// The first moment at which A would run into B by more than half of A's thickness. A shape that
+/// touches or overlaps at the beginning and only slides along, or sinks in less than that, has no
+/// impact: the contact solver handles it. Of a mesh only the fronts are met. Every part of B near
+/// A's way is tried; ties go to the lower parts.
 [[nodiscard]] Impact first_impact(const MovingShape& a, const MovingShape& b);
 
 }  // namespace lockstone

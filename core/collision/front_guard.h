@@ -1,5 +1,6 @@
-// Holds the centres of what is thin before the fronts of triangles, which meet nothing whose centre
-// is behind them: what sinks farther than it is thick would fall through.
+// Keeps the centre of a thin body on the front side of one-sided triangles. Triangles do not
+// collide with a body whose centre is behind them, so a body that sank farther than its thickness
+// would fall through.
 #pragma once
 
 #include <lockstone/units.h>
@@ -9,8 +10,9 @@
 
 namespace lockstone {
 
-/// Pieces whose inner radius is at most this are held. Others do not sink as far: what goes farther
-/// than half its inner radius in a tick is followed, and contacts push out what went less.
+/// Pieces whose inner radius is at most this are held. Thicker pieces do not sink as far:
+/// continuous collision stops those that move farther than half their inner radius in a tick, and
+/// contacts push out the others.
 inline constexpr Length k_thin_radius = Length::from_ratio(1, 50);
 
 /// A shape where it was when a tick began, and where it is now.
@@ -19,12 +21,12 @@ struct PlacedWay {
   PlacedShape end;
 };
 
-/// What brings A back before a front.
+/// Brings A back before a front.
 struct FrontPush {
   bool found = false;
   Unit fraction{};        ///< of the tick, when the front was crossed
   Vec3<Position> by{};    ///< the least that brings it before this front
-  Vec3<Position> back{};  ///< what takes the piece's centre to where it was at the beginning
+  Vec3<Position> back{};  ///< takes the piece's centre to where it was at the beginning
 };
 
 /// The first front of the mesh, which stands still, that the centre of a thin piece of A passed on

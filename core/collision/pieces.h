@@ -30,7 +30,7 @@ class PieceVisitor {
   ~PieceVisitor() = default;
 };
 
-/// What a placed asset has near a box, in its own frame.
+/// The bounds, in a placed asset's frame, of the asset's part near a box.
 struct OrientedBox;
 [[nodiscard]] geometry::LocalBounds local_region(const PlacedShape& placed,
                                                  const OrientedBox& region, Length margin);
@@ -54,7 +54,8 @@ struct OrientedBox {
 [[nodiscard]] Piece piece_of(const PlacedShape& placed, const geometry::Part& part);
 
 /// The point by which contacts tell the front of a triangle from its back: the centre, of a hull a
-/// point inside. The middle of a hull's bounds may be outside, and behind what is before it.
+/// point inside. The middle of a hull's bounds may be outside, and behind a front that the hull is
+/// before.
 [[nodiscard]] Vec3<Position> middle_of(const Piece& piece);
 
 /// Whether the piece is a triangle of a mesh and the point lies behind it: triangles are met from

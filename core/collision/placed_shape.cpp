@@ -12,7 +12,7 @@ const geometry::Solid* solid_of(const Asset* asset) {
   return asset == nullptr ? nullptr : asset->solid();
 }
 
-// Beyond any coordinate of a world, within what bounds can hold.
+// Beyond any coordinate of a world, within the range of bounds.
 constexpr Position k_everywhere = Position::from_integer((1 << 21) - 1);
 
 // A half-space with an upright normal ends at its plane; a tilted one is everywhere.
@@ -40,7 +40,7 @@ WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& loca
   return {at - reach, at + reach};
 }
 
-// The least and the greatest of the vertices along each axis, and what rounding them may hide.
+// The least and the greatest of the vertices along each axis, and their rounding error.
 WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytope) {
   constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
   constexpr Position k_rounding = Position::from_raw(1 << 13);

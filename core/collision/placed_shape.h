@@ -1,4 +1,4 @@
-// A body's shape where it is: what pairs, bounds and queries work on.
+// A body's shape at its pose, for pairs, bounds and queries.
 #pragma once
 
 #include <lockstone/asset.h>
@@ -19,7 +19,7 @@ struct PlacedShape {
   Vec3<Position> centre{};       ///< of mass; of a shape without mass its origin
 };
 
-/// What of an asset's frame follows from its body's rotation alone.
+/// The part of an asset's frame that follows from its body's rotation alone.
 struct ShapeFrame {
   Mat3 rotation{};
   Vec3<Position> centre{};  ///< of mass, as seen from the frame's origin, in world axes
@@ -38,7 +38,7 @@ struct ShapeFrame {
 [[nodiscard]] Transform body_pose(const Asset* asset, const Transform& shape_pose);
 [[nodiscard]] Transform shape_pose(const Asset* asset, const Transform& body_pose);
 
-/// World-axis bounds, rounded outward; a half-space's reach to the ends of what bounds can hold.
+/// World-axis bounds, rounded outward; a half-space's reach to the limits of the type.
 struct WorldBox {
   Vec3<Position> lower{};
   Vec3<Position> upper{};

@@ -1,4 +1,4 @@
-// What the broad phase knows of a body besides its bounds.
+// The broad phase's data of a body besides its bounds.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct ProxyTraits {
   bool moves = false;       ///< kinematic or dynamic
   bool is_dynamic = false;  ///< can be pushed
   bool is_trigger = false;
-  bool is_asleep = false;  ///< counts as standing, but stays among what moves
+  bool is_asleep = false;  ///< counts as standing, but stays in the list of moving bodies
 
   friend constexpr bool operator==(const ProxyTraits&, const ProxyTraits&) = default;
 };

@@ -48,8 +48,8 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
 }
 
 // Separating axes of a segment and a box: the box's axes, then their cross products with the
-// segment (C. Ericson, "Real-Time Collision Detection", 5.3.3). |way| ≤ 2^20, what is left of the
-// other lengths after the first test ≤ 2^33: products fit.
+// segment (C. Ericson, "Real-Time Collision Detection", 5.3.3). |way| ≤ 2^20, the other lengths
+// after the first test ≤ 2^33: products fit.
 bool SegmentProbe::meets(const Bounds& bounds) const {
   if (!overlap(swept_, bounds)) return false;
   std::int64_t offset[3], extent[3];

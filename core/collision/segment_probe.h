@@ -1,4 +1,4 @@
-// A straight path against bounds: what rays and casts walk trees with.
+// A straight path against bounds, with which rays and casts walk trees.
 #pragma once
 
 #include <lockstone/transform.h>
@@ -18,7 +18,7 @@ class SegmentProbe {
   SegmentProbe(const Vec3<Position>& origin, const Vec3<Length>& translation,
                const Vec3<Length>& reach);
 
-  /// Gives up what lies beyond a fraction of the translation.
+  /// Gives up the part of the path beyond a fraction of the translation.
   void shorten(Unit fraction);
 
   [[nodiscard]] bool meets(const Bounds& bounds) const;

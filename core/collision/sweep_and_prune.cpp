@@ -61,7 +61,7 @@ bool SweepAndPrune::concerns(Listed kind, std::span<const std::uint32_t> touched
   });
 }
 
-// Takes over new boxes and drops what no longer belongs.
+// Takes over new boxes and drops bodies that no longer belong.
 void SweepAndPrune::update(std::vector<Entry>& list, Listed kind, std::span<const Proxy> proxies,
                            std::span<const std::uint8_t> is_touched) {
   std::size_t kept = 0;
@@ -86,7 +86,7 @@ SweepAndPrune::Entry SweepAndPrune::entry_of(std::uint32_t body, const Proxy& pr
           body};
 }
 
-// What moves a little keeps nearly its order, where sorting by insertion takes one pass. A list
+// Bodies that move a little nearly keep their order, so that insertion sort takes one pass. A list
 // that proves to be far from sorted is sorted as any other.
 void SweepAndPrune::sort(std::vector<Entry>& list) {
   std::size_t moves_left = 8 * list.size();
@@ -104,8 +104,8 @@ void SweepAndPrune::sort(std::vector<Entry>& list) {
   }
 }
 
-// Where what moves is spread farthest, by the mean distance from the mean: along it the fewest
-// boxes overlap. Another axis must be better by half, lest two take turns.
+// The axis along which the moving bodies are spread farthest, by the mean distance from the mean:
+// along it the fewest boxes overlap. Another axis must be better by half, lest two take turns.
 int SweepAndPrune::widest_axis() const {
   const std::vector<Entry>& list = lists_[1];
   const auto count = static_cast<std::int64_t>(std::max<std::size_t>(list.size(), 1));

@@ -113,12 +113,12 @@ class SweepAndPrune {
     return true;
   }
 
-  std::vector<Entry> lists_[2];  // what stands; what moves
+  std::vector<Entry> lists_[2];  // standing; moving
   std::vector<Listed> listed_;   // by body
   int axis_ = 0;
   std::uint32_t refreshes_ = 0;
 
-  // Of one search: what moves, in two parts, and of what stands the touched.
+  // Of one search: the moving bodies, in two parts, and the touched ones of the standing.
   std::vector<Entry> touched_, untouched_, touched_standing_;
 };
 

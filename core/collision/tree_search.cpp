@@ -6,7 +6,7 @@ namespace lockstone {
 namespace {
 
 // A tree is built anew when more than this part of its leaves changes at once, or as many as it has
-// were put in one by one: what is packed closely makes it worse each time.
+// were put in one by one: in closely packed scenes each insertion makes it worse.
 constexpr std::uint32_t k_rebuilt_part = 4;
 constexpr std::uint32_t k_least_rebuilt = 8;
 

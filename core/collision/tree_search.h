@@ -1,4 +1,4 @@
-// The broad phase by trees: one for what nothing pushes and one for dynamic bodies.
+// The broad phase by trees: one for static and kinematic bodies and one for dynamic bodies.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class TreeSearch {
   void put(std::uint32_t body);
   void remove(std::uint32_t body);
 
-  /// Puts what waits into the trees: one by one, or a tree as a whole when much of it changes.
+  /// Puts the waiting bodies into the trees: one by one, or a tree as a whole when much of it
+  /// changes.
   void refresh(std::span<const Proxy> proxies);
 
   /// Calls `emit(a, b)` once, in no promised order, for every two bodies of which one is touched
@@ -86,7 +87,7 @@ class TreeSearch {
   void insert(std::uint32_t body, const Proxy& proxy);
   void rebuild(bool dynamic, std::span<const Proxy> proxies);
 
-  BoundingVolumeTree trees_[2];  // of what nothing pushes; of dynamic bodies
+  BoundingVolumeTree trees_[2];  // of static and kinematic bodies; of dynamic bodies
   std::uint32_t leaves_[2] = {};
   std::uint32_t inserted_[2] = {};  // one by one, since all were put in at once
   std::vector<Place> places_;       // by body

@@ -27,7 +27,7 @@ class BoxBatch {
   void add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin);
   void collide();
 
-  /// After `collide`. What is settled has points.
+  /// After `collide`. A settled pair has points.
   [[nodiscard]] bool is_settled(std::size_t pair) const { return counts_[pair] > 0; }
   void write(std::size_t pair, Manifold& out) const;
 

@@ -22,7 +22,8 @@ struct ClipVertex {
   std::uint32_t edge;
 };
 
-/// Convex, in order. What does not fit is left out: a quadrilateral gives no more than eight.
+/// Convex, in order. Vertices that do not fit are left out: a quadrilateral gives no more than
+/// eight.
 struct ClipPolygon {
   static constexpr int k_capacity = 8;
 
@@ -69,7 +70,7 @@ struct Slab {
     return most <= high_end(least) && least >= -low_end(most);
   }
 
-  /// What of the polygon is within.
+  /// The part of the polygon that is within.
   void clip(const ClipPolygon& polygon, ClipPolygon& result) const {
     Fine least = polygon[0].at[Axis], most = least;
     for (int i = 1; i < polygon.count; ++i) {

@@ -1,4 +1,4 @@
-// Two boxes and what is known of them: relative rotation, centres, separating axes.
+// Two boxes with their relative rotation, centres and separating axes.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What is left of a face of a box between the sides of another's, as far as points come of it.
+// A box's face clipped to the sides of another box's face, as far as points come of it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace lockstone::geometry {
 
 using lanes::FaceMeeting;
 
-/// Two polygons, one of which holds what is left of the incident face.
+/// Two polygons, one of which holds the clipped incident face.
 struct Clipping {
   ClipPolygon polygons[2];
 

@@ -17,7 +17,7 @@ int dominant_sign(const Vec3<Length>& offset) {
   return geometry::sign_of(offset[dominant].raw);
 }
 
-/// Of one kind, the greater comes first: what is one-sided, then by asset, then by sizes.
+/// Of one kind, the greater comes first: one-sided ones, then by asset, then by sizes.
 auto rank(const PosedShape& posed) {
   const bool one_sided = posed.polytope != nullptr && posed.polytope->one_sided;
   const Shape& shape = posed.shape;
@@ -30,8 +30,8 @@ auto entries_of(const Mat3& m) {
 
 /// Whether B takes the first place: the higher kind, then the higher rank, then the lower place
 /// along the axis that separates the centres most; concentric ones go by their rotations. So either
-/// order of the arguments runs the same computation, and what rests on another keeps its role while
-/// it wobbles. Spheres stay as they are: they have no roles.
+/// order of the arguments runs the same computation, and a shape that rests on another keeps its
+/// role while it wobbles. Spheres stay as they are: they have no roles.
 bool belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>& offset) {
   if (a.shape.kind != b.shape.kind) return b.shape.kind > a.shape.kind;
   if (a.shape.kind == ShapeKind::sphere) return false;

@@ -21,8 +21,8 @@ struct FaceChoice {
   [[nodiscard]] Fine separation() const { return std::max(a.separation, b.separation); }
 };
 
-/// Two boxes, the choice between their faces, and which way round the manifold is wanted. What
-/// fills a manifold leaves nothing of what was there.
+/// Two boxes, the choice between their faces, and which way round the manifold is wanted. Functions
+/// that fill a manifold overwrite all of it.
 struct BoxMeeting {
   const BoxPair& pair;
   FaceChoice faces;
@@ -62,8 +62,8 @@ void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
 }
 
 /// The boxes are apart: the separation of the first manifold that attains the distance is it.
-/// A face or an edge attains its axis' separation, which no distance is below; what remains
-/// involves a vertex.
+/// A face or an edge attains its axis' separation, which no distance is below; all other cases
+/// involve a vertex.
 void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
   const Fine separation = edge.found ? edge.separation : meeting.faces.separation();
   if (!keeps(separation, meeting.pair.margin)) return meeting.part_by(edge.normal, out);
@@ -96,8 +96,8 @@ void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
     if (attains(out, separation)) return;
     return collide_apart(meeting, best_edge(pair, separation), out);
   }
-  // Of what lies on a face, the polygon mostly shows that along every axis the boxes overlap by too
-  // much for an edge.
+  // For a box that lies on a face, the polygon mostly shows that the boxes overlap along every axis
+  // by too much for an edge.
   const Fine threshold = std::min(edge_threshold(separation), Fine{0});
   const Fine wanted = threshold < 0 ? -threshold + k_agreement : 0;
   const bool shallow = -separation <= pair.half_a[faces.a.axis] / 8;

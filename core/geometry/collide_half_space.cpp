@@ -12,7 +12,7 @@
 namespace lockstone::geometry {
 namespace {
 
-/// A plane through A's centre, and the shape B that may lie in what is below it.
+/// A plane through A's centre, and the shape B that may reach below it.
 struct PlaneMeeting {
   Vec3<Unit> normal;
   const PosedShape& b;

@@ -15,7 +15,7 @@
 namespace lockstone::geometry {
 namespace {
 
-/// What is known of the pair when no face separates it by more than the margin.
+/// A pair that no face separates by more than the margin, and the findings so far.
 struct Meeting {
   const PosedShape& posed_a;
   const PosedShape& posed_b;
@@ -184,15 +184,15 @@ Manifold collide_overlapping(const Meeting& meeting) {
 
 /// Whether the manifold of a face, whose plane separates by `plane`, is where the polytopes are
 /// nearest, and pushes to the front of one-sided A: beside a rim several faces are as near, and one
-/// of them may lean back; what is left of a face that the other polytope cuts may be as near too.
+/// of them may lean back; a face clipped by the other polytope may be as near too.
 bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine plane, Fine separation) {
   if (plane < separation - k_face_slack || !attains(manifold, separation)) return false;
   const Vec3<Unit> n = rotate_inverse(meeting.pair.rotation_a, manifold.normal);
   return meeting.toward_front.allows(-n);
 }
 
-/// Some axis separates: the first manifold that attains the distance is it. What is neither a face
-/// nor two crossing edges involves a vertex.
+/// Some axis separates: the first manifold that attains the distance is it. A case that is neither
+/// a face nor two crossing edges involves a vertex.
 Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
   const Fine separation = edge.found ? edge.separation : meeting.separation();
   if (!keeps(separation, meeting.pair.margin)) {
@@ -258,8 +258,8 @@ Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePa
   return collide_meeting(meeting);
 }
 
-/// Of one-sided A. What points backward through it does not push. Shapes that touch are as near
-/// along many directions: where one that leans back was found, GJK decides.
+/// Of one-sided A. Normals that point backward through it do not push. Shapes that touch are as
+/// near along many directions: where one that leans back was found, GJK decides.
 Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
   const PolytopeView& view = pair.from_a;
   const PolytopeFace& front = view.own.faces[0];

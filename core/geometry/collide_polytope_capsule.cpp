@@ -1,6 +1,6 @@
 // Polytope against capsule. Apart: the point of the core nearest to the polytope. A core inside:
 // the axis of least overlap. Where a face meets the side, the core is clipped against the face's
-// side planes and gives two points. What these features do not prove, GJK and EPA decide.
+// side planes and gives two points. GJK and EPA decide the cases that these features do not prove.
 #include <algorithm>
 
 #include "core/geometry/contact_choice.h"

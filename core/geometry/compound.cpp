@@ -263,7 +263,7 @@ const geometry::Solid* Compound::solid() const {
 
 namespace {
 
-// Children that the window meets within what the visitor still asks for.
+// Children that the window meets within the visitor's present limit.
 template <class Data, class Window, class Limit, class Visitor>
 void visit_met(const Data& data, const Window& window, Limit most, Visitor& visitor) {
   std::int64_t at = 0;

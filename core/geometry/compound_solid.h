@@ -20,8 +20,9 @@ struct PlacedSolid {
   BlockFloat weight{};      ///< relative density · volume
 };
 
-/// Centre, axes, moments and radii of all together; `volume` is the sum of the weights. What two
-/// solids share counts twice. `inner_radius` is that of the best single solid. At least one solid.
+/// Centre, axes, moments and radii of all together; `volume` is the sum of the weights. The common
+/// part of two solids counts twice. `inner_radius` is that of the best single solid. At least one
+/// solid.
 [[nodiscard]] Solid combined(std::span<const PlacedSolid> solids);
 
 /// The solid of a sphere, capsule or box.

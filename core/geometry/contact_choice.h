@@ -1,4 +1,4 @@
-// What a manifold has to do with the axis that was found: shared by the pairs of solids.
+// Relates a manifold to the axis that was found: shared by the pairs of solids.
 #pragma once
 
 #include "core/geometry/contact_point.h"

@@ -22,7 +22,7 @@ struct Witnesses {
   RawVec on_b;
 };
 
-/// A vector rounded to lengths; what leaves ±2048 m saturates (only in pairs far apart).
+/// A vector rounded to lengths; lengths beyond ±2048 m saturate (only in pairs far apart).
 [[nodiscard]] Vec3<Length> to_length(const RawVec& fine_vector);
 
 /// Appends a point with the anchors that `ManifoldPoint` describes, unless `keeps` refuses it.
@@ -30,7 +30,7 @@ struct Witnesses {
 void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length>& offset,
                Fine separation, Length margin, std::uint32_t feature);
 
-/// Whether `ManifoldPoint` puts the anchors of what touches a flat shape on this one's surface.
+/// Whether `ManifoldPoint` puts the anchors of a contact with a flat shape on this one's surface.
 [[nodiscard]] constexpr bool is_round(const Shape& shape) {
   return shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
 }

@@ -96,8 +96,8 @@ auto wide_product_with(const RawVec& d) {
 }
 
 /// The vertex greatest along a direction of any length. Of listed vertices, those are compared
-/// exactly that the direction's leading 31 bits put close to the greatest: what is cut is below 1
-/// in each component, so a product errs by less than |x| + |y| + |z| < 2^32.
+/// exactly that the direction's leading 31 bits put close to the greatest: the cut bits are worth
+/// less than 1 in each component, so a product errs by less than |x| + |y| + |z| < 2^32.
 std::uint8_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& direction) {
   if (core.vertex_count == 0) return greatest_vertex(core, wide_product_with(direction));
   const RawVec leading = truncated(direction, 31);

@@ -33,8 +33,8 @@ bool add_off_plane(const LatticePair& pair, const RawVec& direction, Frame& fram
   return false;
 }
 
-/// One more dimension: along directions that span the complement of what the frame spans, some
-/// vertex lies off it unless the difference is that flat.
+/// One more dimension: along directions that span the complement of the frame, some vertex lies off
+/// it unless the difference is that flat.
 bool add_dimension(const LatticePair& pair, Frame& frame) {
   if (frame.count == 3) {
     return add_off_plane(pair, narrow_cross(frame.edge(1), frame.edge(2)), frame);

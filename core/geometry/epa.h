@@ -14,12 +14,12 @@ struct Penetration {
   bool exact = true;         ///< false when the search ran out of room: `depth` still separates
 };
 
-/// The least translation that separates the shapes, for what `distance` takes: the
-/// same bounds on the offset, and mirrored bit for bit for exchanged arguments. Error ≤ 2 µm and
-/// 30e-9 of the sizes, 16 steps of the lattice; ten million random pairs stayed below 13e-9. Of
-/// equal ways out the first found. Cores that overlap in a flat difference (crossing segments, a
-/// point on a segment) have depth zero along its normal, away from A's centre; concentric points
-/// separate upwards.
+/// The least translation that separates the shapes. Takes the shapes of `distance`, with the same
+/// bounds on the offset, and mirrored bit for bit for exchanged arguments. Error ≤ 2 µm and 30e-9
+/// of the sizes, 16 steps of the lattice; ten million random pairs stayed below 13e-9. Of equal
+/// ways out the first found. Cores that overlap in a flat difference (crossing segments, a point on
+/// a segment) have depth zero along its normal, away from A's centre; concentric points separate
+/// upwards.
 [[nodiscard]] Penetration penetration(const PosedShape& a, const PosedShape& b,
                                       const Vec3<Length>& offset);
 

@@ -1,8 +1,8 @@
 // A polytope inside B − A that grows towards its boundary where that is nearest to the origin.
 //
 // Van den Bergen, Proximity queries and penetration depth computation on 3D game objects (2001),
-// with exact orientation on the lattice in place of his guards against rounding: what a vertex sees
-// is decided by signs, so the visible faces are one patch, its rim is one loop, and no new face is
+// with exact orientation on the lattice in place of his guards against rounding: signs decide which
+// faces a vertex sees, so the visible faces are one patch, its rim is one loop, and no new face is
 // degenerate (a face in line with the rim's edge would not have been visible).
 #pragma once
 

@@ -13,7 +13,7 @@ class FacePlane {
   FacePlane(const TriangleVertices& triangle, const Vec3<Unit>& normal)
       : triangle_(triangle), normal_(normal) {}
 
-  /// Error < 2^-48 m, and what the norm's error explains.
+  /// Error < 2^-48 m, plus the effect of the norm's error.
   [[nodiscard]] Fine height(const RawVec& point) const {
     return dot(point - fine(triangle_[0]), normal_);
   }

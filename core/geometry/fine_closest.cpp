@@ -11,7 +11,8 @@ namespace {
 
 constexpr int k_max_steps = 32;
 
-/// The point nearest to the origin of what one to three vertices of B − A span, if it lies within.
+/// The point nearest to the origin of the span of one to three vertices of B − A, if it lies
+/// within.
 struct Candidate {
   bool is_within = false;
   Simplex simplex{};

@@ -10,8 +10,8 @@ using Weight = std::int64_t;
 inline constexpr int k_weight_bits = 60;
 inline constexpr Weight k_whole = Weight{1} << k_weight_bits;
 
-/// The features' vertices in fine lanes and what they weigh at the closest point. The first one
-/// takes what the others leave.
+/// The features' vertices in fine lanes and their weights at the closest point. The first weight is
+/// the rest to one.
 struct FineFeatures {
   int count = 0;
   std::array<RawVec, 3> a{};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Unit k_whole_way = Unit::from_integer(1);
 
-// What may be beside a triangle and still counts.
+// A crossing this far beside a triangle still counts.
 constexpr Length k_beside = Length::from_raw(64);
 
 class CrossingSearch final : public PartVisitor {

@@ -10,8 +10,8 @@
 
 namespace lockstone::geometry {
 
-/// Nearer than this to a front a point counts as through it: far above what rounding the frames of
-/// bodies and their pieces makes of a height. 7.6 µm
+/// Nearer than this to a front a point counts as through it: far above the error of a height by
+/// rounded frames of bodies and pieces. 7.6 µm
 inline constexpr Length k_front_guard = Length::from_raw(8);
 
 /// Straight, in the asset's frame, to 2^-21 m.

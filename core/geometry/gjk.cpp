@@ -93,7 +93,7 @@ bool GapQuery::find(const RawVec& offset) {
   return true;
 }
 
-/// What is apart by the exact vertices is apart, whatever the lattice says.
+/// Shapes that are apart by the exact vertices are apart, whatever the lattice says.
 bool GapQuery::find_fine() {
   const FineClosest closest = fine_closest(fine_pair(), simplex_);
   if (!closest.apart) return false;

@@ -19,8 +19,8 @@ struct ClosestFeature {
 /// How far two shapes are apart.
 struct ClosestPoints {
   bool overlapping = false;  ///< the shapes share a point
-  /// What lies within the radii does: then no more is known. Never set beside a half-space, whose
-  /// normal and points are always given.
+  /// The cores (the shapes without their radii) overlap: then nothing else is known. Never set
+  /// beside a half-space, whose normal and points are always given.
   bool cores_overlap = false;
   Position distance{};     ///< m; zero when overlapping
   Vec3<Unit> normal{};     ///< from A to B, world axes; zero when the cores overlap
@@ -48,7 +48,7 @@ namespace geometry {
   return Position::from_raw(raw::round_shift(length, k_fine_bits - Position::frac_bits));
 }
 
-/// What GJK ends with on the lattice.
+/// The result of GJK on the lattice.
 struct GjkResult {
   bool overlapping = false;  ///< the simplex holds the origin
   Simplex simplex{};

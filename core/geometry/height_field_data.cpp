@@ -7,7 +7,7 @@
 namespace lockstone::geometry {
 namespace {
 
-/// The sample beyond each edge of a half: what the neighbour has there, and the neighbour's cell.
+/// The sample beyond each edge of a half: the neighbour's sample there, and the neighbour's cell.
 struct Neighbour {
   GridPoint cell;
   GridPoint apex;

@@ -1,4 +1,4 @@
-// What a height field consists of.
+// The data of a height field.
 #pragma once
 
 #include <cstdint>

@@ -107,8 +107,8 @@ bool drop_redundant(Points& points, std::vector<std::uint16_t> suspects,
   return points.size() < before;
 }
 
-/// Drops points until all that are left are vertices where three faces meet or more. What is left
-/// is left alone when it is given again.
+/// Drops points until every remaining one is a vertex where three or more faces meet. Reducing the
+/// result again changes nothing.
 Boundary reduce(Points& points, const HullOptions& options) {
   while (!points.empty()) {
     geometry::HullTriangles hull = geometry::hull_triangles(points, options);

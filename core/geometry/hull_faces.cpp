@@ -208,7 +208,7 @@ class Merger {
       const MergeCandidate best = *std::min_element(candidates_.begin(), candidates_.end());
       merge(best.a, best.b);
     }
-    dented_.clear();  // only what keeps the final faces apart counts
+    dented_.clear();  // only dents between the final faces count
     for (std::size_t face = 0; face < loops_.size(); ++face)
       consider_neighbours(static_cast<std::uint16_t>(face), face);
     std::erase_if(loops_, [](const Loop& loop) { return loop.empty(); });

@@ -204,7 +204,7 @@ void Builder::add(FacetIndex facet) {
   retire_visible(apex);
 }
 
-/// Collects what the eye sees, starting from a facet that it does see.
+/// Collects the facets that the eye sees, starting from one of them.
 void Builder::see(FacetIndex start, const Vec3<Length>& eye) {
   at(start).is_visible = true;
   visible_.push_back(start);
@@ -218,7 +218,7 @@ void Builder::see(FacetIndex start, const Vec3<Length>& eye) {
   }
 }
 
-/// A new facet across each edge between what is seen and what is not. The edges are one cycle.
+/// A new facet across each edge between a seen and an unseen facet. The edges are one cycle.
 void Builder::join_horizon(int apex) {
   for (const FacetIndex seen : visible_) {
     for (const FacetIndex outer : std::array(at(seen).neighbour)) {

@@ -20,8 +20,9 @@ inline constexpr int k_max_manifold_points = 4;
 /// One contact point. Anchors are relative to each body's centre, in world axes.
 /// Apart (separation > 0): each anchor is the witness on its own body's surface, so that both meet
 /// when the gap closes. Touching or overlapping: both are one point, so that an impulse pair exerts
-/// no net torque: where a sphere or a capsule meets what is neither, that on its own surface, so
-/// that it rolls at its radius however deep it has sunk; else the midpoint between the surfaces.
+/// no net torque: where a sphere or a capsule meets another kind of shape, the point on the round
+/// surface, so that it rolls at its radius however deep it has sunk; else the midpoint between the
+/// surfaces.
 struct ManifoldPoint {
   Vec3<Length> anchor_a;
   Vec3<Length> anchor_b;
@@ -59,11 +60,11 @@ struct PosedShape {
 /// both surfaces within 2 µm, for two boxes 32 µm for each flush edge that was snapped, and for two
 /// points along a capsule within 1/1000 of its radius; where a capsule's core is inside a box, the
 /// point is the deepest of the core.
-///
-/// What has a polytope keeps to the same bounds as boxes; where more than four points were reduced,
-/// the deepest may be 7.6 µm deeper than those kept. A one-sided polytope (a triangle of a mesh)
-/// meets nothing whose centre (of a hull: the interior point) is behind its front, and its normals
-/// lean backward by at most 2^-10. A half-space meets everything but its like.
+/// Pairs with a polytope keep to the same bounds as boxes; where more than four points were
+/// reduced, the deepest may be 7.6 µm deeper than those kept. A one-sided polytope (a triangle of a
+/// mesh) does not collide with a shape whose centre (of a hull: the interior point) is behind its
+/// front, and its normals lean backward by at most 2^-10. A half-space meets everything but its
+/// like.
 ///
 /// collide(b, a, −offset) gives the same manifold flipped, bit for bit (of two spheres, the anchors
 /// within one step; equal shapes with one centre and one rotation have no order). Mirror images
@@ -74,7 +75,7 @@ struct PosedShape {
 [[nodiscard]] Manifold collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                                Length margin);
 
-/// As above, in place; nothing is left of what was there.
+/// As above, in place; the old contents are overwritten.
 void collide(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin,
              Manifold& out);
 

@@ -29,7 +29,7 @@ struct FaceVertex {
 };
 
 /// Removes vertices whose separation `keeps` refuses. Keeps the order of the rest, which come
-/// first; answers how many.
+/// first; returns their number.
 [[nodiscard]] int drop_far_vertices(std::span<FaceVertex> polygon, Length margin);
 
 /// More than any polygon has.

@@ -210,7 +210,7 @@ const geometry::MeshKernels* Mesh::mesh_kernels() const {
 
 namespace {
 
-// Triangles that the window meets within what the visitor still asks for.
+// Triangles that the window meets within the visitor's present limit.
 template <class Window, class Limit, class Visitor>
 void visit_nearest_first(const geometry::MeshData& data, const Window& window, Limit most,
                          Visitor& visitor) {

@@ -13,8 +13,8 @@ namespace {
 /// Two normals that differ by less are one.
 constexpr std::int32_t k_same_normal = 4;
 
-/// What rounding makes of the height of a vertex along a normal that is square to its edge, by the
-/// sum of the edge's lanes: 2^-27.
+/// The rounding error of the height of a vertex along a normal that is square to its edge, relative
+/// to the sum of the edge's lanes: 2^-27.
 constexpr std::int64_t k_flatness = 8;
 
 struct Priority {
@@ -56,7 +56,7 @@ class GhostTest {
             const Vec3<Unit>& normal)
       : all_(all), contact_(contact), normal_(normal) {}
 
-  /// The face normal is not this contact's; the feature is what is highest along the normal.
+  /// The face normal is not this contact's; the feature is the highest one along the normal.
   [[nodiscard]] bool is_ghost() const {
     const TriangleVertices& t = contact_.vertices;
     int top = 0;

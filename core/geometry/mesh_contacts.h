@@ -55,7 +55,7 @@ class TriangleContacts {
   std::uint32_t left_out_ = 0;
 };
 
-/// Where the triangles and the shape are: what `collide` was given.
+/// Where the triangles and the shape are: the arguments of `collide`.
 struct MeshContactFrame {
   const Mat3& rotation;        ///< of the triangles: asset frame to world axes
   const PosedShape& shape;     ///< B
@@ -95,7 +95,7 @@ void join_triangle_contacts(TriangleContacts& contacts, const MeshContactFrame& 
 /// Turns ghosts to their faces; a manifold may become empty. `contacts` ascend by part.
 void remove_ghosts(std::span<TriangleContact> contacts, const MeshContactFrame& frame);
 
-/// Groups what is left, and adds the vertices of the shape that lie over the faces.
+/// Groups the remaining contacts, and adds the vertices of the shape that lie over the faces.
 void merge_planes(std::span<const TriangleContact> contacts, const MeshContactFrame& frame,
                   MeshManifolds& out);
 

@@ -1,4 +1,4 @@
-// What a mesh consists of, and the steps by which it is made.
+// The data of a mesh, and the steps by which it is made.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What is done with triangles, behind a pointer that meshes and height fields give: a program that
+// The operations on triangles, behind a pointer that meshes and height fields give: a program that
 // makes none of them links none of this.
 #pragma once
 

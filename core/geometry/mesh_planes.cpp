@@ -109,10 +109,10 @@ int dominant_axis(const Vec3<Unit>& normal) {
   return dominant;
 }
 
-/// What holds the shape: of more than four the vertices on the plane or within k_low of the
-/// deepest, where they are three or more; else all. A fast shape has a wide margin, and vertices
-/// high above the plane, which may be farther apart, must not take the place of those that it lies
-/// on.
+/// The vertices that support the shape: of more than four the vertices on the plane or within k_low
+/// of the deepest, where they are three or more; else all. A fast shape has a wide margin, and
+/// vertices high above the plane, which may be farther apart, must not take the place of those that
+/// it lies on.
 std::span<FaceVertex> low_ones(std::span<FaceVertex> all) {
   constexpr Fine k_low = Fine{1} << (k_fine_bits - 8);  // 3.9 mm
   if (all.size() <= 4) return all;

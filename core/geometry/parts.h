@@ -66,7 +66,7 @@ class PartVisitor {
 
 class WayPartVisitor {
  public:
-  /// Answers the fraction of the way beyond which nothing more is asked for: at most what it was.
+  /// Returns the fraction of the path beyond which no more parts are wanted, which never grows.
   virtual Unit visit(const Part& part) = 0;
 
  protected:
@@ -75,7 +75,7 @@ class WayPartVisitor {
 
 class NearPartVisitor {
  public:
-  /// Answers the distance beyond which nothing more is asked for: at most what it was.
+  /// Returns the distance beyond which no more parts are wanted, which never grows.
   virtual Length visit(const Part& part) = 0;
 
  protected:

@@ -41,22 +41,22 @@ struct PolytopeLanes {
   const Fine* offsets = nullptr;
 };
 
-/// A view; what it names must outlive it. All in the shape's own frame.
+/// A view; the data it points to must outlive it. All in the shape's own frame.
 struct Polytope {
   std::span<const Vec3<Length>> vertices;
   std::span<const PolytopeFace> faces;
   std::span<const HalfEdge> edges;
   Vec3<Length> interior{};  ///< a point inside, or on a flat one
   const PolytopeKernels* kernels = nullptr;
-  /// Of a flat one that is the skin of a solid: only face 0 pushes, and what has its centre behind
-  /// that face is not met at all.
+  /// Of a flat one that is the surface of a solid: only face 0 pushes, and a shape whose centre is
+  /// behind that face does not collide at all.
   bool one_sided = false;
   Fine unevenness = 0;                  ///< how far a vertex may lie below a face that it is around
   const PolytopeLanes* wide = nullptr;  ///< null: few enough to be read one by one
 };
 
-/// Whether faces were merged so roughly that their planes, and the arcs between them, do not tell
-/// what the vertices do: by more than 15 µm.
+/// Whether faces were merged so roughly that their planes, and the arcs between them, differ from
+/// the vertices by more than 15 µm.
 [[nodiscard]] constexpr bool is_uneven(const Polytope& p) {
   return p.unevenness > Fine{1} << (k_fine_bits - 16);
 }
@@ -104,10 +104,10 @@ struct Support {
 /// The vertex with the greatest n · v, the first of equals; exact.
 [[nodiscard]] Support support_of(const Polytope& polytope, const Vec3<Unit>& n);
 
-using FaceHeights = std::array<Fine, 256>;  // room for what fills up the last lanes
+using FaceHeights = std::array<Fine, 256>;  // room to fill up the last lanes
 static_assert(k_max_polytope_faces <= 256);
 
-/// How high a point (own frame, 20 fraction bits) is above each face's plane; exact. Answers the
+/// How high a point (own frame, 20 fraction bits) is above each face's plane; exact. Returns the
 /// face that it is highest above, the first of equals. The places after the last face mean nothing.
 int measure_heights(const Polytope& polytope, const RawVec& point, FaceHeights& heights);
 

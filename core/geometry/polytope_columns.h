@@ -8,7 +8,7 @@
 
 namespace lockstone::geometry {
 
-/// Keeps the columns; what is asked stays valid until the next `fill` and through moves.
+/// Keeps the columns; views stay valid until the next `fill` and through moves.
 class PolytopeColumns {
  public:
   void fill(std::span<const Vec3<Length>> vertices, std::span<const PolytopeFace> faces);

@@ -18,7 +18,7 @@ struct EdgeList {
 /// Of a polytope's half edges.
 using EdgeBits = std::array<std::uint64_t, (k_max_polytope_edges + 63) / 64>;
 
-/// What the witnesses are not above, by more than the bound.
+/// The faces that the witnesses are not above by more than the bound.
 class WitnessedFaces {
  public:
   WitnessedFaces(const Polytope& own, const Witness& witness, Fine bound)

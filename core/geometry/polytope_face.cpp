@@ -193,8 +193,8 @@ bool may_snap(const ReferenceFrame& frame) {
          magnitude_of(frame.incident_normal.y) <= limit;
 }
 
-/// What snapping by x and y makes of a shift, and whether it may: two square sides may both move a
-/// vertex, but the many of a rounded outline no farther than two such.
+/// Adds a snap by x and y to a shift, and returns whether that is allowed: two square sides may
+/// both move a vertex, but the many of a rounded outline no farther than two such.
 bool add_shift(Shift& moved, Fine x, Fine y) {
   constexpr std::int64_t limit = k_snap >> k_fine_per_shift;
   const std::int64_t sum_x = moved.x - raw::round_shift(x, k_fine_per_shift);
@@ -205,7 +205,7 @@ bool add_shift(Shift& moved, Fine x, Fine y) {
 }
 
 /// Moves a vertex that is just outside onto the side, within the plane of the incident face.
-/// Answers whether it did.
+/// Returns whether it did.
 bool snap(const ReferenceFrame& frame, const Side& side, std::int64_t excess,
           IncidentVertex& vertex) {
   const Fine rough = magnitude_of(side.dx) + magnitude_of(side.dy);
@@ -228,7 +228,7 @@ bool snap(const ReferenceFrame& frame, const Side& side, std::int64_t excess,
 
 using Excesses = std::array<std::int64_t, k_capacity>;
 
-/// Signed distances to the side times its length. Answers whether any is outside.
+/// Signed distances to the side times its length. Returns whether any is outside.
 bool is_outside(const ReferenceFrame& frame, const Side& side, const IncidentPolygon& polygon,
                 Excesses& excesses) {
   bool outside = false;
@@ -310,7 +310,7 @@ std::array<Side, 4> bounds_of(const ReferenceFrame& frame, const Outline& outlin
 }
 
 /// The incident face within the sides of the reference face, in one of the two polygons. Where two
-/// sides meet at a sharp angle, what is within a step of both may be far beyond their corner, but
+/// sides meet at a sharp angle, a point within a step of both may be far beyond their corner, but
 /// not beyond the bounds.
 const IncidentPolygon& clip_to_sides(const ReferenceFrame& frame, const Outline& outline,
                                      IncidentPolygon& polygon, IncidentPolygon& spare) {

@@ -1,4 +1,4 @@
-// What is done with polytopes, behind pointers that hulls and triangles carry: a program that makes
+// The operations on polytopes, behind pointers that hulls and triangles carry: a program that makes
 // none of them links none of this.
 #pragma once
 

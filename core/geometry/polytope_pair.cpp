@@ -12,7 +12,7 @@ Fine coarse_dot(const RawVec& point, const Vec3<Unit>& n) {
   return point.x * n.x.raw + point.y * n.y.raw + point.z * n.z.raw;
 }
 
-/// The search for the best face: what is known so far.
+/// The state of the search for the best face.
 struct FaceSearch {
   const PolytopeView& view;
   Witness& witness;

@@ -79,7 +79,7 @@ struct Witness {
   void add(const RawVec& point);
 };
 
-/// What the heights of witnesses may be off by: 3.8 µm.
+/// The error bound of the heights of witnesses: 3.8 µm.
 inline constexpr Fine k_witness_slack = Fine{1} << (k_fine_bits - 18);
 
 /// Only faces with n · direction ≤ limit are allowed.

@@ -34,7 +34,7 @@ RawVec without(const RawVec& v, const Vec3<Length>& way, std::int64_t share) {
 }
 
 /// The gap from the nearest point of an edge to `point`. Products of lanes of 30 bits; of greater
-/// ones, cut to 30 bits first, a second step finds what the cut lost.
+/// ones, cut to 30 bits first, a second step restores the precision that the cut lost.
 RawVec gap_to_edge(const Polytope& polytope, int edge, const RawVec& point) {
   const Vec3<Length> way = edge_vector(polytope, edge);
   const RawVec to_point = point - fine(start_of(polytope, edge));

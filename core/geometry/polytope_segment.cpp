@@ -42,7 +42,7 @@ bool cannot_beat(const SegmentHeights& heights, const FacePair& faces, Fine thre
 }
 
 /// Whether the edge may be nearest: some end is above one of its planes, and neither plane is
-/// farther than what was found.
+/// farther than the nearest feature so far.
 bool may_be_nearest(const SegmentHeights& heights, const FacePair& faces, Fine found) {
   const Fine first = std::max(heights.first[faces.left], heights.first[faces.right]);
   const Fine last = std::max(heights.last[faces.left], heights.last[faces.right]);

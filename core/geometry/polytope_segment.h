@@ -18,7 +18,7 @@ struct PolytopeSegment {
   [[nodiscard]] RawVec at(Fine s) const { return centre + along(axis, s); }
 };
 
-/// What the faces have to do with a segment. Only the entries of faces that exist are set.
+/// The heights of a segment's ends above the faces. Only the entries of faces that exist are set.
 struct SegmentHeights {
   std::array<std::int64_t, k_max_polytope_faces> lean;  ///< n · axis, 60 fraction bits
   std::array<Fine, k_max_polytope_faces> low;           ///< of the lower end above the plane

@@ -1,4 +1,4 @@
-// Rays against what is round: spheres, and capsules as two spheres and a cylinder.
+// Rays against round shapes: spheres, and capsules as two spheres and a cylinder.
 #pragma once
 
 #include "core/geometry/fine.h"
@@ -20,7 +20,7 @@ struct RoundHit {
                                              const Vec3<Length>& translation);
 
 /// Hit and miss are exact for a capsule whose surface is off by at most 2 µm; the fraction errs by
-/// what that surface explains and 2^-30.
+/// the effect of that surface error and 2^-30.
 [[nodiscard]] ShapeRayHit cast_ray_at_capsule(const Shape& capsule, const Mat3& rotation,
                                               const Vec3<Length>& origin,
                                               const Vec3<Length>& translation);

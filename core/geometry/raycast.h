@@ -22,9 +22,9 @@ struct ShapeRayHit {
                                    const Vec3<Length>& origin, const Vec3<Length>& translation);
 
 /// Likewise, and of hulls and half-spaces. The rays of a flat polytope meet its polygon, those of a
-/// one-sided one only from the front; those of a half-space what is below its plane, each within
-/// 2 µm. A hull is to rays what lies below the planes of all its faces; where faces were merged
-/// that holds its vertices, and reaches beyond them at sharp edges.
+/// one-sided one only from the front; those of a half-space meet the space below its plane, each
+/// within 2 µm. To rays, a hull is the intersection of its faces' half-spaces; where faces were
+/// merged that holds its vertices, and reaches beyond them at sharp edges.
 [[nodiscard]] ShapeRayHit cast_ray(const PosedShape& posed, const Vec3<Length>& origin,
                                    const Vec3<Length>& translation);
 

@@ -8,7 +8,7 @@
 namespace lockstone::geometry {
 namespace {
 
-/// What rounding in one dimension may hide: 4 nm.
+/// The rounding error in one dimension: 4 nm.
 constexpr Metres k_rounding = 16;
 /// Bounds above this are as good as infinite.
 constexpr Metres k_bound = Metres{1} << 54;
@@ -194,7 +194,7 @@ Unit safe_step(const SeparatedPair& pair, Unit rest, Projections& scratch) {
   for (const MovingCore* body : {&pair.a, &pair.b}) {
     if (step == rest || body->sweep.rotation == RotationVector{}) continue;
     project(pair, {body}, scratch);
-    // From what is safe already when the bound allows as much, else from nothing.
+    // Extends the safe step where this frame's bound still has room at it.
     const bool further = excess_after(scratch, pair.reserve, step) >= 0;
     if (further) step = step_by_vertices(scratch, pair.reserve, step, rest);
   }

@@ -69,7 +69,7 @@ struct SeparatedPair {
   MovingCore a;
   MovingCore b;
   Vec3<Unit> normal;
-  Metres reserve = 0;  ///< what the cores keep apart: radii and target
+  Metres reserve = 0;  ///< the distance that the cores keep: radii and target
 };
 
 /// Room for the two bodies' vertices.

@@ -34,8 +34,8 @@ RawVec travelled(const Vec3<Length>& way, Fraction fraction) {
   return {travelled(way.x, fraction), travelled(way.y, fraction), travelled(way.z, fraction)};
 }
 
-/// How much nearer along the normal the whole translation brings B, with what the normal's rounding
-/// may hide.
+/// How much nearer along the normal the whole translation brings B, plus the normal's rounding
+/// error.
 Fine approach(const Vec3<Length>& way, const Vec3<Unit>& normal) {
   const Fine rounding = magnitude_of(way.x.raw) + magnitude_of(way.y.raw) + magnitude_of(way.z.raw);
   return rounding - lockstone::dot(way, normal).raw;
@@ -50,8 +50,8 @@ Fraction quotient(Fine distance, Fine approach) {
 }
 
 /// The distance that each step leaves: where the lattice decides, half the resolution of a length
-/// and two of its steps; else twice what a distance may be off by, because of the way's resolution
-/// less is left of 2 µm.
+/// and two of its steps; else twice the error of a distance, for the resolution of the path takes
+/// its part of the 2 µm.
 Fine clearance(const GapQuery& query) {
   constexpr Fine half = Fine{1} << (k_fine_per_length - 1);
   return query.is_coarse() ? half / 2 : half + (Fine{2} << query.lattice().shift);
@@ -83,7 +83,8 @@ struct Progress {
   Fraction fraction;
 };
 
-/// How far apart the surfaces are, what of it is to be left, and what the whole way takes of it.
+/// The distance of the surfaces, the part of it that must remain, and the part that the whole path
+/// takes.
 struct Closing {
   Fine apart;
   Fine leave;

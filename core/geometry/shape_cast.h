@@ -18,10 +18,10 @@ struct ShapeCastHit {
 /// Moves B from `offset` (centre of B − centre of A, world axes) by `translation`. The shapes are
 /// those of `distance`, half-spaces left out, and its bound on the offset holds along the way.
 ///
-/// No contact before `fraction`, up to 2 µm; there the distance is at most 1 µm and what a step of
-/// the fraction (2^-30 of the translation) is long. What starts within that distance hits at 0 if
-/// it approaches, and not if it leaves or slides along. A miss means that a plane separates the
-/// shapes for the rest of the way, or up to `limit`: what is met later is missed, or a hit beyond
+/// No contact before `fraction`, up to 2 µm; there the distance is at most 1 µm plus the length of
+/// a step of the fraction (2^-30 of the translation). A shape that starts within that distance hits
+/// at 0 if it approaches, and not if it leaves or slides along. A miss means that a plane separates
+/// the shapes for the rest of the way, or up to `limit`: a later contact is a miss, or a hit beyond
 /// it.
 ///
 /// Conservative advancement (Mirtich, Impulse-based dynamic simulation of rigid body

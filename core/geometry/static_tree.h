@@ -37,8 +37,8 @@ class StaticTree {
   /// Levels below the root; at most k_max_depth.
   [[nodiscard]] int depth() const;
 
-  /// Calls visit(first, count) for the leaves whose bounds meet `region`, ascending. What a leaf
-  /// holds has still to be tested.
+  /// Calls visit(first, count) for the leaves whose bounds meet `region`, ascending. The contents
+  /// of a leaf have still to be tested.
   template <class Visit>
   void overlapping(const LocalBounds& region, Visit&& visit) const {
     const auto end = static_cast<std::uint32_t>(nodes_.size());

@@ -55,7 +55,7 @@ class Advancement {
     const bool apart = query.find(offset);
     const Fine distance = apart ? query.gap().distance - query.radii() : 0;
     if (distance <= 0 && result.fraction.raw > 0) {
-      // Beyond what the bounds allow; the step before is still on the safe side.
+      // Beyond the documented bounds; the step before is still on the safe side.
       result.fraction = previous_;
       result.state = TimeOfImpactState::hit;
       return false;

@@ -38,10 +38,10 @@ struct TimeOfImpact {
   int iterations = 0;
 };
 
-/// The first fraction at which the distance of the shapes falls to the target, for what `distance`
-/// takes but half-spaces; its bound on the offset holds all along. Before the fraction the distance
-/// is not below the target by more than 3 µm and 1e-8 of the sizes, whatever the spin: no step
-/// exceeds what the motion can close.
+/// The first fraction at which the distance of the shapes falls to the target. Takes the shapes of
+/// `distance` but half-spaces; its bound on the offset holds all along. Before the fraction the
+/// distance is not below the target by more than 3 µm and 1e-8 of the sizes, whatever the spin: no
+/// step is longer than the motion can close.
 ///
 /// Conservative advancement (Mirtich, Impulse-based dynamic simulation of rigid body
 /// systems, 2.3.2) on the closest points' plane, with `geometry::safe_step` for the steps.

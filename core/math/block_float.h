@@ -43,7 +43,8 @@ struct BlockFloat {
   return block_float(quotient, shift - 62);
 }
 
-/// raw · x · 2^shift to nearest, ties away from zero; what does not fit becomes the nearest bound.
+/// raw · x · 2^shift to nearest, ties away from zero; a result that does not fit becomes the
+/// nearest bound.
 [[nodiscard]] constexpr std::int64_t scale_saturating(std::int64_t raw, BlockFloat x, int shift) {
   const Int128 product = multiply_wide(raw, std::int64_t{x.mantissa});  // below 2^94
   const int left = shift + x.exponent;

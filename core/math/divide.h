@@ -15,8 +15,8 @@ template <class A, class B>
 using DimensionQuotient =
     Dimension<A::metres - B::metres, A::kilograms - B::kilograms, A::seconds - B::seconds>;
 
-/// ⌊a · 2^shift / b⌉ for −63 ≤ shift ≤ 63; what does not fit becomes the nearest bound. b = 0 gives
-/// the bound of a's sign, and 0 for a = 0.
+/// ⌊a · 2^shift / b⌉ for −63 ≤ shift ≤ 63; a result that does not fit becomes the nearest bound. b
+/// = 0 gives the bound of a's sign, and 0 for a = 0.
 [[nodiscard]] constexpr std::int64_t divide_raw_saturating(std::int64_t a, std::int64_t b,
                                                            int shift) {
   LKS_ASSERT(shift >= -63 && shift <= 63);

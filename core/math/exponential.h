@@ -1,7 +1,7 @@
 // Powers of two and binary logarithms of plain numbers.
 //
 // Both split off the integer part and seven bits by a table, and sum a short series for the rest,
-// with more than 60 good bits: what is rounded is wrong by half a last place and little more.
+// with more than 60 good bits: the rounded result errs by little more than half a last place.
 // (Tang, Table-lookup algorithms for elementary functions and their error analysis, ARITH 1991.)
 #pragma once
 

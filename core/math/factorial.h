@@ -1,4 +1,4 @@
-// What power series divide by.
+// Factorials, the divisors of power series.
 #pragma once
 
 #include <cstdint>

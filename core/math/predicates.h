@@ -55,7 +55,7 @@ inline constexpr int k_lattice_bits = 19;
 [[nodiscard]] int point_in_triangle(const LatticePoint& a, const LatticePoint& b,
                                     const LatticePoint& c, const LatticePoint& p);
 
-/// What two sets of points have in common.
+/// The intersection of two sets of points.
 enum class Contact : std::uint8_t {
   none,     ///< nothing
   touch,    ///< a point that is an end or on the boundary of one of them

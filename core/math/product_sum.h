@@ -7,7 +7,8 @@
 
 namespace lockstone {
 
-/// What a sum is clamped to when it is rounded: two of them have a difference.
+/// A sum is clamped to this bound when it is rounded, so that the difference of two does not
+/// overflow.
 inline constexpr std::int64_t k_product_bound = std::int64_t{1} << 61;
 
 /// The caller guarantees that every partial sum is below 2^126.
@@ -26,7 +27,7 @@ class ProductSum {
   [[nodiscard]] static constexpr Word product(std::int64_t a, std::int64_t b) {
     return Word{a} * b;
   }
-  /// What it means.
+  /// The reference definition.
   [[nodiscard, gnu::noinline]] static constexpr std::int64_t rounded_any(Word sum, int shift) {
     const Word half = Word{1} << (shift - 1);
     const Word result = (sum + half + (sum >> 127)) >> shift;
@@ -44,7 +45,7 @@ class ProductSum {
 };
 
 #if defined(__SIZEOF_INT128__)
-// What fits after a shift within a word, or beyond one, needs a few instructions.
+// A sum that fits after a shift within a word, or beyond one, needs a few instructions.
 constexpr std::int64_t ProductSum::rounded(int shift) const {
   LKS_ASSERT(shift >= 1 && shift <= 125);
   const auto bits = static_cast<Bits>(sum_);

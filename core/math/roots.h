@@ -128,7 +128,7 @@ template <class D, int F>
   return raw::round_shift(one - static_cast<std::int64_t>(norm_squared), 10);
 }
 
-/// |v| to nearest; what exceeds the format (components beyond 1182 m) becomes its maximum.
+/// |v| to nearest; a length beyond the format (components beyond 1182 m) becomes its maximum.
 template <class D, int F>
 [[nodiscard]] constexpr Fixed<D, std::int32_t, F> length(const Vec3<Fixed<D, std::int32_t, F>>& v) {
   const auto root = static_cast<std::int64_t>(isqrt_rounded(norm_squared(v)));

@@ -73,7 +73,7 @@ struct FineSinCos {
 
 /// The orientation q after the world-frame rotation by θ: exp(θ/2) · q / |q|, with the rotation
 /// taken two bits finer than a Quat and one rounding per component; the norm stays within 2^-30.
-/// θ = 0 returns q itself, bit for bit, so that what rests does not creep.
+/// θ = 0 returns q itself, bit for bit, so that a body at rest does not creep.
 [[nodiscard]] Quat integrate(const Quat& q, const RotationVector& theta);
 
 /// A quaternion with 31 fraction bits, its length within 2^-21 of 1: a product of rotations, each

@@ -20,7 +20,7 @@ class BodyNames {
   explicit BodyNames(std::size_t body_capacity) : slots_(body_capacity) {}
 
   void set(BodyHandle body, std::string_view name) {
-    Slot slot{body.generation, {}};  // `name` may be what is in the old one
+    Slot slot{body.generation, {}};  // `name` may point into the old one
     std::size_t size = std::min(name.size(), k_max_body_name);
     const auto continues = [&](std::size_t at) { return (name[at] & 0xc0) == 0x80; };  // UTF-8
     while (size > 0 && size < name.size() && continues(size))

@@ -1,6 +1,6 @@
 // Which bodies bounce within the tick, at the moments at which they meet (bounce_group.h): groups
-// of bodies that touch nothing but each other and what does not give way, with restitution in
-// every contact. All other bounces are those of the contact solver, at the tick's end.
+// of bodies that touch nothing but each other and immovable bodies, with restitution in every
+// contact. The contact solver handles all other bounces, at the tick's end.
 
 #include <algorithm>
 
@@ -10,15 +10,17 @@
 namespace lockstone {
 namespace {
 
-// The solver brakes what meets a surface in the substep after the tick: that flies on as well.
+// The solver slows a body that would hit a surface in the substep after the tick: here such a body
+// flies on as well.
 constexpr Unit k_two_ticks = Unit::max();
 
-// What overlaps by more is to be pushed out, which is the solver's work.
+// The solver pushes out bodies that overlap by more.
 constexpr Displacement k_overlap = Displacement::from_ratio(-1, 2000);
 
 constexpr std::uint32_t k_group_grain = 8;
 
-// What overlaps by less, and does not meet, is left as it is: the solver lets contacts rest so.
+// A smaller overlap of bodies that do not approach is left as it is: the solver lets contacts rest
+// so.
 constexpr Displacement k_resting_overlap = Displacement::from_ratio(-1, 100000);
 
 // Of `bounce_marks`, by the least body of a group: contacts, whether some are to be pushed out if
@@ -118,8 +120,8 @@ bool World::Impl::may_bounce(const ContactRecord& record) {
   return !islands.is_held(root) && (bounce_marks[root] & k_contact_count) <= k_most_bounce_contacts;
 }
 
-// What will bounce takes its group along; what comes to rest leaves the group to the solver. Where
-// nothing meets, nothing need be solved.
+// A contact that will bounce marks its whole group; a contact that comes to rest leaves the group
+// to the solver. Where no bodies meet, nothing need be solved.
 void World::Impl::look_for_bounce(std::size_t contact) {
   const ContactRecord& record = new_contacts[contact];
   const Manifold& manifold = manifolds[slots[contact]];
@@ -137,7 +139,8 @@ void World::Impl::look_for_bounce(std::size_t contact) {
     bounce_marks[root] |= k_leans;
 }
 
-// Points of what is no ball are where they were at the tick's beginning: it may turn by 2^-4 rad.
+// Contact points of a body other than a ball stay where they were at the tick's beginning, so it
+// may turn by at most 2^-4 rad.
 bool World::Impl::turns_much(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   if (!record.is_dynamic() || record.shape().kind == ShapeKind::sphere) return false;
@@ -147,7 +150,7 @@ bool World::Impl::turns_much(std::uint32_t body) const {
   return turned > std::int64_t{1} << 28;
 }
 
-// The solver leaves it out; what it carried is forgotten.
+// The solver leaves it out, and its impulses are dropped.
 void World::Impl::mark_bounce(std::size_t contact) {
   ContactRecord& record = new_contacts[contact];
   if (!may_bounce(record)) return;
@@ -169,7 +172,7 @@ void World::Impl::mark_bounce(std::size_t contact) {
   }
 }
 
-// Before all others move: what these bounce off is where the tick began.
+// Before all other bodies move, so that the obstacles of these bounces are where the tick began.
 void World::Impl::run_bounces() {
   const Loop each{static_cast<std::uint32_t>(bounce_groups.size()), k_group_grain};
   parallel.for_each(each, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {

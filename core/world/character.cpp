@@ -66,7 +66,8 @@ class Mover {
     return world_.cast_shape({shape_, {from, {}}, motion}, def_.filter);
   }
 
-  // Out of everything it overlaps, least first: each plane asks for what the others have not given.
+  // Out of all overlaps, the smallest first: each plane pushes by the rest that the others have not
+  // provided.
   void push_out() {
     std::array<ShapeContact, k_max_planes> contacts;
     for (int round = 0; round < k_max_push_outs; ++round) {
@@ -117,7 +118,7 @@ class Mover {
     }
   }
 
-  // What is too steep to stand on lifts nobody: it acts as an upright wall.
+  // A slope too steep to stand on does not lift the character: it acts as an upright wall.
   [[nodiscard]] Vec3<Unit> wall_normal(const Vec3<Unit>& normal, const Vec3<Length>& motion) const {
     const bool upward = normal.y > Unit{};
     if (!upward || is_walkable(normal) || motion.y < Length{}) return normal;
@@ -125,7 +126,7 @@ class Mover {
     return direction_of(normal.x.raw, 0, normal.z.raw);
   }
 
-  // What is left of a motion that must enter none of the planes, the last of which it ran into:
+  // The rest of a motion that must enter none of the planes, the last of which it ran into:
   // along that plane, or along the crease with one of the others, or nothing.
   [[nodiscard]] static Vec3<Length> deflected(const Vec3<Length>& motion,
                                               std::span<const Vec3<Unit>> planes) {

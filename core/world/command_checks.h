@@ -1,4 +1,4 @@
-// What several commands check and write.
+// Checks and writes that several commands share.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ namespace lockstone {
 [[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);
 [[nodiscard]] AxisLocks axis_locks(std::uint8_t bits);
 
-/// What exceeds the formats' limits becomes them. The scale exponent must be known.
+/// Limits beyond the formats are clamped to them. The scale exponent must be known.
 void set_speed_limit(BodyRecord& record, const SpeedLimit& limit);
 
 /// Of the shape's frame, which the asset may place away from the body's.

@@ -32,8 +32,8 @@ Mass mass_of(const BodyDef& def, const Asset* asset) {
   return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
 }
 
-// What has no volume cannot be dynamic, and only what has a centre of mass can move. Lighter or
-// heavier bodies would leave the formats of the solver.
+// A shape without volume cannot be dynamic, and only a body with a centre of mass can move. Lighter
+// or heavier bodies would leave the formats of the solver.
 bool has_valid_mass(const BodyDef& def, const Asset* asset) {
   const bool has_solid =
       asset != nullptr ? asset->solid() != nullptr : is_primitive(def.shape.kind);

@@ -1,4 +1,4 @@
-// Contact events of a tick: what the contacts of pairs of bodies did before, and what they do now.
+// Contact events of a tick: compares the contacts of each pair of bodies before and after it.
 
 #include <algorithm>
 
@@ -56,7 +56,7 @@ ContactLists lists_between(Records old, Records now, std::size_t first, std::siz
 
 }  // namespace
 
-// Begin, stay or end of what a pair of bodies did before and does now.
+// Begin, stay or end, from a pair's states before and now.
 std::optional<ContactEvent> World::Impl::event_of(const PairState& before,
                                                   const PairState& now) const {
   const bool was = before.touching, is = now.touching;
@@ -75,7 +75,7 @@ std::optional<ContactEvent> World::Impl::event_of(const PairState& before,
       approach, ended ? bodies[pair.a].tag : now.tag_a, ended ? bodies[pair.b].tag : now.tag_b};
 }
 
-// What the records of the first pair of bodies say together; they are taken from the list. The
+// The combined state of the first pair's records, which are removed from the list. The
 // approach speed is the greatest of its contacts.
 World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& records,
                                               std::span<const SolverVelocity> approaches) const {
@@ -137,7 +137,7 @@ void World::Impl::merge_pieces(std::uint32_t first, std::uint32_t end, bool writ
   }
 }
 
-// Finds what began and ended, and makes the new contacts the state.
+// Finds the contacts that began or ended, and makes the new contacts the state.
 void World::Impl::find_events() {
   const StageTimer timer(profiler, StepStage::events);
   events.clear();

@@ -1,4 +1,4 @@
-// What contacts are made of: the surfaces of both sides taken together.
+// The combined surface of a contact's two sides.
 
 #include "core/geometry/shape_properties.h"
 #include "core/world/world_impl.h"
@@ -26,8 +26,8 @@ bool is_round(const BodyRecord& body) {
 
 }  // namespace
 
-// A part's own surface, or the body's. Written in place: what is written by fields and copied at
-// once as a whole waits for all stores before it.
+// A part's own surface, or the body's. Written in place: copying the whole struct right after its
+// fields were written would wait for all these stores.
 void World::Impl::find_surface(const Pair& pair, const Surface* surface_a, const Surface* surface_b,
                                const Manifold& manifold, ContactSurface& both) const {
   const BodyRecord& body_a = bodies[pair.a];

@@ -1,5 +1,5 @@
-// Continuous collision: what moved far in a tick is followed along its way, stopped where it runs
-// into something, answered by impulses and sent on for the rest of the tick.
+// Continuous collision: each body that moved far in a tick is swept along its path, stopped at its
+// first impact, given the impact's impulses, and moved on for the rest of the tick.
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,16 +14,16 @@
 namespace lockstone {
 namespace {
 
-// In `far_movers`, of what hangs together with one of them.
+// In `far_movers`: a body that joints connect to a far mover.
 constexpr std::uint8_t k_joined_mover = 2;
 
 Transform pose_of(const BodyRecord& body) {
   return {body.position, body.orientation};
 }
 
-// To a pose on a way that began with the matrix `rotation`. The angular momentum goes along with
-// the body: at rest in the world it would not fit a pose that the free turn does not pass, and what
-// is thin would gain any energy from that.
+// To a pose on a path that began with the matrix `rotation`. The angular momentum turns with the
+// body: kept in world axes it would not fit a pose off the free rotation, and a thin body could
+// gain any amount of energy.
 void stop_at(BodyRecord& body, const Transform& pose, const Mat3& rotation) {
   body.position = pose.position;
   body.orientation = pose.orientation;
@@ -31,7 +31,7 @@ void stop_at(BodyRecord& body, const Transform& pose, const Mat3& rotation) {
   body.spin = rotate_wide(to_matrix(pose.orientation), rotate_inverse_wide(rotation, body.spin));
 }
 
-// What is left of a motion after a fraction of it.
+// The rest of a motion after a fraction of it.
 Sweep rest_of(const Sweep& motion, Unit fraction) {
   const std::int32_t left = (k_whole_tick - fraction).raw;
   const auto part = [&](std::int64_t x) { return raw::multiply_shift(x, left, Unit::frac_bits); };
@@ -94,7 +94,7 @@ void World::Impl::note_far_mover(std::uint32_t body) {
   far_movers[body] = went_far(body) ? 1 : 0;
 }
 
-// Farther than half of what it is thick: less cannot take it through anything.
+// Farther than half its thickness: a shorter motion cannot take it through anything.
 bool World::Impl::went_far(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   if (!record.is_dynamic() || record.is_trigger()) return false;
@@ -147,9 +147,9 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
   }
 }
 
-// What hangs together stops together where the first of it runs into something, and loses what is
-// left of the tick: alone, a limb would leave its joint. What the impact does to the others is for
-// the solver.
+// Bodies connected by joints stop together where the first of them runs into something, and lose
+// the rest of the tick: a limb that stopped alone would leave its joint. The solver propagates the
+// impact to the others.
 void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
   if (!find_impact(body, motion_in_tick(body), {}).impact.hit) return;
   list_joined(body);
@@ -172,7 +172,7 @@ void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
   answer(body_of_first, first, first.impact.fraction);
 }
 
-// The body and the dynamic ones that hang together with it, all of which move.
+// The body and the dynamic bodies that joints connect to it, all of which move.
 void World::Impl::list_joined(std::uint32_t body) {
   joined_movers.assign(1, body);
   far_movers[body] |= k_joined_mover;
@@ -220,7 +220,7 @@ bool World::Impl::is_obstacle(std::uint32_t body, std::uint32_t other) const {
          !are_joined(body, other);
 }
 
-// What a body may stop at on its way.
+// The obstacles at which a body may stop on its path.
 template <class F>
 void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
   const BodyRecord& record = bodies[body];
@@ -259,8 +259,8 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
   return next;
 }
 
-// Impulses between the two where they are at `done`. Velocities hold the whole tick's gravity; what
-// has not yet worked is taken off for the time of the impact.
+// Impulses between the two where they are at `done`. Velocities hold the whole tick's gravity; the
+// part that acts after the impact is taken off while it is resolved.
 void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) {
   const std::uint32_t other = next.body;
   BodyRecord& a = bodies[body];

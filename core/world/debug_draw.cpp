@@ -1,4 +1,4 @@
-// What a world shows of itself.
+// Debug drawing of a world.
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ DebugState state_of(const BodyRecord& body) {
   return body.moves() ? DebugState::kinematic : DebugState::static_body;
 }
 
-// What the point of this feature pressed with in the last tick.
+// The normal impulse of the point with this feature in the last tick.
 SolverVelocity impulse_of(const ContactRecord& record, std::uint32_t feature) {
   for (std::size_t i = 0; i < record.count; ++i)
     if (record.points[i].feature == feature) return record.points[i].normal_impulse;

@@ -1,4 +1,4 @@
-// A native snapshot as what changed since another one, the base.
+// A native snapshot as its differences from another one, the base.
 //
 //   header of the new state, then for each store
 //     without keys: one bit for each new record, set when the record follows and is not the base's
@@ -48,7 +48,7 @@ struct NativeState {
   return (std::size_t{count} + 7) / 8;
 }
 
-/// What a delta may take more than a snapshot.
+/// The most bytes that a delta may take beyond a snapshot.
 template <class List>
 [[nodiscard]] std::size_t delta_overhead(const WorldDef& def) {
   std::size_t bytes = 0;
@@ -133,7 +133,7 @@ void write_new_records(const State& state, const NativeState<List>& base, RawWri
   std::memcpy(count_at, &count, sizeof(count));
 }
 
-/// Answers the bytes written; 0 when `base` is no native snapshot or `out` is too small.
+/// Returns the bytes written; 0 when `base` is no native snapshot or `out` is too small.
 template <class List, class State>
 [[nodiscard]] std::size_t write_delta(const State& state, ByteView base_bytes,
                                       std::span<std::byte> out) {
@@ -209,7 +209,7 @@ class DeltaState {
     return true;
   }
 
-  // The counts must fit: what is kept and what is new are all there is.
+  // The counts must add up: kept and new records are all records.
   template <class Store>
   bool find() {
     Part& part = parts_[List::template index_of<Store>()];

@@ -13,7 +13,7 @@ StateDifference unreadable(const char* side, Status status) {
   return {true, "snapshot", 0, side, "bytes", std::string(to_string(status)), ""};
 }
 
-// Names what differs, by the bodies of two snapshots.
+// Names the objects that differ, by the bodies of two snapshots.
 class Namer {
  public:
   Namer(const BodyNames& names, const SnapshotView& here, const SnapshotView& there)
@@ -84,7 +84,7 @@ StateDifference compare_states(const SnapshotView& here, const SnapshotView& the
   return found.differs ? found : compare("world", 0, here.header, there.header);
 }
 
-// Of bytes whose counts belie their size: what the header says.
+// Compares the headers alone, of bytes whose size does not fit their counts.
 StateDifference compare_headers(ByteView here, ByteView there) {
   const auto header_of = [](ByteView bytes) {
     ByteReader reader(bytes);

@@ -20,7 +20,7 @@ Vec3<Velocity> velocity_gain(const BodyRecord& body, const Vec3<Impulse>& impuls
   return {gain(impulse.x), gain(impulse.y), gain(impulse.z)};
 }
 
-// Adds what may be of any size to what is within ±2^13 m/s.
+// Adds a gain of any size to a velocity within ±2^13 m/s.
 void add_velocity(Vec3<Velocity>& velocity, const Vec3<Velocity>& gain) {
   constexpr Velocity k_bound = Velocity::from_integer(1 << 12);
   for (int i = 0; i < 3; ++i)
@@ -73,7 +73,8 @@ Vec3<T> turned(const Mat3& rotation, const Vec3<T>& v) {
 
 }  // namespace
 
-// The gains of an impulse, without a point at the centre of mass; what a lock holds is taken off.
+// The gains of an impulse, without a point at the centre of mass; gains along locked axes are
+// removed.
 Status World::Impl::gain_of(BodyHandle body, const Push& push, TickGain& gain) const {
   const BodyRecord* record = find(body);
   if (record == nullptr) return Status::stale_handle;

@@ -1,4 +1,5 @@
-// What is thin stays before the fronts of triangles with its centre, so that they still meet it.
+// Keeps the centre of a thin body on the front side of one-sided triangles, so that they still meet
+// it.
 
 #include "core/collision/front_guard.h"
 #include "core/dynamics/motion.h"

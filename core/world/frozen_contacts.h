@@ -26,7 +26,7 @@ class FrozenContacts {
   /// Sum of the hashes of all records.
   [[nodiscard]] std::uint64_t hash() const { return hash_; }
 
-  /// Quick for what goes before all others of its body A.
+  /// Quick for a contact that goes before all others of its body A.
   void add(const ContactRecord& record);
 
   /// Takes out all contacts of a body and hands each to `take(record)`, which must not change the

@@ -29,7 +29,7 @@ class IndexSet {
     if (has(index)) flip(index);
   }
 
-  /// Puts in what is not there, takes out what is.
+  /// Inserts an index that is absent, removes one that is present.
   void flip(std::uint32_t index) {
     words_[index / 64] ^= std::uint64_t{1} << (index % 64);
     count_ = has(index) ? count_ + 1 : count_ - 1;

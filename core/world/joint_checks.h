@@ -1,4 +1,4 @@
-// What a joint's definition is held to.
+// Checks of a joint's definition.
 #pragma once
 
 #include <cstdint>

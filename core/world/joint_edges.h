@@ -1,4 +1,4 @@
-// The joints of each body, for what spreads along them. Derived.
+// The joints of each body, for traversals along them. Derived.
 #pragma once
 
 #include <algorithm>

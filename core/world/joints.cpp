@@ -1,4 +1,4 @@
-// Joints of a world: making, changing and destroying them, and what they are asked.
+// Joints of a world: creating, changing, destroying and querying them.
 
 #include <algorithm>
 
@@ -405,7 +405,7 @@ JointView World::Impl::view(const JointRecord& joint) const {
     view.torque[i].raw = effort_of(impulse(i + 3), rate, inverse_mass, exponent);
   }
   if (has_world_axes(joint)) {
-    // Turned, what is at the type's limit along two axes is longer than that along one.
+    // A force at the type's limit along two axes is, rotated, longer than that along one.
     const auto within = [](Force f) {
       constexpr std::int64_t k_most = std::int64_t{1} << 62;
       return Position::from_raw(std::clamp(f.raw, -k_most, k_most));

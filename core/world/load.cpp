@@ -1,5 +1,5 @@
-// Loading. What is derived is kept where it follows from what did not change: a rollback finds most
-// bodies near where it left them.
+// Loading. Derived data is kept where the data it follows from did not change: a rollback finds
+// most bodies near where it left them.
 
 #include <algorithm>
 #include <cstring>
@@ -86,8 +86,8 @@ void World::Impl::take(const WorldHeader& loaded, State&& state) {
   if (!same_bodies || !same_links) rebuild_joint_links();
 }
 
-// Answers whether the same bodies are there, as far as more is derived of them than where they are.
-// Those that went elsewhere are left in `moved`.
+// Returns whether every changed body keeps its make (`same_make`), so that only the data of its
+// pose is derived again. `moved` lists these bodies.
 template <class State>
 bool World::Impl::take_bodies(std::uint32_t limit, State& state) {
   const std::uint32_t old_limit = std::min(header.body_limit, def.body_capacity);
@@ -150,7 +150,7 @@ bool World::Impl::take_joints(std::uint32_t limit, State& state) {
   return same;
 }
 
-// From new_contacts. Those of sleeping bodies are mostly what they were.
+// From new_contacts. Those of sleeping bodies are mostly unchanged.
 void World::Impl::take_contacts() {
   if (asleep_count != 0 && are_frozen(new_contacts)) {
     active_contacts = 0;

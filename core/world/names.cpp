@@ -1,4 +1,4 @@
-// Names of what the interface counts, for logs.
+// Names of the interface's enumerators, for logs.
 
 #include <array>
 

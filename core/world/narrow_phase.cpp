@@ -1,5 +1,5 @@
-// The narrow phase of a tick: contacts of the pairs that the broad phase found, or what is known of
-// them from the tick before.
+// The narrow phase of a tick: contacts of the pairs that the broad phase found, recomputed or kept
+// from the tick before.
 
 #include <algorithm>
 #include <utility>
@@ -13,15 +13,15 @@ namespace {
 // Largest speculative distance, so that Displacement holds it.
 constexpr Length k_max_speculation = Length::from_integer(32);
 
-// How far a pair can close is rounded up to 1 mm, so that what trembles keeps its margin.
+// How far a pair can close is rounded up to 1 mm, so that a trembling body keeps its margin.
 constexpr int k_reach_bits = 10;
 
 // Pairs that are worth a worker.
 constexpr std::uint32_t k_pair_grain = 8;
 constexpr std::uint32_t k_number_piece = 256;
 
-// How far ahead a pair must look: what it can close in one tick, but no farther than the bodies are
-// thick, lest a glancing pass be taken for a hit.
+// How far ahead a pair must look: as far as it can close in one tick, but no farther than the
+// bodies are thick, or a glancing pass would be taken for a hit.
 Length speculative_distance(const BodyRecord& a, const BodyRecord& b, Length thickness,
                             const TimeStep& step) {
   constexpr std::int64_t k_below_step = (std::int64_t{1} << k_reach_bits) - 1;
@@ -39,7 +39,7 @@ Vec3<Length> contact_offset(const BodyRecord& a, const BodyRecord& b) {
 
 }  // namespace
 
-// Each pair leaves what it found in slots of its own; then the contacts are numbered in the order
+// Each pair leaves its manifolds in slots of its own; then the contacts are numbered in the order
 // of the pairs.
 void World::Impl::collide_pairs(StepReport& report) {
   const StageTimer timer(profiler, StepStage::collide);
@@ -76,7 +76,7 @@ bool World::Impl::meet(const Pair& pair) {
   return scratch.part_contacts.count > 0;
 }
 
-// Answers whether all found room.
+// Returns whether all manifolds found room.
 bool World::Impl::collide_side_by_side() {
   narrow.begin(parallel.workers(), !profiler.times_pairs());
   parallel.for_each(
@@ -174,8 +174,8 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   add_contacts(index, {parts.begin(), parts.end()}, input, before, scratch);
 }
 
-// Of shapes that are complete in themselves the manifold is made where it stays. What it follows
-// from stands in the next of the entries that wait.
+// For primitive shapes the manifold is made where it stays. Its inputs are in the next waiting
+// entry.
 void World::Impl::collide_primitives(std::uint32_t index, std::span<const ContactRecord> before,
                                      const Vec3<Unit>& last_axis, PairScratch& scratch,
                                      PairTimer& timer) {
@@ -200,7 +200,7 @@ void World::Impl::collide_primitives(std::uint32_t index, std::span<const Contac
   timer.found(collide_alone(index, entry.input, before, scratch));
 }
 
-// Answers how many manifolds there are.
+// Returns the number of manifolds.
 int World::Impl::collide_alone(std::uint32_t index, const ManifoldInput& input,
                                std::span<const ContactRecord> before, PairScratch& scratch) {
   const Pair pair = pairs[index];
@@ -237,7 +237,8 @@ void World::Impl::collide_waiting(PairScratch& scratch) {
   batch.clear();
 }
 
-// `known`: the slot of a tick ago. What drifted since that one was found is added anew.
+// `known`: the slot of a tick ago. The drift of the bodies since that manifold was found is added
+// to it.
 void World::Impl::add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
                             std::span<const ContactRecord> before, PairScratch& scratch) {
   const std::uint32_t slot = narrow.take(scratch, 1);

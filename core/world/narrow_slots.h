@@ -35,7 +35,7 @@ struct PoseKey {
   return {static_cast<std::int32_t>(number), std::numeric_limits<std::int32_t>::max(), 0, 0};
 }
 
-/// What the manifold of two convex shapes follows from, besides the shapes.
+/// The inputs of the manifold of two convex shapes, besides the shapes.
 struct ManifoldInput {
   Vec3<Position> offset{};
   PoseKey pose_a{}, pose_b{};
@@ -48,8 +48,8 @@ struct ManifoldInput {
   }
 };
 
-/// What separations of a manifold were where it was found, before they follow what its bodies
-/// drifted (contact_pose.h).
+/// The separations of a manifold at the poses where it was found, before the drift of its bodies is
+/// added (contact_pose.h).
 using FoundSeparations = std::array<Displacement, k_max_manifold_points>;
 
 /// Box pairs that wait for others to be collided with them.
@@ -65,7 +65,7 @@ struct WaitingBoxes {
   bool are_admitted = false;  // else each pair is collided by itself, in order
 };
 
-/// What a worker has for itself.
+/// The scratch memory of a worker.
 struct alignas(64) PairScratch {
   PartContacts part_contacts;                  // of the pair at hand
   std::unique_ptr<TriangleScratch> triangles;  // null when no asset has triangles
@@ -126,7 +126,7 @@ class NarrowSlots {
     return first;
   }
 
-  /// Takes back the last slot that `take` gave, or the wish for one.
+  /// Takes back the last slot that `take` gave, or the request for one.
   static void give_back(PairScratch& scratch, std::uint32_t slot) {
     --scratch.taken;
     if (slot != k_none) --scratch.next;

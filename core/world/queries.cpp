@@ -42,8 +42,8 @@ bool is_nearer(const Hit& a, const Hit& b) {
   return a.fraction != b.fraction ? a.fraction < b.fraction : a.body.index < b.body.index;
 }
 
-// A ray on its way through a world: calls `found(hit)` for each body that it meets within what
-// `limit` still asks for.
+// A ray on its way through a world: calls `found(hit)` for each body that it meets within the
+// fraction that `limit` still allows.
 template <class World, class Found>
 void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, const Unit& limit,
               Found&& found) {
@@ -244,7 +244,7 @@ std::size_t World::bodies_at(const Vec3<Position>& point, std::span<BodyHandle> 
                              const QueryFilter& filter) const {
   std::size_t count = 0;
   const Unit limit = k_whole_way;
-  // A ray without length meets what it starts in, or on.
+  // A ray without length meets the bodies that it starts in, or on.
   const auto before = [](BodyHandle a, BodyHandle b) { return a < b; };
   walk_ray(*impl_, {point, {}}, filter, limit,
            [&](const RayHit& hit) { insert_sorted(hit.body, out, count, before); });

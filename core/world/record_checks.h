@@ -1,4 +1,4 @@
-// What bytes from outside must hold to be records of a state.
+// Checks of bytes from outside that are to be records of a state.
 #pragma once
 
 #include <lockstone/asset.h>
@@ -11,7 +11,7 @@
 
 namespace lockstone {
 
-/// ok, or what makes a stored record impossible. For bytes from outside.
+/// ok, or the reason why a stored record is invalid. For bytes from outside.
 [[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
 [[nodiscard]] Status validate(const JointRecord& record);
 

@@ -9,8 +9,8 @@
 
 namespace lockstone {
 
-/// Derived: a sum over the hashes of the records, each seeded with its index. What it answers
-/// follows from the records alone, provided that each change was marked.
+/// Derived: a sum over the hashes of the records, each seeded with its index. The sum follows from
+/// the records alone, provided that each change was marked.
 template <class Record, std::uint64_t Domain>
 class RecordHashes {
  public:
@@ -35,7 +35,7 @@ class RecordHashes {
     stale_.push_back(index);
   }
 
-  /// Hashes what was marked. There are never fewer records than before, but for `clear`.
+  /// Hashes the marked records. There are never fewer records than before, but for `clear`.
   [[nodiscard]] std::uint64_t sum(std::span<const Record> records) {
     LKS_ASSERT(known_ <= records.size());
     for (; known_ < records.size(); ++known_) {

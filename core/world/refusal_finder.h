@@ -92,7 +92,7 @@ class RefusalFinder {
   Refusal found_;
 };
 
-/// What definitions and commands have in common.
+/// The fields that definitions and commands have in common.
 void check(RefusalFinder& find, const Surface& surface);
 void check(RefusalFinder& find, const SurfaceMotion& motion);
 void check(RefusalFinder& find, const SpeedLimit& limit);

@@ -1,4 +1,4 @@
-// Commands that change what a body is made of and held to.
+// Commands that change the material and the limits of a body.
 
 #include <algorithm>
 

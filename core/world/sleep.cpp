@@ -54,7 +54,7 @@ void World::Impl::list_to_wake(std::uint32_t body) {
   to_wake.push_back(body);
 }
 
-// Wakes what is listed, and all that hangs on it by contacts and joints.
+// Wakes the listed bodies, and all bodies that contacts and joints connect to them.
 void World::Impl::wake_listed() {
   if (to_wake.empty()) return;
   std::vector<ContactRecord>& thawed = new_contacts;  // not in use between the stages
@@ -106,8 +106,8 @@ void World::Impl::wake_ends(const JointRecord& joint) {
   wake_listed();
 }
 
-// What a joint ties to an awake body wakes: after a command that put it to sleep beside a kinematic
-// body, and in a state from outside.
+// Wakes each body that a joint connects to an awake one: such a body was put to sleep by a command
+// beside a kinematic body, or comes in a state from outside.
 void World::Impl::wake_joined() {
   if (are_active_joints_current) return;
   for (const JointLink& link : joint_links) {
@@ -127,7 +127,7 @@ void World::Impl::find_active_joints() {
   are_active_joints_current = true;
 }
 
-// The body changes: it wakes, and what sleeps against it or hangs on it.
+// The body changes: it wakes, and so do the bodies in contact with it or joined to it.
 void World::Impl::disturb(std::uint32_t body) {
   if (asleep_count == 0) return;
   if (bodies[body].moves()) {
@@ -142,8 +142,8 @@ void World::Impl::disturb(std::uint32_t body) {
   wake_listed();
 }
 
-// The body has come where it is: what sleeps there wakes. A body that moves is awake by now and
-// finds the others by itself.
+// The body is new at its place: the bodies that sleep there wake. A body that moves is awake by now
+// and finds the others by itself.
 void World::Impl::disturb_around(std::uint32_t body) {
   if (asleep_count == 0 || bodies[body].moves()) return;
   const Bounds here = broad_phase.bounds(body);
@@ -162,8 +162,8 @@ void World::Impl::wake_all() {
   wake_listed();
 }
 
-// Wakes what the pairs of awake bodies are about to touch. Answers whether there was any: then
-// there are more pairs.
+// Wakes the bodies that awake bodies are about to touch. Returns whether there was any: then there
+// are more pairs.
 bool World::Impl::wake_met() {
   if (asleep_count == 0) return false;
   for (const Pair& pair : pairs) {
@@ -177,11 +177,11 @@ bool World::Impl::wake_met() {
   return any;
 }
 
-// Dynamic bodies of one island fall asleep together, once all of them rest. What a kinematic body
-// moves or is about to move stays awake; a kinematic body that stands sleeps by itself.
+// Dynamic bodies of one island fall asleep together, once all of them rest. Bodies that a kinematic
+// body moves or is about to move stay awake; a kinematic body that stands sleeps by itself.
 void World::Impl::rest_bodies(StepReport& report) {
   const StageTimer timer(profiler, StepStage::sleep);
-  wake_listed();  // what was hit on the way
+  wake_listed();  // bodies that were hit during the step
   to_sleep.clear();
   if (rest_rules.ticks != 0 && watch_bodies()) {
     join_islands();
@@ -196,7 +196,7 @@ void World::Impl::rest_bodies(StepReport& report) {
   report.asleep_bodies = asleep_count;
 }
 
-// Counts the ticks of rest. Answers whether some dynamic body is ready to sleep.
+// Counts the ticks of rest. Returns whether some dynamic body is ready to sleep.
 bool World::Impl::watch_bodies() {
   bool ready = false;
   for (const std::uint32_t body : awake.list()) {
@@ -211,8 +211,8 @@ bool World::Impl::watch_bodies() {
   return ready;
 }
 
-// What overlaps deeply is still pushed out, slower than what counts as moving: it rests longer. At
-// the end of a tick, when each contact has its manifold.
+// Bodies that overlap deeply are still being pushed out, too slowly for the rest test to see: they
+// must rest longer. At the end of a tick, when each contact has its manifold.
 void World::Impl::hold_overlapping() {
   const auto hold = [&](std::uint32_t body) {
     const bool counts = awake.has(body) && bodies[body].is_dynamic();
@@ -269,7 +269,7 @@ void World::Impl::freeze_contacts() {
   if (remembers_manifolds) slots.resize(kept);
 }
 
-// Sorts contacts into active and frozen ones by what the flags of the bodies say.
+// Sorts contacts into active and sleeping ones by the flags of the bodies.
 void World::Impl::adopt_contacts(std::span<const ContactRecord> all) {
   frozen.clear();
   std::copy(all.begin(), all.end(), contact_store.begin());

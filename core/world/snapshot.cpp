@@ -1,4 +1,4 @@
-// What of a stored state is possible: bytes from anywhere are checked whole before they are used.
+// Validity of a stored state: bytes from anywhere are checked whole before they are used.
 
 #include <lockstone/hash.h>
 
@@ -13,7 +13,7 @@
 namespace lockstone {
 namespace {
 
-// The limit plus what its own rounding may leave.
+// The limit plus its own rounding error.
 bool in_range(const Vec3<Velocity>& v) {
   constexpr Velocity limit = k_speed_limit + Velocity::from_ratio(1, 1024);
   return is_within(v, limit);
@@ -44,8 +44,8 @@ bool has_valid_limits(const BodyRecord& record) {
          is_within(record.gravity_scale, k_gravity_scale_limit) && record.locks <= k_all_body_locks;
 }
 
-// What is not dynamic may have a surface motion: rotated, and moved
-// to the centre of mass, it may be longer than what commands give.
+// Static and kinematic bodies may have a surface motion: rotated, and moved to the centre of mass,
+// it may be longer than commands allow.
 bool has_valid_notes(const BodyRecord& record) {
   constexpr int k_exponent_bits = 2 * k_gain_exponent_bits;
   if (!record.is_dynamic()) return !record.is_pushed() && record.note_c == Unit{};
@@ -58,7 +58,7 @@ bool has_valid_notes(const BodyRecord& record) {
 
 constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
 
-// The asset exists, and what has no mass distribution does not move.
+// The asset exists, and a body without a mass distribution does not move.
 bool has_known_shape(const BodyRecord& record, const Asset* asset) {
   const ShapeKind kind = record.shape().kind;
   if (is_asset(kind) && (asset == nullptr || asset->kind() != kind)) return false;
@@ -73,7 +73,8 @@ bool has_zero_rest(const BodyRecord& record) {
   return (notes_something_else || none) && record.rest_ticks == 0;
 }
 
-// What sleeps stands still, and only what may fall asleep by resting has notes of it.
+// A sleeping body stands still, and only a body that may fall asleep by resting has notes of its
+// rest.
 bool has_valid_sleep(const BodyRecord& record) {
   const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
   if (!watched && !has_zero_rest(record)) return false;

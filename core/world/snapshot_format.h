@@ -22,7 +22,7 @@ class SnapshotView {
   /// must outlive the view.
   static Result<SnapshotView> open(ByteView bytes, const WorldDef& def, const AssetSet& assets);
 
-  /// Checks every record: what passes can be simulated.
+  /// Checks every record: a state that passes can be simulated.
   [[nodiscard]] Status check() const;
 
   template <class Store>

@@ -1,4 +1,4 @@
-// What each stage of a step leaves behind, as a hash: pairs, manifolds, the solver's bodies, then
+// A hash of the data after each stage of a step: pairs, manifolds, the solver's bodies, then
 // the state itself.
 
 #include <array>

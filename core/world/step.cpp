@@ -125,7 +125,7 @@ void World::Impl::run_substeps() {
   solver.run(parallel);
 }
 
-// The new records: what each contact ended with, and whether the surfaces met.
+// The new records: each contact's final impulses, and whether the surfaces met.
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
   solver.store(manifolds, new_contacts, approach_speeds, parallel);
@@ -170,8 +170,8 @@ Loop World::Impl::each_moved() const {
 }
 
 // A body that left its contact pose takes another. Only in islands that iterations solve, which
-// have many contacts to find, may a body drift from its pose: what is left of motion where contacts
-// are solved directly is finer.
+// have many contacts to find, may a body drift from its pose: the residual motion of directly
+// solved contacts is finer.
 void World::Impl::follow_with_contacts() {
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
@@ -189,8 +189,8 @@ void World::Impl::take_contact_pose(std::uint32_t body) {
     ++contact_pose_numbers[body];
 }
 
-// As `refresh` does for each, with the rotations all at once. Only what leaves its fat box changes
-// more of the broad phase than its own bounds.
+// As `refresh` does for each, with the rotations all at once. Only a body that leaves its fat box
+// changes more of the broad phase than its own bounds.
 void World::Impl::refresh_moved() {
   const StageTimer timer(profiler, StepStage::refresh);
   std::atomic<bool> changed{false};
@@ -215,7 +215,7 @@ void World::Impl::refresh_moved() {
   if (!moved.empty()) broad_phase.settle();
 }
 
-// As its spin is limited by. What does not spin needs none.
+// The inverse inertia by which its spin is limited. A body without spin needs none.
 InverseInertia World::Impl::inertia_of(std::uint32_t body, const SolverBody* solved) const {
   if (bodies[body].spin == Vec3<Velocity>{}) return {};
   return solved != nullptr ? solved->inverse_inertia

@@ -1,5 +1,5 @@
 // The stores of a state: the one list from which snapshots, hashes, comparison, flips and
-// validation come. What is added to a record or to the list is in all of them.
+// validation come. An addition to a record or to the list is in all of them.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@
 
 namespace lockstone {
 
-/// A store: its records, what people call one, where the header counts them and the definition
-/// bounds them, and the upper half of the seed of their hashes.
+/// A store: its records, the name of one for people, where the header counts them and the
+/// definition bounds them, and the upper half of the seed of their hashes.
 struct BodyStore {
   using Record = BodyRecord;
   static constexpr const char* k_name = "body";
@@ -87,7 +87,7 @@ struct StoreList {
 
 using WorldStores = StoreList<BodyStore, ContactStore, JointStore>;
 
-/// The state as it lies in memory: header, then the stores. Answers the bytes written, 0 when `out`
+/// The state as it lies in memory: header, then the stores. Returns the bytes written, 0 when `out`
 /// is too small.
 template <class List, class State>
 [[nodiscard]] std::size_t write_native(const State& state, std::span<std::byte> out) {
@@ -153,7 +153,7 @@ class StoredRecords {
   ByteView parts_[List::k_size];
 };
 
-/// The seed of a record's hash: a store's domain, and the index of what has no key.
+/// The seed of a record's hash: a store's domain, and the index of a record without a key.
 template <class Store>
 [[nodiscard]] constexpr std::uint64_t hash_seed(std::uint32_t index) {
   return (Store::k_domain << 32) + (Store::k_has_key ? 0 : index);

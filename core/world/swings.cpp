@@ -1,5 +1,5 @@
-// Which bodies swing by themselves, on one point of what stands still (swing.h). Their joints are
-// left out of the solver.
+// Finds pendulums: bodies that hang on one point of a body at rest (swing.h). The solver leaves out
+// their joints.
 
 #include "core/dynamics/joint_geometry.h"
 #include "core/dynamics/joint_rows.h"
@@ -55,7 +55,7 @@ std::span<const JointLink> World::Impl::joints_to_solve() const {
   return swings.empty() ? std::span<const JointLink>(active_joints) : solved_joints;
 }
 
-// Answers the turns about an axis.
+// Returns the number of turns about an axis.
 std::uint32_t World::Impl::run_swing(const Swing& swing) {
   const SwingStep step = lockstone::swing(bodies[swing.body], rotations[swing.body],
                                           pivot_of(swing), header.gravity, time_step);

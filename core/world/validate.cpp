@@ -1,4 +1,4 @@
-// Checks at level 2: whether records are within their ranges, and whether what is derived fits the
+// Checks at level 2: whether records are within their ranges, and whether derived data fits the
 // state. Nothing here writes; the level never changes a result.
 
 #include <algorithm>
@@ -64,12 +64,12 @@ WorldFault World::Impl::fault_of_joints() const {
     if (joint.body_a >= header.body_limit || joint.body_b >= header.body_limit)
       return {"a joint of no body", i};
     if (validate(joint, bodies[joint.body_a], bodies[joint.body_b]) != Status::ok)
-      return {"what a joint holds", i};
+      return {"the fields of a joint", i};
   }
   return {};
 }
 
-// What follows from a body alone.
+// Data derived from a body alone.
 WorldFault World::Impl::fault_of_derived_bodies() const {
   std::uint32_t awake_count = 0, sleepers = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
@@ -101,7 +101,7 @@ WorldFault World::Impl::fault_of_derived_contacts() const {
   if (!std::ranges::all_of(contacts(), is_active)) return {"an active contact of sleepers"};
   WorldFault fault;
   frozen.for_each(header.body_limit, [&](const ContactRecord& record) {
-    if (is_active(record)) fault = {"a frozen contact of a body that is awake", record.body_a};
+    if (is_active(record)) fault = {"a sleeping contact of a body that is awake", record.body_a};
     const WorldFault own = fault_of_contacts({&record, 1});
     if (own) fault = own;
   });
@@ -130,7 +130,7 @@ WorldFault World::Impl::fault_of_derived_joints() const {
   return {};
 }
 
-// Each change of a record was marked, so that hashing what changed gives the hash of all.
+// Each change of a record was marked, so that hashing the changed records gives the hash of all.
 WorldFault World::Impl::fault_of_hashes() {
   const auto sum_of = [&](auto store) {
     std::uint64_t sum = 0;
@@ -179,7 +179,7 @@ WorldFault World::Impl::find_fault() {
   return fault_of_hashes();
 }
 
-// Between the stages what is derived of bodies may wait to be brought up to date.
+// Between the stages the derived data of bodies may wait to be brought up to date.
 WorldFault World::Impl::fault_after(StepStage stage) {
   switch (stage) {
     case StepStage::find_pairs:

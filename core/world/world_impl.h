@@ -1,4 +1,4 @@
-// The inside of a world: canonical state first, then what can be derived from it, then scratch.
+// The inside of a world: canonical state first, then derived data, then scratch.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@
 
 namespace lockstone {
 
-// A ball in a corner meets three walls; what has had so many impacts in a tick stays where it is.
+// A ball in a corner meets three walls; a body with this many impacts in a tick stays where it is.
 inline constexpr int k_max_impacts = 4;
 
 // Pairs closer than this get contact points ahead of time. Half of it widens each body's bounds.
@@ -59,7 +59,7 @@ struct World::Impl {
 #undef LKS_DECLARE_EXECUTE
 
   Result<JointHandle> create_joint(const JointDef& joint_def);
-  // A push, and what it gives a body (force_commands.cpp).
+  // A push, and the velocities that it gives a body (force_commands.cpp).
   struct Push {
     Vec3<Impulse> impulse{};
     Vec3<AngularImpulse> turn{};
@@ -83,7 +83,7 @@ struct World::Impl {
   /// error.
   [[nodiscard]] PlacedShape placed_query(const Shape& shape, const Transform& pose) const;
 
-  /// Brings what is derived from one body up to date: after every write to it.
+  /// Brings the data derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
   void turn_frame(std::uint32_t body);
   void rebuild_derived();
@@ -130,7 +130,7 @@ struct World::Impl {
   [[nodiscard]] Pair joined_pair(const JointRecord& joint) const;
   /// By a joint whose bodies do not collide.
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
-  /// What a body's way may end at, as far as filters and joints say.
+  /// Whether a body's path may end at another, as far as filters and joints decide.
   [[nodiscard]] bool is_obstacle(std::uint32_t body, std::uint32_t other) const;
   [[nodiscard]] bool set_total_length(JointRecord& joint) const;
 
@@ -195,7 +195,7 @@ struct World::Impl {
   std::vector<JointRecord> joints;           // by index; size: joint capacity
 
   BodyNames names;                // for people: neither state nor derived from it
-  bool is_derived_stale = false;  // bits of the state were flipped: what is below may not fit it
+  bool is_derived_stale = false;  // bits of the state were flipped: the data below may not fit it
 
   // Derived from flags of bodies.
   std::uint32_t active_contacts = 0, asleep_count = 0;
@@ -235,7 +235,7 @@ struct World::Impl {
   StageDigests stage_digests{};
   Parallel parallel;  // changes no result
 
-  /// What a stage left behind (stage_digests.cpp).
+  /// The hash of the data after a stage (stage_digests.cpp).
   [[nodiscard]] std::uint64_t digest_of(StepStage stage) const;
   void set_stage_hook();
 
@@ -243,7 +243,7 @@ struct World::Impl {
   [[nodiscard]] WorldFault find_fault();
   void validate_after(StepStage stage);
 
-  // What is drawn (debug_draw.cpp).
+  // Drawing (debug_draw.cpp).
   void draw_shapes(DebugDraw& out);
   void draw_bounds(DebugDraw& out) const;
   void draw_masses(DebugDraw& out) const;
@@ -303,7 +303,7 @@ struct World::Impl {
   void number_contacts(StepReport& report);
   void number_contacts_of(std::uint32_t pair);
 
-  // What contacts are made of (contact_surfaces.cpp).
+  // Surfaces of contacts (contact_surfaces.cpp).
   void find_surface(const Pair& pair, const Surface* surface_a, const Surface* surface_b,
                     const Manifold& manifold, ContactSurface& both) const;
   [[nodiscard]] Length rolling_radius(const Pair& pair) const;
@@ -342,7 +342,7 @@ struct World::Impl {
   void run_bounces();
   void run_bounce_group(std::uint32_t index);
 
-  // What swings by itself (swings.cpp).
+  // A pendulum (swings.cpp).
   struct Swing {
     std::uint32_t joint = 0;
     std::uint32_t body = 0;
@@ -372,7 +372,7 @@ struct World::Impl {
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
-  void hold_before_fronts();  // what is thin (fronts.cpp)
+  void hold_before_fronts();  // thin bodies (fronts.cpp)
   void hold_before_fronts(std::uint32_t body);
 
   void refresh_bounds(std::uint32_t body);
@@ -401,7 +401,7 @@ struct World::Impl {
     Pair bodies;
     bool exists = false, trigger = false, touching = false;  // touching of a trigger: overlapping
     SolverVelocity approach{};
-    std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of what came in fastest
+    std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of the fastest contact
   };
   PairState take_pair(std::span<const ContactRecord>& records,
                       std::span<const SolverVelocity> approaches) const;
@@ -413,7 +413,7 @@ struct World::Impl {
 
   // Scratch of sleep.
   Islands islands;
-  std::vector<std::uint32_t> to_wake;  // empty between the stages, but for what was hit on its way
+  std::vector<std::uint32_t> to_wake;  // empty between the stages, but for bodies hit by swept ones
   std::vector<std::uint32_t> to_sleep;
 
   // Scratch of one step.
@@ -423,7 +423,7 @@ struct World::Impl {
   std::vector<std::uint8_t> far_movers;             // by body that moved
   std::vector<Transform> starts;                    // by body: where it was before it moved
   std::vector<ContactEvent> impacts;
-  // What bounces within the tick: contacts by group, a group by its least body.
+  // Bounces within the tick: contacts by group, a group by its least body.
   struct BouncingContact {
     std::uint32_t root = 0;
     std::uint32_t contact = 0;
@@ -446,7 +446,7 @@ struct World::Impl {
   };
   std::vector<FoundContacts> found_contacts;
 
-  // What a new contact comes from: parts, and its record of the tick before.
+  // The origin of a new contact: parts, and its record of the tick before.
   static constexpr std::uint32_t k_new = 0xffffffff;
   struct ContactOrigin {
     std::uint32_t part_a = 0;
@@ -476,7 +476,7 @@ struct World::Impl {
   std::vector<std::uint32_t> event_ends;              // by piece
 };
 
-/// Kilograms, 0 of what nothing pushes.
+/// Kilograms, 0 of a body that nothing pushes.
 [[nodiscard]] Mass mass_of(const BodyRecord& record);
 
 /// An impulse λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
@@ -489,7 +489,7 @@ template <class T>
   return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
 }
 
-/// What follows from a body's shape alone.
+/// Properties that follow from a body's shape alone.
 struct ShapeProperties {
   Vec3<Unit> inertia{};  // principal moments / (mass · s²), at least k_min_inertia
   int scale_exponent = 0;

@@ -13,7 +13,7 @@
 
 namespace lockstone::net::crypto {
 
-inline constexpr std::size_t k_tag_bytes = 16;          ///< what sealing adds
+inline constexpr std::size_t k_tag_bytes = 16;          ///< added by sealing
 inline constexpr std::size_t k_token_nonce_bytes = 24;  ///< of XChaCha20: random ones never meet
 inline constexpr std::size_t k_packet_nonce_bytes = 12;
 
@@ -40,7 +40,7 @@ void seal_packet(const Key& key, const PacketNonce& nonce, ByteView plain,
 /// BLAKE2b-256 of the parts, one after the other, under a key.
 [[nodiscard]] Key derive(const Key& key, std::initializer_list<ByteView> parts);
 
-/// X25519 (RFC 7748): the public half of a secret, and what two peers share.
+/// X25519 (RFC 7748): the public half of a secret, and the secret that two peers share.
 [[nodiscard]] Key public_half(const Key& secret);
 /// False if the other half is one of the few that give everybody the same.
 [[nodiscard]] bool agree(const Key& secret, const Key& other_half, Key& shared);
@@ -48,7 +48,7 @@ void seal_packet(const Key& key, const PacketNonce& nonce, ByteView plain,
 /// SipHash-2-4.
 [[nodiscard]] std::uint64_t short_hash(const LinkKey& key, ByteView bytes);
 
-/// Overwrites what an optimiser might leave.
+/// Overwrites memory in a way that no optimiser removes.
 void wipe(std::span<std::byte> bytes);
 
 }  // namespace lockstone::net::crypto

@@ -1,4 +1,4 @@
-// What a build without libsodium links: nothing here is ever reached but crypto_available.
+// Stubs for a build without libsodium: none of them is ever called but crypto_available.
 #include <lockstone/assert.h>
 
 #include "net/security/crypto.h"

@@ -53,13 +53,13 @@ void encode_refusal(RefuseReason reason, std::span<std::byte> out);
 
 /// The keys of one connection: those of the token, made fresh by both sides' halves.
 struct ConnectionKeys {
-  Key client;  ///< of what the client sends
+  Key client;  ///< of packets from the client
   Key server;
-  LinkKey client_datagrams;  ///< of the seals around what the client sends
+  LinkKey client_datagrams;  ///< of the seals around the client's datagrams
   LinkKey server_datagrams;
 };
 
-/// What both sides know after challenge and hello.
+/// The data that both sides share after challenge and hello.
 struct Agreement {
   Key client_token_key;
   Key server_token_key;

@@ -26,7 +26,7 @@ Result<HostPort> HostPort::from_text(std::string_view text) {
   const std::uint16_t port = port_from_text(text.substr(colon + 1));
   const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
   if (bracketed) host = host.substr(1, host.size() - 2);
-  // A colon is what the brackets are for.
+  // Only a host with a colon may stand in brackets.
   const bool has_colon = host.find(':') != std::string_view::npos;
   if (host.empty() || port == 0 || has_colon != bracketed) return Status::malformed;
   if (host.find_first_of("[] \t") != std::string_view::npos) return Status::malformed;

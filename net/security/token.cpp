@@ -15,7 +15,7 @@ constexpr std::uint16_t k_token_version = 1;
 constexpr std::size_t k_private_bytes = k_token_sealed_bytes - crypto::k_tag_bytes;
 static_assert(crypto::k_token_nonce_bytes == k_token_nonce_bytes);
 
-// Domains: what a key derives for one purpose is of no use for another.
+// Domains: a key derived for one purpose is of no use for another.
 constexpr std::string_view k_seal_domain = "lockstone token seal 1";
 constexpr std::string_view k_link_domain = "lockstone token link 1";
 
@@ -60,7 +60,7 @@ void get_servers(ByteReader& reader, ServerList& servers) {
   }
 }
 
-// What is not sealed but must not be changed either.
+// The fields that are authenticated but not encrypted.
 class SealContext {
  public:
   SealContext(std::uint64_t match, std::uint64_t expires_unix_s) {

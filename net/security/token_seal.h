@@ -7,14 +7,14 @@
 
 namespace lockstone::net {
 
-/// What a server learns from a token.
+/// The sealed part of a token, which only servers can read.
 struct SealedGrant {
   TokenGrant grant;
   Key client_key;
   Key server_key;
 };
 
-/// What the client shows of its token; `sealed` points into the packet.
+/// The part of its token that a client shows; `sealed` points into the packet.
 struct ShownToken {
   std::uint64_t match = 0;
   std::uint64_t expires_unix_s = 0;

@@ -73,7 +73,7 @@ Status SecureTransport::send(ConnectionId connection, Channel channel, ByteView 
   const std::size_t size = link->sealer.seal(channel, bytes, impl_->sealed);
   const Status status =
       impl_->carrier.send(connection, channel, ByteView(impl_->sealed).first(size));
-  // What the carrier did not take never left this machine, so its counter may serve again.
+  // A packet that the carrier refused never left this machine, so its counter may be used again.
   if (reliable && status == Status::ok) link->sealer.reliable_sent();
   return status;
 }

@@ -1,5 +1,5 @@
-// The inside of SecureTransport: transport_secure.cpp has the packets of open connections,
-// secure_handshake.cpp what comes before.
+// The inside of SecureTransport: transport_secure.cpp handles the packets of open connections,
+// secure_handshake.cpp the handshake.
 #pragma once
 
 #include <optional>
@@ -74,7 +74,7 @@ struct SecureTransport::Impl {
   std::optional<TransportEvent> pending;  ///< to be told before anything else
   SecurityCounters counters;
   std::vector<std::byte> sealed;  ///< a packet on its way out
-  std::vector<std::byte> opened;  ///< what the last event's bytes point into
+  std::vector<std::byte> opened;  ///< the last event's bytes point into it
 };
 
 }  // namespace lockstone::net

@@ -41,7 +41,7 @@ struct Client::Impl {
   [[nodiscard]] bool active() const { return state < ClientState::finished; }
   [[nodiscard]] ClientStats current_stats() const;
 
-  // client_entry.cpp: entering a match that runs, pausing, wishes.
+  // client_entry.cpp: entering a match that runs, pausing, requests.
   [[nodiscard]] bool reconnect(ConnectionId connection);
   [[nodiscard]] bool knows_state(ByteView offered_config) const;
   void begin_running(std::uint64_t ticks);
@@ -146,7 +146,7 @@ struct Client::Impl {
   TickRing own_inputs;
   std::uint64_t sampled = 0;         ///< own inputs below are sampled
   std::uint64_t inputs_acked = 0;    ///< own inputs below need not be sent
-  std::int64_t clock_us = 0;         ///< what the trimmed local clock says, from any origin
+  std::int64_t clock_us = 0;         ///< the time of the trimmed local clock, from any origin
   std::int64_t clock_set_us = 0;     ///< when it was last moved on
   std::int64_t clock_origin_us = 0;  ///< at this time by it …
   std::uint64_t clock_tick = 0;      ///< … this tick began

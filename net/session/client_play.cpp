@@ -32,7 +32,7 @@ bool Client::Impl::on_ticks(ByteView packet) {
   if (!sane) return false;
   waiting = message.waiting_mask;
   inputs_acked = std::max(inputs_acked, message.inputs_received);
-  sampled = std::max(sampled, inputs_acked);  // what the server replaced is not asked for any more
+  sampled = std::max(sampled, inputs_acked);  // no inputs for ticks that the server has replaced
   hashes_acked = std::max(hashes_acked, message.hashes_received);
   if (message.margin_quarters != k_no_margin && config.adapt_lead) {
     lead.note(message.margin_quarters, message.inputs_received, sampled, now_us);
@@ -146,7 +146,7 @@ std::uint64_t Client::Impl::sample_target() {
     const auto elapsed_us = static_cast<std::uint64_t>(clock_us - clock_origin_us);
     const std::uint64_t local = clock_tick + elapsed_us * info.tick_rate / 1'000'000;
     if (local > received + config.max_lead_ticks) {
-      // The match stalls: keep what is sampled, and count anew from where it is.
+      // The match stalls: keep the sampled inputs, and count again from this tick.
       clock_origin_us = clock_us;
       clock_tick = received;
     } else {
@@ -158,8 +158,8 @@ std::uint64_t Client::Impl::sample_target() {
 }
 
 // Asks at once for all that lacks between others: one request for each gap would cost as many round
-// trips as there are gaps. What is merely overtaken gets a moment to arrive. `received` itself
-// lacks, so the range that is asked for is never empty.
+// trips as there are gaps. Packets that were merely overtaken get a moment to arrive. `received`
+// itself lacks, so the range that is asked for is never empty.
 void Client::Impl::request_missing() {
   if (gap_tick != received || received == received_end) {
     gap_tick = received;

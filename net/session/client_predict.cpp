@@ -44,7 +44,7 @@ void Client::Impl::roll_back(std::uint64_t tick) {
   head = tick;
 }
 
-// Tick `stepped` is closed: either it is what was guessed, or all since is stepped again.
+// Tick `stepped` is closed: either its inputs are as guessed, or all ticks since are stepped again.
 void Client::Impl::confirm_one() {
   const ByteView record = records.find(stepped);
   if (guessed_right()) {

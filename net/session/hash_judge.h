@@ -31,7 +31,8 @@ class HashJudge {
 
   void push_own(std::uint64_t hash) { own_.push(hash); }
 
-  /// Whether `slot` may report one more: false would overwrite what is not yet compared.
+  /// Whether `slot` may report one more: false: it would overwrite hashes that are not yet
+  /// compared.
   [[nodiscard]] bool can_push(std::size_t slot) const;
   void push(std::size_t slot, std::uint64_t hash) { players_[slot].reported.push(hash); }
 
@@ -86,7 +87,7 @@ class HashJudge {
     std::uint64_t compared = 0;
     std::uint64_t equal = 0;
     bool present = false;
-    bool ignored = false;  ///< was found different: what follows proves nothing
+    bool ignored = false;  ///< was found different: its later hashes prove nothing
   };
 
   std::optional<Mismatch> compare_with_own(std::uint8_t slot);

@@ -1,4 +1,4 @@
-// Names of what the interface counts, for logs; those of reasons stand in net/wire/reasons.cpp.
+// Names of the interface's enumerators, for logs; those of reasons stand in net/wire/reasons.cpp.
 
 #include <array>
 #include <cstddef>

@@ -26,8 +26,8 @@ struct PartMismatch {
 };
 
 /// Compares the players' parts with the server's own, or, where it has none, lets the majority of
-/// the players decide. The 64-bit hashes of every tick come first: this finds what they are blind
-/// to. Allocates when made only.
+/// the players decide. The 64-bit hashes of every tick come first: this finds differences that they
+/// miss. Allocates when made only.
 class PartsJudge {
  public:
   explicit PartsJudge(bool has_own);
@@ -38,8 +38,9 @@ class PartsJudge {
   /// A player's. The first for its ticks counts.
   void take(std::uint8_t slot, const Parts& parts);
 
-  /// Without own parts: decides about what all of `voters` have reported, and, after `closed`
-  /// ticks, about what is so old that nobody is waited for any more. Bit n of `voters`: slot n.
+  /// Without own parts: decides the checks that all of `voters` have reported, and, after `closed`
+  /// ticks, the checks that are so old that nobody is waited for any more. Bit n of `voters`: slot
+  /// n.
   void vote(std::uint16_t voters, std::uint64_t closed);
 
   /// The first difference found in a player, until it is forgotten.
@@ -52,7 +53,7 @@ class PartsJudge {
   [[nodiscard]] std::uint64_t equal(std::size_t slot) const { return equal_[slot]; }
 
  private:
-  /// What was reported for one number of ticks.
+  /// The reports for one number of ticks.
   struct Check {
     std::uint64_t ticks = 0;
     std::uint16_t reported = 0;  ///< bit n: slot n

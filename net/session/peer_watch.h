@@ -1,4 +1,4 @@
-// What a session notes about the peer at the other end: life signs and bad packets.
+// A session's record of its peer: life signs and bad packets.
 #pragma once
 
 #include <array>

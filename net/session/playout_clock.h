@@ -8,8 +8,8 @@
 
 namespace lockstone::net {
 
-/// Times how ticks arrive against the tick rate. The depth is the 99th percentile of what they come
-/// later than the fastest of the last 128, at most 250 ms.
+/// Measures the arrival of ticks against the tick rate. The depth of the jitter buffer is the 99th
+/// percentile of the last 128 ticks' delay over the fastest of them, at most 250 ms.
 class PlayoutClock {
  public:
   static constexpr std::size_t k_window = 128;

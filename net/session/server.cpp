@@ -306,7 +306,7 @@ void Server::Impl::seat_lost(std::uint8_t slot, LeaveReason reason) {
   place.active_tick = k_never;
   const bool may_return = reason == LeaveReason::disconnected || reason == LeaveReason::timed_out ||
                           reason == LeaveReason::too_far_behind;
-  // Who was lost before it heard of its key cannot show it.
+  // A client that was lost before it heard of its key cannot show it.
   if (!may_return || state == ServerState::lobby || !place.confirmed) place.rejoin_key = 0;
   place.reserved_until_us = place.rejoin_key == 0 ? now_us : now_us + config.timeouts.rejoin_us;
   for (DesyncCase& found : cases) {

@@ -1,4 +1,4 @@
-// Two states differ: at which tick, in whom, in what.
+// Two states differ: finds the tick, the player and the field.
 //
 // A player that is found wrong is out from that moment on, and the match goes on without it while
 // the snapshots of the first bad tick are fetched. Only where nobody can tell who is right, or the
@@ -36,7 +36,7 @@ void Server::Impl::judge_hashes() {
   if (judging && !frozen()) judge_parts();
 }
 
-// In a relay: what all players agree on.
+// In a relay: the hash that all players agree on.
 void Server::Impl::tell_agreed(const std::optional<Mismatch>& found) {
   if (parts.simulation != nullptr) return;
   const bool undecided = found && found->verdict == Verdict::undecided;
@@ -45,7 +45,7 @@ void Server::Impl::tell_agreed(const std::optional<Mismatch>& found) {
     observer->hash_agreed(agreed_told, judge.right_hash(agreed_told));
 }
 
-// Only what the hashes of every tick are blind to.
+// Only differences that the hashes of every tick miss.
 void Server::Impl::judge_parts() {
   unsigned voters = 0;
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
@@ -180,7 +180,7 @@ DumpTransfer* Server::Impl::transfer_of(std::uint8_t slot, std::uint64_t tick) {
   return nullptr;
 }
 
-// More than was asked for is malformed. What comes too late is only ignored.
+// More than was asked for is malformed. A late packet is only ignored.
 bool Server::Impl::on_dump(Link& link, ByteView packet) {
   Dump dump;
   if (decode(packet, dump) != Status::ok) return false;

@@ -187,7 +187,7 @@ bool Server::Impl::on_snapshot_taken(Link& link, ByteView packet) {
     follower->loading = false;
     return true;
   }
-  // What the server took from itself is good, whatever one player says.
+  // The server's own snapshot is good, whatever one player says.
   const bool own = parts.simulation != nullptr;
   if (!own) entry.ready = false;
   if (++follower->bad_snapshots < k_max_bad_snapshots) {

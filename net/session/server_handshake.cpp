@@ -92,12 +92,12 @@ Refusal Server::Impl::judge_seats(const Link& link) const {
   return {RefuseReason::slot_taken, RefuseField::slot, limit, wanted};
 }
 
-// A token says more than a wish.
+// A token takes precedence over a request.
 std::uint8_t Server::Impl::wanted_slot(const Link& link) const {
   return link.identity.authenticated ? link.identity.slot : link.wanted_slot;
 }
 
-// Who lost a seat gets it back, even before the server has noticed that it was lost.
+// A client that lost a seat gets it back, even before the server has noticed that it was lost.
 std::uint8_t Server::Impl::free_slot(const Link& link) const {
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     const Seat& place = seats[slot];

@@ -1,4 +1,4 @@
-// Those who only watch: they get what players get, later and more seldom, and nobody waits for
+// Spectators: they get the same packets as players, later and less often, and nobody waits for
 // them.
 #include <algorithm>
 

@@ -99,7 +99,7 @@ void Server::Impl::close_due_ticks() {
   if (waiting != 0 && now_us - waiting_since_us > config.timeouts.drop_us) drop_waited_for();
 }
 
-// Says who is waited for, if that is what keeps the next tick open.
+// Notes the missing players, if only the wait for them keeps the next tick open.
 bool Server::Impl::may_close_next() {
   const bool fast = config.pacing == Pacing::fast;
   if (paused || !anybody_plays() || awaits_players()) return false;
@@ -132,8 +132,8 @@ bool Server::Impl::anybody_plays() const {
 }
 
 // Where the match may wait, it does so before a player loses ticks or snapshots. For newcomers it
-// waits only if nothing else would slow it down. Who holds it without a sign of progress is dropped
-// in the end, as one that sends no inputs is.
+// waits only if nothing else would slow it down. A player that holds it without a sign of progress
+// is dropped in the end, as one that sends no inputs is.
 std::uint16_t Server::Impl::laggards_mask() const {
   unsigned mask = 0;
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
@@ -175,14 +175,14 @@ void Server::Impl::close_tick() {
   observer->tick_closed(tick, RecordInputs(record, shape).view(), hash);
 }
 
-// The server never waits for them (deadline), so they would ask for what is gone.
+// The server never waits for them (deadline), so they would ask for ticks that are gone.
 void Server::Impl::drop_laggards() {
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
     if (!follows(seats[slot])) continue;
     const std::uint64_t has = std::min(seats[slot].ticks_received, judge.wanted(slot));
     if (closed - has + 1 < config.history_ticks) continue;
     if (closed - seats[slot].ticks_received < config.history_ticks / 4) {
-      expel(slot, LeaveReason::no_hashes);  // it has the ticks, but does not tell what they gave
+      expel(slot, LeaveReason::no_hashes);  // it has the ticks, but does not report their hashes
     } else {
       drop(*seats[slot].link, LeaveReason::too_far_behind);
     }
@@ -271,9 +271,9 @@ void Server::Impl::send_due_ticks() {
   }
 }
 
-// All that the player has not confirmed. What does not fit one datagram goes round over the next
-// ones, and the newest ticks go along, so that they wait for nothing. If ticks still lack between
-// others, the client asks for them.
+// All ticks that the player has not confirmed. Those that do not fit into one datagram are spread
+// over the next ones in turn, and the newest ticks go along, so that they wait for nothing. If
+// ticks still lack between others, the client asks for them.
 void Server::Impl::send_unconfirmed(Follower& follower, Ticks& message) {
   const std::uint64_t all = end_for(follower);
   const std::uint64_t first = std::min(all, std::max(follower.cursor, follower.ticks_received));
@@ -290,8 +290,8 @@ std::uint64_t Server::Impl::end_for(const Follower& follower) const {
   return watches ? std::max(visible_ticks(), follower.ticks_received) : closed;
 }
 
-// A player that has fallen silent gets less: its link may be down, and nothing confirms what it
-// got.
+// A player that has fallen silent gets less: its link may be down, and nothing confirms the packets
+// that it got.
 bool Server::Impl::ticks_due(const Seat& place) const {
   const std::int64_t since_us = now_us - place.last_sent_us;
   const bool quiet =

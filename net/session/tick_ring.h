@@ -19,7 +19,7 @@ class TickRing {
 
   [[nodiscard]] std::size_t capacity() const { return entries_.size(); }
 
-  /// The place for `tick`'s record, of record_bytes bytes; what was there is forgotten.
+  /// The place for `tick`'s record, of record_bytes bytes; the old record is dropped.
   [[nodiscard]] std::span<std::byte> claim(std::uint64_t tick);
 
   /// Ends a claim: the record has `size` bytes.

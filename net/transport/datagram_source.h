@@ -14,7 +14,8 @@ struct DatagramSource {
   std::uint32_t scope = 0;  ///< of a link-local address: the number of the interface
   std::uint16_t port = 0;
   /// The address of ours that it was sent to, from which answers go; zeros: the system chooses. A
-  /// host has several IPv6 addresses as a rule, and who called one drops what comes from another.
+  /// host has several IPv6 addresses as a rule, and a peer that called one drops datagrams from
+  /// another.
   Ipv6Bytes called{};
   friend bool operator==(const DatagramSource&, const DatagramSource&) = default;
 

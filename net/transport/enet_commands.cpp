@@ -168,7 +168,7 @@ CommandFilter::Verdict CommandFilter::judge(const Command& command, std::uint16_
   }
 }
 
-// ENet acknowledges what it has delivered before and does not store it again.
+// ENet acknowledges packets that it has delivered before and does not store them again.
 CommandFilter::Verdict CommandFilter::reserve(Packet packet, std::uint16_t delivered,
                                               std::size_t limit) {
   const std::uint16_t first = ahead_of(delivered, packet.first);

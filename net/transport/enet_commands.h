@@ -1,4 +1,4 @@
-// What a peer may ask of ENet, checked before ENet sees it. ENet 1.3 searches lists that a peer can
+// The commands of a peer, checked before ENet sees them. ENet 1.3 searches lists that a peer can
 // fill, and takes values that a peer chooses: only commands in the form that ENet itself sends for
 // a session pass, at most as many as ENet puts into one datagram, and few out of order.
 // Layouts: ENet 1.3 (Lee Salzman), include/enet/protocol.h.
@@ -12,7 +12,7 @@
 
 namespace lockstone::net {
 
-/// What both ends set their ENet to, and therefore what each may demand of the other.
+/// The settings of ENet at both ends, and therefore the limits that each may demand of the other.
 inline constexpr std::uint32_t k_enet_channels = 2;
 inline constexpr std::uint32_t k_enet_mtu = 1400;
 inline constexpr std::uint32_t k_enet_window_bytes = 65536;

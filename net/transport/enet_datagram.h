@@ -1,4 +1,4 @@
-// What stands in front of ENet's datagrams, read before ENet does; the checksum that keeps
+// The header in front of ENet's datagrams, read before ENet reads them; the checksum that keeps
 // strangers out; and the refusal for a peer of the other kind. Bytes: docs/wire-format.md,
 // "Datagrams". Layouts: ENet 1.3 (Lee Salzman), include/enet/protocol.h.
 #pragma once
@@ -69,7 +69,7 @@ class DatagramSeal {
 
   /// This side has the keys.
   [[nodiscard]] bool present() const { return present_; }
-  /// What this side sends is to be sealed.
+  /// This side's datagrams are to be sealed.
   [[nodiscard]] bool sends() const { return sends_; }
   /// The peer has sent a sealed datagram: all that it sends is sealed from there on.
   [[nodiscard]] bool required() const { return required_; }

@@ -49,8 +49,8 @@ int ENET_CALLBACK EnetTransport::State::intercept(ENetHost* host, ENetEvent*) {
   return state.admit(datagram) ? 0 : 1;
 }
 
-// What is sent lies in the host's own buffers, of which there are at least two, the header and a
-// command; what was received, in the host's memory for one datagram.
+// Outgoing bytes are in the host's own buffers, of which there are at least two, the header and a
+// command; incoming bytes are in the host's memory for one datagram.
 enet_uint32 ENET_CALLBACK EnetTransport::State::compute_checksum(const ENetBuffer* buffers,
                                                                  std::size_t count) {
   const bool sent = count > 1;

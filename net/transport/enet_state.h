@@ -1,4 +1,4 @@
-// The inside of EnetTransport: the gate in front of ENet, and what becomes of its events.
+// The inside of EnetTransport: the gate in front of ENet, and the translation of its events.
 // Behaviour relied upon: http://enet.bespin.org/ (1.3.17), "Features and Architecture".
 #pragma once
 
@@ -76,7 +76,7 @@ struct EnetTransport::State {
     bool closing = false;       ///< this side has ended it; the peer has yet to confirm that
     std::int64_t since_us = 0;  ///< when it was asked for, or when it began to close
     RefuseReason ending = RefuseReason::none;   ///< the session is about to hear of this
-    RefuseReason hearsay = RefuseReason::none;  ///< what refuses it, by a word of unknown origin
+    RefuseReason hearsay = RefuseReason::none;  ///< why it was refused, by a word of unknown origin
     std::int64_t hearsay_us = 0;                ///< when that came
     CommandFilter commands;
     DatagramSeal seal;
@@ -159,7 +159,7 @@ struct EnetTransport::State {
     return id_of(index);
   }
 
-  // False for what the session shall not see, such as the end of a connection that it ended.
+  // False for events that the session must not see, such as the end of a connection that it ended.
   bool translate(const ENetEvent& from, TransportEvent& event) {
     const std::size_t index = index_of(from.peer);
     Entry& entry = entries[index];
@@ -222,8 +222,8 @@ struct EnetTransport::State {
     entry.since_us = now_us;
   }
 
-  // ENet would keep what was asked for and never confirmed for 30 s, and who does not confirm the
-  // end of a connection for timeout_ms.
+  // ENet would keep a connection that was requested and never confirmed for 30 s, and a peer that
+  // does not confirm the end of a connection for timeout_ms.
   void let_go_of_the_silent() {
     if (!listens) return believe_refusals();
     for (std::size_t i = 0; i < host->peerCount; ++i) {
@@ -242,7 +242,7 @@ struct EnetTransport::State {
     enet_peer_reset(&host->peers[index]);
   }
 
-  // The gate: what ENet does not get to see.
+  // The gate: datagrams that ENet does not get to see.
 
   [[nodiscard]] bool admit(std::span<std::byte> datagram) {
     ++counters.datagrams;
@@ -291,7 +291,7 @@ struct EnetTransport::State {
     return entries[index_of(&peer)].remote == source;
   }
 
-  // An id names one connection, since the keys of what is sent are found by it.
+  // An id names one connection, since the keys of outgoing datagrams are found by it.
   [[nodiscard]] bool is_taken_elsewhere(enet_uint32 connect) const {
     return std::any_of(host->peers, host->peers + host->peerCount, [&](const ENetPeer& peer) {
       return peer.state != ENET_PEER_STATE_DISCONNECTED && peer.connectID == connect &&
@@ -394,7 +394,7 @@ struct EnetTransport::State {
     entry.packets = FloodWatch(packets_per_second, 0);
   }
 
-  // False, for what was one too much.
+  // Returns false, for the datagram that exceeded a limit.
   bool beyond_limits(Entry& entry, const FloodWatch& watch) {
     ++counters.limited;
     if (entry.open && watch.flooding() && entry.ending == RefuseReason::none) {

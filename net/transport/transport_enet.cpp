@@ -1,4 +1,4 @@
-// The calls of EnetTransport. What they work on is in enet_state.h.
+// The calls of EnetTransport. Their data is in enet_state.h.
 #include <algorithm>
 #include <string>
 
@@ -75,7 +75,7 @@ bool EnetTransport::poll(std::int64_t now_us, TransportEvent& event) {
   return state_->end_one(event);
 }
 
-// ENet takes an empty datagram for the end of what has come.
+// ENet takes an empty datagram for the end of the queue.
 bool EnetTransport::State::was_cut_short() const {
   if (datagrams_a_round >= k_enet_datagrams_a_round) return false;
   enet_uint32 condition = ENET_SOCKET_WAIT_RECEIVE;

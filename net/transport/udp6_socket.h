@@ -49,7 +49,7 @@ class Udp6Socket {
   [[nodiscard]] ENetSocket handle() const { return socket_; }
   [[nodiscard]] std::uint16_t port() const;
 
-  /// What the system does not take is lost, as on a full network.
+  /// A datagram that the system does not take is lost, as on a full network.
   void send(const DatagramSource& to, ByteView bytes) const;
 
   /// The size of the next datagram; that of the whole buffer if it was at least that long. Nothing

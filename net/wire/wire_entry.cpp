@@ -1,4 +1,4 @@
-// The messages of joining late, of pausing, of wishes and of parts of the state.
+// The messages of joining late, of pausing, of requests and of parts of the state.
 #include <algorithm>
 
 #include <lockstone/net/wire.h>

@@ -50,7 +50,7 @@ TEST(Parallel, VisitsEachItemOnce) {
   expect_every_loop_whole(&delayed);
 }
 
-// Every loop adds up what the one before wrote.
+// Every loop sums the output of the one before.
 std::vector<std::uint64_t> sums_of_sums(TaskRunner* runner) {
   Parallel parallel;
   parallel.set_runner(runner);

@@ -47,7 +47,7 @@ TEST(BodiesOverlap, SaysOfBallsWhatTheirContactsSay) {
   EXPECT_GT(apart, 500);
 }
 
-// The control: what a ball holds of a triangle counts for nothing when the ball's centre is behind.
+// The control: a triangle inside a ball does not count when the ball's centre is behind it.
 TEST(BodiesOverlap, HoldsToTheFrontOfTriangles) {
   const Vec3<Length> vertices[3] = {metres(-1, 0, -1), metres(-1, 0, 1), metres(1, 0, 0)};
   const TriangleIndices triangle[1] = {{0, 1, 2}};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr ProxyTraits k_dynamic{.moves = true, .is_dynamic = true};
 
-// What the broad phase is to find, by looking at every pair.
+// The pairs that the broad phase must find, by looking at every pair.
 struct Model {
   explicit Model(std::uint32_t count) : bounds(count), traits(count), present(count) {}
 

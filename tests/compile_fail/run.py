@@ -1,4 +1,4 @@
-"""What must not compile does not, with a message that helps; its neighbour, which is right, does.
+"""Wrong code does not compile, with a message that helps; its correct neighbour does.
 
 usage: run.py COMPILER INCLUDE [--control]
 """
@@ -75,7 +75,7 @@ def main():
     faults = []
     text = errors(compiler, include, rights)
     if text:
-        faults.append("what is right does not compile:\n" + text)
+        faults.append("correct code does not compile:\n" + text)
     wrongs = [right for _, right, _ in PAIRS] if "--control" in sys.argv else [w for w, _, _ in PAIRS]
     for wrong, (_, _, message) in zip(wrongs, PAIRS):
         text = errors(compiler, include, wrong)

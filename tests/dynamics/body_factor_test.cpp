@@ -113,7 +113,7 @@ struct Island {
 };
 
 // An entry errs by 2^-31, and the least eigenvalue is 2^-14: no more than 2^-11 of the unknowns in
-// the softest direction, and next to nothing of what the rows feel.
+// the softest direction, and next to nothing in the rows' velocities.
 TEST(BodyFactor, SolvesRandomIslands) {
   for (const std::uint32_t bodies : {1U, 2U, 3U, 5U, 9U, 20U, 40U}) {
     test::Random random;

@@ -1,4 +1,4 @@
-// Contacts of bodies that hardly move: how far they may drift, and what separations become.
+// Contacts of bodies that hardly move: how far they may drift, and how separations follow.
 
 #include "core/dynamics/contact_pose.h"
 
@@ -90,7 +90,7 @@ TEST(ContactPose, IsNearWithinAPartOfASmallBody) {
 
 // Boxes that stand on each other, leaning by a hundredth or less: the same points, found where the
 // bodies are now, are as far apart as those that followed. A corner that an edge cuts off moves
-// along the face, which counts times what the faces lean.
+// along the face, which counts times the faces' lean.
 TEST(ContactPose, SeparationsFollow) {
   Dice dice;
   int met = 0;

@@ -1,4 +1,4 @@
-// What of its impulse a soft contact keeps.
+// The part of its impulse that a soft contact keeps.
 #include "core/dynamics/contact_prepare.h"
 
 #include <gtest/gtest.h>

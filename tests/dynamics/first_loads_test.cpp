@@ -1,4 +1,5 @@
-// What contacts start from: what others carried before them, or what lies on them.
+// The initial warm start of contacts: the impulses of the contacts before them, or the weight above
+// them.
 
 #include <algorithm>
 #include <array>
@@ -45,7 +46,7 @@ double fastest(const World& world, const std::vector<BodyHandle>& bodies) {
   return most;
 }
 
-// By sweeps alone it is off by up to 22 mm after a second.
+// By iterations alone it is off by up to 22 mm after a second.
 TEST(FirstLoads, HoldAWallFromItsFirstTick) {
   World world = test::make_world();
   test::add_ground(world);
@@ -82,14 +83,15 @@ TEST(FirstLoads, HoldNothingInTheAir) {
     EXPECT_NEAR(metres_per_second(world.velocity(brick).y), -9.81, 1e-3);
 }
 
-// What tips over its supports pushes them harder than it weighs, and so on from row to row.
+// A brick that tips over its supports pushes them harder than its weight, and so on from row to
+// row.
 TEST(FirstLoads, ThrowNothingOffAWallThatLeans) {
   World world = test::make_world();
   test::add_ground(world);
   const std::vector<BodyHandle> bricks = add_wall(world, 22, nullptr, Position::from_ratio(2, 5));
   for (int tick = 1; tick <= 30; ++tick) {
     test::step(world, 1);
-    EXPECT_LT(fastest(world, bricks), 1 + 9.81 * tick / 60);  // what falls freely, and rolls off
+    EXPECT_LT(fastest(world, bricks), 1 + 9.81 * tick / 60);  // free fall, and rolling off
   }
 }
 

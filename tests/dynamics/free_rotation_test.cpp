@@ -1,4 +1,4 @@
-// Rotation without torque: what it keeps, what it costs, and where it ends.
+// Rotation without torque: its invariants, its cost, and its end.
 #include "core/dynamics/free_rotation.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What contacts of a heap carry, found anew: a high wall stands, and nothing that moves is braked.
+// Stack rebalance: a high wall stands, and no moving body is slowed.
 
 #include <algorithm>
 #include <array>
@@ -46,7 +46,7 @@ BodyHandle add_moving(World& world, const Shape& shape, Position z, Velocity spe
   return test::add(world, def);
 }
 
-// Half a millimetre at the top; by sweeps alone it has grown by 2 mm after five seconds.
+// Half a millimetre at the top; by iterations alone it has grown by 2 mm after five seconds.
 TEST(HeapLoads, KeepAWallFromBendingOn) {
   World world = heap_world();
   test::add_ground(world);
@@ -143,7 +143,7 @@ TEST(MotionBalance, FindsImpulsesThatChangeAMotion) {
   EXPECT_GT(solved, 900);
 }
 
-// A row along x alone stops what goes along x, and leaves the rest.
+// A row along x alone stops motion along x, and leaves the rest.
 TEST(MotionBalance, LeavesOutWhatNoRowChanges) {
   MotionBalance all;
   const Motion6 column{1 << 26, 0, 0, 0, 0, 0};

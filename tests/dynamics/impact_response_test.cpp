@@ -1,4 +1,4 @@
-// Impacts within a tick: what they leave of the energy.
+// Impacts within a tick: the energy after them.
 
 #include "core/dynamics/impact_response.h"
 
@@ -65,7 +65,7 @@ Manifold random_manifold(Dice& dice) {
   return manifold;
 }
 
-// Against what does not move, whatever axes are locked.
+// Against immovable bodies, whatever axes are locked.
 TEST(ImpactResponse, GainsNoEnergy) {
   Dice dice;
   int bounced = 0;
@@ -86,7 +86,7 @@ TEST(ImpactResponse, GainsNoEnergy) {
   EXPECT_GT(bounced, 1000);
 }
 
-// What needs no other answer than restitution's keeps all of it.
+// A bounce that needs no impulse besides restitution's keeps all of it.
 TEST(ImpactResponse, ReturnsAFullBounceWhole) {
   BodyRecord wall;
   Dice dice;

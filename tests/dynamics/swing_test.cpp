@@ -1,4 +1,4 @@
-// A body that hangs on one point: what it keeps, and how exactly it swings.
+// A pendulum, a body that hangs on one point: its invariants, and its accuracy.
 #include "core/dynamics/swing.h"
 
 #include <cmath>

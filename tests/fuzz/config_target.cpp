@@ -1,4 +1,4 @@
-// What a match is made from: the configuration bytes of scenes and of the arena.
+// The configuration bytes of scenes and of the arena.
 
 #include <lockstone/assert.h>
 

@@ -1,4 +1,4 @@
-// What one peer's datagrams may ask of ENet. The input is the number of the last delivered
+// The ENet commands in one peer's datagrams. The input is the number of the last delivered
 // reliable command (u16), whether this side called (u8), and a run of datagrams, each with how many
 // more commands were delivered before it (u8), a length (u16) and its commands.
 
@@ -45,7 +45,7 @@ std::size_t data_bytes(ByteView command) {
   }
 }
 
-// What has passed is whole commands of a session, not too many of them.
+// Only whole commands of a session have passed, and not too many of them.
 void check_passed(ByteView commands) {
   std::size_t count = 0;
   for (; !commands.empty(); ++count) {

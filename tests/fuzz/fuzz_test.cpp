@@ -3,7 +3,8 @@
 //
 //   LOCKSTONE_FUZZ_SECONDS=30    how long (without it: a number of inputs, whatever they take)
 //   LOCKSTONE_TEST_SEED=…        which mutations
-//   LOCKSTONE_FUZZ_LAST=FILE     writes each input there before it is run: what stopped the program
+//   LOCKSTONE_FUZZ_LAST=FILE     writes each input there before it is run, and so keeps the one
+//   that stopped the program
 
 #include <algorithm>
 #include <chrono>

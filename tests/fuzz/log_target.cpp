@@ -71,7 +71,7 @@ void mend(Bytes& bytes) {
     offset += mend_chunk(std::span(bytes).subspan(offset), i, previous);
 }
 
-// What is saved of a log is good, up to its end.
+// The saved part of a log is good, up to its end.
 void save_what_is_good(ByteView bytes) {
   MemorySource source(bytes);
   MemorySink sink;
@@ -88,7 +88,7 @@ void go_into(ByteView bytes) {
   (void)cut(source, toy::toy_factory(), 3, 6, sink);
 }
 
-// Several threads say what one does.
+// Several threads give the same verdict as one.
 bool check(ByteView bytes) {
   MemorySource source(bytes);
   const VerifyReport report = verify(source, toy::toy_factory());

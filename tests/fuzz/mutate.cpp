@@ -68,7 +68,7 @@ void repeat(Bytes& bytes, test::Random& random) {
   insert(bytes, part, below(random, bytes.size() + 1));
 }
 
-// Over what is there, or between.
+// Overwrites bytes, or inserts between them.
 void take_from(std::span<const std::byte> other, Bytes& bytes, test::Random& random) {
   const Range range = any_range(other.size(), random);
   const std::span<const std::byte> part = other.subspan(range.begin, range.bytes);

@@ -1,4 +1,4 @@
-// A server's side of the secure layer: what one client's packets can do. The input is a run of
+// A server's side of the secure layer against one client's packets. The input is a run of
 // packets, each a channel (u8), a length (u16) and its bytes.
 
 #include <algorithm>
@@ -76,7 +76,7 @@ void append(Bytes& input, Channel channel, ByteView packet) {
   input.insert(input.end(), packet.begin(), packet.end());
 }
 
-// What an honest client sends to that server.
+// The packets of an honest client to that server.
 Bytes honest_session() {
   if (!security_available()) return Bytes(200);
   SimNetwork network(1);

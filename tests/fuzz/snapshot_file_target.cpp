@@ -1,4 +1,4 @@
-// Snapshot files: what `lockstone seek --state` writes.
+// Snapshot files, as `lockstone seek --state` writes them.
 
 #include <algorithm>
 

@@ -52,7 +52,7 @@ void mend(Bytes& bytes) {
   ByteWriter(all.last(8)).put(hash64(all.first(all.size() - 8)));
 }
 
-// What was let in saves as it was, and what it becomes can be loaded again.
+// An accepted state saves as it was, and its later states can be loaded again.
 void use(World& world, ByteView bytes) {
   const Bytes same = test::save(world, SnapshotKind::canonical);
   LKS_CHECK(std::equal(same.begin(), same.end(), bytes.begin(), bytes.end()));

@@ -1,4 +1,4 @@
-// What is fuzzed: one parser of bytes from outside.
+// The target of a fuzzer: one parser of bytes from outside.
 //
 // A target's file defines a Target and registers it. The same file is linked into `fuzz_test`,
 // which tries all targets with its own mutations for a moment, and, with LOCKSTONE_FUZZERS, into a
@@ -21,10 +21,11 @@ struct Target {
   /// Good examples, made by this build: files alone would end at the first check of a version.
   std::vector<Bytes> (*seeds)() = nullptr;
 
-  /// Sets right what would hide all behind it: checksums, versions, keys. Null when there is none.
+  /// Corrects the fields whose rejection would hide all code behind them: checksums, versions,
+  /// keys. Null when there is none.
   void (*mend)(Bytes& bytes) = nullptr;
 
-  /// Parses, uses what was let in, and answers whether anything was. What must not happen stops the
+  /// Parses, uses accepted input, and returns whether any was accepted. A violation stops the
   /// program: LKS_CHECK, asserts, sanitizers.
   bool (*run)(ByteView bytes) = nullptr;
 };

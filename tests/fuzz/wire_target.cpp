@@ -1,4 +1,5 @@
-// Every message of a session. What decodes must have one coding: encoding it gives the same bytes.
+// Every message of a session. Decodable bytes must be the only coding of their message: encoding it
+// gives the same bytes.
 
 #include <algorithm>
 
@@ -42,7 +43,7 @@ bool run_hello(ByteView packet) {
   return message.protocol != k_protocol_version || has_one_coding(message, packet);
 }
 
-// Records may be coded in several ways; what the header says must be in them.
+// Records may be coded in several ways; they must fit the header.
 bool run_inputs(ByteView packet) {
   Inputs message;
   if (decode(packet, k_shape.input_bytes, message) != Status::ok) return false;

@@ -1,4 +1,4 @@
-// What tests ask of assets: collected parts, and small solids as meshes.
+// Helpers for tests of assets: collected parts, and small solids as meshes.
 #pragma once
 
 #include <array>

@@ -88,7 +88,7 @@ TEST(BoxClip, WhatIsCutOffAndWhatIsLeftAreTheWhole) {
   for (int i = 0; i < 5000; ++i) {
     const ClipPolygon polygon = quadrilateral(dice, 1);
     const Fine half_x = fine_of(dice.uniform(0.1, 1)), half_y = fine_of(dice.uniform(0.1, 1));
-    // The strip within |x| ≤ half is what the two half-planes share: areas add up in y.
+    // The strip within |x| ≤ half is the intersection of the two half-planes: areas add up in y.
     ClipPolygon strip;
     Slab<0>{half_x, 0}.clip(polygon, strip);
     long double sum = 0;

@@ -30,7 +30,7 @@ bool core_is_inside(const Scene& scene, Real separation) {
   return box && separation < k_micrometre - smallest_radius(scene) && smallest_radius(scene) > 0;
 }
 
-/// What rounding of inputs, rotations and results explains.
+/// The error by rounding of inputs, rotations and results.
 Real tolerance(const Scene& scene) {
   return 2 * k_micrometre + scene.scale() * 4e-9L;
 }
@@ -90,8 +90,8 @@ TEST(Collide, NoPointIsDeeperThanTheShapesAlongTheNormal) {
   });
 }
 
-/// What surface points may miss by, beyond rounding: between boxes k_snap, and along a capsule (two
-/// points share a normal that is square to neither core) a share of its radius.
+/// How far surface points may be off, beyond rounding: between boxes k_snap, and along a capsule
+/// (two points share a normal that is square to neither core) a share of its radius.
 Real surface_slack(const Scene& scene, const Placed& shape) {
   if (is_pair_of(scene, ShapeKind::box)) return 31 * k_micrometre;
   return smallest_radius(scene) > 0 ? shape.radius() / 1000 : 0;

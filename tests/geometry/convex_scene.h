@@ -8,7 +8,7 @@
 
 namespace lockstone::test {
 
-/// A shape of any convex kind in a pose, owning what a polytope's view names. Vertices alone: that
+/// A shape of any convex kind in a pose, owning the data of a polytope's view. Vertices alone: that
 /// is all GJK and EPA look at; interior points among them are harmless.
 struct Convex {
   Shape shape{};
@@ -174,7 +174,7 @@ struct RealPair {
   }
 };
 
-/// What rounding of inputs, rotations and results explains.
+/// The error by rounding of inputs, rotations and results.
 inline Real tolerance(const RealPair& pair) {
   return 2 * k_micrometre + 4e-9L * pair.size;
 }

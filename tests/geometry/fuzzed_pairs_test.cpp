@@ -1,4 +1,4 @@
-// Pairs that `lockstone fuzz-pairs` found broken once, each with what was wrong.
+// Pairs that `lockstone fuzz-pairs` found broken once, each with its defect.
 #include "core/geometry/epa.h"
 #include "core/geometry/shape_cast.h"
 #include "core/geometry/triangle_polytope.h"

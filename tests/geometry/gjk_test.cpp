@@ -200,7 +200,7 @@ TEST(Distance, IsTheSeparationOfTheManifold) {
     Real least = 1e30L;
     for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i)
       least = std::min(least, real(manifold.points[i].separation));
-    // What `collide` states of itself: faces within 2^-16 m, and 1/2048 beside a box's rim.
+    // The documented bounds of `collide`: faces within 2^-16 m, and 1/2048 beside a box's rim.
     const Real slack = 20 * k_micrometre + 8e-9L * scene.scale() +
                        (least + scene.placed_a().radius() + scene.placed_b().radius()) / 2000;
     EXPECT_NEAR(static_cast<double>(real(found.distance)), static_cast<double>(least),

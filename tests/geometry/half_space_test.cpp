@@ -21,7 +21,7 @@ struct PlaneScene {
     return lockstone::collide({Shape::half_space(), plane}, body(), offset, margin);
   }
   [[nodiscard]] RealVec normal() const { return real(plane.y) * (1 / norm(real(plane.y))); }
-  /// Of what rounding explains.
+  /// The error by rounding.
   [[nodiscard]] Real tolerance() const {
     const RealSolid solid = real_solid(body(), {});
     Real size = norm(real(offset)) + solid.radius;
@@ -151,8 +151,8 @@ struct RealRayHit {
   Real fraction = 0;
 };
 
-/// Of a flat polytope: the point of its plane, in the polygon grown by `by` and what the plane's
-/// own error moves it along.
+/// Of a flat polytope: the point of its plane, in the polygon grown by `by` and by the shift from
+/// the plane's own error.
 RealRayHit reference_flat(const RealSolid& solid, const RealVec& o, const RealVec& t, Real by) {
   const Real height = dot(o - solid.faces[0][0], solid.normals[0]);
   const Real rise = dot(t, solid.normals[0]);

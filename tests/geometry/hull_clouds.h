@@ -21,6 +21,24 @@ inline Cloud in_cube(Dice& dice, int count, double half) {
   return cloud;
 }
 
+/// Whether no point lies within so many steps of a plane through three others.
+inline bool is_in_general_position(const Cloud& cloud, Real steps) {
+  const std::size_t count = cloud.size();
+  const auto is_near = [&](std::size_t i, std::size_t j, std::size_t k) {
+    const RealVec at = real(cloud[i]);
+    const RealVec normal = cross(real(cloud[j]) - at, real(cloud[k]) - at);
+    const Real reach = std::ldexp(steps, -Length::frac_bits) * norm(normal);
+    for (std::size_t p = 0; p < count; ++p)
+      if (p != i && p != j && p != k && std::fabs(dot(real(cloud[p]) - at, normal)) <= reach)
+        return true;
+    return false;
+  };
+  for (std::size_t k = 2; k < count; ++k)
+    for (std::size_t pair = 0; pair < k * k; ++pair)
+      if (pair % k < pair / k && is_near(pair % k, pair / k, k)) return false;
+  return true;
+}
+
 inline Cloud on_sphere(Dice& dice, int count, double radius) {
   Cloud cloud;
   for (int i = 0; i < count; ++i)

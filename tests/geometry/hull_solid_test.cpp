@@ -83,9 +83,13 @@ std::vector<Triangle> fan_of(const Polytope& p) {
   return triangles;
 }
 
+bool has_only_triangles(const Polytope& p) {
+  return std::ranges::all_of(p.faces, [](const auto& face) { return face.edge_count == 3; });
+}
+
 constexpr Real k_step = 1 / Real{1 << 30};
 
-/// Covariance errors over what is allowed.
+/// Covariance errors over their bound.
 Real worst_error(const Solid& solid, const Reference& truth) {
   const Real s = std::ldexp(Real{1}, solid.scale_exponent);
   const auto found = covariance_of(solid);
@@ -126,8 +130,13 @@ TEST(HullSolid, MatchesTheIntegrals) {
 TEST(HullSolid, OfExactFacesIsThatOfTheFaces) {
   Dice dice;
   for (const Real far : {Real{0}, Real{500}}) {
-    const Cloud cloud = moved(in_cube(dice, 100, 1), metres(RealVec{far, -far, far}));
-    const auto hull = hull_of(cloud, {.tolerance = Length::from_raw(1), .max_vertices = 128});
+    std::shared_ptr<const Hull> hull;
+    // A face merged from triangles is uneven by up to the tolerance, so that its fan of triangles
+    // may bound another volume than those that it was merged from.
+    do {
+      const Cloud cloud = moved(in_cube(dice, 100, 1), metres(RealVec{far, -far, far}));
+      hull = hull_of(cloud, {.tolerance = Length::from_raw(1), .max_vertices = 128});
+    } while (!has_only_triangles(*hull->polytope()));
     expect_solid(*hull->solid(), reference_of(hull->vertices(), fan_of(*hull->polytope())));
   }
 }

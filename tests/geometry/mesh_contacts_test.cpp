@@ -253,7 +253,7 @@ TEST(MeshContacts, WithoutTheRemovalAFlatGridHasGhosts) {
   EXPECT_EQ(joined(contacts, pose).count, 1U);
 }
 
-/// What a box standing flat on a grid feels.
+/// The contacts of a box that stands flat on a grid.
 MeshManifold standing_box(const Asset& mesh, double x, double z) {
   const Pose pose{Shape::box(metres(0.4), metres(0.3), metres(0.5)), turned(0, 1, 0, 0.3),
                   metres(x, 0.299, z)};

@@ -14,7 +14,7 @@
 
 namespace lockstone::test {
 
-/// Owns what a view names. Not for many points: every triple is tried.
+/// Owns the data of a view. Not for many points: every triple is tried.
 class TestPolytope {
  public:
   TestPolytope(const TestPolytope&) = delete;

@@ -107,7 +107,7 @@ inline bool is_round(const Shape& shape) {
   return shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
 }
 
-/// How far the common anchor of what overlaps is from A's surface, as a share of the overlap.
+/// How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.
 inline Real share_of_a(const Shape& a, const Shape& b) {
   if (is_round(a) == is_round(b)) return 0.5L;
   return is_round(a) ? 0 : 1;

@@ -1,4 +1,4 @@
-"""What the law tests share: finding C++ files and reading them without comments and strings."""
+"""Helpers of the law tests: finding C++ files and reading them without comments and strings."""
 
 import argparse
 import pathlib
@@ -94,7 +94,7 @@ def expect_only(findings, *fragments):
 
 def run_law(check, control, folders):
     """The main program of a law on sources: `--root DIR` checks the tree, `--control` checks that
-    the law catches what it is for."""
+    the law catches violations."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--root", default=".")
     parser.add_argument("--control", action="store_true")

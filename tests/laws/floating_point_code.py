@@ -3,9 +3,9 @@
 usage: floating_point_code.py LIBRARY… [--objdump PROGRAM] [--nm PROGRAM]
        floating_point_code.py --control COMPILER
 
-Banned is what computes with, compares or converts floating-point numbers, whose result could depend
-on a rounding mode, on contraction or on the compiler. Allowed is what compilers and vector code use
-for integers in the same registers: moves (movaps, movups, movss, movsd, movhlps), shuffles (shufps,
+Banned are instructions that compute with, compare or convert floating-point numbers: their result
+could depend on a rounding mode, on contraction or on the compiler. Allowed are the instructions that
+compilers and vector code use for integers in the same registers: moves (movaps, movups, movss, movsd, movhlps), shuffles (shufps,
 unpcklps, blendps, insertps, permilps), and bitwise logic (andps, orps, xorps).
 """
 

@@ -50,7 +50,7 @@ def control():
     expect_only(found("auto x = std::sqrt(4);"), "function: std::sqrt")
     expect_only(found("auto x = strtod(text, nullptr);"), "function: strtod")
     expect_only(found("auto s = R\"(a\nb)\"; double x;"), "core/a.cpp:3")
-    # What must pass: comments, strings, separators, our own literals, other names, the exception.
+    # Must pass: comments, strings, separators, our own literals, other names, the exception.
     for line in ('// float\n', '/* double\n float */', '"float \\" double"', "auto c = '\"'; int floating;",
                  "auto x = 1'000'000 + 0xfe1 + 2u;", "auto x = 1.5_m + 1e3_kg;", "a.e1 = b.x;",
                  'auto s = R"x(double " )" float)x";', 'to_string(1); "1.5";'):

@@ -8,11 +8,11 @@ import pathlib
 from cpp_source import Tree, expect_only, includes, run_law
 
 FOLDERS = ["core", "net", "replay"]
-ROOMS = ["base", "math", "geometry", "collision", "dynamics", "world"]
+MODULES = ["base", "math", "geometry", "collision", "dynamics", "world"]
 
-# The room that each public header of core belongs to: its implementation lives there, and the
-# header may include what that room may.
-PUBLIC_ROOMS = {
+# The module that each public header of core belongs to: its implementation lives there, and the
+# header may include the same modules.
+PUBLIC_MODULES = {
     "base": ["assert.h", "bytes.h", "hash.h", "refusal.h", "rng.h", "status.h", "tasks.h",
              "thread_pool.h"],
     "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
@@ -35,18 +35,18 @@ THIRD_PARTY = {
 }
 
 
-def public_room(path):
+def public_module(path):
     name = path.removeprefix("core/include/lockstone/")
-    return next((room for room, names in PUBLIC_ROOMS.items() if name in names), None)
+    return next((module for module, names in PUBLIC_MODULES.items() if name in names), None)
 
 
-def room_of(path):
-    """(area, room) of a file; the room is None outside core and for a header without an entry."""
+def module_of(path):
+    """(area, module) of a file; the module is None outside core and for a header without an entry."""
     area, _, rest = path.partition("/")
     if area != "core":
         return area, None
-    room = public_room(path) if rest.startswith("include/") else rest.partition("/")[0]
-    return area, room if room in ROOMS else None
+    module = public_module(path) if rest.startswith("include/") else rest.partition("/")[0]
+    return area, module if module in MODULES else None
 
 
 def resolve(name, quoted, tree):
@@ -62,8 +62,8 @@ def resolve(name, quoted, tree):
 
 def refusal(path, target):
     """Why the file may not include the target, or None."""
-    area, room = room_of(path)
-    other_area, other_room = room_of(target)
+    area, module = module_of(path)
+    other_area, other_module = module_of(target)
     if other_area not in FOLDERS:
         return "a library includes only its own headers, by their path from the root"
     if target.startswith(TESTING):
@@ -71,8 +71,8 @@ def refusal(path, target):
     if area == "core":
         if other_area != "core":
             return f"core does not know {other_area}"
-        if room and other_room and ROOMS.index(other_room) > ROOMS.index(room):
-            return f"{room} does not see {other_room}"
+        if module and other_module and MODULES.index(other_module) > MODULES.index(module):
+            return f"{module} does not see {other_module}"
     elif other_area == "core" and target not in SEAM:
         return f"{area} sees core only through the simulation interface"
     elif other_area not in (area, "core"):
@@ -87,16 +87,16 @@ def third_party_refusal(path, name):
     return None
 
 
-def without_room(tree):
-    """Files of core that nothing places in a room."""
+def without_module(tree):
+    """Files of core that nothing places in a module."""
     for path in map(str, tree.files):
-        if path.startswith("core/") and not path.startswith(TESTING) and room_of(path)[1] is None:
-            yield (f"{path}: has no room: put it into one of {', '.join(ROOMS)}; for a public header, "
-                   f"by an entry in PUBLIC_ROOMS of tests/laws/include_direction.py")
+        if path.startswith("core/") and not path.startswith(TESTING) and module_of(path)[1] is None:
+            yield (f"{path}: has no module: put it into one of {', '.join(MODULES)}; for a public header, "
+                   f"by an entry in PUBLIC_MODULES of tests/laws/include_direction.py")
 
 
 def check(tree):
-    findings = list(without_room(tree))
+    findings = list(without_module(tree))
     for file, text in tree.items():
         path = file.as_posix()
         if path.startswith(TESTING):
@@ -112,7 +112,7 @@ def check(tree):
 
 
 def control():
-    headers = {f"core/include/lockstone/{name}": "" for names in PUBLIC_ROOMS.values() for name in names}
+    headers = {f"core/include/lockstone/{name}": "" for names in PUBLIC_MODULES.values() for name in names}
     headers |= {"net/include/lockstone/session.h": "", "replay/include/lockstone/log.h": "",
                 "core/include/lockstone/testing/floating.h": "#include <lockstone/world.h>"}
 
@@ -123,8 +123,8 @@ def control():
                 "core/math/a.cpp:2: includes core/world/world.h: math does not see world")
     expect_only(found("core/base/a.cpp", "<lockstone/fixed.h>"), "base does not see math")
     expect_only(found("core/include/lockstone/vec3.h", "<lockstone/world.h>"), "math does not see world")
-    expect_only(found("core/include/lockstone/novel.h"), "novel.h: has no room")
-    expect_only(found("core/attic/a.cpp"), "core/attic/a.cpp: has no room")
+    expect_only(found("core/include/lockstone/novel.h"), "novel.h: has no module")
+    expect_only(found("core/attic/a.cpp"), "core/attic/a.cpp: has no module")
     expect_only(found("core/world/a.cpp", "<lockstone/session.h>"), "core does not know net")
     expect_only(found("net/a.cpp", "<lockstone/world.h>"), "simulation interface")
     expect_only(found("net/a.cpp", '"core/base/arena.h"'), "simulation interface")
@@ -136,7 +136,7 @@ def control():
     expect_only(found("core/world/a.cpp", "<lockstone/testing/floating.h>"), "tools and tests only")
     expect_only(found("core/world/a.cpp", "<lockstone/gone.h>"), "no such public header")
     expect_only(found("core/world/a.cpp", "<enet/enet.h>"), "only net/ uses it")
-    # What must pass.
+    # Must pass.
     expect_only(found("core/world/a.cpp", '"core/base/a.h"', "<lockstone/shape.h>", "<xxhash_like.h>"))
     expect_only(found("net/a.cpp", "<lockstone/simulation.h>", '"net/b.h"', "<lockstone/session.h>", "<enet/enet.h>"))
     expect_only(check(Tree(headers | {"core/base/a.cpp": "// #include <lockstone/world.h>\n"})))

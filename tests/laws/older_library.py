@@ -1,4 +1,4 @@
-"""The libraries, and what plays scenes under Node, compile for WebAssembly with the C++ library of Debian's
+"""The libraries, and the player of scenes under Node, compile for WebAssembly with the C++ library of Debian's
 Emscripten (libc++ 14): of algorithms on ranges there are those of the toolchain's wasm_algorithms.h, and
 some of C++20 is not there at all."""
 
@@ -46,7 +46,7 @@ def control():
 
     expect_only(found("std::ranges::rotate(a, b);"), "core/base/a.cpp:2: std::ranges::rotate is not in")
     expect_only(found("auto p = std::make_unique_for_overwrite<int[]>(3);"), "a.cpp:2: std::make_unique_for_overwrite is not")
-    # What must pass.
+    # Must pass.
     expect_only(found("std::ranges::find(a, std::ranges::less{});"))
     expect_only(found("std::ranges::fill(a, 0); std::make_unique<int[]>(3);"))
 

@@ -1,4 +1,4 @@
-"""Law 2 in the source, of what is sorted: it has one order. Where two elements compare equal, the algorithms
+"""Law 2 in the source: every sort has one result. Where two elements compare equal, the algorithms
 below leave them in an order that each standard library chooses. So every call stands in order_keys.txt
 beside this file, with the key that tells all elements apart, or the reason why equal ones are the same."""
 

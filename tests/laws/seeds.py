@@ -30,7 +30,7 @@ def control():
     expect_only(found("tests/a_test.cpp", "std::mt19937 engine{std::random_device{}()};"), "differs in every run")
     expect_only(found("tests/support/random.h", "std::chrono::system_clock::now().time_since_epoch();"), "differs in every run")
     expect_only(found("tests/a_test.cpp", 'std::getenv("LOCKSTONE_TEST_SEED");'), "only tests/support/random.h")
-    # What must pass.
+    # Must pass.
     expect_only(found("tests/support/random.h", 'std::getenv("LOCKSTONE_TEST_SEED");'))
     expect_only(found("tests/a_test.cpp", "Random random(run_seed());  // not of random_device"))
     expect_only(found("tests/a_test.cpp", "const auto end = Clock::now() + budget;"))

@@ -4,7 +4,7 @@ holds the old excess, which may shrink but never grow.
 
 usage: shape.py [--root DIR] [--update | --list | --control]
 
-  --update   lower the baseline to what the tree needs; writes a new one only when there is none
+  --update   lower the baseline to the figures of the tree; writes a new one only when there is none
   --list     print every function with its length and nesting
 """
 
@@ -34,7 +34,7 @@ _TABLE_ROW = re.compile(r"\s*(?:case\b|default\s*:|\{|\}|[A-Z][A-Z0-9_]*\()")
 
 
 def classify(head, in_function):
-    """What an opening brace begins, by the text since the last statement."""
+    """The kind of scope that an opening brace begins, by the text since the last statement."""
     head = _TEMPLATE.sub(" ", head)
     head = _NOT_A_CALL.sub(" ", head).strip()
     if _LAMBDA.search(head):

@@ -1,4 +1,4 @@
-"""What a program never names is not linked: one that uses spheres and boxes has no code of hulls,
+"""Only the parts that a program names are linked: one that uses spheres and boxes has no code of hulls,
 meshes and height fields, and is smaller than one that does.
 
 usage: link_test.py NM PRIMITIVES ASSETS
@@ -16,7 +16,7 @@ UNUSED = re.compile(r"lockstone::(?:\w+::)*(Hull|Mesh|HeightField|Compound)::|lo
 
 
 def code_of(nm, program):
-    """{symbol: bytes} of what is in the program's text."""
+    """{symbol: bytes} of the program's text section."""
     text = subprocess.run([nm, "-C", "-S", "--defined-only", program], check=True, capture_output=True,
                           text=True).stdout
     sizes = {}

@@ -24,7 +24,7 @@ namespace {
 constexpr std::int64_t k_min64 = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t k_max64 = std::numeric_limits<std::int64_t>::max();
 
-/// What the optimiser cannot see through, so that nothing is decided at compile time.
+/// A copy that the optimiser cannot see through, so that nothing is decided at compile time.
 template <class T>
 T opaque(T value) {
   volatile T hidden = value;

@@ -1,4 +1,4 @@
-"""lockstone numerics: the vectors are what this build writes, and each kind of damage is found; and
+"""lockstone numerics: this build writes the same vectors, and each kind of damage is found; and
 the errors that lockstone bench numerics measures are within the bounds.
 
 usage: numerics_command_test.py LOCKSTONE FILE

@@ -82,7 +82,7 @@ bool needs_proof(double error) {
 
 enum class Symmetry { none, odd, even };
 
-/// Whether f(−x) is what the symmetry says: then the slow references are asked for one half only.
+/// Whether f(−x) obeys the symmetry: then the slow references are asked for one half only.
 template <class Ours>
 bool is_symmetric(Symmetry symmetry, Ours ours, std::int64_t raw, std::int64_t result) {
   if (symmetry == Symmetry::none || -raw > k_high) return true;

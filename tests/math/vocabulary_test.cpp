@@ -1,4 +1,4 @@
-// What a game programmer writes with quantities and vectors.
+// Quantities and vectors as a game programmer writes them.
 #include <sstream>
 
 #include <gtest/gtest.h>

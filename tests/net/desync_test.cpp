@@ -198,7 +198,7 @@ TEST(Desync, IsExplainedThoughItsReportsWereCutOff) {
   MatchOptions options = match_with_flip(2, 11, 1, flip);
   options.server.snapshot_ticks = 512;
   Match match(options);
-  // The client goes on hearing ticks, but must not step past what its snapshots cover.
+  // The client goes on hearing ticks, but must not step past the ticks that its snapshots cover.
   match.network.partition(*match.players[1].transport, k_second_us, 5 * k_second_us, Cut::sending);
   ASSERT_TRUE(match.run(60 * k_second_us));
   ASSERT_EQ(match.server_log.reports.size(), 1U);

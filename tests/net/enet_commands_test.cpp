@@ -165,7 +165,7 @@ TEST(CommandFilter, RefusesPacketsThatShareSequenceNumbers) {
   EXPECT_EQ(filter.admit(reliable(14), 0, false), Verdict::pass);
 }
 
-// What ENet would hold: packets by their first number, delivered in order.
+// Stands in for ENet's store: packets by their first number, delivered in order.
 struct Store {
   std::map<std::uint16_t, std::uint16_t> counts;
   std::uint16_t delivered = 0;

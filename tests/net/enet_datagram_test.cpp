@@ -61,7 +61,7 @@ TEST(EnetDatagram, TheChecksumFindsEveryChangedBitAndAnotherKey) {
   }
 }
 
-// The open checksum is on the wire: it stays what it is.
+// The open checksum is part of the wire format: it must not change.
 TEST(EnetDatagram, TheOpenChecksumStaysWhatItIs) {
   const Word sum = LinkChecksum(std::nullopt).of(connect_datagram(std::byte{7}));
   EXPECT_EQ(ByteReader(sum).get<std::uint32_t>(), 0x85f5c1d8U);

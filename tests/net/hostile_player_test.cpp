@@ -1,4 +1,4 @@
-// One player does what it can to stop the match of the others.
+// One player tries everything to stop the match of the others.
 #include <gtest/gtest.h>
 
 #include "net/session/offender_list.h"

@@ -29,7 +29,7 @@ struct SeenTick {
   friend bool operator==(const SeenTick&, const SeenTick&) = default;
 };
 
-/// What a peer saw of a match.
+/// A peer's record of a match.
 struct Seen {
   std::vector<SeenTick> ticks;
   std::vector<std::uint64_t> hashes;
@@ -81,7 +81,7 @@ struct Liar {
   std::uint64_t from = 0;
 };
 
-/// Presses what toy_input says.
+/// Plays the inputs of toy_input.
 class ScriptedInputs final : public InputSource {
  public:
   ScriptedInputs(std::uint64_t seed, std::size_t slot) : seed_(seed), slot_(slot) {}

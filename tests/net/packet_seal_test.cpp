@@ -56,7 +56,7 @@ TEST(PacketSeal, EqualBytesNeverLookEqual) {
   for (const Channel channel : {Channel::reliable, Channel::unreliable}) {
     for (int i = 0; i < 1000; ++i) {
       const Bytes packet = sealed(sealer, channel, plain);
-      // What the cipher made of them, without what is in clear.
+      // Their encrypted parts, without the bytes in clear.
       seen.insert(Bytes(packet.end() - 48, packet.end()));
     }
   }

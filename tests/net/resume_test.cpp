@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t k_ticks = 900;
 
-/// The toy after so many ticks of what a server closed.
+/// The toy after so many of a server's closed ticks.
 void step_to(ToySimulation& toy, const Seen& seen, std::size_t ticks, std::size_t input_bytes) {
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     std::vector<PlayerInput> inputs;
@@ -49,7 +49,7 @@ void reconnect_lost(Match& match) {
 
 class Resume : public testing::TestWithParam<std::size_t> {};
 
-// Clients are ahead of the log by what it lost: they go back, or go on where they are.
+// Clients are ahead of the log by the ticks that it lost: they go back, or go on where they are.
 TEST_P(Resume, MatchGoesOnFromItsLogAndStaysEqual) {
   for (const bool secure : {false, true}) {
     for (const std::uint8_t prediction : {std::uint8_t{0}, std::uint8_t{6}}) {

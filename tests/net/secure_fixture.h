@@ -43,7 +43,7 @@ inline constexpr std::int64_t k_unix_s = 1'800'000'000;  ///< when the simulated
 [[nodiscard]] std::unique_ptr<SecureTransport> join_securely(Transport& carrier, std::size_t slot,
                                                              RandomSource& random);
 
-/// Passes everything on and keeps what was sent.
+/// Passes everything on and keeps copies of sent packets.
 class TapTransport final : public Transport {
  public:
   struct Sent {

@@ -46,7 +46,7 @@ struct Pair {
     network.connect(client_end, server_end, {});
   }
 
-  // What the client hears first of its connection, over `client`.
+  // The first event of the client's connection, over `client`.
   TransportEvent first_event(Transport& client, SecureTransport& server) {
     TransportEvent event;
     for (int i = 0; i < 20; ++i) {
@@ -59,7 +59,7 @@ struct Pair {
     return event;
   }
 
-  // What a server with these options answers to this token.
+  // The answer of a server with these options to this token.
   RefuseReason answer_to(const ConnectToken& token, const SecureServerOptions& options) {
     const auto server = SecureTransport::serve(server_end, options, random);
     const auto client = SecureTransport::join(client_end, token, random);

@@ -1,4 +1,5 @@
-// Who gets a place of a listening socket, for how long, and what cannot keep it from working.
+// Who gets a place of a listening socket, for how long, and that no stranger can keep it from
+// working.
 #include <algorithm>
 #include <array>
 

@@ -184,7 +184,8 @@ TEST(EnetTransport, CarriesLargePacketsOverIpv6) {
   EXPECT_EQ(match.log.reports[0].difference.field, "spin");
 }
 
-// What a client without the right key hears of a server, if anything, with 10 ms for each round.
+// The first event that a client without the right key gets of a server, if any, with 10 ms for each
+// round.
 TransportEvent first_word(const std::optional<LinkKey>& server_key,
                           const std::optional<LinkKey>& client_key, std::uint32_t server_tag = 0,
                           std::uint32_t client_tag = 0) {

@@ -1,5 +1,5 @@
-// IPv6 beside ENet: who gets a place, what is dropped, and that both kinds of addresses live
-// together.
+// IPv6 beside ENet: who gets a place, which datagrams are dropped, and that both kinds of addresses
+// work together.
 #include <array>
 #include <fstream>
 

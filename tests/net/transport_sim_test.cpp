@@ -11,7 +11,7 @@ struct Arrival {
   friend bool operator==(const Arrival&, const Arrival&) = default;
 };
 
-// Sends `count` numbered packets, one a millisecond, and tells what arrives when.
+// Sends `count` numbered packets, one a millisecond, and returns the arrivals with their times.
 std::vector<Arrival> arrivals(std::uint64_t seed, const LinkFaults& faults, Channel channel,
                               int count, std::pair<std::int64_t, std::int64_t> cut = {0, 0}) {
   SimNetwork network(seed);

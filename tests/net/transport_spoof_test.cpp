@@ -120,7 +120,8 @@ struct Wire {
     return ended == 0 && heard_by_client == sent && heard_by_server == sent;
   }
 
-  // A datagram in the name of one end, made of what is known to all players and seen on the wire.
+  // A datagram in the name of one end, made of data that all players know or that is seen on the
+  // wire.
   Bytes spoof(const Way& way, ByteView commands) const {
     const ByteView connect = up.seen.front();
     Bytes datagram(8 + commands.size());

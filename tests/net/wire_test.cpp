@@ -14,7 +14,7 @@ namespace {
 
 constexpr TickShape k_shape{3, 5};
 
-// A message's bytes, and a decoder that answers its status and what it would encode to again.
+// A message's bytes, and a decoder that returns its status and the bytes of encoding it again.
 struct Sample {
   const char* name;
   std::vector<std::byte> bytes;

@@ -1,5 +1,5 @@
-// Small files that ask for much memory or time: what a reader spends grows with the file, whatever
-// the file says.
+// Small files that ask for much memory or time: a reader's cost grows with the file, whatever the
+// file says.
 #include <atomic>
 
 #include <gtest/gtest.h>
@@ -22,10 +22,10 @@ namespace {
 
 using namespace replay;
 
-// Bytes held for each byte of the file: a payload, what it is unpacked to, and copies of that.
+// Bytes held for each byte of the file: a payload, its unpacked bytes, and copies of these.
 constexpr std::size_t k_held_per_byte = 4 * k_max_compression_ratio;
 
-// Buffers of constant size, and what the toy's configuration needs.
+// Buffers of constant size, and the memory for the toy's configuration.
 constexpr std::size_t k_held_always = std::size_t{3} << 20;
 
 // A Zstandard frame (RFC 8878) of zeros, 128 KiB for each four bytes.
@@ -98,7 +98,7 @@ void expect_bounded(const Bytes& log) {
     MemorySource other(good);
     (void)compare_logs(source, other);
   });
-  // What is written is as long as the log.
+  // The output is as long as the log.
   check("repair", [](Source& source) {
     MemorySink sink;
     (void)repair(source, sink);

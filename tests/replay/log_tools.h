@@ -47,7 +47,7 @@ class ToyInputs {
   std::vector<PlayerInput> inputs_;
 };
 
-/// Plays and records. Answers the recorder's first bad status.
+/// Plays and records. Returns the recorder's first bad status.
 Status record(const ToyMatch& match, replay::Sink& sink);
 
 /// The same into memory.

@@ -10,7 +10,7 @@ namespace {
 
 using namespace replay;
 
-// Reads to the end and counts what was delivered.
+// Reads to the end and counts the delivered items.
 struct Reading {
   explicit Reading(const Bytes& bytes) : source(bytes), reader(source) {
     status = reader.open();

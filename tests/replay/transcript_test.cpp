@@ -63,7 +63,7 @@ TEST(Transcript, IsAnotherForEachOriginByteTickAndPlayer) {
   EXPECT_NE(end_of(record({.ticks = 30, .start_tick = 1})), good);
 }
 
-// What changes an input and makes every checksum right, and forgets the END.
+// A forger that changes an input and corrects every checksum, but forgets the END.
 TEST(Transcript, IsCheckedAgainstTheInputs) {
   const Bytes good = record({.ticks = 30});
   const Bytes other = rewrite(good, [](auto tick, auto slot, auto bytes) {

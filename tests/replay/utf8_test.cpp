@@ -30,7 +30,7 @@ TEST(Utf8, RefusesControlsSurrogatesAndWhatIsTooLong) {
   EXPECT_EQ(character_bytes({}), 0U);
 }
 
-// What a decoder of one's own makes of two bytes: a character of its own value, spelt shortest.
+// A reference decoder of two bytes: a character of its own value, spelt shortest.
 TEST(Utf8, KnowsEveryPairOfBytes) {
   for (unsigned first = 0; first < 256; ++first) {
     for (unsigned second = 0; second < 256; ++second) {

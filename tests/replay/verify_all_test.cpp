@@ -1,4 +1,4 @@
-// Verifying in segments on several threads says what verifying in one piece says.
+// Verifying in segments on several threads gives the same report as verifying in one piece.
 #include <gtest/gtest.h>
 
 #include <lockstone/replay/verifier.h>

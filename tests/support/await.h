@@ -1,4 +1,4 @@
-// Waiting for what other threads, processes and sockets bring about in their own time.
+// Waiting for events that other threads, processes and sockets cause in their own time.
 #pragma once
 
 #include <chrono>

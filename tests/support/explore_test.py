@@ -21,6 +21,11 @@ echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
 PASSING = """#!/bin/sh
 echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
 """
+# Late whenever it runs, or for the first time only, with the word given.
+LATE = """#!/bin/sh
+echo "[ seed     ] LOCKSTONE_TEST_SEED=$LOCKSTONE_TEST_SEED"
+[ "$WHEN" = once ] && [ -e late ] || { touch late; exec sleep 20; }
+"""
 REPORT = """<testsuite>
 <testcase name="{name}" status="run" time="0.01"><system-out>LOCKSTONE_TEST_SEED=7</system-out></testcase>
 <testcase name="Same.EveryTime" status="run" time="0.01"><system-out>ok</system-out></testcase>
@@ -34,7 +39,7 @@ class Explore(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def explore(self, name, script, environment=(), seconds=1):
+    def explore(self, name, script, environment=(), seconds=1, longest=60):
         program = self.folder / "program"
         program.write_text(script, encoding="utf-8")
         program.chmod(0o755)
@@ -46,7 +51,7 @@ class Explore(unittest.TestCase):
         (self.folder / "report.xml").write_text(REPORT.format(name=name), encoding="utf-8")
         return subprocess.run(
             [sys.executable, "-B", EXPLORE, "--tests", "tests.json", "--report", "report.xml",
-             "--seconds", str(seconds), "--jobs", "2", "--first-seed", "1000"],
+             "--seconds", str(seconds), "--jobs", "2", "--first-seed", "1000", "--longest", str(longest)],
             cwd=self.folder, capture_output=True, text=True, check=False)
 
     def test_finds_the_seed_that_fails_and_prints_how_to_repeat_it(self):
@@ -67,6 +72,16 @@ class Explore(unittest.TestCase):
 
     def test_tries_every_test_once_however_short_the_time(self):
         self.assertRegex(self.explore("A.b", PASSING, seconds=0).stdout, "^explore: 1 runs of 1 tests")
+
+    def test_reports_what_is_late_twice_with_one_seed(self):
+        done = self.explore("A.b", LATE, environment=["WHEN=always"], seconds=0, longest=0.4)
+        self.assertIn("-- found: A.b with seed 1001: longer than ", done.stdout, done.stderr)
+        self.assertEqual(done.returncode, 3)
+
+    def test_takes_what_is_late_once_for_a_pause_of_the_machine(self):
+        done = self.explore("A.b", LATE, environment=["WHEN=once"], seconds=0, longest=0.4)
+        self.assertEqual(done.stdout, "explore: 1 runs of 1 tests, 0 findings\n", done.stderr)
+        self.assertEqual(done.returncode, 0)
 
     def test_leaves_tests_with_a_listed_seed_alone(self):
         done = self.explore("A.b", SEEDED, environment=["LOCKSTONE_TEST_SEED=3"])

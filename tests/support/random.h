@@ -8,11 +8,12 @@
 
 namespace lockstone::test {
 
-/// What tests draw from by default. Single tests run with further seeds: see listed_seeds.txt.
+/// The default seed of tests. Single tests run with further seeds: see listed_seeds.txt.
 inline constexpr std::uint64_t k_listed_seed = 20261123;
 
 /// The seed of this run: LOCKSTONE_TEST_SEED, or the listed one. The same for every test of the
-/// process, and printed: by this line `tools/test.sh --explore` finds what depends on the seed.
+/// process, and printed: by this line `tools/test.sh --explore` finds the tests that depend on the
+/// seed.
 inline std::uint64_t run_seed() {
   static const std::uint64_t seed = [] {
     const char* text = std::getenv("LOCKSTONE_TEST_SEED");

@@ -24,7 +24,7 @@ class TickInputs {
     return std::span(inputs_).first(players);
   }
 
-  /// What the bots press on what they see in `simulation`.
+  /// The inputs of the bots, from their view of `simulation`.
   void press_bots(const ArenaSimulation& simulation, std::uint64_t seed) {
     for (std::size_t slot = 0; slot < simulation.arena().config.players; ++slot) {
       bot_input(simulation.arena(), seed, slot).encode(bytes_[slot]);

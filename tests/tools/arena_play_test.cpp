@@ -142,7 +142,7 @@ TEST(ArenaIntegers, SpeedsAreShortenedToTheLimit) {
   EXPECT_EQ(shortened(slow, SolverVelocity::from_integer(7)), slow);
 }
 
-/// What the bots of one match did.
+/// The deeds of the bots in one match.
 struct Deeds {
   std::set<std::uint64_t> inputs;
   std::uint8_t buttons = 0;

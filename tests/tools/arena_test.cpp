@@ -112,7 +112,7 @@ TEST(Arena, StaysAsItIsWhenASnapshotIsBad) {
   }
 }
 
-// A snapshot may come from a hostile peer: what is accepted must then run.
+// A snapshot may come from a hostile peer: an accepted one must then run.
 TEST(Arena, SurvivesWhateverSnapshotItAccepts) {
   const std::uint64_t seed = lockstone::test::run_seed();
   const ArenaConfig config{.loose_bodies = 30, .players = 4};

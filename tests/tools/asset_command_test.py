@@ -1,4 +1,4 @@
-"""lockstone asset: building from OBJ and PNG files, and saying what assets hold.
+"""lockstone asset: building from OBJ and PNG files, and describing assets.
 
 usage: asset_command_test.py LOCKSTONE import|none
 """
@@ -16,7 +16,7 @@ LOCKSTONE = ""
 MODELS = pathlib.Path(__file__).with_name("models")
 OK, CORRUPT, INCOMPATIBLE, USAGE, UNAVAILABLE = 0, 2, 3, 64, 69
 
-# What of an OBJ file is refused: text, line, a part of the reason.
+# OBJ files that are refused: text, line, a part of the reason.
 VERTICES = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
 BAD_LINES = [
     ("v 0 0 0\nv 1 2 x\n", 2, "'x' is no number"),
@@ -71,7 +71,7 @@ class Case(unittest.TestCase):
         return done
 
     def build(self, source, *options, name="out.lka"):
-        """What the command says of the one file that it made."""
+        """The command's description of the one file that it made."""
         path = self.folder / name
         done = self.expect(OK, "build", source, "-o", path, "--force", "--json", *options)
         made = json.loads(done.stdout)

@@ -104,7 +104,7 @@ std::int64_t doubled_area(const Polygon& p, const CornerTriple& t) {
          std::int64_t{(b.y - a.y).raw} * (c.x - a.x).raw;
 }
 
-/// Checks that the triangles turn forward and cover what the polygon covers.
+/// Checks that the triangles turn forward and cover exactly the polygon.
 void expect_cover(const Polygon& polygon, std::size_t triangle_count) {
   const auto triangles = triangulate(polygon);
   ASSERT_TRUE(triangles.has_value());

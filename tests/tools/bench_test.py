@@ -1,4 +1,4 @@
-"""lockstone bench: that it runs, that what it prints can be read, and that it computes the same state
+"""lockstone bench: that it runs, that its output can be read, and that it computes the same state
 every time. Times are not judged.
 
 usage: bench_test.py LOCKSTONE
@@ -257,7 +257,7 @@ class Front(Case):
             self.assertLess(float(row["error"]), 1e-2)
 
     def play_under_node(self, code, change):
-        """The page and the points of a run whose `node` says what ours does, changed."""
+        """The page and the points of a run whose `node` prints our figures, changed."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             run = ("--scenes", "throw", "--settings", "1,4", "--repeats", 1, "--alone")

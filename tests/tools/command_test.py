@@ -139,7 +139,7 @@ class State(Case):
             self.assertEqual(tally["hashed"], 60)
 
     def test_hashes_of_two_machines_are_compared(self):
-        # What `hash` prints of scenes; golden_scenes.py runs it.
+        # The output of `hash` for scenes; golden_scenes.py runs it.
         hashes = {"name": "one", "abi": 1, "canary": "0" * 16,
                   "scenes": {name: scene["chain"] for name, scene in GOLDEN.items()}}
         with tempfile.TemporaryDirectory() as folder:
@@ -179,7 +179,7 @@ class Usage(Case):
 
 
 class Files(Case):
-    """What the command reads and writes."""
+    """Files that the command reads and writes."""
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()

@@ -2,7 +2,7 @@
 
 usage: demo_test.py LOCKSTONE
 
-Nothing here depends on how fast the machine is: what takes time is waited for by its traces, the
+Nothing here depends on how fast the machine is: the tests wait for the traces of slow work, the
 lines that a server prints and the ticks in its log.
 """
 

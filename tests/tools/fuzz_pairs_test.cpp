@@ -65,7 +65,7 @@ TEST(FuzzPairs, OfChosenKindsHaveNoOthers) {
   EXPECT_EQ(report.kinds[0][0] + report.kinds[0][4], 300U);
 }
 
-// Answers that are off by a little more than is allowed are found out.
+// The checks find results that are off by a little more than their bound.
 TEST(FuzzPairs, FindWrongAnswers) {
   HullPool pool(3);
   int wrong = 0;

@@ -28,7 +28,7 @@ TEST(FuzzScenes, ThatFailedOnceHold) {
   constexpr Scene k_scenes[] = {
       {20261121, 104},   // locks opened for a body whose joint sat too far away for one that turns
       {20261122, 334},   // a trigger 2,048 m behind a half-space
-      {20261122, 668},   // impacts on what turns about one axis only gained energy without end
+      {20261122, 668},   // impacts on a body with one free axis of rotation gained energy
       {20261122, 1084},  // a known manifold on a half-space was taken for other bits
       {20261122, 1275},  // angular momenta at the end of their range
       {20261122, 1331},  // a factor of rows that say the same twice

@@ -1,5 +1,5 @@
 // The machinery of `lockstone bench general`: seeds make the same scenes, scenes the same states.
-// What our engine does not hold yet is measured by the command, not asserted here.
+// The command measures the goals that our engine does not reach yet; they are not asserted here.
 #include <set>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 usage: golden_scenes.py LOCKSTONE [--update]
 
---update writes what this build computes: for a change that is meant to change results. Say why in
+--update writes the hashes of this build: for a change that is meant to change results. Say why in
 docs/determinism.md and raise k_simulation_abi. Without the file the test is skipped (exit code 77).
 """
 

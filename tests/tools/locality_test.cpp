@@ -1,4 +1,4 @@
-// Law 9: what becomes of an island does not depend on other islands. Every scene goes the same way
+// Law 9: an island's result does not depend on other islands. Every scene takes the same course
 // alone and beside every other scene, to the bit (docs/locality.md).
 #include <cstdlib>
 #include <memory>

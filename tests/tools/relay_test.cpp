@@ -18,7 +18,7 @@ struct Line {
         relay(LossyRelay::open(Endpoint::loopback(0), Endpoint::loopback(server->port()), faults, 7)
                   .value()) {}
 
-  // What the server gets of `count` numbered datagrams, one a millisecond: when, by its number.
+  // The arrivals at the server of `count` numbered datagrams, one a millisecond: times by number.
   std::multimap<unsigned, std::int64_t> send(unsigned count) {
     std::multimap<unsigned, std::int64_t> arrived;
     for (std::int64_t now_us = 0; now_us < count * 1000 + 200'000; now_us += 1000) {
@@ -36,7 +36,7 @@ struct Line {
     return arrived;
   }
 
-  // What is at the server by now.
+  // Takes the datagrams that are at the server by now.
   void take(std::multimap<unsigned, std::int64_t>& arrived, std::int64_t now_us) {
     std::array<std::byte, 4096> buffer{};
     Endpoint from;

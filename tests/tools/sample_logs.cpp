@@ -37,7 +37,7 @@ bool write_tick(const Sample& sample, arena::ArenaSimulation& game, replay::Reco
   const std::uint64_t tick = game.tick();
   game.step(played);
   if (sample.altered && tick == 300)
-    bytes[1][0] ^= std::byte{0x40};  // what is recorded, not played
+    bytes[1][0] ^= std::byte{0x40};  // in the log alone: not played
   return recorder.record_tick(tick, played, game.hash()) == Status::ok &&
          (!recorder.keyframe_due() || recorder.keyframe(game) == Status::ok);
 }

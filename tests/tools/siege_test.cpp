@@ -46,7 +46,7 @@ TEST(Siege, IsWithstood) {
     EXPECT_TRUE(player.equal);
     EXPECT_EQ(player.ticks, report->ticks);
   }
-  // All of the attacks reach what they attack.
+  // All of the attacks reach their targets.
   EXPECT_GT(report->socket.forged, 15U);
   EXPECT_GT(report->socket.oversized, 15U);
   EXPECT_GT(report->socket.repeated_connects, 15U);

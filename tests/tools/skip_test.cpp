@@ -1,4 +1,4 @@
-// What `lockstone bench skip` claims, but for times.
+// The claims of `lockstone bench skip`, but for times.
 
 #include "tools/bench/skip/skip.h"
 

@@ -1,4 +1,4 @@
-// What `lockstone bench stability` bounds, in a short form; the long one is run on demand.
+// The rows of `lockstone bench stability`, in a short form; the long one is run on demand.
 #include "tools/bench/stability/stability.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What holds at any moment, between any two commands: a save loads and goes on alike, and a command
+// Invariants at any moment, between any two commands: a save loads and goes on alike, and a command
 // that is refused has changed nothing. Random commands from listed seeds.
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Bounces off each other and off what does not give way: at their moment within the tick.
+// Bounces of bodies off each other and off immovable ones: at their moment within the tick.
 #include <cmath>
 #include <vector>
 
@@ -20,7 +20,7 @@ BodyHandle drop(World& world, const Shape& shape, Position height, Coefficient r
   return test::add(world, def);
 }
 
-// What a body will rise to, or has fallen from.
+// The height that a body will rise to, or has fallen from.
 double reach(const World& world, BodyHandle body) {
   const double v = to_double(world.velocity(body).y);
   return to_double(world.position(body).y) + v * v / (2 * 9.81);

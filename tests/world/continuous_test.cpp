@@ -227,8 +227,8 @@ TEST(Continuous, AHalfSpaceStopsBulletsFarFromItsBody) {
   }
 }
 
-// Nor does it meet what flies so high above it that their distance fits no length, or is as deep
-// below.
+// Nor does it collide with a body so high above it, or so deep below, that their distance fits no
+// length.
 TEST(Continuous, AHalfSpaceIsNoMatterKilometresAway) {
   for (const int height : {-300'000, -4000, 1500, 4000, 300'000}) {
     World world = space_for_bullets();

@@ -1,4 +1,4 @@
-// What a world shows of itself is what it is.
+// Debug drawing shows the true state of a world.
 #include <cmath>
 #include <cstdlib>
 #include <set>

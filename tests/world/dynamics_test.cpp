@@ -1,4 +1,4 @@
-// What the world does with bodies: against closed forms, and in pictures that everybody knows.
+// The motion of bodies: against closed forms, and in scenes that everybody knows.
 
 #include <cmath>
 #include <vector>

@@ -233,7 +233,7 @@ TEST(AxisLocks, OfEachAxisHoldAgainstJoints) {
   }
 }
 
-// What is locked everywhere is as good as static to a joint.
+// To a joint, a body with all axes locked is as good as static.
 TEST(AxisLocks, OfAllAxesCarryAPendulumAsAStaticBodyDoes) {
   const auto swing = [](bool is_static) {
     World world = test::make_world();

@@ -1,4 +1,4 @@
-// What is thinner than it sinks stays before the fronts of meshes and height fields.
+// Bodies thinner than their penetration stay on the front side of meshes and height fields.
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// What joints do: hold, limit, drive, break; and that nothing but the state decides it.
+// Joints hold, limit, drive and break; and nothing but the state decides it.
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-// What stands by friction: cards that lean on each other and carry a board.
+// Structures that stand by friction: cards that lean on each other and carry a board.
 #include <cmath>
 
 #include <gtest/gtest.h>

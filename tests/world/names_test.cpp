@@ -1,4 +1,4 @@
-// What people read where two states differ: names of bodies, and quantities in their units.
+// The text for people where two states differ: names of bodies, and quantities in their units.
 
 #include <string>
 

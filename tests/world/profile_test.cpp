@@ -116,7 +116,7 @@ TEST(StepStage, HasAName) {
   EXPECT_EQ(static_cast<std::size_t>(StepStage::sleep) + 1, k_step_stages);
 }
 
-// A ball at rest does not move by a bit for many ticks; what is forgotten is found again.
+// A ball at rest does not move by a bit for many ticks; dropped manifolds are found again.
 TEST(Profile, CountsManifoldsThatWereReused) {
   const auto reused_by = [](bool forgets) {
     World world = test::make_world({.body_capacity = 8, .sleep_ms = 0});

@@ -1,5 +1,5 @@
-// Pushes without end: of the greatest size, as often as anyone likes. What they add up to is
-// bounded, keeps its sign and can be saved at any time.
+// Pushes without end: of the greatest size, as often as anyone likes. Their sum is bounded, keeps
+// its sign and can be saved at any time.
 
 #include <functional>
 

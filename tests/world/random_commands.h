@@ -14,8 +14,8 @@ namespace lockstone::test {
 inline constexpr std::size_t k_command_kinds = 0 LKS_COMMANDS(LKS_COUNT_COMMAND);
 #undef LKS_COUNT_COMMAND
 
-/// Draws commands for one world. Of `wild` dice about half of the commands name what is not there,
-/// or hold values at and beyond the ends of their ranges.
+/// Draws commands for one world. Of `wild` dice about half of the commands name objects that do not
+/// exist, or hold values at and beyond the ends of their ranges.
 class CommandDice {
  public:
   CommandDice(const World& world, Random& random, bool wild)
@@ -62,7 +62,7 @@ class CommandDice {
 [[nodiscard]] WorldDef crowd_def();
 [[nodiscard]] World make_crowd(Random& random);
 
-/// What the last step told: events and joint events, as numbers.
+/// The reports of the last step: events and joint events, as numbers.
 [[nodiscard]] std::vector<std::int64_t> told_by(const World& world);
 
 }  // namespace lockstone::test

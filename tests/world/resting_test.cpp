@@ -26,7 +26,7 @@ AssetPtr octahedron_like() {
   return Hull::build(points).hull;
 }
 
-/// What rests on the plane, its centre 0.3 m above it.
+/// Shapes that rest on the plane, the centre 0.3 m above it.
 std::array<Shape, 4> resting_shapes(const AssetPtr& hull) {
   return {Shape::sphere(0.3_m), Shape::box(0.4_m, 0.3_m, 0.5_m), Shape::capsule(0.4_m, 0.3_m),
           hull->shape()};

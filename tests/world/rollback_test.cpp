@@ -1,4 +1,4 @@
-// Going back: by native snapshots, whole or as what changed since another one.
+// Going back: by native snapshots, whole or as differences from another one.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Bytes delta_of(const World& world, const Bytes& base) {
   return bytes;
 }
 
-// What a game does between two ticks: bodies and joints come, go, and are pushed.
+// The changes by a game between two ticks: bodies and joints come, go, and are pushed.
 void disturb(World& world, test::Random& random) {
   const auto any = [&] { return world.body_at(static_cast<std::uint32_t>(random.between(1, 70))); };
   const BodyHandle pushed = any(), destroyed = any();

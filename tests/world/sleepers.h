@@ -1,4 +1,4 @@
-// Boxes that sleep, for tests of sleep and of what wakes.
+// Boxes that sleep, for tests of sleeping and waking.
 #pragma once
 
 #include <algorithm>

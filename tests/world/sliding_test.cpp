@@ -270,7 +270,7 @@ TEST(Sliding, FeelsNoEdgeOfAMeshThatIsTurnedInSpace) {
   expect_smooth({grid_mesh(), normalized({0.3_r, -0.5_r, 0.2_r, 0.7_r})}, {7});
 }
 
-// The control: a fold of 1 cm throws up whatever comes fast, and slows what comes slowly.
+// The control: a fold of 1 cm throws fast bodies up, and slows slow ones.
 TEST(Sliding, FeelsARidgeOfOneCentimetre) {
   const Track track{grid_mesh(0.01_m)};
   for (const Slider kind : k_sliders)

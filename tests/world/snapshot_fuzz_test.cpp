@@ -41,7 +41,7 @@ void mutate(Bytes& bytes, test::Random& random) {
   reseal(bytes);
 }
 
-// What a world that was let in must be able to do.
+// Operations that must work on every accepted world.
 void expect_lives(World& world) {
   for (int tick = 0; tick < 20; ++tick)
     static_cast<void>(world.step());

@@ -1,4 +1,4 @@
-// State is what is saved is what is hashed.
+// The whole state is saved and hashed, and nothing else is.
 
 #include <algorithm>
 #include <array>
@@ -203,7 +203,8 @@ TEST(CanonicalSnapshot, RefusesAnotherConfiguration) {
 }
 
 TEST(CanonicalSnapshot, WithARightChecksumButImpossibleValuesIsRefused) {
-  // Overwrites every byte in turn with 0xff and checksums anew; what is accepted must be steppable.
+  // Overwrites every byte in turn with 0xff and checksums anew; an accepted state must be
+  // steppable.
   World world = test::make_world();
   test::add_ground(world);
   test::add(world, {});

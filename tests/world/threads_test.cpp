@@ -1,4 +1,4 @@
-// What a world leaves out when it is full does not depend on threads.
+// The contacts that a full world leaves out do not depend on threads.
 #include <memory>
 #include <vector>
 

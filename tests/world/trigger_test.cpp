@@ -27,7 +27,7 @@ AssetPtr cube_hull() {
   return Hull::build(points).hull;
 }
 
-// Two spheres with nothing between them, where the way of what passes lies.
+// Two spheres with a gap between them, through which the passing body goes.
 AssetPtr pair_of_balls() {
   std::array<CompoundChild, 2> children;
   for (CompoundChild& child : children)
@@ -167,7 +167,7 @@ TEST_F(Triggers, SeeEveryBoundedShapePassOnce) {
   }
 }
 
-// Triggers that move meet what stands still, its surface included; static ones do not look at it.
+// Moving triggers meet bodies that stand still, the surface included; static ones do not.
 TEST_F(Triggers, ThatMoveSeeStaticSurfaces) {
   for (const Named& zone : bounded_) {
     for (const Named& surface : surfaces_) {

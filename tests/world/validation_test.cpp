@@ -1,4 +1,4 @@
-// Level 2 finds nothing wrong with a world, and finds what was made wrong.
+// Level 2 finds nothing wrong with a valid world, and finds every injected fault.
 #include <memory>
 #include <string>
 #include <vector>

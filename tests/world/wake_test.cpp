@@ -1,4 +1,4 @@
-// What wakes a sleeper, one by one, and what does not.
+// The events that wake a sleeper, one by one, and those that do not.
 
 #include <functional>
 #include <vector>
@@ -17,7 +17,7 @@ using test::asleep;
 using test::Sleepers;
 using test::unit_box;
 
-// What wakes a stack that sleeps on the ground, each with a word.
+// The events that wake a stack that sleeps on the ground, each with a name.
 struct Cause {
   const char* word;
   std::function<void(Sleepers&)> work;

@@ -1,4 +1,4 @@
-// The arena as a lockstone::Simulation: what a game of your own would look like.
+// The arena as a lockstone::Simulation: an example for a game of your own.
 #pragma once
 
 #include <memory>

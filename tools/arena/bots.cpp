@@ -18,7 +18,7 @@ constexpr Position k_safe = 17_m;  // further out, a bot turns back
 
 enum class Mood : std::uint8_t { haul, hunt, climb, wander };
 
-/// What a bot knows in one tick.
+/// A bot's view of the game in one tick.
 struct View {
   const Arena& arena;
   std::size_t slot;

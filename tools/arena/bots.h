@@ -1,5 +1,5 @@
-// Players without a human: inputs from seed, slot, tick and what the bot sees in its own copy of
-// the game. Integers only and no memory: the same view gives the same input anywhere.
+// Players without a human: inputs from seed, slot, tick and the bot's view of its own copy of the
+// game. Integers only and no memory: the same view gives the same input anywhere.
 #pragma once
 
 #include <cstdint>

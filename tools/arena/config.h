@@ -1,4 +1,4 @@
-// What a match of the arena is made from: the configuration bytes that every peer starts with.
+// The configuration of a match of the arena: the bytes that every peer starts with.
 #pragma once
 
 #include <array>

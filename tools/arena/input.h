@@ -1,4 +1,4 @@
-// What one player presses in one tick: eight bytes, any values are accepted.
+// One player's input of one tick: eight bytes, any values are accepted.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ inline constexpr std::size_t k_input_bytes = 8;
 enum Button : std::uint8_t {
   k_jump = 1,
   k_push = 2,
-  k_grab = 4,   ///< held: take what is in front and carry it; let go: throw it
+  k_grab = 4,   ///< held: grab the object in front and carry it; let go: throw it
   k_shoot = 8,  ///< throw a snowball
 };
 

@@ -1,4 +1,4 @@
-// The tick, and what happens without a player's will: machines, goals, falls.
+// The tick, and the rules that need no player: machines, goals, falls.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// What a player can do.
+// The actions of a player.
 #include <array>
 
 #include <lockstone/literals.h>
@@ -35,7 +35,7 @@ constexpr std::uint16_t k_rival_ticks = 300;
 
 struct Footing {
   bool grounded = false;
-  Vec3<SolverVelocity> velocity{};  // of what the player stands on
+  Vec3<SolverVelocity> velocity{};  // of the body that the player stands on
 };
 
 Footing find_footing(const World& world, BodyHandle body) {

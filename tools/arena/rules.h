@@ -21,16 +21,16 @@ void control_player(Arena& arena, std::size_t slot, const PlayerInput& input);
 /// Carry and throw, of which control_player makes use.
 void carry(Arena& arena, std::size_t slot, bool wants);
 
-/// Puts down what a player holds.
+/// Puts down the object that a player holds.
 void release(Arena& arena, std::size_t slot);
 
 /// Ends every hold on a body.
 void release_from_all(Arena& arena, BodyHandle body);
 
-/// What the step's events mean: touches, goals, the hill.
+/// Scores the step's events: touches, goals, the hill.
 void score_events(Arena& arena);
 
-/// Returns what fell off and melts old snowballs.
+/// Puts back objects that fell off and melts old snowballs.
 void retire(Arena& arena);
 
 void add_score(PlayerRecord& player, std::int32_t points);

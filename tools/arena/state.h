@@ -1,4 +1,4 @@
-// The game's own state, next to the world's: scores, cool-downs, who holds what.
+// The game's own state, next to the world's: scores, cool-downs, held objects.
 //
 // Each record is declared by its manifest, and the same manifest gives save, load, hash and
 // describe their fields: a field cannot exist without being saved, hashed and compared.
@@ -25,7 +25,7 @@ inline constexpr std::size_t k_max_shots = k_max_players * k_shots_per_player;
 
 #define ARENA_PLAYER_FIELDS(X) \
   X(BodyHandle, body)              /* the capsule */ \
-  X(BodyHandle, held)              /* what it carries, or null */ \
+  X(BodyHandle, held)              /* the body it carries, or null */ \
   X(std::int32_t, score) \
   X(std::int16_t, yaw)             /* aim of the last tick */ \
   X(std::uint8_t, buttons)         /* of the last tick: a press is a change */ \

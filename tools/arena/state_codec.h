@@ -15,7 +15,7 @@ namespace lockstone::arena {
 /// Appends the state of `players` slots, little-endian.
 void encode_state(const GameState& state, std::size_t players, ByteWriter& writer);
 
-/// Reads what encode_state wrote. truncated, or malformed for values that no game reaches.
+/// Reads the bytes of encode_state. truncated, or malformed for values that no game reaches.
 Result<GameState> decode_state(std::size_t players, ByteReader& reader);
 
 /// The first field that differs, in canonical order.

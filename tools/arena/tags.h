@@ -1,4 +1,4 @@
-// What the game writes into a body's user data: its kind, its number and who touched it last.
+// The game's tag in a body's user data: its kind, its number and who touched it last.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ struct Tag {
     return {static_cast<Kind>(bits & 0xff), static_cast<std::uint16_t>(bits >> 8 & 0xffff),
             static_cast<std::uint8_t>(bits >> 24 & 0xff)};
   }
-  /// Crates, balls and barrels: what can be carried into a goal.
+  /// Crates, balls and barrels: objects that can be carried into a goal.
   [[nodiscard]] constexpr bool is_loose() const {
     return kind >= Kind::crate && kind <= Kind::barrel;
   }

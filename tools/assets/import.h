@@ -20,8 +20,8 @@ struct ObjImport {
   ObjOptions reading;
   int max_vertices = 64;    ///< of a hull, 4 … 128
   Length weld_tolerance{};  ///< of a mesh
-  /// What a mesh's faces of a material, or a compound's hull of that material alone, are made of.
-  /// Other materials are the body's own.
+  /// The surface of a mesh's faces of a material, or of a compound's hull of that material alone.
+  /// Faces of other materials have the body's own surface.
   std::vector<std::pair<std::string, Surface>> surfaces;
 };
 
@@ -34,7 +34,7 @@ struct PngImport {
 struct Imported {
   AssetPtr asset;
   std::vector<AssetPtr> hulls;     ///< that the asset, a compound, needs
-  std::vector<std::string> notes;  ///< what was dropped
+  std::vector<std::string> notes;  ///< dropped parts of the file
 };
 
 /// A hull of all vertices; a mesh of all faces; or a compound with one hull an object (a group

@@ -197,7 +197,7 @@ class ModelBuilder {
  private:
   bool add_corner(std::string_view word, int index) {
     const std::string_view text = word.substr(0, word.find('/'));
-    // What the loader read must be what stands there.
+    // The loader must have read the very text of the file.
     if (index == 0 || text != std::to_string(index)) {
       source_.refuse(fmt::format("{} is no vertex number", quoted(word)));
       return false;

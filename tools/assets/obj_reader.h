@@ -33,7 +33,7 @@ struct ObjModel {
   std::vector<Vec3<Length>> vertices;
   std::vector<std::uint32_t> vertex_lines;  ///< line of the file, by vertex
   std::vector<ObjTriangle> triangles;
-  // In order of appearance. The first is "": what stands before any name.
+  // In order of appearance. The first is "": the part before any name.
   std::vector<std::string> objects{""};
   std::vector<std::string> groups{""};
   std::vector<std::string> materials{""};

@@ -16,7 +16,7 @@ constexpr bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// What remains of a text that is read from the front.
+/// The rest of a text that is read from the front.
 struct Cursor {
   std::string_view rest;
 

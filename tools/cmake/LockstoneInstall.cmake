@@ -3,7 +3,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lockstone)
 
-# Each component has targets of its own, so that the core is found without what net and replay need.
+# Each component has targets of its own, so that the core is found without the libraries that net
+# and replay need.
 foreach(room IN ITEMS core net replay)
   install(TARGETS lockstone_${room}
     EXPORT lockstone_${room}

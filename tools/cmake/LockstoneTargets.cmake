@@ -1,4 +1,4 @@
-# What every target of the project shares: language level, warnings, checks.
+# The options of every target of the project: language level, warnings, checks.
 
 add_library(lockstone_options INTERFACE)
 target_compile_features(lockstone_options INTERFACE cxx_std_20)
@@ -8,14 +8,15 @@ target_compile_options(lockstone_options INTERFACE
   $<$<AND:$<BOOL:${LOCKSTONE_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
 
 # At -Os g++ 12.2 takes results of functions for unused that others read through references: answers to
-# impacts came out without their velocities. What it knows of functions' memory is left out.
+# impacts came out without their velocities. Its analysis of functions' memory is switched off.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 11)
   target_compile_options(lockstone_options INTERFACE -fno-ipa-modref)
 endif()
 
-# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD is on, files of one folder are compiled a
-# few at once: most of what one takes is in headers. More at once gain little, and a change of one costs
-# all of them. Elsewhere they are compiled one by one, whatever CMAKE_UNITY_BUILD says.
+# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD is on, files of one folder are
+# compiled a few at once: headers take most of the time to compile one. More at once gain little,
+# and a change of one costs all of them. Elsewhere they are compiled one by one, whatever
+# CMAKE_UNITY_BUILD says.
 function(lockstone_unite_sources target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${LOCKSTONE_UNITY_BUILD} UNITY_BUILD_MODE GROUP)

@@ -52,7 +52,7 @@ double surface_slack(const Pair& pair) {
   return tolerance(pair) + snap + share + uneven_slack(pair);
 }
 
-// How far the common anchor of what overlaps is from A's surface, as a share of the overlap.
+// How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.
 double share_of_a(const Pair& pair) {
   const bool round_a = pair.a.radius > 0, round_b = pair.b.radius > 0;
   if (round_a == round_b) return 0.5;

@@ -1,4 +1,4 @@
-// What must hold of every pair of shapes.
+// Checks that must hold of every pair of shapes.
 #pragma once
 
 #include "core/geometry/epa.h"
@@ -11,7 +11,7 @@ namespace lockstone::fuzz {
 
 inline constexpr double k_micrometre = 1e-6;
 
-/// What the kernels answer for a pair, once, for all checks.
+/// The kernels' results for a pair, once, for all checks.
 struct Answers {
   ClosestPoints closest;
   Penetration deep;
@@ -24,22 +24,22 @@ struct Answers {
   [[nodiscard]] double least() const;
 };
 
-/// 2 µm and 13e-9 of the sizes, which are seven steps of the lattice: what depths may err by.
+/// 2 µm and 13e-9 of the sizes, which are seven steps of the lattice: the error bound of depths.
 /// Distances err by at most 2 µm.
 [[nodiscard]] double tolerance(const Pair& pair);
 
-/// 16 times how far vertices lie below their merged faces: what solids by faces and by vertices
-/// differ by, beside edges too.
+/// 16 times how far vertices lie below their merged faces: the difference between solids by faces
+/// and by vertices, beside edges too.
 [[nodiscard]] double uneven_slack(const Pair& pair);
 
-/// What collide may differ from the distance by: 2^-16 m where faces are preferred, 1/2000 of a
+/// How far collide may differ from the distance: 2^-16 m where faces are preferred, 1/2000 of a
 /// capsule's core distance, and how uneven merged faces are.
 [[nodiscard]] double choice_slack(const Pair& pair, double distance);
 
-/// How far the other's centre is before the front of what is one-sided; 1e30 without such.
+/// How far the other's centre is before the front of a one-sided shape; 1e30 without such.
 [[nodiscard]] double height_before_front(const Pair& pair);
 
-/// Whether a unit direction from A to B leans back from the front of what is one-sided.
+/// Whether a unit direction from A to B leans back from the front of a one-sided shape.
 [[nodiscard]] bool leans_back(const Pair& pair, const Real3& direction);
 
 void check_flip(const Pair& pair, const Answers& answers, Verdict& verdict);

@@ -16,7 +16,7 @@ struct Sizes {
   double high;
 };
 
-// What games use, crumbs, everything at once, giants.
+// Usual sizes of games, crumbs, everything at once, giants.
 constexpr std::array<Sizes, 4> k_sizes{{{0.1, 3}, {0.001, 0.05}, {0.001, 500}, {50, 500}}};
 
 std::array<Vec3<Length>, 3> random_triangle(Dice& dice, const Sizes& sizes) {
@@ -78,7 +78,7 @@ Vec3<Length> bounded(const Real3& v, double bound = k_farthest) {
                     std::clamp(v.z, -bound, bound)});
 }
 
-// A normal of one of its faces; of what has none, any direction.
+// A normal of one of its faces; of a shape without faces, any direction.
 Real3 some_normal(Dice& dice, const Body& body) {
   if (body.kind == Kind::half_space) return real(body.rotation.y);
   if (body.kind == Kind::box)

@@ -30,7 +30,7 @@ struct Body {
   Shape shape{};
   Mat3 rotation{};
   std::shared_ptr<const Hull> hull;
-  std::unique_ptr<geometry::TrianglePolytope> triangle;  ///< owns what the polytope names
+  std::unique_ptr<geometry::TrianglePolytope> triangle;  ///< owns the arrays of the polytope
   const geometry::Polytope* polytope = nullptr;
   std::vector<Real3> core;  ///< vertices in world axes, ordered as those of `ConvexCore`
   double radius = 0;        ///< around the core
@@ -38,7 +38,7 @@ struct Body {
 
   [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
   [[nodiscard]] bool is_one_sided() const { return kind == Kind::triangle; }
-  /// Sets the rotation and what depends on it.
+  /// Sets the rotation and the data that depends on it.
   void turn_to(const Mat3& rotation);
   /// The farthest that a vertex and the radius reach along a unit direction.
   [[nodiscard]] double reach(const Real3& direction) const;

@@ -12,7 +12,7 @@
 
 namespace lockstone::fuzz {
 
-/// A definition and what its world begins with: a function of seed and index alone, of integers
+/// A definition and the first state of its world: a function of seed and index alone, of integers
 /// alone, so that every machine makes the same.
 class RandomScene {
  public:
@@ -21,11 +21,10 @@ class RandomScene {
   /// A world as it begins, on the broad phase given.
   [[nodiscard]] World make(BroadPhaseKind broad_phase) const;
 
-  /// The commands before tick `tick` of a world as it stands then. What a world refuses is part of
-  /// the game.
+  /// The commands before tick `tick` of a world as it stands then. A world may refuse some of them.
   void drive(World& world) const;
 
-  /// What is special about it, for people.
+  /// Its special features, for people.
   [[nodiscard]] std::string text() const;
 
  private:

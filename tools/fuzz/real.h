@@ -1,5 +1,5 @@
-// Fixed-point geometry in double, for references: what a sum of exact coordinates below 2^12 m
-// loses in it is below 1e-11 m.
+// Fixed-point geometry in double, for references: sums of exact coordinates below 2^12 m err by
+// less than 1e-11 m.
 #pragma once
 
 #include <algorithm>

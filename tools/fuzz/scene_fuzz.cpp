@@ -51,7 +51,7 @@ class SceneRun {
         other_(scene.make(BroadPhaseKind::sweep_and_prune)),
         bytes_(plain_.snapshot_bytes_max(SnapshotKind::canonical)) {}
 
-  // What is wrong after one more tick.
+  // Runs one more tick; returns the violated invariant, if any.
   std::string tick(SceneFuzzReport& report) {
     scene_.drive(plain_);
     scene_.drive(other_);

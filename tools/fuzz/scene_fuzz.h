@@ -1,4 +1,4 @@
-// Runs random scenes and looks for what must never be.
+// Runs random scenes and looks for violated invariants.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ void Figure::add(const Figure& other) {
 
 void Verdict::measure(Check check, double error, double allowed) {
   const double size = std::abs(error);
-  const bool holds = size <= allowed;  // false for what is no number
+  const bool holds = size <= allowed;  // false for NaN
   figures_[static_cast<std::size_t>(check)].add(
       {1, holds ? std::uint64_t{0} : 1, size, size / allowed, index_});
 }

@@ -1,4 +1,4 @@
-// What the checks of a pair found, and the sum of many.
+// The findings of a pair's checks, and the sum of many.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ inline constexpr int k_checks = 16;
 
 struct CheckText {
   std::string_view name;
-  std::string_view bound;  ///< what is allowed
+  std::string_view bound;  ///< the greatest value allowed
 };
 
 [[nodiscard]] CheckText text_of(Check check);
@@ -39,13 +39,13 @@ struct Figure {
   std::uint64_t count = 0;
   std::uint64_t failures = 0;
   double worst = 0;               ///< error, m
-  double worst_share = 0;         ///< of what is allowed
+  double worst_share = 0;         ///< of the bound
   std::uint64_t worst_index = 0;  ///< of the pair with the worst share, the first of equals
 
   void add(const Figure& other);
 };
 
-/// Takes down what the checks of one pair measure.
+/// Records the measurements of one pair's checks.
 class Verdict {
  public:
   explicit Verdict(std::uint64_t index) : index_(index) {}

@@ -76,7 +76,7 @@ ShapeKind kind_of(const std::string& name) {
   return name == "compound" ? ShapeKind::compound : ShapeKind::mesh;
 }
 
-/// What is wrong with the options, or nothing.
+/// The fault in the options, or nothing.
 std::string parse(const BuildOptions& options, assets::ObjImport& import) {
   if (options.kind == "height-field") return "an OBJ file makes no height field";
   const auto scale = assets::read_scientific(options.scale, assets::k_max_scale_digits);
@@ -172,7 +172,9 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
   CLI::App* command = asset.add_subcommand("build", "Make an asset of an OBJ or PNG file");
   command->add_option("file", options->input, "An .obj model or a 16-bit grey .png")->required();
   command->add_option("-o,--output", options->output, "The asset (default: the name with .lka)");
-  command->add_option("--as", options->kind, "What to make of it (default: mesh, height-field)")
+  command
+      ->add_option("--as", options->kind,
+                   "The kind of asset to build (default: mesh, height-field)")
       ->check(CLI::IsMember({"hull", "mesh", "compound", "height-field"}));
   command->add_option("--scale", options->scale, "OBJ: metres in the file's unit (default 1)");
   command->add_flag("--z-up", options->z_up, "OBJ: turn its z axis up to y");

@@ -78,7 +78,7 @@ void add_asset_command(CLI::App& app, int& exit_code) {
   asset->require_subcommand(1);
   add_asset_build_command(*asset, exit_code);
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = asset->add_subcommand("info", "Say what assets hold");
+  CLI::App* command = asset->add_subcommand("info", "Describe assets");
   command->add_option("files", options->files, "Assets (.lka), a compound's hulls among them")
       ->required();
   command->add_flag("--json", options->json, "Print JSON");

@@ -1,4 +1,4 @@
-// What the asset commands say about an asset.
+// The asset commands' description of an asset.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace lockstone::tool {
 /// "hull", "mesh", "height-field" or "compound".
 [[nodiscard]] std::string kind_name(ShapeKind kind);
 
-/// Kind, id, counts, bounds (metres) and, for what a dynamic body can have, its mass distribution
-/// at 1000 kg/m³.
+/// Kind, id, counts, bounds (metres) and, for assets that a dynamic body can have, the mass
+/// distribution at 1000 kg/m³.
 [[nodiscard]] nlohmann::ordered_json asset_json(const std::string& file, const Asset& asset);
 
 /// The same, a line an entry.

@@ -36,7 +36,7 @@ std::vector<NeutralScene> scenes_of(const FrontOptions& options) {
   return scenes;
 }
 
-// All native engines with a scene at a setting: what they do, then the times in turns.
+// All native engines with a scene at a setting: their results, then the times in turns.
 void measure_point(const std::vector<NeutralMaker>& makers, std::vector<EngineRuns>& engines,
                    const NeutralScene& scene, int setting, int repeats) {
   std::vector<std::optional<Played>> plays;
@@ -59,7 +59,7 @@ void measure_native(const FrontOptions& options, Progress& progress, MeasuredFro
   std::vector<EngineRuns> engines;
   for (const NeutralMaker& maker : makers)
     engines.push_back({std::string(maker.name), "native", std::string(maker.knob), {}});
-  // By way of JSON: what drives the other processes drives these.
+  // By way of JSON: the same text drives the other processes and these.
   const std::string json = bench::scenes_to_json(scenes_of(options));
   for (const NeutralScene& scene : bench::scenes_from_json(json)) {
     for (const int setting : options.settings) {
@@ -100,7 +100,7 @@ std::string settings_text(const FrontOptions& options) {
   return fmt::format("{}", fmt::join(options.settings, " "));
 }
 
-// What another process prints, a line a point.
+// The output of another process, a line a point.
 void measure_by(const std::string& command, std::string name, std::string knob, Progress& progress,
                 MeasuredFront& measured) {
   EngineRuns engine{std::move(name), "node", std::move(knob), {}};

@@ -28,7 +28,7 @@ void add_front_options(CLI::App& command, FrontOptions& options);
 
 struct MeasuredFront {
   std::vector<bench::EngineRuns> engines;
-  std::vector<std::string> absent;        ///< with what they need
+  std::vector<std::string> absent;        ///< with their requirements
   int same_states = 0;                    ///< of ours in WebAssembly at the end, as natively
   std::vector<std::string> other_states;  ///< scenes and settings that ended otherwise
 };

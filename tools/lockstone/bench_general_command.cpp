@@ -164,7 +164,7 @@ void add_replay_options(CLI::App& command, BenchGeneralOptions& options) {
   command.add_option("--svg", options.svg, "Draw it through its time into a file")->needs(replay);
   command.add_flag("--shrink", options.shrink, "Find smaller counts that still fail")
       ->needs(replay);
-  command.add_option("--cap", options.cap, "At most so many of what the scene counts")
+  command.add_option("--cap", options.cap, "The greatest value of any count in the scene")
       ->needs(replay)
       ->check(CLI::PositiveNumber);
 }

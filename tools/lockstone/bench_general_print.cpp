@@ -98,13 +98,12 @@ std::string general_page(std::span<const FamilyRun> runs, std::string_view comma
   std::string text = fmt::format(
       "# Families of scenes\n\nMade by `{}`; {}; {}; commit {}.\n\n"
       "Each family is a generator: sizes, masses, friction, angles, jitter and counts come from "
-      "the "
-      "seed. The error is of the unit named, the bound what passes;\n`gain` is the most energy "
-      "regained, of what there was at first; `rest` the worst time until all is still; `asleep` "
-      "the "
-      "least share of sleepers at the end.\nA row says failed where its error, its energy or its "
-      "rest is not what the family expects. `lockstone bench general --replay FAMILY:SEED` plays a "
-      "seed again,\n`--svg FILE` draws it, `--shrink` makes it smaller while it still fails.\n\n"
+      "the seed. The error has the unit named, and must not exceed the bound;\n"
+      "`gain` is the most energy regained, as a share of the first energy; `rest` the worst time "
+      "until all is still; `asleep` the least share of sleepers at the end.\n"
+      "A row says failed where its error, its energy or its rest is outside the family's bounds. "
+      "`lockstone bench general --replay FAMILY:SEED` plays a seed again,\n"
+      "`--svg FILE` draws it, `--shrink` makes it smaller while it still fails.\n\n"
       "| family | engine | error | worst | p99 | median | bound | gain | m/s | rest, s | asleep | "
       "µs a tick | failed |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       command, bench::machine_text(), bench::compiler_text(), bench::commit_text());

@@ -1,4 +1,4 @@
-// What `lockstone bench general` prints and writes.
+// The output and the page of `lockstone bench general`.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ namespace lockstone::tool {
 [[nodiscard]] std::string general_failures(std::span<const bench::FamilyRun> runs,
                                            std::uint64_t first_seed);
 
-/// The table as Markdown, with a head that says what it is.
+/// The table as Markdown, with a head that describes it.
 [[nodiscard]] std::string general_page(std::span<const bench::FamilyRun> runs,
                                        std::string_view command);
 

@@ -13,8 +13,8 @@ namespace lockstone::tool {
 [[nodiscard]] int write_instructions(const std::vector<const bench::SpeedScene*>& scenes,
                                      std::uint32_t ticks, const Output& output);
 
-/// Counts again what a file holds and prints both: k_different when a scene takes over a fiftieth
-/// more.
+/// Counts a file's scenes again and prints both figures: k_different when a scene takes over a
+/// fiftieth more.
 [[nodiscard]] int compare_instructions(const std::string& path);
 
 }  // namespace lockstone::tool

@@ -31,7 +31,7 @@ struct PairRow {
 /// The kinds of pairs that occurred. Points into the profile.
 [[nodiscard]] std::vector<PairRow> pair_rows(const StepProfile& profile);
 
-/// The time of all pairs of a row without what the clock added to each.
+/// The time of all pairs of a row without the clock's own time in each.
 [[nodiscard]] double net_nanoseconds(const PairProfile& pairs, double clock_nanoseconds);
 
 /// 0 for none.

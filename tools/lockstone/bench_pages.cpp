@@ -46,7 +46,7 @@ std::vector<Figure> figures_of(std::span<const MeasuredAccuracy> rows) {
   return figures;
 }
 
-// What several settings share is no column.
+// Columns that are the same for all settings are left out.
 std::vector<std::vector<std::string>> columns_of(const std::vector<Figure>& figures) {
   std::vector<std::vector<std::string>> all;
   for (const Figure& figure : figures) {
@@ -108,21 +108,20 @@ std::string accuracy_page(std::span<const MeasuredAccuracy> rows, std::string_vi
   std::string text = head("Errors against exact references", command);
   text +=
       "\nEach figure is the worst of its row. Settings are ticks a second and substeps of a tick; "
-      "the "
-      "goal is held at 60 Hz x 4. The state is\nthe hash of what that run ended in, the same on "
-      "every "
-      "machine. What the rows are: [benchmarks](../benchmarks.md).\n";
+      "the goal is held at 60 Hz x 4. The state is\n"
+      "the hash at the end of that run, the same on every machine. [Benchmarks](../benchmarks.md) "
+      "describes the rows.\n";
   for (const std::vector<std::string>& columns : columns_of(figures))
     text += table_of(figures, columns);
   return text;
 }
 
 std::string stability_page(std::span<const MeasuredStability> rows, std::string_view command) {
-  std::string text = head("What breaks engines, for long", command);
+  std::string text = head("Scenes that break engines, over long runs", command);
   text +=
-      "\nEach figure is the worst over the run. The state is the hash of what the run ended in, "
-      "the "
-      "same on every machine.\n\n| row | figure | unit | worst | bound | verdict | ticks | state "
+      "\nEach figure is the worst over the run. The state is the hash at the end of the run, "
+      "the same on every machine.\n\n| row | figure | unit | worst | bound | verdict | ticks | "
+      "state "
       "|\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const MeasuredStability& measured : rows) {

@@ -125,7 +125,7 @@ void add_bench_queries_command(CLI::App& bench, int& exit_code) {
   bench::QueryOptions& measure = options->measure;
   CLI::App* command =
       bench.add_subcommand("queries", "Rays, casts, overlaps and points in a large still world");
-  command->add_option("--world", measure.world, "What the bodies are")
+  command->add_option("--world", measure.world, "The shapes of the bodies")
       ->transform(CLI::CheckedTransformer(k_worlds))
       ->option_text("primitives, hulls, or mesh: primitives about a terrain of 100,000 triangles");
   command->add_option("--bodies", measure.bodies, "In the world")

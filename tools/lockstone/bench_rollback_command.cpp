@@ -1,4 +1,4 @@
-// What rolling back costs: bytes of a native snapshot, times to save and load, ticks simulated
+// The cost of rolling back: bytes of a native snapshot, times to save and load, ticks simulated
 // anew.
 #include <algorithm>
 #include <cstdio>
@@ -118,7 +118,7 @@ std::vector<std::byte> native_snapshot(const World& world) {
   return bytes;
 }
 
-// What one record of each store takes, found by counting: two worlds that differ in bodies alone.
+// The size of one record of each store, found from two worlds that differ in bodies alone.
 void measure_bytes(World& world, Figures& figures) {
   figures.bytes = native_snapshot(world).size();
   const World one = make_pit(1), two = make_pit(2);

@@ -39,7 +39,7 @@ int run(const BenchScenesOptions& options) {
 
 void add_bench_scenes_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<BenchScenesOptions>();
-  CLI::App* command = bench.add_subcommand("scenes", "Scenes for any engine, and what it does");
+  CLI::App* command = bench.add_subcommand("scenes", "Scenes for any engine, and its results");
   command->add_flag("--json", options->json, "Print all scenes as JSON");
   command->add_flag("--run", options->run, "Play them: a line of JSON for each setting");
   add_front_options(*command, options->front);

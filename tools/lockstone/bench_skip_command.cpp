@@ -54,7 +54,7 @@ int run(const BenchSkipOptions& options) {
 void add_bench_skip_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<BenchSkipOptions>();
   CLI::App* command =
-      bench.add_subcommand("skip", "What a scene does not use, it does not pay for");
+      bench.add_subcommand("skip", "A scene does not pay for features it does not use");
   command->add_flag_callback(
       "--no-times", [options] { options->measure.times = false; }, "Counters and sizes alone");
   command->add_flag("--json", options->json, "Print JSON");

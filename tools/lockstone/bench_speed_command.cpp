@@ -148,7 +148,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
   command->add_option("--instructions", options->instructions,
                       "Instead: count instructions by callgrind into this file");
   command->add_option("--compare", options->compare,
-                      "Instead: count again what such a file holds; exit code 1 above 2 % more");
+                      "Instead: count the scenes of such a file again; exit code 1 above 2 % more");
   add_force_option(*command, options->force);
   command->callback([options, list, &exit_code] { exit_code = run(*options, *list); });
 }

@@ -1,4 +1,4 @@
-// What `lockstone bench speed` prints.
+// The output of `lockstone bench speed`.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct SpeedReport {
   std::vector<bench::SpeedResult> results;
   bool detail = false;
   std::string clock_name;
-  double clock_nanoseconds = 0;  ///< what a call of the clock adds to an interval
+  double clock_nanoseconds = 0;  ///< the time that a call of the clock adds to an interval
 };
 
 void print_speed_tables(const SpeedReport& report);

@@ -96,7 +96,7 @@ std::string check_row(const std::string& name) {
 void add_bench_stability_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<BenchStabilityOptions>();
   CLI::App* command =
-      bench.add_subcommand("stability", "What breaks engines, for long, with bounds");
+      bench.add_subcommand("stability", "Scenes that break engines, over long runs, with bounds");
   command->add_option("--rows", options->rows, "Names; all when left out")
       ->check(CLI::Validator(check_row, "ROW"));
   command->add_option("--seconds", options->measure.seconds,

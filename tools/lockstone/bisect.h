@@ -10,7 +10,7 @@
 
 namespace lockstone::tool {
 
-/// What a bisection came to.
+/// The result of a bisection.
 struct BisectReport {
   int exit_code = 0;
   bool found = false;      ///< false: no difference, or an error that was complained about
@@ -18,7 +18,7 @@ struct BisectReport {
   std::string stage;       ///< of that tick, the first that came to something else; may be empty
   StateDifference difference;  ///< after the tick, or at `difference_tick`
   std::uint64_t difference_tick = 0;
-  std::string note;  ///< what else there is to say
+  std::string note;  ///< further remarks
 
   /// `tick 1842, body 17 "crate", velocity.y: 0x… here, 0x… there`
   [[nodiscard]] std::string to_line() const;

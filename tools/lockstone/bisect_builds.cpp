@@ -99,7 +99,7 @@ StageTrace stages_from(const std::optional<nlohmann::json>& answer) {
   return stages;
 }
 
-// What the two builds' states after the tick differ in.
+// Describes the difference of the two builds' states after the tick.
 bool describe(replay::Source& source, const OtherBuild& other, BisectReport& report) {
   const std::uint64_t after = report.tick + 1;
   const replay::SeekResult found =

@@ -99,7 +99,8 @@ void explain(Side& here, Side& there, BisectReport& report) {
   report.difference_tick = simulation.tick();
 }
 
-// Builds that compute different things fail each other's canary: those are what one bisects.
+// Builds that compute different results fail each other's canary, and bisecting them must still
+// work.
 bool are_of_one_match(const replay::LogComparison& logs) {
   const auto stands_in_the_way = [](const replay::FieldMismatch& field) {
     return field.field != "canary";

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t k_most_characters = 64;
 
-// Where the system tells; else what the compiler knows.
+// As the system reports it; else as the compiler knows it.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

@@ -1,4 +1,4 @@
-// What this program is and runs on, in 64 characters: for reports of states that differ.
+// This program's build and machine, in 64 characters: for reports of states that differ.
 #pragma once
 
 #include <string>

@@ -5,7 +5,7 @@
 
 namespace lockstone::tool {
 
-/// What the command answers to its caller.
+/// The command's exit codes.
 enum ExitCode : int {
   k_ok = 0,
   k_different = 1,     ///< states diverged

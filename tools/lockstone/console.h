@@ -1,4 +1,4 @@
-// What the subcommands print alike: hashes, progress, files.
+// Input and output that the subcommands share: hashes, progress, files.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@ namespace lockstone::tool {
 /// A line on the standard error stream.
 void complain(const std::string& line);
 
-/// What the file holds, or nothing when it cannot be read. A directory, a FIFO or a device cannot,
-/// which is found at once.
+/// The contents of the file, or nothing when it cannot be read. A directory, a FIFO or a device
+/// cannot, which is found at once.
 [[nodiscard]] std::optional<std::string> read_file(const std::string& path);
 
 /// Seconds since its creation.

@@ -80,7 +80,7 @@ void play(MatchHost& host) {
   }
 }
 
-/// What the verifier said about the demo's log, and how long it took.
+/// The verifier's verdict on the demo's log, and the time it took.
 struct Verification {
   replay::VerifyReport report;
   double seconds = 0;

@@ -1,4 +1,4 @@
-// repair, cut, keygen: what writes logs and keys.
+// repair, cut, keygen: commands that write logs and keys.
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -98,7 +98,7 @@ int keygen(const std::string& path) {
 void add_repair_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command =
-      app.add_subcommand("repair", "Save what is good of a damaged or unfinished log");
+      app.add_subcommand("repair", "Save the good part of a damaged or unfinished log");
   command->add_option("file", options->file, "A .lks log")->required();
   command->add_option("out", options->out, "The log to write")->required();
   add_force_option(*command, options->force);

@@ -21,7 +21,7 @@ World* world_to_disturb(Simulation& simulation) {
 namespace {
 
 // The lowest bit of the velocity along y of the last dynamic body that is awake: the smallest error
-// there is. A native copy makes what is derived fit again.
+// there is. A native copy makes the derived data fit again.
 void disturb(Simulation& simulation) {
   World* world = world_to_disturb(simulation);
   if (world == nullptr) return;

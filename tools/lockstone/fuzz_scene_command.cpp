@@ -50,8 +50,8 @@ void print_json(const FuzzSceneOptions& options, const fuzz::SceneFuzzReport& re
   write_json(document);
 }
 
-// A check that fails stops the program: say where it was. What is used here is not promised to
-// work in a handler; the program ends either way.
+// A check that fails stops the program: say where it was. The calls here are not guaranteed to work
+// in a handler; the program ends either way.
 void name_scene_at_hand(int /*signal*/) {
   std::fprintf(stderr, "in scene %llu\n", static_cast<unsigned long long>(fuzz::scene_at_hand()));
 }

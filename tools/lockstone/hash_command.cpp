@@ -1,4 +1,4 @@
-// hash, compare-hashes: what one machine computes, in a file, and whether files agree.
+// hash, compare-hashes: writes one machine's hashes to a file, and compares such files.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -106,7 +106,7 @@ std::vector<HashFile> read_files(const std::vector<std::string>& paths, bool& re
       continue;
     }
     complain(
-        fmt::format("{}: {}", path, text ? "not what `lockstone hash` prints" : "cannot be read"));
+        fmt::format("{}: {}", path, text ? "no output of `lockstone hash`" : "cannot be read"));
     readable = false;
   }
   return files;
@@ -183,7 +183,7 @@ void add_hash_command(CLI::App& app, int& exit_code) {
 void add_compare_hashes_command(CLI::App& app, int& exit_code) {
   auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
-      app.add_subcommand("compare-hashes", "Compare what several machines' `hash` printed");
+      app.add_subcommand("compare-hashes", "Compare the output of several machines' `hash`");
   command->add_option("files", *paths, "JSON files, two or more")->required()->expected(2, -1);
   command->callback([paths, &exit_code] { exit_code = compare_hashes(*paths); });
 }

@@ -61,7 +61,7 @@ ordered_json events_json(const LogInfo& info) {
   return events;
 }
 
-/// What a reader of chunks passes over.
+/// Facts that a reader of chunks passes over.
 struct Extras {
   bool index = false;
   replay::SignatureReport signature;
@@ -161,7 +161,7 @@ int info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = app.add_subcommand("info", "Say what a log holds");
+  CLI::App* command = app.add_subcommand("info", "Summarise a log");
   command->add_option("file", options->file, "A .lks log")->required();
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--events", options->events, "List joins, leaves and substituted inputs");

@@ -48,7 +48,7 @@ struct JoinOptions {
   bool quiet = false;
 };
 
-/// Plays for the local player, on what this client's own simulation shows.
+/// Plays for the local player, by the state of this client's own simulation.
 class BotInputs final : public net::InputSource {
  public:
   explicit BotInputs(std::uint64_t seed) : seed_(seed) {}
@@ -424,7 +424,7 @@ void add_join_command(CLI::App& app, int& exit_code) {
       ->excludes(server);
   command->add_option("--port", options->port, "UDP port of --host")->excludes(server);
   command->add_option("--token", options->token, "File with a token of `token issue`");
-  command->add_option("--bot-seed", options->bot_seed, "What the bot feels like")
+  command->add_option("--bot-seed", options->bot_seed, "Seed of the choices that the bot makes")
       ->capture_default_str();
   command->add_option("--name", options->name, "Shown to the server")->capture_default_str();
   command->add_flag("--spectate", options->spectate, "Only watch");

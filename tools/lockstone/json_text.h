@@ -6,7 +6,7 @@
 
 namespace lockstone::tool {
 
-/// What is no UTF-8, as a file's name may be, has U+FFFD in its place.
+/// Bytes that are no UTF-8, which a file's name may hold, are replaced by U+FFFD.
 template <class Json>
 void write_json(const Json& json, int indent = 2) {
   fmt::print("{}\n", json.dump(indent, ' ', false, Json::error_handler_t::replace));

@@ -1,4 +1,4 @@
-// What the subcommands that read and write logs share.
+// Helpers of the subcommands that read and write logs.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ namespace lockstone::tool {
 /// From the system's randomness: a log is that of one match.
 [[nodiscard]] std::uint64_t random_match_id();
 
-/// What a key file holds, or nothing with a complaint. Made by `lockstone keygen`.
+/// The key in a key file, or nothing after printing an error. Made by `lockstone keygen`.
 [[nodiscard]] std::optional<replay::SigningKey> read_signing_key(const std::string& path);
 [[nodiscard]] std::optional<replay::PublicKey> read_public_key(const std::string& path);
 

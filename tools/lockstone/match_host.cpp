@@ -113,7 +113,7 @@ class MatchLog {
     return status_;
   }
 
-  /// After `finish`: what was recorded.
+  /// After `finish`: the recorded log.
   [[nodiscard]] std::vector<std::byte> bytes(const std::string& record) const {
     if (memory_ != nullptr) return memory_->bytes();
     const std::string text = read_file(record).value_or("");
@@ -266,7 +266,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     return true;
   }
 
-  // The log says what is played; all else is as the options say.
+  // The scene comes from the log, everything else from the options.
   [[nodiscard]] bool take_up() {
     std::optional<ResumedMatch> match = load_killed_match(options.resume);
     if (!match) return false;

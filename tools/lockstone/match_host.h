@@ -1,4 +1,4 @@
-// A server with its simulation and its log: what `serve` and `demo` run.
+// A server with its simulation and its log, for `serve` and `demo`.
 #pragma once
 
 #include <cstdint>
@@ -32,12 +32,12 @@ struct MatchOptions {
   bool strict = false;
   bool fast = false;
   bool insecure = false;
-  std::optional<net::Key> key;  ///< what tokens are sealed under; none: insecure
+  std::optional<net::Key> key;  ///< seals the tokens; none: insecure
   std::uint64_t match = 0;      ///< of the tokens
-  net::ServerList addresses;    ///< what tokens may call this server; none: no check
-  std::string record;           ///< empty: no log
-  std::string resume;           ///< the log of a killed server, whose match goes on; empty: none
-  unsigned start_players = 0;   ///< the match begins with so many; 0: with all
+  net::ServerList addresses;  ///< the addresses of this server that tokens may name; none: no check
+  std::string record;         ///< empty: no log
+  std::string resume;         ///< the log of a killed server, whose match goes on; empty: none
+  unsigned start_players = 0;  ///< the match begins with so many; 0: with all
   std::uint16_t spectators = 0;
   unsigned spectator_delay_s = 0;
   net::DesyncPolicy desync_policy = net::DesyncPolicy::resync;
@@ -48,7 +48,7 @@ struct MatchOptions {
   std::optional<replay::SigningKey> signing_key;  ///< of the log; none: it is not signed
 };
 
-/// What became of a match.
+/// The outcome of a match.
 struct MatchSummary {
   std::uint64_t ticks = 0;
   double seconds = 0;          ///< from the first tick to the last
@@ -69,7 +69,7 @@ class MatchHost {
 
   [[nodiscard]] std::uint16_t port() const;
 
-  /// Does what is due; false once the match is over.
+  /// Does the work that is due; false once the match is over.
   [[nodiscard]] bool update();
 
   /// Ends the match after the ticks closed so far.

@@ -1,4 +1,4 @@
-// What is pressed in a match that runs by itself: bots in the arena, nobody in a scene.
+// Inputs of a match that runs by itself: bots in the arena, nobody in a scene.
 #pragma once
 
 #include <array>

@@ -238,7 +238,7 @@ void MetricsPort::serve(const std::function<MatchMetrics()>& metrics) {
   if (whole || count <= 0 || request_.size() > k_longest_request) close_socket(client_);
 }
 
-// What does not fit the system's buffer at once is cut: a scraper asks again.
+// An answer that does not fit into the system's buffer at once is cut: a scraper asks again.
 void MetricsPort::answer(const std::function<MatchMetrics()>& metrics, std::string_view request) {
   std::string body;
   const char* type = "text/plain; charset=utf-8";

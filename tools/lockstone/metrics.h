@@ -46,7 +46,7 @@ class MetricsPort {
   MetricsPort(const MetricsPort&) = delete;
   MetricsPort& operator=(const MetricsPort&) = delete;
 
-  /// Answers who has asked since the last call.
+  /// Serves the requests since the last call.
   void serve(const std::function<MatchMetrics()>& metrics);
 
  private:
@@ -54,7 +54,7 @@ class MetricsPort {
   void answer(const std::function<MatchMetrics()>& metrics, std::string_view request);
 
   int socket_;
-  int client_ = -1;  ///< has connected, and not yet said what it wants
+  int client_ = -1;  ///< has connected, and not yet sent its request
   std::string request_;
 };
 

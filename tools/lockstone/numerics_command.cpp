@@ -41,7 +41,7 @@ void print_text(const numerics::CheckResult& result) {
   fmt::print("line {}\n  file {}\n  here {}\n", result.first_line, result.expected, result.found);
 }
 
-/// Without a file, what this build writes is read back by it: every domain holds its own inputs.
+/// Without a file, this build reads back its own vectors: every domain holds its own inputs.
 int check(const NumericsOptions& options) {
   const std::optional<std::string> text =
       options.check_file.empty() ? numerics::golden_text() : read_file(options.check_file);

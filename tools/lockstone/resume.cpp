@@ -24,7 +24,7 @@ std::uint16_t playing(std::span<const PlayerInput> inputs) {
   return static_cast<std::uint16_t>(mask);
 }
 
-// Walks to the last whole tick; answers the number of ticks.
+// Walks to the last whole tick; returns the number of ticks.
 std::optional<std::uint64_t> read_all(const std::string& path, replay::LogReader& reader,
                                       ResumedMatch& match) {
   if (const Status status = reader.open(); status != Status::ok) {

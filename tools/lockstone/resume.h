@@ -26,7 +26,7 @@ struct ResumedMatch {
 /// ticks give other hashes here.
 [[nodiscard]] std::optional<ResumedMatch> load_killed_match(const std::string& path);
 
-/// Records what the log at `path` holds once more, keyframes and events included. The recorder has
+/// Copies the log at `path` into the recorder, keyframes and events included. The recorder has
 /// begun and stands at its first tick.
 [[nodiscard]] Status copy_log(const std::string& path, replay::Recorder& recorder);
 

@@ -47,8 +47,8 @@ struct ChainEntry {
 };
 
 // A second copy of the scene that each tick starts from nothing but the canonical bytes of the
-// first: what it does with them shows whether the bytes are the whole state. The first one goes
-// through its own native snapshot, and drops what is derived.
+// first: its next step shows whether the bytes are the whole state. The first one goes through its
+// own native snapshot, and drops its derived data.
 class Twin {
  public:
   Twin(scenes::ScenePlay& first, std::unique_ptr<scenes::ScenePlay> second, std::string forget)
@@ -83,7 +83,7 @@ class Twin {
   [[nodiscard]] std::uint64_t forgotten() const { return forgotten_; }
 
  private:
-  // What the second has not got of the first's state, for what no tick misses.
+  // The part of the first's state that the second lacks, for fields that no tick reads.
   [[nodiscard]] std::string loss() {
     const Simulation& first = first_.simulation();
     if (first.hash() == second_->simulation().hash()) return {};

@@ -172,11 +172,11 @@ void add_serve_command(CLI::App& app, int& exit_code) {
                    "Players and spectators behind one router share an address; IPv6: a /64")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--scene", options->match.scene, "What is simulated, see `scenes`")
+  command->add_option("--scene", options->match.scene, "The scene to simulate, see `scenes`")
       ->capture_default_str();
   command->add_option("--record", options->match.record, "Write the log to this file");
   command->add_option("--resume", options->match.resume,
-                      "Go on with the match of a killed server, from its log; what is played comes "
+                      "Go on with the match of a killed server, from its log; the scene comes "
                       "from there, other options as before. The log goes on in the same file, or "
                       "in that of --record");
   command->add_option("--sign", options->sign,

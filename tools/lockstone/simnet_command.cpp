@@ -163,14 +163,15 @@ void add_simnet_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 600))
       ->capture_default_str();
   command
-      ->add_option("--control", options->control,
-                   "What must be caught (toy): flip, one bit of one state; unsaved, a field")
+      ->add_option(
+          "--control", options->control,
+          "A fault that must be caught (toy): flip, one bit of one state; unsaved, a field")
       ->check(CLI::IsMember({"flip", "unsaved"}));
   command
       ->add_option_function<std::string>(
           "--liar",
           [options](const std::string& text) { options->batch.lie = *simnet::parse_lie(text); },
-          "What the last client tells of its states instead of the truth")
+          "How the last client lies about its states")
       ->check(
           CLI::IsMember({"once", "always", "alternately", "parts", "silence", "future", "dumps"}));
   command
@@ -180,7 +181,7 @@ void add_simnet_command(CLI::App& app, int& exit_code) {
             options->batch.policy =
                 text == "kick" ? net::DesyncPolicy::kick : net::DesyncPolicy::resync;
           },
-          "What becomes of a liar")
+          "How the server treats a liar")
       ->check(CLI::IsMember({"kick", "resync"}));
   command->add_flag_callback(
       "--no-shrink", [options] { options->batch.shrink = false; },

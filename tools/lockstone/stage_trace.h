@@ -1,4 +1,4 @@
-// What the stages of one tick left behind, to name the first in which two runs part.
+// Hashes after the stages of one tick, to name the first stage in which two runs diverge.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct StageDigest {
 };
 using StageTrace = std::vector<StageDigest>;
 
-/// Steps once; answers the stages in their order, between `commands`, what they began with, and
-/// `rules`, what the game made of them.
-/// Empty for a simulation without a world.
+/// Steps once; returns the hashes of the stages in their order, between `commands`, the state they
+/// began with, and `rules`, the state after the game's own rules. Empty for a simulation without a
+/// world.
 [[nodiscard]] StageTrace step_traced(Simulation& simulation, std::span<const PlayerInput> inputs);
 
 /// The first stage with another digest; empty when there is none, or one of the two is empty.

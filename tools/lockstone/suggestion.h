@@ -1,4 +1,4 @@
-// What to say of an argument that no command knows.
+// Suggestions for an argument that no command knows.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// token key, token issue, token show: what a game's backend does, for tests and small games.
+// token key, token issue, token show: the work of a game's backend, for tests and small games.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -128,7 +128,7 @@ void add_token_command(CLI::App& app, int& exit_code) {
   key->callback([path, &exit_code] { exit_code = make_backend_key(*path); });
   add_issue_command(*command, exit_code);
   auto options = std::make_shared<ShowOptions>();
-  CLI::App* show_command = command->add_subcommand("show", "Print what a token grants");
+  CLI::App* show_command = command->add_subcommand("show", "Print the rights that a token grants");
   show_command->add_option("token", options->token, "File with a token")->required();
   show_command->add_option("--key", options->key, "Check its seal with the backend's key");
   show_command->callback([options, &exit_code] { exit_code = show(*options); });

@@ -1,4 +1,4 @@
-// What this build computes for a log, tick by tick.
+// This build's hashes for a log, tick by tick.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Trace {
   std::uint64_t agreed = 0;           ///< ticks from the first on whose hash is the recorded one
 };
 
-/// What the stages of a tick leave behind, simulated from the log's beginning.
+/// Hashes after the stages of a tick, simulated from the log's beginning.
 [[nodiscard]] std::optional<StageTrace> stages_of(replay::Source& source, std::uint64_t tick);
 
 /// Simulates from the log's beginning. On an error it complains.

@@ -27,7 +27,7 @@ void print_hashes(const Trace& trace) {
   write_json(json, 1);
 }
 
-// What the stages of one tick leave behind.
+// Prints the hashes after the stages of one tick.
 int print_stages(replay::Source& source, std::uint64_t tick) {
   const std::optional<StageTrace> stages = stages_of(source, tick);
   if (!stages) return k_corrupt;
@@ -88,7 +88,7 @@ void add_trace_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "trace", "Print, as JSON, the hash that this build computes for each tick of a log");
   command->add_option("file", *file, "A .lks log")->required();
-  command->add_option("--stages", *stages_at, "Instead, what the stages of this tick leave behind");
+  command->add_option("--stages", *stages_at, "Instead, the hashes after each stage of this tick");
   command->callback([file, stages_at, &exit_code] { exit_code = trace(*file, *stages_at); });
 }
 

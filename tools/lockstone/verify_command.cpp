@@ -42,7 +42,7 @@ ordered_json divergence_json(const replay::Divergence& divergence) {
   return json;
 }
 
-/// What a log's signature says, given the key that was asked for or none.
+/// The verdict on a log's signature, given the expected key or none.
 struct SignatureVerdict {
   replay::SignatureState state = replay::SignatureState::none;
   std::string fault;  ///< why it does not pass

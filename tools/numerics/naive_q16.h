@@ -1,4 +1,4 @@
-// What a plain Q16.16 class does: 32-bit raws, truncating products, short polynomials, one format
+// A plain Q16.16 class: 32-bit raws, truncating products, short polynomials, one format
 // for everything. The yardstick of `lockstone bench numerics`, not used anywhere else.
 #pragma once
 

@@ -36,7 +36,7 @@ Words words(const EquilibratedSymMat3& s) {
 }
 
 /// The first six words become a positive definite matrix: six entries of a triangular factor, 14
-/// bits each, times its transpose, plus one. What is one already stays.
+/// bits each, times its transpose, plus one. A matrix that is positive definite already stays.
 void make_definite(Words& in) {
   if (is_positive_definite(sym_at(in, 0)) && in[0] > 0) return;
   std::array<std::int64_t, 6> l{};

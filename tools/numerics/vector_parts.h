@@ -1,4 +1,4 @@
-// What the lists of functions share: domains, and words to quantities and back.
+// Helpers of the lists of functions: domains, and words to quantities and back.
 #pragma once
 
 #include <cstdint>
@@ -71,7 +71,7 @@ template <class T>
   return all;
 }
 
-/// Four words from `at` on become a unit quaternion; what is near one stays.
+/// Four words from `at` on become a unit quaternion; a quaternion near the unit sphere stays.
 inline void normalise_at(Words& in, std::size_t at) {
   const Quat q = quat_at(in, at);
   if (is_near_unit(norm_squared(q))) return;

@@ -97,13 +97,14 @@ std::optional<Words> inputs_of(std::string_view rest, const Function& function) 
   }
   if (take_token(rest) != "=") return std::nullopt;
   if (function.prepare == nullptr) return inputs;
-  // What was prepared stays as it is when it is prepared again: anything else is out of the domain.
+  // Preparing prepared inputs again changes nothing: inputs that would change are out of the
+  // domain.
   Words again = inputs;
   function.prepare(again);
   return again == inputs ? std::optional(inputs) : std::nullopt;
 }
 
-/// What the line should be; nothing when it cannot be read.
+/// The correct form of the line; nothing when it cannot be read.
 std::optional<std::string> expected_line(std::string_view line) {
   std::string_view rest = line;
   const Function* function = find(take_token(rest));

@@ -13,7 +13,7 @@ namespace lockstone::numerics {
 
 using Words = std::vector<std::int64_t>;
 
-/// What an input may be, both ends included.
+/// The range of an input, both ends included.
 struct Domain {
   std::int64_t low = 0;
   std::int64_t high = 0;
@@ -45,7 +45,7 @@ struct CheckResult {
   std::size_t malformed = 0;
   std::size_t first_line = 0;  ///< of a difference or a line that cannot be read; from 1
   std::string expected;        ///< that line
-  std::string found;           ///< what it should be, or why it cannot be read
+  std::string found;           ///< the correct line, or why it cannot be read
 };
 
 [[nodiscard]] CheckResult check(std::string_view text);

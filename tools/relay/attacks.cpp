@@ -30,7 +30,7 @@ using Bytes = std::vector<std::byte>;
 
 constexpr Endpoint k_elsewhere{0x7f000002, 0};  // on this machine, but not the players' address
 
-// What all attackers with sockets of their own share.
+// The base of all attackers with sockets of their own.
 class SocketAttack : public Attack {
  public:
   SocketAttack(const char* name, const TrialMatch& match, std::uint64_t seed, std::size_t sockets)
@@ -126,7 +126,7 @@ class RepeatedConnects final : public SocketAttack {
       : SocketAttack("repeated connects", match, seed, 64), recorded_(record(match)) {}
 
  private:
-  // What a client of the match sends first, caught by a socket that does not answer.
+  // The first datagrams of a client of the match, caught by a socket that does not answer.
   static Bytes record(const TrialMatch& match) {
     const auto trap = UdpSocket::open(Endpoint::loopback(0));
     net::EnetOptions options;
@@ -231,7 +231,7 @@ class Flood final : public Attack {
     constexpr std::int64_t k_most_at_once = 32;
     if (due_us_ == 0) due_us_ = now_us;
     due_us_ = std::max(due_us_, now_us - k_most_at_once * pause_us_);
-    // Well-formed, and nothing new in it: what an idle client says four times a second.
+    // Well-formed, and nothing new in it: the message of an idle client, four times a second.
     std::array<std::byte, 64> bytes{};
     const std::size_t size = encode(net::Inputs{}, bytes);
     for (; due_us_ <= now_us; due_us_ += pause_us_) {

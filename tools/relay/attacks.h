@@ -1,4 +1,4 @@
-// What attackers do, one kind a class.
+// The kinds of attack, one a class.
 #pragma once
 
 #include <memory>

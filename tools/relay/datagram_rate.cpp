@@ -53,7 +53,7 @@ class Range {
     return join();
   }
 
-  // Sends the datagrams in turn, and returns what the server's part took.
+  // Sends the datagrams in turn, and returns the time that the server's part took.
   [[nodiscard]] DatagramRate measure(std::string name, const std::vector<Bytes>& datagrams,
                                      std::uint64_t count) {
     const std::uint64_t before = taken(), kept_before = kept_out();

@@ -95,7 +95,7 @@ class Walk final : public Connections {
   Walk(const char* name, const TrialMatch& match, std::size_t count, bool proves)
       : Connections(name, match, count), proves_(proves) {
     token_ = watcher_token(match, k_walking_player);
-    // What the handshake takes, and one that never comes.
+    // The number of commands of the handshake, and one that never comes.
     first_ = proves ? 4 : 2;
   }
 
@@ -110,7 +110,7 @@ class Walk final : public Connections {
     constexpr std::int64_t k_most_at_once = 4;
     constexpr std::int64_t k_pause_us = 5000;  // 200 datagrams of 240 bytes a second
     if (!call.intruder->connected()) return now_us - call.since_us < k_call_patience_us;
-    // What a busy machine made this one miss is not made up for.
+    // Calls that this attacker missed on a busy machine are not made up for.
     call.due_us = std::max(call.due_us, now_us - k_most_at_once * k_pause_us);
     if (call.injected == 0) call.due_us = now_us;
     for (; call.due_us <= now_us; call.due_us += k_pause_us) {

@@ -104,7 +104,7 @@ void Intruder::poll(std::int64_t now_us) {
 void Intruder::inject(ByteView commands) {
   if (!injected_ && tap_ != nullptr && tap_->keys()) {
     seal_ = net::DatagramSeal(*tap_->keys(), true);
-    // Beyond what the client's own ENet has counted.
+    // Beyond the counter of the client's own ENet.
     std::array<std::byte, 32> burnt{};
     for (int i = 0; i < 1000; ++i)
       static_cast<void>(seal_->seal(burnt));

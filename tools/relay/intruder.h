@@ -1,5 +1,5 @@
 // A client whose datagrams pass through its owner's hands: it calls from any address of this
-// machine, and may send what ENet never would.
+// machine, and may send datagrams that ENet never would.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ class Intruder {
                                                       Conduct conduct);
   ~Intruder();
 
-  /// Passes on what has come.
+  /// Forwards the datagrams that have arrived.
   void pump();
   /// Takes the events of its transport: for one that no session polls.
   void poll(std::int64_t now_us);
@@ -59,7 +59,7 @@ class Intruder {
   Endpoint client_;
   net::Word id_{};                         ///< of the connection
   std::array<std::byte, 2> head_{};        ///< of the client's last datagram
-  std::optional<net::DatagramSeal> seal_;  ///< of what is injected
+  std::optional<net::DatagramSeal> seal_;  ///< of injected datagrams
   std::uint64_t answers_ = 0;
   bool asked_ = false;
   bool connected_ = false;

@@ -1,4 +1,4 @@
-// A relay of UDP datagrams between clients and one server that does to them what bad networks do.
+// A relay of UDP datagrams between clients and one server with the faults of bad networks.
 // Everything is drawn from one seed; only the arrival of datagrams is not in its hands.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace lockstone::relay {
 
-/// What happens to each datagram, in either direction. Chances in parts per million.
+/// The faults that each datagram may suffer, in either direction. Chances in parts per million.
 struct Faults {
   std::uint32_t loss_ppm = 0;       ///< of all datagrams, 0 … 900'000
   std::uint32_t burst_packets = 0;  ///< losses come in runs of this mean length, which end after
@@ -50,7 +50,7 @@ class LossyRelay {
 
   [[nodiscard]] std::uint16_t port() const { return front_->port(); }
 
-  /// Takes what has come and passes on what is due. Does not wait.
+  /// Receives arrived datagrams and forwards those that are due. Does not wait.
   void pump(std::int64_t now_us);
 
   /// Waits until something comes or is due, at most `limit_us`.

@@ -24,7 +24,7 @@ struct SiegeOptions {
   std::size_t strangers_per_address = net::EnetOptions{}.max_strangers_per_address;
 };
 
-/// One kind of attack: what was sent, and what came back.
+/// One kind of attack: counts of the packets sent and of the answers.
 struct AttackReport {
   std::string name;
   std::uint64_t sent = 0;      ///< datagrams, or connections tried

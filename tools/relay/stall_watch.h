@@ -1,4 +1,4 @@
-// How evenly ticks come: what a player sees as jerks.
+// How evenly ticks come: a player sees gaps as jerks.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // A real match over UDP in one process and one thread: a server and bots, with tokens, perhaps
-// behind a bad network. What the players notice of it is measured.
+// behind a bad network. It measures how much the players notice.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct TrialOptions {
   std::optional<unsigned> liar = std::nullopt;  ///< slot of a player who reports wrong hashes
 };
 
-/// What one player noticed.
+/// The effects that one player noticed.
 struct PlayerOutcome {
   std::uint64_t ticks = 0;
   std::uint64_t substituted = 0;  ///< own inputs that came too late
@@ -49,7 +49,7 @@ class TrialMatch {
   [[nodiscard]] static std::unique_ptr<TrialMatch> create(const TrialOptions& options);
   ~TrialMatch();
 
-  /// Does what is due. False once the match is over for everybody.
+  /// Does the work that is due. False once the match is over for everybody.
   [[nodiscard]] bool update(std::int64_t now_us);
   void stop();
 
@@ -73,11 +73,11 @@ class TrialMatch {
   [[nodiscard]] const net::SecurityCounters& security_counters() const;
   [[nodiscard]] const LossyRelay* relay() const;
 
-  /// What attackers from within hold: a token of their own, as the backend would issue it.
+  /// For attackers from within: a token of their own, as the backend would issue it.
   [[nodiscard]] net::ConnectToken token_for(std::uint64_t player, std::uint8_t slot,
                                             std::uint64_t expires_unix_s) const;
   [[nodiscard]] static std::uint64_t unix_s_at_zero();
-  /// The transport of a player, for what its session would never send.
+  /// The transport of a player, for packets that its session would never send.
   [[nodiscard]] net::Transport& transport_of(unsigned slot);
   [[nodiscard]] net::ConnectionId connection_of(unsigned slot) const;
 

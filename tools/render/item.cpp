@@ -127,7 +127,7 @@ struct Extent {
   double radius = 0;
 };
 
-// Of what moves, if anything does.
+// Of the moving bodies, if there are any.
 Extent extent_of(const std::vector<Item>& items) {
   std::vector<Vec> centers;
   const bool moving =

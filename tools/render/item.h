@@ -1,4 +1,4 @@
-// What a picture of a world consists of: the pieces of its bodies and the shadows they throw.
+// The parts of a picture of a world: the pieces of its bodies and the shadows they throw.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace lockstone::render {
 
-/// A piece of a body and what falls onto it.
+/// A piece of a body and the shadows that fall onto it.
 struct Item {
   Solid solid;
   std::vector<std::size_t> shadows = {};  ///< items that cast one onto this

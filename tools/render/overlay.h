@@ -15,7 +15,7 @@ using PlaceInPicture = std::function<std::string(const Vec&)>;
 
 /// SVG elements: bounds grey (of sleepers dotted), centres of mass with their principal axes,
 /// contacts as an arrow along the normal for each point, as long as the force is in weights of a
-/// tonne, and joints as their two frames with what they are apart.
+/// tonne, and joints as their two frames with the gap between them.
 [[nodiscard]] std::string overlay(const World& world, const PlaceInPicture& place);
 
 }  // namespace lockstone::render

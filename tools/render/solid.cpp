@@ -68,7 +68,7 @@ Order order_by_planes(const std::vector<Plane>& planes, const Solid& b, const Ve
   return best;
 }
 
-/// A solid and what is asked of it again and again.
+/// A solid and values of it that are needed again and again.
 struct Sight {
   const Solid& solid;
   Frame frame;

@@ -99,7 +99,7 @@ void draw_stripe(Canvas& canvas, const Solid& solid, const Vec& u, const Vec& v)
   }
 }
 
-// A flat piece is seen from behind too, as glass: what lies in a bowl should not be hidden.
+// A flat piece is seen from behind too, as glass: a body in a bowl should not be hidden.
 void draw_facet(Canvas& canvas, const Solid& solid, const Facet& facet) {
   const bool front = dot(facet.normal, canvas.camera.toward()) > 0;
   if (!front && !solid.is_flat()) return;
@@ -180,8 +180,8 @@ Frame frame_of_those(const std::vector<Item>& items, const Camera& camera, const
   return frame.value_or(Frame{-1, 1, -1, 1});
 }
 
-// What moves should be in the picture, unless it is falling out of the world, and scenery that is
-// not much wider than what moves: of a vast floor a part is enough.
+// The picture should show moving bodies, unless they are falling out of the world, and scenery that
+// is not much wider than these: of a vast floor a part is enough.
 Frame frame_all(const std::vector<Item>& items, const Camera& camera) {
   constexpr double k_fallen = 0.5, k_vast = 2.5, k_border = 1.5;
   double floor = 0;

@@ -22,7 +22,7 @@ using Style = std::function<Look(BodyHandle, const BodyView&)>;
 /// By motion type and shape; the color varies a little with the index.
 [[nodiscard]] Look plain_look(BodyHandle handle, const BodyView& view);
 
-/// What the arena's tags say: players in their colors, goals as glass.
+/// The look by the arena's tags: players in their colors, goals as glass.
 [[nodiscard]] Look arena_look(BodyHandle handle, const BodyView& view);
 
 struct Picture {
@@ -33,7 +33,7 @@ struct Picture {
   bool overlay = false;  ///< bounds, centres of mass, contacts and joints too
 };
 
-/// One picture of the world as it stands, framed on what moves.
+/// One picture of the world as it stands, framed on the moving bodies.
 [[nodiscard]] std::string draw(const World& world, const Picture& picture);
 
 /// Several pictures (each from `draw`, of one size) in rows beneath each other, as one.

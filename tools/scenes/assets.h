@@ -39,8 +39,8 @@ using Point = Vec3<Length>;
 [[nodiscard]] AssetPtr hammer();  ///< a head of steel on a handle of wood
 [[nodiscard]] AssetPtr axe();     ///< its blade is a hull
 
-/// A polyline in the x-y plane, pulled along z over ±half_width in `strips` strips. What lies to
-/// the left of its way (above, when x ascends) is the front.
+/// A polyline in the x-y plane, pulled along z over ±half_width in `strips` strips. The side to the
+/// left of its path (above, when x ascends) is the front.
 [[nodiscard]] AssetPtr extruded(std::span<const Point> profile, Length half_width, int strips);
 
 /// A paraboloid that opens upwards, its lowest point at the origin.

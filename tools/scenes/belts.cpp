@@ -8,7 +8,7 @@ namespace {
 
 using namespace lockstone::literals;
 
-// A belt that climbs, and one across that carries on what falls from it.
+// A belt that climbs, and one across that carries on the bodies that fall from it.
 void add_belts(World& world) {
   BodyDef belt = fixed_box({-3_m, 1.5_m, -3_m}, {3_m, 0.2_m, 1_m});
   belt.orientation = from_axis_angle(k_z_axis, 0.3_rad);
@@ -29,7 +29,7 @@ void add_belts(World& world) {
   }
 }
 
-// What lies farther out slips off.
+// Bodies farther out slip off.
 void add_turntable(World& world) {
   BodyDef table = fixed_box({-4_m, 0.5_m, 3_m}, {2_m, 0.2_m, 2_m});
   table.surface_motion.turning = {{}, 2_rps, {}};

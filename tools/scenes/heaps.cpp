@@ -23,7 +23,7 @@ void build_pyramid(World& world, std::uint64_t) {
   }
 }
 
-// Nothing is known yet of what its contacts carry.
+// Its contacts have no impulses yet.
 void build_wall(World& world, std::uint64_t) {
   constexpr int k_rows = 22;
   add_ground(world, 30_m);

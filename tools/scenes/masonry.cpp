@@ -1,4 +1,4 @@
-// What stands without mortar: an arch and a house of cards.
+// Structures without mortar: an arch and a house of cards.
 #include <vector>
 
 #include "tools/scenes/assets.h"

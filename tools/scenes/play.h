@@ -11,7 +11,7 @@
 
 namespace lockstone::scenes {
 
-/// What the list of scenes says about one.
+/// The entry of a scene in the list of scenes.
 struct SceneSummary {
   std::string_view name;
   std::string_view description;

@@ -1,5 +1,5 @@
 // The scenes that tests, benchmarks and the command share: each a world to build and, for some,
-// what is done to it tick by tick.
+// commands tick by tick.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lockstone::scenes {
 
-/// A scene has no memory besides its world: what it does in a tick follows from seed, tick and
+/// A scene has no memory besides its world: its commands of a tick follow from seed, tick and
 /// world.
 struct Scene {
   std::string_view name;
@@ -27,8 +27,8 @@ struct Scene {
   /// After a step, while its events can be read; may be null.
   void (*observe)(World& world) = nullptr;
 
-  /// What bodies of the scene are made of besides plain shapes; null for nothing. Assets are named
-  /// by content, so `build` makes the same list again to learn their names.
+  /// The assets of the scene's bodies; null for none. Assets are named by content, so `build` makes
+  /// the same list again to learn their names.
   std::vector<AssetPtr> (*assets)(std::uint64_t seed) = nullptr;
 };
 

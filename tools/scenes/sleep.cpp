@@ -1,4 +1,4 @@
-// Towers that fall asleep, and what wakes them, one after the other.
+// Towers that fall asleep, and events that wake them, one after the other.
 #include "tools/scenes/build.h"
 
 namespace lockstone::scenes {

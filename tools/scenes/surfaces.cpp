@@ -73,7 +73,7 @@ void build_terrain(World& world, std::uint64_t seed) {
   constexpr int k_bodies = 40;
   const std::vector<AssetPtr> assets = terrain_assets(seed);
   add(world, fixed(assets[0]->shape(), {}));
-  add(world, fixed(Shape::half_space(), {{}, -3_m, {}}));  // what falls through a hole lands here
+  add(world, fixed(Shape::half_space(), {{}, -3_m, {}}));  // catches bodies that fall through holes
   Random random(mix(seed ^ 1));
   for (int i = 0; i < k_bodies; ++i) {
     const int column = 1 + i / 8 * 2, row = 5 + i % 8 * 3;

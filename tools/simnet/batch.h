@@ -22,7 +22,7 @@ struct BatchOptions {
   FaultMask faults = k_all_faults;
   std::optional<Schedule> schedule;  ///< instead of drawing one
   unsigned threads = 4;
-  Lie lie = Lie::none;  ///< of the last client; then `policy` says what becomes of it
+  Lie lie = Lie::none;  ///< of the last client; `policy` decides how it is treated
   net::DesyncPolicy policy = net::DesyncPolicy::resync;
   bool shrink = true;  ///< make the schedule of the first failure short
 };

@@ -1,4 +1,4 @@
-// A changed client: it plays by the rules, but what it reports about its states is not true.
+// A changed client: it plays by the rules, but its reports about its states are false.
 #pragma once
 
 #include <array>

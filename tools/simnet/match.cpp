@@ -27,7 +27,7 @@ constexpr std::int64_t k_base_delay_us = 5'000;
 constexpr std::size_t k_bytes_in_flight_max = 32U << 20;
 constexpr std::int64_t k_reorder_us = 100'000;
 
-/// A disk that takes what it is given, until it is full.
+/// A disk that stores all bytes it is given, until it is full.
 class LimitedSink final : public replay::Sink {
  public:
   Status append(ByteView bytes) override { return full ? Status::io_error : memory.append(bytes); }
@@ -230,7 +230,7 @@ net::LinkFaults SimMatch::faults_of(std::size_t client) const {
   return faults;
 }
 
-// Who comes when the match runs already.
+// Clients that come when the match runs already.
 void SimMatch::start_late() {
   if (started_us_ < 0 || now_us_ < started_us_ + std::int64_t{mode_.late_ms} * 1000) return;
   for (std::size_t i = setup_.clients - mode_.late_clients; i < setup_.clients; ++i) {
@@ -239,7 +239,7 @@ void SimMatch::start_late() {
   }
 }
 
-// Who died before it had heard of its key finds its seat taken, until the server misses it.
+// A client that died before it heard of its key finds its seat taken, until the server misses it.
 bool SimMatch::must_ask_again(std::size_t client) const {
   constexpr std::int64_t k_pause_us = 1'000'000;
   const net::Client& one = nodes_[client].client();
@@ -248,7 +248,7 @@ bool SimMatch::must_ask_again(std::size_t client) const {
          now_us_ - connected_us_[client] > k_pause_us;
 }
 
-// Who has lost its connection asks for a new one.
+// A client that has lost its connection asks for a new one.
 void SimMatch::revive() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
@@ -409,8 +409,8 @@ void SimMatch::check_end() {
 }
 
 // The faults heal early enough before the end by the tick rate. A fast match is over long before,
-// and may be while somebody is still on the way in. Who had the time that it has in other matches
-// after the last fault must be in.
+// and may be while somebody is still on the way in. A client that had the time that it has in other
+// matches after the last fault must be in.
 bool SimMatch::came_too_late(std::size_t client) const {
   if (mode_.pacing != net::Pacing::fast || over_us_ < 0) return false;
   const std::uint16_t rate = simulation_->info().tick_rate;
@@ -432,7 +432,7 @@ void SimMatch::check_control() {
   if (!right) oracle_.fail("the report names something else: " + report.to_line());
 }
 
-// What was written before the disk was full, or until the end, is a good log.
+// The part written before the disk was full, or until the end, is a good log.
 void SimMatch::check_log() {
   replay::MemorySource source(disk_.memory.bytes());
   const replay::VerifyReport report = replay::verify(source, game_.factory);

@@ -14,7 +14,7 @@
 
 namespace lockstone::simnet {
 
-/// What is played.
+/// The game that is played.
 struct Game {
   std::vector<std::byte> config;
   SimulationFactory factory;
@@ -66,7 +66,7 @@ struct MatchOutcome {
   MatchMode mode;
   std::uint64_t ticks = 0;         ///< closed by the server
   std::uint64_t client_ticks = 0;  ///< stepped by all clients together
-  std::uint64_t comparisons = 0;   ///< of a peer's state with what it must be
+  std::uint64_t comparisons = 0;   ///< of a peer's state with the correct one
   std::uint64_t last_hash = 0;
   std::uint64_t substituted_inputs = 0;
   std::uint64_t resends = 0;

@@ -57,7 +57,7 @@ class Node final : public net::ClientObserver, public net::InputSource {
   /// A spectator of ticks that are at least so old.
   void watch_only(std::uint32_t delay_ticks) { delay_ticks_ = delay_ticks; }
 
-  // What the client tells and asks.
+  // Callbacks of the client.
   void sample(std::uint64_t tick, std::span<std::byte> out) override;
   void tick_stepped(std::uint64_t tick, std::span<const PlayerInput> inputs,
                     std::uint64_t hash) override;

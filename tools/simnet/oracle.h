@@ -1,4 +1,4 @@
-// Knows what a match must look like, and checks every peer against it at every tick.
+// Knows the correct course of a match, and checks every peer against it at every tick.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace lockstone::simnet {
 
-/// What the server closed is the truth about inputs; a run without any network of these inputs is
-/// the truth about states. The first violation stays.
+/// The server's closed ticks are the truth about inputs; a run of these inputs without any network
+/// is the truth about states. The first violation stays.
 class Oracle {
  public:
   /// `reference` stands at tick 0. Every so many ticks it is saved and loaded, so that whatever a

@@ -1,4 +1,4 @@
-// The faults of one simulated match: what goes wrong, for whom, when, how much.
+// The faults of one simulated match: the kind, the victim, the time and the amount of each.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +53,8 @@ using Schedule = std::vector<FaultEvent>;
 [[nodiscard]] std::optional<Schedule> parse_schedule(std::string_view text);
 
 /// Draws the faults of a match of `match_ms` from a seed. Each kind has its own random stream, and
-/// all faults are over at `heal_ms`. Who is cut off or stands still, does so for at most 4 s, who
-/// is dead, for 12 s; each is left alone for 4 s after.
+/// all faults are over at `heal_ms`. A client that is cut off or stands still, does so for at most
+/// 4 s; one that is dead, for 12 s; each is left alone for 4 s after.
 [[nodiscard]] Schedule draw_schedule(std::uint64_t seed, FaultMask kinds, std::size_t clients,
                                      std::uint32_t heal_ms);
 

@@ -1,4 +1,4 @@
-// What a real carrier's keyed checksum does: packets that were altered or forged on the way are
+// Stands in for a real carrier's keyed checksum: packets that were altered or forged on the way are
 // dropped before a session sees them.
 #pragma once
 

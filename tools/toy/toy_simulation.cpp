@@ -73,7 +73,7 @@ bool in_range(const ToyConfig& config) {
          config.input_bytes <= k_max_input_bytes;
 }
 
-// What this build computes for a short match: a constant unless the rules change.
+// This build's hash of a short match: a constant unless the rules change.
 std::uint64_t canary() {
   static thread_local bool computing = false;  // the canary's own simulation has none
   if (computing) return 0;
@@ -363,7 +363,7 @@ std::size_t ForgetfulToy::save(SnapshotKind kind, std::span<std::byte> out) cons
 }
 
 void toy_input(std::uint64_t seed, std::size_t slot, std::uint64_t tick, std::span<std::byte> out) {
-  // Players hold a choice for some ticks, as people do; that is what run-length coding lives on.
+  // Players hold a choice for some ticks, as people do; run-length coding relies on that.
   std::uint64_t bits = mix(seed ^ (slot << 56) ^ ((tick + slot) / 7));
   for (std::byte& byte : out) {
     byte = static_cast<std::byte>(bits & 0xff);

@@ -16,7 +16,7 @@
 
 namespace lockstone::toy {
 
-/// What a match of the toy is made from. `encode` and `decode` give the configuration bytes.
+/// The configuration of a match of the toy. `encode` and `decode` give the configuration bytes.
 struct ToyConfig {
   std::uint64_t seed = 1;
   std::uint16_t tick_rate = 60;   ///< ticks per second, 1 … 1000
@@ -55,7 +55,7 @@ class ToySimulation : public Simulation {
 
  private:
   [[nodiscard]] Hash128 hash_words(std::size_t begin, std::size_t end) const;
-  struct Place;  ///< what a word means
+  struct Place;  ///< the meaning of a word
   [[nodiscard]] Place place_of(std::size_t word) const;
   [[nodiscard]] std::optional<std::size_t> find(std::string_view store, std::uint64_t object,
                                                 std::string_view field) const;
@@ -87,7 +87,7 @@ template <class Toy = ToySimulation, class... Further>
     return std::unique_ptr<Simulation>(std::make_unique<Toy>(config.value(), further...));
   };
 }
-/// A reproducible input for a slot and tick: what a test's players press. `out` is filled whole.
+/// A reproducible input for a slot and tick, for the players of tests. `out` is filled whole.
 void toy_input(std::uint64_t seed, std::size_t slot, std::uint64_t tick, std::span<std::byte> out);
 
 }  // namespace lockstone::toy

@@ -46,21 +46,21 @@ class Asset {
   [[nodiscard]] Shape shape() const { return {kind_, {}, id_}; }
 
   /// The canonical form: little-endian, versioned, the same for the same geometry. The id is its
-  /// hash. What can be derived is not in it: the builder derives it anew.
+  /// hash. It holds no derived data: the builder derives that again.
   [[nodiscard]] virtual std::vector<std::byte> canonical_bytes() const = 0;
 
-  // What the engine asks, in types that are no part of the interface
+  // For the engine alone, in types that are no part of the interface
   // -----------------------------------------------------------------------------------------------
 
   [[nodiscard]] virtual const geometry::LocalBounds& bounds() const = 0;
 
-  /// Mass distribution; null for what no dynamic body can have.
+  /// Mass distribution; null for assets that no dynamic body can have.
   [[nodiscard]] virtual const geometry::Solid* solid() const { return nullptr; }
 
   /// The polyhedron when the asset is a single convex one.
   [[nodiscard]] virtual const geometry::Polytope* polytope() const { return nullptr; }
 
-  /// What collides with its triangles; null for what has none.
+  /// The kernels that collide with its triangles; null for an asset without triangles.
   [[nodiscard]] virtual const geometry::MeshKernels* mesh_kernels() const { return nullptr; }
 
   /// Calls the visitor for every part whose bounds meet `region` (asset frame, closed), in

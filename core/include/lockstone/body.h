@@ -1,4 +1,4 @@
-// What a body is made of: definitions going in, values coming out.
+// Bodies: definitions going in, values coming out.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,7 @@ struct AxisLocks {
   friend constexpr bool operator==(const AxisLocks&, const AxisLocks&) = default;
 };
 
-/// What a body's speeds are held to at the end of each tick, besides the world's limits.
+/// Limits of a body's speeds at the end of each tick, besides the world's limits.
 struct SpeedLimit {
   Velocity linear = k_speed_limit;                                     ///< > 0
   AngularVelocity angular = AngularVelocity::from_integer(1'000'000);  ///< > 0
@@ -62,7 +62,7 @@ struct BodyDef {
   Vec3<Velocity> velocity{};  ///< at most 500 m/s
   Vec3<AngularVelocity> angular_velocity{};
   Material material{};
-  SurfaceMotion surface_motion{};  ///< of what is not dynamic
+  SurfaceMotion surface_motion{};  ///< of static and kinematic bodies
   CollisionFilter filter{};
   Number gravity_scale = Number::from_integer(1);
   Rate linear_damping{};  ///< ≥ 0; v' = −c·v; exact in flight

@@ -1,5 +1,5 @@
 // A character: an upright capsule that a game moves through a world by sweeping and sliding. It is
-// no body: it stands, walks and is stopped, but only what `apply_pushes` does is felt by others.
+// no body: bodies stop it, but it moves them only through `apply_pushes`.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct CharacterDef {
   Length step_height = Length::from_ratio(35, 100);   ///< ledges up to this are walked onto
   Unit min_ground_slope = Unit::from_ratio(64, 100);  ///< least normal.y to stand on: 50°
   Length skin = Length::from_ratio(1, 100);           ///< gap kept to everything, 1 mm … radius
-  Mass mass = Mass::from_integer(80);                 ///< what pushes are made of
-  QueryFilter filter{};  ///< what it meets; a body of the game's own to ignore
+  Mass mass = Mass::from_integer(80);                 ///< its mass, for pushes
+  QueryFilter filter{};  ///< the bodies it collides with; the game can exclude its own
 };
 
 /// Something that stopped a character.
@@ -36,17 +36,17 @@ struct CharacterMove {
 
   Vec3<Position> position{};  ///< of the capsule's centre, afterwards
   bool grounded = false;      ///< stands on something walkable
-  BodyHandle ground{};        ///< what it stands on: add its velocity to move with it
+  BodyHandle ground{};        ///< the body it stands on: add its velocity to move with it
   Vec3<Unit> ground_normal{};
   bool stepped = false;  ///< walked up a ledge
   std::array<CharacterHit, k_max_hits> hits{};
   std::size_t hit_count = 0;
 };
 
-/// Moves a character from `position` by `motion` (at most 8 m an axis, one tick's way): out of what
-/// it overlaps, along walls, up ledges and walkable slopes, and, when `stay_on_ground`, down to the
-/// ground it walks on. It never ends inside anything that it did not start in. The world does not
-/// change. Slopes steeper than the definition allows are walls.
+/// Moves a character from `position` by `motion` (at most 8 m an axis, one tick's motion): out of
+/// bodies that it overlaps, along walls, up ledges and walkable slopes, and, when `stay_on_ground`,
+/// down to the ground it walks on. It never ends inside anything that it did not start in. The
+/// world does not change. Slopes steeper than the definition allows are walls.
 ///
 /// Sweep and slide: P. Fauerby, "Improved collision detection and response", 2003; creases after
 /// the character controllers of PhysX and Jolt.
@@ -55,7 +55,7 @@ struct CharacterMove {
                                            const Vec3<Length>& motion, bool stay_on_ground = true);
 
 /// Pushes the dynamic bodies that stopped a move, each as an inelastic impact of the character's
-/// mass at the speed that was blocked, less what the body already has.
+/// mass at the blocked speed, less the speed that the body already has.
 void apply_pushes(World& world, const CharacterDef& character, const CharacterMove& move);
 
 }  // namespace lockstone

@@ -10,7 +10,7 @@
 
 namespace lockstone {
 
-/// What vectors and points of a command are written in.
+/// The frame of the vectors and points of a command.
 enum class Frame : std::uint8_t {
   world = 0,  ///< world axes, points relative to the centre of mass
   body = 1,   ///< the frame of the body's shape
@@ -41,7 +41,7 @@ struct SetAngularVelocity {
 };
 
 /// At the centre of mass. Impulses leave velocity, and angular momentum over mass and size, within
-/// ±500 m/s an axis: what is beyond is lost.
+/// ±500 m/s an axis: they are clamped there.
 struct ApplyImpulse {
   BodyHandle body{};
   Vec3<Impulse> impulse{};
@@ -114,7 +114,7 @@ struct SetDamping {
   Rate angular{};
 };
 
-/// Stops the body along and about the axes that are locked. Contacts keep what they carry. Refused
+/// Stops the body along and about the axes that are locked. Contacts keep their impulses. Refused
 /// where a joint sits too far away for a body that turns.
 struct SetAxisLocks {
   BodyHandle body{};
@@ -139,7 +139,7 @@ struct WakeBody {
 };
 
 /// Puts the island of a dynamic body to sleep as it stands; velocities are lost. invalid_argument
-/// when the world or a body of the island never sleeps. What is in contact with an awake body of
+/// when the world or a body of the island never sleeps. A body in contact with an awake body of
 /// another kind wakes again in the next step.
 struct SleepBody {
   BodyHandle body{};

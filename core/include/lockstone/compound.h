@@ -17,7 +17,7 @@ namespace lockstone {
 
 inline constexpr int k_max_compound_children = 256;
 
-/// One of the shapes. Where children overlap, what they share weighs twice.
+/// One of the shapes. Where children overlap, the shared volume counts twice in the mass.
 struct CompoundChild {
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));  ///< sphere, capsule, box or hull
   AssetPtr asset{};                          ///< the hull that `shape` names; null for the others

@@ -1,8 +1,8 @@
-// What a world shows of itself to whoever draws it: everything that a body, a contact or a joint is
-// at the moment, in the order of the state, in integers and metres.
+// Debug drawing: the present state of every body, contact and joint of a world, in the order of the
+// state, in integers and metres.
 //
-// A game derives from DebugDraw and overrides what it wants to see. Drawing reads the state alone,
-// changes nothing and allocates nothing.
+// A game derives from DebugDraw and overrides the calls it wants to see. Drawing reads the state
+// alone, changes nothing and allocates nothing.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace lockstone {
 
-/// What a body is doing, for its colour.
+/// The activity of a body, for its colour.
 enum class DebugState : std::uint8_t {
   static_body,
   kinematic,
@@ -77,7 +77,7 @@ struct DebugContact {
 /// A joint with its two frames where they are.
 struct DebugJoint {
   JointHandle joint{};
-  JointView view{};  ///< how far it is moved, and what it bears
+  JointView view{};  ///< its displacement, force and torque
   Vec3<Position> place_a{};
   Vec3<Position> place_b{};
   Mat3 frame_a{};  ///< its axes are the columns
@@ -103,8 +103,8 @@ class DebugDraw {
   virtual void draw_joint(const DebugJoint&) {}
 };
 
-/// What to draw. Contacts are found anew from where bodies are, which takes as long as the narrow
-/// phase of a tick does.
+/// The items to draw. Contacts are found again from the bodies' poses, which takes as long as the
+/// narrow phase of a tick does.
 struct DebugDrawOptions {
   bool shapes = true;
   bool bounds = false;

@@ -1,4 +1,4 @@
-// What happened during a step. Arrays in canonical order, never callbacks.
+// Events of a step. Arrays in canonical order, never callbacks.
 #pragma once
 
 #include <cstdint>

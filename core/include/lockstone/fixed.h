@@ -357,7 +357,7 @@ template <class To, class Rep, int FracBits>
   return To::from_raw(static_cast<typename To::Representation>(scaled));
 }
 
-/// As `rounded`, but what does not fit becomes the nearest bound.
+/// As `rounded`, but a value that does not fit becomes the nearest bound.
 template <class To, class Rep, int FracBits>
 [[nodiscard]] constexpr To saturated(Fixed<typename To::Unit, Rep, FracBits> value) {
   const std::int64_t scaled = raw::scale_saturating(value.raw, To::frac_bits - FracBits);

@@ -16,7 +16,7 @@ struct HeightFieldData;
 
 inline constexpr std::uint32_t k_max_height_field_samples = 4096;  ///< along each axis
 
-/// What a height field is built from; read during `HeightField::build` only. Sample (i, j) stands
+/// Definition of a height field; read during `HeightField::build` only. Sample (i, j) stands
 /// at x = origin.x + i · cell_x, z = origin.z + j · cell_z. All coordinates are within ±512 m.
 struct HeightFieldDef {
   std::uint32_t columns = 0;  ///< samples along x, 2 … k_max_height_field_samples

@@ -1,4 +1,4 @@
-// Joints: what holds two bodies together, limits how they move against each other, and drives them.
+// Joints hold two bodies together, limit their relative motion, and drive it.
 //
 // A joint has a frame on each body. Frame B moves against frame A in six ways: along the three axes
 // of frame A, and about them. Each of the six is locked, free or limited, and may have a drive (a

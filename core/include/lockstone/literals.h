@@ -1,5 +1,5 @@
 // Decimal literals: `1.5_m`, `-9.81_mps2`, `0.6_r`. A literal is an exact decimal that becomes any
-// format of its unit, correctly rounded; what does not fit does not compile.
+// format of its unit, correctly rounded; a literal that does not fit does not compile.
 #pragma once
 
 #include <bit>
@@ -43,7 +43,7 @@ struct Binary {
   return bits * 65 + (all_ones ? std::countl_one(value.fraction) : 0);
 }
 
-/// Of the negative, where −2^n takes no bit more than what is above it.
+/// Of the negative, where −2^n takes no bit more than the numbers above it.
 [[nodiscard]] constexpr int mirrored_extent(const Binary& value) {
   const bool is_power = value.fraction == 0 && std::has_single_bit(value.whole);
   return is_power ? (static_cast<int>(std::bit_width(value.whole)) - 1) * 65 : extent(value);

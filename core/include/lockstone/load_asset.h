@@ -1,4 +1,4 @@
-// Assets of any kind from bytes: what a file or a peer sends.
+// Assets of any kind from the bytes of a file or a peer.
 #pragma once
 
 #include <lockstone/asset.h>
@@ -8,8 +8,8 @@
 namespace lockstone {
 
 /// The hull, mesh, height field or compound that these canonical bytes came from, by the kind in
-/// their head. The bytes may come from anywhere. Equal bytes give equal ids; what loads has exactly
-/// these canonical bytes.
+/// their head. The bytes may come from anywhere. Equal bytes give equal ids; a loaded asset has
+/// exactly these canonical bytes.
 ///
 /// `known` holds the hulls of compounds: not_found when it lacks one. Otherwise truncated,
 /// unsupported_version, or malformed: not an asset's bytes, or not in canonical form.

@@ -1,4 +1,4 @@
-// What bodies and parts of assets are made of, and how two surfaces meet.
+// Surface materials of bodies and of parts of assets, and how two surfaces combine.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ struct Material {
 };
 
 /// The motion of a surface that stays in place, as of a conveyor belt or a turntable: in the axes
-/// of the body's shape, about the shape's origin. Friction drives what touches the body towards it.
+/// of the body's shape, about the shape's origin. Friction drives touching bodies towards it.
 struct SurfaceMotion {
   Vec3<SolverVelocity> velocity{};  ///< each component within ±500 m/s
   Vec3<Rate> turning{};             ///< rad/s, each component within ±500

@@ -26,7 +26,7 @@ struct TriangleIndices {
   friend constexpr auto operator<=>(const TriangleIndices&, const TriangleIndices&) = default;
 };
 
-/// What a mesh is built from; read during `Mesh::build` only.
+/// Definition of a mesh; read during `Mesh::build` only.
 struct MeshDef {
   std::span<const Vec3<Length>> vertices;  ///< within ±512 m; at most k_max_mesh_vertices
   std::span<const TriangleIndices> triangles;
@@ -65,7 +65,7 @@ struct [[nodiscard]] MeshResult {
   MeshFault fault = MeshFault::none;
   std::uint32_t index = 0;  ///< of the offending triangle, vertex or surface
 
-  // What building dropped.
+  // Dropped while building.
   std::uint32_t welded_vertices = 0;       ///< equal to another within the tolerance
   std::uint32_t degenerate_triangles = 0;  ///< without area, after welding
   std::uint32_t duplicate_triangles = 0;   ///< the same three vertices, turned the same way

@@ -13,7 +13,7 @@
 
 namespace lockstone {
 
-/// Answers ascending ticks of any unit. Called during `World::step`, so it must not use the world.
+/// Returns ascending ticks of any unit. Called during `World::step`, so it must not use the world.
 using ProfileClock = std::uint64_t (*)();
 
 /// The stages of a tick, in their order, with the name that people read.
@@ -52,10 +52,10 @@ inline constexpr std::size_t k_step_stages = 0 LKS_STEP_STAGES(LKS_COUNT_STAGE);
   return name_of(stage);
 }
 
-/// What each stage of a step left behind, as a hash: equal in equal steps, and in steps that part
-/// different from the first stage on that saw a difference.
+/// A hash of the data after each stage of a step. Two equal steps have equal digests; two steps
+/// that diverge have different ones from the first diverging stage on.
 struct StageDigests {
-  std::uint64_t before = 0;  ///< of what the step began with: the state after the tick's commands
+  std::uint64_t before = 0;  ///< of the step's input: the state after the tick's commands
   std::array<std::uint64_t, k_step_stages> after{};
 
   friend bool operator==(const StageDigests&, const StageDigests&) = default;
@@ -69,7 +69,7 @@ enum class ProfileDetail : std::uint8_t {
 };
 [[nodiscard]] std::string_view to_string(ProfileDetail detail);
 
-/// What the narrow phase did for pairs of two kinds of shape.
+/// The narrow phase's work for pairs of two kinds of shape.
 struct PairProfile {
   std::uint64_t pairs = 0;       ///< pairs of bodies with overlapping bounds, triggers included
   std::uint64_t in_contact = 0;  ///< of these, pairs with a manifold

@@ -21,7 +21,7 @@ struct QueryFilter {
   BodyHandle ignore{};
   bool triggers = false;  ///< whether triggers are seen too
 
-  /// Asked in no promised order, of some bodies not at all. What it answers must depend on the body
+  /// Asked in no promised order, of some bodies not at all. Its result must depend on the body
   /// alone.
   bool (*accept)(void* context, BodyHandle body) = nullptr;
   void* context = nullptr;  ///< handed to `accept`

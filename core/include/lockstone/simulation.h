@@ -24,12 +24,12 @@ namespace lockstone {
 inline constexpr std::size_t k_max_players = 16;
 inline constexpr std::size_t k_max_input_bytes = 64;
 
-/// What two peers must agree on before they play.
+/// Two peers must agree on all of this before they play.
 struct SimulationInfo {
   std::uint32_t abi = 0;          ///< changes whenever the same inputs may give another state
   std::uint64_t config_hash = 0;  ///< rules, capacities and parameters
   std::uint64_t scene_hash = 0;   ///< the state before the first tick
-  std::uint64_t canary = 0;       ///< what this build computes for a short built-in scene
+  std::uint64_t canary = 0;       ///< this build's hash of a short built-in scene
   std::uint16_t tick_rate = 60;   ///< ticks per second
   std::uint8_t player_count = 0;  ///< slots, 1 … k_max_players
   std::uint8_t input_bytes = 0;   ///< size of one player's input, 1 … k_max_input_bytes
@@ -105,7 +105,7 @@ class Simulation {
   /// Advances by one tick. `inputs` has info().player_count entries in slot order.
   virtual void step(std::span<const PlayerInput> inputs) = 0;
 
-  /// An upper bound on what `save` writes, constant over the match.
+  /// An upper bound on the bytes that `save` writes, constant over the match.
   [[nodiscard]] virtual std::size_t snapshot_bytes_max(SnapshotKind kind) const = 0;
 
   /// Writes the whole state; answers the bytes written. `out` has snapshot_bytes_max(kind) bytes.
@@ -118,8 +118,8 @@ class Simulation {
   [[nodiscard]] virtual std::uint64_t hash() const = 0;
 
   /// Hashes of all parts of the state, at most k_max_state_parts, always the same ones in the same
-  /// order; answers how many. A session compares them every 64 ticks: what 64 bits are blind to
-  /// shows, and where. Without this it compares `hash` alone.
+  /// order; returns their number. A session compares them every 64 ticks, and so finds and locates
+  /// differences that a hash of 64 bits can miss. Without this it compares `hash` alone.
   [[nodiscard]] virtual std::size_t part_hashes(std::span<PartHash, k_max_state_parts>) const {
     return 0;
   }

@@ -1,4 +1,4 @@
-// What an operation answers when it cannot do its work.
+// The result of an operation that can fail.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     capacity_exhausted,   ///< a store of the world is full; nothing was changed
     stale_handle,         ///< the object that the handle named no longer exists
     invalid_argument,     ///< a value lies outside its documented range
-    truncated,            ///< the bytes end before what they announce
+    truncated,            ///< the bytes end before the announced length
     malformed,            ///< the bytes break their format
     checksum_mismatch,    ///< the bytes were damaged
     unsupported_version,  ///< the bytes are of another format version

@@ -1,4 +1,4 @@
-// What a world needs of a scheduler to step on several threads.
+// The interface of a scheduler, for stepping a world on several threads.
 //
 // No result depends on it: the same bits come out of one thread or many, of any order and of any
 // delay. A game puts its own scheduler behind TaskRunner; `lockstone/thread_pool.h` is one for
@@ -34,11 +34,11 @@ class TaskRunner {
   [[nodiscard]] virtual std::uint32_t worker_count() const = 0;
 
   /// Calls `task(context, chunk, worker)` once for each chunk of 0 … chunks − 1, on any threads and
-  /// in any order, and returns when all calls have returned; what they wrote is then visible to the
+  /// in any order, and returns when all calls have returned; their writes are then visible to the
   /// caller. `worker` is below `worker_count()`, and no two calls at the same time have the same.
   ///
-  /// Chunks of one call may wait for what others of it have begun, never for what has not begun: it
-  /// is right to run all of them here, one after the other.
+  /// A chunk may wait for another chunk of its call that has begun, but never for one that has not
+  /// begun: running all of them here, one after the other, is correct.
   virtual void run(std::uint32_t chunks, TaskFunction task, void* context) = 0;
 };
 

@@ -20,8 +20,9 @@ struct Transform {
 [[nodiscard]] Vec3<Position> rotate(const Mat3& m, const Vec3<Position>& v);
 [[nodiscard]] Vec3<Position> rotate_inverse(const Mat3& m, const Vec3<Position>& v);
 
-/// Where the body point is in the world. Rounded once: within 0.5 · 2^-32 m of what the rounded
-/// rotation matrix gives; that matrix is within 2^-30 of the quaternion's, a nanometre per metre.
+/// The world position of a body point. Rounded once: within 0.5 · 2^-32 m of the value that the
+/// rounded rotation matrix gives; that matrix is within 2^-30 of the quaternion's, a nanometre per
+/// metre.
 [[nodiscard]] Vec3<Position> apply(const Transform& t, const Vec3<Position>& point);
 [[nodiscard]] Vec3<Position> apply(const Transform& t, const Vec3<Length>& point);
 

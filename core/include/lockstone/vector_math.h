@@ -47,7 +47,7 @@ struct Product<Fixed<D1, std::int64_t, F1>, Fixed<D2, std::int64_t, F2>> {
 
 }  // namespace vector_detail
 
-/// |v| to nearest; what exceeds the format becomes its maximum.
+/// |v| to nearest; a length beyond the format becomes its maximum.
 template <class D, class Rep, int F>
 [[nodiscard]] Fixed<D, Rep, F> length(const Vec3<Fixed<D, Rep, F>>& v) {
   return Fixed<D, Rep, F>::from_raw(

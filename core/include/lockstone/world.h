@@ -47,7 +47,7 @@ struct WorldDef {
   std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
   std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does
-  Length sleep_distance = Length::from_ratio(1, 200);  ///< what moves less rests, 1 mm … 1 m
+  Length sleep_distance = Length::from_ratio(1, 200);  ///< a body at rest moves less, 1 mm … 1 m
   BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it
   Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
   Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
@@ -59,7 +59,7 @@ struct WorldDef {
 /// (`AssetSet::hash`, 0 for none): peers compare it before they play.
 [[nodiscard]] std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets = 0);
 
-/// What one step did. Counters cost nothing and are the same on every peer.
+/// Counters of one step. They cost nothing and are the same on every peer.
 struct StepReport {
   Status status = Status::ok;  ///< capacity_exhausted: pairs were left out, alike everywhere
   std::uint32_t moving_bodies = 0;
@@ -101,7 +101,7 @@ struct StateHash128 {
   friend bool operator==(const StateHash128&, const StateHash128&) = default;
 };
 
-/// What does not fit in a world; false when nothing was found.
+/// An inconsistency in a world; false when nothing was found.
 struct WorldFault {
   const char* what = nullptr;  ///< in English, for a log
   std::uint32_t index = 0;     ///< of the record, where one is named
@@ -145,7 +145,7 @@ class World {
   Status apply(const Command& command);
 
   /// Why `create`, `create_body`, `create_joint` or `apply` would refuse this now: the field, its
-  /// value and what it must be. Empty where they would not. Allocates text: for logs and editors.
+  /// value and its valid range. Empty where they would not. Allocates text: for logs and editors.
   /// Not from two threads at once.
   static Refusal explain(const WorldDef& def);
   Refusal explain(const BodyDef& def) const;
@@ -169,7 +169,7 @@ class World {
   void set_clock(ProfileClock now, ProfileDetail detail = ProfileDetail::stages);
   [[nodiscard]] const StepProfile& profile() const;
 
-  /// Whether steps note what each stage leaves behind, which takes about as long as the step. No
+  /// Whether steps hash the data after each stage, which takes about as long as the step. No
   /// result depends on it. Without it, as at first, the digests are zero.
   void trace_stages(bool on);
   [[nodiscard]] const StageDigests& stage_digests() const;  ///< of the last step
@@ -184,8 +184,8 @@ class World {
   void set_validation(bool each_stage);
 
   /// Steps on the runner's workers from here on; null, as at first, on the calling thread alone.
-  /// Not state: no result depends on it. The runner must outlive its use. Allocates what the
-  /// workers need for themselves, so that `step` does not.
+  /// Not state: no result depends on it. The runner must outlive its use. Allocates the workers'
+  /// scratch memory, so that `step` does not.
   void set_task_runner(TaskRunner* runner, TaskPieces pieces = TaskPieces::worthwhile);
 
   // Bodies ----------------------------------------------------------------------------------------
@@ -204,9 +204,9 @@ class World {
 
   /// Names a body for people, as `describe_difference` prints it. A name is not state: it is
   /// neither hashed nor saved, changes no result, and a world that loads a snapshot knows the names
-  /// that were set in it alone. There a name stays with its handle, over `load` too. Holds
-  /// k_max_body_name bytes and cuts what is longer; a control character or a quotation mark becomes
-  /// '?'. stale_handle when there is no such body. Does not allocate.
+  /// that were set in it alone. There a name stays with its handle, over `load` too. A name longer
+  /// than k_max_body_name bytes is cut; a control character or a quotation mark becomes '?'.
+  /// stale_handle when there is no such body. Does not allocate.
   Status set_name(BodyHandle body, std::string_view name);
 
   /// Empty without a name or a body. Valid until the slot's next body is made or named.
@@ -241,7 +241,7 @@ class World {
                                     const QueryFilter& filter = {}) const;
 
   /// Every body along the ray, each where the ray enters it, nearest first and the lower index of
-  /// equals, as many as `out` holds; answers how many were written.
+  /// equals, as many as `out` holds; returns how many were written.
   std::size_t cast_ray_all(const Vec3<Position>& origin, const Vec3<Length>& translation,
                            std::span<RayHit> out, const QueryFilter& filter = {}) const;
 
@@ -249,7 +249,7 @@ class World {
   void cast_rays(std::span<const Ray> rays, std::span<RayHit> out,
                  const QueryFilter& filter = {}) const;
 
-  /// Bodies that overlap a sphere, by index, as many as `out` holds; answers how many were written.
+  /// Bodies that overlap a sphere, by index, as many as `out` holds; returns how many were written.
   std::size_t overlap_sphere(const Vec3<Position>& center, Length radius, std::span<BodyHandle> out,
                              const QueryFilter& filter = {}) const;
 
@@ -283,20 +283,20 @@ class World {
   std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
                         const QueryFilter& filter = {}) const;
 
-  /// Shows what there is: bodies, then contacts by key, then joints, by index each. Not from two
+  /// Draws the bodies by index, then the contacts by key, then the joints by index. Not from two
   /// threads at once.
   void draw(DebugDraw& out, const DebugDrawOptions& options = {}) const;
 
   // State -----------------------------------------------------------------------------------------
 
-  /// Hashes what changed since the last call, so that a world at rest costs nothing. Not from two
-  /// threads at once.
+  /// Hashes only the records that changed since the last call, so that a world at rest costs
+  /// nothing. Not from two threads at once.
   [[nodiscard]] StateHash hash() const;
 
   /// Hashes everything anew.
   [[nodiscard]] StateHash128 hash128() const;
 
-  /// The hashes of a store's records in the order of the state, as many as `out` holds; answers how
+  /// The hashes of a store's records in the order of the state, as many as `out` holds; returns how
   /// many there are. A store's hash is their sum: with both sides' lists one knows which records
   /// differ.
   std::size_t record_hashes(StateStore store, std::span<std::uint64_t> out) const;
@@ -311,9 +311,9 @@ class World {
   /// anything changes. Native bytes must come from `save` in this process.
   Status load(SnapshotKind kind, ByteView bytes);
 
-  /// As native snapshots, but only what differs from one, `base`, which `load_delta` must be given
-  /// again: of a world at rest a few bytes for each hundred bodies. 0 when `out` is too small or
-  /// `base` is none of this world.
+  /// As native snapshots, but only the differences from one, `base`, which `load_delta` must be
+  /// given again: of a world at rest a few bytes for each hundred bodies. 0 when `out` is too small
+  /// or `base` is none of this world.
   [[nodiscard]] std::size_t delta_bytes_max() const;
   [[nodiscard]] std::size_t save_delta(ByteView base, std::span<std::byte> out) const;
   Status load_delta(ByteView base, ByteView delta);
@@ -322,9 +322,10 @@ class World {
   /// and those of contacts and joints, are called by the names that they have in this world.
   [[nodiscard]] StateDifference describe_difference(ByteView here, ByteView there) const;
 
-  /// Flips a bit of a field in memory, as a fault would: a control for what is to find it. Stores,
-  /// objects and fields are those of a StateDifference; false when there is no such bit. The world
-  /// may then be hashed, saved and compared, and must be loaded before anything else.
+  /// Flips a bit of a field in memory, as a hardware fault would, to test the checks that must find
+  /// it. Stores, objects and fields are those of a StateDifference; false when there is no such
+  /// bit. The world may then be hashed, saved and compared, and must be loaded before anything
+  /// else.
   bool flip_bit(std::string_view store, std::uint64_t object, std::string_view field, unsigned bit);
 
   /// Forgets everything that is not state, but for names. Tests call it every tick: the future must
@@ -338,8 +339,8 @@ class World {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The hash of a short built-in scene: what this build computes. Two builds that differ here would
-/// diverge in a match.
+/// This build's hash of a short built-in scene. Two builds that differ here would diverge in a
+/// match.
 [[nodiscard]] std::uint64_t canary_hash();
 
 }  // namespace lockstone

@@ -15,7 +15,7 @@ using lockstone::test::Random;
 constexpr std::int64_t k_one = std::int64_t{1} << 30;
 constexpr std::int32_t k_rate = 240;
 
-// What a tick works on and leaves.
+// The inputs and outputs of a tick.
 struct Scene {
   std::vector<SourceBody> inertias;
   std::vector<BodyPlace> places, later;

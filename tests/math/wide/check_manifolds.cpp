@@ -1,4 +1,4 @@
-// Manifold sweeps: every target against the scalar twin.
+// Iterations over manifolds: every target against the scalar twin.
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -15,7 +15,7 @@ using lockstone::test::Random;
 
 constexpr std::int32_t k_one = 1 << 30;
 
-// What a tick works on and leaves.
+// The inputs and outputs of a tick.
 struct Scene {
   std::vector<ManifoldGeometry> geometry;
   std::vector<ManifoldSources> sources;  // they point into the geometry, of the first copy
@@ -81,7 +81,7 @@ struct SceneMaker {
       in[i] = wild ? operand(random) : unit[i];
   }
 
-  // What is not read holds anything.
+  // Unread fields hold arbitrary bits.
   void fill_points(ManifoldGeometry& geometry, ManifoldSource& in) {
     in.count = fixed(1, 4);
     in.one_over_count = k_one / in.count;
@@ -97,7 +97,7 @@ struct SceneMaker {
     }
   }
 
-  // What few contacts have: rolling resistance, moving surfaces, axis locks.
+  // Features that few contacts have: rolling resistance, moving surfaces, axis locks.
   void fill_extras(ManifoldSource& in, bool fixed_a) {
     if (random.next() % 2 == 0) {
       in.rolling_limit = fixed(1, k_one / 2);
@@ -196,7 +196,7 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   for (std::size_t i = 0; i < blocks * k_block_lanes; ++i, next += 2) {
     ManifoldSources& sources = scene.sources[i / k_block_lanes];
     const std::size_t lane = i % k_block_lanes;
-    if (i >= used) {  // as the solver leaves what has no contact
+    if (i >= used) {  // as the solver leaves lanes without a contact
       sources.geometry[lane] = k_no_geometry.data();
       continue;
     }

@@ -13,7 +13,7 @@ namespace lockstone::lanes::test {
 inline constexpr std::size_t k_most_lanes = 8;
 using Values = std::array<std::int64_t, k_most_lanes>;
 
-/// What operations work on. shift is 1 … 32 and half is 2^(shift − 1).
+/// Operands of the operations. shift is 1 … 32 and half is 2^(shift − 1).
 struct Operands {
   Values a{}, b{}, c{}, shift{}, half{};
 };
@@ -88,7 +88,7 @@ struct TargetOperations {
                      std::size_t stride);
 };
 
-/// What the build has; the processor may lack some.
+/// The operations in this build; the processor may lack some.
 [[nodiscard]] std::span<const TargetOperations> compiled_operations();
 
 [[nodiscard]] std::string_view name_of(Operation operation);

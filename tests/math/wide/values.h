@@ -7,7 +7,7 @@
 
 namespace lockstone::lanes::test {
 
-/// ±2^k, and what lies up to two beside it.
+/// ±2^k, and the numbers up to two beside it.
 inline std::int64_t beside_power(lockstone::test::Random& random) {
   const std::uint64_t power = std::uint64_t{1} << random.between(0, 63);
   const std::uint64_t value = power + static_cast<std::uint64_t>(random.between(-2, 2));

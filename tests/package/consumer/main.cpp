@@ -1,4 +1,4 @@
-// The smallest program of a user: it hashes three bytes, and it links what net needs.
+// The smallest program of a user: it hashes three bytes, and it links the libraries that net needs.
 #include <array>
 #include <cstddef>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Rows of accuracy: what is measured, against what, and how far off at worst.
+// Rows of accuracy: each measures a quantity against a reference and reports the worst error.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace lockstone::bench {
 
 struct AccuracyOptions {
   std::uint64_t seed = 1;
-  std::uint64_t tries = 0;  ///< 0: what the row asks for
+  std::uint64_t tries = 0;  ///< 0: the row's own number
   std::uint64_t first = 0;  ///< try to begin with
   int threads = 1;
   bool sweep = false;  ///< rows of contact: 1 to 16 substeps instead of 4
@@ -84,7 +84,7 @@ struct AccuracyRow {
 [[nodiscard]] std::vector<AccuracyResult> measure_elastic_cloud(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_far_away(const AccuracyOptions& options);
 
-// What other methods would do; tools/bench/baselines.
+// Results of other methods; tools/bench/baselines.
 [[nodiscard]] std::vector<AccuracyResult> measure_integrators(const AccuracyOptions& options);
 [[nodiscard]] std::vector<AccuracyResult> measure_penalty(const AccuracyOptions& options);
 

@@ -100,7 +100,7 @@ Linkage add_linkage(SceneRun& scene) {
   return linkage;
 }
 
-// Where coupler and rocker meet, against what follows from the crank.
+// Where coupler and rocker meet, against the point that follows from the crank.
 double meeting_error(const World& world, const Linkage& linkage) {
   const fuzz::Real3 crank = fuzz::real(world.position(linkage.crank));
   const fuzz::Real3 rocker = fuzz::real(world.position(linkage.rocker));

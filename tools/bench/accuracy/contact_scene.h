@@ -1,4 +1,4 @@
-// What rows of contact share: ground, bodies and numbers.
+// Helpers for rows of contact: ground, bodies and numbers.
 #pragma once
 
 #include <cmath>

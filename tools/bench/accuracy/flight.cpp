@@ -1,4 +1,4 @@
-// Rows 1 and 2: fall and drift of what nothing touches.
+// Rows 1 and 2: fall and drift of bodies without contacts.
 #include <algorithm>
 #include <cmath>
 

@@ -60,7 +60,7 @@ struct Spinner {
 // 1 × 2 × 3 m.
 constexpr Spinner k_box{Shape::box(0.5_m, 1_m, 1.5_m), {0.01_rps, 5_rps, {}}};
 
-// What is seen of the body: L from ω and orientation.
+// The body as its view shows it: L from ω and orientation.
 FreeBody seen(const Spinner& spinner, const BodyView& view) {
   const LongQuat q = real(view.orientation);
   Long3 w = rotate(conjugate(q), real(view.angular_velocity));

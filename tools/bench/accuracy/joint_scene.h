@@ -1,4 +1,4 @@
-// What scenes of joints are built from.
+// Building blocks for scenes of joints.
 #pragma once
 
 #include <lockstone/world.h>

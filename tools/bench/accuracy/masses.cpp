@@ -23,7 +23,7 @@ struct Errors {
   double volume = 0;         ///< relative
   double centre = 0;         ///< m, by axis
   double moments = 0;        ///< of the greatest
-  double small_moments = 0;  ///< likewise, of what is smaller than k_small
+  double small_moments = 0;  ///< likewise, of bodies smaller than k_small
 
   void add(const Errors& other) {
     tries += other.tries;

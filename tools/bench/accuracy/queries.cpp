@@ -16,7 +16,7 @@ using fuzz::norm;
 using fuzz::real;
 
 constexpr double k_goal = 2e-6;
-constexpr double k_near = 20;  // m: what games put into one room
+constexpr double k_near = 20;  // m: the usual distances within one room of a game
 
 using Figures = std::array<Figure, fuzz::k_checks>;
 

@@ -1,4 +1,4 @@
-// What pendulums do, in double.
+// The motion of pendulums, in double.
 #pragma once
 
 #include <array>

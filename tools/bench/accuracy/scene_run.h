@@ -21,7 +21,7 @@ struct Setting {
   friend bool operator==(const Setting&, const Setting&) = default;
 };
 
-/// What goals are held to.
+/// The setting for which the goals are set.
 inline constexpr Setting k_usual_setting{};
 
 class SceneRun {
@@ -47,7 +47,7 @@ class SceneRun {
   std::uint64_t nanoseconds_ = 0;
 };
 
-/// What `measure` answers at 1, 2, 4, 8 and 16 substeps.
+/// The results of `measure` at 1, 2, 4, 8 and 16 substeps.
 [[nodiscard]] std::vector<AccuracyResult> over_substeps(
     const std::function<AccuracyResult(const Setting&)>& measure);
 

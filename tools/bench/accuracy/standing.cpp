@@ -1,4 +1,4 @@
-// Row 22: what stands without mortar goes on standing, and a dropped block of boxes settles.
+// Row 22: structures without mortar keep standing, and a dropped block of boxes settles.
 #include <algorithm>
 #include <array>
 

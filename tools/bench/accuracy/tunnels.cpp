@@ -25,7 +25,7 @@ using fuzz::Real3;
 constexpr int k_hulls = 64;
 constexpr int k_compounds = 16;
 constexpr std::uint64_t k_block = 64;  // tries in one world
-constexpr double k_rim = 19;           // what lands beyond it went round the wall
+constexpr double k_rim = 19;           // a body that lands beyond it went round the wall
 
 Vec3<Position> to_position(const Real3& v) {
   const auto lane = [](double x) { return Position::from_raw(std::llround(std::ldexp(x, 32))); };

@@ -1,4 +1,5 @@
-// Row 101: what Euler's three methods do to the energy of a spring and of an orbit, in double.
+// Row 101: the effect of Euler's three methods on the energy of a spring and of an orbit, in
+// double.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -14,7 +14,7 @@ using namespace literals;
 constexpr int k_boxes = 20;
 constexpr double k_mass = 1000;  // kg
 constexpr double k_seconds = 60;
-constexpr double k_lost = 1e3;  // m: what does not stay near
+constexpr double k_lost = 1e3;  // m: a body this far away is lost
 
 // Boxes of 1 m that move up and down alone; spring and damper where two overlap.
 struct PenaltyStack {

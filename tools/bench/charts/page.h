@@ -14,7 +14,7 @@ struct PageFacts {
   std::string compiler;
   std::string commit;
   std::string command;
-  std::vector<std::string> absent;  ///< engines, with what they need
+  std::vector<std::string> absent;  ///< engines, with their requirements
   std::string states;               ///< how many of our final states agree; empty: not compared
 };
 

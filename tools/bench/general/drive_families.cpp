@@ -58,7 +58,7 @@ void fill_hinge_spring(SceneMaker& m) {
   m.judge(Judge::angle, 0.02, 10);
 }
 
-// A body on an undamped spring: what is left of its swing after ten seconds.
+// A body on an undamped spring: the amplitude that remains after ten seconds.
 void fill_spring(SceneMaker& m) {
   const double hertz = m.random.log_between(0.3, 10), rest = m.random.between(1, 2);
   const double pulled = m.random.between(0.05, 0.3);

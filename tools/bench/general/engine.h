@@ -1,4 +1,4 @@
-// What an engine must do to play the scenes of families.
+// The interface of an engine that plays the scenes of families.
 #pragma once
 
 #include <memory>

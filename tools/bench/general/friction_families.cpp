@@ -1,4 +1,4 @@
-// What only friction holds.
+// Structures that only friction holds.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

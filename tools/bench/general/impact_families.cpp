@@ -63,7 +63,7 @@ void fill_crowd(SceneMaker& m) {
   m.fix(m.box({50, thick, 50}, {0, -thick, 0}));
   for (int i = 0; i < n; ++i)
     m.ball(r, Triple{0, 1 + r, 0} + m.jitter(m.random.between(0.01, 1) * r));
-  m.scene.passive = false;  // what overlaps is pushed apart
+  m.scene.passive = false;  // overlapping bodies are pushed apart
   m.judge(Judge::fallen, 0.01, 5);
 }
 

@@ -124,7 +124,7 @@ void fill_scissor(SceneMaker& m) {
   }
   const int load = m.box({wide, 0.1, 0.3}, {0, y + 0.1, 0}, m.random.log_between(100, 5000));
   m.join(Link::hinge, left, load, {-wide, y, 0});
-  m.join(Link::hinge, right, load, {wide, y, 0});  // what holds it already, once more
+  m.join(Link::hinge, right, load, {wide, y, 0});  // redundant: it is held already
   for (GeneralBody& body : m.scene.bodies)
     body.collides = false;
   m.judge(Judge::displacement, 0.01, 8);

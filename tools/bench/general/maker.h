@@ -1,4 +1,4 @@
-// What families build their scenes with: random numbers, bodies, joints.
+// Building blocks for the scenes of families: random numbers, bodies, joints.
 #pragma once
 
 #include "tools/bench/general/scene.h"
@@ -46,7 +46,7 @@ class SceneMaker {
   int hull(std::vector<Triple> points, const Triple& at, double density = 1000);
   /// 200 m square, its top at y = 0.
   int ground();
-  /// Fixed and touching nothing: what joints hang from.
+  /// A fixed body without contacts, from which joints hang.
   int anchor(const Triple& at);
   GeneralBody& body(int index) { return scene.bodies[static_cast<std::size_t>(index)]; }
   void fix(int index) { body(index).motion = Motion::fixed; }
@@ -61,7 +61,7 @@ class SceneMaker {
   GeneralJoint& join(Link link, int a, int b, const Triple& at, const Triple& axis = {0, 0, 1});
   GeneralJoint& rod(int a, int b, const Triple& at_a, const Triple& at_b);
 
-  /// The error of the family and what passes.
+  /// The error of the family and its bound.
   void judge(Judge judge, double bound, double seconds);
 
  private:

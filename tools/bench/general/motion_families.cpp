@@ -1,4 +1,4 @@
-// What others move, and what moves over others.
+// Bodies that others move, and bodies that move over others.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ void kinematic(SceneMaker& m, int body, const Triple& velocity, const Triple& sp
   m.scene.passive = false;
 }
 
-// A thin paddle turns and must strike what is in its way.
+// A thin paddle turns and must strike the body in its path.
 void fill_turning_paddle(SceneMaker& m) {
   const double length = m.random.between(1, 2), spin = m.random.between(5, 40);
   const int paddle = m.box({length, 0.3, m.random.log_between(0.0025, 0.02)}, {0, 0, 0});
@@ -110,7 +110,7 @@ void fill_platform(SceneMaker& m) {
   m.scene.expected = 1;
 }
 
-// A turntable carries what stands on it.
+// A turntable carries the bodies on it.
 void fill_turntable(SceneMaker& m) {
   const double friction = m.random.between(0.5, 0.9), radius = 2;
   const double spin = std::sqrt(9.81 * friction / radius) * m.random.between(0.3, 0.7);

@@ -1,4 +1,4 @@
-// Many seeds of many families by several engines, in parallel, and what came of them.
+// Many seeds of many families by several engines, in parallel, and their results.
 #pragma once
 
 #include <cstdint>

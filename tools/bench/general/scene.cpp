@@ -12,7 +12,7 @@ using namespace general;
 
 namespace {
 
-// What sine and logarithm round differently on another machine is far below this.
+// Another machine's sine and logarithm differ by far less than this.
 double settled(double x) {
   return std::ldexp(std::round(std::ldexp(x, 26)), -26);
 }

@@ -1,4 +1,4 @@
-// A scene of a family in plain numbers: what any engine can be given, and what is expected of it.
+// A scene of a family in plain numbers, for any engine, and the expected result.
 //
 // Metres, seconds, kilograms and radians; y is up and the floor, where there is one, is at y = 0.
 // A pair's friction is the geometric mean of its bodies', its restitution the greater one.
@@ -69,7 +69,7 @@ struct GeneralMove {
   Triple angular_velocity{};
 };
 
-/// What a family's error is: the one figure that its scenes are judged by.
+/// The kind of a family's error: the one figure that its scenes are judged by.
 enum class Judge {
   displacement,  ///< m, of a watched body from where it began: at the end when `expected` is set,
                  ///< else the farthest ever
@@ -110,7 +110,7 @@ class SceneMaker;
 /// A generator of scenes that are alike.
 struct Family {
   std::string_view name;
-  std::string_view text;  ///< what it is and what varies
+  std::string_view text;  ///< describes it and its variations
   void (*fill)(SceneMaker& maker);
 };
 

@@ -1,4 +1,4 @@
-// What an engine did with a scene, as figures.
+// Figures of an engine's run of a scene.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace lockstone::bench {
 
-/// What a figure is when a body or a number is lost; no figure is greater.
+/// The figure when a body or a number is lost; no figure is greater.
 inline constexpr double k_lost_figure = 1e6;
 
 struct GeneralFigures {
@@ -20,10 +20,10 @@ struct GeneralFigures {
   double asleep = 0;       ///< share of dynamic bodies at the end
   double tick_micros = 0;  ///< processor time, mean
   std::uint64_t hash = 0;
-  bool failed = false;  ///< what the scene expects did not happen
+  bool failed = false;  ///< the expected event of the scene did not happen
 };
 
-/// Energy that may be regained: what rounding and pushing out may add.
+/// Energy that may be regained by rounding and by pushing bodies out.
 inline constexpr double k_gain_bound = 0.05;
 
 /// Plays the scene to its end; nothing when the engine cannot.

@@ -1,4 +1,4 @@
-// What an engine must be able to do to be put beside others.
+// The interface of an engine that is compared with others.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ class NeutralEngine {
 /// An engine, in this build or not.
 struct NeutralMaker {
   std::string_view name;
-  std::string_view knob;  ///< what a setting counts
+  std::string_view knob;  ///< the unit of a setting
   /// Null when the engine is not in this build, or cannot do the scene.
   std::unique_ptr<NeutralEngine> (*make)(const NeutralScene& scene, int setting);
 };

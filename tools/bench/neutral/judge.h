@@ -1,4 +1,4 @@
-// One judge for all engines: errors from what a scene's bodies were seen to do.
+// One judge for all engines: errors from the recorded motion of a scene's bodies.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ struct JudgedError {
 /// By row.
 [[nodiscard]] std::span<const JudgedError> judged_errors();
 
-/// What counts for an engine that lost a body or a number.
+/// The error of an engine that lost a body or a number.
 inline constexpr double k_lost = 1e3;
 
 /// Below it all errors are alike.

@@ -25,7 +25,7 @@ Triple triple(const Vec3<T>& v) {
 
 constexpr int k_most_substeps = 16;  // of one tick of a world
 
-// Beyond what a tick of ours can have, several of them make a tick of the scene.
+// Beyond the substeps that one tick of ours can have, several ticks make one of the scene.
 int ticks_of(int setting) {
   return std::max(1, setting / k_most_substeps);
 }

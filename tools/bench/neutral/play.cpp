@@ -10,7 +10,7 @@ namespace {
 
 constexpr double k_enough_seconds = 0.5;  // as tools/bench/peers/node/run.mjs
 
-// What the scene orders before a tick.
+// The scene's commands before a tick.
 void drive(NeutralEngine& engine, const NeutralScene& scene, int tick) {
   if (scene.tilt.size() > 1) engine.set_gravity(scene.gravity_at((tick + 1) / k_scene_tick_rate));
   for (const NeutralKick& kick : scene.kicks) {

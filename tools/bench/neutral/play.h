@@ -1,4 +1,4 @@
-// Plays a scene by an engine: once for what it does, and again for the time it takes.
+// Plays a scene by an engine: once for the results, and again for the time.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lockstone::bench {
 
-/// What an engine did with a scene at a setting.
+/// An engine's run of a scene at a setting.
 struct Played {
   std::string engine;
   std::string scene;
@@ -23,8 +23,8 @@ struct Played {
   [[nodiscard]] double median_seconds() const;
 };
 
-/// Records what happens; nothing when the engine cannot do the scene. A run of more than half a
-/// second is its own first repeat: what looking at it takes is little beside that.
+/// Records the run; nothing when the engine cannot do the scene. A run of more than half a second
+/// is its own first repeat: the recording takes little time beside that.
 [[nodiscard]] std::optional<Played> play(const NeutralMaker& maker, const NeutralScene& scene,
                                          int setting);
 

@@ -1,4 +1,4 @@
-// What the judge knows of mechanics: free rotation and pendulums.
+// The judge's closed forms: free rotation and pendulums.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct Spin {
 [[nodiscard]] double seen_energy(const NeutralBody& body, const BodyState& state);
 [[nodiscard]] Triple seen_momentum(const NeutralBody& body, const BodyState& state);
 
-/// The angle between a body that turned freely for a time and what was seen.
+/// The angle between a body that turned freely for a time and the recorded state.
 [[nodiscard]] double degrees_off(const NeutralBody& body, double seconds, const BodyState& seen);
 
 /// Of a body that is let go level with the pivot at the origin, along x; elliptic integral.

@@ -1,4 +1,4 @@
-// Scenes as JSON: what peers outside of this program read.
+// Scenes as JSON, for engines outside of this program.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace lockstone::bench {
 
 [[nodiscard]] std::string scenes_to_json(std::span<const NeutralScene> scenes);
 
-/// None when the text is not what `scenes_to_json` writes.
+/// None when `scenes_to_json` does not write such a text.
 [[nodiscard]] std::vector<NeutralScene> scenes_from_json(std::string_view text);
 
 /// One line, as runners of other processes print it; see `played_from_json`.

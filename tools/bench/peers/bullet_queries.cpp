@@ -46,7 +46,7 @@ std::unique_ptr<btConvexShape> convex_hull(AssetId id, const QueryScene& scene) 
   return nullptr;
 }
 
-// Null for what is not convex.
+// Null for a shape that is not convex.
 std::unique_ptr<btConvexShape> convex_shape(const Shape& shape, const QueryScene* scene) {
   const Vec3<Length>& size = shape.size;
   switch (shape.kind) {

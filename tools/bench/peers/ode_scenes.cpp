@@ -77,7 +77,7 @@ class OdeScene final : public NeutralEngine {
   }
 
  private:
-  // Null for what is fixed.
+  // Null for a fixed body.
   [[nodiscard]] dBodyID at(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
 
   void add(const NeutralBody& body) {

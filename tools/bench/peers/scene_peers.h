@@ -18,8 +18,8 @@ namespace lockstone::bench {
 /// ode_scenes.cpp: dWorldQuickStep, an iterative solver of twenty iterations.
 [[nodiscard]] std::unique_ptr<NeutralEngine> make_ode_scene(const NeutralScene& scene, int setting);
 
-/// ode_scenes.cpp: dWorldStep, a direct solver, whose time grows with the cube of what touches:
-/// only scenes of few contacts.
+/// ode_scenes.cpp: dWorldStep, a direct solver, whose time grows with the cube of the number of
+/// contacts: only scenes of few contacts.
 [[nodiscard]] std::unique_ptr<NeutralEngine> make_ode_direct_scene(const NeutralScene& scene,
                                                                    int setting);
 

@@ -1,4 +1,4 @@
-// What answers the questions of `lockstone bench queries`: ours, and peers beside it.
+// The engines that `lockstone bench queries` asks: ours, and peers beside it.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class QueryEngine {
 
   [[nodiscard]] virtual std::string name() const = 0;
 
-  /// Answers a whole row; false when the engine has no such question.
+  /// Runs all queries of a row; false when the engine has no such query.
   virtual bool answer(const QueryRow& row, std::span<QueryAnswer> out) = 0;
 };
 

@@ -50,7 +50,7 @@ struct QueryBench {
   std::vector<QueryResult> results;
 };
 
-/// The engines take turns within each repeat, so that what disturbs one disturbs all.
+/// The engines take turns within each repeat, so that a disturbance hits all of them alike.
 [[nodiscard]] QueryBench run_query_bench(const QueryOptions& options);
 
 }  // namespace lockstone::bench

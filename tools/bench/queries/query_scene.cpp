@@ -18,7 +18,7 @@ Length random_length(Random& random, int low_mm, int high_mm) {
 }
 
 // The kinds of bodies; `scale` 1 for loose ones, larger for static ones. One more kind is one more
-// function here; what needs an asset takes it from the scene.
+// function here; a kind that needs an asset takes it from the scene.
 using ShapeMaker = Shape (*)(Random& random, int scale);
 
 Shape make_sphere(Random& random, int scale) {

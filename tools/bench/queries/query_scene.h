@@ -1,4 +1,5 @@
-// What `lockstone bench queries` asks: a still world of many bodies, and rows of questions to it.
+// The workload of `lockstone bench queries`: a still world of many bodies, and rows of queries to
+// it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct QueryBody {
   bool is_static = false;
 };
 
-/// What the bodies of a scene are.
+/// The kinds of bodies in a scene.
 enum class QueryWorld : std::uint8_t {
   primitives,  ///< spheres, capsules and boxes
   hulls,       ///< these and, as often as each of them, hulls
@@ -81,7 +82,7 @@ struct QueryRow {
   }
 };
 
-/// All rows. No ray or cast begins inside a body: engines disagree about what that means.
+/// All rows. No ray or cast begins inside a body: engines disagree about the meaning of that.
 [[nodiscard]] std::vector<QueryRow> make_query_rows(const QueryScene& scene, const World& world,
                                                     std::size_t count, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// Answers in double by asking every body: slow, plain, and the judge of the others.
+// Queries in double that ask every body: slow, plain, and the judge of the others.
 
 #include <algorithm>
 #include <array>

@@ -32,7 +32,7 @@ struct RowBench {
   [[nodiscard]] const RowBenchResult* find(const std::string& name) const;
 };
 
-/// The competitors take turns within each repeat, so that what disturbs one disturbs all.
+/// The competitors take turns within each repeat, so that a disturbance hits all of them alike.
 [[nodiscard]] RowBench run_row_bench(const RowBenchOptions& options);
 
 }  // namespace lockstone::bench

@@ -11,7 +11,7 @@ namespace {
 #define LKS_INLINE inline __attribute__((always_inline))
 
 struct BodyLanes {
-  __m128 word[8];  // velocity x, y, z, spin x, y, z, and what is unused
+  __m128 word[8];  // velocity x, y, z, spin x, y, z, and unused words
 };
 
 // Its eight words, through the address of the whole.

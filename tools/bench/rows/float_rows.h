@@ -1,4 +1,4 @@
-// What the integer kernel is measured against: the same sweep in single precision, four lanes of
+// The yardstick of the integer kernel: the same iteration in single precision, four lanes of
 // SSE2, the structure that float engines use. See core/math/wide/contact_rows.h for the equations.
 #pragma once
 

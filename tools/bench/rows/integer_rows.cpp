@@ -8,7 +8,7 @@
 namespace lockstone::bench {
 namespace {
 
-// Fraction bits of what reads velocities: M·(r̄ × n) stays below 4.
+// Fraction bits of the factors of velocities: M·(r̄ × n) stays below 4.
 constexpr int k_shift = 29;
 
 std::int64_t fixed(double x, int bits) {

@@ -1,4 +1,4 @@
-// What a linker takes of the library for programs that name more or less of it.
+// The size of the library's code in programs that name more or less of it.
 #pragma once
 
 #include <cstdint>

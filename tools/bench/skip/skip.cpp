@@ -107,7 +107,7 @@ void measure_one_awake(Skips& skips) {
   skips.time(claim, "a tick, with its hash", 10 * k_microsecond, 600, roll);
 }
 
-// What no body needs, as a share of a tick.
+// A stage that no body needs, as a share of a tick.
 void count_idle_stage(Skips& skips, const std::string& claim, World& world) {
   constexpr int k_ticks = 60;
   world.set_clock(thread_nanoseconds);
@@ -176,7 +176,7 @@ void ask(const World& world) {
   LKS_CHECK(found > 0);
 }
 
-// What queries leave behind for the tick: two worlds, of which one is asked.
+// Queries must leave the tick unchanged: compares two worlds, of which one is queried.
 void measure_silence(Skips& skips) {
   World silent = make_stacks(stacks_def()), asked = make_stacks(stacks_def());
   for (int tick = 0; tick < 60; ++tick) {
@@ -302,7 +302,7 @@ std::size_t native_bytes(const World& world) {
   return world.save(SnapshotKind::native, buffer);
 }
 
-// Bodies and contacts of touching boxes, by what each adds to a snapshot.
+// The bytes that each body and contact of touching boxes adds to a snapshot.
 void measure_snapshot_sizes(Skips& skips) {
   World world = make_speed_world(speed_def(BroadPhaseKind::tree, 16, 64, 64));
   const std::size_t empty = native_bytes(world);
@@ -316,7 +316,7 @@ void measure_snapshot_sizes(Skips& skips) {
               static_cast<double>(native_bytes(world) - apart), 96);
 }
 
-// What a world takes from the heap for one more of everything that its definition counts.
+// The memory that a world takes for one more of each object that its definition counts.
 void measure_memory(Skips& skips) {
   if (heap_bytes() == 0) return;
   // Above what the converged solver takes of them by default: that is a count of its own.

@@ -1,4 +1,4 @@
-// Claims that a scene pays only for what it uses, each with a figure.
+// Claims that a scene pays only for the features it uses, each with a figure.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace lockstone::bench {
 
-/// One line. Times hang on the machine; counters and sizes do not.
+/// One line. Times depend on the machine; counters and sizes do not.
 struct SkipFigure {
   std::string claim;
-  std::string figure;  ///< what was measured
+  std::string figure;  ///< the measured quantity
   std::string unit;
   double value = 0;
   double goal = 0;

@@ -28,7 +28,7 @@ struct InstructionCount {
 /// With a first line that names machine, compiler and commit.
 [[nodiscard]] std::string counts_to_csv(const std::vector<InstructionCount>& counts);
 
-/// None when the text is not what `counts_to_csv` writes.
+/// None when `counts_to_csv` does not write such a text.
 [[nodiscard]] std::vector<InstructionCount> counts_from_csv(std::string_view text);
 
 }  // namespace lockstone::bench

@@ -21,8 +21,8 @@ void drive(const SpeedScene& scene, World& world) {
   if (scene.drive != nullptr) scene.drive(world);
 }
 
-// By itself, so that what counts instructions finds it (instructions.cpp): scenes step while they
-// are made, too.
+// A function of its own, so that the counter of instructions finds it (instructions.cpp): scenes
+// step while they are made, too.
 [[gnu::noinline]] StepReport measured_step(World& world) {
   return world.step();
 }

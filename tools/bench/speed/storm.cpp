@@ -38,7 +38,7 @@ Vec3<Length> random_way(Random& random) {
   return saturated<Length>(rotate(turn, Vec3<Position>{20_m, {}, {}}));
 }
 
-// Sums of what was answered, so that a wrong answer changes the final hash.
+// Sums of all answers, so that a wrong answer changes the final hash.
 template <class Hit>
 std::uint64_t digest(std::span<const Hit> hits) {
   std::uint64_t sum = 0;

@@ -51,7 +51,7 @@ StabilityResult spin(double seconds) {
   BodyDef box = body_at(Shape::box(0.1_m, 0.2_m, 0.3_m), 0, 0, 0);
   box.angular_velocity = fixed<AngularVelocity>(150, 900, 150);
   const BodyHandle body = scene.add(box);
-  scene.step();  // what is too fast is limited in the first tick
+  scene.step();  // the first tick limits bodies that are too fast
   const std::array<double, 3> half{0.1, 0.2, 0.3};
   const double before = turning_energy(scene.world().body(body), half);
   const auto energy_off = [&](const World& world) {

@@ -107,7 +107,7 @@ StabilityResult contradictions(double seconds) {
   const double middle =
       fuzz::norm(fuzz::real(scene.world().position(body) - fixed<Position>(0, 5, 0)));
   return stability_of(scene, {{"greatest speed", "m/s", speed, 50},
-                              {"what is torn, off the middle", "m", middle, 0.51}});
+                              {"the torn body, off the middle", "m", middle, 0.51}});
 }
 
 constexpr StabilityRow k_rows[] = {

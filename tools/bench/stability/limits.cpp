@@ -25,7 +25,7 @@ double most_outside(const World& world) {
   return most;
 }
 
-// m/s along an axis, which is what the limit bounds.
+// m/s along an axis, which the limit bounds.
 double greatest_axis_speed(const World& world) {
   double most = 0;
   for_bodies(world, [&](const BodyView& body) {

@@ -1,4 +1,4 @@
-// What rows of stability share.
+// Helpers for rows of stability.
 #pragma once
 
 #include <algorithm>

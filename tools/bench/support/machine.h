@@ -1,4 +1,4 @@
-// What a measurement was made on, and what other programs print.
+// The machine and build of a measurement, and the output of other programs.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What the benchmarks measure with: one clock, and quantiles of what it said.
+// The benchmarks' clock, and quantiles of its readings.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,14 @@ namespace lockstone::bench {
 /// Nanoseconds of the steady clock.
 [[nodiscard]] std::uint64_t now_nanoseconds();
 
-/// Nanoseconds that this thread itself ran: what a busy machine takes away does not count. A call
-/// costs several times one of the steady clock.
+/// Nanoseconds that this thread itself ran, without the time of other threads on its processor. A
+/// call costs several times one of the steady clock.
 [[nodiscard]] std::uint64_t thread_nanoseconds();
 
 using Clock = std::uint64_t (*)();
 
-/// What the heap has given out; 0 where that is not known (C libraries but glibc, sanitizers).
+/// Bytes that are allocated from the heap; 0 where that is not known (C libraries but glibc,
+/// sanitizers).
 [[nodiscard]] std::uint64_t heap_bytes();
 
 /// How much of its own time an interval between two calls of a clock holds, in nanoseconds: the

@@ -1,5 +1,5 @@
-# What the cross toolchains share; each sets `triple` and `processor`, where they are not the usual
-# ones `system` and `compiler`, and includes this file.
+# The common part of the cross toolchains; each sets `triple` and `processor`, where they are not
+# the usual ones `system` and `compiler`, and includes this file.
 if(NOT DEFINED system)
   set(system Linux)
 endif()

@@ -11,7 +11,7 @@ set(CMAKE_CXX_FLAGS_INIT
   "-fexceptions -msimd128 -include ${CMAKE_CURRENT_LIST_DIR}/wasm_algorithms.h")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
   "-fexceptions -sALLOW_MEMORY_GROWTH=1 -sNODERAWFS=1 -sEXIT_RUNTIME=1 -sTOTAL_STACK=4MB")
-# Loaded in one piece: what loads it piece by piece takes Node's fetch() for a browser's.
+# Loaded in one piece: the loader for pieces takes Node's fetch() for a browser's.
 string(APPEND CMAKE_EXE_LINKER_FLAGS_INIT " -sENVIRONMENT=node -sWASM_ASYNC_COMPILATION=0")
 # CMake does not know the system: where below the roots to look, a Unix says by itself.
 set(CMAKE_SYSTEM_PREFIX_PATH /)

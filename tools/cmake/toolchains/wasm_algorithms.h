@@ -57,7 +57,7 @@ constexpr auto count(Range&& range, const Value& value) {
 
 namespace shim {
 
-// An order of elements from one of what is projected from them.
+// An order of elements from an order of their projections.
 template <class Less, class Projection>
 constexpr auto order_of(Less& less, Projection& project) {
   return [&](auto&& a, auto&& b) {

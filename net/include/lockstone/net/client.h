@@ -1,4 +1,5 @@
-// The client's side of a match: sends inputs ahead, steps what the server closed, reports hashes.
+// The client's side of a match: sends inputs ahead, steps the ticks that the server closed, reports
+// hashes.
 #pragma once
 
 #include <cstddef>
@@ -70,7 +71,7 @@ class InputSource {
   virtual void sample(std::uint64_t tick, std::span<std::byte> out) = 0;
 };
 
-/// Hears what happens. Called from within Client::update; must not call the client.
+/// Receives the client's events. Called from within Client::update; must not call the client.
 class ClientObserver {
  public:
   virtual ~ClientObserver() = default;
@@ -97,7 +98,7 @@ class ClientObserver {
   virtual void rolled_back(std::uint64_t tick, std::uint64_t count);
 };
 
-/// Guesses what other players press (rollback).
+/// Guesses the inputs of other players (rollback).
 class InputPredictor {
  public:
   virtual ~InputPredictor() = default;
@@ -105,7 +106,7 @@ class InputPredictor {
   virtual void predict(std::uint64_t tick, std::uint8_t slot, std::span<std::byte> out) = 0;
 };
 
-/// What the client works with; all outlive it. `observer` may be null.
+/// The objects that the client uses; all outlive it. `observer` may be null.
 struct ClientParts {
   Transport* transport = nullptr;
   ConnectionId connection = k_no_connection;  ///< to the server, from the transport's connect
@@ -135,8 +136,9 @@ class Client {
   /// took too long. Not after a refusal for good, nor when the server sent this player away.
   [[nodiscard]] bool may_reconnect() const;
 
-  /// After a failure of the connection, or a handshake that took too long: goes on over a new one, in the same seat if the server has
-  /// kept it, with the state that is here. False, and nothing happens, in other states.
+  /// After a failure of the connection, or a handshake that took too long: goes on over a new one,
+  /// in the same seat if the server has kept it, with the state that is here. False, and nothing
+  /// happens, in other states.
   bool reconnect(ConnectionId connection);
 
   /// Opens the same seat again, also for another process; 0 before being seated.
@@ -151,7 +153,7 @@ class Client {
 
   [[nodiscard]] ClientState state() const;
   [[nodiscard]] ClientFailure failure() const;
-  [[nodiscard]] LeaveReason leave_reason() const;  ///< what the server's good-bye said
+  [[nodiscard]] LeaveReason leave_reason() const;  ///< the reason in the server's good-bye
   [[nodiscard]] const Refusal& refusal() const;
   [[nodiscard]] FinishReason finish_reason() const;
   [[nodiscard]] std::uint8_t slot() const;  ///< k_no_slot before being seated

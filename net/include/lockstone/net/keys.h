@@ -25,13 +25,15 @@ struct Key {
   [[nodiscard]] static Result<Key> from_text(std::string_view text);
 };
 
-/// What all peers of a match know: it keeps strangers' datagrams out, and proves no identity.
+/// A secret that all peers of a match know: it keeps strangers' datagrams out, and proves no
+/// identity.
 struct LinkKey {
   std::array<std::byte, k_link_key_bytes> bytes{};
   friend bool operator==(const LinkKey&, const LinkKey&) = default;
 };
 
-/// What only the two ends of one connection know: the keys of the datagrams in either direction.
+/// Secrets that only the two ends of one connection know: the keys of the datagrams in either
+/// direction.
 struct DatagramKeys {
   LinkKey send;
   LinkKey receive;

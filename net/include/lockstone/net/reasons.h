@@ -24,7 +24,7 @@ enum class RefuseReason : std::uint8_t {
   none = 0,
   protocol_mismatch = 1,
   insecure_not_allowed = 2,  ///< one side asks for a session without encryption, the other not
-  simulation_mismatch = 3,   ///< `field` says in what
+  simulation_mismatch = 3,   ///< `field` names the difference
   match_full = 4,
   slot_taken = 5,
   match_running = 6,
@@ -43,7 +43,7 @@ enum class RefuseReason : std::uint8_t {
 inline constexpr RefuseReason k_last_refuse_reason = RefuseReason::expelled;
 inline constexpr std::size_t k_refuse_reasons = static_cast<std::size_t>(k_last_refuse_reason) + 1;
 
-/// What differed between server and client.
+/// The field that differed between server and client.
 enum class RefuseField : std::uint8_t {
   none = 0,
   protocol = 1,
@@ -74,7 +74,7 @@ enum class FinishReason : std::uint8_t {
 };
 
 enum class LeaveReason : std::uint8_t {
-  left = 0,            ///< by its own wish
+  left = 0,            ///< by its own decision
   disconnected = 1,    ///< the transport lost it
   timed_out = 2,       ///< silent, or waited for, beyond the drop time-out
   malformed = 3,       ///< too many packets that break the format
@@ -87,7 +87,7 @@ enum class LeaveReason : std::uint8_t {
 inline constexpr LeaveReason k_last_leave_reason = LeaveReason::no_hashes;
 inline constexpr std::size_t k_leave_reasons = static_cast<std::size_t>(k_last_leave_reason) + 1;
 
-/// What a player asks the server for.
+/// A player's request to the server.
 enum class AskKind : std::uint8_t { pause = 0, resume = 1, vote = 2 };
 
 /// Short lower-case English names, for logs.

@@ -16,14 +16,14 @@
 
 namespace lockstone::net {
 
-/// What stands in for a late input (LatePolicy::deadline).
+/// The replacement of a late input (LatePolicy::deadline).
 enum class Substitute : std::uint8_t {
   repeat,   ///< the slot's input of the tick before
   neutral,  ///< all zero
 };
 [[nodiscard]] std::string_view to_string(Substitute substitute);
 
-/// What becomes of a player whose state is wrong. Without a judge and a majority the match always
+/// The treatment of a player whose state is wrong. Without a judge and a majority the match always
 /// ends. Where it goes on, it goes on at once: the player is absent from the verdict on.
 enum class DesyncPolicy : std::uint8_t {
   end_match,  ///< the match stands still until the report is complete, then it ends
@@ -31,7 +31,7 @@ enum class DesyncPolicy : std::uint8_t {
   resync,     ///< send the right state, once a player; kick it the second time
 };
 
-/// What a server has met with since its creation.
+/// Counters of a server since its creation.
 struct ServerCounters {
   std::array<std::uint64_t, k_refuse_reasons> refused{};  ///< handshakes, by RefuseReason
   std::array<std::uint64_t, k_leave_reasons> left{};      ///< players, by LeaveReason
@@ -68,9 +68,10 @@ struct ServerConfig {
   SimulationInfo info;                  ///< of a relay; unused where the server simulates
   std::uint64_t tick_count = 0;         ///< ticks to play; 0: until `stop`
   /// The match goes on from where the simulation stands, above tick 0: its server was killed. It
-  /// waits for these slots' players (bit n: slot n), at most Timeouts::drop_us after the first came.
+  /// waits for these slots' players (bit n: slot n), at most Timeouts::drop_us after the first
+  /// came.
   std::optional<std::uint16_t> resume_mask;
-  std::uint8_t input_delay_ticks = 4;   ///< 0 … 60
+  std::uint8_t input_delay_ticks = 4;  ///< 0 … 60
   LatePolicy late_policy = LatePolicy::deadline;
   Substitute substitute = Substitute::repeat;
   Pacing pacing = Pacing::real_time;
@@ -91,7 +92,7 @@ struct ServerConfig {
   Timeouts timeouts;
 };
 
-/// Hears what happens. Called from within Server::update; must not call the server.
+/// Receives the server's events. Called from within Server::update; must not call the server.
 class ServerObserver {
  public:
   virtual ~ServerObserver() = default;
@@ -110,14 +111,14 @@ class ServerObserver {
   virtual void match_started();
   /// A player came into a match that runs, or came back: from `tick` on it plays.
   virtual void player_active(std::uint8_t slot, std::uint64_t tick);
-  /// A player's wish: answer it by calling the server after `update`, or not at all.
+  /// A player's request: answer it by calling the server after `update`, or not at all.
   virtual void player_asks(std::uint8_t slot, AskKind kind, std::uint8_t topic,
                            std::uint8_t choice);
   virtual void match_finished(FinishReason reason, std::uint64_t ticks,
                               std::optional<std::uint64_t> hash);
 };
 
-/// What the server works with; all outlive it. Only `transport` must be given.
+/// The objects that the server uses; all outlive it. Only `transport` must be given.
 struct ServerParts {
   Transport* transport = nullptr;
   /// Steps along and judges (authoritative). Null: relay, the majority of the players judges.

@@ -1,4 +1,4 @@
-// What server and client have in common.
+// Types that server and client share.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ enum class SetupError : std::uint8_t {
   history_out_of_range,
   timeouts_out_of_range,
   simulation_already_stepped,  ///< and no resume_mask, or the other way round
-  prediction_out_of_range,  ///< rollback beyond 15 ticks, or its delay beyond 60
-  spectators_out_of_range,  ///< too many, or the history is shorter than their delay and queue
+  prediction_out_of_range,     ///< rollback beyond 15 ticks, or its delay beyond 60
+  spectators_out_of_range,     ///< too many, or the history is shorter than their delay and queue
 };
 [[nodiscard]] std::string_view to_string(SetupError error);
 
@@ -74,7 +74,7 @@ struct DesyncReport {
   StateDifference difference;  ///< `differs` is false if a dump or a describing simulation lacked
   ByteView dump_here;  ///< canonical snapshots, valid during the callback; empty when not had
   ByteView dump_there;
-  std::string build_here;  ///< what the players' Hello said; the server's own: empty
+  std::string build_here;  ///< from the player's Hello; the server's own: empty
   std::string build_there;
 
   /// `tick 1842, player 2, body 17 "crate", velocity.y: 0x… here, 0x… there`; with the hashes

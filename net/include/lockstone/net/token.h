@@ -58,7 +58,7 @@ struct ServerList {
   [[nodiscard]] bool contains(const ServerAddress& address) const;
 };
 
-/// What a token allows.
+/// The rights that a token grants.
 struct TokenGrant {
   std::uint64_t match = 0;
   std::uint64_t player = 0;          ///< the backend's number for the account
@@ -72,11 +72,11 @@ inline constexpr std::size_t k_token_nonce_bytes = 24;
 inline constexpr std::size_t k_token_sealed_bytes = 234;
 inline constexpr std::size_t k_token_bytes = 514;
 
-/// What the backend hands to one client, over a channel that nobody else reads.
+/// The backend gives this to one client, over a channel that nobody else reads.
 struct ConnectToken {
   TokenGrant grant;
-  Key client_key;  ///< of what the client sends
-  Key server_key;  ///< of what the server sends
+  Key client_key;  ///< of packets from the client
+  Key server_key;  ///< of packets from the server
   LinkKey link_key;
   std::array<std::byte, k_token_nonce_bytes> nonce{};
   std::array<std::byte, k_token_sealed_bytes> sealed{};  ///< the same for the server alone

@@ -1,4 +1,4 @@
-// What a session needs from a network: connections that carry datagrams, and no clock of its own.
+// The network interface of a session: connections that carry datagrams, and no clock of its own.
 //
 // A transport is driven by one thread. It never blocks and keeps no global state. Time comes in as
 // microseconds from any origin, 0 or above, never running backwards; one origin for all calls.
@@ -22,7 +22,7 @@ inline constexpr ConnectionId k_no_connection = 0;
 inline constexpr std::size_t k_max_datagram_bytes = 1200;
 inline constexpr std::size_t k_max_reliable_bytes = 48 * 1024;
 
-/// A transport that others stand upon carries this much more, for what they add.
+/// A transport that carries another one accepts this many more bytes, for the other's headers.
 inline constexpr std::size_t k_carrier_reserve_bytes = 32;
 
 enum class Channel : std::uint8_t {
@@ -51,11 +51,12 @@ struct TransportEvent {
   ConnectionId connection = k_no_connection;
   Channel channel = Channel::reliable;  ///< of a received packet
   ByteView bytes;                       ///< of a received packet
-  /// Of `disconnected`, where it is known why: what a peer refused, or a limit that was passed.
+  /// Of `disconnected`, where it is known: the peer's reason for its refusal, or the limit that was
+  /// passed.
   RefuseReason reason = RefuseReason::none;
 };
 
-/// Traffic of one connection. Payload bytes; what headers a transport adds is its own affair.
+/// Traffic of one connection. Payload bytes, without the headers that a transport adds.
 struct TransportStats {
   std::uint64_t bytes_sent = 0;
   std::uint64_t bytes_received = 0;
@@ -80,7 +81,7 @@ class Transport {
   /// Hands queued packets to the network now.
   virtual void flush() = 0;
 
-  /// Ends a connection after what was sent reliably. This side gets no further event of it.
+  /// Ends a connection after its reliable packets were sent. This side gets no further event of it.
   virtual void disconnect(ConnectionId connection) = 0;
 
   /// Zeros for an unknown connection.
@@ -95,8 +96,8 @@ class Transport {
   /// The peer plays: limits that are narrower for strangers no longer hold for it.
   virtual void trust(ConnectionId /*connection*/) {}
 
-  /// Both ends have keys of their own now, under which a transport of datagrams seals them. What
-  /// comes without a seal is dropped from the first sealed datagram on. `peer_has_them`: this side
+  /// Both ends have keys of their own now, under which a transport of datagrams seals them. From
+  /// the first sealed datagram on, datagrams without a seal are dropped. `peer_has_them`: this side
   /// seals at once; else it begins after that datagram.
   virtual void protect(ConnectionId /*connection*/, const DatagramKeys& /*keys*/,
                        bool /*peer_has_them*/) {}

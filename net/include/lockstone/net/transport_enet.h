@@ -18,8 +18,8 @@
 
 namespace lockstone::net {
 
-/// What one peer may send; 0: no limit. More is dropped; a peer that goes on for some seconds is
-/// disconnected for flooding. Ten seconds' worth may come at once.
+/// The most that one peer may send; 0: no limit. More is dropped; a peer that goes on for some
+/// seconds is disconnected for flooding. Ten seconds' worth may come at once.
 struct DatagramLimits {
   std::uint32_t packets_per_second = 300;
   std::uint32_t bytes_per_second = 400'000;
@@ -49,7 +49,7 @@ struct EnetOptions {
   RandomSource* random = nullptr;  ///< for numbers of connections; null: the system's
 };
 
-/// What came to a socket and what was kept out, since its creation.
+/// Counters of the traffic that reached a socket and of the rejected part, since its creation.
 struct EnetCounters {
   std::uint64_t datagrams = 0;          ///< all but empty ones over IPv4
   std::uint64_t malformed = 0;          ///< no datagram of ENet

@@ -16,7 +16,7 @@
 namespace lockstone::net {
 
 struct SecureServerOptions {
-  Key backend_key;           ///< what the tokens are sealed under
+  Key backend_key;           ///< seals the tokens
   std::uint64_t match = 0;   ///< tokens of other matches are refused
   ServerList own_addresses;  ///< one of them must be in a token that lists servers; none: no check
   std::int64_t unix_us_at_zero = 0;       ///< the wall clock when the transport's time was 0
@@ -24,7 +24,7 @@ struct SecureServerOptions {
   std::int64_t handshake_us = 5'000'000;  ///< for the token and its proof
 };
 
-/// What was kept out, since creation.
+/// Counters of rejected traffic, since creation.
 struct SecurityCounters {
   std::uint64_t handshakes_completed = 0;
   std::uint64_t handshakes_refused = 0;  ///< a token or a proof was not good

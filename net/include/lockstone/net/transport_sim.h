@@ -12,8 +12,9 @@
 
 namespace lockstone::net {
 
-/// What a link does to its packets. Probabilities are in parts per million (0 … 1'000'000). Each
-/// fault draws from its own random stream: switching one on leaves the others' draws as they were.
+/// Faults that a link adds to its packets. Probabilities are in parts per million (0 … 1'000'000).
+/// Each fault draws from its own random stream: switching one on leaves the others' draws as they
+/// were.
 struct LinkFaults {
   std::uint32_t loss_ppm = 0;         ///< independent loss
   std::uint32_t burst_start_ppm = 0;  ///< chance that a packet begins a burst, which loses packets
@@ -27,7 +28,7 @@ struct LinkFaults {
   std::int64_t reorder_us = 40'000;
 };
 
-/// What is on its way, to all endpoints together.
+/// The traffic in flight, to all endpoints together.
 struct SimTraffic {
   std::size_t packets = 0;
   std::size_t bytes = 0;
@@ -52,7 +53,7 @@ class SimNetwork {
   SimTransport& add_endpoint();
 
   /// Connects two endpoints; both get `connected` after the link's delay, counted from the first
-  /// poll. Answers `from`'s connection. `faults` holds for both directions.
+  /// poll. Returns `from`'s connection. `faults` holds for both directions.
   ConnectionId connect(SimTransport& from, SimTransport& to, const LinkFaults& faults);
 
   /// Changes every link of an endpoint, one way or both, for packets sent from now on.
@@ -62,7 +63,7 @@ class SimNetwork {
   /// backwards. Without a call, the network believes each endpoint's own clock.
   void set_time(std::int64_t now_us);
 
-  /// An endpoint dies without a word: what is on its way to it is lost, and all that follows.
+  /// An endpoint dies without a word: the packets in flight to it are lost, and all that follow.
   void kill(SimTransport& endpoint);
 
   /// Somebody sends a packet that seems to come from the peer of one of `receiver`'s connections.
@@ -116,7 +117,7 @@ class SimTransport final : public Transport {
   bool dead_ = false;
   std::vector<std::unique_ptr<Link>> links_;  ///< connection id - 1
   std::vector<Packet> arriving_;              ///< heap, earliest first
-  std::unique_ptr<Packet> current_;           ///< what the last event's bytes point into
+  std::unique_ptr<Packet> current_;           ///< the last event's bytes point into it
   std::vector<Window> partitions_;
 };
 

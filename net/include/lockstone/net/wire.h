@@ -64,7 +64,7 @@ template <std::size_t k_capacity>
 class FixedText {
  public:
   FixedText() = default;
-  /// Cuts off what does not fit; other characters than printable ASCII become '?'.
+  /// Cuts text that does not fit; other characters than printable ASCII become '?'.
   explicit FixedText(std::string_view text) {
     size_ = std::min(text.size(), k_capacity);
     for (std::size_t i = 0; i < size_; ++i) {
@@ -93,13 +93,13 @@ struct Hello {
   BuildText build;  ///< of the game, and the processor: for reports
 };
 
-/// Server: what to build the simulation from. `config` points into the decoded packet.
+/// Server: the configuration of the simulation. `config` points into the decoded packet.
 struct Offer {
   bool insecure = false;
   ByteView config;
 };
 
-/// Client: what its build and the configuration gave.
+/// Client: the simulation that its build made of the configuration.
 struct Answer {
   SimulationInfo info;
 };
@@ -154,8 +154,8 @@ inline constexpr std::size_t k_max_record_bytes =
 /// No inputs came since the last time that a margin was told.
 inline constexpr std::int8_t k_no_margin = -128;
 
-/// Client: its inputs from `first_tick` on, in `coded` for a RecordReader of input_bytes; what it
-/// has; and the hashes that the server has not acknowledged.
+/// Client: its inputs from `first_tick` on, in `coded` for a RecordReader of input_bytes; the ticks
+/// it has; and the hashes that the server has not acknowledged.
 struct Inputs {
   std::uint64_t ticks_received = 0;  ///< closed ticks 0 … ticks_received - 1 are here
   std::uint64_t first_tick = 0;
@@ -220,13 +220,13 @@ struct Finish {
 /// Server: a piece of a canonical snapshot, to begin from.
 struct Snapshot {
   std::uint64_t ticks = 0;  ///< the state after so many ticks
-  std::uint64_t hash = 0;   ///< what its hash must be
+  std::uint64_t hash = 0;   ///< its expected hash
   std::uint32_t total_bytes = 0;
   std::uint32_t offset_bytes = 0;
   ByteView chunk;  ///< 1 … k_max_chunk_bytes
 };
 
-/// Client: a snapshot was loaded, or is not what it should be.
+/// Client: a snapshot was loaded, or is wrong.
 struct SnapshotTaken {
   std::uint64_t ticks = 0;
   bool good = false;
@@ -238,10 +238,10 @@ struct Activate {
   std::uint64_t tick = 0;
 };
 
-/// Client: a wish; what comes of it is the server's owner's affair.
+/// Client: a request; the owner of the server decides how to act on it.
 struct Ask {
   AskKind kind = AskKind::pause;
-  std::uint8_t topic = 0;   ///< of a vote: what about
+  std::uint8_t topic = 0;   ///< the subject of a vote
   std::uint8_t choice = 0;  ///< of a vote
 };
 
@@ -307,7 +307,7 @@ struct Bye {
 [[nodiscard]] Status decode(ByteView packet, Parts& message);
 [[nodiscard]] Status decode(ByteView packet, Bye& message);
 
-/// Header bytes of Inputs (without hashes) and Ticks: what is left of a datagram holds the records.
+/// Header bytes of Inputs (without hashes) and Ticks: the rest of a datagram holds the records.
 inline constexpr std::size_t k_inputs_header_bytes = 1 + 8 + 8 + 1 + 8 + 1;
 inline constexpr std::size_t k_ticks_header_bytes = 1 + 8 + 1 + 8 + 8 + 8 + 2 + 1;
 

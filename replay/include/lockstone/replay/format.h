@@ -76,7 +76,7 @@ struct ChunkHeader {
   std::uint32_t stored_bytes = 0;  ///< payload bytes in the file
 };
 
-/// What a log says about its match besides the simulation's own SimulationInfo.
+/// A log's description of its match besides the simulation's own SimulationInfo.
 struct MatchMetadata {
   std::uint64_t match_id = 0;
   std::uint64_t seed = 0;  ///< for people and tools; the simulation takes its seed from the config
@@ -93,7 +93,7 @@ struct LogHeader {
 enum class EventKind : std::uint8_t {
   join = 1,
   leave = 2,
-  substitution = 3,  ///< for people: the origins in the INPUT chunks are what counts
+  substitution = 3,  ///< for people: the origins in the INPUT chunks are decisive
   note = 4,
 };
 
@@ -112,7 +112,7 @@ struct LogEvent {
 enum class EndKind : std::uint8_t {
   finished = 0,  ///< by the recorder of the match
   cut = 1,       ///< cut() took some ticks of another log
-  repaired = 2,  ///< repair() closed what was left
+  repaired = 2,  ///< repair() closed the good part
 };
 
 /// "finished", "cut", "repaired".

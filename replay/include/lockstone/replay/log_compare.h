@@ -29,7 +29,8 @@ struct HashDifference {
   std::uint64_t there = 0;
 };
 
-/// What two logs have in common: `here` is the first, `there` the second.
+/// The common part of two logs, and their first difference: `here` is the first, `there` the
+/// second.
 struct LogComparison {
   std::vector<FieldMismatch> header;  ///< `log` is the first, `here` the second
   bool same_config = true;

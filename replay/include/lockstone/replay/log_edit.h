@@ -23,7 +23,7 @@ struct RepairReport {
 };
 
 /// Copies everything up to the end of the last whole tick before the first damage, and closes it
-/// with an INDEX and an END whose reason is "repaired: " and what was wrong. Nothing is simulated.
+/// with an INDEX and an END whose reason is "repaired: " and the damage. Nothing is simulated.
 [[nodiscard]] RepairReport repair(Source& damaged, Sink& sink);
 
 struct CutReport {
@@ -36,7 +36,7 @@ struct CutReport {
 /// keyframe at `begin`, and whose END says that it was cut. The inputs and hashes are the recorded
 /// ones; the simulation is stepped to `begin` only, and must agree with the log there: else
 /// incompatible. Events are left out. invalid_argument unless begin < end; not_found when the log
-/// has no tick `begin`; what is wrong with the log where damage stands before `end`. After an error
+/// has no tick `begin`; the status of the damage where there is damage before `end`. After an error
 /// `sink` may hold the beginning of a log, which is of no use.
 [[nodiscard]] CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t begin,
                             std::uint64_t end, Sink& sink);

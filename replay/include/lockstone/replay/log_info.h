@@ -1,4 +1,4 @@
-// What a log holds, without simulating anything.
+// A summary of a log, without simulating anything.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct LogInfo {
   bool complete = false;
   bool torn_tail = false;
   std::string end_reason;
-  std::optional<Damage> damage;  ///< also of a torn tail; what was whole before it is summed up
+  std::optional<Damage> damage;  ///< also of a torn tail; the whole part before it is summed up
 };
 
 /// Reads a whole log, checking it as LogReader does. An error only when the file header is damaged,

@@ -18,17 +18,18 @@ struct KeyframePlace {
   friend bool operator==(const KeyframePlace&, const KeyframePlace&) = default;
 };
 
-/// What the frames alone say; the payloads are not read.
+/// Read from the frames alone; the payloads are not read.
 struct LogMap {
   std::uint64_t ticks = 0;  ///< with a recorded hash
   std::vector<KeyframePlace> keyframes;
 };
 
-/// Walks the frames of a log up to its end or to the first damage. Empty for what is not a log.
+/// Walks the frames of a log up to its end or to the first damage. Empty if the source is not a
+/// log.
 [[nodiscard]] LogMap map_log(Source& source);
 
 /// The keyframes that the log's INDEX names: all, or every second, fourth, … of a very long match.
-/// not_found for a log without one; else what is wrong with it.
+/// not_found for a log without one; else the status of its damage.
 [[nodiscard]] Result<std::vector<KeyframePlace>> read_index(Source& source);
 
 /// The last keyframe at or before `tick`, from the index where there is a good one. not_found when

@@ -15,7 +15,7 @@
 
 namespace lockstone::replay {
 
-/// What LogReader::next() came to.
+/// The result of LogReader::next().
 enum class LogItem : std::uint8_t {
   scene,     ///< config()
   inputs,    ///< tick_inputs(), whose hashes should come next
@@ -37,8 +37,7 @@ enum class LogItem : std::uint8_t {
 }
 
 /// Holds one chunk at a time. Every item is checked whole before it is answered: its checksums, its
-/// place in the chain, and that ticks follow each other. What stands before damage is all
-/// delivered.
+/// place in the chain, and that ticks follow each other. Everything before damage is delivered.
 class LogReader {
  public:
   /// `source` must outlive the reader.
@@ -57,11 +56,11 @@ class LogReader {
   /// the log.
   Status jump(const KeyframePlace& place);
 
-  /// What the simulation's canonical snapshots have at most, from
+  /// Sets the greatest size of the simulation's canonical snapshots, from
   /// Simulation::snapshot_bytes_max: a longer one is malformed, and no memory is taken for it.
   void bound_snapshots(std::size_t bytes);
 
-  /// Reads the next chunk. What the accessors below gave before is no longer valid, except that
+  /// Reads the next chunk. Earlier results of the accessors below are no longer valid, except that
   /// tick_inputs() lasts until the next `inputs`.
   [[nodiscard]] LogItem next();
 

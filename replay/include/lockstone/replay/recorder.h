@@ -52,7 +52,7 @@ struct RecorderOptions {
 /// Ticks leave for the sink together with their hashes, whole chunks at a time, so a killed process
 /// leaves a log that verifies up to its last whole chunk. On an interrupt, call finish() from the
 /// main loop (not from a signal handler). After an io_error the recorder stays failed and answers
-/// io_error to everything: what was written before remains a good log.
+/// io_error to everything: the part written before remains a good log.
 class Recorder {
  public:
   /// `sink` must outlive the recorder.
@@ -61,7 +61,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Writes what is pending, without an END: the log stays incomplete, as after a kill.
+  /// Writes the pending chunks, without an END: the log stays incomplete, as after a kill.
   ~Recorder();
 
   /// Writes the file header and the configuration bytes that SimulationFactory takes. Once.
@@ -97,7 +97,7 @@ class Recorder {
   /// Hands everything pending to the sink. For a match that pauses: otherwise done each second.
   Status flush();
 
-  /// Writes what is pending and the END, signed where there is a key. `reason` is treated as an
+  /// Writes the pending chunks and the END, signed where there is a key. `reason` is treated as an
   /// event's text.
   Status finish(std::string_view reason, EndKind kind = EndKind::finished);
 

@@ -32,9 +32,9 @@ enum class SeekFrom : std::uint8_t {
 [[nodiscard]] std::string_view to_string(SeekFrom from);
 
 /// The state at `tick`: loads the last keyframe at or before it and steps on with the log's inputs.
-/// not_found when the log does not reach so far; incompatible when it is of another simulation. Only
-/// the canary may differ: what a build that computes something else makes of the log can be compared.
-/// `source` must outlive the result.
+/// not_found when the log does not reach so far; incompatible when it is of another simulation.
+/// Only the canary may differ, so that the states of builds that compute different results can be
+/// compared. `source` must outlive the result.
 [[nodiscard]] SeekResult seek(Source& source, const SimulationFactory& factory, std::uint64_t tick,
                               SeekFrom from = SeekFrom::keyframe);
 

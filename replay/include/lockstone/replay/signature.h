@@ -44,7 +44,7 @@ struct SigningKey {
 enum class SignatureState : std::uint8_t {
   none,      ///< the log has no signature
   good,      ///< every signature fits, all by one key, and it is the expected one
-  bad,       ///< one does not fit what stands before it, is malformed, or bytes follow it behind
+  bad,       ///< one does not fit the bytes before it, is malformed, or bytes follow it behind
              ///< the END
   foreign,   ///< by another key than expected, or by several
   unchecked  ///< this build cannot check

@@ -18,7 +18,8 @@ class Source {
  public:
   virtual ~Source() = default;
 
-  /// Bytes in all, fixed when the source was opened: what a recorder appends later is not seen.
+  /// Bytes in all, fixed when the source was opened: bytes that a recorder appends later are not
+  /// seen.
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 
   /// Fills `out` from `offset`. Never called beyond size(). io_error when the system gives less.

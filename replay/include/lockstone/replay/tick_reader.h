@@ -26,7 +26,7 @@ class TickReader {
   /// As LogReader::bound_snapshots.
   void bound_snapshots(std::size_t bytes) { reader_.bound_snapshots(bytes); }
 
-  /// Goes to the next tick; false at the end of what can be read: see reader().damage().
+  /// Goes to the next tick; false at the end of the readable part: see reader().damage().
   [[nodiscard]] bool next();
 
   [[nodiscard]] std::uint64_t tick() const { return tick_; }

@@ -70,7 +70,7 @@ struct VerifyReport {
   /// From the END: for players to compare with their own. Checked against the log's inputs.
   TranscriptHash transcript{};
   std::optional<Divergence> divergence;
-  /// What is damaged, what the simulation refused, or where the tail is torn.
+  /// The damage, the simulation's refusal, or the place where the tail is torn.
   std::optional<Damage> damage;
   std::vector<FieldMismatch> mismatches;
 
@@ -78,8 +78,8 @@ struct VerifyReport {
   /// was cut or repaired, it says which ticks alone are proved.
   [[nodiscard]] std::string to_line() const;
 
-  /// What a verdict of `same` leaves open, one line each, for people; nothing when the signature by
-  /// an expected key is `good`. Which ticks were verified, to_line() says.
+  /// The questions that a verdict of `same` leaves open, one line each, for people; nothing when
+  /// the signature by an expected key is `good`. Which ticks were verified, to_line() says.
   [[nodiscard]] std::vector<std::string> not_proved(SignatureState signature) const;
 };
 
@@ -90,7 +90,7 @@ using VerifyProgress = std::function<void(std::uint64_t ticks, std::uint64_t tot
 /// divergence the rest of the log is still read for `complete`, `torn_tail` and `damage`.
 ///
 /// A log that ends at a chunk's end without END is `same` with `complete` false; one that ends
-/// inside a chunk is `same` with `torn_tail` too: this is what a killed recorder leaves.
+/// inside a chunk is `same` with `torn_tail` too: a killed recorder leaves such a log.
 /// Ticks whose hashes were lost with the tail are not verified.
 [[nodiscard]] VerifyReport verify(Source& source, const SimulationFactory& factory,
                                   const VerifyOptions& options = {},
@@ -100,9 +100,9 @@ using VerifyProgress = std::function<void(std::uint64_t ticks, std::uint64_t tot
 using SourceOpener = std::function<Result<std::unique_ptr<Source>>()>;
 
 /// Verifies several logs on several threads, at most `threads` (0 counts as 1): keyframes make the
-/// parts between them independent. A report for each log, in their order, which says what verify()
-/// says; one that cannot be opened is corrupt. `factory` is called on several threads. `progress`
-/// counts over all logs, and is called by one thread at a time.
+/// parts between them independent. Returns for each log, in their order, the report that verify()
+/// would give; one that cannot be opened is corrupt. `factory` is called on several threads.
+/// `progress` counts over all logs, and is called by one thread at a time.
 [[nodiscard]] std::vector<VerifyReport> verify_all(std::span<const SourceOpener> logs,
                                                    const SimulationFactory& factory,
                                                    const VerifyOptions& options = {},

@@ -56,7 +56,7 @@ void BlockFactor::analyse(int bodies, std::vector<std::pair<int, int>> pairs) {
   order(neighbours);
 }
 
-// Fill is found on the way: what is left around an eliminated body becomes a clique.
+// Fill is found on the way: the remaining neighbours of an eliminated body become a clique.
 void BlockFactor::order(std::vector<std::vector<int>>& neighbours) {
   std::vector<int> sequence;
   for (int step = 0; step < bodies_; ++step) {

@@ -16,7 +16,7 @@ struct Options {
   double joint_hertz = 60;
   double joint_damping = 2;
   double push = 3;       // m/s: fastest push out of an overlap
-  double carry = 0;      // what soft rows are pulled towards: this times the last substep's impulse
+  double carry = 0;      // soft rows are pulled towards this times the last substep's impulse
   double soft_leak = 0;  // taken from that impulse first, of the impulse g h / w
   double stiffen = 0;    // extra stiffness of contacts that carry many times the lighter body
   // Proximal problem.

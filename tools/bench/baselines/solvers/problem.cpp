@@ -37,7 +37,7 @@ class Unions {
   std::vector<int> parent_;
 };
 
-// What the rows of one joint have in common.
+// Frames that the rows of one joint share.
 struct Frames {
   const System& system;
   const Joint& joint;

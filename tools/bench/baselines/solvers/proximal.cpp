@@ -54,7 +54,7 @@ void Proximal::set_gives() {
   }
 }
 
-// What the substep's impulses are pulled towards, and by how much.
+// The values that the substep's impulses are pulled towards, and the strengths of the pull.
 void Proximal::set_centres() {
   for (std::size_t i = 0; i < problem_.rows.size(); ++i) {
     Row& row = problem_.rows[i];
@@ -324,7 +324,7 @@ void Proximal::fall(double seconds) {
 }
 
 // Without contacts gravity acts half before and half after the move, so that energy is that of the
-// substep's end; what rests on a contact needs all of it in the first phase.
+// substep's end; a body that rests on a contact needs all of it in the first phase.
 void Proximal::substep() {
   const double first = options_.half_kick && problem_.contact_rows == 0 ? h_ / 2 : h_;
   fall(first);

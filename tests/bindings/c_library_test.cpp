@@ -1,0 +1,193 @@
+// What the C interface says about versions, numbers, structures and logs.
+#include <array>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <lockstone.h>
+
+#include <lockstone/literals.h>
+#include <lockstone/replay/recorder.h>
+#include <lockstone/replay/verifier.h>
+
+#include "tools/bindings/c/call.h"
+#include "tools/scenes/play.h"
+#include "tools/scenes/scene_simulation.h"
+
+namespace lockstone {
+namespace {
+
+/// A structure as later versions might have it: `second` was appended.
+struct Grown {
+  std::uint32_t size;
+  std::uint32_t first;
+  std::uint64_t second;
+};
+
+}  // namespace
+
+template <>
+inline constexpr std::size_t c::k_first_size<Grown> = 8;
+
+namespace {
+
+using namespace lockstone::literals;
+
+TEST(CLibrary, ItsVersionsAreThoseOfTheCore) {
+  EXPECT_EQ(lks_c_abi(), static_cast<std::uint32_t>(LKS_C_ABI));
+  EXPECT_EQ(lks_simulation_abi(), k_simulation_abi);
+  EXPECT_EQ(lks_canary_hash(), canary_hash());
+  EXPECT_STREQ(lks_version(), LOCKSTONE_VERSION);
+}
+
+TEST(CLibrary, EnumeratorsHaveTheNumbersOfTheCore) {
+  const auto same = [](int number, auto enumerator) {
+    EXPECT_EQ(number, static_cast<int>(enumerator)) << to_string(enumerator);
+  };
+  for (int i = LKS_OK; i <= LKS_NOT_FOUND; ++i)
+    EXPECT_EQ(lks_status_name(i), std::string(to_string(static_cast<Status>(i))));
+  same(LKS_CAPSULE, ShapeKind::capsule);
+  same(LKS_BOX, ShapeKind::box);
+  same(LKS_HULL, ShapeKind::hull);
+  same(LKS_HALF_SPACE, ShapeKind::half_space);
+  same(LKS_MESH, ShapeKind::mesh);
+  same(LKS_HEIGHT_FIELD, ShapeKind::height_field);
+  same(LKS_COMPOUND, ShapeKind::compound);
+  same(LKS_STATIC, MotionType::static_body);
+  same(LKS_KINEMATIC, MotionType::kinematic);
+  same(LKS_DYNAMIC, MotionType::dynamic);
+  same(LKS_FRAME_BODY, Frame::body);
+  same(LKS_COMBINE_AVERAGE, CombineRule::average);
+  same(LKS_COMBINE_GEOMETRIC_MEAN, CombineRule::geometric_mean);
+  same(LKS_COMBINE_MINIMUM, CombineRule::minimum);
+  same(LKS_COMBINE_MULTIPLY, CombineRule::multiply);
+  same(LKS_COMBINE_MAXIMUM, CombineRule::maximum);
+  same(LKS_JOINT_DISTANCE, JointKind::distance);
+  same(LKS_JOINT_BALL, JointKind::ball);
+  same(LKS_JOINT_HINGE, JointKind::hinge);
+  same(LKS_JOINT_SLIDER, JointKind::slider);
+  same(LKS_JOINT_WELD, JointKind::weld);
+  same(LKS_JOINT_WHEEL, JointKind::wheel);
+  same(LKS_JOINT_MOTOR, JointKind::motor);
+  same(LKS_JOINT_SIX_AXIS, JointKind::six_axis);
+  same(LKS_JOINT_PULLEY, JointKind::pulley);
+  same(LKS_JOINT_GEAR, JointKind::gear);
+  same(LKS_JOINT_RACK, JointKind::rack);
+  same(LKS_AXIS_LOCKED, AxisMode::locked);
+  same(LKS_AXIS_FREE, AxisMode::free);
+  same(LKS_AXIS_LIMITED, AxisMode::limited);
+  same(LKS_CONTACT_END, EventKind::contact_end);
+  same(LKS_TRIGGER_ENTER, EventKind::trigger_enter);
+  same(LKS_TRIGGER_STAY, EventKind::trigger_stay);
+  same(LKS_TRIGGER_EXIT, EventKind::trigger_exit);
+  same(LKS_IMPACT, EventKind::impact);
+  same(LKS_SLEEP, EventKind::sleep);
+  same(LKS_LOG_DIVERGED, replay::VerifyOutcome::diverged);
+  same(LKS_LOG_CORRUPT, replay::VerifyOutcome::corrupt);
+  same(LKS_LOG_INCOMPATIBLE, replay::VerifyOutcome::incompatible);
+}
+
+TEST(CLibrary, WholeNumbersConvertAsRatiosOfTheCore) {
+  for (std::int64_t size = 1; size < std::int64_t{1} << 40; size = size * 7 / 5 + 1) {
+    for (const std::int64_t value : {size, -size}) {
+      const auto position = Position::try_from_ratio(value, 1'000'000);
+      ASSERT_EQ(lks_position_um(value), position->raw) << value;
+      ASSERT_EQ(lks_position_to_um(position->raw), value);
+      const auto length = Length::try_from_ratio(value, 1000);
+      if (!length) continue;
+      ASSERT_EQ(lks_length_mm(value), length->raw) << value;
+    }
+  }
+  constexpr std::int64_t k_pi_numerator = 245'850'922, k_pi_denominator = 78'256'779;  // to 1e-16
+  for (int degrees = -900; degrees <= 900; ++degrees) {
+    const Angle angle = Angle::from_ratio(degrees * k_pi_numerator, 180 * k_pi_denominator);
+    ASSERT_EQ(lks_angle_mdeg(degrees * 1000), angle.raw) << degrees;
+  }
+  EXPECT_EQ(lks_angle_mdeg(90'000), Angle(90_deg).raw);
+}
+
+TEST(CLibrary, AStructureOfAnOlderHeaderKeepsDefaultsInWhatItLacks) {
+  const Grown defaults{sizeof(Grown), 1, 2};
+  Grown caller{8, 7, 99};
+  const Grown taken = c::take(&caller, defaults, "grown");
+  EXPECT_EQ(taken.first, 7U);
+  EXPECT_EQ(taken.second, 2U);
+  c::give(defaults, &caller, 8, "grown");
+  EXPECT_EQ(caller.size, 8U);
+  EXPECT_EQ(caller.first, 1U);
+  EXPECT_EQ(caller.second, 99U) << "written behind the caller's structure";
+  for (const std::uint32_t size : {0U, 4U, 9U, 12U, 24U}) {
+    caller.size = size;
+    EXPECT_THROW((void)c::take(&caller, defaults, "grown"), c::Failure) << size;
+  }
+}
+
+TEST(CLibrary, EachThreadHasAMessageOfItsOwn) {
+  ASSERT_EQ(lks_step(nullptr, nullptr), LKS_NULL_ARGUMENT);
+  const std::string here = lks_last_error();
+  std::thread([&] {
+    EXPECT_STREQ(lks_last_error(), "");
+    EXPECT_EQ(lks_from_ratio(1, 0, 0, nullptr), LKS_INVALID_ARGUMENT);
+    EXPECT_NE(lks_last_error(), here);
+  }).join();
+  EXPECT_EQ(lks_last_error(), here);
+}
+
+TEST(CLibrary, ALongMessageIsCutBetweenTwoCharacters) {
+  lks_world* world = nullptr;
+  for (std::size_t shift = 0; shift < 3; ++shift) {
+    std::string text = std::string(shift, 'a');
+    while (text.size() < 600)
+      text += "…";
+    ASSERT_EQ(lks_world_create_scene(text.c_str(), 1, &world), LKS_NOT_FOUND);
+    const std::string message = lks_last_error();
+    EXPECT_LT(message.size(), 512U);
+    EXPECT_EQ(message.substr(message.size() - 3), "…");
+  }
+}
+
+std::vector<std::byte> record(bool altered) {
+  const auto config = scenes::encode_config("rolling", 1);
+  const auto game = scenes::make_simulation(config).value();
+  replay::MemorySink log;
+  replay::Recorder recorder(
+      log, {.keyframe_bytes_max = game->snapshot_bytes_max(SnapshotKind::canonical)});
+  EXPECT_EQ(recorder.begin(game->info(), config, {.match_id = 1, .build = "test"}), Status::ok);
+  const std::array<std::byte, 1> nothing{};
+  const std::array inputs{PlayerInput{nothing, InputOrigin::absent}};
+  while (game->tick() < 50) {
+    const std::uint64_t tick = game->tick();
+    game->step(inputs);
+    const std::uint64_t hash = game->hash() ^ (altered && tick == 20 ? 1U : 0U);
+    EXPECT_EQ(recorder.record_tick(tick, inputs, hash), Status::ok);
+  }
+  EXPECT_EQ(recorder.finish("done"), Status::ok);
+  const auto bytes = log.bytes();
+  return {bytes.begin(), bytes.end()};
+}
+
+lks_log_report verify(std::span<const std::byte> log) {
+  lks_log_report report{};
+  report.size = sizeof report;
+  EXPECT_EQ(lks_verify_log_bytes(log.data(), log.size(), &report), LKS_OK) << lks_last_error();
+  return report;
+}
+
+TEST(CLibrary, LogsAreVerified) {
+  const lks_log_report same = verify(record(false));
+  EXPECT_EQ(same.outcome, static_cast<std::uint32_t>(LKS_LOG_SAME));
+  EXPECT_EQ(same.ticks_verified, 50U);
+  EXPECT_EQ(same.complete, 1U);
+  EXPECT_NE(same.final_hash, 0U);
+  const lks_log_report other = verify(record(true));
+  EXPECT_EQ(other.outcome, static_cast<std::uint32_t>(LKS_LOG_DIVERGED));
+  EXPECT_EQ(other.diverged_tick, 20U);
+  EXPECT_EQ(other.expected, other.actual ^ 1U);
+  EXPECT_NE(std::string(other.line).find("tick 20"), std::string::npos) << other.line;
+  std::vector<std::byte> damaged = record(false);
+  damaged[damaged.size() / 2] ^= std::byte{1};
+  EXPECT_EQ(verify(damaged).outcome, static_cast<std::uint32_t>(LKS_LOG_CORRUPT));
+}
+
+}  // namespace
+}  // namespace lockstone

@@ -1,0 +1,252 @@
+// Every command through the C interface does what it does in the core.
+#include <gtest/gtest.h>
+
+#include "tests/bindings/twin_worlds.h"
+
+namespace lockstone {
+namespace {
+
+using namespace lockstone::literals;
+
+constexpr Vec3<Impulse> k_impulse{300_Ns, 200_Ns, -100_Ns};
+constexpr Vec3<Force> k_force{500_N, 900_N, 30_N};
+constexpr Vec3<Length> k_point{0.25_m, 0.5_m, 0_m};
+
+class CommandsThroughC : public TwinWorlds {
+ protected:
+  void SetUp() override {
+    TwinWorlds::SetUp();
+    add(MotionType::static_body, Shape::half_space(), 0, 0);
+    ball_ = add(MotionType::dynamic, Shape::sphere(1_m), 0, 3);
+    box_ = add(MotionType::dynamic, Shape::box(1_m, 0.5_m, 2_m), 5, 3);
+    add(MotionType::dynamic, Shape::capsule(1_m, 0.5_m), 10, 3);
+    hull_body_ = add(MotionType::dynamic, {ShapeKind::hull, {}, hull_}, 15, 3);
+    lift_ = add(MotionType::kinematic, Shape::box(1_m, 1_m, 1_m), 20, 3);
+  }
+
+  BodyHandle ball_, box_, hull_body_, lift_;
+};
+
+TEST_F(CommandsThroughC, PushesGiveTheSameState) {
+  const lks_body box = c::id_of(box_);
+  const lks_i64x3 impulse = c::raw_of(k_impulse), force = c::raw_of(k_force);
+  const lks_i32x3 point = c::raw_of(k_point);
+  const Vec3<AngularImpulse> turn{AngularImpulse::from_integer(40), {}, {}};
+  const Vec3<Torque> torque{{}, Torque::from_integer(700), {}};
+  const lks_i64x3 raw_turn = c::raw_of(turn), raw_torque = c::raw_of(torque);
+  for (const Frame frame : {Frame::world, Frame::body}) {
+    const auto f = static_cast<std::uint32_t>(frame);
+    expect_same(world_->apply(ApplyImpulse{box_, k_impulse, frame}),
+                lks_apply_impulse(twin_, box, &impulse, f), "impulse");
+    expect_same(world_->apply(ApplyImpulseAt{box_, k_impulse, k_point, frame}),
+                lks_apply_impulse_at(twin_, box, &impulse, &point, f), "impulse at");
+    expect_same(world_->apply(ApplyAngularImpulse{box_, turn, frame}),
+                lks_apply_angular_impulse(twin_, box, &raw_turn, f), "angular impulse");
+    expect_same(world_->apply(ApplyForce{box_, k_force, frame}),
+                lks_apply_force(twin_, box, &force, f), "force");
+    expect_same(world_->apply(ApplyForceAt{box_, k_force, k_point, frame}),
+                lks_apply_force_at(twin_, box, &force, &point, f), "force at");
+    expect_same(world_->apply(ApplyTorque{box_, torque, frame}),
+                lks_apply_torque(twin_, box, &raw_torque, f), "torque");
+    step(20);
+  }
+  const lks_i32x3 far{INT32_MAX, 0, 0};
+  expect_same(world_->apply(ApplyImpulseAt{box_, k_impulse, {Length::max(), {}, {}}, Frame::world}),
+              lks_apply_impulse_at(twin_, box, &impulse, &far, LKS_FRAME_WORLD), "too far");
+}
+
+TEST_F(CommandsThroughC, MotionsGiveTheSameState) {
+  const lks_body ball = c::id_of(ball_), lift = c::id_of(lift_);
+  const Quat turned = from_axis_angle({{}, Unit::from_integer(1), {}}, 30_deg);
+  const Vec3<Position> place{2_m, 8_m, 1_m};
+  const lks_pose pose{c::raw_of(place), c::raw_of(turned)};
+  const Vec3<Velocity> velocity{3_mps, 1_mps, 0_mps};
+  const Vec3<AngularVelocity> omega{AngularVelocity::from_integer(2), {}, {}};
+  const lks_i64x3 raw_velocity = c::raw_of(velocity), raw_omega = c::raw_of(omega);
+  const Vec3<Position> near{20_m, 3.1_m, 0_m};
+  const lks_pose near_pose{c::raw_of(near), c::raw_of(Quat{})};
+  expect_same(world_->apply(Teleport{ball_, place, turned}), lks_teleport(twin_, ball, &pose),
+              "teleport");
+  expect_same(world_->apply(SetVelocity{ball_, velocity}),
+              lks_set_velocity(twin_, ball, &raw_velocity), "velocity");
+  expect_same(world_->apply(SetAngularVelocity{ball_, omega}),
+              lks_set_angular_velocity(twin_, ball, &raw_omega), "angular velocity");
+  expect_same(world_->apply(MoveKinematic{lift_, near, {}}),
+              lks_move_kinematic(twin_, lift, &near_pose), "move");
+  expect_same(world_->apply(MoveKinematic{ball_, near, {}}),
+              lks_move_kinematic(twin_, ball, &near_pose), "move of a dynamic body");
+  step(60);
+}
+
+TEST_F(CommandsThroughC, SettingsGiveTheSameState) {
+  const lks_body box = c::id_of(box_), lift = c::id_of(lift_);
+  const Surface surface{
+      0.9_r, 0.25_r, 0.01_r, CombineRule::minimum, CombineRule::average, CombineRule::multiply, 77};
+  const lks_surface raw_surface = c::raw_of(surface);
+  const SurfaceMotion belt{{2_mps, 0_mps, 0_mps}, {{}, Rate::from_integer(1), {}}};
+  const lks_surface_motion raw_belt{c::raw_of(belt.velocity), c::raw_of(belt.turning)};
+  const CollisionFilter filter{2, 5, -3};
+  const lks_filter raw_filter{2, 5, -3};
+  const Number scale = Number::from_ratio(1, 2);
+  const Rate slow = Rate::from_ratio(1, 3), slower = Rate::from_ratio(1, 5);
+  const SpeedLimit limit{20_mps, AngularVelocity::from_integer(9)};
+  expect_same(world_->apply(SetMaterial{box_, surface}), lks_set_material(twin_, box, &raw_surface),
+              "material");
+  expect_same(world_->apply(SetSurfaceMotion{lift_, belt}),
+              lks_set_surface_motion(twin_, lift, &raw_belt), "surface motion");
+  expect_same(world_->apply(SetGravityScale{box_, scale}),
+              lks_set_gravity_scale(twin_, box, scale.raw), "gravity scale");
+  expect_same(world_->apply(SetDamping{box_, slow, slower}),
+              lks_set_damping(twin_, box, slow.raw, slower.raw), "damping");
+  expect_same(world_->apply(SetAxisLocks{box_, {.move_z = true, .turn_x = true}}),
+              lks_set_axis_locks(twin_, box, LKS_LOCK_MOVE_Z | LKS_LOCK_TURN_X), "locks");
+  expect_same(world_->apply(SetSpeedLimit{box_, limit}),
+              lks_set_speed_limit(twin_, box, limit.linear.raw, limit.angular.raw), "limit");
+  expect_same(world_->apply(SetFilter{box_, filter}), lks_set_filter(twin_, box, &raw_filter),
+              "filter");
+  expect_same(world_->apply(SetUserData{box_, 1234}), lks_set_user_data(twin_, box, 1234), "data");
+  expect_same(world_->apply(SetAllowSleep{box_, false}), lks_set_allow_sleep(twin_, box, 0),
+              "allow sleep");
+  step(20);
+  const BodyView view = world_->body(box_);
+  lks_body_view raw{};
+  raw.size = sizeof raw;
+  ASSERT_EQ(lks_body_get(twin_, box, &raw), LKS_OK);
+  EXPECT_EQ(c::surface_of(raw.surface, ""), view.surface);
+  EXPECT_EQ(c::locks_of(raw.locks, ""), view.locks);
+  EXPECT_EQ(c::vec<Position>(raw.centre_of_mass), view.centre_of_mass);
+  EXPECT_EQ(c::vec<AngularVelocity>(raw.angular_velocity), view.angular_velocity);
+  EXPECT_EQ(raw.flags, 0U);
+  EXPECT_EQ(raw.user_data, 1234U);
+}
+
+TEST_F(CommandsThroughC, SleepAndGravityGiveTheSameState) {
+  const lks_body ball = c::id_of(ball_);
+  const Vec3<Acceleration> none{};
+  const lks_i64x3 raw_none{};
+  expect_same(world_->apply(SleepBody{ball_}), lks_sleep_body(twin_, ball), "sleep");
+  step(5);
+  expect_same(world_->apply(WakeBody{ball_}), lks_wake_body(twin_, ball), "wake");
+  expect_same(world_->apply(SetGravity{none}), lks_set_gravity(twin_, &raw_none), "gravity");
+  step(5);
+  expect_same(world_->apply(DestroyBody{ball_}), lks_destroy_body(twin_, ball), "destroy");
+  step(5);
+}
+
+TEST_F(CommandsThroughC, ABodyOfEveryFieldIsTheSame) {
+  BodyDef def{.motion = MotionType::dynamic, .shape = Shape::box(0.5_m, 0.5_m, 0.5_m)};
+  def.position = {-5_m, 4_m, 0_m};
+  def.orientation = from_axis_angle({{}, {}, Unit::from_integer(1)}, 20_deg);
+  def.velocity = {1_mps, 2_mps, 3_mps};
+  def.angular_velocity.y = AngularVelocity::from_integer(3);
+  def.material = {0.3_r,
+                  0.6_r,
+                  Density::from_integer(700),
+                  0.02_r,
+                  CombineRule::maximum,
+                  CombineRule::multiply,
+                  CombineRule::average,
+                  5};
+  def.filter = {4, 0xff, 9};
+  def.gravity_scale = Number::from_ratio(3, 2);
+  def.linear_damping = Rate::from_ratio(1, 8);
+  def.angular_damping = Rate::from_ratio(1, 4);
+  def.fixed_rotation = true;
+  def.is_bullet = true;
+  def.locks.move_x = true;
+  def.speed_limit = {40_mps, AngularVelocity::from_integer(20)};
+  def.allow_sleep = false;
+  def.user_data = 42;
+  lks_body_def raw;
+  ASSERT_EQ(lks_body_def_init(&raw, sizeof raw), LKS_OK);
+  raw.shape = c::raw_of(def.shape);
+  raw.position = c::raw_of(def.position);
+  raw.orientation = c::raw_of(def.orientation);
+  raw.velocity = c::raw_of(def.velocity);
+  raw.angular_velocity = c::raw_of(def.angular_velocity);
+  raw.surface = c::raw_of(def.material.surface());
+  raw.density = def.material.density.raw;
+  raw.filter = {4, 0xff, 9};
+  raw.gravity_scale = def.gravity_scale.raw;
+  raw.linear_damping = def.linear_damping.raw;
+  raw.angular_damping = def.angular_damping.raw;
+  raw.flags = LKS_BODY_FIXED_ROTATION | LKS_BODY_BULLET;
+  raw.locks = LKS_LOCK_MOVE_X;
+  raw.speed_limit = def.speed_limit.linear.raw;
+  raw.angular_speed_limit = def.speed_limit.angular.raw;
+  raw.user_data = 42;
+  add(def, raw);
+  def.motion = MotionType::static_body;
+  def.is_trigger = true;
+  def.surface_motion.velocity.x = 1_mps;
+  raw.motion = LKS_STATIC;
+  raw.flags |= LKS_BODY_TRIGGER;
+  raw.surface_motion.velocity.x = SolverVelocity(1_mps).raw;
+  add(def, raw);
+  step(30);
+}
+
+TEST_F(CommandsThroughC, JointsOfEveryKindGiveTheSameState) {
+  std::vector<JointHandle> joints;
+  for (std::uint32_t kind = LKS_JOINT_DISTANCE; kind <= LKS_JOINT_RACK; ++kind) {
+    const int place = 30 + 6 * static_cast<int>(kind);
+    const BodyHandle a = add(MotionType::dynamic, Shape::sphere(1_m), place, 10);
+    const BodyHandle b = add(MotionType::dynamic, Shape::box(1_m, 0.5_m, 1_m), place + 2, 10);
+    JointDef def = JointDef::of(static_cast<JointKind>(kind), a, b);
+    lks_joint_def raw;
+    ASSERT_EQ(lks_joint_def_init(&raw, sizeof raw, kind, c::id_of(a), c::id_of(b)), LKS_OK);
+    def.frame_a.position = k_point;
+    raw.frame_a.position = c::raw_of(k_point);
+    def.frame_b.position = k_point - Vec3<Length>{2_m, 0_m, 0_m};  // the same place
+    raw.frame_b.position = c::raw_of(def.frame_b.position);
+    def.ground_a = def.ground_b = {0_m, 20_m, 0_m};
+    raw.ground_a = raw.ground_b = c::raw_of(def.ground_a);
+    def.linear[0].upper = 6_m;
+    raw.linear[0].upper = def.linear[0].upper.raw;
+    def.angular[0].max_effort = 50_Nm;
+    raw.angular[0].max_effort = def.angular[0].max_effort.raw;
+    def.break_force = Force::from_integer(100'000'000);
+    raw.break_force = def.break_force.raw;
+    def.collide = true;
+    raw.collide = 1;
+    def.user_data = raw.user_data = kind;
+    const Result<JointHandle> made = world_->create_joint(def);
+    lks_joint id = 0;
+    expect_same(made.status(), lks_create_joint(twin_, &raw, &id), "create joint");
+    ASSERT_TRUE(made.ok()) << kind;
+    EXPECT_EQ(id, c::id_of(made.value()));
+    joints.push_back(made.value());
+    step(3);
+  }
+  ASSERT_EQ(joints.size(), 11U);
+  for (const JointHandle joint : joints) {
+    const JointView view = world_->joint(joint);
+    lks_joint_view raw{};
+    raw.size = sizeof raw;
+    ASSERT_EQ(lks_joint_get(twin_, c::id_of(joint), &raw), LKS_OK);
+    EXPECT_EQ(c::vec<Length>(raw.offset), view.offset);
+    EXPECT_EQ(c::vec<Angle>(raw.angle), view.angle);
+    EXPECT_EQ(c::vec<Force>(raw.force), view.force);
+    EXPECT_EQ(raw.user_data, view.user_data);
+  }
+  const LinearAxis spring{.target = 1_m, .hertz = Number::from_integer(3)};
+  const lks_axis raw_spring{LKS_AXIS_FREE,        0, 0, Length(1_m).raw, 0, 3 << LKS_NUMBER_BITS,
+                            1 << LKS_NUMBER_BITS, 0, 0};
+  const AngularAxis motor{.speed = Rate::from_integer(2), .max_effort = 80_Nm};
+  const lks_axis raw_motor{
+      LKS_AXIS_FREE, 0, 0, 0, 2 << LKS_RATE_BITS, 0, 1 << LKS_NUMBER_BITS, 0, Torque(80_Nm).raw};
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto axis = static_cast<std::uint8_t>(i % 3);
+    const lks_joint id = c::id_of(joints[i]);
+    expect_same(world_->apply(SetLinearAxis{joints[i], axis, spring}),
+                lks_set_linear_axis(twin_, id, axis, &raw_spring), "linear axis");
+    expect_same(world_->apply(SetAngularAxis{joints[i], axis, motor}),
+                lks_set_angular_axis(twin_, id, axis, &raw_motor), "angular axis");
+  }
+  step(10);
+  expect_same(world_->apply(DestroyJoint{joints[0]}), lks_destroy_joint(twin_, c::id_of(joints[0])),
+              "destroy joint");
+}
+
+}  // namespace
+}  // namespace lockstone

@@ -1,0 +1,44 @@
+#include "tools/bindings/c/call.h"
+
+#include <algorithm>
+
+namespace lockstone::c {
+Failure failure(Status status, const Refusal& refusal) {
+  return {static_cast<lks_status>(status),
+          refusal ? refusal.to_line() : std::string(to_string(status))};
+}
+
+Failure invalid(std::string_view field, std::string_view rule) {
+  return {LKS_INVALID_ARGUMENT, std::string(field) + ": " + std::string(rule)};
+}
+
+bool flag(std::uint32_t number, std::string_view field) {
+  if (number > 1) throw invalid(field, "must be 0 or 1");
+  return number == 1;
+}
+
+void check_bits(std::uint32_t bits, std::uint32_t known, std::string_view field) {
+  if ((bits & ~known) != 0) throw invalid(field, "has an unknown bit");
+}
+
+void give_count(std::size_t found, std::size_t capacity, std::size_t& count,
+                std::string_view what) {
+  count = found;
+  if (found <= capacity) return;
+  throw Failure{LKS_BUFFER_TOO_SMALL,
+                "there are " + std::to_string(found) + ' ' + std::string(what)};
+}
+
+void write_text(std::string_view text, char* out, std::size_t capacity) {
+  if (capacity == 0) return;
+  std::size_t bytes = std::min(text.size(), capacity - 1);
+  const auto continues = [&] {
+    return bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xc0) == 0x80;
+  };
+  while (bytes > 0 && continues())
+    --bytes;
+  if (bytes > 0) std::memcpy(out, text.data(), bytes);
+  out[bytes] = '\0';
+}
+
+}  // namespace lockstone::c

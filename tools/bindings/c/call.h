@@ -1,0 +1,131 @@
+// What every function of the C interface shares: checks of its arguments, and failures that become
+// a status and a message. Exceptions are for use within; none leaves `call`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <lockstone/refusal.h>
+#include <lockstone/status.h>
+
+#include "tools/bindings/c/lockstone.h"
+
+namespace lockstone::c {
+
+/// Why a call does nothing.
+struct Failure {
+  lks_status status;
+  std::string message;
+};
+
+[[nodiscard]] Failure failure(Status status, const Refusal& refusal = {});
+[[nodiscard]] Failure invalid(std::string_view field, std::string_view rule);
+
+/// Keeps the message for lks_last_error, cut to its room between two characters.
+lks_status remember(lks_status status, std::string_view message) noexcept;
+
+/// Runs the body of a function of the interface.
+template <class Body>
+lks_status call(Body&& body) noexcept {
+  try {
+    body();
+    return LKS_OK;
+  } catch (const Failure& failure) {
+    return remember(failure.status, failure.message);
+  } catch (const std::bad_alloc&) {
+    return remember(LKS_OUT_OF_MEMORY, "not enough memory");
+  } catch (const std::exception& error) {
+    return remember(LKS_INTERNAL, error.what());
+  } catch (...) {
+    return remember(LKS_INTERNAL, "unknown exception");
+  }
+}
+
+/// What the pointer points to; throws for null.
+template <class T>
+T& required(T* pointer, std::string_view name) {
+  if (pointer == nullptr) throw Failure{LKS_NULL_ARGUMENT, std::string(name) + " is null"};
+  return *pointer;
+}
+
+/// Of an array: null is right for no elements.
+template <class T>
+T* array(T* pointer, std::size_t count, std::string_view name) {
+  if (count > 0 && pointer == nullptr)
+    throw Failure{LKS_NULL_ARGUMENT, std::string(name) + " is null"};
+  return pointer;
+}
+
+/// The value of a result; throws its status.
+template <class T>
+T value_of(Result<T>&& result) {
+  if (!result.ok()) throw failure(result.status());
+  return std::move(result).value();
+}
+
+/// An enumerator by its number; throws beyond first … last.
+template <class Enum>
+Enum enumerator(std::uint32_t number, Enum first, Enum last, std::string_view field) {
+  if (number < static_cast<std::uint32_t>(first) || number > static_cast<std::uint32_t>(last))
+    throw invalid(field, std::to_string(number) + " is no such value");
+  return static_cast<Enum>(number);
+}
+
+/// The number in a narrower type; throws where it does not fit.
+template <class T>
+T narrow(std::uint32_t number, std::string_view field) {
+  if (number > std::numeric_limits<T>::max())
+    throw invalid(field, std::to_string(number) + " is out of range");
+  return static_cast<T>(number);
+}
+
+/// 0 or 1 as a bool; throws otherwise.
+bool flag(std::uint32_t number, std::string_view field);
+
+/// Throws where a bit outside `known` is set.
+void check_bits(std::uint32_t bits, std::uint32_t known, std::string_view field);
+
+/// The size that a structure had when it was first released: a program compiled then still says it.
+template <class T>
+inline constexpr std::size_t k_first_size = sizeof(T);
+
+template <class T>
+void check_size(std::size_t size, std::string_view name) {
+  if (size >= k_first_size<T> && size <= sizeof(T) && size % 8 == 0) return;
+  throw Failure{LKS_WRONG_SIZE, std::string(name) + ".size: " + std::to_string(size) +
+                                    ", must be " + std::to_string(k_first_size<T>) + " … " +
+                                    std::to_string(sizeof(T))};
+}
+
+/// A structure from the caller: the fields that it does not know have their defaults.
+template <class T>
+T take(const T* from, const T& defaults, std::string_view name) {
+  const std::size_t size = required(from, name).size;
+  check_size<T>(size, name);
+  T whole = defaults;
+  std::memcpy(&whole, from, size);
+  return whole;
+}
+
+/// A structure to the caller: the fields that it knows.
+template <class T>
+void give(const T& whole, T* to, std::size_t size, std::string_view name) {
+  required(to, name);
+  check_size<T>(size, name);
+  std::memcpy(to, &whole, size);
+  to->size = static_cast<std::uint32_t>(size);
+}
+
+/// Says how many there are; throws where the caller's array holds fewer.
+void give_count(std::size_t found, std::size_t capacity, std::size_t& count, std::string_view what);
+
+/// Writes text that ends with a zero, cut to the room between two characters.
+void write_text(std::string_view text, char* out, std::size_t capacity);
+
+}  // namespace lockstone::c

@@ -1,0 +1,47 @@
+// What the opaque handles of the C interface are.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <lockstone/asset.h>
+#include <lockstone/thread_pool.h>
+#include <lockstone/world.h>
+
+#include "tools/bindings/c/call.h"
+#include "tools/scenes/play.h"
+
+/// A world of the caller's, or a built-in scene.
+struct lks_world {
+  std::unique_ptr<lockstone::ThreadPool> threads;  // outlives what steps on it
+  std::optional<lockstone::World> own;
+  std::unique_ptr<lockstone::scenes::ScenePlay> scene;
+
+  [[nodiscard]] const lockstone::World& world() const { return scene ? scene->world() : *own; }
+};
+
+struct lks_assets {
+  std::vector<lockstone::AssetPtr> list;
+};
+
+namespace lockstone::c {
+
+/// Throw for null.
+inline const lks_world& handle(const lks_world* world) {
+  return required(world, "world");
+}
+inline const World& read(const lks_world* world) {
+  return handle(world).world();
+}
+
+/// Throws for a scene too: it relies on what it made.
+World& write(lks_world* world);
+
+/// Applies a command; throws when it is refused.
+void order(lks_world* world, const Command& command);
+
+/// Throws when there is no such body.
+BodyHandle existing_body(const World& world, lks_body body);
+
+}  // namespace lockstone::c

@@ -1,0 +1,77 @@
+/* Shapes, and the geometry that some of them name. */
+#ifndef LOCKSTONE_C_ASSETS_H
+#define LOCKSTONE_C_ASSETS_H
+
+#include "units.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  LKS_SPHERE = 0,
+  LKS_CAPSULE = 1,
+  LKS_BOX = 2,
+  LKS_HULL = 3,
+  LKS_HALF_SPACE = 4, /* all below the plane y = 0 of its body; of static bodies only */
+  LKS_MESH = 5,
+  LKS_HEIGHT_FIELD = 6,
+  LKS_COMPOUND = 7
+};
+
+/* The size means, by kind: sphere: x = radius; capsule: x = radius, y = half the length of the core
+ * segment, along y; box: half extents; others: zero. Sizes are 0.98 mm … 512 m. */
+typedef struct lks_shape {
+  uint32_t kind;
+  lks_length3 size;
+  uint64_t asset; /* of hull, mesh, height field and compound; else 0 */
+} lks_shape;
+
+static inline lks_shape lks_shape_of(uint32_t kind, lks_length x, lks_length y, lks_length z,
+                                     uint64_t asset) {
+  lks_shape shape;
+  shape.kind = kind;
+  shape.size.x = x;
+  shape.size.y = y;
+  shape.size.z = z;
+  shape.asset = asset;
+  return shape;
+}
+static inline lks_shape lks_sphere(lks_length radius) {
+  return lks_shape_of(LKS_SPHERE, radius, 0, 0, 0);
+}
+static inline lks_shape lks_capsule(lks_length half_height, lks_length radius) {
+  return lks_shape_of(LKS_CAPSULE, radius, half_height, 0, 0);
+}
+static inline lks_shape lks_box(lks_length half_x, lks_length half_y, lks_length half_z) {
+  return lks_shape_of(LKS_BOX, half_x, half_y, half_z, 0);
+}
+static inline lks_shape lks_half_space(void) {
+  return lks_shape_of(LKS_HALF_SPACE, 0, 0, 0, 0);
+}
+static inline lks_shape lks_hull(uint64_t asset) {
+  return lks_shape_of(LKS_HULL, 0, 0, 0, asset);
+}
+
+/* A set of assets, to be filled before worlds are made with it. Every peer needs the same set. */
+typedef struct lks_assets lks_assets;
+
+LKS_API lks_status lks_assets_create(lks_assets** out);
+
+/* Worlds made with the set keep what they need of it. Null is allowed. */
+LKS_API void lks_assets_destroy(lks_assets* assets);
+
+/* Adds the convex hull of 4 … 65536 points within ±512 m; `out` is its name: a hash of its content.
+ * max_vertices 4 … 128, as a rule 64. LKS_INVALID_ARGUMENT when the points hold no volume. */
+LKS_API lks_status lks_assets_add_hull(lks_assets* assets, const lks_length3* points, size_t count,
+                                       int32_t max_vertices, uint64_t* out);
+
+/* Adds an asset of any kind from its canonical bytes, as `lockstone asset build` writes them. They
+ * may come from anywhere. A compound's hulls must be in the set: else LKS_NOT_FOUND. */
+LKS_API lks_status lks_assets_add_bytes(lks_assets* assets, const void* bytes, size_t count,
+                                        uint64_t* out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,23 @@
+"""Lockstone for Python: a deterministic fixed-point physics core, by ctypes over liblockstone_c.
+
+LOCKSTONE_LIBRARY names the library's file where the system does not find it.
+"""
+
+from typing import List
+
+from ._library import LockstoneError, lib
+from .logs import CORRUPT, DIVERGED, INCOMPATIBLE, SAME, Verdict, verify_log
+from .shapes import Assets, box, capsule, half_space, sphere
+from .units import Raw
+from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,
+                    HINGE, IMPACT, KINEMATIC, MOTOR, PULLEY, RACK, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,
+                    TRIGGER_ENTER, TRIGGER_EXIT, TRIGGER_STAY, WAKE, WELD, WHEEL, Body, Contact, Poses, RayHit, World)
+
+__version__ = lib.lks_version().decode()
+simulation_abi: int = lib.lks_simulation_abi()
+canary_hash: int = lib.lks_canary_hash()
+
+
+def scene_names() -> List[str]:
+    """Of the built-in scenes."""
+    return [lib.lks_scene_name(index).decode() for index in range(lib.lks_scene_count())]

@@ -1,0 +1,57 @@
+"""Shapes, and assets that some of them name."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Iterable
+
+from . import units
+from ._library import I32x3, Shape, lib
+from .units import Quantity, Vector
+
+
+def _length(value: Quantity) -> int:
+    return units.raw(value, units.LENGTH, 32)
+
+
+def lengths(vector: Vector) -> I32x3:
+    return I32x3(*map(_length, vector))
+
+
+def sphere(radius: Quantity) -> Shape:
+    return Shape(0, I32x3(_length(radius), 0, 0), 0)
+
+
+def capsule(half_height: Quantity, radius: Quantity) -> Shape:
+    """Along y; the half height is that of the core segment."""
+    return Shape(1, I32x3(_length(radius), _length(half_height), 0), 0)
+
+
+def box(half_x: Quantity, half_y: Quantity, half_z: Quantity) -> Shape:
+    return Shape(2, lengths((half_x, half_y, half_z)), 0)
+
+
+def half_space() -> Shape:
+    """All below the plane y = 0 of its body, which must be static."""
+    return Shape(4, I32x3(0, 0, 0), 0)
+
+
+class Assets:
+    """Geometry that worlds are made with. Every peer needs the same set."""
+
+    def __init__(self) -> None:
+        handle = ctypes.c_void_p()
+        lib.lks_assets_create(ctypes.byref(handle))
+        self.handle = handle
+
+    def __del__(self) -> None:
+        if hasattr(self, "handle"):
+            lib.lks_assets_destroy(self.handle)
+
+    def add_hull(self, points: Iterable[Vector], max_vertices: int = 64) -> Shape:
+        """The convex hull of 4 … 65536 points."""
+        raw = [lengths(point) for point in points]
+        asset = ctypes.c_uint64()
+        lib.lks_assets_add_hull(self.handle, (I32x3 * len(raw))(*raw), len(raw), max_vertices,
+                                ctypes.byref(asset))
+        return Shape(3, I32x3(0, 0, 0), asset.value)

@@ -1,0 +1,323 @@
+"""Worlds and bodies. Quantities are in SI units and exact: 1, "9.81", Fraction(1, 3), Raw(…)."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref, sizeof
+from fractions import Fraction
+from typing import Any, List, NamedTuple, Optional, Tuple
+
+from . import units
+from ._library import (BodyDef, BodyView, Event, Filter, Hit, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
+from .shapes import Assets, lengths
+from .units import Quantity, Rotation, Vector
+
+STATIC, KINEMATIC, DYNAMIC = 1, 2, 3
+(DISTANCE, BALL, HINGE, SLIDER, WELD, WHEEL, MOTOR, SIX_AXIS, PULLEY, GEAR, RACK) = range(1, 12)
+(CONTACT_BEGIN, CONTACT_END, TRIGGER_ENTER, TRIGGER_STAY, TRIGGER_EXIT, IMPACT, SLEEP, WAKE) = range(8)
+TRIGGER, FIXED_ROTATION, BULLET, ALLOW_SLEEP = 1, 2, 4, 8
+
+Exact = Tuple[Fraction, Fraction, Fraction]
+
+
+def _wide(vector: Vector, bits: int) -> I64x3:
+    return I64x3(*(units.raw(value, bits) for value in vector))
+
+
+def _quat(rotation: Rotation) -> Quat:
+    return Quat(*(units.raw(value, units.UNIT, 32) for value in rotation))
+
+
+def _exact(vector: Any, bits: int) -> Exact:
+    return (units.exact(vector.x, bits), units.exact(vector.y, bits), units.exact(vector.z, bits))
+
+
+class Contact(NamedTuple):
+    """An event of the last step; `b` is None for sleep and wake."""
+
+    kind: int
+    a: "Body"
+    b: Optional["Body"]
+    approach_speed: Fraction
+
+
+class RayHit(NamedTuple):
+    body: "Body"
+    fraction: Fraction
+    point: Exact
+    normal: Exact
+
+
+class Poses:
+    """Where all bodies are, in raw integers: views of memory that the next `World.poses` overwrites.
+
+    `bodies[i]` is the number of a body, `positions[i, axis]` a place in 2^-32 m (axis 0 … 2), and
+    `orientations[i, k]` a part of its quaternion in 2^-30 (k = 6 … 9: x, y, z, w).
+    """
+
+    def __init__(self, bodies: memoryview, poses: memoryview, count: int) -> None:
+        rows = poses[:count * sizeof(Pose)]
+        self.bodies = bodies[:count]
+        self.positions = rows.cast("q", [count, 5]) if count else rows
+        self.orientations = rows.cast("i", [count, 10]) if count else rows
+        self._rows, self._count = rows, count
+
+    def __len__(self) -> int:
+        return self._count
+
+    def numpy(self) -> Any:
+        """The same memory as an array with the fields `position` (n × 3) and `orientation` (n × 4)."""
+        import numpy  # only where it is wanted
+
+        kind = numpy.dtype([("position", "i8", 3), ("orientation", "i4", 4)])
+        return numpy.frombuffer(self._rows, dtype=kind, count=self._count)
+
+
+class Body:
+    """Names a body of a world. That of a destroyed body never names another one."""
+
+    def __init__(self, world: "World", number: int) -> None:
+        self.world, self.number = world, number
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Body) and (self.world, self.number) == (other.world, other.number)
+
+    def __hash__(self) -> int:
+        return hash(self.number)
+
+    def _call(self, name: str, *arguments: Any) -> None:
+        getattr(lib, name)(self.world.handle, self.number, *arguments)
+
+    @property
+    def exists(self) -> bool:
+        flag = ctypes.c_uint32()
+        self._call("lks_body_exists", byref(flag))
+        return flag.value == 1
+
+    @property
+    def raw(self) -> BodyView:
+        """Everything that the library tells of it, in raw integers."""
+        view = BodyView(size=sizeof(BodyView))
+        self._call("lks_body_get", byref(view))
+        return view
+
+    @property
+    def position(self) -> Exact:
+        """In metres."""
+        return _exact(self.raw.position, units.POSITION)
+
+    @property
+    def velocity(self) -> Exact:
+        """Of the centre of mass, in metres per second."""
+        return _exact(self.raw.velocity, units.VELOCITY)
+
+    def destroy(self) -> None:
+        self._call("lks_destroy_body")
+
+    def teleport(self, position: Vector, orientation: Rotation = (0, 0, 0, 1)) -> None:
+        self._call("lks_teleport", byref(Pose(_wide(position, units.POSITION), _quat(orientation))))
+
+    def move_kinematic(self, position: Vector, orientation: Rotation = (0, 0, 0, 1)) -> None:
+        """Gives a kinematic body the velocities that take it there in one tick."""
+        self._call("lks_move_kinematic", byref(Pose(_wide(position, units.POSITION), _quat(orientation))))
+
+    def set_velocity(self, velocity: Vector) -> None:
+        self._call("lks_set_velocity", byref(_wide(velocity, units.VELOCITY)))
+
+    def set_angular_velocity(self, velocity: Vector) -> None:
+        self._call("lks_set_angular_velocity", byref(_wide(velocity, units.ANGULAR_VELOCITY)))
+
+    def apply_impulse(self, impulse: Vector, point: Optional[Vector] = None, own_frame: bool = False) -> None:
+        """In N·s at the centre of mass or at a point, in the world's axes or the body's own frame."""
+        wide = byref(_wide(impulse, units.IMPULSE))
+        if point is None:
+            self._call("lks_apply_impulse", wide, own_frame)
+        else:
+            self._call("lks_apply_impulse_at", wide, byref(lengths(point)), own_frame)
+
+    def apply_angular_impulse(self, impulse: Vector, own_frame: bool = False) -> None:
+        self._call("lks_apply_angular_impulse", byref(_wide(impulse, units.IMPULSE)), own_frame)
+
+    def apply_force(self, force: Vector, point: Optional[Vector] = None, own_frame: bool = False) -> None:
+        """In N over the coming tick."""
+        wide = byref(_wide(force, units.FORCE))
+        if point is None:
+            self._call("lks_apply_force", wide, own_frame)
+        else:
+            self._call("lks_apply_force_at", wide, byref(lengths(point)), own_frame)
+
+    def apply_torque(self, torque: Vector, own_frame: bool = False) -> None:
+        self._call("lks_apply_torque", byref(_wide(torque, units.FORCE)), own_frame)
+
+    def set_gravity_scale(self, scale: Quantity) -> None:
+        self._call("lks_set_gravity_scale", units.raw(scale, units.NUMBER, 32))
+
+    def set_damping(self, linear: Quantity, angular: Quantity) -> None:
+        self._call("lks_set_damping", units.raw(linear, units.RATE, 32), units.raw(angular, units.RATE, 32))
+
+    def set_filter(self, category: int = 1, mask: int = 0xffffffff, group: int = 0) -> None:
+        self._call("lks_set_filter", byref(Filter(category, mask, group)))
+
+    def set_user_data(self, number: int) -> None:
+        self._call("lks_set_user_data", number)
+
+    def set_name(self, name: str) -> None:
+        self._call("lks_set_name", name.encode())
+
+    def wake(self) -> None:
+        self._call("lks_wake_body")
+
+    def sleep(self) -> None:
+        self._call("lks_sleep_body")
+
+
+class World:
+    """A world, or a built-in scene. `rules` are the fields of lks_world_def, in raw integers; gravity
+    is in m/s²."""
+
+    def __init__(self, *, gravity: Optional[Vector] = None, assets: Optional[Assets] = None,
+                 **rules: int) -> None:
+        definition = WorldDef()
+        lib.lks_world_def_init(byref(definition), sizeof(definition))
+        for name, value in rules.items():
+            if name not in dict(WorldDef._fields_):
+                raise TypeError(f"a world has no rule {name}")
+            setattr(definition, name, value)
+        if gravity is not None:
+            definition.gravity = _wide(gravity, units.ACCELERATION)
+        handle = ctypes.c_void_p()
+        lib.lks_world_create(byref(definition), assets.handle if assets else None, byref(handle))
+        self._take(handle)
+
+    @classmethod
+    def scene(cls, name: str, seed: int = 1) -> "World":
+        """A built-in scene, which plays by itself and takes no command."""
+        world = cls.__new__(cls)
+        handle = ctypes.c_void_p()
+        lib.lks_world_create_scene(name.encode(), seed, byref(handle))
+        world._take(handle)
+        return world
+
+    def _take(self, handle: ctypes.c_void_p) -> None:
+        self.handle = handle
+        definition = WorldDef(size=sizeof(WorldDef))
+        lib.lks_world_get_def(handle, byref(definition))
+        self.definition = definition
+        self._bodies = (ctypes.c_uint64 * definition.body_capacity)()
+        self._poses = (Pose * definition.body_capacity)()
+
+    def __del__(self) -> None:
+        if hasattr(self, "handle"):
+            lib.lks_world_destroy(self.handle)
+
+    def step(self, ticks: int = 1) -> None:
+        for _ in range(ticks):
+            lib.lks_step(self.handle, None)
+
+    @property
+    def tick(self) -> int:
+        tick = ctypes.c_uint64()
+        lib.lks_tick(self.handle, byref(tick))
+        return tick.value
+
+    @property
+    def hash(self) -> int:
+        """Over everything that can change the future."""
+        value = ctypes.c_uint64()
+        lib.lks_hash(self.handle, byref(value))
+        return value.value
+
+    def set_threads(self, threads: int) -> None:
+        lib.lks_world_set_threads(self.handle, threads)
+
+    def set_gravity(self, gravity: Vector) -> None:
+        lib.lks_set_gravity(self.handle, byref(_wide(gravity, units.ACCELERATION)))
+
+    def create_body(self, shape: Shape, *, motion: int = DYNAMIC, position: Vector = (0, 0, 0),
+                    orientation: Rotation = (0, 0, 0, 1), velocity: Vector = (0, 0, 0),
+                    angular_velocity: Vector = (0, 0, 0), density: Quantity = 1000,
+                    friction: Quantity = Fraction(1, 2), restitution: Quantity = 0,
+                    flags: int = ALLOW_SLEEP, user_data: int = 0) -> Body:
+        definition = BodyDef()
+        lib.lks_body_def_init(byref(definition), sizeof(definition))
+        definition.motion, definition.shape = motion, shape
+        definition.position = _wide(position, units.POSITION)
+        definition.orientation = _quat(orientation)
+        definition.velocity = _wide(velocity, units.VELOCITY)
+        definition.angular_velocity = _wide(angular_velocity, units.ANGULAR_VELOCITY)
+        definition.density = units.raw(density, units.DENSITY, 32)
+        definition.surface.friction = units.raw(friction, units.UNIT, 32)
+        definition.surface.restitution = units.raw(restitution, units.UNIT, 32)
+        definition.flags, definition.user_data = flags, user_data
+        return self.create_raw_body(definition)
+
+    def create_raw_body(self, definition: BodyDef) -> Body:
+        number = ctypes.c_uint64()
+        lib.lks_create_body(self.handle, byref(definition), byref(number))
+        return Body(self, number.value)
+
+    def create_joint(self, kind: int, a: Body, b: Body, *, at_a: Vector = (0, 0, 0),
+                     at_b: Vector = (0, 0, 0)) -> int:
+        """A joint with its axes as the kind says, between a point of each body; its number."""
+        definition = JointDef()
+        lib.lks_joint_def_init(byref(definition), sizeof(definition), kind, a.number, b.number)
+        definition.frame_a.position, definition.frame_b.position = lengths(at_a), lengths(at_b)
+        return self.create_raw_joint(definition)
+
+    def create_raw_joint(self, definition: JointDef) -> int:
+        number = ctypes.c_uint64()
+        lib.lks_create_joint(self.handle, byref(definition), byref(number))
+        return number.value
+
+    def destroy_joint(self, joint: int) -> None:
+        lib.lks_destroy_joint(self.handle, joint)
+
+    def bodies(self) -> List[Body]:
+        """By ascending index."""
+        return [Body(self, number) for number in self.poses().bodies]
+
+    def poses(self) -> Poses:
+        count = ctypes.c_size_t()
+        lib.lks_bodies(self.handle, self._bodies, self._poses, None, len(self._poses), byref(count))
+        return Poses(memoryview(self._bodies).cast("B").cast("Q"), memoryview(self._poses).cast("B"),
+                     count.value)
+
+    def events(self) -> List[Contact]:
+        """Of the last step."""
+        most = 2 * (self.definition.contact_capacity + self.definition.body_capacity)
+        room = (Event * most)()
+        count = ctypes.c_size_t()
+        lib.lks_events(self.handle, room, most, byref(count))
+        return [Contact(event.kind, Body(self, event.a), Body(self, event.b) if event.b else None,
+                        units.exact(event.approach_speed, units.VELOCITY)) for event in room[:count.value]]
+
+    def cast_ray(self, origin: Vector, way: Vector) -> Optional[RayHit]:
+        """The first body on the way, which is at most 512 m along each axis."""
+        hit = Hit()
+        lib.lks_cast_ray(self.handle, byref(_wide(origin, units.POSITION)), byref(lengths(way)), None,
+                         byref(hit))
+        if hit.body == 0:
+            return None
+        return RayHit(Body(self, hit.body), units.exact(hit.fraction, units.UNIT),
+                      _exact(hit.point, units.POSITION), _exact(hit.normal, units.UNIT))
+
+    def overlap_sphere(self, centre: Vector, radius: Quantity) -> List[Body]:
+        """By ascending index."""
+        room = (ctypes.c_uint64 * self.definition.body_capacity)()
+        count = ctypes.c_size_t()
+        lib.lks_overlap_sphere(self.handle, byref(_wide(centre, units.POSITION)),
+                               units.raw(radius, units.LENGTH, 32), None, room, len(room), byref(count))
+        return [Body(self, number) for number in room[:count.value]]
+
+    def save(self) -> bytes:
+        """The state, for files and other machines."""
+        most = ctypes.c_size_t()
+        lib.lks_snapshot_bytes_max(self.handle, 1, byref(most))
+        room = ctypes.create_string_buffer(most.value)
+        written = ctypes.c_size_t()
+        lib.lks_save(self.handle, 1, room, most.value, byref(written))
+        return room.raw[:written.value]
+
+    def load(self, state: bytes) -> None:
+        """Replaces the state. The bytes may come from anywhere: they are checked first."""
+        lib.lks_load(self.handle, 1, state, len(state))
