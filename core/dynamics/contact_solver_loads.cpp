@@ -48,8 +48,9 @@ bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
   return is_at_rest(rows_[index]);
 }
 
-// Where many contacts are loaded, and a good part of all is new, bodies were just put on each other:
-// the impulses that they stand on are not known yet. Heaps find theirs anew from time to time.
+// Where many contacts are loaded, and a good part of all is new, bodies were just put on each
+// other: the impulses that they stand on are not known yet. Heaps find theirs anew from time to
+// time.
 void ContactSolver::find_first_loads(const ContactScene& scene, Parallel& parallel) {
   first_loads_.clear();
   if (has_heap_ && scene.tick % k_heap_ticks == 0) {

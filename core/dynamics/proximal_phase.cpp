@@ -91,9 +91,9 @@ void ProximalSolver::mark_active(Island& island) {
     if (!problem.has_friction()) continue;
     const std::int64_t limit = pushes ? lanes::friction_limit(problem, problem.impulse) : 0;
     const std::int64_t near = limit - (limit >> k_near_shift);
-    const bool sticks = pushes && !problem.slides &&
-                        lanes::friction_size(problem, problem.impulse) <
-                            static_cast<std::uint64_t>(near * near);
+    const bool sticks =
+        pushes && !problem.slides &&
+        lanes::friction_size(problem, problem.impulse) < static_cast<std::uint64_t>(near * near);
     for (std::size_t i = problem.points; i < problem.rows; ++i)
       mark(problem.active[i], sticks);
   }

@@ -263,12 +263,22 @@ void ProximalSolver::begin_substep(Island& island) {
       }
       const std::int64_t held = island.is_first ? problem.warm[i] : problem.held[i];
       problem.held_centre[i] = held;
-      if (i < contact.points)
-        problem.held_centre[i] -= contact.all[i].leak = std::min(held / k_leak_part, contact.all[i].weight_leak);
+      if (i >= contact.points) continue;
+      ProximalRow& row = contact.all[i];
+      row.leak = std::min(held / k_leak_part, row.weight_leak);
+      problem.held_centre[i] -= row.leak;
     }
   }
   island.warms = island.is_first;
   island.is_first = false;
+}
+
+// The leak drives overlap out: the phase after it, which leaves overlap alone, has none.
+void ProximalSolver::return_leaks(const Island& island) {
+  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
+    for (std::size_t i = 0; i < contacts_[c].points; ++i)
+      problems_[c].held_centre[i] += contacts_[c].all[i].leak;
+  }
 }
 
 // Sets the speeds at which separations close, or overlap is pushed out.
@@ -295,15 +305,15 @@ void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& cont
 // Chooses the phase's units. Returns false where nothing moves or pushes.
 bool ProximalSolver::set_units(Island& island) {
   const std::span<const Problem> problems = problems_of(island);
-  const std::uint64_t most =
-      lanes::proximal_kernels().magnitudes(problems.data(), problems.size());
+  const std::uint64_t most = lanes::proximal_kernels().magnitudes(problems.data(), problems.size());
   if (most == 0) return false;
   const int finest = k_row_unit_bits + k_start_bits - static_cast<int>(std::bit_width(most));
   island.bits = std::clamp(finest, k_least_bits, k_most_bits);
   return true;
 }
 
-// Of a contact: what its impulses gained in the phase, at its centre; bodies gain what gives them.
+// Adds a contact's gain of impulse in the phase to its blocks, and the change of motion that
+// follows to the gains of its bodies.
 void ProximalSolver::give_contact(const ContactRun& run, int bits, ProximalContact& contact,
                                   Problem& problem, Gain& a, Gain& b) {
   ManifoldBlock& block = run.blocks[contact.block()];
@@ -384,8 +394,7 @@ void ProximalSolver::give(const ContactRun& run, Island& island) {
 // Speeds follow what the phase gave to bodies.
 void ProximalSolver::follow(Island& island) {
   const std::span<Problem> problems = problems_of(island);
-  lanes::proximal_kernels().follow(problems.data(), problems.size(),
-                                   of(velocities_, island).data(),
+  lanes::proximal_kernels().follow(problems.data(), problems.size(), of(velocities_, island).data(),
                                    30 + island.bits - k_row_unit_bits);
 }
 
@@ -394,8 +403,7 @@ void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool push
   if (pushes_out)
     begin_substep(island);
   else
-    for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
-      for (std::size_t i = 0; i < contacts_[c].points; ++i) problems_[c].held_centre[i] += contacts_[c].all[i].leak;
+    return_leaks(island);
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
     set_bias(run, contacts_[c], problems_[c], pushes_out);
   if (!set_units(island)) return;

@@ -25,8 +25,8 @@ namespace lockstone {
 
 class ProximalSolver {
  public:
-  /// Room for so many bodies and contacts of islands, whose bodies are among the first `rows` of the
-  /// solver. No function but this allocates.
+  /// Room for so many bodies and contacts of islands, whose bodies are among the first `rows` of
+  /// the solver. No function but this allocates.
   [[gnu::cold]] ProximalSolver(std::size_t rows, std::size_t body_capacity,
                                std::size_t contact_capacity);
 
@@ -94,6 +94,7 @@ class ProximalSolver {
   static void measure(const ContactRun& run, const PreparedRows& prepared,
                       const ProximalContact& contact, Problem& problem);
   void begin_substep(Island& island);
+  void return_leaks(const Island& island);
   static void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
                        bool pushes_out);
   [[nodiscard]] bool set_units(Island& island);

@@ -70,8 +70,8 @@ TEST(Stack, OfTenBoxesStandsForAMinute) {
   expect_stack_stands_for_a_minute(10, 3e-4, 1e-6);
 }
 
-// All impulses of an island share one unit, 2^-27 of the greatest: the lowest box carries forty, and
-// rounding turns it by 4e-9 rad a second.
+// All impulses of an island share one unit, 2^-27 of the greatest: the lowest box carries forty,
+// and rounding turns it by 4e-9 rad a second.
 TEST(Stack, OfFortyBoxesLosesNoMillimetreInAMinute) {
   expect_stack_stands_for_a_minute(40, 1e-3, 2e-5);
 }

@@ -44,8 +44,8 @@ struct WorldDef {
   /// that fit take their places in the order of their bodies' ids, the others are iterated:
   /// docs/solver.md. Each takes about 5 kB.
   std::uint32_t converged_contacts = 2048;
-  std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
-  std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
+  std::uint16_t tick_rate = 60;  ///< ticks per second, 10 … 480
+  std::uint8_t substeps = 4;     ///< solver steps a tick, 1 … 16
   std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does
   Length sleep_distance = Length::from_ratio(1, 200);  ///< a body at rest moves less, 1 mm … 1 m
   BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it

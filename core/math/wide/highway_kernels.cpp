@@ -54,7 +54,6 @@ LKS_ISLAND_KERNELS(N_WASM)
 constexpr const ProximalKernels* k_island_kernels = &k_scalar_proximal;
 #endif
 
-
 #if defined(__x86_64__)
 #if HWY_TARGETS & HWY_SSE4
 LKS_BLOCK_KERNELS(N_SSE4)

@@ -14,8 +14,8 @@
 #include "core/math/wide/lanes_inl.h"
 #endif
 
-// An island's rows are eight at most, and each set of these kernels is 20 kB of every program: on x86
-// that of AVX2 serves wider processors too, and narrower ones have the scalar twins.
+// An island's rows are eight at most, and each set of these kernels is 20 kB of every program: on
+// x86 that of AVX2 serves wider processors too, and narrower ones have the scalar twins.
 #if defined(LKS_SCALAR_TWIN) || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_NEON || \
     HWY_TARGET == HWY_WASM
 HWY_BEFORE_NAMESPACE();
@@ -45,8 +45,8 @@ HWY_INLINE HWY_ATTR std::uint64_t all_bits(Lanes x) {
 }
 
 /// J·u of the rows in lanes, Q30.
-HWY_INLINE HWY_ATTR Lanes row_dots(const ProximalBlock& block, std::size_t lane,
-                                   const BlockWord& a, const BlockWord& b) {
+HWY_INLINE HWY_ATTR Lanes row_dots(const ProximalBlock& block, std::size_t lane, const BlockWord& a,
+                                   const BlockWord& b) {
   Lanes of_a = broadcast(0), of_b = broadcast(0);
   for (std::size_t i = 0; i < k_body_words; ++i) {
     const Lanes side = load(&block.sides[i][lane]);
@@ -267,8 +267,7 @@ HWY_ATTR bool add_changes(const ProximalBlock* blocks, std::size_t count, BlockW
   return all_bits(off) == 0;
 }
 
-HWY_ATTR void follow(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies,
-                     int shift) {
+HWY_ATTR void follow(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies, int shift) {
   constexpr std::int64_t k_most_kept = std::int64_t{1} << 58;
   const Shift rounded(shift > 0 ? shift : 1);
   for (ProximalBlock* block = blocks; block != blocks + count; ++block) {

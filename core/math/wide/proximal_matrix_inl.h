@@ -83,8 +83,7 @@ HWY_INLINE HWY_ATTR void divide_by(const BodyBlock& diagonal, const FactorColumn
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
       Lanes sum = load(&block.words[j][lane]);
       for (std::size_t k = 0; k < j; ++k)
-        sum = multiply_subtract(sum, load(&block.words[k][lane]),
-                                broadcast(diagonal.words[k][j]));
+        sum = multiply_subtract(sum, load(&block.words[k][lane]), broadcast(diagonal.words[k][j]));
       const Lanes entry = within(round_shift<30>(sum), INT32_MAX);
       store(within(by_pivot(multiply(entry, mantissa)), INT32_MAX), &block.words[j][lane]);
     }
@@ -99,8 +98,7 @@ HWY_INLINE HWY_ATTR void divide_by(const BodyBlock& diagonal, const FactorColumn
   }
 }
 
-HWY_INLINE HWY_ATTR void subtract_product(const BodyBlock& x, const BodyBlock& y,
-                                          BodyBlock& from) {
+HWY_INLINE HWY_ATTR void subtract_product(const BodyBlock& x, const BodyBlock& y, BodyBlock& from) {
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
     Lanes rows[k_body_words];
     for (std::size_t k = 0; k < k_body_words; ++k)
