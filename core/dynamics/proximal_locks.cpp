@@ -100,12 +100,11 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
   };
   const ProximalJoint pair{root_of(joint.a), root_of(joint.b), joint.share_a, joint.share_b,
                            mass_scale(group.unit, joint.inverse_mass)};
-  joint.count = rows.size();
+  joint.count = static_cast<std::uint32_t>(rows.size());
+  joint.used = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if ((left_out >> i & 1) == 0)
-      find_proximal_lock(rows[i], pair, joint.rows[i]);
-    else
-      joint.rows[i].is_void = true;
+    if ((left_out >> i & 1) == 0 && find_proximal_lock(rows[i], pair, joint.rows[i]))
+      joint.used |= 1U << i;
   }
 }
 
@@ -113,8 +112,9 @@ void ProximalLocks::add_to_factor(const Group& group, const Joint& joint) {
   const bool has_a = joint.a != End::k_unpushed, has_b = joint.b != End::k_unpushed;
   const BodyFactor::Place place =
       has_a && has_b ? factor_.find(group.plan, joint.a, joint.b) : BodyFactor::Place{};
-  for (const ProximalLock& lock : std::span(joint.rows).first(joint.count)) {
-    if (lock.is_void) continue;
+  for (std::size_t i = 0; i < joint.count; ++i) {
+    const ProximalLock& lock = joint.rows[i];
+    if (!joint.uses(i)) continue;
     if (has_a) factor_.add(factor_.diagonal(group.plan, joint.a), lock.a, lock.a, k_weight);
     if (has_b) factor_.add(factor_.diagonal(group.plan, joint.b), lock.b, lock.b, k_weight);
     if (!has_a || !has_b) continue;
@@ -143,7 +143,7 @@ void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t r
 void ProximalLocks::add_changes(const Group& group, const Joint& joint, int bits) {
   for (std::size_t i = 0; i < joint.count; ++i) {
     const ProximalLock& lock = joint.rows[i];
-    if (lock.is_void) continue;
+    if (!joint.uses(i)) continue;
     const std::int64_t x = -lock.to_speed.times(joint.errors[i], 50 - bits);
     if (joint.a != End::k_unpushed)
       add_along(changes_[group.plan.first_column + joint.a], lock.a, x);
@@ -162,12 +162,12 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
   return factor_.solve(group.plan, x);
 }
 
-// −(r + J·x)/γ
+// −(r + J·x)/γ.
 void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) const {
   for (std::size_t i = 0; i < joint.count; ++i) {
     ProximalLock& lock = joint.rows[i];
     lock.impulse = 0;
-    if (lock.is_void) continue;
+    if (!joint.uses(i)) continue;
     std::int64_t left = lock.to_speed.times(joint.errors[i], 50 - bits) * k_one;
     if (joint.a != End::k_unpushed)
       left += row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
@@ -183,7 +183,7 @@ int ProximalLocks::coarsest_bits(const Group& group) {
   std::uint64_t most = 0;
   for (const Joint& joint : joints_of(group))
     for (std::size_t i = 0; i < joint.count; ++i)
-      if (!joint.rows[i].is_void)
+      if (joint.uses(i))
         most |= magnitude(joint.rows[i].to_speed.times(joint.errors[i], 50 - k_finest_bits));
   return k_finest_bits - static_cast<int>(std::bit_width(most));
 }

@@ -73,9 +73,12 @@ class ProximalLocks {
     std::uint32_t a = End::k_unpushed, b = End::k_unpushed;
     std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
     BlockFloat inverse_mass{};              // of the pair
-    std::size_t count = 0;                  // of rows
+    std::uint32_t count = 0;                // of rows
+    std::uint32_t used = 0;                 // a bit for each row that may get an impulse
     std::array<ProximalLock, k_max_joint_rows> rows{};
     std::array<std::int64_t, k_max_joint_rows> errors{};
+
+    [[nodiscard]] bool uses(std::size_t row) const { return (used >> row & 1) != 0; }
   };
   struct Group {
     BodyFactor::Plan plan;

@@ -170,14 +170,13 @@ RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
   return RowScale::of(isqrt_rounded(ratio << 30), (shift + 30) / 2);
 }
 
-void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
+bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
   constexpr std::int64_t k_least_length = k_whole_q30 >> 16;
   const Sides sides{
       scaled_side(row.linear_a, row.angular_a, joint.root_a, root_of(joint.share_a << 30)),
       scaled_side(row.linear_b, row.angular_b, joint.root_b, root_of(joint.share_b << 30))};
   const std::int64_t length = length_of(sides);
-  lock.is_void = length < k_least_length;
-  if (lock.is_void) return;
+  if (length < k_least_length) return false;
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
   for (std::size_t i = 0; i < 6; ++i) {
     lock.a[i] = static_cast<std::int32_t>(scaled_entry(sides.a[i], inverse));
@@ -187,6 +186,7 @@ void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, Proxima
   lock.own = product_rounded(length, length, 30);
   lock.to_speed = joint.mass * norm.reciprocal();
   lock.to_impulse = (joint.mass * norm).reciprocal();
+  return true;
 }
 
 InertiaRoot inertia_root(const InverseInertia& m) {

@@ -70,7 +70,6 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
 struct ProximalLock {
   RowSide a{}, b{};               // Q30; 0 of what nothing pushes
   RowScale to_speed, to_impulse;  // as ProximalRow's
-  bool is_void = false;           // nothing moves along it
   std::int64_t own = 0;           // response to itself, Q30
   std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
 };
@@ -85,8 +84,9 @@ struct ProximalJoint {
 /// √(mass of the pair / m₀), from both inverse masses.
 [[nodiscard]] RowScale mass_scale(BlockFloat unit, BlockFloat inverse);
 
-/// Reads a joint's row and its scales.
-void find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock);
+/// Reads a joint's row and its scales. Returns false where nothing moves along it.
+[[nodiscard]] bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint,
+                                      ProximalLock& lock);
 
 /// How soft the rows are: overloaded contacts, by more than 400 times `weight` (a body's impulse in
 /// a substep, m/s, Q32), give less.

@@ -319,7 +319,7 @@ void measure_snapshot_sizes(Skips& skips) {
 // The memory that a world takes for one more of each object that its definition counts.
 void measure_memory(Skips& skips) {
   if (heap_bytes() == 0) return;
-  // Above what the converged solver takes of them by default: that is a count of its own.
+  // Above the default count of converged contacts, which is measured by itself.
   constexpr std::uint32_t k_few = 2048, k_more = 10'240;
   const auto bytes_of = [](const WorldDef& def) {
     const std::uint64_t before = heap_bytes();
