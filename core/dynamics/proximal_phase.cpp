@@ -207,7 +207,7 @@ bool ProximalSolver::converge(Island& island, bool scales) {
   island.fits = true;
   const std::span<Problem> problems = problems_of(island);
   lanes::proximal_kernels().begin_phase(problems.data(), problems.size(),
-                                        k_row_unit_bits - island.bits);
+                                        k_row_unit_bits - island.bits, island.loose);
   std::ranges::fill(of(velocities_, island), BodyVector{});
   if (scales) scale_warm_start(island);
   iterate(island);
@@ -224,7 +224,7 @@ bool ProximalSolver::move_centres(Island& island) {
   for (Problem& problem : problems_of(island)) {
     for (std::size_t i = 0; i < problem.points && !moves; ++i) {
       const std::int64_t give = problem.give[i] * (problem.impulse[i] - problem.centre[i]);
-      moves = raw::round_shift(give, 30) > k_most_give * problem.tolerance[i];
+      moves = raw::round_shift(give, 30) > k_most_give * (problem.tolerance[i] >> island.loose);
     }
   }
   if (moves)

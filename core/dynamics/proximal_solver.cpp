@@ -20,8 +20,9 @@ using lanes::scalar::pack;
 constexpr int k_start_bits = 27;
 constexpr int k_most_bits = k_row_unit_bits - 1, k_least_bits = 2;
 constexpr int k_coarser_bits = 5;
-// A change of speed is none below this, m/s, Q50.
+// A change of speed is none below this, m/s, Q50, nor below 2^-k_loose_bits of an approach.
 constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
+constexpr int k_loose_bits = 6;
 
 // The leak of a normal's centre, at most: a tenth of its impulse, and half of the row's own weight.
 constexpr std::int64_t k_leak_part = 10;
@@ -302,6 +303,22 @@ void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& cont
   }
 }
 
+// An impact need not be solved as finely as rest: nothing is solved below 2^-k_loose_bits of the
+// fastest approach with which the substep began.
+void ProximalSolver::loosen(Island& island) {
+  const auto width = [](std::int64_t x) {
+    return static_cast<int>(
+        std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(x, 0))));
+  };
+  int most = 0;
+  for (const Problem& problem : problems_of(island)) {
+    for (std::size_t i = 0; i < problem.points; ++i)
+      most = std::max(
+          most, width(-(problem.moved[i] + problem.bias[i])) - width(problem.least_change[i]));
+  }
+  island.loose = std::max(most - k_loose_bits, 0);
+}
+
 // Chooses the phase's units. Returns false where nothing moves or pushes.
 bool ProximalSolver::set_units(Island& island) {
   const std::span<const Problem> problems = problems_of(island);
@@ -406,6 +423,7 @@ void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool push
     return_leaks(island);
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
     set_bias(run, contacts_[c], problems_[c], pushes_out);
+  loosen(island);
   if (!set_units(island)) return;
   while (!converge(island, pushes_out) && island.bits >= k_least_bits + k_coarser_bits)
     island.bits -= k_coarser_bits;

@@ -63,6 +63,7 @@ class ProximalSolver {
     std::uint32_t first_contact = 0;
     std::uint32_t contacts = 0;
     int bits = 0;               // fraction bits of the phase's units
+    int loose = 0;              // the phase's tolerance is 2^this times the least
     int drop = 0;               // bits of residuals that the direct step at hand leaves out
     bool fits = true;           // so far nothing in the phase had to be clamped
     bool is_solved = false;     // by the last direct step
@@ -95,6 +96,7 @@ class ProximalSolver {
                       const ProximalContact& contact, Problem& problem);
   void begin_substep(Island& island);
   void return_leaks(const Island& island);
+  void loosen(Island& island);
   static void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
                        bool pushes_out);
   [[nodiscard]] bool set_units(Island& island);

@@ -105,8 +105,9 @@ struct MatrixPlaces {
 struct ProximalKernels {
   /// The bits of all magnitudes that a phase begins with, kept.
   std::uint64_t (*magnitudes)(const ProximalBlock* blocks, std::size_t count);
-  /// Sets the phase's words from the kept ones, `down` ≥ 1 bits coarser.
-  void (*begin_phase)(ProximalBlock* blocks, std::size_t count, int down);
+  /// Sets the phase's words from the kept ones, `down` ≥ 1 bits coarser; a change is none below
+  /// 2^loose of its least.
+  void (*begin_phase)(ProximalBlock* blocks, std::size_t count, int down, int loose);
   /// One pass of projected Gauss-Seidel; bodies are the changes of velocity in the phase.
   PhaseResult (*pass)(ProximalBlock* blocks, std::size_t count, BlockWord* bodies);
   /// Residuals of all rows. Returns the bits of all magnitudes that a direct step reads.

@@ -90,8 +90,8 @@ HWY_ATTR std::uint64_t magnitudes(const ProximalBlock* blocks, std::size_t count
   return all_bits(most);
 }
 
-HWY_ATTR void begin_phase(ProximalBlock* blocks, std::size_t count, int down) {
-  const Shift coarser(down);
+HWY_ATTR void begin_phase(ProximalBlock* blocks, std::size_t count, int down, int loose) {
+  const Shift coarser(down), less_coarse(down - loose > 1 ? down - loose : 1);
   for (ProximalBlock* block = blocks; block != blocks + count; ++block) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
       const Lanes speed = add(load(&block->moving[lane]), load(&block->bias[lane]));
@@ -100,7 +100,8 @@ HWY_ATTR void begin_phase(ProximalBlock* blocks, std::size_t count, int down) {
       store(impulse, &block->impulse[lane]);
       store(impulse, &block->start[lane]);
       store(within(coarser(load(&block->held_centre[lane])), k_most_unit), &block->centre[lane]);
-      store(max(coarser(load(&block->least_change[lane])), broadcast(1)), &block->tolerance[lane]);
+      store(max(less_coarse(load(&block->least_change[lane])), broadcast(1)),
+            &block->tolerance[lane]);
     }
   }
 }
