@@ -1,5 +1,5 @@
-// Scenes that only a converged solution of contacts, or of the locks of joints, holds: of builds
-// with LOCKSTONE_CONVERGED_ISLANDS.
+// Scenes that only a converged solution of contacts, or of the locks of joints, holds
+// (WorldDef::converged_contacts).
 
 #include <cmath>
 #include <numbers>

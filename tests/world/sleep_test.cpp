@@ -43,9 +43,9 @@ TEST(Sleep, TakesAWholeIslandInOneTickAndTellsByEvents) {
   EXPECT_TRUE(all_asleep(world, stack));
 }
 
-// Where too many contacts of an island are overloaded for a direct solve, and the boxes settle on
-// each other little by little, the lower boxes sink under the weight before their contacts'
-// impulses have grown, and come up again. A plate that may move makes one island of the stacks.
+// Where an island is not solved to convergence, and the boxes settle on each other little by
+// little, the lower boxes sink under the weight before their contacts' impulses have grown, and
+// come up again. A plate that may move makes one island of the stacks.
 TEST(Sleep, WaitsForWhatIsPushedOut) {
   World world = test::make_world({.body_capacity = 256, .converged_contacts = 0});
   test::add_ground(world);

@@ -1,4 +1,4 @@
-// How far a symmetric scene leaves its symmetry: docs/solver.md, "What symmetry is kept".
+// How far a symmetric scene leaves its symmetry: docs/solver.md, "Symmetry".
 
 #include <cmath>
 
