@@ -137,6 +137,10 @@ TEST(WideKernels, MeetBoxesAsTheScalarTwinDoes) {
   EXPECT_EQ(test::check_boxes(run_seed()), "");
 }
 
+TEST(WideKernels, SolveIslandsAsTheScalarTwinDoes) {
+  EXPECT_EQ(test::check_proximal(run_seed()), "");
+}
+
 TEST(WideKernels, MakeTheMatricesOfToMatrix) {
   EXPECT_EQ(test::check_rotations(run_seed()), "");
 }
