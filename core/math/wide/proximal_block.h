@@ -65,12 +65,16 @@ struct alignas(64) ProximalBlock {
   bool slides = false;                   // friction's last pass wanted more than its limit
 
   [[nodiscard]] bool has_friction() const { return limits[0] != 0; }
+
+  friend bool operator==(const ProximalBlock&, const ProximalBlock&) = default;
 };
 
 /// A 6 × 6 block G. While sums are gathered word k holds column k. Once factored its lane i holds
 /// pack(G[i][k], G[k][i]), Q30.
 struct alignas(64) BodyBlock {
   BlockWord words[k_body_words]{};
+
+  friend bool operator==(const BodyBlock&, const BodyBlock&) = default;
 };
 
 /// A block under the diagonal of a column: its row, and where it stands.
@@ -92,6 +96,8 @@ struct FactorColumn {
 struct PhaseResult {
   bool done = false;  // a pass: no change as great as the tolerance; a step: it is the solution
   bool fits = true;   // nothing had to be clamped
+
+  friend bool operator==(const PhaseResult&, const PhaseResult&) = default;
 };
 
 /// Where the blocks of a contact's bodies are in the matrix; null for bodies that nothing moves.

@@ -95,7 +95,8 @@ using Lane = std::int64_t;
   return static_cast<Lane>(bits(x) + half - (bits(x) >> 63)) >> shift;
 }
 
-/// x · 2^-shift to nearest, ties away from zero: the whole word. 1 ≤ shift ≤ 62.
+/// x · 2^-shift to nearest, ties away from zero: the whole word. 1 ≤ shift ≤ 62 and
+/// x < 2^63 − 2^(shift − 1).
 [[nodiscard]] constexpr Lane round_shift(Lane x, int shift) {
   const std::uint64_t half = std::uint64_t{1} << (shift - 1);
   return static_cast<Lane>(bits(x) + half - (bits(x) >> 63)) >> shift;
