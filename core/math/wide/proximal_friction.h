@@ -6,6 +6,7 @@
 
 #include <lockstone/fixed.h>
 
+#include "core/math/int128.h"
 #include "core/math/roots.h"
 #include "core/math/wide/proximal_block.h"
 
@@ -20,18 +21,34 @@ namespace lockstone::lanes {
   return std::min(sum, k_most_unit);
 }
 
-/// The size of friction, squared, < 2^63.
+/// The twist's impulse in units of the tangents.
+[[nodiscard]] inline std::int64_t twist_in_tangents(const ProximalBlock& block,
+                                                    const BlockWord& impulses) {
+  if (block.rows < block.points + 3) return 0;
+  return raw::round_shift(impulses[block.points + 2] * block.twist_ratio, k_friction_point);
+}
+
+/// The size of friction, squared, < 2^63; where the twist alone is beyond every limit, only that
+/// much of it counts.
 [[nodiscard]] inline std::uint64_t friction_size(const ProximalBlock& block,
                                                  const BlockWord& impulses) {
-  std::uint64_t square = 0;
-  for (std::size_t i = block.points; i < block.rows; ++i) {
-    std::int64_t x = impulses[i];
-    if (i == block.points + 2)
-      x = std::clamp(raw::round_shift(x * block.twist_ratio, k_friction_point), -k_most_unit,
-                     k_most_unit);
-    square += static_cast<std::uint64_t>(x * x);
-  }
-  return square;
+  const std::int64_t twist =
+      std::clamp(twist_in_tangents(block, impulses), -k_most_unit - 1, k_most_unit + 1);
+  const std::int64_t t = impulses[block.points], b = impulses[block.points + 1];
+  return static_cast<std::uint64_t>(t * t) + static_cast<std::uint64_t>(b * b) +
+         static_cast<std::uint64_t>(twist * twist);
+}
+
+/// The size of friction, however great: < 2^42.
+[[nodiscard]] inline std::int64_t friction_length(const ProximalBlock& block,
+                                                  const BlockWord& impulses) {
+  const std::int64_t twist = twist_in_tangents(block, impulses);
+  if (magnitude(twist) <= magnitude(k_most_unit))
+    return static_cast<std::int64_t>(isqrt_rounded(friction_size(block, impulses)));
+  UInt128 sum = multiply_wide(magnitude(twist), magnitude(twist));
+  for (const std::size_t i : {block.points, block.points + 1})
+    sum = sum + multiply_wide(magnitude(impulses[i]), magnitude(impulses[i]));
+  return static_cast<std::int64_t>(isqrt128_rounded(sum));
 }
 
 /// Shortens friction to its limit. Returns how much it was longer.
@@ -39,7 +56,7 @@ inline std::int64_t shorten_friction(const ProximalBlock& block, BlockWord& impu
   const std::int64_t limit = friction_limit(block, impulses);
   const std::uint64_t square = friction_size(block, impulses);
   if (square <= static_cast<std::uint64_t>(limit * limit)) return 0;
-  const auto size = static_cast<std::int64_t>(isqrt_rounded(square));
+  const std::int64_t size = friction_length(block, impulses);
   const std::int64_t part = (limit << 31) / std::max<std::int64_t>(size, 1);
   for (std::size_t i = block.points; i < block.rows; ++i)
     impulses[i] = raw::round_shift(impulses[i] * part, 31);
