@@ -71,7 +71,7 @@ Step couple_step() {
 Step begin_step(int down) {
   return {"begin_phase", [down](const ProximalKernels& kernels, Scene& scene) {
             scene.bits = kernels.magnitudes(scene.blocks.data(), scene.blocks.size());
-            kernels.begin_phase(scene.blocks.data(), scene.blocks.size(), down);
+            kernels.begin_phase(scene.blocks.data(), scene.blocks.size(), down, down / 3);
           }};
 }
 
