@@ -427,6 +427,9 @@ void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool push
   if (!set_units(island)) return;
   while (!converge(island, pushes_out) && island.bits >= k_least_bits + k_coarser_bits)
     island.bits -= k_coarser_bits;
+  if (island.warms)
+    for (Problem& problem : problems_of(island))
+      problem.warm = {};
   island.warms = false;
   give(run, island);
   follow(island);

@@ -49,7 +49,7 @@ struct alignas(64) ProximalBlock {
   BlockWord residual{};   // as of the direct step at hand, k_residual_point bits more
   BlockWord next{};       // impulse that the direct step proposes
 
-  BlockWord warm{};          // kept: impulse as the tick before ended
+  BlockWord warm{};          // kept: impulse as the tick before ended; 0 after the first phase
   BlockWord held{};          // kept: impulse
   BlockWord held_centre{};   // kept: centre
   BlockWord moving{};        // kept: speed

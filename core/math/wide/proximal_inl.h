@@ -85,6 +85,7 @@ HWY_ATTR std::uint64_t magnitudes(const ProximalBlock* blocks, std::size_t count
       const Lanes speed = add(load(&block->moving[lane]), load(&block->bias[lane]));
       most = bit_or(most, without_sign(speed));
       most = bit_or(most, without_sign(load(&block->held[lane])));
+      most = bit_or(most, without_sign(load(&block->warm[lane])));
     }
   }
   return all_bits(most);

@@ -146,7 +146,7 @@ TEST(ProximalKernels, BeginAPhaseInUnitsThatAreCoarser) {
       EXPECT_EQ(block.centre[r], coarse(block.held_centre[r]));
       const Exact tolerance = rounded(block.least_change[r], std::max(down - loose, 1));
       EXPECT_EQ(block.tolerance[r], std::max<Exact>(tolerance, 1));
-      for (const std::int64_t x : {speed, block.held[r]})
+      for (const std::int64_t x : {speed, block.held[r], block.warm[r]})
         most = std::max(most, static_cast<std::uint64_t>(x < 0 ? -(x + 1) : x));
     }
     EXPECT_EQ(std::bit_width(k_kernels.magnitudes(&block, 1)), std::bit_width(most));
