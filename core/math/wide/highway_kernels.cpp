@@ -8,8 +8,8 @@
 
 #include "core/math/wide/kernel_table.h"
 
-// What Highway falls back to has one lane and other rules for products: there we use our scalar
-// twins.
+// Highway's fallback targets have one lane and other rules for products: our scalar twins replace
+// them.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "core/math/wide/ball_block_inl.h"
 #include "core/math/wide/box_block_inl.h"

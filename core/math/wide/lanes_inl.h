@@ -1,5 +1,5 @@
-// Lanes on Highway: as many 64-bit words side by side as a vector of the target holds. What each
-// operation means stands in scalar_lanes.h; the tests hold the two together, bit for bit.
+// Lanes on Highway: as many 64-bit words side by side as a vector of the target holds.
+// scalar_lanes.h defines each operation; tests compare the two bit for bit.
 //
 // Compiled once for each target, hence the guard that Highway resets between targets.
 #if defined(LKS_WIDE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -52,7 +52,7 @@ HWY_INLINE HWY_ATTR Lanes subtract(Lanes a, Lanes b) {
   return hn::Sub(a, b);
 }
 
-/// The upper operand, copied to the lower half. A shuffle, for shifts are what ports are short of.
+/// The upper operand, copied to the lower half, by a shuffle: fewer ports execute shifts.
 HWY_INLINE HWY_ATTR Lanes upper(Lanes x) {
   return hn::BitCast(k_words, hn::DupOdd(hn::BitCast(Operands(), x)));
 }

@@ -1,5 +1,5 @@
-// Lanes of one word, by plain integers: what lets a kernel's text be its own scalar twin. Each
-// operation is that of scalar_lanes.h, under the name that lanes_inl.h gives it.
+// Lanes of one word, by plain integers: with them a kernel's source also compiles to its scalar
+// twin. Each operation is that of scalar_lanes.h, under its name in lanes_inl.h.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include "core/math/wide/scalar_lanes.h"
 
-// What Highway's macros say of a target, said of plain code.
+// Highway's macros, defined for plain code.
 #define HWY_NAMESPACE N_SCALAR_TWIN
 #define HWY_ATTR
 #define HWY_INLINE inline

@@ -44,7 +44,7 @@ struct alignas(64) ProximalBlock {
   BlockWord speed{};      // of the phase: with the bias, as it began
   BlockWord impulse{};    // of the phase
   BlockWord start{};      // impulse as the phase began
-  BlockWord centre{};     // of the phase: what the impulse is pulled towards
+  BlockWord centre{};     // of the phase: the impulse that the compliance pulls towards
   BlockWord tolerance{};  // of the phase: a lesser change is none
   BlockWord residual{};   // as of the direct step at hand, k_residual_point bits more
   BlockWord next{};       // impulse that the direct step proposes
@@ -92,7 +92,7 @@ struct FactorColumn {
   std::array<std::int32_t, k_body_words> shifts{};
 };
 
-/// What became of a pass or a direct step.
+/// The result of a pass or a direct step.
 struct PhaseResult {
   bool done = false;  // a pass: no change as great as the tolerance; a step: it is the solution
   bool fits = true;   // nothing had to be clamped
@@ -133,7 +133,8 @@ struct ProximalKernels {
   void (*couple)(ProximalBlock& block);
   /// Adds Σ weight·Jᵀ·J of the active rows to sums, Q50.
   void (*add_to_matrix)(const ProximalBlock& block, const MatrixPlaces& places);
-  /// The blocks under a diagonal that is factored, and what they take from those to their right.
+  /// Computes the blocks under a factored diagonal, and takes their products from the blocks to
+  /// their right.
   void (*eliminate)(BodyBlock* blocks, const FactorColumn& column, const BodyBlock& diagonal,
                     const BelowDiagonal* below, const std::uint32_t* targets);
   /// Takes the products of a column's blocks and x from the rows below. Returns whether they fit.

@@ -55,7 +55,7 @@ using Lane = std::int64_t;
   return static_cast<Lane>(bits(x) & 0xffU);
 }
 
-/// x · 2^shift, 0 ≤ shift ≤ 63; what leaves the word is lost.
+/// x · 2^shift, 0 ≤ shift ≤ 63; bits beyond the word are lost.
 [[nodiscard]] constexpr Lane shift_left(Lane x, int shift) {
   return static_cast<Lane>(bits(x) << shift);
 }

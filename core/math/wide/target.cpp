@@ -72,7 +72,8 @@ const Kernels& current() {
   return kernels != nullptr ? *kernels : *supported().kernels[supported().count - 1];
 }
 
-// Wide vectors take longer than narrow ones, whatever they hold. What is forced stays so.
+// The narrowest target that holds all items at once, or the forced one: wide vectors take longer
+// than narrow ones, even when most lanes are empty.
 const Kernels& narrowest_for(std::size_t items) {
   if (const Kernels* kernels = forced.load(std::memory_order_relaxed)) return *kernels;
   const auto all = std::span(supported().kernels).first(supported().count);
