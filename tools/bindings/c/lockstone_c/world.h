@@ -58,7 +58,7 @@ LKS_API lks_status lks_config_hash(const lks_world_def* def, const lks_assets* a
 /* Steps on this many threads from here on, 1 … 64, the calling one included. Changes no result. */
 LKS_API lks_status lks_world_set_threads(lks_world* world, uint32_t threads);
 
-/* What one step did. The same on every peer. */
+/* The result of one step. The same on every peer. */
 typedef struct lks_step_report {
   uint32_t size;
   lks_status status; /* LKS_CAPACITY_EXHAUSTED: pairs were left out, alike everywhere */

@@ -160,7 +160,7 @@ _CALLS = {
     "lks_load": [_WORLD, c_uint32, c_char_p, c_size_t],
     "lks_verify_log": [c_char_p, POINTER(LogReport)],
 }
-# The others: what they return, and their arguments.
+# The others: types of the result and of the arguments.
 _OTHERS = {
     "lks_status_name": (c_char_p, [c_int32]),
     "lks_last_error": (c_char_p, []),
