@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_matrix_sum_bits = 50, k_entry_bits = 30;
 
-// A pivot is not taken to be smaller, Q60: rounding may leave it below what it is.
+// The least value of a pivot, Q60: rounding may leave a pivot below its exact value.
 constexpr std::int64_t k_least_factor_pivot = std::int64_t{1} << 34;
 
 constexpr std::uint32_t k_eliminated = 0xffffffff;

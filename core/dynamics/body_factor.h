@@ -19,7 +19,7 @@
 
 namespace lockstone {
 
-/// The six velocities of a body in an island's problem, or what is added to them; two more are 0.
+/// The six velocities of a body in an island's problem, or changes of them; two more words are 0.
 using BodyVector = lanes::BlockWord;
 
 /// One side of a row, Q30.
@@ -76,7 +76,8 @@ class BodyFactor {
 
   void factor(const Plan& plan);
 
-  /// Solves K·x = b, by body. Returns whether all of it fits in 31 bits; what does not is clamped.
+  /// Solves K·x = b, by body. Returns whether all of x fits in 31 bits; words that do not fit are
+  /// clamped.
   [[nodiscard]] bool solve(const Plan& plan, std::span<BodyVector> b);
 
  private:

@@ -1,8 +1,8 @@
-// The contact solver of one tick: bodies, colours, blocks of constraints and the sweeps over them.
+// The contact solver of one tick: bodies, colours, blocks of constraints and iterations over them.
 //
 // Source of the method: E. Catto, "Solver2D", 2024 (the soft-step solver): each substep integrates
 // velocities, starts warm, solves with soft bias, integrates positions and relaxes without bias.
-// What differs is told in docs/solver.md.
+// docs/solver.md lists the differences.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ namespace lockstone {
 class JointSolver;
 struct JointRun;
 
-/// What the solver reads of a world. The manifold and the surfaces of record i are in slot
+/// The solver's inputs from a world. The manifold and the surfaces of record i are in slot
 /// slots[i]; those of triggers are left out.
 struct ContactScene {
   std::span<const BodyRecord> bodies;
@@ -66,12 +66,12 @@ class ContactSolver {
   /// All substeps.
   void run(Parallel& parallel);
 
-  /// Writes what each point ended with, and whether the surfaces met, to the records, and the
+  /// Writes the last impulses of each point, and whether the surfaces met, to the records, and the
   /// fastest approach of each to `approaches`.
   void store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
              std::span<SolverVelocity> approaches, Parallel& parallel);
 
-  /// Writes what each joint ended with to the records.
+  /// Writes the last impulses of each joint to the records.
   void store_joints(std::span<const JointLink> links, std::span<JointRecord> joints,
                     Parallel& parallel) const;
 
@@ -104,7 +104,7 @@ class ContactSolver {
   // Added to the number of a body that never moves.
   static constexpr std::uint32_t k_immovable = 0x80000000;
 
-  // A heap finds what it carries anew every so many ticks.
+  // Ticks from one stack rebalance to the next.
   static constexpr std::uint64_t k_heap_ticks = 64;
 
   // Blocks of one colour.
@@ -136,10 +136,10 @@ class ContactSolver {
     std::uint8_t color = 0;
     std::uint8_t substep = 0;
   };
-  // What preparation has at hand.
+  // Working memory of preparation.
   struct Scratch {
     lanes::ManifoldSources sources;
-    SolverBody fixed_a, fixed_b;  // of what never moves
+    SolverBody fixed_a, fixed_b;  // bodies that never move
   };
   // One contact in the solver.
   struct Entry {
@@ -149,8 +149,8 @@ class ContactSolver {
     std::uint32_t body_b;
   };
 
-  // A record's bodies, and what of them decides who enters the solver: the motion in the upper two
-  // bits, none of a record that is left out.
+  // A body of a record, with its motion type in the upper two bits, by which bodies enter the
+  // solver. Zero for a record that is left out.
   struct Side {
     static constexpr int k_motion_bit = 30, k_mark_bit = 29;
 
@@ -165,8 +165,7 @@ class ContactSolver {
       return static_cast<MotionType>(word >> k_motion_bit);
     }
     [[nodiscard]] bool is_left_out() const { return word == 0; }
-    // Of side A: a contact of this tick between what moves. Of side B: a contact whose load is
-    // several times a weight.
+    // On side A: a new contact of two dynamic bodies. On side B: an overloaded contact.
     [[nodiscard]] bool is_marked() const { return (word >> k_mark_bit & 1) != 0; }
     void mark() { word |= 1U << k_mark_bit; }
     [[nodiscard]] bool is_dynamic() const { return motion() == MotionType::dynamic; }
@@ -178,7 +177,7 @@ class ContactSolver {
     [[nodiscard]] bool is_bearing() const { return b.is_marked(); }
   };
 
-  // What `store` reads and writes of a world.
+  // The data of a world that `store` reads and writes.
   struct StoreTarget {
     std::span<const Manifold> manifolds;
     std::span<ContactRecord> records;
@@ -244,7 +243,7 @@ class ContactSolver {
     if ((index & k_immovable) == 0) return index;
     return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
   }
-  // 0: what no impulse moves.
+  // 0: a body that no impulse moves.
   [[nodiscard]] std::uint32_t pushed_number(std::uint32_t index) const {
     return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
   }
@@ -299,8 +298,8 @@ class ContactSolver {
   // By body: the first of its numbers here; 0: not in the solver.
   std::vector<std::uint32_t> solver_index_;
 
-  // By number: bodies that move, from 1; then, in all but the first two, one for each contact of
-  // what does not.
+  // By number: bodies that move, from 1; then, in all but the first two, one for each contact of a
+  // body that does not.
   std::vector<std::uint32_t> members_;  // the body
   std::vector<SolverBody> bodies_;
   std::vector<lanes::SourceBody> inertias_;
@@ -348,7 +347,7 @@ class ContactSolver {
   std::atomic<bool> bounces_{false};  // any restitution at all
   std::atomic<bool> holds_{false};    // any locked axis of moving
   std::vector<Loop> loops_;           // of the sequence at hand
-  std::vector<Stage> stages_;         // what they are
+  std::vector<Stage> stages_;         // of each loop
 };
 
 }  // namespace lockstone

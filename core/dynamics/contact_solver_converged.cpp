@@ -86,8 +86,8 @@ void ContactSolver::chain_islands() {
   }
 }
 
-// Whether a kinematic body presses what stands in `island_contacts_` against something else that no
-// impulse moves: no impulse could part them, and none would be great enough.
+// Whether a kinematic body presses the island of `island_contacts_` against another body that no
+// impulse moves. Then no impulses satisfy the rows, and they would grow without limit.
 bool ContactSolver::is_pinched(const ContactScene& scene) {
   constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of −1/8, Q60
   holds_found_.clear();
@@ -157,8 +157,8 @@ void ContactSolver::begin_converged(const ContactScene& scene) {
     contact.row_a = row_of(contact.row_a);
     contact.row_b = row_of(contact.row_b);
   }
-  // The first phase brings the impulses of the tick before back, as far as they do good: what they
-  // give to bodies one by one may be beyond any velocity.
+  // The first phase adds a scaled warm start itself: the velocities that single contacts of the
+  // last tick give to a body may exceed all limits.
   for (const std::uint32_t body : proximal_->bodies())
     before_[body] = {};
   const std::int64_t weight = weight_of(scene.gravity, step_);

@@ -8,7 +8,7 @@ namespace {
 
 using lanes::ManifoldKernels;
 
-// What a piece of a loop has at least: a microsecond or so of work.
+// The least number of items in a piece of a loop: about a microsecond of work.
 constexpr std::uint32_t k_body_grain = 64;
 constexpr std::uint32_t k_joined_grain = 8;
 constexpr std::uint32_t k_block_grain = 4;

@@ -12,8 +12,8 @@ namespace {
 constexpr int k_give_bits = BodyFactor::k_least_bits;
 constexpr std::int32_t k_weight = 1 << 30;
 
-// Right-hand sides are below 2^27 units at first; where what is solved for does not fit in 31 bits,
-// units are coarser.
+// Right-hand sides are below 2^27 units at first; where the solution does not fit in 31 bits, units
+// are coarser.
 constexpr int k_first_bits = 27, k_fewer_bits = 4, k_least_bits = 7;
 constexpr int k_finest_bits = 44;
 

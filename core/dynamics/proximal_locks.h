@@ -2,8 +2,8 @@
 //
 // In a loop some locks repeat others. With a compliance γ there is one solution for the errors r:
 // λ = −(A + γ)⁻¹·r, A = J·M⁻¹·Jᵀ. It is found by way of velocities: (1 + Jᵀ·J/γ)·x = −Jᵀ·r/γ and
-// λ = −(r + J·x)/γ. Compliance counts from 0 and not from the last impulses: what locks hold
-// against each other would add up, solve after solve.
+// λ = −(r + J·x)/γ. The compliance pulls impulses towards 0 and not towards the last ones: else
+// impulses of locks against each other would add up, solve after solve.
 //
 // Source: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
 // dynamic equations", 2021.
@@ -28,7 +28,7 @@ class ProximalLocks {
 
   void clear();
 
-  /// One end of a joint: a body by its number in the group, or what no impulse moves.
+  /// One end of a joint: a body by its number in the group, or one that no impulse moves.
   struct End {
     static constexpr std::uint32_t k_unpushed = 0xffffffff;
     std::uint32_t body = k_unpushed;
@@ -51,13 +51,13 @@ class ProximalLocks {
                 std::uint32_t left_out);
   void factor(std::uint32_t group);
 
-  /// What the impulses of a joint's rows are to take away, m/s, Q50.
+  /// The speed errors that the impulses of a joint's rows are to remove, m/s, Q50.
   [[nodiscard]] std::span<std::int64_t> errors(std::uint32_t group, std::uint32_t joint) {
     return joints_[groups_[group].first_joint + joint].errors;
   }
 
-  /// Adds to an error what the row gives under all of its impulse so far (the pair's velocity jump,
-  /// Q50), so that what rows hold against each other does not grow.
+  /// Adds the compliance of a row times its whole impulse so far (the pair's velocity jump, Q50) to
+  /// its error, so that impulses of rows against each other do not grow.
   void give(std::uint32_t group, std::uint32_t joint, std::size_t row, std::int64_t impulse);
 
   /// Takes the errors away, as far as one solve does: finds the impulses of all rows.

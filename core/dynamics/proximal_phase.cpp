@@ -12,8 +12,8 @@ namespace {
 
 using namespace proximal;
 
-// Residuals are exact. A direct step takes as many of their bits as fit in 27, and fewer where what
-// it solves for does not fit.
+// Residuals are exact. A direct step takes as many of their bits as fit in 27, and fewer where the
+// solution does not fit.
 constexpr int k_residual_bits = 27, k_fewer_bits = 4, k_most_drop = 42;
 
 // Passes before the first direct step, and after each; direct steps.
@@ -42,9 +42,9 @@ std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
 
 }  // namespace
 
-// To the least of D along the last impulses, from 0 in a tick's first phase and down from all of
-// them in others: kinetic energy after the warm start is at most that of the free motion. What
-// overlaps is not yet pushed out.
+// Scales the last impulses to the least of D, from 0 in a tick's first phase and down from all of
+// them in others: kinetic energy after the warm start is at most that of the free motion. Biases
+// that push overlap out are left out of D here.
 void ProximalSolver::scale_warm_start(Island& island) {
   const int down = k_row_unit_bits - island.bits;
   ProductSum slope, curve;
@@ -136,7 +136,7 @@ bool ProximalSolver::solve_for_changes(Island& island) {
   return fits;
 }
 
-// Sums what bodies gain by the step to the next impulses.
+// Sums the changes of the bodies' velocities by the step to the next impulses.
 void ProximalSolver::sum_changes(Island& island) {
   const std::span<BodyVector> sums = of(changes_, island);
   std::ranges::fill(sums, BodyVector{});

@@ -29,11 +29,11 @@ struct InertiaRoot {
 /// Four points, two tangents and the twist.
 inline constexpr std::size_t k_contact_rows = lanes::k_most_rows;
 
-/// What stays with a row for a tick, beside its lane in the problem.
+/// The data of a row for a tick, beside its lane in the problem.
 struct ProximalRow {
   RowScale to_speed, to_impulse;
   std::int64_t weight_leak = 0;  // most that a normal's centre leaks, in units of the row
-  std::int64_t leak = 0;         // what it leaks in this substep
+  std::int64_t leak = 0;         // leak of the centre in this substep
   std::int64_t total = 0;        // impulse as the pair's velocity jump, m/s, Q32
 };
 
@@ -68,13 +68,13 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
 
 /// A lock or motor of a joint, as its island's problem has it.
 struct ProximalLock {
-  RowSide a{}, b{};               // Q30; 0 of what nothing pushes
+  RowSide a{}, b{};               // Q30; 0 of a body that nothing pushes
   RowScale to_speed, to_impulse;  // as ProximalRow's
   std::int64_t own = 0;           // response to itself, Q30
   std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
 };
 
-/// What the rows of a joint have in common.
+/// Data that all rows of a joint share.
 struct ProximalJoint {
   const InertiaRoot &root_a, &root_b;
   std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it

@@ -15,8 +15,8 @@ using lanes::ManifoldBlock;
 using lanes::RowBody;
 using lanes::scalar::pack;
 
-// Units are such that what a phase begins with is below 2^27 of them, of the 2^31 there are. Where
-// that does not do, coarser ones are tried.
+// Units are such that all magnitudes at the beginning of a phase are below 2^27 of them; words hold
+// 2^31. If a phase overflows, it is solved again with coarser units.
 constexpr int k_start_bits = 27;
 constexpr int k_most_bits = k_row_unit_bits - 1, k_least_bits = 2;
 constexpr int k_coarser_bits = 5;
@@ -106,7 +106,7 @@ bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
   return true;
 }
 
-// From here on the sweeps leave the contact alone, but for its separations.
+// From here on the iterations only update the contact's separations.
 void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -250,8 +250,8 @@ void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared
   }
 }
 
-// Rows do not change in a tick, and each substep but the first begins by repeating what bodies
-// gained in the one before: so do their speeds.
+// Rows do not change in a tick. Each substep but the first begins with the bodies gaining the same
+// velocities as in the one before, so the rows' speeds gain the same, too.
 void ProximalSolver::begin_substep(Island& island) {
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
     ProximalContact& contact = contacts_[c];
@@ -408,7 +408,7 @@ void ProximalSolver::give(const ContactRun& run, Island& island) {
   }
 }
 
-// Speeds follow what the phase gave to bodies.
+// Adds the velocities that the phase gave to bodies to the speeds of the rows.
 void ProximalSolver::follow(Island& island) {
   const std::span<Problem> problems = problems_of(island);
   lanes::proximal_kernels().follow(problems.data(), problems.size(), of(velocities_, island).data(),

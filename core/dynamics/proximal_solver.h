@@ -9,9 +9,9 @@
 // of rigid contacts but for a damping of the order of γ.
 //
 // Sources: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
-// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, what was
-// compared). Kinetic energy after the warm start is at most that of the free motion, since its
-// impulses are scaled to the least of D.
+// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, and the
+// comparison of solvers). Kinetic energy after the warm start is at most that of the free motion,
+// since its impulses are scaled to the least of D.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,8 @@ class ProximalSolver {
   void clear();
 
   /// An island whose bodies and contacts are given in their order; false if it is too large. Bodies
-  /// are numbers in the solver; of a contact the pair's numbers are read, 0 for what nothing moves.
+  /// are numbers in the solver; of a contact the pair's numbers are read, 0 for a body that nothing
+  /// moves.
   [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
                          std::span<const ProximalContact> contacts);
 
@@ -51,7 +52,8 @@ class ProximalSolver {
   /// One phase. With `pushes_out` overlap goes.
   void solve(const ContactRun& run, std::uint32_t island, bool pushes_out);
 
-  /// After the last phase: blocks have what was found, and the sweeps their contacts again.
+  /// After the last phase: writes the impulses to the blocks, and gives the contacts back to the
+  /// iterations.
   void end(const ContactRun& run, std::uint32_t island) const;
 
  private:

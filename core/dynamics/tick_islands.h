@@ -1,6 +1,6 @@
-// The islands of a tick: dynamic bodies that contacts or joints connect, and what each island asks
-// of the solver. Every budget of the solver counts within one island, so that what becomes of an
-// island does not depend on others (law 9, docs/locality.md).
+// The islands of a tick: dynamic bodies that contacts or joints connect, and the solver's work for
+// each. Every budget of the solver counts within one island, so that the motion of an island does
+// not depend on others (law 9, docs/locality.md).
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ class SharedCount {
   std::atomic<std::uint32_t> count_;
 };
 
-/// Counts of one island, and what the solver decides by them.
+/// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
   /// An island with more contacts of a kind is a large one: its loads take long to spread.
   static constexpr std::uint32_t k_most_loaded = 128;
@@ -44,7 +44,7 @@ struct IslandLoad {
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
   /// Left to the iterations, and large.
   [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
-  /// Many contacts are loaded, and a good part of all are new: what they carry is not known yet.
+  /// Many contacts are loaded, and a good part of all are new and have no impulses yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;
     return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
