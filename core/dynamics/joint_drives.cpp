@@ -10,8 +10,8 @@
 namespace lockstone {
 namespace {
 
-// A limit is far from what gets no nearer than this within a tick, at this many times its speed
-// now: m, Q32, of an angle in radians.
+// A limit is far if the joint stays farther from it than k_near within a tick, at k_haste times its
+// present speed: m, Q32, of an angle in radians.
 constexpr std::int64_t k_near = std::int64_t{1} << 29;
 constexpr int k_haste = 4;
 

@@ -72,7 +72,7 @@ void JointSolver::link_bodies() {
   });
 }
 
-// All that hangs together with a body, breadth first. Backwards, each joint of a tree comes after
+// Finds all joints connected to a body, breadth first. Backwards, each joint of a tree comes after
 // those beyond it, so that elimination fills nothing in.
 void JointSolver::find_group(std::uint32_t root) {
   Group group;
@@ -170,7 +170,7 @@ void JointSolver::plan_singles(const Group& group) {
 }
 
 // Balls that nothing limits or drives, between bodies that are pushed along every axis or stand
-// still, on anchors within what their formats hold.
+// still, on anchors within the range of their formats.
 bool JointSolver::fits_net(const Link& link) const {
   const JointRecord& joint = *link.record;
   if (!is_point(joint)) return false;

@@ -20,19 +20,20 @@ constexpr int k_most_solves = 12;
 // Locks that are open by less, m, Q32, are closed: 1 µm.
 constexpr std::int64_t k_closed = 1 << 12;
 
-// What rounding leaves of them: 4 nm.
+// Openings that rounding leaves: 4 nm.
 constexpr std::int64_t k_rounding = 16;
 
 // Where there are limits or drives: 15 nm. After one step most openings lie between both.
 constexpr std::int64_t k_pushed_rounding = 64;
 
-// What ropes and chains may leave: 30 nm, as much as rounding of spin does at a metre's arm.
+// Openings that ropes and chains may leave: 30 nm, as much as rounding of spin does at an arm of 1
+// m.
 constexpr std::int64_t k_noise = 128;
 
 // Openings whose squares fit, 0.25 m.
 constexpr std::int64_t k_far = std::int64_t{1} << 30;
 
-// Joints of groups that are not solved at once close this part of an opening a substep.
+// Joints of groups without a direct solve close this part of an opening in a substep.
 constexpr int k_close_shift = 2;
 
 // x · mass · 2^shift within ±k_row_bound
@@ -89,8 +90,8 @@ std::int64_t* JointSolver::errors_at(const Group& group, std::uint32_t joint) {
   return &factor_.rhs(factor_.columns(group.column, group.count)[joint].first_row);
 }
 
-// What is left open after the substep as it stands, per substep. Answers the
-// widest opening, Q32.
+// Sets the errors to the speeds that close the openings left after the substep as it stands.
+// Returns the widest opening, Q32.
 std::int64_t JointSolver::set_position_errors(const Group& group) {
   std::int64_t widest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
@@ -106,7 +107,7 @@ std::int64_t JointSolver::set_position_errors(const Group& group) {
   return widest;
 }
 
-// Answers the greatest of them, Q50.
+// Returns the greatest of them, Q50.
 std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& group,
                                            bool positions) {
   std::int64_t greatest = 0;
@@ -144,7 +145,7 @@ void JointSolver::solve_positions(const JointRun& run, Group& group) {
   }
 }
 
-// One step of the method, unless no opening is wider than `enough`. Answers the widest before it.
+// One step of the method, unless no opening is wider than `enough`. Returns the widest before it.
 std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64_t enough,
                                    bool turn) {
   look_ahead(run, group, turn);
@@ -153,9 +154,10 @@ std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64
   return widest;
 }
 
-// Answers whether all locks hold afterwards. Each step leaves about the same part of an opening:
-// once that is nothing, there is no need to look. Where bodies are pulled hard, every step is
-// taken, lest swings that the substep hardly resolves grow unseen.
+// Returns whether all locks hold afterwards. Each step leaves about the same part of an opening:
+// once the next step would leave less than rounding does, the check after it is skipped. Where
+// bodies are pulled hard, every step is taken, lest swings that the substep hardly resolves grow
+// unseen.
 bool JointSolver::close(const JointRun& run, Group& group) {
   const bool pulled = is_pulled(group);
   const std::int64_t enough = pulled ? 0 : group.is_plain ? k_rounding : k_pushed_rounding;

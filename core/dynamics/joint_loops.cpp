@@ -17,8 +17,8 @@ constexpr int k_most_holds = 3;
 
 }  // namespace
 
-// Its joints are links yet. A tree has as many joints as bodies that are pushed, or one less if it
-// hangs on nothing else; loops may go through what it hangs on.
+// Its joints are links yet. A tree has as many joints as bodies that are pushed, or one less if no
+// joint holds it to another body; loops may go through such a body.
 bool JointSolver::has_loops(const Group& group) const {
   const auto hangs = [this](std::uint32_t link) {
     return !bodies_[links_[link].a].pushed || !bodies_[links_[link].b].pushed;
@@ -113,7 +113,7 @@ std::int64_t& JointSolver::loop_impulse(Joint& joint, const JointRow& row, bool 
   return positions ? joint.locks[row.axis] : joint.relaxed[row.axis];
 }
 
-// Those of locks are there but for what they give.
+// The errors of locks are there already, except for their compliance.
 void JointSolver::find_loop_errors(const JointRun& run, const Group& group, bool positions) {
   for (std::uint32_t k = 0; k < group.count; ++k) {
     Joint& joint = joints_[joints_of(group)[k]];
@@ -128,7 +128,7 @@ void JointSolver::find_loop_errors(const JointRun& run, const Group& group, bool
   }
 }
 
-// Adds or takes away the speeds of rows as they are, to or from what is to be taken away.
+// Adds the present speeds of the rows to the errors (`sign` 1), or subtracts them (−1).
 void JointSolver::add_loop_speeds(const JointRun& run, const Group& group, int sign) {
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
@@ -151,9 +151,9 @@ std::int64_t JointSolver::motor_impulse(const Group& group, std::uint32_t place,
   return bounded(before + loops_->impulse(group.loops, place, row), bound) - before;
 }
 
-// Motors that would have to push harder than they may push as hard as they may, and the others are
-// solved for again: had locks been given what they bear of the whole push, they would turn the
-// motor back. Returns whether there are such.
+// Motors that would have to push harder than they may push as hard as they may, and the other rows
+// are solved again: impulses of locks against the whole push would turn the motor back. Returns
+// whether there are such motors.
 bool JointSolver::hold_motors(const JointRun& run, const Group& group, bool positions) {
   bool holds = false;
   for (std::uint32_t k = 0; k < group.count; ++k) {

@@ -106,7 +106,7 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
     resist_pull(run, body);
   }
   after_.resize(bodies_.size());
-  // What nothing pushes goes its own way, and whoever looks ahead finds where.
+  // Poses after the substep: bodies that nothing pushes have a known motion.
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     after_[i] = bodies_[i].pushed ? bodies_[i].pose : pose_after(run, bodies_[i]);
   for (Cluster& cluster : clusters_) {

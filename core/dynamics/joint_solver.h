@@ -1,12 +1,12 @@
 // The joints of one tick, inside the substeps of the contact solver.
 //
-// Joints that hang together by pushed bodies form a cluster. In one that is a tree, or nearly one,
-// all locks are solved at once (`JointFactor`); in worlds with converged contacts so are the locks
-// and motors of one with loops (`ProximalLocks`). Of other clusters, balls are left to `JointNet`,
-// and other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
+// Joints connected by pushed bodies form a cluster. In one that is a tree, or nearly one, a direct
+// solve covers all locks (`JointFactor`); in worlds with converged contacts also the locks and
+// motors of one with loops (`ProximalLocks`). Of other clusters, balls are left to `JointNet`, and
+// other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
 // beginning of the substep such that locks hold at its end, and at the end such that they do not
-// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). What this does
-// for accuracy is told in docs/solver.md.
+// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). docs/solver.md
+// says how accurate this is.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@
 
 namespace lockstone {
 
-/// What a substep works on, by solver body; 0 is immovable.
+/// The data of a substep, by solver body; 0 is immovable.
 struct JointRun {
   std::span<SolverBody> bodies;
   std::span<lanes::RowBody> rows;
@@ -43,16 +43,16 @@ struct JointRun {
 
 class JointSolver {
  public:
-  /// Groups with loops are solved at once only if `solves_loops`. No function but this allocates.
+  /// Groups with loops are solved directly only if `solves_loops`. No function but this allocates.
   [[gnu::cold]] JointSolver(const TimeStep& step, std::size_t body_capacity,
                             std::size_t joint_capacity, bool solves_loops);
 
   void clear();
 
-  /// A joint, in the order of their indices. What it refers to must outlive the tick.
+  /// A joint, in the order of their indices. Its references must stay valid for the tick.
   struct Side {
     std::uint32_t body = 0;    // index in the world
-    std::uint32_t solver = 0;  // in the solver, 0 for what does not move
+    std::uint32_t solver = 0;  // in the solver, 0 for a body that does not move
     const BodyRecord& record;
     const Mat3& rotation;
   };
@@ -63,7 +63,8 @@ class JointSolver {
   /// Whether any joints are solved here.
   [[nodiscard]] bool has_own() const { return !joints_.empty(); }
 
-  /// Once all are added: groups. Answers which joints, in the order of adding, are left to a net.
+  /// Once all are added: forms groups. Returns the joints, in the order of adding, that are left to
+  /// a net.
   std::span<const std::uint32_t> plan();
 
   /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
@@ -72,13 +73,13 @@ class JointSolver {
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
 
-  /// What hangs together, without what is left to a net. No two share a body that is pushed: the
-  /// functions below take a range of clusters, and ranges may be worked at side by side.
+  /// Number of clusters, without joints that are left to a net. No two share a body that is pushed:
+  /// the functions below take a range of clusters, and ranges may be worked at side by side.
   [[nodiscard]] std::uint32_t cluster_count() const {
     return static_cast<std::uint32_t>(clusters_.size());
   }
 
-  /// Once contacts are prepared: rows and factors; what drifts freely goes half a substep.
+  /// Once contacts are prepared: rows and factors; bodies that drift freely go half a substep.
   void prepare(const JointRun& run, std::size_t first, std::size_t end);
 
   /// At the beginning of a substep, after forces: the impulses of the last one again.
@@ -122,14 +123,14 @@ class JointSolver {
     int scale = 0;              // exponent
     lanes::RowBody unpushed{};  // as the stage at hand found it
     lanes::RowBody saved_row{};
-    lanes::RowBody looked{};  // with what velocity it goes where `after_` says
+    lanes::RowBody looked{};  // its velocity on the way to its pose in `after_`
     bool has_looked = false;
     bool pushed = false;
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick
     bool free = false;               // half drift, kick, half drift
-    RoundDivisor rate{};             // 1 / what it drifts for
+    RoundDivisor rate{};             // 1 / the time that it drifts for
     bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
@@ -150,7 +151,7 @@ class JointSolver {
     std::int64_t mantissa = 0;
     int shift = 1;
   };
-  // What a row needs beyond Jacobians.
+  // The data of a row besides its Jacobians.
   struct Solved {
     std::int64_t inverse = 0;  // of its response to itself: mantissa · 2^-shift
     int shift = 1;
@@ -193,11 +194,11 @@ class JointSolver {
     bool drifts = false;
     bool is_plain = false;  // neither limits nor drives
     bool is_factored = false;
-    std::int64_t rate = 0;                             // 1 / what its bodies drift for
+    std::int64_t rate = 0;                             // 1 / the time that its bodies drift for
     int exponent = 0;                                  // least of its rows
     std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
   };
-  // Joints that hang together, by index: one exact group, or a group for each joint.
+  // Connected joints, by index: one group with a direct solve, or a group for each joint.
   struct Cluster {
     std::uint32_t first_joint = 0;
     std::uint32_t joint_count = 0;
@@ -323,7 +324,7 @@ class JointSolver {
   std::vector<std::uint32_t> sorted_;        // links of the cluster at hand, by index
   std::vector<Group> groups_;
   std::vector<Cluster> clusters_;
-  std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale
+  std::vector<std::int64_t> pulls_;  // by body: pulls of joints at levers, per mass and scale
   std::vector<JointPose> after_;     // by body: where it will be after the substep
   JointFactor factor_;
   std::unique_ptr<ProximalLocks> loops_;  // null unless it solves loops
