@@ -185,8 +185,8 @@ struct SweepRules {
   std::int32_t overlap = 0;         // where touching points come to rest, m, Q24
   std::int32_t step_mantissa = 0;   // substep = mantissa · 2^-(24 − 17 + step_shift)
   std::int32_t step_shift = 32;     // 1 … 32
-  // Shifts of the rounding threshold from ½, Q30, −½ … ½: of the limit of friction, and of the
-  // components of an impulse that is shortened to it.
+  // Added before rounding to nearest, Q30, −½ … ½: to the limit of friction, and to the components
+  // of an impulse that is shortened to it.
   std::int32_t limit_sway = 0;
   std::int32_t part_sway = 0;
 };
