@@ -307,7 +307,7 @@ class ContactSolver {
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
   std::vector<PushAxis> axes_;
-  std::vector<lanes::BodyPlace> places_;  // of what nets of joints hold
+  std::vector<lanes::BodyPlace> places_;  // of the bodies in nets of joints
 
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;

@@ -69,7 +69,7 @@ void JointSolver::leave_out_far(const JointRun& run, Joint& joint) const {
   joint.holds_a_point = lockstone::holds_a_point(*joint.record, joint.far);
 }
 
-// Answers whether anything was pushed.
+// Returns whether any impulse changed.
 bool JointSolver::solve_drives(const JointRun& run, Joint& joint, bool motors) {
   bool pushed = false;
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
