@@ -1,4 +1,4 @@
-// Words of manifold blocks, lane by lane, and products of what they hold.
+// Words of manifold blocks, lane by lane, and products of their operands.
 #pragma once
 
 #include <array>

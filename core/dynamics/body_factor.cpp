@@ -6,16 +6,22 @@
 #include <lockstone/fixed.h>
 
 #include "core/math/roots.h"
+#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
 namespace {
 
 constexpr int k_matrix_sum_bits = 50, k_entry_bits = 30;
 
-// A pivot is not taken to be smaller, Q60: rounding may leave it below what it is.
+// The least value of a pivot, Q60: rounding may leave a pivot below its exact value.
 constexpr std::int64_t k_least_factor_pivot = std::int64_t{1} << 34;
 
 constexpr std::uint32_t k_eliminated = 0xffffffff;
+
+// Room in the pools, for each pair of bodies that share a block, and besides: elimination fills
+// blocks in, in heaps about as many as there are.
+constexpr std::size_t k_blocks_a_pair = 3, k_more_blocks = 256;
+constexpr std::size_t k_targets_a_pair = 16, k_more_targets = 4096;
 
 constexpr std::int64_t k_most_word = (std::int64_t{1} << 31) - 1;
 
@@ -30,11 +36,18 @@ std::int64_t held(std::int64_t x, bool& fits) {
   return result;
 }
 
+// Times 2^bits: the scale of the rows leaves no entry above 1.
+void grow(lanes::BodyBlock& block, int bits) {
+  for (lanes::BlockWord& word : block.words)
+    for (std::int64_t& sum : word)
+      sum = bits >= 0 ? lanes::scalar::shift_left(sum, bits) : raw::round_shift(sum, -bits);
+}
+
 }  // namespace
 
-BodyFactor::BodyFactor(std::size_t body_capacity)
-    : block_capacity_(body_capacity == 0 ? 0 : body_capacity * 12 + k_most_products),
-      target_capacity_(body_capacity == 0 ? 0 : body_capacity * 60 + k_most_products) {
+BodyFactor::BodyFactor(std::size_t body_capacity, std::size_t pair_capacity)
+    : block_capacity_(body_capacity + k_blocks_a_pair * pair_capacity + k_more_blocks),
+      target_capacity_(k_targets_a_pair * pair_capacity + k_more_targets) {
   columns_.reserve(body_capacity);
   places_.reserve(body_capacity);
   below_.reserve(block_capacity_);
@@ -156,21 +169,19 @@ BodyFactor::Place BodyFactor::find(const Plan& plan, std::uint32_t a, std::uint3
 
 void BodyFactor::reset(const Plan& plan) {
   for (std::uint32_t i = 0; i < plan.blocks; ++i)
-    blocks_[plan.first_block + i].sums = {};
+    blocks_[plan.first_block + i] = {};
   for (std::uint32_t k = 0; k < plan.bodies; ++k)
     for (std::size_t i = 0; i < k_side; ++i)
-      blocks_[plan.first_block + k].sums[i * (k_side + 1)] = std::int64_t{1}
-                                                             << (k_matrix_sum_bits - k_least_bits);
+      blocks_[plan.first_block + k].words[i][i] = std::int64_t{1}
+                                                  << (k_matrix_sum_bits - k_least_bits);
 }
 
 void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, std::int32_t k) {
-  std::array<std::int64_t, k_entries>& sums = blocks_[block].sums;
-  const bool is_diagonal = &x == &y;
-  for (std::size_t i = 0; i < k_side; ++i) {
-    const std::int64_t kx = raw::round_shift(std::int64_t{k} * x[i], k_entry_bits);
-    const std::size_t end = is_diagonal ? i + 1 : k_side;
-    for (std::size_t j = 0; j < end; ++j)
-      sums[i * k_side + j] += raw::round_shift(kx * y[j], 2 * k_entry_bits - k_matrix_sum_bits);
+  for (std::size_t j = 0; j < k_side; ++j) {
+    const std::int64_t ky = raw::round_shift(std::int64_t{k} * y[j], k_entry_bits);
+    for (std::size_t i = 0; i < k_side; ++i)
+      blocks_[block].words[j][i] +=
+          raw::round_shift(x[i] * ky, 2 * k_entry_bits - k_matrix_sum_bits);
   }
 }
 
@@ -180,19 +191,17 @@ void BodyFactor::scale(const Plan& plan) {
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     std::int64_t most = 0;
     for (std::size_t i = 0; i < k_side; ++i)
-      most = std::max(most, blocks_[plan.first_block + k].sums[i * (k_side + 1)]);
+      most = std::max(most, blocks_[plan.first_block + k].words[i][i]);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
     columns_[plan.first_column + k].scale = (width - k_matrix_sum_bits + 1) >> 1;
   }
-  const auto grow = [&](std::uint32_t block, int down) {
-    for (std::int64_t& sum : blocks_[block].sums)
-      sum = raw::scale_saturating(sum, 60 - k_matrix_sum_bits - down);
-  };
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];
-    grow(plan.first_block + k, 2 * column.scale);
-    for (std::uint32_t i = column.first; i < column.first + column.count; ++i)
-      grow(below_[i].block, column.scale + columns_[plan.first_column + below_[i].row].scale);
+    grow(blocks_[plan.first_block + k], 60 - k_matrix_sum_bits - 2 * column.scale);
+    for (std::uint32_t i = column.first; i < column.first + column.count; ++i) {
+      const int other = columns_[plan.first_column + below_[i].row].scale;
+      grow(blocks_[below_[i].block], 60 - k_matrix_sum_bits - column.scale - other);
+    }
   }
 }
 
@@ -207,118 +216,72 @@ void BodyFactor::set_pivot(Column& column, std::size_t j, std::int64_t sum, Bloc
   column.shifts[j] = shift;
   const std::int64_t inverse = raw::round_divide(std::int64_t{1} << (k_entry_bits + shift), root);
   column.mantissas[j] = static_cast<std::int32_t>(std::min(inverse, k_most_word));
-  block.factor[j * (k_side + 1)] = static_cast<std::int32_t>(root);
-}
-
-// An entry of the factor from its sum, less what columns before it take.
-std::int32_t BodyFactor::entry(const Column& column, std::size_t j, std::int64_t sum) {
-  return static_cast<std::int32_t>(
-      within_word(times_pivot(column, j, within_word(raw::round_shift(sum, 60 - k_entry_bits)))));
+  block.words[j][j] = root;
 }
 
 // Cholesky within the block.
 void BodyFactor::factor_diagonal(Column& column, Block& block) {
   for (std::size_t j = 0; j < k_side; ++j) {
     for (std::size_t i = j; i < k_side; ++i) {
-      std::int64_t sum = block.sums[i * k_side + j];
+      std::int64_t sum = block.words[j][i];
       for (std::size_t k = 0; k < j; ++k)
-        sum -= std::int64_t{block.factor[i * k_side + k]} * block.factor[j * k_side + k];
+        sum -= block.words[k][i] * block.words[k][j];
       if (i == j)
         set_pivot(column, j, sum, block);
       else
-        block.factor[i * k_side + j] = entry(column, j, sum);
-    }
-  }
-}
-
-// X·Gᵀ = block, G the factor of the diagonal.
-void BodyFactor::divide_by(const Block& diagonal, const Column& column, Block& block) {
-  for (std::size_t i = 0; i < k_side; ++i) {
-    for (std::size_t j = 0; j < k_side; ++j) {
-      std::int64_t sum = block.sums[i * k_side + j];
-      for (std::size_t k = 0; k < j; ++k)
-        sum -= std::int64_t{block.factor[i * k_side + k]} * diagonal.factor[j * k_side + k];
-      block.factor[i * k_side + j] = entry(column, j, sum);
-    }
-  }
-}
-
-void BodyFactor::subtract_product(const Block& x, const Block& y, bool is_diagonal, Block& from) {
-  for (std::size_t i = 0; i < k_side; ++i) {
-    const std::int32_t* u = &x.factor[i * k_side];
-    const std::size_t end = is_diagonal ? i + 1 : k_side;
-    for (std::size_t j = 0; j < end; ++j) {
-      const std::int32_t* v = &y.factor[j * k_side];
-      std::int64_t sum = 0;
-      for (std::size_t k = 0; k < k_side; ++k)
-        sum += std::int64_t{u[k]} * v[k];
-      from.sums[i * k_side + j] -= sum;
+        block.words[j][i] =
+            within_word(times_pivot(column, j, within_word(raw::round_shift(sum, k_entry_bits))));
     }
   }
 }
 
 void BodyFactor::factor(const Plan& plan) {
   scale(plan);
-  const std::uint32_t* target = targets_.data() + plan.first_target;
+  const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  const std::uint32_t* targets = targets_.data() + plan.first_target;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     Column& column = columns_[plan.first_column + k];
     Block& diagonal = blocks_[plan.first_block + k];
     factor_diagonal(column, diagonal);
-    const std::uint32_t end = column.first + column.count;
-    for (std::uint32_t i = column.first; i < end; ++i)
-      divide_by(diagonal, column, blocks_[below_[i].block]);
-    for (std::uint32_t j = column.first; j < end; ++j)
-      for (std::uint32_t i = j; i < end; ++i)
-        subtract_product(blocks_[below_[i].block], blocks_[below_[j].block], i == j,
-                         blocks_[*target++]);
+    kernels.eliminate(blocks_.data(), column, diagonal, below_.data() + column.first, targets);
+    targets += std::size_t{column.count} * (column.count + 1) / 2;
   }
 }
 
 void BodyFactor::solve_down(const Plan& plan, bool& fits) {
+  const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  BodyVector* const rows = x_.data() + plan.first_column;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
-    BodyVector& x = x_[plan.first_column + k];
+    BodyVector& x = rows[k];
     for (std::size_t i = 0; i < k_side; ++i) {
       std::int64_t sum = 0;
       for (std::size_t j = 0; j < i; ++j)
-        sum += diagonal.factor[i * k_side + j] * x[j];
+        sum += diagonal.words[j][i] * x[j];
       x[i] = held(times_pivot(column, i, held(x[i] - raw::round_shift(sum, k_entry_bits), fits)),
                   fits);
     }
-    for (std::uint32_t n = column.first; n < column.first + column.count; ++n) {
-      const Block& block = blocks_[below_[n].block];
-      BodyVector& y = x_[plan.first_column + below_[n].row];
-      for (std::size_t i = 0; i < k_side; ++i) {
-        std::int64_t sum = 0;
-        for (std::size_t j = 0; j < k_side; ++j)
-          sum += block.factor[i * k_side + j] * x[j];
-        y[i] = held(y[i] - raw::round_shift(sum, k_entry_bits), fits);
-      }
-    }
+    if (column.count == 0) continue;
+    fits =
+        kernels.solve_down(blocks_.data(), column, below_.data() + column.first, x, rows) && fits;
   }
 }
 
 void BodyFactor::solve_up(const Plan& plan, bool& fits) {
+  const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  BodyVector* const rows = x_.data() + plan.first_column;
   for (std::uint32_t k = plan.bodies; k-- > 0;) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
-    BodyVector& x = x_[plan.first_column + k];
+    BodyVector& x = rows[k];
     BodyVector sums{};
-    for (std::uint32_t n = column.first; n < column.first + column.count; ++n) {
-      const Block& block = blocks_[below_[n].block];
-      const BodyVector& y = x_[plan.first_column + below_[n].row];
-      for (std::size_t j = 0; j < k_side; ++j) {
-        std::int64_t sum = 0;
-        for (std::size_t i = 0; i < k_side; ++i)
-          sum += block.factor[i * k_side + j] * y[i];
-        sums[j] += raw::round_shift(sum, k_entry_bits);
-      }
-    }
+    if (column.count != 0)
+      kernels.solve_up(blocks_.data(), column, below_.data() + column.first, rows, sums);
     for (std::size_t i = k_side; i-- > 0;) {
       std::int64_t sum = 0;
       for (std::size_t j = i + 1; j < k_side; ++j)
-        sum += diagonal.factor[j * k_side + i] * x[j];
+        sum += diagonal.words[i][j] * x[j];
       const std::int64_t rest = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
       x[i] = held(times_pivot(column, i, held(rest, fits)), fits);
     }

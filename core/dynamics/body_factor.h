@@ -2,7 +2,8 @@
 //
 // An island's matrix is K = γ·1 + Σ k·Jᵀ·J with rows |J| ≤ 1 and 0 < k ≤ 1, γ = 2^-14: symmetric,
 // and at least γ. Each body's rows and columns are scaled by a power of two such that no entry
-// exceeds 1, so all entries of the factor lie within ±1. They have 30 fraction bits; sums have 60.
+// exceeds 1, so all entries of the factor lie within ±1. They have 30 fraction bits; sums have 60,
+// and 50 before the scale is known.
 // The order of elimination is one of least degree (W. Tinney, J. Walker, "Direct solutions of
 // sparse network equations by optimally ordered triangular factorization", 1967).
 #pragma once
@@ -14,10 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/wide/proximal_block.h"
+
 namespace lockstone {
 
-/// The six velocities of a body in an island's problem, or what is added to them.
-using BodyVector = std::array<std::int64_t, 6>;
+/// The six velocities of a body in an island's problem, or changes of them; two more words are 0.
+using BodyVector = lanes::BlockWord;
 
 /// One side of a row, Q30.
 using RowSide = std::array<std::int32_t, 6>;
@@ -42,8 +45,8 @@ class BodyFactor {
     std::uint32_t first_target = 0;
   };
 
-  /// Room for the islands of so many bodies. No function but this allocates.
-  [[gnu::cold]] explicit BodyFactor(std::size_t body_capacity);
+  /// Room for islands of so many bodies and pairs in all. No function but this allocates.
+  [[gnu::cold]] BodyFactor(std::size_t body_capacity, std::size_t pair_capacity);
 
   void clear();
 
@@ -68,32 +71,21 @@ class BodyFactor {
   /// Adds k·xᵀ·y to a block, k in Q30; of a diagonal block only as far as the diagonal.
   void add(std::uint32_t block, const RowSide& x, const RowSide& y, std::int32_t k);
 
+  /// The matrix's blocks, for kernels that add many rows at once; `Place` and `diagonal` name them.
+  [[nodiscard]] lanes::BodyBlock& block(std::uint32_t index) { return blocks_[index]; }
+
   void factor(const Plan& plan);
 
-  /// Solves K·x = b, by body. Returns whether all of it fits in 31 bits; what does not is clamped.
+  /// Solves K·x = b, by body. Returns whether all of x fits in 31 bits; words that do not fit are
+  /// clamped.
   [[nodiscard]] bool solve(const Plan& plan, std::span<BodyVector> b);
 
  private:
-  static constexpr std::size_t k_side = 6, k_entries = k_side * k_side;
+  using Block = lanes::BodyBlock;
+  using Column = lanes::FactorColumn;
+  using Below = lanes::BelowDiagonal;
+  static constexpr std::size_t k_side = lanes::k_body_words;
 
-  // Sums, Q50, until they are factored; Q30 after.
-  struct Block {
-    std::array<std::int64_t, k_entries> sums{};
-    std::array<std::int32_t, k_entries> factor{};
-  };
-  struct Column {
-    std::uint32_t first = 0;  // of below_
-    std::uint32_t count = 0;  // of blocks under its diagonal
-    std::uint32_t body = 0;
-    int scale = 0;  // its rows and columns are multiplied by 2^-scale
-    // One over each pivot's root: mantissa · 2^-shift.
-    std::array<std::int32_t, k_side> mantissas{};
-    std::array<std::int32_t, k_side> shifts{};
-  };
-  struct Below {
-    std::uint32_t row = 0;    // column of the row's body
-    std::uint32_t block = 0;  // in blocks_
-  };
   using Set = std::bitset<k_most_bodies>;
 
   [[nodiscard]] std::uint32_t eliminate_next(std::uint32_t bodies);
@@ -105,9 +97,6 @@ class BodyFactor {
   void scale(const Plan& plan);
   static void factor_diagonal(Column& column, Block& block);
   static void set_pivot(Column& column, std::size_t j, std::int64_t sum, Block& block);
-  [[nodiscard]] static std::int32_t entry(const Column& column, std::size_t j, std::int64_t sum);
-  static void divide_by(const Block& diagonal, const Column& column, Block& block);
-  static void subtract_product(const Block& x, const Block& y, bool is_diagonal, Block& from);
   [[nodiscard]] static std::int64_t times_pivot(const Column& column, std::size_t i,
                                                 std::int64_t x);
   void solve_down(const Plan& plan, bool& fits);

@@ -48,9 +48,9 @@ struct BodyRecord {
   Vec3<Length> contact_place{};              // low 32 bits
   Vec3<Length> size{};                       // Shape::size
   Vec3<Unit> inertia{};                      // principal moments / (mass · s²), each in (0, 1]
-  // Of one of three: of a body that forces push in this tick what they give it (tick_gain.h); of
-  // another that may fall asleep by resting where it began to rest (rest.h); of what is not
-  // dynamic the motion of its surface. Else zero.
+  // One of three. A body that forces push in this tick: the velocities that they give it
+  // (tick_gain.h). Another dynamic body that may fall asleep: the pose at which it began to rest
+  // (rest.h). A static or kinematic body: the motion of its surface. Else zero.
   Vec3<Unit> note_a{};            // force; place, low 32 bits of Length; velocity
   Vec3<Unit> note_b{};            // torque; x, y, z of the orientation; turning
   Unit note_c{};                  // exponents; w

@@ -21,7 +21,7 @@ Velocity along(const Vec3<Velocity>& v, const Vec3<Unit>& n) {
   return times(v.x, n.x) + times(v.y, n.y) + times(v.z, n.z);
 }
 
-// What a speed covers in a tick, m, Q24, bounded so that squares fit.
+// The way covered in a tick at a speed, m, Q24, bounded so that squares fit.
 std::int64_t way(Velocity v, const TimeStep& step) {
   constexpr std::int64_t k_bound = std::int64_t{1} << 30;
   return std::clamp(raw::round_shift(step.tick.times(v.raw), 8), -k_bound, k_bound);
@@ -276,7 +276,7 @@ void BounceGroup::advance(Unit fraction) {
     fly_on(*flyer.body, flyer.gain, fraction, step_);
 }
 
-// What is too slow to bounce again stays on the surface, and together, for the rest of the tick.
+// A contact that is too slow to bounce again stays closed for the rest of the tick.
 void BounceGroup::answer(Contact& contact, Velocity speed) {
   contact.touched = true;
   contact.rests = speed <= k_least_bounce;

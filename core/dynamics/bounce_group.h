@@ -1,5 +1,5 @@
-// Bodies that bounce off each other, or off what does not give way, at the moments of the tick at
-// which they meet.
+// Impact islands: bodies that bounce off each other, or off immovable bodies, at the moments of the
+// tick at which they meet.
 //
 // Height and speed then agree, so that a bounce neither wins nor loses energy; and impacts follow
 // one after the other, so that a push passes along a row of balls.

@@ -15,7 +15,7 @@
 
 namespace lockstone {
 
-/// Colours for constraints side by side; what finds none of them overflows.
+/// Colours for constraints side by side; a constraint that finds none goes to the overflow colour.
 inline constexpr std::size_t k_graph_colors = 32;
 inline constexpr std::size_t k_overflow_color = k_graph_colors;
 

@@ -33,9 +33,9 @@ void ContactSolver::PushAxis::add(const Vec3<Unit>& n) {
   pushed = true;
 }
 
-// Positions went with the velocities at the ends of substeps. Half a substep of what was gained
-// since the tick began makes that the mean of beginning and end: friction and gravity along a
-// surface act to second order. Across it contacts have placed the body, and it stays.
+// Positions went with the velocities at the ends of substeps. Half a substep of the velocity gained
+// in the tick, taken back, makes that the mean of beginning and end: friction and gravity along a
+// surface act to second order. Along the normal, contacts have placed the body, and it stays.
 Vec3<Velocity> ContactSolver::half_step_back(std::size_t index, const BodyRecord& body) const {
   const PushAxis& axis = axes_[index];
   if (axis.mixed) return {};
@@ -80,7 +80,7 @@ std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation
   const RowTravel& travel = travel_[index];
   const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(index, body) : Vec3<Velocity>{};
   const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };
-  // What stayed where it is did not go too far either.
+  // A component that did not move has nothing to take back.
   const auto gone = [&](std::int64_t sum, Velocity too_far) {
     return sum == 0 ? Velocity{} : moved(sum) - too_far;
   };

@@ -19,7 +19,7 @@ int drift_exponent(const BodyRecord& body) {
 // Steps of lengths within those of positions.
 constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
 
-// From the contact pose's place to the body's, Q32: what is less than a step of lengths included.
+// From the contact pose's place to the body's, Q32, with the fraction below a step of Length.
 std::int64_t way_of(const BodyRecord& body, int axis) {
   const std::int64_t now = body.position[axis].raw;
   const auto steps = static_cast<std::uint32_t>(now >> k_place_shift) -

@@ -1,11 +1,11 @@
 // Where a body's contacts are found.
 //
-// To find the points in which two bodies touch costs as much as to solve them. What lies or stands
-// trembles by micrometres, and its contacts stay what they are: so a body's contacts are found at a
-// pose of its own, from which it may drift by a hair until that pose follows. Meanwhile separations
-// follow to first order, as they do within a tick. Recycling contacts of bodies that hardly move is
-// Box3D's (E. Catto); here the pose is part of the state, so that a manifold follows from the state
-// alone, whatever was remembered or loaded.
+// Finding the points in which two bodies touch costs as much as solving them. A body at rest moves
+// by micrometres, and its manifolds stay valid. So they are computed at the contact pose of each
+// body, and reused until the body has drifted too far from it. Meanwhile separations follow to
+// first order, as they do within a tick. Recycling contacts of bodies that hardly move is Box3D's
+// (E. Catto); here the pose is part of the state, so that a manifold follows from the state alone,
+// before and after a load.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ void set_contact_pose(BodyRecord& body);
 [[nodiscard]] ContactDrift drift_of(const BodyRecord& body);
 
 /// From separations at the contact poses to those where the bodies are: along the normal, to first
-/// order; what is left out is below 2^-27 m for bodies of a metre.
+/// order; the error is below 2^-27 m for bodies of a metre.
 void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold);
 
 }  // namespace lockstone

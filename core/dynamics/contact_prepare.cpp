@@ -40,14 +40,14 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
-// What overlaps by more than this is squeezed; by twice as much, it keeps no more than half of its
-// impulse from sweep to sweep.
+// Points that overlap by more than this are squeezed; at twice this overlap, a row keeps no more
+// than half of its impulse from one iteration to the next.
 constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
 constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
 
-// The share of its impulse that a soft row keeps. Between what closes in without end, a heavily
-// damped spring pushes with all that it takes, until something slips out and is thrown away: what
-// is squeezed gives way instead. Nothing that lies or falls of itself overlaps as far.
+// The share of its impulse that a soft row keeps. Between two bodies that close in without end, a
+// heavily damped spring pushes without limit, until the body between them slips out and is thrown
+// away. A squeezed contact gives way instead. Bodies that only rest or fall never overlap as far.
 std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
@@ -72,16 +72,16 @@ std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint3
   return place;
 }
 
-// What points that are no more ended with is shared by those that are new, as far as it is what the
-// contact carries: a blow is not handed on.
+// Divides the impulses of points that are gone among the new ones, each at most the mean impulse of
+// the contact: the impulse of a blow is dropped.
 void hand_on(std::int64_t left, std::uint32_t fresh, std::int64_t load, ManifoldSource& out) {
   const std::int64_t each = std::min(left / std::popcount(fresh), load);
   for (std::size_t i = 0; i < lanes::k_block_points; ++i)
     if ((fresh >> i & 1) != 0) out.impulses[i] = static_cast<std::int32_t>(each);
 }
 
-// The impulses that points of the same features ended with a tick ago. Answers whether the record
-// has them already, in their places.
+// Warm starts each point with the impulse that the point of the same feature had at the end of the
+// last tick. Returns whether the record has all points already, in their places.
 bool fill_points(const ContactInput& in, ManifoldSource& out) {
   const auto count = static_cast<std::size_t>(in.manifold.count);
   bool kept = in.record.count == count;

@@ -1,4 +1,4 @@
-// From manifolds to what the lanes prepare constraints from, once a tick.
+// From manifolds to the inputs of the kernels that prepare constraints, once a tick.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace lockstone {
 /// Stiffness of a soft constraint: E. Catto, "Solver2D", 2024, and "Soft Constraints", GDC 2011.
 struct Softness {
   std::int32_t bias_rate = 0;   // 1/s, Q20
-  std::int32_t mass_scale = 0;  // Q30; what an impulse keeps as well: 1 − impulse scale
+  std::int32_t mass_scale = 0;  // Q30; also the share that an impulse keeps: 1 − impulse scale
 };
 
 /// Softness of contacts, fixed for a world: against an immovable body twice as stiff.
@@ -38,8 +38,8 @@ struct ContactInput {
 /// The manifold as lanes read it.
 [[nodiscard]] const std::int32_t* geometry_of(const Manifold& manifold);
 
-/// What else the lanes prepare a constraint from. Answers whether the record has the manifold's
-/// points already, in their places.
+/// Fills the inputs of a constraint besides the geometry. Returns whether the record has the
+/// manifold's points already, in their places.
 bool fill_source(const ContactInput& input, const ContactSoftness& softness,
                  lanes::ManifoldSource& out);
 

@@ -18,7 +18,7 @@ enum ContactFlag : std::uint8_t {
   k_all_contact_flags = k_contact_trigger | k_contact_touching,
 };
 
-/// What one contact point carries to the next tick. Impulses are the pair's velocity jump,
+/// The state of one contact point between ticks. Impulses are the pair's velocity jump,
 /// λ·(1/mA + 1/mB), per substep.
 struct ContactPointRecord {
   std::uint32_t feature = 0;
@@ -27,7 +27,7 @@ struct ContactPointRecord {
   friend bool operator==(const ContactPointRecord&, const ContactPointRecord&) = default;
 };
 
-/// What a contact is between. A part names a piece of a compound, or a group of triangles.
+/// The two bodies and parts of a contact. A part is a piece of a compound, or a group of triangles.
 struct ContactKey {
   std::uint32_t body_a = 0;
   std::uint32_t body_b = 0;

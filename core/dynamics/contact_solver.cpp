@@ -25,14 +25,15 @@ constexpr std::int32_t k_push_out_speed = 3 << 20;
 // Approaches slower than this do not bounce, m/s, Q20.
 constexpr std::int32_t k_restitution_threshold = 1 << 20;
 
-// Points nearer than this count as touching, and come to rest overlapping by so much: in between a
-// spring both pushes and lets go smoothly, so that what rocks by a hair does not rattle.
+// Points nearer than k_skin count as touching, and come to rest at k_resting_overlap. In between, a
+// spring both pushes and lets go smoothly, so that bodies that rock by a hair do not rattle.
 constexpr Displacement k_skin = Displacement::from_ratio(1, 4000);
 constexpr Displacement k_resting_overlap = Displacement::from_ratio(1, 200000);
 
-// Contacts of a heap that are nearer to rest than this are rigid, if they carry more than this part
-// of what makes a heap, and their bodies are slower than 2^-6 of what gravity gives in a substep:
-// without springs, what rattles would go on.
+// Contacts of a stack are rigid if their points are within k_firm_range of k_resting_overlap, they
+// carry more than 1/k_firm_part of the impulse that makes a contact overloaded, and their bodies
+// are slower than 2^-k_rigid_shift of the speed that gravity gives in a substep. Others stay
+// springs, since a spring damps a body that rattles.
 constexpr Displacement k_firm_range = Displacement::from_ratio(1, 5000);
 constexpr std::int64_t k_firm_part = 10;
 constexpr int k_rigid_shift = 6;
@@ -43,7 +44,8 @@ constexpr std::int64_t k_one_over_q28[] = {0, 1 << 28, 1 << 27, ((1 << 28) + 1) 
 // Of lanes without a contact.
 constexpr lanes::ManifoldGeometry k_no_geometry{};
 
-// What a body may do in a substep, an axis: 1000 m/s, Q50. Sums of sixteen substeps can be read.
+// The greatest speed of a body in a substep along each axis: 1000 m/s, Q50. Sums of sixteen
+// substeps can be read.
 constexpr std::int64_t k_row_limit = std::int64_t{1000} << lanes::k_velocity_bits;
 
 // step = 1/rate = mantissa · 2^-(7 + shift)
@@ -69,15 +71,15 @@ std::int64_t within_limit(std::int64_t x) {
   return std::clamp(x, -k_row_limit, k_row_limit);
 }
 
-// One component of a body in the first substep. What it was is left in `before`, which holds what
-// the impulses of the tick before give.
+// One component of a body in the first substep. `before` holds the velocity that the impulses of
+// the last tick give, and receives the component as it was.
 void start_component(std::int64_t gain, std::int64_t& now, std::int64_t& before) {
   const std::int64_t start = within_limit(now), warm = within_limit(before);
   now = start + gain * (std::int64_t{1} << k_grid_to_row) + warm;
   before = start;
 }
 
-// In later ones it gains what it gained in the substep before.
+// In a later substep it gains as much as in the one before.
 void repeat_component(std::int64_t& now, std::int64_t& before) {
   const std::int64_t start = within_limit(now);
   now = 2 * start - before;
@@ -111,9 +113,10 @@ std::int64_t mean_impulse(const ContactRecord& record) {
   return raw::round_shift(sum * k_one_over_q28[record.count], 28);
 }
 
-// The load follows the impulses over 2^shift ticks. Of a body that touches nothing else it is the
-// mean of all at first: there is nobody to swing with. Then the lesser of two ticks in a row
-// counts, so that a blow is no load; what does not push for a while begins anew.
+// The mean impulse (`load`) follows the impulses over 2^shift ticks. For a body that touches
+// nothing else, and so cannot swing with a neighbour, it is at first the mean over all ticks of the
+// contact. There the lesser impulse of two ticks in a row counts, so that a blow does not; a
+// contact that stops pushing for a while begins anew.
 void follow_load(std::int64_t before, std::int64_t now, bool alone, int shift,
                  ContactRecord& record) {
   constexpr std::uint8_t k_oldest = 255;
@@ -151,16 +154,17 @@ Vec3<Unit> unit_normal_of(const ManifoldBlock& block, std::size_t lane) {
 }  // namespace
 
 ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
-                             std::size_t contact_capacity, std::size_t joint_capacity)
+                             std::size_t contact_capacity, std::size_t joint_capacity,
+                             std::size_t converged_contacts)
     : step_(step),
       softness_(ContactSoftness::of(step)),
       rules_(rules_of(step)),
       load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
       graph_(body_capacity + contact_capacity, contact_capacity),
       solver_index_(body_capacity),
-      joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity)),
+      joints_(std::make_unique<JointSolver>(step, body_capacity, joint_capacity,
+                                            converged_contacts != 0)),
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
-      direct_(body_capacity + contact_capacity + joint_capacity, body_capacity, contact_capacity),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
       first_loads_(contact_capacity),
       islands_(body_capacity + contact_capacity + joint_capacity + 1, body_capacity) {
@@ -183,7 +187,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
   kept_.reserve(most * k_block_lanes);
-  reserve_islands(most_rows, body_capacity, contact_capacity);
+  reserve_islands(most_rows, body_capacity, contact_capacity,
+                  std::min(converged_contacts, contact_capacity));
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
 }
@@ -255,7 +260,7 @@ const ContactSolver::Entry* ContactSolver::look_ahead(
   return &entry;
 }
 
-// Answers how many points the block has.
+// Returns the number of points in the block.
 std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t block,
                                         Scratch& scratch) {
   std::uint32_t points = 0;
@@ -299,7 +304,6 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
     if (island.few_are_loaded() && is_loaded(scene, entry, source.share_b)) island.loaded.raise();
-    if (DirectContacts::is_uneven(source.share_b)) island.uneven.raise();
     restitution_[block][lane] = surface.restitution.raw;
     if (restitution_[block][lane] != 0) bounces_.store(true, std::memory_order_relaxed);
     points += static_cast<std::uint32_t>(sources.lanes[lane].count);
@@ -307,8 +311,8 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
   return points;
 }
 
-// Whether a contact of a heap carries, and lies where it comes to rest: a spring there is what a
-// heap bends by.
+// Whether a contact of a stack carries, and lies where it comes to rest. A stack would bend by a
+// spring there.
 bool ContactSolver::is_firm(const ContactScene& scene, const Entry& entry) const {
   const ContactRecord& record = scene.records[entry.record];
   if (std::int64_t{record.load.raw} * record.count * k_firm_part <= heap_push_) return false;
@@ -324,8 +328,8 @@ bool ContactSolver::is_firm(const ContactScene& scene, const Entry& entry) const
 }
 
 // In the first substep: gravity and the impulses of the tick before. Later ones start with the
-// impulses that the substep before ended with. Since all responses are fixed for a tick, what these
-// did to a body is all that it gained in that substep, gravity included; so it gains that again.
+// impulses that the substep before ended with. All responses are fixed for a tick, so these
+// impulses and gravity give a body the same velocity as in the substep before.
 void ContactSolver::integrate_velocities(bool is_first, std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     RowBody& row = rows_[i];
@@ -344,7 +348,7 @@ void ContactSolver::integrate_velocities(bool is_first, std::size_t first, std::
   }
 }
 
-// Preparation knows which axes do not answer; what a push leaves there is taken back.
+// Preparation gives locked axes no response; here the velocity that a push left there is cleared.
 void ContactSolver::hold(std::size_t index) {
   if (bodies_[index].held == 0) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -392,7 +396,6 @@ void ContactSolver::bounce(const ManifoldKernels& kernels, std::size_t first, st
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (is_idle_) return;
-  if (!direct_.empty()) direct_.store(direct_run());
   first_loads_.store(supports_, records);
   loops_.clear();
   stages_.clear();
@@ -407,7 +410,7 @@ void ContactSolver::store(std::span<const Manifold> manifolds, std::span<Contact
   saturations_ = saturations;
 }
 
-// Blocks of one colour, counted from its first. Answers how many values were clamped.
+// Blocks of one colour, counted from its first. Returns the number of clamped values.
 std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first, std::size_t end,
                                           const StoreTarget& target) {
   const std::size_t begin = ranges_[stage.color].first;
@@ -431,15 +434,15 @@ std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first,
   return clamped;
 }
 
-// Between what nothing moves and a body that touches nothing else.
+// Between a body that nothing moves and one that touches nothing else.
 bool ContactSolver::is_alone(const Entry& entry) const {
   const bool a_moves = (entry.body_a & k_immovable) == 0;
   const bool b_moves = (entry.body_b & k_immovable) == 0;
   return a_moves != b_moves && graph_.degree(a_moves ? entry.body_a : entry.body_b) == 1;
 }
 
-// Writes what the sweeps left of a contact; its points stand named. Answers how many values were
-// clamped.
+// Writes the impulses of a contact to its record, which has the feature ids already. Returns the
+// number of clamped values.
 std::uint32_t ContactSolver::store_contact(std::size_t block_index, std::size_t lane,
                                            ContactRecord& record) const {
   const ManifoldBlock& block = blocks_[block_index];

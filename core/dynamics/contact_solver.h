@@ -1,8 +1,8 @@
-// The contact solver of one tick: bodies, colours, blocks of constraints and the sweeps over them.
+// The contact solver of one tick: bodies, colours, blocks of constraints and iterations over them.
 //
 // Source of the method: E. Catto, "Solver2D", 2024 (the soft-step solver): each substep integrates
 // velocities, starts warm, solves with soft bias, integrates positions and relaxes without bias.
-// What differs is told in docs/solver.md.
+// docs/solver.md lists the differences.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,6 @@
 #include "core/dynamics/constraint_graph.h"
 #include "core/dynamics/contact_prepare.h"
 #include "core/dynamics/contact_record.h"
-#include "core/dynamics/direct_contacts.h"
 #include "core/dynamics/first_loads.h"
 #include "core/dynamics/heap_loads.h"
 #include "core/dynamics/joint_net.h"
@@ -35,7 +34,7 @@ namespace lockstone {
 class JointSolver;
 struct JointRun;
 
-/// What the solver reads of a world. The manifold and the surfaces of record i are in slot
+/// The solver's inputs from a world. The manifold and the surfaces of record i are in slot
 /// slots[i]; those of triggers are left out.
 struct ContactScene {
   std::span<const BodyRecord> bodies;
@@ -54,7 +53,8 @@ class ContactSolver {
  public:
   /// No functions but this and `make_room` allocate.
   [[gnu::cold]] ContactSolver(const TimeStep& step, std::size_t body_capacity,
-                              std::size_t contact_capacity, std::size_t joint_capacity);
+                              std::size_t contact_capacity, std::size_t joint_capacity,
+                              std::size_t converged_contacts);
   [[gnu::cold]] ~ContactSolver();
 
   /// For so many workers.
@@ -66,12 +66,12 @@ class ContactSolver {
   /// All substeps.
   void run(Parallel& parallel);
 
-  /// Writes what each point ended with, and whether the surfaces met, to the records, and the
+  /// Writes the last impulses of each point, and whether the surfaces met, to the records, and the
   /// fastest approach of each to `approaches`.
   void store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
              std::span<SolverVelocity> approaches, Parallel& parallel);
 
-  /// Writes what each joint ended with to the records.
+  /// Writes the last impulses of each joint to the records.
   void store_joints(std::span<const JointLink> links, std::span<JointRecord> joints,
                     Parallel& parallel) const;
 
@@ -89,12 +89,11 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
-  /// Whether the body's island is too large to be solved directly.
+  /// Whether the body's island is large, and left to the iterations.
   [[nodiscard]] bool is_iterated(std::uint32_t body) const {
     const std::uint32_t index = solver_index_[body];
     return index != 0 && islands_.load(islands_.of(index)).is_iterated();
   }
-  [[nodiscard]] std::size_t solved_at_once() const { return direct_.contacts(); }
 
   /// Values that were clamped to their range.
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }
@@ -105,7 +104,7 @@ class ContactSolver {
   // Added to the number of a body that never moves.
   static constexpr std::uint32_t k_immovable = 0x80000000;
 
-  // A heap finds what it carries anew every so many ticks.
+  // Ticks from one stack rebalance to the next.
   static constexpr std::uint64_t k_heap_ticks = 64;
 
   // Blocks of one colour.
@@ -118,7 +117,6 @@ class ContactSolver {
     velocities,
     warm_joints,
     solve,
-    push_direct,
     push_islands,
     lift_net,
     solve_joints,
@@ -128,7 +126,6 @@ class ContactSolver {
     relax_joints,
     relax_net,
     relax,
-    relax_direct,
     relax_islands,
     end_islands,
     bounce,
@@ -139,10 +136,10 @@ class ContactSolver {
     std::uint8_t color = 0;
     std::uint8_t substep = 0;
   };
-  // What preparation has at hand.
+  // Working memory of preparation.
   struct Scratch {
     lanes::ManifoldSources sources;
-    SolverBody fixed_a, fixed_b;  // of what never moves
+    SolverBody fixed_a, fixed_b;  // bodies that never move
   };
   // One contact in the solver.
   struct Entry {
@@ -152,8 +149,8 @@ class ContactSolver {
     std::uint32_t body_b;
   };
 
-  // A record's bodies, and what of them decides who enters the solver: the motion in the upper two
-  // bits, none of a record that is left out.
+  // A body of a record, with its motion type in the upper two bits, by which bodies enter the
+  // solver. Zero for a record that is left out.
   struct Side {
     static constexpr int k_motion_bit = 30, k_mark_bit = 29;
 
@@ -168,8 +165,7 @@ class ContactSolver {
       return static_cast<MotionType>(word >> k_motion_bit);
     }
     [[nodiscard]] bool is_left_out() const { return word == 0; }
-    // Of side A: a contact of this tick between what moves. Of side B: a contact whose load is
-    // several times a weight.
+    // On side A: a new contact of two dynamic bodies. On side B: an overloaded contact.
     [[nodiscard]] bool is_marked() const { return (word >> k_mark_bit & 1) != 0; }
     void mark() { word |= 1U << k_mark_bit; }
     [[nodiscard]] bool is_dynamic() const { return motion() == MotionType::dynamic; }
@@ -181,7 +177,7 @@ class ContactSolver {
     [[nodiscard]] bool is_bearing() const { return b.is_marked(); }
   };
 
-  // What `store` reads and writes of a world.
+  // The data of a world that `store` reads and writes.
   struct StoreTarget {
     std::span<const Manifold> manifolds;
     std::span<ContactRecord> records;
@@ -210,8 +206,8 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
-  void take_up_direct(const ContactScene& scene);
-  void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts);
+  void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
+                       std::size_t converged);
   void bar_islands(const ContactScene& scene);
   void list_island(std::uint32_t island);
   [[nodiscard]] bool is_pinched(const ContactScene& scene);
@@ -236,7 +232,7 @@ class ContactSolver {
   [[nodiscard]] bool is_firm(const ContactScene& scene, const Entry& entry) const;
   [[nodiscard]] bool is_loaded(const ContactScene& scene, const Entry& entry,
                                std::int64_t share_b) const;
-  [[nodiscard]] ContactRun direct_run();
+  [[nodiscard]] ContactRun contact_run();
   [[nodiscard]] JointRun joint_run();
   [[nodiscard]] NetRun net_run() {
     return {rows_.data(), before_.data(), inertias_.data(), bodies_.data(), places_.data()};
@@ -247,7 +243,7 @@ class ContactSolver {
     if ((index & k_immovable) == 0) return index;
     return static_cast<std::uint32_t>(members_.size()) + (index & ~k_immovable);
   }
-  // As the direct contacts know a body; 0: what no impulse moves.
+  // 0: a body that no impulse moves.
   [[nodiscard]] std::uint32_t pushed_number(std::uint32_t index) const {
     return (index & k_immovable) == 0 && bodies_[index].is_pushed() ? index : 0;
   }
@@ -302,8 +298,8 @@ class ContactSolver {
   // By body: the first of its numbers here; 0: not in the solver.
   std::vector<std::uint32_t> solver_index_;
 
-  // By number: bodies that move, from 1; then, in all but the first two, one for each contact of
-  // what does not.
+  // By number: bodies that move, from 1; then, in all but the first two, one for each contact of a
+  // body that does not.
   std::vector<std::uint32_t> members_;  // the body
   std::vector<SolverBody> bodies_;
   std::vector<lanes::SourceBody> inertias_;
@@ -311,12 +307,12 @@ class ContactSolver {
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
   std::vector<PushAxis> axes_;
-  std::vector<lanes::BodyPlace> places_;  // of what nets of joints hold
+  std::vector<lanes::BodyPlace> places_;  // of the bodies in nets of joints
 
   std::unique_ptr<JointSolver> joints_;
   JointNet net_;
-  DirectContacts direct_;
-  std::unique_ptr<ProximalSolver> proximal_;  // null without LOCKSTONE_CONVERGED_ISLANDS
+  std::unique_ptr<ProximalSolver> proximal_;  // null where no island is solved to convergence
+  std::uint32_t most_island_contacts_ = 0;    // of an island that is
   std::vector<std::uint32_t> first_of_;  // of an island: its first body, then its first entry, + 1
   std::vector<std::uint32_t> next_of_;   // of a body, then of an entry: the next, + 1
   std::vector<std::uint32_t> island_bodies_;
@@ -345,13 +341,13 @@ class ContactSolver {
   std::vector<lanes::ManifoldApproach> approaches_;
   std::vector<lanes::BlockWord> restitution_;
   bool is_idle_ = false;              // neither contacts nor joints in this tick
-  bool has_heap_ = false;             // an island bears more loads than are solved at once
+  bool has_heap_ = false;             // an island bears many loads
   std::int64_t heap_push_ = 0;        // from which on a contact bears several times a weight,
                                       // of all its points, m/s, Q20
   std::atomic<bool> bounces_{false};  // any restitution at all
   std::atomic<bool> holds_{false};    // any locked axis of moving
   std::vector<Loop> loops_;           // of the sequence at hand
-  std::vector<Stage> stages_;         // what they are
+  std::vector<Stage> stages_;         // of each loop
 };
 
 }  // namespace lockstone

@@ -9,34 +9,34 @@ namespace lockstone {
 namespace {
 
 // No island has more contacts.
-[[maybe_unused]] constexpr std::uint32_t k_most_island_contacts = 1024;
+constexpr std::uint32_t k_most_island_contacts = 1024;
 
 // The velocity that gravity adds in a substep, m/s, Q32.
-[[maybe_unused]] std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
+std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
   const auto size = static_cast<std::int64_t>(norm(gravity.x.raw, gravity.y.raw, gravity.z.raw));
   return step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
 }
 
-// Whether impulses would need more bits than there are beside speeds: above 20,000 : 1.
+// Whether impulses would need more bits than there are beside speeds: above 200,000 : 1.
 bool is_too_uneven(BlockFloat a, BlockFloat b) {
-  constexpr std::int32_t k_least_share = (1 << 30) / 20'000;
+  constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
   if (a.mantissa == 0 || b.mantissa == 0) return false;
   return std::min(ratio(a, b), ratio(b, a)).raw < k_least_share;
 }
 
 }  // namespace
 
-// Where islands are not solved to convergence, no program has the code for it.
-void ContactSolver::reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts) {
-  if constexpr (k_converges_islands) {
-    const std::size_t most = std::min<std::size_t>(contacts, k_most_island_contacts);
-    proximal_ = std::make_unique<ProximalSolver>(bodies, contacts);
-    first_of_.reserve(2 * bodies + 2);
-    next_of_.reserve(rows + contacts);
-    island_bodies_.reserve(BodyFactor::k_most_bodies);
-    island_contacts_.reserve(most);
-    holds_found_.reserve(most);
-  }
+void ContactSolver::reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
+                                    std::size_t converged) {
+  if (converged == 0) return;
+  const std::size_t most = std::min<std::size_t>(converged, k_most_island_contacts);
+  most_island_contacts_ = static_cast<std::uint32_t>(most);
+  proximal_ = std::make_unique<ProximalSolver>(rows, std::min(bodies, converged), converged);
+  first_of_.reserve(2 * bodies + 2);
+  next_of_.reserve(rows + contacts);
+  island_bodies_.reserve(BodyFactor::k_most_bodies);
+  island_contacts_.reserve(most);
+  holds_found_.reserve(most);
 }
 
 std::uint32_t ContactSolver::converged_islands() const {
@@ -86,8 +86,8 @@ void ContactSolver::chain_islands() {
   }
 }
 
-// Whether a kinematic body presses what stands in `island_contacts_` against something else that no
-// impulse moves: no impulse could part them, and none would be great enough.
+// Whether a kinematic body presses the island of `island_contacts_` against another body that no
+// impulse moves. Then no impulses satisfy the rows, and they would grow without limit.
 bool ContactSolver::is_pinched(const ContactScene& scene) {
   constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of −1/8, Q60
   holds_found_.clear();
@@ -126,18 +126,17 @@ ProximalContact ContactSolver::converged_contact(std::uint32_t index) const {
 }
 
 void ContactSolver::plan_converged(const ContactScene& scene) {
-  if constexpr (k_converges_islands) {
-    proximal_->clear();
-    bar_islands(scene);
-    chain_islands();
-    for (std::uint32_t island = 1; island < islands_.count(); ++island) {
-      IslandLoad& load = islands_.load(island);
-      const bool is_small = load.contacts != 0 && load.contacts <= k_most_island_contacts &&
-                            load.bodies <= BodyFactor::k_most_bodies;
-      if (load.is_barred || !is_small) continue;
-      list_island(island);
-      load.is_converged = !is_pinched(scene) && proximal_->add(island_bodies_, island_contacts_);
-    }
+  if (proximal_ == nullptr) return;
+  proximal_->clear();
+  bar_islands(scene);
+  chain_islands();
+  for (std::uint32_t island = 1; island < islands_.count(); ++island) {
+    IslandLoad& load = islands_.load(island);
+    const bool is_small = load.contacts != 0 && load.contacts <= most_island_contacts_ &&
+                          load.bodies <= BodyFactor::k_most_bodies;
+    if (load.is_barred || !is_small) continue;
+    list_island(island);
+    load.is_converged = !is_pinched(scene) && proximal_->add(island_bodies_, island_contacts_);
   }
 }
 
@@ -152,26 +151,27 @@ void ContactSolver::list_island(std::uint32_t island) {
 }
 
 void ContactSolver::begin_converged(const ContactScene& scene) {
-  if constexpr (k_converges_islands) {
-    for (ProximalContact& contact : proximal_->contacts()) {
-      contact.slot = slot_of(contact.slot);
-      contact.row_a = row_of(contact.row_a);
-      contact.row_b = row_of(contact.row_b);
-    }
-    const std::int64_t weight = weight_of(scene.gravity, step_);
-    for (std::uint32_t i = 0; i < proximal_->count(); ++i)
-      proximal_->begin(direct_run(), i, weight);
+  if (proximal_ == nullptr) return;
+  for (ProximalContact& contact : proximal_->contacts()) {
+    contact.slot = slot_of(contact.slot);
+    contact.row_a = row_of(contact.row_a);
+    contact.row_b = row_of(contact.row_b);
   }
+  // The first phase adds a scaled warm start itself: the velocities that single contacts of the
+  // last tick give to a body may exceed all limits.
+  for (const std::uint32_t body : proximal_->bodies())
+    before_[body] = {};
+  const std::int64_t weight = weight_of(scene.gravity, step_);
+  for (std::uint32_t i = 0; i < proximal_->count(); ++i)
+    proximal_->begin(contact_run(), i, weight);
 }
 
 void ContactSolver::run_converged(StageKind kind, std::size_t first, std::size_t end) {
-  if constexpr (k_converges_islands) {
-    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) {
-      if (kind == StageKind::end_islands)
-        proximal_->end(direct_run(), i);
-      else
-        proximal_->solve(direct_run(), i, kind == StageKind::push_islands);
-    }
+  for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) {
+    if (kind == StageKind::end_islands)
+      proximal_->end(contact_run(), i);
+    else
+      proximal_->solve(contact_run(), i, kind == StageKind::push_islands);
   }
 }
 

@@ -10,7 +10,7 @@ JointRun ContactSolver::joint_run() {
   return {bodies_, rows_, before_, inertias_, places_};
 }
 
-// What never moves is number 0 to joints.
+// Joints use number 0 for bodies that never move.
 void ContactSolver::take_up_joints(const ContactScene& scene) {
   if (scene.joint_links.empty() && joints_->empty()) return;
   joints_->clear();
@@ -27,8 +27,8 @@ void ContactSolver::take_up_joints(const ContactScene& scene) {
   take_up_net(scene);
 }
 
-// Once all bodies have their numbers. What stands still has a row of its own in each joint of a
-// net, as in each contact.
+// Precondition: all bodies have their numbers. A body that stands still has a row of its own in
+// each joint of a net, as in each contact.
 void ContactSolver::take_up_net(const ContactScene& scene) {
   const std::span<const std::uint32_t> in_net = joints_->plan();
   net_.clear(in_net.empty() ? 0 : static_cast<std::uint32_t>(members_.size()));

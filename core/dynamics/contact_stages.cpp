@@ -8,7 +8,7 @@ namespace {
 
 using lanes::ManifoldKernels;
 
-// What a piece of a loop has at least: a microsecond or so of work.
+// The least number of items in a piece of a loop: about a microsecond of work.
 constexpr std::uint32_t k_body_grain = 64;
 constexpr std::uint32_t k_joined_grain = 8;
 constexpr std::uint32_t k_block_grain = 4;
@@ -64,7 +64,6 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                       joints_->prepare(joint_run(), first, end);
                     });
   begin_converged(scene);
-  take_up_direct(scene);
   find_first_loads(scene, parallel);
 }
 
@@ -113,12 +112,10 @@ void ContactSolver::add_net_loops(StageKind kind) {
 // joints and contacts such that they stay.
 void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   const std::uint32_t clusters = joints_->cluster_count();
-  const std::uint32_t direct = direct_.empty() ? 0 : 1;
   const auto bodies = static_cast<std::uint32_t>(members_.size());
   add_loop({StageKind::velocities, 0, substep}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
   add_loop_of_each_color(StageKind::solve);
-  add_loop({StageKind::push_direct}, direct, 1, true);
   add_loop({StageKind::push_islands}, converged_islands(), 1);
   for (int i = 0; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::lift_net);
@@ -130,7 +127,6 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   for (int i = 1; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::relax_net);
   add_loop_of_each_color(StageKind::relax, substep);
-  add_loop({StageKind::relax_direct}, direct, 1, true);
   add_loop({StageKind::relax_islands}, converged_islands(), 1);
 }
 
@@ -156,10 +152,6 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints_->warm_start(joint_run(), first, end);
     case StageKind::lift_net:
       return net_.lift(net_run(), stage.color, first, end);
-    case StageKind::push_direct:
-      return direct_.solve(direct_run(), true);
-    case StageKind::relax_direct:
-      return direct_.solve(direct_run(), false);
     case StageKind::push_islands:
     case StageKind::relax_islands:
     case StageKind::end_islands:

@@ -11,11 +11,11 @@ namespace {
 
 using lanes::k_block_lanes;
 
-// What a piece of a loop has at least: a microsecond or so of work.
+// The least number of items in a piece of a loop: about a microsecond of work.
 constexpr std::uint32_t k_side_grain = 256;
 
-// What a contact of a heap bears, m/s, Q20: between bodies of equal mass 2½ times what gravity
-// gives them in a substep.
+// The impulse from which on a contact is overloaded, m/s, Q20: between bodies of equal mass 2½
+// times the impulse of gravity in a substep.
 std::int64_t heap_push(const Vec3<Acceleration>& gravity, const TimeStep& step) {
   std::int64_t most = 0;
   for (int i = 0; i < 3; ++i)
@@ -27,8 +27,8 @@ std::int64_t heap_push(const Vec3<Acceleration>& gravity, const TimeStep& step) 
 
 }  // namespace
 
-// Bodies enter the solver when a constraint first names them. What no impulse moves enters anew
-// with every constraint, since constraints that are solved side by side write to all their bodies.
+// A body enters the solver with its first constraint. A body that no impulse moves enters anew with
+// every constraint, since constraints that are solved side by side write to all their bodies.
 std::uint32_t ContactSolver::take_up(Side side) {
   if (side.motion() == MotionType::static_body) return k_immovable | immovables_++;
   const std::uint32_t body = side.body(), known = solver_index_[body];
@@ -40,7 +40,7 @@ std::uint32_t ContactSolver::take_up(Side side) {
   return index;
 }
 
-// What taking up reads of large records, side by side.
+// Collects the few fields of large records that `take_up` reads, side by side.
 void ContactSolver::find_sides(const ContactScene& scene, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     const ContactRecord& record = scene.records[i];
@@ -113,7 +113,7 @@ void ContactSolver::reserve_rows() {
     bodies_.resize(members_.size());
     axes_.resize(members_.size());
   }
-  if (rows_.size() >= row_count()) return;  // they only grow, within what is reserved
+  if (rows_.size() >= row_count()) return;  // they only grow, within their capacity
   inertias_.resize(row_count());
   rows_.resize(row_count());
   before_.resize(row_count());
@@ -132,7 +132,7 @@ void ContactSolver::lay_out(Parallel& parallel) {
     block_count_ += ranges_[color].count;
   }
   kernels_ = &lanes::manifold_kernels(graph_.greatest_count());
-  if (blocks_.size() < block_count_) {  // they only grow, within what is reserved
+  if (blocks_.size() < block_count_) {  // they only grow, within their capacity
     slots_.resize(block_count_ * k_block_lanes);
     blocks_.resize(block_count_);
     approaches_.resize(block_count_);

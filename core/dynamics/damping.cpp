@@ -13,7 +13,7 @@ std::int64_t times_q30(std::int64_t x, std::int64_t y) {
   return raw::round_shift(x * y, 30);
 }
 
-// ½ − z/6 + z²/24 − …, for z below ¼: what is left out is below z⁷/9!.
+// ½ − z/6 + z²/24 − …, for z below ¼; the series is cut off with an error below z⁷/9!.
 std::int64_t mean_of_small(std::int64_t z) {
   std::int64_t sum = 0;
   for (std::int64_t n = 8; n >= 2; --n)

@@ -95,7 +95,7 @@ constexpr void visit_value(const char* name, const char*, Quat& value, F&& f) {
   visit_value(name, ".w", value.w, f);
 }
 
-/// Of fields that do not hold what their type says: integers without a unit.
+/// For fields whose bits are plain integers, not values of their type.
 template <class D, class R, int N, class F>
 constexpr void visit_bits(const char* name, const char* suffix, Fixed<D, R, N>& value, F&& f) {
   f(name, suffix, value.raw);

@@ -1,4 +1,4 @@
-// What contacts carry where bodies were just put on each other.
+// The initial warm start of new stacks.
 #include "core/dynamics/first_loads.h"
 
 #include <algorithm>
@@ -15,11 +15,13 @@ using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-// Rounds over the supports of one body, of each kind, and what need not be pushed, Q32: 0.1 µm/s.
+// Most rounds over the supports of one body, of each kind, and the change of an impulse that ends
+// them, Q32: 0.1 µm/s.
 constexpr int k_most_support_rounds = 16;
 constexpr std::int64_t k_settled = std::int64_t{1} << 9;
 
-// What opens by more than this part of the weight in a substep tips over: 2^-3.
+// A body tips over if a point opens faster than this part of the speed that gravity and forces give
+// it in a substep: 2^-3.
 constexpr int k_tipping_shift = 3;
 
 // Along the normal, towards the body that rests: of a point or of all points at once, Q50.
@@ -74,8 +76,8 @@ void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowB
   });
 }
 
-// All points of a support push alike as far as that will do: pressure in the middle is what sweeps
-// keep best. What tips over has no supports.
+// All points of a support push alike as far as that suffices, since iterations keep a pressure in
+// the middle best. A body that tips over has no supports.
 void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
   RowBody row = warm;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -95,8 +97,8 @@ void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& 
   if (tips(row, body, supports)) supports.clear();
 }
 
-// Whether a point opens sooner than a part of the weight would close it: what cannot be held falls.
-// Handed down nevertheless, its push would grow from body to body.
+// Whether a point opens faster than a part of the weight would close it, so that the body falls.
+// Its push, if propagated, would grow from body to body.
 bool FirstLoads::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
   const std::int64_t slow = (body.greatest_gain() >> k_tipping_shift) * k_to_row;
   return std::ranges::any_of(supports, [&](const Support& support) {
@@ -150,7 +152,7 @@ void FirstLoads::fill(const ContactRun& run, Support& support) {
   support.common = own(support.turn, support.response);
 }
 
-// Answers by how much, Q32.
+// Returns the magnitude of the change of each point's impulse, Q32.
 std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   if (contact.count == 0) return 0;
@@ -183,7 +185,8 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
   return most;
 }
 
-// To the block in its own steps, and to both bodies; a new contact is at rest under what it got.
+// Gives the impulses to the block, rounded to its steps, and to both bodies. A new contact takes
+// them as its mean impulse.
 void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPush& to_a,
                            RowPush& to_b) {
   const ContactRows& contact = support.contact;

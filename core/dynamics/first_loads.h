@@ -1,12 +1,13 @@
-// What contacts carry where bodies were just put on each other: impulses to start from.
+// The initial warm start: impulses for the contacts of bodies that were just put on each other.
 //
-// A contact starts with what it pushed a tick ago. Where nothing pushed yet, sweeps hand a load on
-// by about a contact each, and a wall of a hundred rows has sunk by metres before its lowest row
-// knows what it carries. Here bodies hand it down instead, each once all that rests on it has: its
-// supports, as if they stood still, take what it gains by gravity, forces and what lies on it; what
-// they take, they hand on in turn. Levels of a contact graph as in E. Guendelman, R. Bridson,
-// R. Fedkiw, "Nonconvex rigid bodies with stacking", 2003; but downwards, and both sides of a
-// contact feel it, so that momentum is kept.
+// A contact starts with its impulses of the last tick. In a new stack there are none, each
+// iteration propagates a load by about one contact, and a wall of a hundred rows sinks by metres
+// before its lowest contacts carry the weight. Here loads are propagated from the top down instead,
+// to each body after all bodies that rest on it. Its supports, as if they stood still, take the
+// velocity that gravity, forces and the bodies on top of it give it, and propagate the impulses of
+// that in turn. Levels of a contact graph as in E. Guendelman, R. Bridson, R. Fedkiw, "Nonconvex
+// rigid bodies with stacking", 2003; but downwards, and both sides of a contact feel it, so that
+// momentum is kept.
 #pragma once
 
 #include <array>
@@ -29,8 +30,8 @@ class FirstLoads {
   void clear() { loads_.clear(); }
 
   /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
-  /// given to the blocks, and what they do to bodies, added to `warm`. Bodies faster than 1/4 m/s
-  /// are left out. `order` knows the contacts, and finds who stands.
+  /// given to the blocks, and the velocities that they give to bodies, added to `warm`. Bodies
+  /// faster than 1/4 m/s are left out. `order` has the contacts, and finds the bodies that stand.
   void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
             Parallel& parallel);
 
@@ -75,8 +76,8 @@ class FirstLoads {
   void hand_down(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
 
   std::vector<Supports> supports_;  // by worker
-  // By link, of a new contact: what its record has to know, the impulse of a point, mean of all,
-  // m/s, Q20; else k_no_load.
+  // By link, of a new contact: the impulse of a point, mean of all, for its record, m/s, Q20; else
+  // k_no_load.
   std::vector<std::int32_t> loads_;
 };
 

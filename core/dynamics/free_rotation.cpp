@@ -74,7 +74,7 @@ FreeAxes axes_of(const Vec3<Unit>& inertia, const TurnTime& time) {
   return axes;
 }
 
-// A body on its way: what it has turned in its own axes, and its momentum there.
+// A body on its way: its rotation so far, and its angular momentum, in body axes.
 struct Turning {
   std::array<std::int64_t, 3> momentum{};
   FineQuat turned;

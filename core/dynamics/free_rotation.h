@@ -28,21 +28,21 @@ struct TurnTime {
 /// The orientation of a dynamic body after a time with the angular momentum `spin` (as in
 /// BodyRecord). `rotation` is the matrix of its orientation.
 ///
-/// By the middle moment I_a the body turns about its angular momentum, exactly; what the others
-/// differ from it are rotations about their own axes, j the nearer in 1/I and k the third, by
-/// (1/I − 1/I_a)·m with m the momentum in body axes: each keeps |m| and is exact by itself. A
-/// sphere needs none, a symmetric top (I_j = I_a) one, and is then exact too. Any other body takes
-/// them by turns, by the fourth-order scheme S6 of S. Blanes and P. Moan, "Practical symplectic
-/// partitioned Runge-Kutta and Runge-Kutta-Nyström methods", 2002, or by half, whole, half (Strang)
-/// where these turns are so small that this is as good. The energy
-/// has no trend; it is off by less than 5e-3 of itself at any speed, by less than 1e-6 up to ¼ rad.
+/// If all moments were the middle one, I_a, the body would turn about its angular momentum,
+/// exactly. The differences of the others from I_a are rotations about their own axes, j the nearer
+/// in 1/I and k the third, by (1/I − 1/I_a)·m with m the momentum in body axes: each keeps |m| and
+/// is exact by itself. A sphere needs none, a symmetric top (I_j = I_a) one, and is then exact too.
+/// Any other body takes them by turns, by the fourth-order scheme S6 of S. Blanes and P. Moan,
+/// "Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nyström methods", 2002, or by
+/// half, whole, half (Strang) where these turns are so small that this is as good. The energy has
+/// no trend; it is off by less than 5e-3 of itself at any speed, by less than 1e-6 up to ¼ rad.
 ///
 /// A body that turns about k by more than 1 rad goes in several pieces, at most 32; beyond, I_j
 /// counts as I_a.
 [[nodiscard]] FreeTurn turn_freely(const BodyRecord& body, const Mat3& rotation,
                                    const Vec3<Velocity>& spin, const TurnTime& time);
 
-/// Principal axes by inverse moment, and what one turn takes of each.
+/// Principal axes by inverse moment, and the factors of one turn about each.
 struct FreeAxes {
   int nearer = 0;
   int third = 0;

@@ -13,11 +13,11 @@ using lanes::k_block_points;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-// What stands firm has friction of this part of its push to spare, and is slower than this part of
-// what gravity gives in a substep: 2^-3.
+// A body that stands firm has friction of this part of its push to spare, and is slower than this
+// part of the speed that gravity gives in a substep: 2^-3.
 constexpr int k_firm_shift = 3;
 
-// Fraction bits of what is balanced, which is within 1/32 m/s.
+// Fraction bits of the changes of velocity that are balanced, which are within 1/32 m/s.
 constexpr int k_change_bits = 36;
 
 // An impulse of the block, Q32.
@@ -34,7 +34,7 @@ bool is_within_limit(std::int64_t limit, std::int64_t t, std::int64_t b, std::in
   return square(t) + square(b) + square(twist) <= square(limit);
 }
 
-// Whether it is left to the sweeps.
+// Whether the iterations solve it.
 bool is_swept(const ManifoldBlock& block, std::size_t lane) {
   return block.mass_01[lane] != 0;
 }
@@ -67,7 +67,7 @@ Motion6 column_of(const RawVec3& linear, const RawVec3& turn, std::int64_t share
   return column;
 }
 
-// What a body gains by what pushes it and by its own forces has to be taken from it, Q36.
+// The change that stops a body: less the velocity that impulses and its own forces give it, Q36.
 Motion6 change_of(const RowBody& warm, const SolverBody& body) {
   Motion6 change{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -148,7 +148,7 @@ void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool 
     columns.push_back(column_of(tangent, turned(arm, tangent, 0, {}), share));
 }
 
-// Whether all supports can give what the change takes.
+// Whether all supports can give the impulses of the change.
 bool HeapLoads::balance(const ContactRun& run, const Motion6& change, Scratch& scratch) {
   const auto is_great = [](std::int64_t x) {
     return x > MotionBalance::k_most_change || x < -MotionBalance::k_most_change;

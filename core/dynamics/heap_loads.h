@@ -1,10 +1,10 @@
-// What contacts of a heap carry, found anew: impulses, friction included, that keep it at rest.
+// The stack rebalance: impulses, friction included, that keep a stack at rest, computed afresh.
 //
-// Sweeps hand on what a heap bends by as slowly as its load: one that starts warm is a spring of
-// about m/h² a contact, and a wall of forty rows lies beyond the buckling load of such springs. So
-// from time to time each body, from the top downwards, asks of its supports what it takes to stand
-// still, the least change in the sum of squares, and hands that down, as first loads are. What
-// moved until then is stopped.
+// Iterations correct the bending of a stack as slowly as they spread its load: with warm starting,
+// a contact is a spring of about m/h², and a wall of forty rows lies beyond the buckling load of
+// such springs. So from time to time each body, from the top down, takes from its supports the
+// impulses that stop it, with the least change in the sum of squares, and propagates them as the
+// initial warm start does. The motion until then is stopped.
 #pragma once
 
 #include <array>
@@ -22,16 +22,16 @@ class HeapLoads {
   /// No function but this allocates.
   void make_room(std::uint32_t workers);
 
-  /// Of bodies that stand firm: what their supports push with, given to the blocks, and what that
-  /// does to bodies, added to `warm`; their own motion in `run` is taken away. Firm is what is
-  /// slower than an eighth of what gravity gives in a substep, and rests by three points or more on
-  /// the ground, or on what stands firm, with friction of an eighth of the push to spare: enough to
-  /// stop, in a substep, all that stands there.
+  /// Computes the impulses of the supports of all bodies that stand firm. Gives them to the blocks,
+  /// adds the velocities that they give to bodies to `warm`, and clears the bodies' motion in
+  /// `run`. A body stands firm if it is slower than an eighth of the speed that gravity gives in a
+  /// substep, and rests by three points or more on the ground or on bodies that stand firm, with
+  /// friction of an eighth of the push to spare: enough to stop it in a substep.
   void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
             Parallel& parallel);
 
  private:
-  // A contact on which a body rests, and what it has to push more, Q32.
+  // A contact on which a body rests, and the changes of its impulses, Q32.
   struct Support {
     ContactPair pair;
     std::uint32_t link = 0;
@@ -50,8 +50,7 @@ class HeapLoads {
                      Scratch& scratch);
   static void add_columns(const ContactRun& run, const Support& support, bool is_b,
                           std::vector<Motion6>& columns);
-  [[nodiscard]] static bool balance(const ContactRun& run, const Motion6& change,
-                                    Scratch& scratch);
+  [[nodiscard]] static bool balance(const ContactRun& run, const Motion6& change, Scratch& scratch);
   [[nodiscard]] static bool holds(const ContactRun& run, const Support& support);
   static void push(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
 

@@ -64,7 +64,7 @@ struct Side {
     hold_axes(body.record);
   }
 
-  // α (u·u + (r̄ × u) · M (r̄ × u)), 32 bits; of u what no lock holds
+  // α (u·u + (r̄ × u) · M (r̄ × u)), 32 bits; u·u without locked axes
   [[nodiscard]] std::int64_t compliance(const Vec3<Unit>& arm, const Vec3<Unit>& u) const {
     std::int64_t free = std::int64_t{share.raw} * 4;
     for (int i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ struct Point {
   Velocity impulse{};  // along the normal so far
 };
 
-// What impulses did to the energy, per mass, Q32.
+// The work of impulses, per mass, Q32.
 struct Work {
   std::int64_t sum = 0;
   std::int64_t gross = 0;  // of magnitudes
@@ -117,7 +117,7 @@ struct Work {
   }
 };
 
-// What an impact changes of a body.
+// The fields of a body that an impact changes.
 struct Motion {
   Vec3<Velocity> velocity, spin;
 };
@@ -182,7 +182,7 @@ class ImpactSolver {
 
   // The jump that changes the relative velocity along u by `change`.
   [[nodiscard]] Velocity jump_for(Velocity change, const Point& point, const Vec3<Unit>& u) const {
-    constexpr std::int64_t k_least = std::int64_t{1} << 26;  // of what locks hold hardly moves
+    constexpr std::int64_t k_least = std::int64_t{1} << 26;  // locks may leave hardly any
     const std::int64_t stiffness =
         std::max(a_.compliance(point.arm_a, u) + b_.compliance(point.arm_b, u), k_least);
     return Velocity::from_raw(round_divide(Int128::from(change.raw) << 32, stiffness));

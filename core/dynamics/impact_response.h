@@ -28,7 +28,7 @@ struct ImpactContact {
 
 /// Impulses at the points of the manifold, one point after another, until they push apart: along
 /// the normal at least `restitution` times the approach, across it within Coulomb's cone. Both
-/// bodies get the same impulse, up to the rounding of each velocity. Answers the greatest approach
+/// bodies get the same impulse, up to the rounding of each velocity. Returns the greatest approach
 /// speed.
 ///
 /// J. Guendelman, R. Bridson, R. Fedkiw, "Nonconvex rigid bodies with stacking", 2003, section 7,

@@ -29,8 +29,8 @@ InverseInertia isotropic(std::int64_t value_q30) {
   return m;
 }
 
-// Without an axis the others answer as the inverse of what is left of the inertia: of M that is
-// M − m mᵀ/m_kk, m its row k.
+// With axis k locked, the response of the others is the inverse of the inertia without its row and
+// column k. In terms of M: M − m mᵀ/m_kk, with m its row k.
 InverseInertia without_axis(const InverseInertia& m, int k) {
   const std::int64_t entry[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}};
   const std::int64_t own = std::max<std::int64_t>(entry[k][k], 1);

@@ -11,7 +11,7 @@
 
 namespace lockstone {
 
-/// The smallest normalised moment that is kept; what is thinner is inflated to it.
+/// The smallest normalised moment that is kept; smaller ones are raised to it.
 inline constexpr Unit k_min_inertia = Unit::from_raw(1 << 18);  // 2^-12
 
 /// The symmetric tensor M that turns spin into surface speed, w = M·spin. An entry's value is

@@ -41,8 +41,8 @@ class Islands {
   /// The island of this body stays awake.
   void hold(std::uint32_t body) { held_[body] = 1; }
 
-  /// After the last join and the last hold: makes `is_held` right. Answers how many islands there
-  /// are.
+  /// To be called after the last join and the last hold, before `is_held`. Returns the number of
+  /// islands.
   std::uint32_t settle(std::span<const std::uint32_t> bodies) {
     std::uint32_t islands = 0;
     for (const std::uint32_t body : bodies) {

@@ -41,13 +41,13 @@ bool goes_as(const lanes::RowBody& a, const lanes::RowBody& b) {
 
 }  // namespace
 
-// `jump`: what joints pull at the lever (m, Q20), of the body's own velocity, Q30.
+// `jump`: change of the body's velocity by joints at the lever (m, Q20), m/s, Q30.
 void JointSolver::add_pull(std::uint32_t body, std::int64_t jump, std::int64_t lever) {
   std::int64_t& sum = pulls_[body];
   sum = bounded(sum + product_rounded(jump, lever, 20 + 2 * bodies_[body].scale), k_row_bound);
 }
 
-// Half of what a substep takes: the other half is that of `relaxed`, or goes before it.
+// Adds half of a substep's impulses: the other half is that of `relaxed`, or goes before it.
 void JointSolver::add_pulls(std::span<const Joint> joints, bool free) {
   for (const Joint& joint : joints) {
     const auto total = [&](std::size_t i) {
@@ -82,8 +82,9 @@ void JointSolver::add_net_pulls() {
   }
 }
 
-// What a body has to move besides its own inertia when its joints swing against each other: of two
-// points halfway between them, by m·d²; of one its anchor, as far as what it hangs on stands still.
+// The inertia, besides its own, that a body has when its joints swing against each other: m·d²,
+// with d from the centre of mass to the middle of its two anchors, or to its one anchor; with one
+// anchor in the measure in which the other body stands still.
 std::int64_t JointSolver::lever_inertia(std::uint32_t index) const {
   const Body& body = bodies_[index];
   if (!body.pushed || body.joint_count < 1 || body.joint_count > 2) return 0;
@@ -135,7 +136,7 @@ void JointSolver::resist_pull(const JointRun& run, std::uint32_t index) {
                   : std::min<std::int64_t>(static_cast<std::int64_t>(rounded), k_most_inertia));
 }
 
-// What turns about all axes, and not about all alike, has a tensor that turns with it.
+// A body that turns about all axes, with unequal moments, has a tensor that turns with it.
 void JointSolver::set_principal(Body& body) {
   const BodyRecord& record = *body.record;
   const Vec3<Unit> moments = moments_of(record, body.least_inertia);

@@ -10,8 +10,8 @@
 namespace lockstone {
 namespace {
 
-// A limit is far from what gets no nearer than this within a tick, at this many times its speed
-// now: m, Q32, of an angle in radians.
+// A limit is far if the joint stays farther from it than k_near within a tick, at k_haste times its
+// present speed: m, Q32, of an angle in radians.
 constexpr std::int64_t k_near = std::int64_t{1} << 29;
 constexpr int k_haste = 4;
 
@@ -69,13 +69,14 @@ void JointSolver::leave_out_far(const JointRun& run, Joint& joint) const {
   joint.holds_a_point = lockstone::holds_a_point(*joint.record, joint.far);
 }
 
-// Answers whether anything was pushed.
-bool JointSolver::solve_drives(const JointRun& run, Joint& joint) {
+// Returns whether any impulse changed.
+bool JointSolver::solve_drives(const JointRun& run, Joint& joint, bool motors) {
   bool pushed = false;
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind != RowKind::drive) continue;
     const Drive& drive = joint.drives[row.axis];
+    if (!motors && !drive.is_spring) continue;
     const Solved& solved = joint.solved[i];
     std::int64_t& total = joint.driven[row.axis];
     std::int64_t target = row.speed;

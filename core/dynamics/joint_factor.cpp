@@ -20,7 +20,7 @@ constexpr std::size_t k_most_blocks_per_joint = 6;
 
 constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_matrix_bits - 24);
 
-// x ← x − part. Factors of what is next to singular may be anything.
+// x ← x − part, clamped, since the factors of a matrix that is nearly singular have no bound.
 void take(std::int64_t& x, std::int64_t part) {
   x = std::clamp(x - part, -k_product_bound, k_product_bound);
 }
@@ -41,7 +41,7 @@ struct Product {
   Rows rows;
   Columns columns;
   Terms terms;
-  bool is_lower;  // only what is not above the diagonal
+  bool is_lower;  // only entries on and below the diagonal
 };
 
 // Clang 14 finds none for an aggregate by itself.
@@ -255,7 +255,7 @@ void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
   }
 }
 
-// What the rows of one joint take from their own and from those below.
+// Forward substitution: subtracts the terms of one joint's rows from its own and from those below.
 template <class Size>
 void JointFactor::substitute(std::uint32_t first, const Column& column, Size n) {
   std::int64_t* y = rhs_.data() + column.first_row;

@@ -2,8 +2,8 @@
 //
 // The plan (which blocks there are) follows from which joints share a pushed body; values follow in
 // every substep. Entries are scaled by powers of two of their rows, so that the diagonal lies in
-// (2^-4, 1] and no entry exceeds 1; they have 56 fraction bits, factors 40. A pivot below 2^-24 is
-// taken for a row that says what others said: it is left out, and counted.
+// (2^-4, 1] and no entry exceeds 1; they have 56 fraction bits, factors 40. A row whose pivot is
+// below 2^-24 counts as linearly dependent on others: it is left out, and counted.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace lockstone {
 inline constexpr int k_matrix_bits = 56;
 inline constexpr int k_factor_bits = 40;
 
-/// Rows of what makes a column: a joint has up to six, a contact with its friction seven.
+/// Most rows of a column: a joint has up to six, a contact with its friction seven.
 inline constexpr std::size_t k_factor_rows = 7;
 
 class JointFactor {
@@ -65,12 +65,13 @@ class JointFactor {
   /// Right-hand side, then solution: 46 fraction bits.
   [[nodiscard]] std::int64_t& rhs(std::uint32_t row) { return rhs_[row]; }
 
-  /// Sets all entries of the group by its columns' counts: block(j, k, to) writes what the rows of
-  /// joint j feel of those of joint k, row by row, for j = k (as far as the diagonal) and below.
+  /// Sets all entries of the group by its columns' counts: block(j, k, to) writes the responses of
+  /// the rows of joint j to impulses on those of joint k, row by row, for j = k (as far as the
+  /// diagonal) and below.
   template <class Fill>
   void fill_blocks(std::uint32_t first, std::uint32_t count, const Fill& block);
 
-  /// Factors the group in place; answers how many pivots were left out.
+  /// Factors the group in place. Returns the number of pivots that were left out.
   std::uint32_t factor(std::uint32_t first, std::uint32_t count);
 
   /// Solves for `rhs`.

@@ -18,6 +18,7 @@ constexpr std::uint32_t k_most_loops = 2;
 std::span<const std::uint32_t> JointSolver::plan() {
   link_bodies();
   factor_.clear();
+  if (loops_ != nullptr) loops_->clear();
   groups_.clear();
   clusters_.clear();
   order_.clear();
@@ -71,7 +72,7 @@ void JointSolver::link_bodies() {
   });
 }
 
-// All that hangs together with a body, breadth first. Backwards, each joint of a tree comes after
+// Finds all joints connected to a body, breadth first. Backwards, each joint of a tree comes after
 // those beyond it, so that elimination fills nothing in.
 void JointSolver::find_group(std::uint32_t root) {
   Group group;
@@ -134,6 +135,7 @@ void JointSolver::plan_group(Group group) {
   const auto rows = [&](std::uint32_t k) { return most_locks(*joint_at(k).record); };
   // The pushed bodies of a tree on the ground are as many as its joints.
   const bool has_few_loops = group.count <= group.body_count + k_most_loops;
+  if (loops_ != nullptr && has_loops(group) && plan_loops(group)) return groups_.push_back(group);
   if (has_few_loops && factor_.plan(group.count, neighbours, rows)) {
     group.exact = true;
     group.column = factor_.first();
@@ -168,7 +170,7 @@ void JointSolver::plan_singles(const Group& group) {
 }
 
 // Balls that nothing limits or drives, between bodies that are pushed along every axis or stand
-// still, on anchors within what their formats hold.
+// still, on anchors within the range of their formats.
 bool JointSolver::fits_net(const Link& link) const {
   const JointRecord& joint = *link.record;
   if (!is_point(joint)) return false;

@@ -1,4 +1,4 @@
-// What the rows of joints feel of each other, and how velocities are read and pushed.
+// Responses of the rows of joints to each other, and how velocities are read and pushed.
 
 #include <algorithm>
 #include <bit>
@@ -35,7 +35,7 @@ void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
   const auto gained = [](std::int64_t x, std::int64_t by) {
     return bounded(bounded(x, k_row_bound) + bounded(by, 2 * k_row_bound), k_row_bound);
   };
-  // Bits 62 and 63 of what is out of bounds, offset by the bound.
+  // Offset by the bound, a value out of bounds has bit 62 or 63 set.
   const auto excess = [](std::int64_t x) {
     return static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(k_row_bound);
   };
@@ -58,7 +58,7 @@ void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
   body = next;
 }
 
-// Of what contacts pushed out of bounds, and joints held within them.
+// The change between velocities held within bounds; contacts may push velocities out of them.
 std::int64_t gain(std::int64_t before, std::int64_t after) {
   return bounded(after, k_row_bound) - bounded(before, k_row_bound);
 }
@@ -132,7 +132,7 @@ void JointSolver::respond(Joint& joint, std::size_t rows, bool ahead) const {
   }
 }
 
-// What the locks of p feel of impulses on those of q, through the bodies that both hold.
+// The responses of the locks of p to impulses on those of q, through the bodies that both hold.
 void JointSolver::fill_block(const Joint& p, const Joint& q, std::int64_t* block) const {
   std::fill_n(block, p.rows.locks * q.rows.locks, 0);
   if (p.a == q.a) add_shared(p, true, q, true, block);
@@ -237,8 +237,8 @@ void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t row,
   push(run, joint, row, row + 1, impulses);
 }
 
-// What joints do to velocities in a stage goes to those at the substep's beginning as well: the
-// next one must not take it for impulses of contacts, which start it again.
+// The changes of velocity by joints in a stage are also added to the velocities at the substep's
+// beginning: else the next substep would take them for impulses of contacts, and repeat them.
 void JointSolver::begin_pushes(const JointRun& run, const Cluster& cluster) {
   for (const std::uint32_t body : bodies_of(cluster))
     bodies_[body].unpushed = run.rows[bodies_[body].solver];

@@ -20,19 +20,20 @@ constexpr int k_most_solves = 12;
 // Locks that are open by less, m, Q32, are closed: 1 µm.
 constexpr std::int64_t k_closed = 1 << 12;
 
-// What rounding leaves of them: 4 nm.
+// Openings that rounding leaves: 4 nm.
 constexpr std::int64_t k_rounding = 16;
 
 // Where there are limits or drives: 15 nm. After one step most openings lie between both.
 constexpr std::int64_t k_pushed_rounding = 64;
 
-// What ropes and chains may leave: 30 nm, as much as rounding of spin does at a metre's arm.
+// Openings that ropes and chains may leave: 30 nm, as much as rounding of spin does at an arm of 1
+// m.
 constexpr std::int64_t k_noise = 128;
 
 // Openings whose squares fit, 0.25 m.
 constexpr std::int64_t k_far = std::int64_t{1} << 30;
 
-// Joints of groups that are not solved at once close this part of an opening a substep.
+// Joints of groups without a direct solve close this part of an opening in a substep.
 constexpr int k_close_shift = 2;
 
 // x · mass · 2^shift within ±k_row_bound
@@ -75,33 +76,45 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
     std::copy_n(ahead.rows.begin(), ahead.locks, joint.rows.rows.begin());
     respond(joint, joint.rows.locks, true);
   }
-  if (turn) factor_group(group);
+  if (!turn) return;
+  if (has_solved_loops(group)) {
+    (void)mark_left_out(run, group);
+    return factor_loops(group, true);
+  }
+  factor_group(group);
 }
 
-// What is left open after the substep as it stands, per substep. Answers the
-// widest opening, Q32.
+// Where the right-hand side of a joint's locks stands, by its place in the group.
+std::int64_t* JointSolver::errors_at(const Group& group, std::uint32_t joint) {
+  if (has_solved_loops(group)) return loops_->errors(group.loops, joint).data();
+  return &factor_.rhs(factor_.columns(group.column, group.count)[joint].first_row);
+}
+
+// Sets the errors to the speeds that close the openings left after the substep as it stands.
+// Returns the widest opening, Q32.
 std::int64_t JointSolver::set_position_errors(const Group& group) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   std::int64_t widest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
+    if (joint.rows.locks == 0) continue;
+    std::int64_t* errors = errors_at(group, k);
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const std::int64_t error = joint.rows.rows[r].error;
       widest = std::max(widest, std::abs(error));
-      factor_.rhs(columns[k].first_row + static_cast<std::uint32_t>(r)) =
-          bounded(closing_speed(error, group.rate), k_close_speed);
+      errors[r] = bounded(closing_speed(error, group.rate), k_close_speed);
     }
   }
   return widest;
 }
 
-// Answers the greatest of them, Q50.
+// Returns the greatest of them, Q50.
 std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& group,
                                            bool positions) {
-  const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   std::int64_t greatest = 0;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
+    if (joint.rows.locks == 0) continue;
+    std::int64_t* errors = errors_at(group, k);
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const JointRow& row = joint.rows.rows[r];
       std::int64_t error = speed(run, joint, row);
@@ -110,7 +123,7 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
                          k_close_speed / 2);
       }
       greatest = std::max(greatest, std::abs(error));
-      factor_.rhs(columns[k].first_row + static_cast<std::uint32_t>(r)) = error;
+      errors[r] = error;
     }
   }
   return greatest;
@@ -120,6 +133,7 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
 // now, as RATTLE wants them, while that converges. Where links swing fast it does not, and Newton's
 // method with the directions after the substep takes its place.
 void JointSolver::solve_positions(const JointRun& run, Group& group) {
+  if (has_solved_loops(group)) return close_loops(run, group);
   if (!is_stiff(group)) {
     save(run, group);
     if (close(run, group)) return;
@@ -131,7 +145,7 @@ void JointSolver::solve_positions(const JointRun& run, Group& group) {
   }
 }
 
-// One step of the method, unless no opening is wider than `enough`. Answers the widest before it.
+// One step of the method, unless no opening is wider than `enough`. Returns the widest before it.
 std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64_t enough,
                                    bool turn) {
   look_ahead(run, group, turn);
@@ -140,9 +154,10 @@ std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64
   return widest;
 }
 
-// Answers whether all locks hold afterwards. Each step leaves about the same part of an opening:
-// once that is nothing, there is no need to look. Where bodies are pulled hard, every step is
-// taken, lest swings that the substep hardly resolves grow unseen.
+// Returns whether all locks hold afterwards. Each step leaves about the same part of an opening:
+// once the next step would leave less than rounding does, the check after it is skipped. Where
+// bodies are pulled hard, every step is taken, lest swings that the substep hardly resolves grow
+// unseen.
 bool JointSolver::close(const JointRun& run, Group& group) {
   const bool pulled = is_pulled(group);
   const std::int64_t enough = pulled ? 0 : group.is_plain ? k_rounding : k_pushed_rounding;
@@ -195,6 +210,7 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
 
 // Solves for the errors that stand on the right-hand side, and pushes.
 void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions) {
+  if (has_solved_loops(group)) return solve_loops(run, group, positions);
   if (!group.is_factored) factor_group(group);
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   for (std::uint32_t k = 0; k < group.count; ++k) {

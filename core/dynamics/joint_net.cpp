@@ -99,7 +99,7 @@ void JointNet::fill(const NetRun& run, std::size_t color, std::size_t first, std
   }
 }
 
-// What stands still is put where it stands.
+// Fills a lane, and writes the places of bodies that are not pushed.
 void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane,
                          BallBlock& block) {
   const JointRecord& joint = *entry.record;

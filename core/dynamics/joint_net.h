@@ -1,7 +1,7 @@
 // Ball joints of many loops: coloured like contacts, and solved in blocks of eight.
 //
-// A net of joints has too many loops for all of its locks to be solved at once. Each substep closes
-// a part of the openings before positions move, and keeps what is left from opening after. Impulses
+// A net of joints has too many loops for a direct solve of all its locks. Each substep closes a
+// part of the openings before positions move, and keeps the rest from opening afterwards. Impulses
 // of the substep before are part of the bodies' warm start.
 #pragma once
 
@@ -17,12 +17,12 @@
 
 namespace lockstone {
 
-/// What the sweeps work on, by row.
+/// The data of the iterations, by row.
 struct NetRun {
   lanes::RowBody* rows;
   lanes::RowBody* before;  // at the beginning of the substep; before the first: warm
   const lanes::SourceBody* inertias;
-  const SolverBody* bodies;  // of what is pushed
+  const SolverBody* bodies;  // those that are pushed
   lanes::BodyPlace* places;
 };
 
@@ -34,7 +34,7 @@ class JointNet {
   /// Leaves nothing; bodies are those in rows 0 … rows − 1.
   void clear(std::uint32_t rows);
 
-  /// One end of a joint; what is not pushed stands still, in a row that nothing else names.
+  /// One end of a joint; a body that is not pushed stands still, in a row of this joint alone.
   struct End {
     std::uint32_t row = 0;
     const BodyRecord* record = nullptr;
@@ -57,7 +57,7 @@ class JointNet {
 
   // Blocks of one colour, counted from its first.
 
-  /// Fills them, and adds what their impulses do to bodies to the warm start.
+  /// Fills them, and adds the velocities that their impulses give to the bodies' warm start.
   void fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
   void lift(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
   void relax(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);

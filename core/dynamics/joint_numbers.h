@@ -29,7 +29,7 @@ inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
   return size(v.x) + size(v.y) + size(v.z);
 }
 
-/// What closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50.
+/// The speed that closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50.
 [[nodiscard]] constexpr std::int64_t closing_speed(std::int64_t error, std::int64_t rate,
                                                    int shift = 0) {
   return product_rounded(error, rate << 19, 1 + shift);

@@ -1,4 +1,4 @@
-// The rows of a joint: what it reads of two bodies, and how impulses along it push them.
+// The rows of a joint: errors and Jacobians from the poses of two bodies.
 //
 // Units: velocities are m/s, Q50, as in `lanes::RowBody`; Jacobians have 30 fraction bits. A row of
 // an angle is an angle times 2^k m, k = `angular_exponent`. An impulse is the pair's velocity jump
@@ -29,7 +29,7 @@ struct JointRow {
   RawVec3 linear_a{}, linear_b{};      // Q30, signs included
   RawVec3 angular_a{}, angular_b{};    // of surface velocity
   RawVec3 response_a{}, response_b{};  // M·angular: of spin
-  std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit what is left
+  std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit the way left
   RowKind kind = RowKind::lock;
   std::uint8_t axis = 0;
   bool flipped = false;  // the upper limit: impulses count against the axis
@@ -48,7 +48,7 @@ struct JointRows {
   bool is_point = false;  // the first three lock the axes of the world
 };
 
-/// What places a joint's rows.
+/// The inputs from which a joint's rows are found.
 struct JointPlace {
   const JointRecord& joint;
   const JointPose& a;
@@ -60,7 +60,7 @@ struct JointPlace {
   bool holds_a_point = false;  // as below
 };
 
-/// What of a joint's rows is wanted; without Jacobians only errors are.
+/// The parts of a joint's rows to compute; `lock_errors` leaves Jacobians alone.
 enum class RowParts : std::uint8_t { all, locks, lock_errors };
 
 /// Jacobians and errors; responses are left alone.

@@ -19,9 +19,12 @@ constexpr std::int64_t k_still = std::int64_t{1} << 18;
 }  // namespace
 
 JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
-                         std::size_t joint_capacity)
+                         std::size_t joint_capacity, bool solves_loops)
     : step_(step), place_(body_capacity), factor_(joint_capacity) {
   const std::size_t bodies = std::min(body_capacity, 2 * joint_capacity);
+  // A group with loops has no more bodies than joints.
+  if (solves_loops)
+    loops_ = std::make_unique<ProximalLocks>(std::min(bodies, joint_capacity), joint_capacity);
   bodies_.reserve(bodies);
   placed_.reserve(bodies);
   group_bodies_.reserve(bodies);
@@ -103,7 +106,7 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
     resist_pull(run, body);
   }
   after_.resize(bodies_.size());
-  // What nothing pushes goes its own way, and whoever looks ahead finds where.
+  // Poses after the substep: bodies that nothing pushes have a known motion.
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     after_[i] = bodies_[i].pushed ? bodies_[i].pose : pose_after(run, bodies_[i]);
   for (Cluster& cluster : clusters_) {
@@ -131,6 +134,7 @@ void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t
     const bool is_last = ++cluster.substep == step_.substeps;
     if (cluster.free) set_rate(cluster, std::int64_t{step_.substep_rate()} * (is_last ? 2 : 1));
     begin_pushes(run, cluster);
+    forget_impulses(cluster);
     for (Joint& joint : joints_of(cluster))
       warm_start(run, joint);
     end_pushes(run, cluster);
@@ -167,10 +171,11 @@ void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end)
 
 void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
   bool exact = false;  // and locked as the last sweep left it
+  const bool motors = !has_solved_loops(groups_of(cluster)[0]);
   for (int i = 0; i < k_sweeps; ++i) {
     bool pushed = false;
     for (Joint& joint : joints_of(cluster)) {
-      pushed = solve_drives(run, joint) || pushed;
+      pushed = solve_drives(run, joint, motors) || pushed;
       pushed = solve_limits(run, joint, true) || pushed;
     }
     if (exact && !pushed) return;
@@ -208,7 +213,8 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
       solve_limits(run, joint, false);
     for (Group& group : groups_of(cluster)) {
       const std::int64_t greatest = set_speed_errors(run, group, false);
-      if (greatest > k_still || (group.is_plain && is_pulled(group)))
+      const bool is_driven = has_solved_loops(group) && !group.is_plain;
+      if (greatest > k_still || is_driven || (group.is_plain && is_pulled(group)))
         solve_locks(run, group, false);
     }
   }
@@ -229,7 +235,8 @@ void JointSolver::store(std::size_t added, JointRecord& record) const {
   for (std::size_t i = 0; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind == RowKind::drive) {
-      record.axes[row.axis].drive_impulse = to_record(joint.driven[row.axis]);
+      record.axes[row.axis].drive_impulse =
+          to_record(joint.driven[row.axis] + joint.driven_later[row.axis]);
     } else {
       record.axes[row.axis].impulse = to_record(bounded(
           joint.locks[row.axis] + joint.relaxed[row.axis] + (free ? joint.carried[row.axis] : 0),

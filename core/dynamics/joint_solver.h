@@ -1,16 +1,18 @@
 // The joints of one tick, inside the substeps of the contact solver.
 //
-// Joints that hang together by pushed bodies form a cluster. In one that is a tree, or nearly one,
-// all locks are solved at once (`JointFactor`). Of other clusters, balls are left to `JointNet`,
-// and other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
+// Joints connected by pushed bodies form a cluster. In one that is a tree, or nearly one, a direct
+// solve covers all locks (`JointFactor`); in worlds with converged contacts also the locks and
+// motors of one with loops (`ProximalLocks`). Of other clusters, balls are left to `JointNet`, and
+// other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
 // beginning of the substep such that locks hold at its end, and at the end such that they do not
-// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). What this does
-// for accuracy is told in docs/solver.md.
+// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). docs/solver.md
+// says how accurate this is.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +21,9 @@
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/joint_rows.h"
 #include "core/dynamics/principal_inverse.h"
+#include "core/dynamics/proximal_locks.h"
 #include "core/dynamics/solver_body.h"
+#include "core/dynamics/tick_islands.h"
 #include "core/dynamics/time_step.h"
 #include "core/math/round_divisor.h"
 #include "core/math/wide/ball_block.h"
@@ -28,7 +32,7 @@
 
 namespace lockstone {
 
-/// What a substep works on, by solver body; 0 is immovable.
+/// The data of a substep, by solver body; 0 is immovable.
 struct JointRun {
   std::span<SolverBody> bodies;
   std::span<lanes::RowBody> rows;
@@ -39,16 +43,16 @@ struct JointRun {
 
 class JointSolver {
  public:
-  /// No function but this allocates.
+  /// Groups with loops are solved directly only if `solves_loops`. No function but this allocates.
   [[gnu::cold]] JointSolver(const TimeStep& step, std::size_t body_capacity,
-                            std::size_t joint_capacity);
+                            std::size_t joint_capacity, bool solves_loops);
 
   void clear();
 
-  /// A joint, in the order of their indices. What it refers to must outlive the tick.
+  /// A joint, in the order of their indices. Its references must stay valid for the tick.
   struct Side {
     std::uint32_t body = 0;    // index in the world
-    std::uint32_t solver = 0;  // in the solver, 0 for what does not move
+    std::uint32_t solver = 0;  // in the solver, 0 for a body that does not move
     const BodyRecord& record;
     const Mat3& rotation;
   };
@@ -59,7 +63,8 @@ class JointSolver {
   /// Whether any joints are solved here.
   [[nodiscard]] bool has_own() const { return !joints_.empty(); }
 
-  /// Once all are added: groups. Answers which joints, in the order of adding, are left to a net.
+  /// Once all are added: forms groups. Returns the joints, in the order of adding, that are left to
+  /// a net.
   std::span<const std::uint32_t> plan();
 
   /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
@@ -68,13 +73,13 @@ class JointSolver {
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
 
-  /// What hangs together, without what is left to a net. No two share a body that is pushed: the
-  /// functions below take a range of clusters, and ranges may be worked at side by side.
+  /// Number of clusters, without joints that are left to a net. No two share a body that is pushed:
+  /// the functions below take a range of clusters, and ranges may be worked at side by side.
   [[nodiscard]] std::uint32_t cluster_count() const {
     return static_cast<std::uint32_t>(clusters_.size());
   }
 
-  /// Once contacts are prepared: rows and factors; what drifts freely goes half a substep.
+  /// Once contacts are prepared: rows and factors; bodies that drift freely go half a substep.
   void prepare(const JointRun& run, std::size_t first, std::size_t end);
 
   /// At the beginning of a substep, after forces: the impulses of the last one again.
@@ -118,17 +123,18 @@ class JointSolver {
     int scale = 0;              // exponent
     lanes::RowBody unpushed{};  // as the stage at hand found it
     lanes::RowBody saved_row{};
-    lanes::RowBody looked{};  // with what velocity it goes where `after_` says
+    lanes::RowBody looked{};  // its velocity on the way to its pose in `after_`
     bool has_looked = false;
     bool pushed = false;
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick
     bool free = false;               // half drift, kick, half drift
-    RoundDivisor rate{};             // 1 / what it drifts for
+    RoundDivisor rate{};             // 1 / the time that it drifts for
     bool in_net = false;
     std::uint32_t first_joint = 0;  // in by_body_
     std::uint32_t joint_count = 0;
+    std::uint32_t local = 0;  // in its group
   };
   static constexpr std::uint32_t k_in_net = 0xffffffff;
 
@@ -145,7 +151,7 @@ class JointSolver {
     std::int64_t mantissa = 0;
     int shift = 1;
   };
-  // What a row needs beyond Jacobians.
+  // The data of a row besides its Jacobians.
   struct Solved {
     std::int64_t inverse = 0;  // of its response to itself: mantissa · 2^-shift
     int shift = 1;
@@ -168,13 +174,15 @@ class JointSolver {
     std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
-    std::uint32_t a = 0, b = 0;  // bodies of this solver
+    std::array<std::int64_t, k_joint_axes> driven_later{};  // by motors of loops, as `relaxed`
+    std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
     int exponent = 0;
     std::int64_t lever_a = 0, lever_b = 0;  // to the anchors, m, Q20: sums of their components
     std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
     bool holds_a_point = false;  // and nothing else has rows in this tick
+    std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -186,10 +194,11 @@ class JointSolver {
     bool drifts = false;
     bool is_plain = false;  // neither limits nor drives
     bool is_factored = false;
-    std::int64_t rate = 0;  // 1 / what its bodies drift for
-    int exponent = 0;       // least of its rows
+    std::int64_t rate = 0;                             // 1 / the time that its bodies drift for
+    int exponent = 0;                                  // least of its rows
+    std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
   };
-  // Joints that hang together, by index: one exact group, or a group for each joint.
+  // Connected joints, by index: one group with a direct solve, or a group for each joint.
   struct Cluster {
     std::uint32_t first_joint = 0;
     std::uint32_t joint_count = 0;
@@ -207,6 +216,26 @@ class JointSolver {
   void plan_group(Group group);
   void add_cluster(const Group& group, std::uint32_t first_group);
   void plan_singles(const Group& group);
+  [[nodiscard]] static bool has_solved_loops(const Group& group) {
+    return group.loops != ProximalLocks::k_too_large;
+  }
+  [[nodiscard]] bool has_loops(const Group& group) const;
+  [[nodiscard]] bool plan_loops(Group& group);
+  void factor_loops(Group& group, bool ahead);
+  [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
+  void solve_loops(const JointRun& run, Group& group, bool positions);
+  void close_loops(const JointRun& run, Group& group);
+  void forget_impulses(const Cluster& cluster);
+  [[nodiscard]] bool mark_left_out(const JointRun& run, const Group& group);
+  [[nodiscard]] bool hold_motors(const JointRun& run, const Group& group, bool positions);
+  void add_loop_speeds(const JointRun& run, const Group& group, int sign);
+  [[nodiscard]] std::int64_t motor_impulse(const Group& group, std::uint32_t joint, std::size_t row,
+                                           bool positions);
+  void find_loop_errors(const JointRun& run, const Group& group, bool positions);
+  void push_loops(const JointRun& run, const Group& group, bool positions);
+  [[nodiscard]] static std::int64_t& loop_impulse(Joint& joint, const JointRow& row,
+                                                  bool positions);
+  [[nodiscard]] std::int64_t* errors_at(const Group& group, std::uint32_t joint);
   [[nodiscard]] bool fits_net(const Link& link) const;
   void add_to_net(Link& link);
   void make_joint(Link& link);
@@ -249,7 +278,7 @@ class JointSolver {
   void relax(const JointRun& run, const Cluster& cluster);
   void leave_out_far(const JointRun& run, Joint& joint) const;
   [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
-  bool solve_drives(const JointRun& run, Joint& joint);
+  bool solve_drives(const JointRun& run, Joint& joint, bool motors);
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);
@@ -295,9 +324,10 @@ class JointSolver {
   std::vector<std::uint32_t> sorted_;        // links of the cluster at hand, by index
   std::vector<Group> groups_;
   std::vector<Cluster> clusters_;
-  std::vector<std::int64_t> pulls_;  // by body: what joints pull at levers, per mass and scale
+  std::vector<std::int64_t> pulls_;  // by body: pulls of joints at levers, per mass and scale
   std::vector<JointPose> after_;     // by body: where it will be after the substep
   JointFactor factor_;
+  std::unique_ptr<ProximalLocks> loops_;  // null unless it solves loops
   std::atomic<std::uint32_t> clamps_{0};
 };
 

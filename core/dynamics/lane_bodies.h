@@ -20,7 +20,8 @@ inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits
            both(r.y.y, r.y.z), both(r.z.x, r.z.y), both(r.z.z, {})}};
 }
 
-/// Eight steps of what rows can read, 7.6 µm/s: what contacts hold trembles by so much.
+/// Eight steps of the velocities that rows can read, 7.6 µm/s: a body held by contacts trembles by
+/// so much.
 inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_bits - 20);
 
 [[nodiscard]] constexpr bool is_below(std::int64_t x, std::int64_t bound) {
@@ -34,14 +35,14 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
          is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
 }
 
-/// What only trembles does not move.
+/// A body that only trembles counts as still.
 [[nodiscard]] inline bool is_still(const lanes::RowBody& row) {
   return is_below(row, k_tremble);
 }
 
-/// Where nothing of a body is faster than eight times that, each of its components by itself: what
-/// sinks or rises by a hair on a slope does not creep down meanwhile. Only of bodies that touch but
-/// one, which does not give way: in a pile, what is dropped adds up.
+/// Clears each component below k_tremble, if all are below eight times that: a body that sinks or
+/// rises by a hair on a slope does not creep down meanwhile. Only for bodies that touch one other,
+/// which does not give way: in a pile, the cleared velocities would add up.
 [[nodiscard]] inline lanes::RowBody steadied(const lanes::RowBody& row) {
   if (!is_below(row, 8 * k_tremble)) return row;
   lanes::RowBody result = row;
@@ -52,12 +53,14 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
   return result;
 }
 
-/// Whether a body is slower than 2^-shift of what gravity and forces give it in a substep.
+/// Whether a body is slower than 2^-shift of the speed that gravity and forces give it in a
+/// substep.
 [[nodiscard]] inline bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift) {
   return is_below(row, (body.greatest_gain() >> shift) * (std::int64_t{1} << k_grid_to_row));
 }
 
-/// Slower than 1/4 m/s along each axis: what contacts carry may be taken for weight.
+/// Whether it is slower than 1/4 m/s along each axis, so that contact impulses may be taken for
+/// weight.
 [[nodiscard]] inline bool is_at_rest(const lanes::RowBody& row) {
   constexpr std::int64_t k_most = std::int64_t{1} << (lanes::k_velocity_bits - 2);
   return is_below(row.velocity[0], k_most) && is_below(row.velocity[1], k_most) &&

@@ -7,7 +7,7 @@
 
 namespace lockstone {
 
-/// α of B, mB⁻¹ / (mA⁻¹ + mB⁻¹), Q30; what is immovable gives all to the other.
+/// α of B, mB⁻¹ / (mA⁻¹ + mB⁻¹), Q30; the share of an immovable body is 0.
 [[nodiscard]] inline std::int32_t share_of_b(const BlockFloat& a, const BlockFloat& b) {
   if (a == b) return 1 << 29;
   return ratio(b, a).raw;

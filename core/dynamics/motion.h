@@ -25,25 +25,26 @@ void damp_velocity(BodyRecord& body, const TimeStep& step);
 void damp_spin(BodyRecord& body, const TimeStep& step);
 
 /// Clamps the speed to the world's limit and the body's, the surface speed to 500 m/s and the
-/// body's. Answers whether it had to.
+/// body's. Returns whether it had to.
 bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit);
 
 /// Velocity and spin along locked axes are zero.
 void hold_axes(BodyRecord& body);
 
-/// Holds each component within ±500 m/s: what commands add up between two ticks. The tick's end
+/// Clamps each component to ±500 m/s, since commands may add up between two ticks. The tick's end
 /// limits the speeds themselves.
 void hold_in_range(Vec3<Velocity>& v);
 
-/// Clamps the position to the world, stopping what would leave it. Answers whether it had to.
+/// Clamps the position to the world, and stops the components of motion out of it. Returns whether
+/// it had to.
 bool limit_position(BodyRecord& body);
 
 /// The exact step of a body that nothing touches, and of a kinematic one. In flight
 /// x ← x + v·dt + g·dt²/2, under damping c exactly as v' = g − c·v says, and spin is constant; the
-/// orientation takes `turn_freely`, and the answer is how many turns about an axis that took.
+/// orientation follows `turn_freely`. Returns the number of turns about an axis that this took.
 ///
-/// What a value per second gives in one tick is rounded so that `tick_rate` ticks in a row, counted
-/// from `tick`, add up to exactly one second's worth: drift and free fall lose nothing.
+/// The changes of a tick are rounded so that `tick_rate` ticks in a row, counted from `tick`, add
+/// up to exactly the change of one second: drift and free fall lose nothing.
 std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
                   const TimeStep& step, std::uint64_t tick);
 
@@ -52,20 +53,21 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
                              Unit part);
 
 /// How a body came from an orientation, with the matrix `rotation`, to the one that it has in a
-/// part of a tick: the rotation between them, with the whole turns that its spin tells of. What is
-/// thin and fast is taken to go about its angular momentum alone, without the spin about its axis.
+/// part of a tick: the rotation between them, with the whole turns that follow from its spin. A
+/// thin and fast body is taken to turn about its angular momentum alone, without the spin about its
+/// axis.
 [[nodiscard]] RotationVector turn_since(const Quat& start, const Mat3& rotation,
                                         const BodyRecord& body, const TimeStep& step, Unit part);
 
-/// gravity · gravity_scale, but along locked axes; nothing on what is not dynamic.
+/// gravity · gravity_scale, and 0 along locked axes and for static and kinematic bodies.
 [[nodiscard]] Vec3<Acceleration> gravity_on(const BodyRecord& body,
                                             const Vec3<Acceleration>& gravity);
 
-/// What gravity adds to a body's velocity in a fraction of a tick.
+/// The velocity that gravity gives a body in a fraction of a tick.
 [[nodiscard]] Vec3<Velocity> gravity_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                                           const TimeStep& step, Unit fraction);
 
-/// What gravity and forces add to a body's velocity in a tick.
+/// The velocity that gravity and forces give a body in a tick.
 [[nodiscard]] Vec3<Velocity> tick_gain(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                                        const TimeStep& step);
 
@@ -90,10 +92,10 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
   return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
 }
 
-/// Moves a body by what it went in a tick, m: its centre, and its surface as of the solver
-/// (rotation vector · 2^scale_exponent), to which geometry stood still. It turns as freely as with
-/// the mean angular momentum of the tick; answers as `fly`. `body` has its new spin already.
-/// Impulses that had no torque about the axis of something thin have none about its new one.
+/// Moves a body by its travel in the solver, m: `displacement` of its centre, and `turned` of its
+/// surface (rotation vector · 2^scale_exponent) with its geometry held fixed. The body turns
+/// freely with the mean angular momentum of the tick. Returns as `fly`. `body` has its new spin
+/// already. Impulses without torque about the old axis of a thin body have none about its new one.
 std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
                            const Vec3<Velocity>& displacement, const Vec3<Velocity>& turned,
                            const TimeStep& step);

@@ -14,20 +14,21 @@ using Motion6 = std::array<std::int64_t, 6>;
 
 class MotionBalance {
  public:
-  /// What a change, in whatever format, is within.
+  /// The greatest magnitude of a component of a change, in any format.
   static constexpr std::int64_t k_most_change = std::int64_t{1} << 31;
 
-  /// A row: what a unit impulse along it changes, within ±2, Q26. At most 256 of them.
+  /// Adds a row: the change by a unit impulse along it, within ±2, Q26. At most 256 rows.
   void add(const Motion6& column);
 
-  /// Once all are added. What no row changes, or hardly any (by less than 2^-8), is left out.
+  /// To be called after the last `add`. Directions of motion that all rows together change by less
+  /// than 2^-8 are left out.
   void factor();
 
-  /// (A·Aᵀ)⁻¹·c, to about 2^-14 of it. False where it, or what leads there, is beyond
-  /// 4 · k_most_change: rows are too much alike.
+  /// (A·Aᵀ)⁻¹·c, to a relative error of about 2^-14. Returns false if the solution or an
+  /// intermediate result exceeds 4 · k_most_change: the rows are too much alike.
   [[nodiscard]] bool solve(const Motion6& change, Motion6& solution) const;
 
-  /// What a row has to push, of what `solve` answered.
+  /// The impulse of a row, from the solution of `solve`.
   [[nodiscard]] static std::int64_t impulse(const Motion6& column, const Motion6& solution);
 
  private:

@@ -5,51 +5,25 @@
 
 #include "core/dynamics/proximal_solver.h"
 #include "core/dynamics/proximal_words.h"
-#include "core/math/roots.h"
+#include "core/math/wide/proximal_friction.h"
 
 namespace lockstone {
 namespace {
 
 using namespace proximal;
 
-// Residuals are exact, with so many bits more. A direct step takes as many as fit in 27; fewer
-// where what it solves for does not fit.
-constexpr int k_exact_bits = 27, k_residual_bits = 27, k_fewer_bits = 4, k_most_drop = 42;
+// Residuals are exact. A direct step takes as many of their bits as fit in 27, and fewer where the
+// solution does not fit.
+constexpr int k_residual_bits = 27, k_fewer_bits = 4, k_most_drop = 42;
 
 // Passes before the first direct step, and after each; direct steps.
 constexpr int k_first_passes = 2, k_passes = 4, k_direct_steps = 3;
 
-// The limit of friction in units of the tangents, μ·Σλ of the points.
-std::int64_t friction_limit(const ProximalContact& contact, std::int64_t ProximalRow::*impulse) {
-  std::int64_t sum = 0;
-  for (std::size_t i = 0; i < contact.points; ++i)
-    sum += raw::round_shift(contact.all[i].*impulse * contact.limits[i], k_limit_bits);
-  return std::min(sum, k_most_value);
-}
+// Friction that is as near to its limit as 2^-this may slide.
+constexpr int k_near_shift = 8;
 
-// The size of friction, squared.
-std::uint64_t friction_size(const ProximalContact& contact, std::int64_t ProximalRow::*impulse) {
-  std::uint64_t square = 0;
-  for (std::size_t i = contact.points; i < contact.rows; ++i) {
-    std::int64_t x = contact.all[i].*impulse;
-    if (i == contact.points + 2)
-      x = within_units(raw::round_shift(x * contact.twist_ratio, k_limit_bits));
-    square += static_cast<std::uint64_t>(x * x);
-  }
-  return square;
-}
-
-// Shortens friction to its limit. Returns whether it had to.
-bool project(ProximalContact& contact, std::int64_t ProximalRow::*impulse) {
-  const std::int64_t limit = friction_limit(contact, impulse);
-  const std::uint64_t square = friction_size(contact, impulse);
-  if (square <= static_cast<std::uint64_t>(limit * limit)) return false;
-  const auto size = static_cast<std::int64_t>(isqrt_rounded(square));
-  const std::int64_t part = (limit << 31) / std::max<std::int64_t>(size, 1);
-  for (std::size_t i = contact.points; i < contact.rows; ++i)
-    contact.all[i].*impulse = raw::round_shift(contact.all[i].*impulse * part, 31);
-  return true;
-}
+// How often centres move in a phase.
+constexpr int k_most_centres = 3;
 
 // θ = −slope / curve within 0 … 1, Q30.
 std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
@@ -68,125 +42,74 @@ std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
 
 }  // namespace
 
-// To the least of D along the last impulses: kinetic energy after the warm start is at most that of
-// the free motion. What overlaps is not yet pushed out.
+// Scales the last impulses to the least of D, from 0 in a tick's first phase and down from all of
+// them in others: kinetic energy after the warm start is at most that of the free motion. Biases
+// that push overlap out are left out of D here.
 void ProximalSolver::scale_warm_start(Island& island) {
   const int down = k_row_unit_bits - island.bits;
   ProductSum slope, curve;
-  for (const ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      const ProximalRow& row = contact.all[i];
-      const bool pushes_out = i < contact.points && row.bias < 0;
-      slope.subtract(row.impulse, row.speed - (pushes_out ? raw::round_shift(row.bias, down) : 0));
+  for (Problem& problem : problems_of(island)) {
+    for (std::size_t i = 0; i < problem.rows; ++i) {
+      const bool pushes_out = i < problem.points && problem.bias[i] < 0;
+      const std::int64_t out = pushes_out ? raw::round_shift(problem.bias[i], down) : 0;
+      problem.next[i] = island.warms ? within_units(raw::round_shift(problem.warm[i], down)) : 0;
+      slope.add(problem.next[i] - problem.impulse[i], problem.speed[i] - out);
     }
   }
   if (slope.rounded(1) >= 0) return;
-  const std::span<BodyVector> sums = of(changes_, island);
-  for (BodyVector& sum : sums)
-    sum = {};
-  for (const ProximalContact& contact : contacts_of(island))
-    for (std::size_t i = 0; i < contact.rows; ++i)
-      add_sum(contact.all[i], contact.all[i].impulse, sums[contact.local_a], sums[contact.local_b]);
-  (void)clamp_all(sums);
-  for (std::size_t k = 0; k < island.bodies; ++k)
-    for (const std::int64_t x : sums[k])
+  sum_changes(island);
+  for (const BodyVector& sum : of(changes_, island).first(island.bodies))
+    for (const std::int64_t x : sum)
       curve.add(x, x);
   const std::int64_t part = dual_part(slope, curve);
-  if (part == 0) return;
-  for (ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      ProximalRow& row = contact.all[i];
-      row.impulse -= raw::round_shift(row.impulse * part, 30);
-    }
-  }
-  const std::span<BodyVector> velocities = of(velocities_, island);
-  for (std::size_t k = 0; k < island.bodies; ++k)
-    for (std::size_t i = 0; i < 6; ++i)
-      velocities[k][i] = within_units(velocities[k][i] - raw::round_shift(sums[k][i] * part, 30));
-}
-
-// Returns whether no speed changed by as much as the tolerance.
-bool ProximalSolver::pass_contact(ProximalContact& contact, BodyVector& a, BodyVector& b,
-                                  bool& fits) {
-  bool done = true;
-  Clamp clamp;
-  const auto wanted = [&](const ProximalRow& row) {
-    const std::int64_t soft = raw::round_shift(row.give * (row.impulse - row.centre), 30);
-    const std::int64_t error = clamp(row.speed + row_speed(row, a, b) + soft);
-    return clamp(row.impulse - raw::round_shift(error * row.own_part, 30));
-  };
-  const auto change = [&](ProximalRow& row, std::int64_t next) {
-    const std::int64_t moved = next - row.impulse;
-    row.impulse = next;
-    apply_row(row, moved, a, b, clamp);
-    done = done && moved < row.tolerance && moved > -row.tolerance;
-  };
-  for (std::size_t i = 0; i < contact.points; ++i) {
-    ProximalRow& row = contact.all[i];
-    change(row, std::max<std::int64_t>(wanted(row), 0));
-  }
-  fits = fits && !clamp.hit();
-  if (!contact.has_friction()) return done;
-  for (std::size_t i = contact.points; i < contact.rows; ++i)
-    contact.all[i].next = wanted(contact.all[i]);
-  for (std::size_t i = 0; i < contact.points; ++i)
-    contact.all[i].next = contact.all[i].impulse;
-  (void)project(contact, &ProximalRow::next);
-  for (std::size_t i = contact.points; i < contact.rows; ++i)
-    change(contact.all[i], contact.all[i].next);
-  fits = fits && !clamp.hit();
-  return done;
+  if (part != 0) go(island, part);
 }
 
 bool ProximalSolver::pass(Island& island) {
-  const std::span<BodyVector> velocities = of(velocities_, island);
-  bool done = true;
-  for (ProximalContact& contact : contacts_of(island)) {
-    BodyVector &a = velocities[contact.local_a], &b = velocities[contact.local_b];
-    if (!pass_contact(contact, a, b, island.fits)) done = false;
-  }
-  return done;
+  const std::span<Problem> problems = problems_of(island);
+  const lanes::PhaseResult result = lanes::proximal_kernels().pass(problems.data(), problems.size(),
+                                                                   of(velocities_, island).data());
+  island.fits = island.fits && result.fits;
+  return result.done;
 }
 
 // Rows that push, and friction that does not slide. Where these are others than stand in the
 // factor, it is of no use any more.
 void ProximalSolver::mark_active(Island& island) {
   bool changed = false;
-  for (ProximalContact& contact : contacts_of(island)) {
+  const auto mark = [&](std::int64_t& word, bool is_active) {
+    const std::int64_t next = is_active ? -1 : 0;
+    changed = changed || word != next;
+    word = next;
+  };
+  for (Problem& problem : problems_of(island)) {
     bool pushes = false;
-    const auto mark = [&](ProximalRow& row, bool is_active) {
-      changed = changed || row.is_active != is_active;
-      row.is_active = is_active;
-    };
-    for (std::size_t i = 0; i < contact.points; ++i) {
-      mark(contact.all[i], contact.all[i].impulse > 0);
-      pushes = pushes || contact.all[i].is_active;
+    for (std::size_t i = 0; i < problem.points; ++i) {
+      mark(problem.active[i], problem.impulse[i] > 0);
+      pushes = pushes || problem.impulse[i] > 0;
     }
-    if (!contact.has_friction()) continue;
-    const std::int64_t limit = friction_limit(contact, &ProximalRow::impulse);
-    const bool sticks = pushes && friction_size(contact, &ProximalRow::impulse) <
-                                      static_cast<std::uint64_t>(limit * limit);
-    for (std::size_t i = contact.points; i < contact.rows; ++i)
-      mark(contact.all[i], sticks);
+    if (!problem.has_friction()) continue;
+    const std::int64_t limit = pushes ? lanes::friction_limit(problem, problem.impulse) : 0;
+    const std::int64_t near = limit - (limit >> k_near_shift);
+    const bool sticks =
+        pushes && !problem.slides &&
+        lanes::friction_size(problem, problem.impulse) < static_cast<std::uint64_t>(near * near);
+    for (std::size_t i = problem.points; i < problem.rows; ++i)
+      mark(problem.active[i], sticks);
   }
   island.is_factored = island.is_factored && !changed;
 }
 
 void ProximalSolver::factor(Island& island) {
   factor_.reset(island.plan);
+  const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  const auto block = [this](std::uint32_t index) {
+    return index == k_no_block ? nullptr : &factor_.block(index);
+  };
   for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    const ProximalContact& contact = contacts_[c];
     const Blocks& blocks = blocks_[c];
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      const ProximalRow& row = contact.all[i];
-      if (!row.is_active) continue;
-      if (contact.a != 0) factor_.add(blocks.a, row.a, row.a, row.weight);
-      if (contact.b != 0) factor_.add(blocks.b, row.b, row.b, row.weight);
-      if (contact.a == 0 || contact.b == 0) continue;
-      const bool a_is_row = blocks.both.a_is_row;
-      factor_.add(blocks.both.block, a_is_row ? row.a : row.b, a_is_row ? row.b : row.a,
-                  row.weight);
-    }
+    kernels.add_to_matrix(problems_[c], {block(blocks.a), block(blocks.b), block(blocks.both.block),
+                                         blocks.both.a_is_row});
   }
   factor_.factor(island.plan);
   island.is_factored = island.was_factored = true;
@@ -194,136 +117,124 @@ void ProximalSolver::factor(Island& island) {
 
 // Of all rows, exact. How many of their bits a direct step drops.
 void ProximalSolver::find_residuals(Island& island) {
-  const std::span<BodyVector> velocities = of(velocities_, island);
-  constexpr int k_drop = 30 - k_exact_bits;
-  std::uint64_t most = 1;
-  for (ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      ProximalRow& row = contact.all[i];
-      const std::int64_t moved =
-          row_dot(row.a, velocities[contact.local_a]) + row_dot(row.b, velocities[contact.local_b]);
-      const std::int64_t soft = row.give * (row.impulse - row.centre);
-      row.residual = row.speed * (std::int64_t{1} << k_exact_bits) +
-                     raw::round_shift(moved, k_drop) + raw::round_shift(soft, k_drop);
-      if (row.is_active || i >= contact.points) most |= magnitude(row.residual);
-    }
-  }
-  island.drop = std::max(0, static_cast<int>(std::bit_width(most)) - k_residual_bits);
+  const std::span<Problem> problems = problems_of(island);
+  const std::uint64_t most = lanes::proximal_kernels().find_residuals(
+      problems.data(), problems.size(), of(velocities_, island).data());
+  island.drop = std::max(1, static_cast<int>(std::bit_width(most)) - k_residual_bits);
 }
 
 // Solves for velocities, with the right-hand side −Σ Jᵀ·r/γ of the active rows, times 2^-14.
 // Returns whether all fits.
 bool ProximalSolver::solve_for_changes(Island& island) {
   const std::span<BodyVector> sums = of(changes_, island);
-  for (BodyVector& sum : sums)
-    sum = {};
-  for (const ProximalContact& contact : contacts_of(island))
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      const ProximalRow& row = contact.all[i];
-      if (!row.is_active) continue;
-      const std::int64_t residual = raw::round_shift(row.residual, island.drop);
-      add_sum(row, -raw::round_shift(residual * row.weight, 30), sums[contact.local_a],
-              sums[contact.local_b]);
-    }
-  return clamp_all(sums) && factor_.solve(island.plan, sums.first(island.bodies));
+  std::ranges::fill(sums, BodyVector{});
+  const std::span<const Problem> problems = problems_of(island);
+  lanes::proximal_kernels().add_right_sides(problems.data(), problems.size(), island.drop,
+                                            sums.data());
+  const bool fits = clamp_all(sums) && factor_.solve(island.plan, sums.first(island.bodies));
+  sums[island.bodies] = {};
+  return fits;
 }
 
-// Impulses at the solution of the active rows' equations, as far as they are allowed. Notes whether
-// all are, and whether no other row would close: then this is the solution.
-void ProximalSolver::propose(Island& island) {
-  const std::span<BodyVector> changes = of(changes_, island);
-  changes[island.bodies] = {};
-  island.is_solved = true;
-  for (ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      ProximalRow& row = contact.all[i];
-      const bool is_normal = i < contact.points;
-      const std::int64_t left = raw::round_shift(row.residual, island.drop) +
-                                row_speed(row, changes[contact.local_a], changes[contact.local_b]);
-      row.next = is_normal ? 0 : row.impulse;
-      if (!row.is_active) {
-        island.is_solved = island.is_solved && (is_normal ? left >= 0 : row.impulse == 0);
-        continue;
-      }
-      // left / γ = left · weight · 2^14.
-      const std::int64_t moved = product_rounded(
-          left, row.weight, 30 + k_exact_bits - BodyFactor::k_least_bits - island.drop);
-      row.next = within_units(row.impulse - moved);
-      island.fits = island.fits && row.next == row.impulse - moved;
-      if (!is_normal || row.next >= 0) continue;
-      row.next = 0;
-      island.is_solved = false;
-    }
-    if (contact.has_friction() && project(contact, &ProximalRow::next)) island.is_solved = false;
-  }
-}
-
-// Goes towards what was proposed as far as D falls. Returns whether it goes anywhere.
-bool ProximalSolver::search(Island& island) {
-  ProductSum slope, curve;
-  constexpr std::int64_t k_scale = std::int64_t{1} << k_exact_bits;
+// Sums the changes of the bodies' velocities by the step to the next impulses.
+void ProximalSolver::sum_changes(Island& island) {
   const std::span<BodyVector> sums = of(changes_, island);
-  for (BodyVector& sum : sums)
-    sum = {};
-  for (const ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      const ProximalRow& row = contact.all[i];
-      const std::int64_t change = within_units(row.next - row.impulse);
-      if (change == 0) continue;
-      slope.add(change, row.residual);
-      curve.add(raw::round_shift(row.give * change, 30 - k_exact_bits), change);
-      add_sum(row, change, sums[contact.local_a], sums[contact.local_b]);
-    }
-  }
-  island.fits = clamp_all(sums.first(island.bodies)) && island.fits;
-  for (std::size_t k = 0; k < island.bodies; ++k)
-    for (const std::int64_t x : sums[k])
-      curve.add(x * k_scale, x);
-  const std::int64_t part = dual_part(slope, curve);
-  if (part == 0) return false;
-  go(island, part);
-  return true;
+  std::ranges::fill(sums, BodyVector{});
+  const std::span<const Problem> problems = problems_of(island);
+  const bool fits =
+      lanes::proximal_kernels().add_changes(problems.data(), problems.size(), sums.data());
+  island.fits = clamp_all(sums.first(island.bodies)) && fits && island.fits;
 }
 
-// By a part of what `search` has at hand, Q30.
-void ProximalSolver::go(Island& island, std::int64_t part) {
-  const auto of_part = [part](std::int64_t x) { return raw::round_shift(x * part, 30); };
-  island.is_solved = island.is_solved && part == k_whole;
-  for (ProximalContact& contact : contacts_of(island))
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      ProximalRow& row = contact.all[i];
-      row.impulse = part == k_whole ? row.next : row.impulse + of_part(row.next - row.impulse);
+// The part of the step at which D is least.
+std::int64_t ProximalSolver::search(const Island& island) {
+  constexpr std::int64_t k_scale = std::int64_t{1} << lanes::k_residual_point;
+  ProductSum slope, curve;
+  for (const Problem& problem : problems_of(island)) {
+    for (std::size_t i = 0; i < problem.rows; ++i) {
+      const std::int64_t change = within_units(problem.next[i] - problem.impulse[i]);
+      if (change == 0) continue;
+      slope.add(change, problem.residual[i]);
+      curve.add(problem.give[i] * change, change);
     }
+  }
+  for (const BodyVector& sum : of(changes_, island).first(island.bodies))
+    for (const std::int64_t x : sum)
+      curve.add(x * k_scale, x);
+  return dual_part(slope, curve);
+}
+
+// By a part of the step at hand, Q30.
+void ProximalSolver::go(Island& island, std::int64_t part) {
+  const auto of_part = [part](std::int64_t x) {
+    return part == k_whole ? x : raw::round_shift(x * part, 30);
+  };
+  for (Problem& problem : problems_of(island))
+    for (std::size_t i = 0; i < problem.rows; ++i)
+      problem.impulse[i] += of_part(problem.next[i] - problem.impulse[i]);
   Clamp clamp;
   const std::span<const BodyVector> sums = of(changes_, island);
   const std::span<BodyVector> velocities = of(velocities_, island);
   for (std::size_t k = 0; k < island.bodies; ++k)
-    for (std::size_t i = 0; i < 6; ++i)
-      velocities[k][i] =
-          clamp(velocities[k][i] + (part == k_whole ? sums[k][i] : of_part(sums[k][i])));
+    for (std::size_t i = 0; i < lanes::k_body_words; ++i)
+      velocities[k][i] = clamp(velocities[k][i] + of_part(sums[k][i]));
   island.fits = island.fits && !clamp.hit();
 }
 
+// Goes towards the solution of the active rows' equations, as far as it is allowed and D falls: all
+// the way where it is the solution of the phase. Returns whether it goes anywhere.
 bool ProximalSolver::direct_step(Island& island) {
-  mark_active(island);
   if (!island.is_factored) factor(island);
   find_residuals(island);
   while (!solve_for_changes(island)) {
     island.drop += k_fewer_bits;
     if (island.drop > k_most_drop) return false;
   }
-  propose(island);
-  return search(island);
+  const std::span<Problem> problems = problems_of(island);
+  const lanes::PhaseResult result = lanes::proximal_kernels().propose(
+      problems.data(), problems.size(), island.drop, of(changes_, island).data());
+  island.is_solved = result.done;
+  island.fits = island.fits && result.fits;
+  sum_changes(island);
+  const std::int64_t part = island.is_solved ? k_whole : search(island);
+  if (part == 0) return false;
+  go(island, part);
+  return true;
 }
 
 // In the units at hand. Returns false where they are too fine.
 bool ProximalSolver::converge(Island& island, bool scales) {
   island.fits = true;
-  for (ProximalContact& contact : contacts_of(island))
-    convert(island, contact);
-  for (BodyVector& velocity : of(velocities_, island))
-    velocity = {};
+  const std::span<Problem> problems = problems_of(island);
+  lanes::proximal_kernels().begin_phase(problems.data(), problems.size(),
+                                        k_row_unit_bits - island.bits, island.loose);
+  std::ranges::fill(of(velocities_, island), BodyVector{});
   if (scales) scale_warm_start(island);
+  iterate(island);
+  for (int i = 0; i < k_most_centres && island.fits && move_centres(island); ++i)
+    iterate(island);
+  return island.fits;
+}
+
+// Where rows give by more than a centimetre a second, for a load that nobody knew, the last
+// impulses become their centres. Returns whether any did.
+bool ProximalSolver::move_centres(Island& island) {
+  constexpr std::int64_t k_most_give = 100;  // tolerances
+  bool moves = false;
+  for (Problem& problem : problems_of(island)) {
+    for (std::size_t i = 0; i < problem.points && !moves; ++i) {
+      const std::int64_t give = problem.give[i] * (problem.impulse[i] - problem.centre[i]);
+      moves = raw::round_shift(give, 30) > k_most_give * (problem.tolerance[i] >> island.loose);
+    }
+  }
+  if (moves)
+    for (Problem& problem : problems_of(island))
+      problem.centre = problem.impulse;
+  return moves;
+}
+
+// Until no row changes, or the steps are used up.
+void ProximalSolver::iterate(Island& island) {
   // Resting bodies are solved by the factor at hand: passes alone would leave them creeping.
   mark_active(island);
   island.is_solved = false;
@@ -332,10 +243,11 @@ bool ProximalSolver::converge(Island& island, bool scales) {
   for (int step = 0; !done && island.fits; ++step) {
     for (int i = 0; i < (step == 0 ? k_first_passes : k_passes) && !done; ++i)
       done = pass(island);
-    if (step == k_direct_steps || done || !direct_step(island)) break;
+    if (step == k_direct_steps || done) break;
+    mark_active(island);
+    (void)direct_step(island);
     done = island.is_solved;
   }
-  return island.fits;
 }
 
 }  // namespace lockstone

@@ -5,6 +5,7 @@
 
 #include "core/dynamics/block_words.h"
 #include "core/math/roots.h"
+#include "core/math/wide/scalar_lanes.h"
 
 namespace lockstone {
 namespace {
@@ -27,35 +28,23 @@ std::int64_t root_of(std::int64_t square) {
   return static_cast<std::int64_t>(isqrt_rounded(static_cast<std::uint64_t>(square)));
 }
 
-// √(mass of the pair / m₀).
-RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
-  std::uint64_t ratio = (static_cast<std::uint64_t>(unit.mantissa) << 31) /
-                        static_cast<std::uint64_t>(inverse.mantissa);  // 2^30 … 2^32
-  int shift = 31 + inverse.exponent - unit.exponent;
-  if ((shift & 1) != 0) {
-    ratio <<= 1;
-    ++shift;
-  }
-  return RowScale::of(isqrt_rounded(ratio << 30), (shift + 30) / 2);
-}
-
 // Both sides of a row, each times the root of its share in the pair's inverse mass, Q30.
 struct Sides {
   std::array<std::int64_t, 6> a{}, b{};
 };
 
+// `part` is the root of the share, with the sign of the side, Q30; |linear| ≤ 1.
 std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& angular,
-                                        const InertiaRoot& root, std::int64_t share, bool is_a) {
+                                        const InertiaRoot& root, std::int64_t part) {
   std::array<std::int64_t, 6> side{};
-  if (share == 0) return side;
-  const std::int64_t part = root_of(share << 30);
+  if (part == 0) return side;
   for (std::size_t i = 0; i < 3; ++i) {
-    side[i] = product_rounded(is_a ? -linear[i] : linear[i], part, 30);
+    side[i] = raw::round_shift(linear[i] * part, 30);
     ProductSum sum;
     for (std::size_t k = i; k < 3; ++k)
       sum.add(root.c[k][i], angular[k]);
     const std::int64_t turn = sum.rounded(30 - root.shift);
-    side[3 + i] = product_rounded(is_a ? -turn : turn, part, 30);
+    side[3 + i] = product_rounded(turn, part, 30);
   }
   return side;
 }
@@ -70,33 +59,38 @@ std::int64_t length_of(const Sides& sides) {
   return static_cast<std::int64_t>(isqrt128_rounded(sum));
 }
 
-void scale_side(const std::array<std::int64_t, 6>& from, std::int64_t inverse, RowSide& to) {
-  for (std::size_t i = 0; i < 6; ++i)
-    to[i] = static_cast<std::int32_t>(
-        std::clamp(product_rounded(from[i], inverse, 32), -k_whole_q30, k_whole_q30));
+// Over a length that is not less, Q30; `inverse` is 2^62 over that.
+std::int64_t scaled_entry(std::int64_t from, std::int64_t inverse) {
+  return std::clamp(raw::round_shift(from * inverse, 32), -k_whole_q30, k_whole_q30);
 }
 
 // The pair that rows are found for.
 struct Pair {
   const ContactRun& run;
+  ProximalContact& contact;
+  lanes::ProximalBlock& problem;
   PreparedRows& prepared;
   const InertiaRoot &root_a, &root_b;
-  std::int64_t share_a = 0, share_b = 0;
+  std::int64_t part_a = 0, part_b = 0;  // roots of the shares, A's negative, Q30
   RowScale mass;
 
   [[nodiscard]] Sides sides(const ContactRow& row) const {
-    return {scaled_side(row.linear, row.angular_a, root_a, share_a, true),
-            scaled_side(row.linear, row.angular_b, root_b, share_b, false)};
+    return {scaled_side(row.linear, row.angular_a, root_a, part_a),
+            scaled_side(row.linear, row.angular_b, root_b, part_b)};
   }
 };
 
 // Row `index`, scaled by 1/length, Q30.
 void set_row(const Pair& pair, const ContactRow& from, const Sides& sides, std::int64_t length,
-             std::size_t index, ProximalRow& row) {
+             std::size_t index) {
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
-  scale_side(sides.a, inverse, row.a);
-  scale_side(sides.b, inverse, row.b);
+  for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
+    const std::int64_t both =
+        lanes::scalar::pack(scaled_entry(sides.a[i], inverse), scaled_entry(sides.b[i], inverse));
+    pair.problem.sides[i][index] = pair.problem.by_row[index][i] = both;
+  }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
+  ProximalRow& row = pair.contact.all[index];
   row.to_speed = pair.mass * norm.reciprocal();
   row.to_impulse = (pair.mass * norm).reciprocal();
   row.total = from.impulse;
@@ -129,7 +123,8 @@ std::int64_t greatest_length(const Sides& t, const Sides& b) {
       isqrt128_rounded(multiply_wide(magnitude(most), static_cast<std::uint64_t>(k_whole_q30))));
 }
 
-void add_friction(const Pair& pair, ProximalContact& contact, const ManifoldBlock& block) {
+void add_friction(const Pair& pair, const ManifoldBlock& block) {
+  ProximalContact& contact = pair.contact;
   const std::size_t lane = contact.lane();
   std::array<ContactRow, 3> rows{};
   rows[0].linear = contact.tangent;
@@ -151,18 +146,48 @@ void add_friction(const Pair& pair, ProximalContact& contact, const ManifoldBloc
   const Sides t = pair.sides(rows[0]), b = pair.sides(rows[1]), n = pair.sides(rows[2]);
   const std::int64_t length = std::max<std::int64_t>(greatest_length(t, b), k_whole_q30 / 2);
   const std::size_t first = contact.points;
-  set_row(pair, rows[0], t, length, first, contact.all[first]);
-  set_row(pair, rows[1], b, length, first + 1, contact.all[first + 1]);
+  set_row(pair, rows[0], t, length, first);
+  set_row(pair, rows[1], b, length, first + 1);
   contact.rows = contact.points + 2;
   const std::int64_t twist = length_of(n);
   if (twist < k_whole_q30 >> 16) return;  // neither body turns about the normal
-  set_row(pair, rows[2], n, twist, first + 2, contact.all[first + 2]);
+  set_row(pair, rows[2], n, twist, first + 2);
   ++contact.rows;
-  contact.twist_ratio =
-      raw::saturate<std::int32_t>(raw::round_divide(length << k_limit_bits, twist));
+  pair.problem.twist_ratio =
+      raw::saturate<std::int32_t>(raw::round_divide(length << lanes::k_friction_point, twist));
 }
 
 }  // namespace
+
+RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
+  std::uint64_t ratio = (static_cast<std::uint64_t>(unit.mantissa) << 31) /
+                        static_cast<std::uint64_t>(inverse.mantissa);  // 2^30 … 2^32
+  int shift = 31 + inverse.exponent - unit.exponent;
+  if ((shift & 1) != 0) {
+    ratio <<= 1;
+    ++shift;
+  }
+  return RowScale::of(isqrt_rounded(ratio << 30), (shift + 30) / 2);
+}
+
+bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
+  constexpr std::int64_t k_least_length = k_whole_q30 >> 16;
+  const Sides sides{
+      scaled_side(row.linear_a, row.angular_a, joint.root_a, root_of(joint.share_a << 30)),
+      scaled_side(row.linear_b, row.angular_b, joint.root_b, root_of(joint.share_b << 30))};
+  const std::int64_t length = length_of(sides);
+  if (length < k_least_length) return false;
+  const std::int64_t inverse = (std::int64_t{1} << 62) / length;
+  for (std::size_t i = 0; i < 6; ++i) {
+    lock.a[i] = static_cast<std::int32_t>(scaled_entry(sides.a[i], inverse));
+    lock.b[i] = static_cast<std::int32_t>(scaled_entry(sides.b[i], inverse));
+  }
+  const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
+  lock.own = product_rounded(length, length, 30);
+  lock.to_speed = joint.mass * norm.reciprocal();
+  lock.to_impulse = (joint.mass * norm).reciprocal();
+  return true;
+}
 
 InertiaRoot inertia_root(const InverseInertia& m) {
   InertiaRoot root;
@@ -189,7 +214,8 @@ InertiaRoot inertia_root(const InverseInertia& m) {
 }
 
 void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const InertiaRoot& root_b,
-                        BlockFloat unit, ProximalContact& contact, PreparedRows& prepared) {
+                        BlockFloat unit, ProximalContact& contact, lanes::ProximalBlock& problem,
+                        PreparedRows& prepared) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   ContactRows rows{};
@@ -203,32 +229,36 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
   contact.radius = high_word(block.twist[lane]);
   const std::int64_t share_b = low_word(block.share[lane]);
   const Pair pair{run,
+                  contact,
+                  problem,
                   prepared,
                   root_a,
                   root_b,
-                  contact.a == 0 ? 0 : k_whole_q30 - share_b,
-                  contact.b == 0 ? 0 : share_b,
+                  contact.a == 0 ? 0 : -root_of((k_whole_q30 - share_b) << 30),
+                  contact.b == 0 ? 0 : root_of(share_b << 30),
                   mass_scale(unit, rows.inverse_mass)};
   for (std::size_t i = 0; i < rows.count; ++i) {
     const Sides sides = pair.sides(rows.points[i]);
     set_row(pair, rows.points[i], sides, std::max<std::int64_t>(length_of(sides), k_whole_q30 / 2),
-            i, contact.all[i]);
+            i);
+    problem.normal[i] = -1;
     contact.x[i] = rows.points[i].x;
     contact.y[i] = rows.points[i].y;
   }
   contact.rows = contact.points;
   if (contact.points == 0 || high_word(block.share[lane]) == 0) return;
-  add_friction(pair, contact, block);
+  add_friction(pair, block);
   const std::int64_t coefficient = high_word(block.share[lane]);
   const RowScale tangent = prepared.from_impulse[contact.points];
   for (std::size_t i = 0; i < contact.points; ++i) {
     const RowScale ratio = tangent * contact.all[i].to_impulse;
-    contact.limits[i] = raw::saturate<std::int32_t>(
-        std::max<std::int64_t>(ratio.times(coefficient, 30 - k_limit_bits), 1));
+    problem.limits[i] = raw::saturate<std::int32_t>(
+        std::max<std::int64_t>(ratio.times(coefficient, 30 - lanes::k_friction_point), 1));
   }
 }
 
-void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContact& contact) {
+void set_gives(std::int64_t weight, const PreparedRows& prepared, const ProximalContact& contact,
+               lanes::ProximalBlock& problem) {
   std::int64_t most = 0, load = 0;
   for (std::size_t i = 0; i < contact.rows; ++i) {
     const std::int64_t own = prepared.own[i];
@@ -240,14 +270,11 @@ void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContac
          (load >> (overload + 1)) >= k_overload * weight)
     ++overload;
   for (std::size_t i = 0; i < contact.rows; ++i) {
-    ProximalRow& row = contact.all[i];
     const std::int64_t ratio = raw::round_divide(most << 16, prepared.own[i]);  // 1 or more, Q16
     const std::int64_t give = std::min(ratio << (30 - 16 - k_give_bits - overload), k_whole_q30);
-    row.give = static_cast<std::int32_t>(give);
-    row.own_part =
-        static_cast<std::int32_t>(raw::round_divide(k_whole_q30 << 30, k_whole_q30 + give));
-    row.weight = static_cast<std::int32_t>(
-        raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give));
+    problem.give[i] = give;
+    problem.own_part[i] = raw::round_divide(k_whole_q30 << 30, k_whole_q30 + give);
+    problem.weight[i] = raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give);
   }
 }
 

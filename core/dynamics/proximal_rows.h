@@ -11,8 +11,10 @@
 #include <cstdint>
 
 #include "core/dynamics/body_factor.h"
+#include "core/dynamics/joint_rows.h"
 #include "core/dynamics/row_geometry.h"
 #include "core/dynamics/row_scale.h"
+#include "core/math/wide/proximal_block.h"
 
 namespace lockstone {
 
@@ -25,56 +27,30 @@ struct InertiaRoot {
 [[nodiscard]] InertiaRoot inertia_root(const InverseInertia& inertia);
 
 /// Four points, two tangents and the twist.
-inline constexpr std::size_t k_contact_rows = 7;
+inline constexpr std::size_t k_contact_rows = lanes::k_most_rows;
 
+/// The data of a row for a tick, beside its lane in the problem.
 struct ProximalRow {
-  RowSide a{}, b{};           // Q30; what nothing moves has 0
-  std::int32_t give = 0;      // γ, Q30
-  std::int32_t own_part = 0;  // 1 / (1 + γ), Q30
-  std::int32_t weight = 0;    // 2^-14 / γ, Q30
-  bool is_active = false;
-  // In units of the phase.
-  std::int64_t speed = 0;  // with its bias, as the phase began
-  std::int64_t impulse = 0;
-  std::int64_t start = 0;      // impulse as the phase began
-  std::int64_t centre = 0;     // what the impulse is pulled towards
-  std::int64_t residual = 0;   // as of the direct step at hand, with more bits
-  std::int64_t next = 0;       // impulse that the direct step proposes
-  std::int64_t tolerance = 0;  // a lesser change is none
-  // Fixed for a tick.
   RowScale to_speed, to_impulse;
-  std::int64_t least_change = 0;  // of speed, in the row's units, as below
-  std::int64_t weight_leak = 0;   // most that a normal's centre leaks, alike
-  // Between phases, in the row's units with `k_row_unit_bits` bits after the point.
-  std::int64_t held = 0;  // impulse
-  std::int64_t held_centre = 0;
-  std::int64_t moving = 0;  // speed
-  std::int64_t moved = 0;   // speed as the substep began
-  std::int64_t bias = 0;
-  std::int64_t total = 0;  // impulse as the pair's velocity jump, m/s, Q32
+  std::int64_t weight_leak = 0;  // most that a normal's centre leaks, in units of the row
+  std::int64_t leak = 0;         // leak of the centre in this substep
+  std::int64_t total = 0;        // impulse as the pair's velocity jump, m/s, Q32
 };
 
+/// Fraction bits of kept quantities in units of their rows.
 inline constexpr int k_row_unit_bits = 44;
 
-/// Fraction bits of friction's limits and of the twist's ratio.
-inline constexpr int k_limit_bits = 20;
-
-/// A contact of an island.
+/// A contact of an island; its rows are the lanes of a `ProximalBlock`.
 struct ProximalContact : ContactPair {
-  std::uint32_t row_a = 0, row_b = 0;      // where their velocities stand
-  std::uint32_t local_a = 0, local_b = 0;  // in the island; its number of bodies: what none moves
+  std::uint32_t row_a = 0, row_b = 0;  // where their velocities stand
   std::uint32_t points = 0;
   std::uint32_t rows = 0;  // points and 2 or 3 of friction
   std::array<ProximalRow, k_contact_rows> all{};
-  std::array<std::int32_t, lanes::k_block_points> limits{};  // friction's, of a normal's, Q20
-  std::int32_t twist_ratio = 0;  // of the twist's unit in a tangent's, Q20
-  std::int64_t radius = 0;       // of the twist, ρ/ℓ, Q30
+  std::int64_t radius = 0;  // of the twist, ρ/ℓ, Q30
   RawVec3 normal{}, tangent{}, binormal{};
   std::array<std::int64_t, lanes::k_block_points> x{}, y{};  // offsets, Q30
   // Words of the block that make its iterations idle, as they were.
   std::array<std::int64_t, 8> words{};
-
-  [[nodiscard]] bool has_friction() const { return limits[0] != 0; }
 };
 
 /// Quantities of a contact's rows that only preparation reads.
@@ -84,13 +60,37 @@ struct PreparedRows {
   std::array<RowScale, k_contact_rows> from_impulse{};
 };
 
-/// Reads a contact's rows and their scales from its block. `root_a` and `root_b` are those of its
-/// bodies, `unit` the island's 1/m₀.
+/// Reads a contact's rows and their scales from its manifold. `root_a` and `root_b` are those of
+/// its bodies, `unit` the island's 1/m₀.
 void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const InertiaRoot& root_b,
-                        BlockFloat unit, ProximalContact& contact, PreparedRows& prepared);
+                        BlockFloat unit, ProximalContact& contact, lanes::ProximalBlock& problem,
+                        PreparedRows& prepared);
+
+/// A lock or motor of a joint, as its island's problem has it.
+struct ProximalLock {
+  RowSide a{}, b{};               // Q30; 0 of a body that nothing pushes
+  RowScale to_speed, to_impulse;  // as ProximalRow's
+  std::int64_t own = 0;           // response to itself, Q30
+  std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
+};
+
+/// Data that all rows of a joint share.
+struct ProximalJoint {
+  const InertiaRoot &root_a, &root_b;
+  std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
+  RowScale mass;                          // √(mass of the pair / m₀)
+};
+
+/// √(mass of the pair / m₀), from both inverse masses.
+[[nodiscard]] RowScale mass_scale(BlockFloat unit, BlockFloat inverse);
+
+/// Reads a joint's row and its scales. Returns false where nothing moves along it.
+[[nodiscard]] bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint,
+                                      ProximalLock& lock);
 
 /// How soft the rows are: overloaded contacts, by more than 400 times `weight` (a body's impulse in
 /// a substep, m/s, Q32), give less.
-void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContact& contact);
+void set_gives(std::int64_t weight, const PreparedRows& prepared, const ProximalContact& contact,
+               lanes::ProximalBlock& problem);
 
 }  // namespace lockstone

@@ -15,13 +15,14 @@ using lanes::ManifoldBlock;
 using lanes::RowBody;
 using lanes::scalar::pack;
 
-// Units are such that what a phase begins with is below 2^27 of them, of the 2^31 there are. Where
-// that does not do, coarser ones are tried.
+// Units are such that all magnitudes at the beginning of a phase are below 2^27 of them; words hold
+// 2^31. If a phase overflows, it is solved again with coarser units.
 constexpr int k_start_bits = 27;
-constexpr int k_most_bits = k_row_unit_bits;
+constexpr int k_most_bits = k_row_unit_bits - 1, k_least_bits = 2;
 constexpr int k_coarser_bits = 5;
-// A change of speed is none below this, m/s, Q50.
+// A change of speed is none below this, m/s, Q50, nor below 2^-k_loose_bits of an approach.
 constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
+constexpr int k_loose_bits = 6;
 
 // The leak of a normal's centre, at most: a tenth of its impulse, and half of the row's own weight.
 constexpr std::int64_t k_leak_part = 10;
@@ -35,16 +36,21 @@ constexpr std::int64_t k_most_total = std::int64_t{1} << (k_row_impulse_bits + 1
 
 }  // namespace
 
-ProximalSolver::ProximalSolver(std::size_t body_capacity, std::size_t contact_capacity)
-    : factor_(body_capacity) {
+ProximalSolver::ProximalSolver(std::size_t rows, std::size_t body_capacity,
+                               std::size_t contact_capacity)
+    : local_(rows),
+      body_capacity_(body_capacity),
+      contact_capacity_(contact_capacity),
+      factor_(body_capacity, contact_capacity) {
   islands_.reserve(body_capacity);
   bodies_.reserve(body_capacity);
   contacts_.reserve(contact_capacity);
+  problems_.reserve(contact_capacity);
   blocks_.reserve(contact_capacity);
   velocities_.reserve(2 * body_capacity);
   changes_.reserve(2 * body_capacity);
   gains_.reserve(2 * body_capacity);
-  local_.reserve(body_capacity + contact_capacity + 1);
+  roots_.reserve(2 * body_capacity);
   pairs_.reserve(contact_capacity);
 }
 
@@ -52,10 +58,12 @@ void ProximalSolver::clear() {
   islands_.clear();
   bodies_.clear();
   contacts_.clear();
+  problems_.clear();
   blocks_.clear();
   velocities_.clear();
   changes_.clear();
   gains_.clear();
+  roots_.clear();
   factor_.clear();
 }
 
@@ -67,8 +75,9 @@ bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
   island.first_vector = static_cast<std::uint32_t>(velocities_.size());
   island.first_contact = static_cast<std::uint32_t>(contacts_.size());
   island.contacts = static_cast<std::uint32_t>(contacts.size());
-  const std::uint32_t last = *std::ranges::max_element(bodies);
-  if (local_.size() <= last) local_.resize(last + 1);
+  if (bodies_.size() + bodies.size() > body_capacity_ ||
+      contacts_.size() + contacts.size() > contact_capacity_)
+    return false;
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
     local_[bodies[i]] = i;
   pairs_.clear();
@@ -76,26 +85,28 @@ bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
     if (contact.a != 0 && contact.b != 0) pairs_.emplace_back(local_[contact.a], local_[contact.b]);
   if (!factor_.plan(island.bodies, pairs_, island.plan)) return false;
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
-  for (ProximalContact contact : contacts) {
-    contact.local_a = contact.a != 0 ? local_[contact.a] : island.bodies;
-    contact.local_b = contact.b != 0 ? local_[contact.b] : island.bodies;
+  for (const ProximalContact& contact : contacts) {
     contacts_.push_back(contact);
+    Problem& problem = problems_.emplace_back();
+    problem.a = contact.a != 0 ? local_[contact.a] : island.bodies;
+    problem.b = contact.b != 0 ? local_[contact.b] : island.bodies;
     Blocks blocks;
-    if (contact.a != 0) blocks.a = factor_.diagonal(island.plan, contact.local_a);
-    if (contact.b != 0) blocks.b = factor_.diagonal(island.plan, contact.local_b);
+    if (contact.a != 0) blocks.a = factor_.diagonal(island.plan, problem.a);
+    if (contact.b != 0) blocks.b = factor_.diagonal(island.plan, problem.b);
     if (contact.a != 0 && contact.b != 0)
-      blocks.both = factor_.find(island.plan, contact.local_a, contact.local_b);
+      blocks.both = factor_.find(island.plan, problem.a, problem.b);
     blocks_.push_back(blocks);
   }
   const std::size_t vectors = velocities_.size() + bodies.size() + 1;
   velocities_.resize(vectors);
   changes_.resize(vectors);
   gains_.resize(vectors);
+  roots_.resize(vectors);
   islands_.push_back(island);
   return true;
 }
 
-// From here on the sweeps leave the contact alone, but for its separations.
+// From here on the iterations only update the contact's separations.
 void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -107,6 +118,8 @@ void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) 
                    block.twist_row[1][lane],
                    block.rest[lane],
                    block.soft[lane]};
+  for (std::size_t i = 0; i < contact.points; ++i)
+    block.points[i].impulse[lane] = 0;
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
   block.rest[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;
@@ -117,46 +130,62 @@ void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) 
   block.twist_row[1][lane] = pack(block.twist_row[1][lane], 0);
 }
 
-void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t weight) {
-  Island& island = islands_[index];
+// The island's 1/m₀.
+BlockFloat ProximalSolver::find_unit(const ContactRun& run, const Island& island) {
   BlockFloat unit{};
+  const auto is_less = [](BlockFloat x, BlockFloat y) {
+    return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
+  };
   for (const ProximalContact& contact : contacts_of(island)) {
     const BlockFloat inverse =
         lockstone::add(run.bodies[contact.a].inverse_mass, run.bodies[contact.b].inverse_mass);
-    const auto is_less = [](BlockFloat x, BlockFloat y) {
-      return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
-    };
     if (unit.mantissa == 0 || is_less(inverse, unit)) unit = inverse;
   }
-  for (ProximalContact& contact : contacts_of(island)) {
-    const InertiaRoot a = inertia_root(run.bodies[contact.a].inverse_inertia);
-    const InertiaRoot b = inertia_root(run.bodies[contact.b].inverse_inertia);
+  return unit;
+}
+
+void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t weight) {
+  const Island& island = islands_[index];
+  const BlockFloat unit = find_unit(run, island);
+  const std::span<InertiaRoot> roots =
+      std::span(roots_).subspan(island.first_vector, island.bodies + 1);
+  for (std::uint32_t i = 0; i < island.bodies; ++i)
+    roots[i] = inertia_root(run.bodies[bodies_[island.first_body + i]].inverse_inertia);
+  roots[island.bodies] = {};
+  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
+    ProximalContact& contact = contacts_[c];
+    Problem& problem = problems_[c];
     PreparedRows prepared;
-    find_proximal_rows(run, a, b, unit, contact, prepared);
+    find_proximal_rows(run, roots[problem.a], roots[problem.b], unit, contact, problem, prepared);
+    problem.points = contact.points;
+    problem.rows = contact.rows;
     take_over(run, contact);
-    set_gives(weight, prepared, contact);
-    begin_rows(prepared, weight, contact);
-    measure(run, prepared, contact);
-    set_drives(run, contact);
+    set_gives(weight, prepared, contact, problem);
+    lanes::proximal_kernels().couple(problem);
+    begin_rows(prepared, weight, contact, problem);
+    measure(run, prepared, contact, problem);
+    set_drives(run, contact, problem);
   }
 }
 
 // Sets the parts of rows that stay for the tick.
 void ProximalSolver::begin_rows(const PreparedRows& prepared, std::int64_t weight,
-                                ProximalContact& contact) {
+                                ProximalContact& contact, Problem& problem) {
   constexpr int k_down = k_row_impulse_bits - k_row_unit_bits;
   for (std::size_t i = 0; i < contact.rows; ++i) {
     ProximalRow& row = contact.all[i];
     const RowScale& scale = prepared.from_impulse[i];
-    row.held = within_row(scale.times(row.total, k_down));
-    row.least_change = row.to_speed.times(k_tolerance, 50 - k_row_unit_bits);
+    problem.warm[i] = within_row(scale.times(row.total, k_down));
+    row.total = 0;
+    problem.least_change[i] = row.to_speed.times(k_tolerance, 50 - k_row_unit_bits);
     if (i < contact.points)
       row.weight_leak = scale.times(raw::round_divide(weight << 29, prepared.own[i]), k_down);
   }
 }
 
 // Moving surfaces add to the speeds of friction.
-void ProximalSolver::set_drives(const ContactRun& run, ProximalContact& contact) {
+void ProximalSolver::set_drives(const ContactRun& run, const ProximalContact& contact,
+                                Problem& problem) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   if (block.is_plain(lane)) return;
@@ -164,8 +193,8 @@ void ProximalSolver::set_drives(const ContactRun& run, ProximalContact& contact)
                                  high_word(block.drive[lane]) * (std::int64_t{1} << 30),
                                  low_word(block.turn[lane]) * contact.radius};
   for (std::size_t i = contact.points; i < contact.rows; ++i) {
-    ProximalRow& row = contact.all[i];
-    row.bias = row.to_speed.times(drives[i - contact.points], 50 - k_row_unit_bits);
+    problem.bias[i] =
+        contact.all[i].to_speed.times(drives[i - contact.points], 50 - k_row_unit_bits);
   }
 }
 
@@ -185,21 +214,20 @@ std::int64_t ProximalSolver::speed_along(const RawVec3* linear, const RawVec3& r
   return sum.rounded(30);
 }
 
-// Speeds of all rows as the tick begins, and once gravity, forces and the last impulses have acted:
-// these wait in `before`.
+// Speeds of all rows as the tick begins, and once gravity and forces have acted.
 void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared,
-                             ProximalContact& contact) {
+                             const ProximalContact& contact, Problem& problem) {
   Motion start, gained;
   const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
                             RawVec3& gained_spin, std::int64_t sign) {
-    const RowBody &row = run.rows[index], &warm = run.before[index];
+    const RowBody& row = run.rows[index];
     for (std::size_t k = 0; k < 3; ++k) {
       start.along[k] += sign * row.velocity[k];
       spin[k] = row.spin[k];
       if (body == 0) continue;
       const SolverBody& constants = run.bodies[body];
-      gained.along[k] += sign * (constants.gain[k] * k_to_row + warm.velocity[k]);
-      gained_spin[k] = constants.spin_gain[k] * k_to_row + warm.spin[k];
+      gained.along[k] += sign * constants.gain[k] * k_to_row;
+      gained_spin[k] = constants.spin_gain[k] * k_to_row;
     }
   };
   add_side(contact.row_a, contact.a, start.spin_a, gained.spin_a, -1);
@@ -211,100 +239,114 @@ void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared
     linear[contact.points + 1] = &contact.binormal;
   }
   for (std::size_t i = 0; i < contact.rows; ++i) {
-    ProximalRow& row = contact.all[i];
+    const ProximalRow& row = contact.all[i];
     const auto read = [&](const Motion& motion) {
       const std::int64_t speed =
           speed_along(linear[i], prepared.response_a[i], prepared.response_b[i], motion);
       return within_row(row.to_speed.times(speed, 50 - k_row_unit_bits));
     };
-    row.moved = read(start);
-    row.moving = within_row(row.moved + read(gained));
+    problem.moved[i] = read(start);
+    problem.moving[i] = within_row(problem.moved[i] + read(gained));
   }
 }
 
-// Rows do not change in a tick, and each substep but the first begins by repeating what bodies
-// gained in the one before: so do their speeds.
+// Rows do not change in a tick. Each substep but the first begins with the bodies gaining the same
+// velocities as in the one before, so the rows' speeds gain the same, too.
 void ProximalSolver::begin_substep(Island& island) {
-  for (ProximalContact& contact : contacts_of(island)) {
+  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
+    ProximalContact& contact = contacts_[c];
+    Problem& problem = problems_[c];
     for (std::size_t i = 0; i < contact.rows; ++i) {
-      ProximalRow& row = contact.all[i];
       if (!island.is_first) {
-        const std::int64_t start = row.moving;
-        row.moving = within_row(2 * start - row.moved);
-        row.moved = start;
+        const std::int64_t start = problem.moving[i];
+        problem.moving[i] = within_row(2 * start - problem.moved[i]);
+        problem.moved[i] = start;
       }
-      row.held_centre = row.held;
-      if (i < contact.points) row.held_centre -= std::min(row.held / k_leak_part, row.weight_leak);
+      const std::int64_t held = island.is_first ? problem.warm[i] : problem.held[i];
+      problem.held_centre[i] = held;
+      if (i >= contact.points) continue;
+      ProximalRow& row = contact.all[i];
+      row.leak = std::min(held / k_leak_part, row.weight_leak);
+      problem.held_centre[i] -= row.leak;
     }
   }
+  island.warms = island.is_first;
   island.is_first = false;
 }
 
+// The leak drives overlap out: the phase after it, which leaves overlap alone, has none.
+void ProximalSolver::return_leaks(const Island& island) {
+  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
+    for (std::size_t i = 0; i < contacts_[c].points; ++i)
+      problems_[c].held_centre[i] += contacts_[c].all[i].leak;
+  }
+}
+
 // Sets the speeds at which separations close, or overlap is pushed out.
-void ProximalSolver::set_bias(const ContactRun& run, ProximalContact& contact, bool pushes_out) {
+void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& contact,
+                              Problem& problem, bool pushes_out) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   for (std::size_t i = 0; i < contact.points; ++i) {
-    ProximalRow& row = contact.all[i];
+    const RowScale& to_speed = contact.all[i].to_speed;
     const std::int64_t apart = high_word(block.points[i].separation[lane]) + run.rules.overlap;
     if (apart > 0) {
-      row.bias =
-          within_row(row.to_speed.times(apart * run.rules.substep_rate, 24 - k_row_unit_bits));
+      problem.bias[i] =
+          within_row(to_speed.times(apart * run.rules.substep_rate, 24 - k_row_unit_bits));
     } else if (pushes_out) {
       const std::int64_t out =
           std::max(apart * k_push_rate, -std::int64_t{run.rules.push_out} * (1 << 4));
-      row.bias = row.to_speed.times(out, 24 - k_row_unit_bits);
+      problem.bias[i] = to_speed.times(out, 24 - k_row_unit_bits);
     } else {
-      row.bias = 0;
+      problem.bias[i] = 0;
     }
   }
+}
+
+// An impact need not be solved as finely as rest: nothing is solved below 2^-k_loose_bits of the
+// fastest approach with which the substep began.
+void ProximalSolver::loosen(Island& island) {
+  const auto width = [](std::int64_t x) {
+    return static_cast<int>(
+        std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(x, 0))));
+  };
+  int most = 0;
+  for (const Problem& problem : problems_of(island)) {
+    for (std::size_t i = 0; i < problem.points; ++i)
+      most = std::max(
+          most, width(-(problem.moved[i] + problem.bias[i])) - width(problem.least_change[i]));
+  }
+  island.loose = std::max(most - k_loose_bits, 0);
 }
 
 // Chooses the phase's units. Returns false where nothing moves or pushes.
 bool ProximalSolver::set_units(Island& island) {
-  std::uint64_t most = 0;
-  for (const ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      const ProximalRow& row = contact.all[i];
-      most |= magnitude(row.moving + row.bias) | magnitude(row.held);
-    }
-  }
+  const std::span<const Problem> problems = problems_of(island);
+  const std::uint64_t most = lanes::proximal_kernels().magnitudes(problems.data(), problems.size());
   if (most == 0) return false;
-  island.bits =
-      std::min(k_most_bits, k_most_bits + k_start_bits - static_cast<int>(std::bit_width(most)));
+  const int finest = k_row_unit_bits + k_start_bits - static_cast<int>(std::bit_width(most));
+  island.bits = std::clamp(finest, k_least_bits, k_most_bits);
   return true;
 }
 
-void ProximalSolver::convert(const Island& island, ProximalContact& contact) {
-  const int down = k_row_unit_bits - island.bits;
-  for (std::size_t i = 0; i < contact.rows; ++i) {
-    ProximalRow& row = contact.all[i];
-    row.speed = within_units(raw::round_shift(row.moving + row.bias, down));
-    row.impulse = row.start = within_units(raw::round_shift(row.held, down));
-    row.centre = within_units(raw::round_shift(row.held_centre, down));
-    row.tolerance = std::max<std::int64_t>(row.least_change >> down, 1);
-  }
-}
-
-// Of a contact: what its impulses gained in the phase, at its centre; bodies gain what gives them.
+// Adds a contact's gain of impulse in the phase to its blocks, and the change of motion that
+// follows to the gains of its bodies.
 void ProximalSolver::give_contact(const ContactRun& run, int bits, ProximalContact& contact,
-                                  Gain& a, Gain& b) {
+                                  Problem& problem, Gain& a, Gain& b) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   std::array<std::int64_t, k_contact_rows> moved{};
   bool changes = false;
   for (std::size_t i = 0; i < contact.rows; ++i) {
-    ProximalRow& row = contact.all[i];
-    if (row.impulse == row.start) continue;
-    const std::int64_t gained =
-        raw::scale_saturating(row.impulse - row.start, k_row_unit_bits - bits);
-    row.held = row.impulse == 0 ? 0 : within_row(row.held + within_row(gained));
+    const std::int64_t impulse = problem.impulse[i], change = impulse - problem.start[i];
+    if (change == 0) continue;
+    const std::int64_t gained = raw::scale_saturating(change, k_row_unit_bits - bits);
+    problem.held[i] = impulse == 0 ? 0 : within_row(problem.held[i] + within_row(gained));
     changes = true;
+    ProximalRow& row = contact.all[i];
     const std::int64_t least = i < contact.points ? 0 : -k_most_total;
     const std::int64_t next =
-        row.impulse == 0
-            ? 0
-            : row.total + row.to_impulse.times(row.impulse - row.start, bits - k_row_impulse_bits);
+        impulse == 0 ? 0 : row.total + row.to_impulse.times_word(change, bits - k_row_impulse_bits);
     moved[i] = std::clamp(next, least, k_most_total) - row.total;
     row.total += moved[i];
   }
@@ -348,8 +390,10 @@ void ProximalSolver::give(const ContactRun& run, Island& island) {
   const std::span<Gain> gains = std::span(gains_).subspan(island.first_vector, island.bodies + 1);
   for (Gain& gain : gains)
     gain = {};
-  for (ProximalContact& contact : contacts_of(island))
-    give_contact(run, island.bits, contact, gains[contact.local_a], gains[contact.local_b]);
+  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
+    Problem& problem = problems_[c];
+    give_contact(run, island.bits, contacts_[c], problem, gains[problem.a], gains[problem.b]);
+  }
   const auto add = [](std::int64_t& to, std::int64_t by) {
     constexpr std::int64_t k_most = k_motion_bound >> k_row_shift;
     to = std::clamp(to + std::clamp(by, -k_most, k_most) * k_to_row, -k_motion_bound,
@@ -364,28 +408,29 @@ void ProximalSolver::give(const ContactRun& run, Island& island) {
   }
 }
 
-// Speeds follow what the phase gave to bodies.
+// Adds the velocities that the phase gave to bodies to the speeds of the rows.
 void ProximalSolver::follow(Island& island) {
-  const std::span<const BodyVector> velocities = of(velocities_, island);
-  const int shift = 30 + island.bits - k_row_unit_bits;
-  for (ProximalContact& contact : contacts_of(island)) {
-    for (std::size_t i = 0; i < contact.rows; ++i) {
-      ProximalRow& row = contact.all[i];
-      const std::int64_t change =
-          row_dot(row.a, velocities[contact.local_a]) + row_dot(row.b, velocities[contact.local_b]);
-      row.moving = within_row(row.moving + within_row(raw::scale_saturating(change, -shift)));
-    }
-  }
+  const std::span<Problem> problems = problems_of(island);
+  lanes::proximal_kernels().follow(problems.data(), problems.size(), of(velocities_, island).data(),
+                                   30 + island.bits - k_row_unit_bits);
 }
 
 void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool pushes_out) {
   Island& island = islands_[index];
-  if (pushes_out) begin_substep(island);
-  for (ProximalContact& contact : contacts_of(island))
-    set_bias(run, contact, pushes_out);
+  if (pushes_out)
+    begin_substep(island);
+  else
+    return_leaks(island);
+  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
+    set_bias(run, contacts_[c], problems_[c], pushes_out);
+  loosen(island);
   if (!set_units(island)) return;
-  while (!converge(island, pushes_out) && island.bits > k_coarser_bits)
+  while (!converge(island, pushes_out) && island.bits >= k_least_bits + k_coarser_bits)
     island.bits -= k_coarser_bits;
+  if (island.warms)
+    for (Problem& problem : problems_of(island))
+      problem.warm = {};
+  island.warms = false;
   give(run, island);
   follow(island);
 }

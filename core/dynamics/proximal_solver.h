@@ -9,9 +9,9 @@
 // of rigid contacts but for a damping of the order of γ.
 //
 // Sources: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
-// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, what was
-// compared). Kinetic energy after the warm start is at most that of the free motion, since its
-// impulses are scaled to the least of D.
+// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, and the
+// comparison of solvers). Kinetic energy after the warm start is at most that of the free motion,
+// since its impulses are scaled to the least of D.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +25,25 @@ namespace lockstone {
 
 class ProximalSolver {
  public:
-  /// Room for so many bodies that impulses move, and so many contacts. No function but this
-  /// allocates.
-  [[gnu::cold]] ProximalSolver(std::size_t body_capacity, std::size_t contact_capacity);
+  /// Room for so many bodies and contacts of islands, whose bodies are among the first `rows` of
+  /// the solver. No function but this allocates.
+  [[gnu::cold]] ProximalSolver(std::size_t rows, std::size_t body_capacity,
+                               std::size_t contact_capacity);
 
   void clear();
 
   /// An island whose bodies and contacts are given in their order; false if it is too large. Bodies
-  /// are numbers in the solver; of a contact the pair's numbers are read, 0 for what nothing moves.
+  /// are numbers in the solver; of a contact the pair's numbers are read, 0 for a body that nothing
+  /// moves.
   [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
                          std::span<const ProximalContact> contacts);
 
   [[nodiscard]] std::span<ProximalContact> contacts() { return contacts_; }
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
+
+  /// Bodies of all islands.
+  [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
 
   /// Once blocks are prepared: takes contacts over from the iterations. `weight` is gravity's gain
   /// in a substep, m/s, Q32.
@@ -47,7 +52,8 @@ class ProximalSolver {
   /// One phase. With `pushes_out` overlap goes.
   void solve(const ContactRun& run, std::uint32_t island, bool pushes_out);
 
-  /// After the last phase: blocks have what was found, and the sweeps their contacts again.
+  /// After the last phase: writes the impulses to the blocks, and gives the contacts back to the
+  /// iterations.
   void end(const ContactRun& run, std::uint32_t island) const;
 
  private:
@@ -59,56 +65,66 @@ class ProximalSolver {
     std::uint32_t first_contact = 0;
     std::uint32_t contacts = 0;
     int bits = 0;               // fraction bits of the phase's units
+    int loose = 0;              // the phase's tolerance is 2^this times the least
     int drop = 0;               // bits of residuals that the direct step at hand leaves out
     bool fits = true;           // so far nothing in the phase had to be clamped
     bool is_solved = false;     // by the last direct step
     bool is_first = true;       // substep of the tick
+    bool warms = false;         // this phase begins with the impulses of the tick before
     bool was_factored = false;  // in this tick
     bool is_factored = false;   // for the rows that are active
   };
+  static constexpr std::uint32_t k_no_block = 0xffffffff;
   // Where blocks of a contact's bodies are in the factor.
   struct Blocks {
-    std::uint32_t a = 0, b = 0;
-    BodyFactor::Place both;
+    std::uint32_t a = k_no_block, b = k_no_block;
+    BodyFactor::Place both{k_no_block, false};
   };
   // A body's change of velocity in a phase, m/s, Q32.
   struct Gain {
     RawVec3 velocity{}, spin{};
   };
 
+  using Problem = lanes::ProximalBlock;
   static void take_over(const ContactRun& run, ProximalContact& contact);
   struct Motion;
+  [[nodiscard]] BlockFloat find_unit(const ContactRun& run, const Island& island);
   static void begin_rows(const PreparedRows& prepared, std::int64_t weight,
-                         ProximalContact& contact);
-  static void set_drives(const ContactRun& run, ProximalContact& contact);
+                         ProximalContact& contact, Problem& problem);
+  static void set_drives(const ContactRun& run, const ProximalContact& contact, Problem& problem);
   [[nodiscard]] static std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
                                                 const RawVec3& response_b, const Motion& motion);
   static void measure(const ContactRun& run, const PreparedRows& prepared,
-                      ProximalContact& contact);
+                      const ProximalContact& contact, Problem& problem);
   void begin_substep(Island& island);
-  static void set_bias(const ContactRun& run, ProximalContact& contact, bool pushes_out);
+  void return_leaks(const Island& island);
+  void loosen(Island& island);
+  static void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
+                       bool pushes_out);
   [[nodiscard]] bool set_units(Island& island);
-  static void convert(const Island& island, ProximalContact& contact);
   void scale_warm_start(Island& island);
   [[nodiscard]] bool pass(Island& island);
-  [[nodiscard]] static bool pass_contact(ProximalContact& contact, BodyVector& a, BodyVector& b,
-                                         bool& fits);
   void mark_active(Island& island);
   void factor(Island& island);
   [[nodiscard]] bool direct_step(Island& island);
   void find_residuals(Island& island);
   [[nodiscard]] bool solve_for_changes(Island& island);
-  void propose(Island& island);
-  [[nodiscard]] bool search(Island& island);
+  void sum_changes(Island& island);
+  [[nodiscard]] std::int64_t search(const Island& island);
   void go(Island& island, std::int64_t part);
   [[nodiscard]] bool converge(Island& island, bool scales);
+  [[nodiscard]] bool move_centres(Island& island);
+  void iterate(Island& island);
   void give(const ContactRun& run, Island& island);
   void follow(Island& island);
-  static void give_contact(const ContactRun& run, int bits, ProximalContact& contact, Gain& a,
-                           Gain& b);
+  static void give_contact(const ContactRun& run, int bits, ProximalContact& contact,
+                           Problem& problem, Gain& a, Gain& b);
 
   [[nodiscard]] std::span<ProximalContact> contacts_of(const Island& island) {
     return std::span(contacts_).subspan(island.first_contact, island.contacts);
+  }
+  [[nodiscard]] std::span<Problem> problems_of(const Island& island) {
+    return std::span(problems_).subspan(island.first_contact, island.contacts);
   }
   [[nodiscard]] std::span<BodyVector> of(std::vector<BodyVector>& all, const Island& island) {
     return std::span(all).subspan(island.first_vector, island.bodies + 1);
@@ -117,11 +133,14 @@ class ProximalSolver {
   std::vector<Island> islands_;
   std::vector<std::uint32_t> bodies_;  // numbers in the solver, island by island
   std::vector<ProximalContact> contacts_;
+  std::vector<Problem> problems_;       // by contact: its rows
   std::vector<Blocks> blocks_;          // by contact
   std::vector<BodyVector> velocities_;  // changes since the phase began
   std::vector<BodyVector> changes_;
   std::vector<Gain> gains_;
+  std::vector<InertiaRoot> roots_;
   std::vector<std::uint32_t> local_;  // by number in the solver
+  std::size_t body_capacity_, contact_capacity_;
   std::vector<BodyFactor::Pair> pairs_;
   BodyFactor factor_;
 };

@@ -1,6 +1,6 @@
 // The rows of a contact: how its points and its friction move two bodies, one row at a time.
 //
-// Read from the block that the sweeps use, with the responses of both bodies. A row's speed is
+// Read from the block that the iterations use, with the responses of both bodies. A row's speed is
 // linear·(vB − vA) + response_b·spinB − response_a·spinA; an impulse along it gives B its share of
 // linear and angular_b, and takes the rest of linear and angular_a from A.
 #pragma once
@@ -24,7 +24,7 @@ inline constexpr int k_row_more_bits = k_row_impulse_bits - 20;
 inline constexpr int k_row_shift = lanes::k_velocity_bits - k_row_impulse_bits;
 inline constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 
-/// What the contact solver lends.
+/// The contact solver's data, lent to other solvers.
 struct ContactRun {
   std::span<lanes::RowBody> rows;
   std::span<const lanes::RowBody> before;  // as the substep began
@@ -49,7 +49,7 @@ struct ContactRow {
   RawVec3 angular_a{}, angular_b{};
   RawVec3 response_a{}, response_b{};
   int exponent = 0;          // power of two that scales its row
-  std::int64_t speed = 0;    // with what is asked for, Q50
+  std::int64_t speed = 0;    // with bias, Q50
   std::int64_t change = 0;   // of the impulse, as solved, Q32
   std::int64_t impulse = 0;  // m/s, Q32
 };
@@ -58,7 +58,7 @@ struct ContactRow {
 struct PointRow : ContactRow {
   std::int64_t x = 0, y = 0;  // offset from the centre, Q30
   std::int64_t own = 0;       // response to itself, Q30
-  std::int64_t warp = 0;      // share in what four points in a plane cannot tell apart, Q30
+  std::int64_t warp = 0;      // share in the null space of four points in a plane, Q30
 };
 
 struct ContactRows : ContactPair {

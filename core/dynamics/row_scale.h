@@ -1,4 +1,4 @@
-// Positive factors of any size: what turns a row's quantities into those of its island's problem.
+// Positive factors of any size, which turn a row's quantities into those of its island's problem.
 #pragma once
 
 #include <bit>
@@ -12,23 +12,31 @@ namespace lockstone {
 
 /// mantissa · 2^-shift, mantissa in [2^30, 2^31); relative error of each operation ≤ 2^-30.
 struct RowScale {
-  std::int64_t mantissa = std::int64_t{1} << 30;
-  int shift = 30;
+  std::uint32_t mantissa = std::uint32_t{1} << 30;
+  std::int32_t shift = 30;
 
   /// value · 2^-shift, value > 0.
   [[nodiscard]] static constexpr RowScale of(std::uint64_t value, int shift) {
     LKS_ASSERT(value != 0);
     const int excess = static_cast<int>(std::bit_width(value)) - 31;
-    if (excess > 0) return {static_cast<std::int64_t>(value >> excess), shift - excess};
-    return {static_cast<std::int64_t>(value << -excess), shift - excess};
+    if (excess > 0) return {static_cast<std::uint32_t>(value >> excess), shift - excess};
+    return {static_cast<std::uint32_t>(value << -excess), shift - excess};
   }
 
   [[nodiscard]] constexpr RowScale operator*(const RowScale& other) const {
-    return of(static_cast<std::uint64_t>(mantissa * other.mantissa), shift + other.shift);
+    return of(std::uint64_t{mantissa} * other.mantissa, shift + other.shift);
   }
 
   [[nodiscard]] constexpr RowScale reciprocal() const {
-    return of((std::uint64_t{1} << 62) / static_cast<std::uint64_t>(mantissa), 62 - shift);
+    return of((std::uint64_t{1} << 62) / mantissa, 62 - shift);
+  }
+
+  /// As `times`, for |x| < 2^32.
+  [[nodiscard]] constexpr std::int64_t times_word(std::int64_t x, int more) const {
+    LKS_ASSERT(magnitude(x) >> 32 == 0);
+    const int right = shift + more;
+    if (right < 0) return times(x, more);
+    return right > 62 ? 0 : raw::round_shift_any(x * std::int64_t{mantissa}, right);
   }
 
   /// x · scale · 2^-more, rounded; within ±k_product_bound.

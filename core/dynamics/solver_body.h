@@ -1,4 +1,4 @@
-// A body as the contact solver sees it during one tick, besides what the lanes read and write.
+// A body as the contact solver sees it during one tick, besides the data of the kernels.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace lockstone {
 
 /// Constants of a body in the solver.
 struct alignas(64) SolverBody {
-  // What contacts are made from stands in the first 64 bytes.
+  // The preparation of contacts reads only the first 64 bytes.
   InverseInertia inverse_inertia{};
   BlockFloat inverse_mass{};
   std::int32_t scale_exponent = 0;

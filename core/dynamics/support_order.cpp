@@ -50,7 +50,8 @@ void SupportOrder::find_uppers(const ContactRun& run) {
   }
 }
 
-// Downwards from what carries nothing. Bodies that carry each other in a ring are left out.
+// From the top down, beginning with bodies that carry no other. Bodies that carry each other in a
+// ring are left out.
 void SupportOrder::find_order() {
   carried_.assign(is_held_.size(), 0);
   for (std::uint32_t i = 0; i < links_.size(); ++i)

@@ -21,7 +21,7 @@ struct SupportLink : ContactPair {
   bool is_on_ground = false;  // one of its surfaces never moves, and neither is driven
 };
 
-/// What impulses add to a body's row.
+/// The velocities that impulses add to a body's row.
 struct RowPush {
   RawVec3 velocity{}, spin{};
 
@@ -67,9 +67,9 @@ class SupportOrder {
 
   [[nodiscard]] bool is_held(std::size_t body) const { return is_held_[body] != 0; }
 
-  /// Calls `visit(body, worker)` for bodies that stand, downwards from what carries nothing: for
-  /// each when all that rests on it was visited, and what these handed down is in its row. In the
-  /// end other bodies get theirs.
+  /// Calls `visit(body, worker)` for bodies that stand, from the top down: for each after all
+  /// bodies that rest on it, whose pushes are in its row by then. In the end other bodies get
+  /// theirs.
   template <class Visit>
   void descend(Parallel& parallel, std::span<lanes::RowBody> rows, const Visit& visit) {
     handed_.assign(links_.size(), {});
@@ -85,8 +85,8 @@ class SupportOrder {
       if (is_held_[body] != k_visited) add_handed(body, rows[body]);
   }
 
-  /// What a link does to its bodies: to the row of the one being visited, which rests on it by its
-  /// side B or A, and to the one that carries it.
+  /// Adds the pushes of a link: to the row of the body being visited, which rests on it by its side
+  /// B or A, and later to the one that carries it.
   void hand_down(std::uint32_t link, bool rests_by_b, const RowPush& to_a, const RowPush& to_b,
                  lanes::RowBody& row) {
     (rests_by_b ? to_b : to_a).add_to(row);

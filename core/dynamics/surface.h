@@ -9,7 +9,7 @@
 
 namespace lockstone {
 
-/// What a contact is made of, both sides taken together.
+/// The surface properties of a contact, both sides combined.
 struct ContactSurface {
   Coefficient friction{};
   Coefficient restitution{};

@@ -21,7 +21,7 @@ constexpr std::int64_t k_most_gap = std::int64_t{1} << (Position::frac_bits - 16
 // A substep is taken in pieces of at most half a radian of the swing, in so many at most.
 constexpr std::int32_t k_most_swing_pieces = 32;
 
-// Bits of what pulls, as a mantissa; then no product below leaves 63.
+// Bits of the mantissa of a pull, so that products below fit in 63 bits.
 constexpr int k_pull_bits = 29;
 constexpr std::int64_t k_torque_bound = std::int64_t{1} << 31;
 
@@ -117,7 +117,7 @@ PivotInertia inertia_about(const BodyRecord& body, const Arm& arm) {
   return result;
 }
 
-// What gravity and forces give: mantissas times 2^exponent, in units of Acceleration.
+// The acceleration by gravity and forces: mantissas times 2^exponent, in units of Acceleration.
 struct Pull {
   RawVec3 mantissa{};
   int exponent = 0;

@@ -24,7 +24,7 @@ struct SwingPivot {
   Vec3<Length> anchor{};
 };
 
-/// What a tick did.
+/// The result of a tick.
 struct SwingStep {
   Vec3<Velocity> impulse{};  // of the pivot per mass, the mean of the substeps
   std::uint32_t axis_turns = 0;

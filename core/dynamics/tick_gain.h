@@ -1,5 +1,5 @@
-// What forces give a body in a tick: two velocities in less room, for few bodies have any. They
-// stand in the body's notes: mantissas times 2^exponent in units of Velocity.
+// The velocity and spin that forces give a body in a tick. Few bodies have any, so they are packed
+// into the body's notes: mantissas times 2^exponent in units of Velocity.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline constexpr int k_gain_exponent_bits = 4;
           read_gain(body.note_b, exponents >> k_gain_exponent_bits & k_most_gain_exponent)};
 }
 
-/// Answers the exponent. The largest mantissa has up to 30 bits.
+/// Returns the exponent. The largest mantissa has up to 30 bits.
 inline int write_gain(const Vec3<Velocity>& gain, Vec3<Unit>& mantissa) {
   std::uint64_t largest = 0;
   for (int i = 0; i < 3; ++i)

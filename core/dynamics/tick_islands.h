@@ -1,6 +1,6 @@
-// The islands of a tick: dynamic bodies that contacts or joints connect, and what each island asks
-// of the solver. Every budget of the solver counts within one island, so that what becomes of an
-// island does not depend on others (law 9, docs/locality.md).
+// The islands of a tick: dynamic bodies that contacts or joints connect, and the solver's work for
+// each. Every budget of the solver counts within one island, so that the motion of an island does
+// not depend on others (law 9, docs/locality.md).
 #pragma once
 
 #include <atomic>
@@ -8,13 +8,6 @@
 #include <vector>
 
 namespace lockstone {
-
-/// Whether small islands are solved to convergence: the option LOCKSTONE_CONVERGED_ISLANDS.
-#if defined(LKS_CONVERGED_ISLANDS)
-inline constexpr bool k_converges_islands = true;
-#else
-inline constexpr bool k_converges_islands = false;
-#endif
 
 /// A count that several threads raise, and that is copied while none does.
 class SharedCount {
@@ -33,9 +26,9 @@ class SharedCount {
   std::atomic<std::uint32_t> count_;
 };
 
-/// Counts of one island, and what the solver decides by them.
+/// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
-  /// An island with more contacts of a kind than these leaves them to the iterations.
+  /// An island with more contacts of a kind is a large one: its loads take long to spread.
   static constexpr std::uint32_t k_most_loaded = 128;
 
   bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
@@ -46,18 +39,12 @@ struct IslandLoad {
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
                               ///< k_most_loaded + 1 on it may be any greater number
-  SharedCount uneven;         ///< contacts of a light body and a heavy one
 
   [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_loaded; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
-  /// Too large for a direct solve of all its contacts.
+  /// Left to the iterations, and large.
   [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
-  [[nodiscard]] bool needs_direct_solve() const {
-    if (is_converged) return false;
-    return uneven.get() != 0 || (loaded.get() != 0 && few_are_loaded());
-  }
-  /// More contacts are loaded than are solved at once, and a good part of all are new: nobody knows
-  /// yet what they carry.
+  /// Many contacts are loaded, and a good part of all are new and have no impulses yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;
     return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;

@@ -21,8 +21,9 @@ constexpr bool is_within(std::uint32_t value, std::uint32_t low, std::uint32_t h
 bool is_valid(const WorldDef& def) {
   return is_within(def.body_capacity, 1, 1U << 20) && is_within(def.pair_capacity, 1, 1U << 24) &&
          is_within(def.contact_capacity, 1, 1U << 24) && def.joint_capacity <= 1U << 20 &&
-         is_within(def.tick_rate, 10, 480) && is_within(def.substeps, 1, 16) &&
-         def.sleep_ms <= 60'000 && def.sleep_distance >= Length::from_ratio(1, 1000) &&
+         def.converged_contacts <= 1U << 16 && is_within(def.tick_rate, 10, 480) &&
+         is_within(def.substeps, 1, 16) && def.sleep_ms <= 60'000 &&
+         def.sleep_distance >= Length::from_ratio(1, 1000) &&
          def.sleep_distance <= Length::from_integer(1) && is_valid_gravity(def.gravity) &&
          def.speed_limit >= Velocity::from_integer(1) && def.speed_limit <= k_speed_limit &&
          def.broad_phase <= BroadPhaseKind::sweep_and_prune;
@@ -38,6 +39,7 @@ std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
   writer.put(def.pair_capacity);
   writer.put(def.contact_capacity);
   writer.put(def.joint_capacity);
+  writer.put(def.converged_contacts);
   writer.put(def.tick_rate);
   writer.put(def.substeps);
   writer.put(def.sleep_ms);
@@ -76,7 +78,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       changed_sleep(definition.body_capacity),
       islands(definition.body_capacity),
       solver(time_step, definition.body_capacity, definition.contact_capacity,
-             definition.joint_capacity) {
+             definition.joint_capacity, definition.converged_contacts) {
   header.gravity = definition.gravity;
   events.reserve(std::size_t{2} * (definition.contact_capacity + definition.body_capacity));
   to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);

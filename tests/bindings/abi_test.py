@@ -13,7 +13,7 @@ root = pathlib.Path(sys.argv[1])
 headers = root / "tools/bindings/c"
 USER_DATA = "uint64_t user_data; /* the game's own; part of the state */"
 
-# Name, file, text, its replacement, what abidiff must say (None: that all is well).
+# Name, file, text, its replacement, text that abidiff must print (None: the change is compatible).
 CASES = [
     ("the same", "bodies.h", USER_DATA, USER_DATA, None),
     ("a new function", "base.h", "LKS_API uint32_t lks_c_abi(void);",

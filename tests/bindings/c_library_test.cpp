@@ -1,4 +1,4 @@
-// What the C interface says about versions, numbers, structures and logs.
+// Versions, numbers, structures and logs through the C interface.
 #include <array>
 #include <string>
 #include <thread>

@@ -1,4 +1,4 @@
-// Every command through the C interface does what it does in the core.
+// Every command has the same effect through the C interface as in the core.
 #include <gtest/gtest.h>
 
 #include "tests/bindings/twin_worlds.h"

@@ -117,7 +117,7 @@ struct Island {
 TEST(BodyFactor, SolvesRandomIslands) {
   for (const std::uint32_t bodies : {1U, 2U, 3U, 5U, 9U, 20U, 40U}) {
     test::Random random;
-    BodyFactor factor(64);
+    BodyFactor factor(64, 1024);
     Island island(bodies);
     island.fill(factor, random);
     island.ask(random);
@@ -130,7 +130,7 @@ TEST(BodyFactor, SolvesRandomIslands) {
 
 TEST(BodyFactor, OfAnIslandDoesNotDependOnOthers) {
   test::Random random;
-  BodyFactor alone(64), beside(64);
+  BodyFactor alone(64, 1024), beside(64, 1024);
   Island other(12), first(15), second(15);
   other.fill(beside, random);
   test::Random same = random, again = random;
@@ -150,7 +150,7 @@ TEST(BodyFactor, OfAnIslandDoesNotDependOnOthers) {
 
 TEST(BodyFactor, RefusesWhatIsTooLarge) {
   constexpr std::uint32_t k_clique = 60;  // 60² + 59² + … products
-  BodyFactor factor(2 * BodyFactor::k_most_bodies);
+  BodyFactor factor(2 * BodyFactor::k_most_bodies, 2048);
   BodyFactor::Plan plan;
   EXPECT_FALSE(factor.plan(BodyFactor::k_most_bodies + 1, {}, plan));
   std::vector<BodyFactor::Pair> pairs;
@@ -168,7 +168,7 @@ TEST(BodyFactor, RefusesWhatIsTooLarge) {
 }
 
 TEST(BodyFactor, TellsWhenASolutionDoesNotFit) {
-  BodyFactor factor(4);
+  BodyFactor factor(4, 4);
   BodyFactor::Plan plan;
   ASSERT_TRUE(factor.plan(1, {}, plan));
   factor.reset(plan);

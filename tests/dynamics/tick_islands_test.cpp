@@ -50,26 +50,21 @@ TEST(TickIslands, ForgetTheTickBefore) {
   EXPECT_EQ(islands.load(islands.of(1)).contacts, 0U);
 }
 
-TEST(IslandLoad, IsSolvedDirectlyUpToItsBudget) {
+TEST(IslandLoad, HasFewLoadsUpToItsBudget) {
   IslandLoad load;
-  EXPECT_FALSE(load.needs_direct_solve());
   for (std::uint32_t i = 0; i < IslandLoad::k_most_loaded; ++i)
     load.loaded.raise();
   EXPECT_TRUE(load.few_are_loaded());
-  EXPECT_TRUE(load.needs_direct_solve());
   load.loaded.raise();
   EXPECT_FALSE(load.few_are_loaded());
-  EXPECT_FALSE(load.needs_direct_solve());
-  load.uneven.raise();
-  EXPECT_TRUE(load.needs_direct_solve());
 }
 
 TEST(IslandLoad, NeedsFirstLoadsWhereManyAreLoadedAndAQuarterIsNew) {
-  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200, .uneven = {}};
+  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200};
   EXPECT_TRUE(load.needs_first_loads());
   load.fresh = 249;
   EXPECT_FALSE(load.needs_first_loads());
-  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128, .uneven = {}};
+  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128};
   EXPECT_FALSE(load.needs_first_loads());
 }
 

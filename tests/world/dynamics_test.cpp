@@ -50,7 +50,7 @@ TEST(FreeRotation, KeepsSpeedAndAxisOfASphere) {
   EXPECT_NEAR(static_cast<double>(q.w.raw) / 1073741824.0, std::cos(1.5), 1e-7);
 }
 
-void expect_stack_stands_for_a_minute(int count, double sunk) {
+void expect_stack_stands_for_a_minute(int count, double sunk, double aside) {
   World world = test::make_world({.body_capacity = 64, .sleep_ms = 0});
   test::add_ground(world);
   BodyHandle top;
@@ -60,18 +60,20 @@ void expect_stack_stands_for_a_minute(int count, double sunk) {
   }
   test::step(world, test::share_of(3600));
   const Vec3<Position> at = world.position(top);
-  EXPECT_NEAR(metres(at.x), 0.0, 1e-6);
-  EXPECT_NEAR(metres(at.z), 0.0, 1e-6);
+  EXPECT_NEAR(metres(at.x), 0.0, aside);
+  EXPECT_NEAR(metres(at.z), 0.0, aside);
   EXPECT_NEAR(metres(at.y), count - 0.5, sunk);
   EXPECT_LT(speed_of(world, top), 1e-4);
 }
 
 TEST(Stack, OfTenBoxesStandsForAMinute) {
-  expect_stack_stands_for_a_minute(10, 3e-4);
+  expect_stack_stands_for_a_minute(10, 3e-4, 1e-6);
 }
 
+// All impulses of an island share one unit, 2^-27 of the greatest: the lowest box carries forty,
+// and rounding turns it by 4e-9 rad a second.
 TEST(Stack, OfFortyBoxesLosesNoMillimetreInAMinute) {
-  expect_stack_stands_for_a_minute(40, 1e-3);
+  expect_stack_stands_for_a_minute(40, 1e-3, 2e-5);
 }
 
 /// How far a box of a metre sinks at most in ten seconds on `legs` boxes of which it weighs `ratio`

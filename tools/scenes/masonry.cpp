@@ -111,7 +111,7 @@ constinit const Scene k_arch{.name = "arch",
                              .define = sleepless,
                              .build = build_arch,
                              .assets = arch_assets};
-constinit const Scene k_cards{"cards", "20 cards and three boards in four storeys", 240,
-                                   sleepless, build_card_house};
+constinit const Scene k_cards{"cards", "20 cards and three boards in four storeys", 240, sleepless,
+                              build_card_house};
 
 }  // namespace lockstone::scenes

@@ -32,7 +32,7 @@ namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
 /// or a log. History: docs/determinism.md.
-inline constexpr std::uint32_t k_simulation_abi = 49;
+inline constexpr std::uint32_t k_simulation_abi = 50;
 
 /// Capacities and rules of a world, fixed for its life.
 struct WorldDef {
@@ -40,8 +40,12 @@ struct WorldDef {
   std::uint32_t pair_capacity = 16384;    ///< pairs with overlapping bounds, 1 … 2^24
   std::uint32_t contact_capacity = 8192;  ///< touching pairs, 1 … 2^24
   std::uint32_t joint_capacity = 1024;    ///< 0 … 2^20
-  std::uint16_t tick_rate = 60;           ///< ticks per second, 10 … 480
-  std::uint8_t substeps = 4;              ///< solver steps a tick, 1 … 16
+  /// Contacts that islands solved to convergence may have in all, 0 … 2^16; 0: every island is
+  /// iterated. Islands take their places in the order of their bodies' ids; those that find no room
+  /// are iterated: docs/solver.md. Each takes about 7 kB.
+  std::uint32_t converged_contacts = 2048;
+  std::uint16_t tick_rate = 60;  ///< ticks per second, 10 … 480
+  std::uint8_t substeps = 4;     ///< solver steps a tick, 1 … 16
   std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does
   Length sleep_distance = Length::from_ratio(1, 200);  ///< a body at rest moves less, 1 mm … 1 m
   BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it

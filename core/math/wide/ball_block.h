@@ -42,19 +42,19 @@ struct alignas(64) BallBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
 
-  // What it is.
+  // Fixed for a tick.
   BlockWord
-      anchor[3]{};     // low: of A, high: of B, in its own axes; m, Q20, at most s for what turns
+      anchor[3]{};     // low: of A, high: of B, in body axes; m, Q20, ≤ s of a body that can turn
   BlockWord scale{};   // low: 20 + exponent of A's scale, high: of B's; 1 … 32
   BlockWord factor{};  // 2^(12 − pair's exponent + body's), 1 … 2^12; low: of A, high: of B
   BlockWord share{};   // low: αB, Q30, high: shift, 16 … 28
 
-  // Where it is.
+  // Recomputed when the bodies have moved.
   BlockWord inertia[6]{};   // low: M of A, high: of B; xx, yy, zz, xy, xz, yz, Q(shift)
   BlockWord arm[3]{};       // low: r̄A, high: r̄B, Q30
   BlockWord gain_arm[3]{};  // the same times α
   BlockWord mass[3]{};      // K⁻¹: (xx, yy) (zz, xy) (xz, yz), Q30
-  BlockWord bias[2]{};      // what closes a quarter of the opening in a substep: (x, y) (z, 0), Q20
+  BlockWord bias[2]{};      // speed that closes ¼ of the opening in a substep: (x, y) (z, 0), Q20
 
   BlockWord impulse[2]{};  // P: (x, y) (z, 0), within ±k_most_impulse; m/s, Q20
   BlockWord lift[2]{};     // Q, alike
@@ -65,16 +65,18 @@ struct alignas(64) BallBlock {
 /// The kernels, as one target computes them. Blocks are to name bodies as those of
 /// `ManifoldKernels` do.
 struct BallKernels {
-  /// Where the joints are now. What their impulses do to bodies from there is added to `warm`.
+  /// Computes the rows from the joints' present places, and adds the velocities that their impulses
+  /// give the bodies to `warm`.
   void (*begin)(BallBlock* blocks, std::size_t count, const BodyPlace* places,
                 const SourceBody* inertias, RowBody* warm, std::int32_t substep_rate);
 
   /// A sweep that closes openings.
   void (*lift)(RowBody* bodies, BallBlock* blocks, std::size_t count);
 
-  /// Where they have moved. The lift is taken back; impulses are those that the next substep starts
-  /// with, from there. What is forgotten of them, and what they do differently, is added to
-  /// `before`: a substep starts with twice the velocities less those. Then as `relax`.
+  /// Computes the rows anew after bodies have moved. Takes the lift back, and keeps seven eighths
+  /// of the impulses as the warm start of the next substep. `before` gains the velocities that the
+  /// old impulses gave along the old arms, less those that the kept ones give along the new arms: a
+  /// substep starts with twice the velocities less `before`. Then as `relax`.
   void (*follow)(RowBody* bodies, RowBody* before, BallBlock* blocks, std::size_t count,
                  const BodyPlace* places, const SourceBody* inertias, std::int32_t substep_rate);
 
@@ -85,7 +87,7 @@ struct BallKernels {
 /// Those of the target in force, or of narrower vectors that hold so many balls at once.
 [[nodiscard]] const BallKernels& ball_kernels(std::size_t balls);
 
-/// What they mean.
+/// The scalar twins, which define the results.
 extern const BallKernels k_scalar_balls;
 
 }  // namespace lockstone::lanes

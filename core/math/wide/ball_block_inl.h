@@ -40,7 +40,7 @@ HWY_INLINE HWY_ATTR Vector turned(const PlaceLanes& at, const Vector& anchor) {
   return add(add(multiply(at.x, anchor.x), multiply(at.y, anchor.y)), multiply(at.z, anchor.z));
 }
 
-/// From B's point to A's along an axis, as what closes a quarter of it in a substep.
+/// The speed along an axis that takes B's point a quarter of the way to A's in a substep.
 HWY_INLINE HWY_ATTR Lanes closing(Lanes apart, Lanes arms, Lanes rate) {
   constexpr std::int64_t k_far = std::int64_t{1} << 44;   // 4096 m, Q32
   constexpr std::int64_t k_wide = std::int64_t{1} << 53;  // 8 m, Q50
@@ -104,7 +104,7 @@ HWY_INLINE HWY_ATTR Tensor inverse_of(const Tensor& k, const EachShift& by) {
   return m;
 }
 
-/// What reads bodies: M, arms, and what closes the opening.
+/// Data of a joint that depends on the bodies' places: M of each body, and the arms.
 struct Setup {
   Tensor inertia_a, inertia_b;
   Vector arm_a, arm_b, gain_a, gain_b;
@@ -180,7 +180,7 @@ HWY_INLINE HWY_ATTR void store_impulse(const Vector& p, BlockWord (&words)[2], s
 
 /// Both bodies of each joint.
 struct BallPair : BodyPair {
-  /// What both lose and gain is the same, to the bit.
+  /// Bodies of equal mass gain and lose exactly the same velocity.
   HWY_INLINE HWY_ATTR void push(const Vector& impulse, Lanes share_b, const Vector& gain_a,
                                 const Vector& gain_b) {
     constexpr int k_below_grid = k_velocity_bits - k_grid_bits;
@@ -276,8 +276,8 @@ HWY_ATTR inline void relax_balls(RowBody* bodies, BallBlock* blocks, std::size_t
   }
 }
 
-/// Keeps seven eighths of the impulses, along the new arms: `before` gains what the bodies are not
-/// to be given again.
+/// Keeps seven eighths of the impulses, along the new arms: `before` gains the velocities that the
+/// next substep must not repeat.
 HWY_INLINE HWY_ATTR void renew_impulses(BallBlock& block, std::size_t lane, const Vector& old,
                                         const Setup& setup, std::int64_t* before) {
   const Lanes none = broadcast(0), share = load(&block.share[lane]);

@@ -35,8 +35,8 @@ struct alignas(16) FaceMeeting {
   std::int64_t half_n;          ///< of the other box, along `normal` and its edges, Q20
   std::int64_t half_u, half_v;
   std::int64_t separation;  ///< along the reference face
-  std::int64_t is_apart;    ///< 1: a face separates by the margin or more; what else stands here
-                            ///< means nothing
+  std::int64_t is_apart;    ///< 1: a face separates by the margin or more, and all other fields are
+                            ///< meaningless
   std::int64_t is_shallow;  ///< 1: no deeper than an eighth of A's half size across its best face
   std::int64_t common;      ///< the features' part that names the faces, see `face_manifold`
   // Two operands a word: in the world's axes x, y, and z, Q30, and the offset to the other box.
@@ -44,7 +44,7 @@ struct alignas(16) FaceMeeting {
 };
 static_assert(sizeof(FaceMeeting) == 34 * sizeof(std::int64_t));
 
-/// Up to four points over a reference face, and what they are called.
+/// A point over a reference face, and its feature id.
 struct alignas(16) FacePoint {
   std::int64_t x, y, z;
   std::int64_t feature;

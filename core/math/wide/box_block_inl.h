@@ -115,7 +115,7 @@ HWY_INLINE HWY_ATTR BestFace best_face(const BoxVector& centre, const BoxVector&
   return best;
 }
 
-/// What is stored of a meeting, by words.
+/// The words of a `FaceMeeting`, one meeting a lane.
 struct MeetingLanes {
   Lanes words[34];
 
@@ -269,7 +269,7 @@ HWY_ATTR void meet_boxes(const BoxSource* sources, FaceMeeting* meetings) {
   }
 }
 
-/// What points of a pair have in common.
+/// Data that all points of a pair share.
 struct BoxPlaceLanes {
   BoxVector x{}, y{}, z{}, offset{};
   Lanes twice_height, swapped;

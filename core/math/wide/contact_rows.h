@@ -1,8 +1,8 @@
-// Normal rows of four-point contacts, laid out for vectors: the kernel that a solver sweep over one
-// colour of the constraint graph spends its time in.
+// Normal rows of four-point contacts, laid out for vectors: the kernel in which an iteration over
+// one colour of the constraint graph spends most of its time.
 //
-// For each point, with L = spin, M what turns it into surface speed, jA = M·(r̄A × n) and
-// α = (1/m) / (1/mA + 1/mB):
+// For each point, with the spin L, the tensor M that turns spin into surface speed,
+// jA = M·(r̄A × n) and α = (1/m) / (1/mA + 1/mB):
 //   v  = n·(vB − vA) + jB·LB − jA·LA                      rounded once
 //   P' = max(0, keep·P − m̄·(v + bias))                    rounded once
 //   vB += αB·n·(P' − P), LB += αB·(r̄B × n)·(P' − P), and the opposite for A: exact, not rounded.
@@ -22,7 +22,8 @@ inline constexpr std::size_t k_block_lanes = 8;
 /// (20), so that an impulse's effect is added as it is.
 inline constexpr int k_velocity_bits = 50;
 
-/// What rows read and write of a body: m/s, Q50. |each| < 2048 m/s, or what is read of it wraps.
+/// A body's motion as rows read and write it: m/s, Q50. Components wrap when read unless they are
+/// within ±2048 m/s.
 struct alignas(64) RowBody {
   std::array<std::int64_t, 3> velocity{};
   std::array<std::int64_t, 3> spin{};
@@ -49,7 +50,7 @@ struct RowPoint {
 struct alignas(64) ContactBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
-  BlockWord shift{};      // fraction bits of what reads velocities, 1 … 30
+  BlockWord shift{};      // fraction bits of the factors of velocities, 1 … 30
   BlockWord half{};       // 2^(shift − 1)
   BlockWord normal[3]{};  // n, Q(shift)
   BlockWord gain_a[3]{};  // αA·n, Q30
@@ -59,7 +60,7 @@ struct alignas(64) ContactBlock {
   friend bool operator==(const ContactBlock&, const ContactBlock&) = default;
 };
 
-/// Where a body begins, in words: what an address is made of without a shift.
+/// Offset of a body in an array of `RowBody`, in words, so that no shift is needed to address it.
 [[nodiscard]] constexpr std::uint32_t row_body_offset(std::uint32_t index) {
   return index * static_cast<std::uint32_t>(sizeof(RowBody) / sizeof(std::int64_t));
 }
@@ -68,7 +69,7 @@ struct alignas(64) ContactBlock {
 /// moves is named twice, so the order of contacts cannot matter.
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks);
 
-/// The same, one contact at a time: what it means.
+/// The scalar twin, one contact at a time. It defines the result.
 void solve_contact_rows_scalar(RowBody* bodies, ContactBlock* blocks, std::size_t count);
 
 }  // namespace lockstone::lanes

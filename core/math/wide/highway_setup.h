@@ -4,7 +4,8 @@
 
 #include "core/base/sanitized.h"
 
-// Nothing here needs what these add, so a processor without them still gets its widest target.
+// The kernels use none of these instructions, so a processor without them still gets its widest
+// target.
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_BMI2_FMA
 #define HWY_DISABLE_F16C

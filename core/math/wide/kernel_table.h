@@ -10,6 +10,7 @@
 #include "core/math/wide/contact_rows.h"
 #include "core/math/wide/manifold_block.h"
 #include "core/math/wide/points.h"
+#include "core/math/wide/proximal_block.h"
 #include "core/math/wide/rotations.h"
 
 namespace lockstone::lanes {
@@ -28,6 +29,7 @@ struct Kernels {
   const ManifoldKernels* manifolds;
   const BallKernels* balls;
   const BoxKernels* boxes;
+  const ProximalKernels* proximal;
 };
 
 #if defined(LOCKSTONE_WITH_HIGHWAY)

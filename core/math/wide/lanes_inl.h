@@ -1,5 +1,5 @@
-// Lanes on Highway: as many 64-bit words side by side as a vector of the target holds. What each
-// operation means stands in scalar_lanes.h; the tests hold the two together, bit for bit.
+// Lanes on Highway: as many 64-bit words side by side as a vector of the target holds.
+// scalar_lanes.h defines each operation; tests compare the two bit for bit.
 //
 // Compiled once for each target, hence the guard that Highway resets between targets.
 #if defined(LKS_WIDE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -52,7 +52,7 @@ HWY_INLINE HWY_ATTR Lanes subtract(Lanes a, Lanes b) {
   return hn::Sub(a, b);
 }
 
-/// The upper operand, copied to the lower half. A shuffle, for shifts are what ports are short of.
+/// The upper operand, copied to the lower half, by a shuffle: fewer ports execute shifts.
 HWY_INLINE HWY_ATTR Lanes upper(Lanes x) {
   return hn::BitCast(k_words, hn::DupOdd(hn::BitCast(Operands(), x)));
 }
@@ -165,6 +165,36 @@ HWY_INLINE HWY_ATTR Lanes round_shift_low(Lanes x, Lanes shift, Lanes half) {
   const auto u = hn::BitCast(Bits(), x);
   const auto moved = hn::Sub(hn::Add(u, hn::BitCast(Bits(), half)), hn::ShiftRight<63>(u));
   return hn::BitCast(k_words, shift_right_each(moved, hn::BitCast(Bits(), shift)));
+}
+
+template <int shift>
+HWY_INLINE HWY_ATTR Lanes round_shift(Lanes x) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto half = hn::Set(Bits(), std::uint64_t{1} << (shift - 1));
+  const auto moved = hn::Sub(hn::Add(u, half), hn::ShiftRight<63>(u));
+  return hn::ShiftRight<shift>(hn::BitCast(k_words, moved));
+}
+
+/// Every lane by a shift of its own; `half` is 2^(shift − 1). AVX2 has no arithmetic shift.
+HWY_INLINE HWY_ATTR Lanes round_shift(Lanes x, Lanes shift, Lanes half) {
+  const auto u = hn::BitCast(Bits(), x);
+  const auto moved = hn::Sub(hn::Add(u, hn::BitCast(Bits(), half)), hn::ShiftRight<63>(u));
+  const auto sign = hn::BitCast(Bits(), hn::BroadcastSignBit(hn::BitCast(k_words, moved)));
+  const auto size = shift_right_each(hn::Xor(moved, sign), hn::BitCast(Bits(), shift));
+  return hn::BitCast(k_words, hn::Xor(size, sign));
+}
+
+HWY_INLINE HWY_ATTR Lanes bit_and(Lanes a, Lanes b) {
+  return hn::And(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes bit_or(Lanes a, Lanes b) {
+  return hn::Or(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes bit_and_not(Lanes a, Lanes b) {
+  return hn::AndNot(a, b);
+}
+HWY_INLINE HWY_ATTR Lanes without_sign(Lanes x) {
+  return hn::Xor(x, hn::BroadcastSignBit(x));
 }
 
 HWY_INLINE HWY_ATTR Lanes zero_if_negative(Lanes x) {

@@ -1,5 +1,5 @@
-// Lanes of one word, by plain integers: what lets a kernel's text be its own scalar twin. Each
-// operation is that of scalar_lanes.h, under the name that lanes_inl.h gives it.
+// Lanes of one word, by plain integers: with them a kernel's source also compiles to its scalar
+// twin. Each operation is that of scalar_lanes.h, under its name in lanes_inl.h.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include "core/math/wide/scalar_lanes.h"
 
-// What Highway's macros say of a target, said of plain code.
+// Highway's macros, defined for plain code.
 #define HWY_NAMESPACE N_SCALAR_TWIN
 #define HWY_ATTR
 #define HWY_INLINE inline
@@ -22,6 +22,9 @@ inline constexpr std::size_t k_lanes = 1;
 
 using scalar::add;
 using scalar::any_less;
+using scalar::bit_and;
+using scalar::bit_and_not;
+using scalar::bit_or;
 using scalar::bits_of_less;
 using scalar::clamp;
 using scalar::max;
@@ -36,6 +39,7 @@ using scalar::select_equal;
 using scalar::select_less;
 using scalar::subtract;
 using scalar::with_upper_of;
+using scalar::without_sign;
 
 inline Lanes load(const std::int64_t* from) {
   return *from;
@@ -82,6 +86,13 @@ inline Lanes round_shift_low(Lanes x, Lanes shift, Lanes) {
 template <int shift>
 Lanes round_shift_far(Lanes x) {
   return scalar::round_shift_far(x, shift);
+}
+template <int shift>
+Lanes round_shift(Lanes x) {
+  return scalar::round_shift(x, shift);
+}
+inline Lanes round_shift(Lanes x, Lanes shift, Lanes) {
+  return scalar::round_shift(x, static_cast<int>(shift));
 }
 template <int shift>
 Lanes round_shift_unsigned(Lanes x) {

@@ -1,4 +1,4 @@
-// What sweeps over blocks ask for before they come to it.
+// Prefetches of the blocks and bodies that an iteration reads next.
 #if defined(LKS_WIDE_MANIFOLD_AHEAD_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_MANIFOLD_AHEAD_INL_H
 #undef LKS_WIDE_MANIFOLD_AHEAD_INL_H
@@ -16,8 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
 
-/// What is read of the next block, asked for bit by bit while the one at hand is solved: no
-/// processor sees a whole block ahead, or waits for as many lines at once. Hints, without meaning.
+/// Prefetches the next block, some cache lines at a time, while the present one is solved. Hardware
+/// does not look a whole block ahead, and cannot wait for so many lines at once. Results do not
+/// depend on it.
 class Ahead {
  public:
   HWY_INLINE HWY_ATTR explicit Ahead(const void* from) : from_(static_cast<const char*>(from)) {}
@@ -49,7 +50,8 @@ constexpr std::size_t lines_of(std::size_t bytes, std::size_t stages) {
   return (bytes / 64 + parts - 1) / parts;
 }
 
-/// What sweeps read of plain manifolds: without friction, and with it, after the bodies' names.
+/// Cache lines that an iteration reads of plain manifolds after the indices of their bodies:
+/// without friction, and with it.
 inline constexpr std::size_t k_normal_lines =
     lines_of(offsetof(ManifoldBlock, coupling) - offsetof(ManifoldBlock, axes), 5);
 inline constexpr std::size_t k_friction_lines =

@@ -1,10 +1,10 @@
 // Contact constraints laid out for vectors: eight manifolds in a block, a word a lane.
 //
-// A manifold is solved at its centre c, in its own axes: normal n and tangents t, b = n × t. What
-// its points see of two bodies are six numbers,
+// A manifold is solved at its centre c, in its own axes: normal n and tangents t, b = n × t. Six
+// numbers give the relative motion of its two bodies,
 //   u = vB − vA + ωB × rB − ωA × rA  along n, t, b,   Ω = ℓ·(ωB − ωA)  along n, t, b,
-// with ℓ = 2^k m a length of the size of the smaller body, and what its points do to them are six
-// impulses. Point i at the offset ℓ·(x t + y b) from the centre moves apart at
+// with ℓ = 2^k m a length of the size of the smaller body, and the impulses of its points add up to
+// six components. Point i at the offset ℓ·(x t + y b) from the centre moves apart at
 //   vᵢ = u_n + y·Ω_t − x·Ω_b,
 // and an impulse P there is P along n, with torques P·y about t and −P·x about b.
 //
@@ -24,30 +24,29 @@ namespace lockstone::lanes {
 
 inline constexpr std::size_t k_block_points = 4;
 
-/// Fraction bits of the velocities that impulses leave: what a RowBody holds is a multiple of
+/// Fraction bits of the velocities that impulses leave: the words of a RowBody are multiples of
 /// 2^-32 m/s, so that bodies of equal mass gain and lose exactly the same.
 inline constexpr int k_grid_bits = 32;
 
 /// The greatest impulse of a point: 2^30 − 1 in Q20, 1024 m/s. Two of them make an operand.
 inline constexpr std::int32_t k_most_impulse = 0x3fffffff;
 
-/// What stands above the shift of a lane that is not plain. Plain is a manifold whose bodies both
-/// turn alike about all axes, M = m·1, whose surfaces neither move nor resist rolling, and which no
-/// lock takes a push from: most are, and their sweeps read and compute less.
+/// A flag above the shift, set in a lane that is not plain. A manifold is plain if both bodies turn
+/// alike about all axes (M = m·1), the surfaces neither move nor resist rolling, and no lock of an
+/// axis takes a push. Most are plain, and an iteration reads and computes less for them.
 inline constexpr std::int32_t k_special_lane = 1 << 8;
 
-/// What stands above the number of clamped arms where surfaces meet at the tick's beginning.
+/// A flag above the number of clamped arms, set where surfaces meet at the tick's beginning.
 inline constexpr std::int32_t k_touching_lane = 1 << 8;
 
 /// Eight manifolds that share no body, save one that nothing moves (zero gains). `pack(low, high)`
-/// holds two operands. `shift` is 16 … 28, and Q(shift) the format of what grows with the inverse
-/// inertia. Of a lane without a manifold `common` is 0, and the rest
-/// means nothing.
+/// holds two operands. `shift` is 16 … 28, and Q(shift) is the format of quantities that grow with
+/// the inverse inertia. In a lane without a manifold `common` is 0, and the rest is meaningless.
 struct alignas(64) ManifoldBlock {
   std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
 
-  // Read by every sweep, in this order: what is read as it lies, the processor fetches ahead.
+  // Read by every iteration, in this order: the processor prefetches words read in memory order.
   BlockWord axes[5]{};  // (n.x, n.y) (n.z, t.x) (t.y, t.z) (b.x, b.y), Q30; (b.z, shift | kind)
   BlockWord moment{};   // low: M_xx of A, high: of B; Q(shift)
   BlockWord arm[3]{};   // low: r̄A, high: r̄B of the centre, Q30
@@ -60,20 +59,20 @@ struct alignas(64) ManifoldBlock {
     friend bool operator==(const Point&, const Point&) = default;
   };
   Point points[k_block_points];
-  // Read by sweeps without friction.
+  // Read by iterations without friction.
   BlockWord soft{};  // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
-  BlockWord rest{};  // (1 − κ)·load, what a soft row adds; m/s, Q50
+  BlockWord rest{};  // (1 − κ)·load, which a soft row adds; m/s, Q50
 
   BlockWord mass_01{}, mass_23{};  // 1 / (the response of each point to itself), Q30; 0: no point
   BlockWord common{};              // low: mass of all points at once / count, high: 1/count; Q30
-  // Responses: what a unit impulse at one point adds to the speed at another, Q(shift).
+  // Responses: the speed at one point that a unit impulse at another gives, Q(shift).
   BlockWord response_00_11{}, response_22_33{};
   BlockWord response_01_23{}, response_02_13{}, response_03_12{};
   BlockWord gain_arm[3]{};  // the arms times α
   BlockWord gain_turn{};    // the scales times α
   BlockWord share{};        // low: αB, Q30, high: coefficient of friction, Q30
 
-  // Read by sweeps with friction. Rows t, b and the twist about n at the radius ρ.
+  // Read by iterations with friction. Rows t, b and the twist about n at the radius ρ.
   BlockWord coupling[3]{};      // low: of t, high: of b, to impulses (1, x, y), Q(shift)
   BlockWord tangent_mass[2]{};  // (tt, bb), (tb, 0) of the inverse of the tangents' response, Q30
   BlockWord twist_row[2]{};     // of the twist: to (1, x), Q(shift); to y, and its mass, Q24
@@ -83,7 +82,7 @@ struct alignas(64) ManifoldBlock {
 
   // From here on: neither written nor read where all of a vector's lanes are plain.
   BlockWord inertia[5]{};  // the rest of M: yy, zz, xy, xz, yz
-  BlockWord drive{};       // what moving surfaces add to the speed: low: along t, high: b; Q20
+  BlockWord drive{};       // speed of moving surfaces: low: along t, high: b; m/s, Q20
   BlockWord turn{};        // low: the same about n, as ℓ·ω; high: rolling limit / ΣP, Q28
   // Read where the rolling limit is not 0: torques about t and b, divided by ℓ.
   BlockWord rolling{};          // low: impulse about t, high: about b; m/s, Q20
@@ -104,7 +103,7 @@ struct alignas(64) ManifoldBlock {
 /// Q24, and a word that is not read. Points beyond the count are not read either.
 using ManifoldGeometry = std::array<std::int32_t, 4 + 8 * k_block_points>;
 
-/// What else a manifold is prepared from, in pieces of 16 bytes.
+/// The other inputs of a manifold's preparation, in groups of 16 bytes.
 struct alignas(16) ManifoldSource {
   std::array<std::int32_t, 3> friction{};  // impulse of the tick before in world axes, m/s, Q20
   std::int32_t twist = 0;                  // m/s, Q20
@@ -132,7 +131,8 @@ struct alignas(16) ManifoldSource {
 };
 static_assert(sizeof(ManifoldSource) == 144);
 
-/// What preparation reads of a body: M = entry · 2^-30 · 2^exponent, exponent told by the pair.
+/// The inertia of a body for preparation: M = entry · 2^-30 · 2^exponent. The pair gives the
+/// exponent.
 struct alignas(32) SourceBody {
   std::array<std::int32_t, 6> inertia{};  // xx, yy, zz, xy, xz, yz
   std::array<std::int32_t, 2> unused{};
@@ -167,8 +167,8 @@ struct alignas(64) ManifoldApproach {
   friend bool operator==(const ManifoldApproach&, const ManifoldApproach&) = default;
 };
 
-/// Where bodies have gone since the tick began, as the sum of what `RowBody` held at the end of
-/// each substep: velocity and surface velocity, m/s, Q32.
+/// The travel of a body since the tick began, as the sum of its `RowBody` at the end of each
+/// substep: velocity and surface velocity, m/s, Q32.
 struct alignas(64) RowTravel {
   std::array<std::int64_t, 3> velocity{};
   std::array<std::int64_t, 3> surface{};
@@ -181,19 +181,19 @@ struct alignas(64) RowTravel {
 struct SweepRules {
   std::int32_t substep_rate = 240;  // 1/s
   std::int32_t push_out = 0;        // overlap goes at most this fast, m/s, Q20
-  std::int32_t skin = 0;            // what is nearer counts as touching, m, Q24
+  std::int32_t skin = 0;            // nearer points count as touching, m, Q24
   std::int32_t overlap = 0;         // where touching points come to rest, m, Q24
   std::int32_t step_mantissa = 0;   // substep = mantissa · 2^-(24 − 17 + step_shift)
   std::int32_t step_shift = 32;     // 1 … 32
-  // Where the limit of friction, and the parts of what is shortened to it, are rounded up, Q30 from
-  // the middle: −½ … ½.
+  // Added before rounding to nearest, Q30, −½ … ½: to the limit of friction, and to the components
+  // of an impulse that is shortened to it.
   std::int32_t limit_sway = 0;
   std::int32_t part_sway = 0;
 };
 
-/// The sweeps, as one target computes them. No block of a call may name a body twice, nor may two
-/// blocks of a call to `solve`, `relax` or `bounce`; but for the scalar twin's, which goes manifold
-/// by manifold, lane by lane, and stands anything.
+/// The iterations over manifolds, as one target computes them. No body may occur twice in a block,
+/// nor in two blocks of a call to `solve`, `relax` or `bounce`. The scalar twin goes lane by lane,
+/// and allows both.
 struct ManifoldKernels {
   /// Fills a block. The impulses to start from are added to `warm`, by body; `bodies` tells the
   /// approach.
@@ -218,7 +218,7 @@ struct ManifoldKernels {
 /// there are few, these take less time.
 [[nodiscard]] const ManifoldKernels& manifold_kernels(std::size_t manifolds);
 
-/// What they mean.
+/// The scalar twins, which define the results.
 extern const ManifoldKernels k_scalar_manifolds;
 
 }  // namespace lockstone::lanes

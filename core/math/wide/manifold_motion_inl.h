@@ -1,4 +1,4 @@
-// What a manifold sees of its two bodies, and what it does to them: see manifold_block.h.
+// The relative motion of a manifold's bodies, and its impulses on them: see manifold_block.h.
 #if defined(LKS_WIDE_MANIFOLD_MOTION_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_MANIFOLD_MOTION_INL_H
 #undef LKS_WIDE_MANIFOLD_MOTION_INL_H
@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
 
-/// Whether none of the lanes at hand has a manifold: what does nothing need not be done.
+/// Whether none of the lanes at hand has a manifold, so that they can be skipped.
 HWY_INLINE HWY_ATTR bool is_empty(const ManifoldBlock& block, std::size_t lane) {
   if constexpr (k_lanes == k_block_lanes) return false;
   std::int64_t used = 0;
@@ -179,13 +179,13 @@ HWY_INLINE HWY_ATTR void take_from(Lanes (&sum)[3], const Vector& by) {
   sum[2] = subtract(sum[2], by.z);
 }
 
-/// What B does against A at the centre: velocity (Q50) and, as ℓ·ω, turning (Q20, operands).
+/// The motion of B relative to A at the centre: velocity (Q50) and turning as ℓ·ω (Q20, operands).
 struct CenterMotion {
   Vector velocity;
   Vector turning;
 };
 
-/// What a manifold's motion and impulses ask of its two bodies, read from a block where it is used.
+/// The arms, gains and inertias of a manifold's two bodies, each read from the block when needed.
 template <bool plain>
 struct BlockSides {
   const ManifoldBlock& block;

@@ -69,8 +69,8 @@ HWY_INLINE HWY_ATTR CenterResponse center_response(const SourceLanes& in, const 
   return k;
 }
 
-/// What the impulses to start from ask of the bodies, at hand already: reading back what was just
-/// written to a block would wait for the writes.
+/// As `BlockSides`, for the warm start, from values that were just computed: reading them back from
+/// the block would wait for the writes.
 template <bool plain>
 struct SourceSides {
   const SourceLanes& in;
@@ -102,7 +102,7 @@ HWY_INLINE HWY_ATTR SourceSides<plain> sides_of(const SourceLanes& in) {
           round_shift_low<30>(multiply(in.share_b, in.scale_b))};
 }
 
-/// What both bodies bring along, unchanged or times their shares.
+/// Stores the arms and other data of both bodies, as they are or times the bodies' shares.
 template <bool plain>
 HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSides<plain>& sides,
                                          std::size_t lane, const Axes& axes, ManifoldBlock& out) {
@@ -173,7 +173,7 @@ HWY_INLINE HWY_ATTR void point_responses(const CenterResponse& k, const Offsets&
   }
 }
 
-/// What only divisions and roots give, Q30 but for the twist's mass in Q24.
+/// The results of divisions and roots, Q30 but for the twist's mass in Q24.
 struct Quotients {
   Lanes point[4];     // 1/Aᵢᵢ; 0: no point
   Lanes all;          // 1/K_nn
@@ -206,7 +206,7 @@ HWY_INLINE HWY_ATTR void find_rolling_mass(const ManifoldSource* in, const Cente
     mass[i] = load(words[i]);
 }
 
-/// What 2^(shift + 30) is divided by: A of each point, K_nn, the tangents' determinant.
+/// The divisors of 2^(shift + 30): A of each point, K_nn, the tangents' determinant.
 struct Divisors {
   Lanes of[6];
 };
@@ -232,8 +232,8 @@ HWY_INLINE HWY_ATTR void raise_below_2_30(Lanes& x, Lanes& lead) {
 }
 
 /// ⌊2^(shift + 30) / d⌋ for 2^16 ≤ 2^shift ≤ d < 2^31. A line and three of Newton's steps give
-/// r ≈ 2^61 / D for D = d · 2^lead from 2^30 to 2^31: less by 1/17 of it, then by (1/17)^8. What is
-/// cut off makes it less, too: by 3 in all, and so the quotient by 2.
+/// r ≈ 2^61 / D for D = d · 2^lead from 2^30 to 2^31: less by 1/17 of it, then by (1/17)^8.
+/// Truncation makes r less, too: by 3 in all, and so the quotient by 2.
 HWY_INLINE HWY_ATTR Lanes quotient_of(Lanes d, Lanes shift, Lanes power) {
   const Lanes none = broadcast(0), one = broadcast(1);
   Lanes high = d, lead = none;

@@ -20,7 +20,7 @@ HWY_INLINE HWY_ATTR Vector surface_travel(const BodyLanes& went) {
   return round_shift_low<15>(Vector{went.spin[0], went.spin[1], went.spin[2]});
 }
 
-/// s = s₀ + h·(what the points went apart): the Jacobian of velocities, applied to travel.
+/// s = s₀ + h·(sum of the points' speeds apart): the Jacobian of velocities, applied to travel.
 HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                           const std::int64_t* travel, const SweepRules& rules) {
   BodyPair went{};
@@ -56,8 +56,8 @@ struct FrictionLanes {
   Lanes t, b, twist;
 };
 
-/// Brings back onto the sphere what left it. Few do, so that one at a time is fast enough; but what
-/// has lost its hold altogether.
+/// Shortens friction that exceeds its limit to the limit. Few lanes do, so that one at a time is
+/// fast enough; only lanes whose limit is 0 are cleared together.
 HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, FrictionLanes& f) {
   const Lanes none = broadcast(0);
   f = {select_equal(limit, none, none, f.t), select_equal(limit, none, none, f.b),

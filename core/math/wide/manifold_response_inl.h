@@ -58,7 +58,7 @@ HWY_INLINE HWY_ATTR Lanes difference(Lanes a, Lanes b, Lanes c, Lanes d) {
   return multiply_subtract(multiply(a, b), c, d);
 }
 
-/// What three unit impulses, along x, y and z, at r turn: M·(r × x), M·(r × y), M·(r × z).
+/// Surface speeds by unit impulses at r along x, y and z: M·(r × x), M·(r × y), M·(r × z).
 struct AxisTurns {
   Vector x, y, z;
 };

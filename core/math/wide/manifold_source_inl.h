@@ -1,4 +1,4 @@
-// What manifolds are prepared from, read into lanes: see manifold_block.h.
+// The inputs of manifolds' preparation, read into lanes: see manifold_block.h.
 #if defined(LKS_WIDE_MANIFOLD_SOURCE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_MANIFOLD_SOURCE_INL_H
 #undef LKS_WIDE_MANIFOLD_SOURCE_INL_H

@@ -1,4 +1,5 @@
-// The sweep of manifold_block.h without friction for the target at hand, and what all sweeps share.
+// The iteration of manifold_block.h without friction for the target at hand, and code that all
+// iterations share.
 #if defined(LKS_WIDE_MANIFOLD_SWEEP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_MANIFOLD_SWEEP_INL_H
 #undef LKS_WIDE_MANIFOLD_SWEEP_INL_H
@@ -68,8 +69,8 @@ HWY_INLINE HWY_ATTR bool find_gaps(const ManifoldBlock& block, std::size_t lane,
   return any_less(touching_word(rules), points.widest);
 }
 
-/// What separations ask for: apart, no more than closes the gap in a substep; else, when `soft`,
-/// what the spring gives towards its rest, at most the speed of pushing out.
+/// The bias speeds by separation. A point that is apart may close its gap in a substep, no more;
+/// else, when `soft`, the spring pulls towards its rest, at most at the speed of pushing out.
 template <bool soft, bool apart>
 HWY_INLINE HWY_ATTR void load_biases(const ManifoldBlock& block, std::size_t lane,
                                      const SweepRules& rules, PointLanes& points) {
@@ -101,7 +102,7 @@ HWY_INLINE HWY_ATTR Lanes limited_difference(Lanes x, Lanes y) {
   return round_shift_low<bits>(clamp(wide, broadcast(-k_most), broadcast(k_most)));
 }
 
-/// What an impulse of 32 bits is after rounding.
+/// Rounds an impulse with 30 more fraction bits, and clamps it to 0 … k_most_impulse.
 HWY_INLINE HWY_ATTR Lanes bounded_impulse(Lanes exact) {
   return round_shift_positive<30>(exact, k_most_impulse);
 }
@@ -114,8 +115,8 @@ struct HardRow {
   }
 };
 
-/// max(0, κ·(P − m·error) + (1 − κ)·load), unless `apart` and so by its gap: what pulls away from a
-/// point by more than its share of the load is let go.
+/// max(0, κ·(P − m·error) + (1 − κ)·load), unless `apart` and the gap is more than `touching`. The
+/// impulse is 0 where a pull exceeds the point's share of the load.
 template <bool apart>
 struct SoftRow {
   Lanes keep, touching;
@@ -131,7 +132,7 @@ struct SoftRow {
   }
 };
 
-/// All points as one row, each by the same share: what is symmetric stays symmetric.
+/// All points as one row, each by the same share: symmetric motion stays symmetric.
 template <class Row>
 HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t lane, const Row& row,
                                       PointLanes& points) {
@@ -228,7 +229,7 @@ HWY_INLINE HWY_ATTR void solve_rows(const ManifoldBlock& block, std::size_t lane
   solve_points(responses, by, row, points);
 }
 
-/// Most blocks have no point that is apart, and do without what only those ask for.
+/// Most blocks have no point that is apart, and skip the work for such points.
 template <bool soft, bool apart>
 HWY_INLINE HWY_ATTR void solve_biased(const ManifoldBlock& block, std::size_t lane,
                                       const EachShift& by, const SweepRules& rules,

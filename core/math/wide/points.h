@@ -1,5 +1,5 @@
-// Many points against one direction, and many planes against one point: what separating axes of
-// polyhedra are found by.
+// Many points against one direction, and many planes against one point: with these, separating axes
+// of polyhedra are found.
 #pragma once
 
 #include <array>

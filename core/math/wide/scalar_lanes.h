@@ -55,7 +55,7 @@ using Lane = std::int64_t;
   return static_cast<Lane>(bits(x) & 0xffU);
 }
 
-/// x · 2^shift, 0 ≤ shift ≤ 63; what leaves the word is lost.
+/// x · 2^shift, 0 ≤ shift ≤ 63; bits beyond the word are lost.
 [[nodiscard]] constexpr Lane shift_left(Lane x, int shift) {
   return static_cast<Lane>(bits(x) << shift);
 }
@@ -95,7 +95,14 @@ using Lane = std::int64_t;
   return static_cast<Lane>(bits(x) + half - (bits(x) >> 63)) >> shift;
 }
 
-/// The same of a number without sign.
+/// x · 2^-shift to nearest, ties away from zero: the whole word. 1 ≤ shift ≤ 62 and
+/// x < 2^63 − 2^(shift − 1).
+[[nodiscard]] constexpr Lane round_shift(Lane x, int shift) {
+  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
+  return static_cast<Lane>(bits(x) + half - (bits(x) >> 63)) >> shift;
+}
+
+/// The same as round_shift_low of a number without sign.
 [[nodiscard]] constexpr Lane round_shift_unsigned(Lane x, int shift) {
   return static_cast<Lane>((bits(x) + (std::uint64_t{1} << (shift - 1))) >> shift);
 }
@@ -120,6 +127,21 @@ using Lane = std::int64_t;
   const auto half = static_cast<std::uint32_t>(x);
   const auto most = static_cast<std::uint32_t>(bound);
   return Lane{half < most ? half : most};
+}
+
+[[nodiscard]] constexpr Lane bit_and(Lane a, Lane b) {
+  return a & b;
+}
+[[nodiscard]] constexpr Lane bit_or(Lane a, Lane b) {
+  return a | b;
+}
+/// The bits of b that a lacks.
+[[nodiscard]] constexpr Lane bit_and_not(Lane a, Lane b) {
+  return ~a & b;
+}
+/// x, or −x − 1 where x < 0: as many bits as |x| has, or one fewer.
+[[nodiscard]] constexpr Lane without_sign(Lane x) {
+  return x < 0 ? ~x : x;
 }
 
 [[nodiscard]] constexpr Lane min(Lane a, Lane b) {

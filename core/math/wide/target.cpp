@@ -18,7 +18,8 @@ constexpr Kernels k_scalar{"scalar",
                            mark_at_least_scalar,
                            &k_scalar_manifolds,
                            &k_scalar_balls,
-                           &k_scalar_boxes};
+                           &k_scalar_boxes,
+                           &k_scalar_proximal};
 
 #if defined(LOCKSTONE_WITH_HIGHWAY) && defined(__x86_64__)
 constexpr std::array<std::string_view, 3> k_candidates = {"sse4", "avx2", "avx512"};
@@ -71,7 +72,8 @@ const Kernels& current() {
   return kernels != nullptr ? *kernels : *supported().kernels[supported().count - 1];
 }
 
-// Wide vectors take longer than narrow ones, whatever they hold. What is forced stays so.
+// The narrowest target that holds all items at once, or the forced one: wide vectors take longer
+// than narrow ones, even when most lanes are empty.
 const Kernels& narrowest_for(std::size_t items) {
   if (const Kernels* kernels = forced.load(std::memory_order_relaxed)) return *kernels;
   const auto all = std::span(supported().kernels).first(supported().count);
@@ -114,6 +116,10 @@ const BallKernels& ball_kernels(std::size_t balls) {
 
 const BoxKernels& box_kernels() {
   return *current().boxes;
+}
+
+const ProximalKernels& proximal_kernels() {
+  return *current().proximal;
 }
 
 void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {

@@ -8,7 +8,7 @@
 
 namespace lockstone::lanes::test {
 
-/// Each answers the differences found, one a line; empty when there is none.
+/// Each returns the differences found, one a line; empty when there is none.
 [[nodiscard]] std::string check_operations(std::uint64_t seed);
 [[nodiscard]] std::string check_memory_operations(std::uint64_t seed);
 [[nodiscard]] std::string check_contact_rows(std::uint64_t seed);
@@ -17,6 +17,7 @@ namespace lockstone::lanes::test {
 [[nodiscard]] std::string check_manifolds(std::uint64_t seed);
 [[nodiscard]] std::string check_balls(std::uint64_t seed);
 [[nodiscard]] std::string check_boxes(std::uint64_t seed);
+[[nodiscard]] std::string check_proximal(std::uint64_t seed);
 
 /// Runs `check` on every target, names those where it finds something, and leaves the best in
 /// force.

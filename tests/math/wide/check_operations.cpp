@@ -23,7 +23,7 @@ struct Expected {
 Expected compute_scalar(Operation operation, const Operands& in, std::size_t lane) {
   using namespace scalar;  // NOLINT(google-build-using-namespace): the table's expressions
   const Lane a = in.a[lane], b = in.b[lane], c = in.c[lane];
-  const Lane shift = in.shift[lane];
+  const Lane shift = in.shift[lane], far = in.far[lane];
   switch (operation) {
 #define LKS_LANE_CASE(name, wide, one, counting) \
   case Operation::name:                          \
@@ -49,6 +49,8 @@ Operands random_operands(Random& random) {
     in.c[lane] = word(random);
     in.shift[lane] = random.between(1, 32);
     in.half[lane] = std::int64_t{1} << (in.shift[lane] - 1);
+    in.far[lane] = random.between(1, 62);
+    in.far_half[lane] = std::int64_t{1} << (in.far[lane] - 1);
   }
   return in;
 }
@@ -70,6 +72,18 @@ std::string compare(const TargetOperations& target, Operation operation, const O
 
 std::string complain_unless(bool right, const TargetOperations& target, const char* what) {
   return right ? std::string() : std::string(target.target) + " " + what + "\n";
+}
+
+// A third of the time a is less in few lanes or in none.
+std::string compare_order(const TargetOperations& target, Operands in, Random& random) {
+  if (random.next() % 3 == 0)
+    for (std::size_t lane = 0; lane < k_most_lanes; ++lane)
+      if (random.next() % 8 != 0) in.a[lane] = std::max(in.a[lane], in.b[lane]);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < target.lanes; ++lane)
+    bits |= scalar::bits_of_less(in.a[lane], in.b[lane]) << lane;
+  return complain_unless(target.bits_of_less(in) == bits, target, "bits_of_less") +
+         complain_unless(target.any_less(in) == (bits != 0), target, "any_less");
 }
 
 template <class Index>
@@ -140,6 +154,7 @@ std::string check_operations(std::uint64_t seed) {
       for (int i = 0; i < static_cast<int>(Operation::count); ++i) {
         report += compare(target, static_cast<Operation>(i), in);
       }
+      report += compare_order(target, in, random);
     }
   }
   return report;

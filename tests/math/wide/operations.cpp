@@ -20,6 +20,7 @@ namespace HWY_NAMESPACE {
 HWY_ATTR void test_compute(test::Operation operation, const test::Operands& in, test::Values& out) {
   const Lanes a = load(in.a.data()), b = load(in.b.data()), c = load(in.c.data());
   const Lanes shift = load(in.shift.data()), half = load(in.half.data());
+  const Lanes far = load(in.far.data()), far_half = load(in.far_half.data());
   switch (operation) {
 #define LKS_LANE_CASE(name, wide, ...) \
   case test::Operation::name:          \
@@ -31,6 +32,12 @@ HWY_ATTR void test_compute(test::Operation operation, const test::Operands& in, 
   }
 }
 
+HWY_ATTR bool test_any_less(const test::Operands& in) {
+  return any_less(load(in.a.data()), load(in.b.data()));
+}
+HWY_ATTR std::uint32_t test_bits_of_less(const test::Operands& in) {
+  return bits_of_less(load(in.a.data()), load(in.b.data()));
+}
 HWY_ATTR void test_gather_64(const std::int64_t* base, const std::int64_t* index,
                              test::Values& out) {
   store(gather_64(base, index), out.data());
@@ -71,11 +78,11 @@ HWY_AFTER_NAMESPACE();
 namespace lockstone::lanes::test {
 namespace {
 
-#define LKS_TARGET(name, lanes, space)                                               \
-  TargetOperations {                                                                 \
-    name, lanes, space::test_compute, space::test_gather_64, space::test_scatter_64, \
-        space::test_gather_32, space::test_scatter_32, space::test_load_four,        \
-        space::test_store_four                                                       \
+#define LKS_TARGET(name, lanes, space)                                                \
+  TargetOperations {                                                                  \
+    name, lanes, space::test_compute, space::test_any_less, space::test_bits_of_less, \
+        space::test_gather_64, space::test_scatter_64, space::test_gather_32,         \
+        space::test_scatter_32, space::test_load_four, space::test_store_four         \
   }
 
 const TargetOperations k_compiled[] = {

@@ -13,15 +13,16 @@ namespace lockstone::lanes::test {
 inline constexpr std::size_t k_most_lanes = 8;
 using Values = std::array<std::int64_t, k_most_lanes>;
 
-/// Operands of the operations. shift is 1 … 32 and half is 2^(shift − 1).
+/// Operands of the operations. shift is 1 … 32 and half is 2^(shift − 1); far is 1 … 62 and
+/// far_half is 2^(far − 1).
 struct Operands {
-  Values a{}, b{}, c{}, shift{}, half{};
+  Values a{}, b{}, c{}, shift{}, half{}, far{}, far_half{};
 };
 
 inline constexpr std::uint64_t k_all_bits = ~std::uint64_t{0};
 inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
 
-// name, with lanes, with one lane, the bits that count. Both sides see a, b, c, shift and half.
+// name, with lanes, with one lane, the bits that count. Both sides see a, b, c and the shifts.
 // clang-format off
 #define LKS_LANE_OPERATIONS(X)                                                                    \
   X(broadcast, broadcast(-5), Lane{-5}, k_all_bits)                                               \
@@ -50,6 +51,11 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
   X(round_37, round_shift_far<37>(a), round_shift_far(a, 37), 0xffffffffU)                        \
   X(round_each, round_shift_low(a, shift, half), round_shift_low(a, static_cast<int>(shift)),     \
     k_all_bits)                                                                                   \
+  X(whole_1, round_shift<1>(a), round_shift(a, 1), k_all_bits)                                    \
+  X(whole_10, round_shift<10>(a), round_shift(a, 10), k_all_bits)                                 \
+  X(whole_30, round_shift<30>(a), round_shift(a, 30), k_all_bits)                                 \
+  X(whole_62, round_shift<62>(a), round_shift(a, 62), k_all_bits)                                 \
+  X(whole_each, round_shift(a, far, far_half), round_shift(a, static_cast<int>(far)), k_all_bits) \
   X(unsigned_4, round_shift_unsigned<4>(a), round_shift_unsigned(a, 4), k_all_bits)               \
   X(positive_20, round_shift_positive<20>(a, INT32_MAX),                                          \
     round_shift_positive(a, 20, INT32_MAX), k_all_bits)                                           \
@@ -57,6 +63,10 @@ inline constexpr std::uint64_t k_low_bits = 0xffffffffU;
     round_shift_positive(a, 30, 12345678), k_all_bits)                                            \
   X(dot, round_shift_low<30>(multiply_add(multiply_add(multiply(a, b), b, c), c, a)),             \
     round_shift_low(multiply_add(multiply_add(multiply(a, b), b, c), c, a), 30), k_all_bits)      \
+  X(bit_and, bit_and(a, b), bit_and(a, b), k_all_bits)                                            \
+  X(bit_or, bit_or(a, b), bit_or(a, b), k_all_bits)                                               \
+  X(bit_and_not, bit_and_not(a, b), bit_and_not(a, b), k_all_bits)                                \
+  X(without_sign, without_sign(a), without_sign(a), k_all_bits)                                   \
   X(min, min(a, b), min(a, b), k_all_bits)                                                        \
   X(max, max(a, b), max(a, b), k_all_bits)                                                        \
   X(clamp, clamp(a, min(b, c), max(b, c)), clamp(a, min(b, c), max(b, c)), k_all_bits)            \
@@ -74,6 +84,10 @@ struct TargetOperations {
   std::string_view target;
   std::size_t lanes;
   void (*compute)(Operation operation, const Operands& in, Values& out);
+
+  // Over all lanes: whether a < b in any, and a bit for each where it is.
+  bool (*any_less)(const Operands& in);
+  std::uint32_t (*bits_of_less)(const Operands& in);
 
   // Indices for the words of a table, all different.
   void (*gather_64)(const std::int64_t* base, const std::int64_t* index, Values& out);

@@ -16,7 +16,7 @@ inline std::int64_t beside_power(lockstone::test::Random& random) {
 
 /// A word for a shift by some amount: a tie between two results, or one beside it.
 inline std::int64_t beside_tie(lockstone::test::Random& random) {
-  const int shift = static_cast<int>(random.between(1, 32));
+  const int shift = static_cast<int>(random.between(1, 62));
   const std::uint64_t whole = random.next() << shift;
   return static_cast<std::int64_t>(whole + (std::uint64_t{1} << (shift - 1)) +
                                    static_cast<std::uint64_t>(random.between(-1, 1)));

@@ -18,7 +18,8 @@ int main() {
                              lanes::test::check_contact_rows(seed) +
                              lanes::test::check_rotations(seed) + lanes::test::check_points(seed) +
                              lanes::test::check_manifolds(seed) + lanes::test::check_balls(seed) +
-                             lanes::test::check_boxes(seed);
+                             lanes::test::check_boxes(seed) +
+                             lanes::test::check_proximal(seed);
   std::printf("%s%s\n", report.c_str(), report.empty() ? "all equal" : "different");
   return report.empty() ? 0 : 1;
 }

@@ -66,6 +66,29 @@ TEST(ScalarLanes, RoundAsTheProjectDoes) {
   }
 }
 
+TEST(ScalarLanes, RoundWholeWordsAsTheProjectDoes) {
+  Random random;
+  for (int i = 0; i < 200'000; ++i) {
+    const int shift = static_cast<int>(random.between(1, 62));
+    const std::int64_t bound = INT64_MAX - (std::int64_t{1} << (shift - 1));
+    const std::int64_t x = std::min(test::word(random), bound);
+    EXPECT_EQ(scalar::round_shift(x, shift), raw::round_shift_any(x, shift))
+        << x << " by " << shift;
+  }
+}
+
+// A bound for sizes: the bits of many together are as many as those of the largest has, or one
+// fewer.
+TEST(ScalarLanes, WithoutTheirSignHaveTheBitsOfTheirSizeOrOneFewer) {
+  Random random;
+  for (int i = 0; i < 100'000; ++i) {
+    const std::int64_t x = test::word(random);
+    const std::int64_t bits = scalar::without_sign(x);
+    EXPECT_GE(bits, 0) << x;
+    EXPECT_EQ(bits, x < 0 ? -(x + 1) : x);
+  }
+}
+
 TEST(ScalarLanes, KeepThePositivePartWithinItsRange) {
   Random random;
   for (int i = 0; i < 200'000; ++i) {
@@ -112,6 +135,10 @@ TEST(WideKernels, SolveBallJointsAsTheScalarTwinDoes) {
 
 TEST(WideKernels, MeetBoxesAsTheScalarTwinDoes) {
   EXPECT_EQ(test::check_boxes(run_seed()), "");
+}
+
+TEST(WideKernels, SolveIslandsAsTheScalarTwinDoes) {
+  EXPECT_EQ(test::check_proximal(run_seed()), "");
 }
 
 TEST(WideKernels, MakeTheMatricesOfToMatrix) {

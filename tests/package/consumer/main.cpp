@@ -8,9 +8,13 @@
 #if defined(LOCKSTONE_WITH_ENET)
 #include <lockstone/net/transport_enet.h>
 
-static bool opens_a_socket() { return lockstone::net::EnetTransport::open({}).ok(); }
+static bool opens_a_socket() {
+  return lockstone::net::EnetTransport::open({}).ok();
+}
 #else
-static bool opens_a_socket() { return true; }
+static bool opens_a_socket() {
+  return true;
+}
 #endif
 
 int main() {

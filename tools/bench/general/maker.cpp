@@ -102,8 +102,11 @@ void SceneMaker::set_friction(double friction) {
     body.friction = friction;
 }
 
+// As far as its density goes: a world has no more than 8.3e6 kg/m³.
 void SceneMaker::set_mass(int index, double mass) {
-  body(index).density *= mass / mass_of(body(index));
+  constexpr double k_most_density = 8.3e6;
+  double& density = body(index).density;
+  density = std::min(density * (mass / mass_of(body(index))), k_most_density);
 }
 
 GeneralJoint& SceneMaker::join(Link link, int a, int b, const Triple& at, const Triple& axis) {

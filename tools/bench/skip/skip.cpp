@@ -319,7 +319,8 @@ void measure_snapshot_sizes(Skips& skips) {
 // The memory that a world takes for one more of each object that its definition counts.
 void measure_memory(Skips& skips) {
   if (heap_bytes() == 0) return;
-  constexpr std::uint32_t k_few = 1024, k_more = 9216;
+  // Above the default count of converged contacts, which is measured by itself.
+  constexpr std::uint32_t k_few = 2048, k_more = 10'240;
   const auto bytes_of = [](const WorldDef& def) {
     const std::uint64_t before = heap_bytes();
     const World world = make_speed_world(def);
@@ -336,6 +337,10 @@ void measure_memory(Skips& skips) {
   measure(&WorldDef::pair_capacity, "a pair of bodies with overlapping bounds", 96);
   measure(&WorldDef::contact_capacity, "a contact", 2048);
   measure(&WorldDef::joint_capacity, "a joint", 8192);
+  WorldDef none, some;
+  none.converged_contacts = 0;
+  skips.count("memory", "a converged contact", "bytes",
+              (bytes_of(some) - bytes_of(none)) / some.converged_contacts, 8192);
 }
 
 // Loading makes trees and lists of contacts anew.

@@ -1,5 +1,5 @@
-// What every function of the C interface shares: checks of its arguments, and failures that become
-// a status and a message. Exceptions are for use within; none leaves `call`.
+// Used by every function of the C interface: checks of arguments, and failures that become a status
+// and a message. Exceptions stay within the library; none leaves `call`.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,7 @@ lks_status call(Body&& body) noexcept {
   }
 }
 
-/// What the pointer points to; throws for null.
+/// The object that the pointer points to; throws for null.
 template <class T>
 T& required(T* pointer, std::string_view name) {
   if (pointer == nullptr) throw Failure{LKS_NULL_ARGUMENT, std::string(name) + " is null"};

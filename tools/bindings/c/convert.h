@@ -55,7 +55,8 @@ template <class Handle>
 [[nodiscard]] lks_surface raw_of(const Surface& surface);
 [[nodiscard]] std::uint32_t raw_of(const AxisLocks& locks);
 
-/// Throws beyond the world's limit: queries demand what commands check themselves.
+/// Throws beyond the world's limit. Commands check places themselves, but queries take a place
+/// within the limit as a precondition.
 [[nodiscard]] Vec3<Position> place_of(const lks_position3* place, std::string_view field);
 
 }  // namespace lockstone::c

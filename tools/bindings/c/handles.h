@@ -1,4 +1,4 @@
-// What the opaque handles of the C interface are.
+// Definitions of the opaque handles of the C interface.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 /// A world of the caller's, or a built-in scene.
 struct lks_world {
-  std::unique_ptr<lockstone::ThreadPool> threads;  // outlives what steps on it
+  std::unique_ptr<lockstone::ThreadPool> threads;  // outlives the world that steps on it
   std::optional<lockstone::World> own;
   std::unique_ptr<lockstone::scenes::ScenePlay> scene;
 
@@ -35,7 +35,7 @@ inline const World& read(const lks_world* world) {
   return handle(world).world();
 }
 
-/// Throws for a scene too: it relies on what it made.
+/// Throws for a scene too: a scene relies on the bodies and joints that it created.
 World& write(lks_world* world);
 
 /// Applies a command; throws when it is refused.

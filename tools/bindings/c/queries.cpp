@@ -1,4 +1,4 @@
-// Queries. What the core takes for a programmer's error is checked here and refused.
+// Queries. Arguments that the core would assert on are checked here and refused.
 #include <vector>
 
 #include "tools/bindings/c/convert.h"

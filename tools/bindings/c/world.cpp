@@ -40,6 +40,7 @@ lks_world_def raw_def(const WorldDef& def) {
   raw.broad_phase = static_cast<std::uint32_t>(def.broad_phase);
   raw.gravity = raw_of(def.gravity);
   raw.speed_limit = def.speed_limit.raw;
+  raw.converged_contacts = def.converged_contacts;
   return raw;
 }
 
@@ -58,6 +59,7 @@ WorldDef world_def_of(const lks_world_def* from) {
                                BroadPhaseKind::sweep_and_prune, "world.broad_phase");
   def.gravity = vec<Acceleration>(raw.gravity);
   def.speed_limit = Velocity::from_raw(raw.speed_limit);
+  def.converged_contacts = raw.converged_contacts;
   const Refusal refusal = World::explain(def);
   if (refusal) throw failure(Status::invalid_argument, refusal);
   return def;

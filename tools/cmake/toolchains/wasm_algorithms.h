@@ -1,5 +1,5 @@
-// The algorithms on ranges that the standard library of older Emscriptens lacks (libc++ before 15), as
-// far as the project uses them. Included before each file by the toolchain; plain loops over the
+// The algorithms on ranges that the standard library of older Emscriptens lacks (libc++ before 15),
+// as far as the project uses them. Included before each file by the toolchain; plain loops over the
 // iterator forms.
 #pragma once
 
@@ -24,7 +24,8 @@ constexpr auto find_if(Range&& range, Test test, Projection project = {}) {
 
 template <class Range, class Value, class Projection = identity>
 constexpr auto find(Range&& range, const Value& value, Projection project = {}) {
-  return ranges::find_if(range, [&](const auto& x) { return x == value; }, project);
+  return ranges::find_if(
+      range, [&](const auto& x) { return x == value; }, project);
 }
 
 template <class Range, class Test, class Projection = identity>
@@ -61,8 +62,7 @@ namespace shim {
 template <class Less, class Projection>
 constexpr auto order_of(Less& less, Projection& project) {
   return [&](auto&& a, auto&& b) {
-    return static_cast<bool>(
-        std::invoke(less, std::invoke(project, a), std::invoke(project, b)));
+    return static_cast<bool>(std::invoke(less, std::invoke(project, a), std::invoke(project, b)));
   };
 }
 
@@ -105,10 +105,9 @@ constexpr auto minmax_element(Range&& range, Less less = {}, Projection project 
 template <class Range, class Value, class Less = less, class Projection = identity>
 constexpr auto lower_bound(Range&& range, const Value& value, Less less = {},
                            Projection project = {}) {
-  return std::lower_bound(
-      std::begin(range), std::end(range), value, [&](auto&& x, const Value& v) {
-        return static_cast<bool>(std::invoke(less, std::invoke(project, x), v));
-      });
+  return std::lower_bound(std::begin(range), std::end(range), value, [&](auto&& x, const Value& v) {
+    return static_cast<bool>(std::invoke(less, std::invoke(project, x), v));
+  });
 }
 
 template <class Range, class Value>

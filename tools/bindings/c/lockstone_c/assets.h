@@ -58,7 +58,7 @@ typedef struct lks_assets lks_assets;
 
 LKS_API lks_status lks_assets_create(lks_assets** out);
 
-/* Worlds made with the set keep what they need of it. Null is allowed. */
+/* Worlds made with the set keep the assets that they use. Null is allowed. */
 LKS_API void lks_assets_destroy(lks_assets* assets);
 
 /* Adds the convex hull of 4 … 65536 points within ±512 m; `out` is its name: a hash of its content.

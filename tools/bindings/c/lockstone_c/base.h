@@ -26,7 +26,7 @@ enum {
   LKS_CAPACITY_EXHAUSTED = 1,  /* a store of the world is full; nothing was changed */
   LKS_STALE_HANDLE = 2,        /* the body or joint does not exist, or no longer */
   LKS_INVALID_ARGUMENT = 3,    /* a value lies outside its documented range */
-  LKS_TRUNCATED = 4,           /* the bytes end before what they announce */
+  LKS_TRUNCATED = 4,           /* the bytes end too early */
   LKS_MALFORMED = 5,           /* the bytes break their format */
   LKS_CHECKSUM_MISMATCH = 6,   /* the bytes were damaged */
   LKS_UNSUPPORTED_VERSION = 7, /* the bytes are of another format version */
@@ -58,7 +58,7 @@ LKS_API const char* lks_version(void);
 /* Changes whenever the same commands may give another state: peers of a match must agree on it. */
 LKS_API uint32_t lks_simulation_abi(void);
 
-/* The hash of a short built-in scene: what this build computes. Peers must agree on it too. */
+/* This build's hash of a short built-in scene. Peers must agree on it too. */
 LKS_API uint64_t lks_canary_hash(void);
 
 #ifdef __cplusplus

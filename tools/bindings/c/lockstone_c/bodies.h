@@ -81,7 +81,7 @@ typedef struct lks_body_def {
   lks_quat orientation;
   lks_surface surface;
   lks_density density;               /* > 0 */
-  lks_surface_motion surface_motion; /* of what is not dynamic */
+  lks_surface_motion surface_motion; /* of static and kinematic bodies */
   lks_filter filter;
   lks_number gravity_scale;
   lks_rate linear_damping; /* ≥ 0 */
@@ -110,7 +110,7 @@ typedef struct lks_body_view {
   lks_filter filter;
   uint32_t flags;
   uint32_t locks;
-  lks_mass mass; /* 0 of what is not dynamic */
+  lks_mass mass; /* 0 of static and kinematic bodies */
   uint64_t user_data;
 } lks_body_view;
 

@@ -1,4 +1,4 @@
-/* What happened in the last step. Read it before the next one: it is not state. */
+/* Events of the last step. Read them before the next one: they are not state. */
 #ifndef LOCKSTONE_C_EVENTS_H
 #define LOCKSTONE_C_EVENTS_H
 

@@ -1,4 +1,4 @@
-/* Joints: what holds two bodies together, limits how they move against each other, drives them. */
+/* Joints: they hold two bodies together, limit their relative motion, or drive it. */
 #ifndef LOCKSTONE_C_JOINTS_H
 #define LOCKSTONE_C_JOINTS_H
 

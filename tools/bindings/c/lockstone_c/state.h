@@ -26,15 +26,15 @@ enum {
   LKS_CANONICAL = 1 /* for files and other machines: loading checks every byte */
 };
 
-/* An upper bound on what lks_save writes, constant over the world's life. */
+/* An upper bound on the bytes that lks_save writes, constant over the world's life. */
 LKS_API lks_status lks_snapshot_bytes_max(const lks_world* world, uint32_t kind, size_t* out);
 
 /* Writes the state. LKS_BUFFER_TOO_SMALL when it does not fit. */
 LKS_API lks_status lks_save(const lks_world* world, uint32_t kind, void* out, size_t capacity,
                             size_t* bytes);
 
-/* Replaces the state. Canonical bytes may come from anywhere. Native bytes must be what lks_save
- * wrote in this process, unchanged. */
+/* Replaces the state. Canonical bytes may come from anywhere. Native bytes must be unchanged since
+ * lks_save wrote them in this process. */
 LKS_API lks_status lks_load(lks_world* world, uint32_t kind, const void* bytes, size_t count);
 
 /* The first difference between two canonical snapshots of this world or of one with the same

@@ -23,7 +23,9 @@ typedef struct lks_world_def {
   lks_length sleep_distance; /* a body that moves less rests, 1 mm … 1 m */
   uint32_t broad_phase;      /* 0: trees, 1: sweep and prune. Changes no result */
   lks_acceleration3 gravity;
-  lks_velocity speed_limit; /* of every body, 1 … 500 m/s */
+  lks_velocity speed_limit;    /* of every body, 1 … 500 m/s */
+  uint32_t converged_contacts; /* of islands solved to convergence, 0 … 65,536; 0: none is */
+  uint32_t reserved;           /* 0 */
 } lks_world_def;
 
 /* Sets the defaults: `lks_world_def_init(&def, sizeof def)`. */
@@ -56,7 +58,7 @@ LKS_API lks_status lks_config_hash(const lks_world_def* def, const lks_assets* a
 /* Steps on this many threads from here on, 1 … 64, the calling one included. Changes no result. */
 LKS_API lks_status lks_world_set_threads(lks_world* world, uint32_t threads);
 
-/* What one step did. The same on every peer. */
+/* The result of one step. The same on every peer. */
 typedef struct lks_step_report {
   uint32_t size;
   lks_status status; /* LKS_CAPACITY_EXHAUSTED: pairs were left out, alike everywhere */

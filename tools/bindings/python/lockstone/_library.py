@@ -33,7 +33,8 @@ class WorldDef(ctypes.Structure):
     _fields_ = [("size", c_uint32), ("body_capacity", c_uint32), ("pair_capacity", c_uint32),
                 ("contact_capacity", c_uint32), ("joint_capacity", c_uint32), ("tick_rate", c_uint32),
                 ("substeps", c_uint32), ("sleep_ms", c_uint32), ("sleep_distance", c_int32),
-                ("broad_phase", c_uint32), ("gravity", I64x3), ("speed_limit", c_int64)]
+                ("broad_phase", c_uint32), ("gravity", I64x3), ("speed_limit", c_int64),
+                ("converged_contacts", c_uint32), ("reserved", c_uint32)]
 
 
 class Surface(ctypes.Structure):
@@ -159,7 +160,7 @@ _CALLS = {
     "lks_load": [_WORLD, c_uint32, c_char_p, c_size_t],
     "lks_verify_log": [c_char_p, POINTER(LogReport)],
 }
-# The others: what they return, and their arguments.
+# The others: types of the result and of the arguments.
 _OTHERS = {
     "lks_status_name": (c_char_p, [c_int32]),
     "lks_last_error": (c_char_p, []),

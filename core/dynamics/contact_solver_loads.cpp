@@ -1,4 +1,4 @@
-// Contacts of uneven masses in the contact solver: which there are, and what is lent to them.
+// Large islands in the contact solver: the loads that their contacts begin with.
 
 #include <algorithm>
 
@@ -48,33 +48,8 @@ bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
   return is_at_rest(rows_[index]);
 }
 
-// Nothing unless a contact is uneven, or a few are loaded. Bodies with locks or joints are left to
-// the sweeps, which know of both.
-void ContactSolver::take_up_direct(const ContactScene& scene) {
-  direct_.clear();
-  if (!islands_.any(&IslandLoad::needs_direct_solve)) return;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const IslandLoad& island = island_of(i);
-    if (!island.needs_direct_solve()) continue;
-    const Entry& entry = entries_[i];
-    const std::uint32_t slot = slot_of(i);
-    const lanes::ManifoldBlock& block = blocks_[slot / lanes::k_block_lanes];
-    const std::size_t lane = slot % lanes::k_block_lanes;
-    const auto share_b = static_cast<std::int32_t>(block.share[lane]);
-    const ContactPair pair{slot, pushed_number(entry.body_a), pushed_number(entry.body_b)};
-    direct_.add({{pair},
-                 row_of(entry.body_a),
-                 row_of(entry.body_b),
-                 share_b,
-                 island.few_are_loaded() && is_loaded(scene, entry, share_b)});
-  }
-  for (std::uint32_t i = 1; i < members_.size(); ++i)
-    if (bodies_[i].held != 0 || joints_->find(members_[i]) != nullptr) direct_.leave_out(i);
-  direct_.plan(direct_run());
-}
-
-// Where more contacts are loaded than are solved at once, and a good part of all is new: what was
-// just put there stands on impulses that nobody knows yet. Heaps find theirs anew from time to
+// Where many contacts are loaded, and a good part of all is new, bodies were just put on each
+// other: the impulses that they stand on are not known yet. Heaps find theirs anew from time to
 // time.
 void ContactSolver::find_first_loads(const ContactScene& scene, Parallel& parallel) {
   first_loads_.clear();
@@ -84,12 +59,12 @@ void ContactSolver::find_first_loads(const ContactScene& scene, Parallel& parall
       return island.is_heap() && !island.needs_first_loads() && is_free(entries_[i].body_a) &&
              is_free(entries_[i].body_b);
     });
-    heap_loads_.find(supports_, direct_run(), before_, parallel);
+    heap_loads_.find(supports_, contact_run(), before_, parallel);
   }
   // Last, since `store` reads its supports.
   if (islands_.any(&IslandLoad::needs_first_loads)) {
     add_supports(scene, [&](std::size_t i) { return island_of(i).needs_first_loads(); });
-    first_loads_.find(supports_, direct_run(), before_, parallel);
+    first_loads_.find(supports_, contact_run(), before_, parallel);
   }
 }
 
@@ -115,7 +90,7 @@ void ContactSolver::add_supports(const ContactScene& scene, const Takes& takes) 
   }
 }
 
-ContactRun ContactSolver::direct_run() {
+ContactRun ContactSolver::contact_run() {
   return {rows_, before_, std::span(bodies_).first(members_.size()), blocks_, rules_};
 }
 
