@@ -9,7 +9,7 @@ namespace lockstone {
 namespace {
 
 // Of solves for positions in a substep, as long as locks are open by more than 1 mm, Q32.
-constexpr int k_least_solves = 3, k_most_solves = 8;
+constexpr int k_least_loop_solves = 3, k_most_loop_solves = 8;
 constexpr std::int64_t k_nearly_closed = 1 << 22;
 
 // Of times in a solve that motors are found to push harder than they may.
@@ -101,9 +101,9 @@ void JointSolver::factor_loops(Group& group, bool ahead) {
 // resolves, by their directions after it.
 void JointSolver::close_loops(const JointRun& run, Group& group) {
   const bool turn = is_stiff(group);
-  for (int i = 0; i < k_most_solves; ++i) {
+  for (int i = 0; i < k_most_loop_solves; ++i) {
     const std::int64_t widest = approach(run, group, 0, turn);
-    if (i + 1 >= k_least_solves && widest <= k_nearly_closed) return;
+    if (i + 1 >= k_least_loop_solves && widest <= k_nearly_closed) return;
   }
 }
 

@@ -14,7 +14,7 @@ using namespace proximal;
 
 // Residuals are exact. A direct step takes as many of their bits as fit in 27, and fewer where the
 // solution does not fit.
-constexpr int k_residual_bits = 27, k_fewer_bits = 4, k_most_drop = 42;
+constexpr int k_residual_bits = 27, k_more_drop = 4, k_most_drop = 42;
 
 // Passes before the first direct step, and after each; direct steps.
 constexpr int k_first_passes = 2, k_passes = 4, k_direct_steps = 3;
@@ -187,7 +187,7 @@ bool ProximalSolver::direct_step(Island& island) {
   if (!island.is_factored) factor(island);
   find_residuals(island);
   while (!solve_for_changes(island)) {
-    island.drop += k_fewer_bits;
+    island.drop += k_more_drop;
     if (island.drop > k_most_drop) return false;
   }
   const std::span<Problem> problems = problems_of(island);
