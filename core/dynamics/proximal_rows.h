@@ -50,7 +50,7 @@ struct ProximalContact : ContactPair {
   RawVec3 normal{}, tangent{}, binormal{};
   std::array<std::int64_t, lanes::k_block_points> x{}, y{};  // offsets, Q30
   // Words of the block that make its iterations idle, as they were.
-  std::array<std::int64_t, 8> words{};
+  std::array<std::int64_t, 7> words{};
 };
 
 /// Quantities of a contact's rows that only preparation reads.

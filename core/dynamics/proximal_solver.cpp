@@ -112,7 +112,6 @@ void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) 
   const std::size_t lane = contact.lane();
   contact.words = {block.mass_01[lane],
                    block.mass_23[lane],
-                   block.common[lane],
                    block.tangent_mass[0][lane],
                    block.tangent_mass[1][lane],
                    block.twist_row[1][lane],
@@ -123,7 +122,6 @@ void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) 
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
   block.rest[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;
-  block.common[lane] -= low_word(block.common[lane]);
   block.friction[lane] = 0;
   block.twist[lane] = pack(0, contact.radius);
   block.tangent_mass[0][lane] = block.tangent_mass[1][lane] = 0;
@@ -450,12 +448,11 @@ void ProximalSolver::end(const ContactRun& run, std::uint32_t index) const {
     block.twist[lane] = pack(seen[2], contact.radius);
     block.mass_01[lane] = contact.words[0];
     block.mass_23[lane] = contact.words[1];
-    block.common[lane] = contact.words[2];
-    block.tangent_mass[0][lane] = contact.words[3];
-    block.tangent_mass[1][lane] = contact.words[4];
-    block.twist_row[1][lane] = contact.words[5];
-    block.rest[lane] = contact.words[6];
-    block.soft[lane] = contact.words[7];
+    block.tangent_mass[0][lane] = contact.words[2];
+    block.tangent_mass[1][lane] = contact.words[3];
+    block.twist_row[1][lane] = contact.words[4];
+    block.rest[lane] = contact.words[5];
+    block.soft[lane] = contact.words[6];
   }
 }
 
