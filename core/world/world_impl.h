@@ -300,6 +300,24 @@ struct World::Impl {
   void add_trigger(std::uint32_t index, std::span<const ContactRecord> before,
                    PairScratch& scratch);
   [[nodiscard]] std::uint32_t index_of(const ContactRecord& record) const;
+
+  // Ghosts between static bodies (seams.cpp).
+  bool look_for_seam(std::uint32_t pair, bool beside_static);
+  void remove_seams();
+  void remove_seams_of(std::uint32_t first, SeamContacts& scratch);
+  [[nodiscard]] bool is_static_pair(std::uint32_t pair) const;
+  void list_static_contacts(std::uint32_t first, std::uint32_t end, SeamContacts& out) const;
+  [[nodiscard]] TouchedPoint touched_point(std::uint32_t body, const SeamContact& contact,
+                                           int point) const;
+  [[nodiscard]] const std::optional<FaceOfShape>& face_of(std::uint32_t body,
+                                                          SeamContact& contact) const;
+  void judge_seam(std::uint32_t first, std::uint32_t end, SeamContact& contact,
+                  std::span<SeamContact> all) const;
+  [[nodiscard]] bool is_covered(std::uint32_t first, std::uint32_t end, const SeamContact& contact,
+                                const TouchedPoint& at) const;
+  void drop_ghosts(std::uint32_t pair, std::span<const SeamContact> all);
+  void move_slot(std::uint32_t from, std::uint32_t to);
+
   void number_contacts(StepReport& report);
   void number_contacts_of(std::uint32_t pair);
 
