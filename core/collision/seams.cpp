@@ -189,6 +189,15 @@ bool is_below(const TouchedPart& touched, const Vec3<Position>& at, const FaceOf
   return any && all;
 }
 
+bool hides(const TouchedPart& touched, const TouchedPoint& at) {
+  bool found = false;
+  for_each_piece_at(touched.placed, at.point, [&](const Piece& piece) {
+    found = found || (!piece.triangle.is_triangle && piece.part == touched.part &&
+                      rise_above(piece, at) > k_rise);
+  });
+  return found;
+}
+
 bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at) {
   bool found = false;
   for_each_piece_at(placed, at.point, [&](const Piece& piece) {

@@ -144,9 +144,23 @@ void World::Impl::judge_seam(std::uint32_t first, std::uint32_t end, SeamContact
     if (face && is_below(part, at, *face)) contact.ghost_of = i;
   }
   if (contact.ghost_of == SeamContact::k_none) return;
-  for (int i = 0; i < manifolds[contact.slot].count; ++i)
-    if (!is_covered(first, end, contact, touched_point(body, contact, i)))
-      contact.ghost_of = SeamContact::k_none;
+  if (!is_covered(first, end, contact)) contact.ghost_of = SeamContact::k_none;
+}
+
+// Points where the shape itself rises above the plane of the contact are there because a face of
+// the body that lies above it was clipped; the others tell.
+bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end,
+                             const SeamContact& contact) const {
+  const PlacedShape shape = placed(contact.other);
+  const TouchedPart part{shape, origins[contact.slot].part_b};
+  bool any = false;
+  for (int i = 0; i < manifolds[contact.slot].count; ++i) {
+    const TouchedPoint at = touched_point(pairs[first].a, contact, i);
+    if (hides(part, at)) continue;
+    any = true;
+    if (!is_covered(first, end, contact, at)) return false;
+  }
+  return any;
 }
 
 bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end, const SeamContact& contact,

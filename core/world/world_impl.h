@@ -313,6 +313,8 @@ struct World::Impl {
                                                           SeamContact& contact) const;
   void judge_seam(std::uint32_t first, std::uint32_t end, SeamContact& contact,
                   std::span<SeamContact> all) const;
+  [[nodiscard]] bool is_covered(std::uint32_t first, std::uint32_t end,
+                                const SeamContact& contact) const;
   [[nodiscard]] bool is_covered(std::uint32_t first, std::uint32_t end, const SeamContact& contact,
                                 const TouchedPoint& at) const;
   void drop_ghosts(std::uint32_t pair, std::span<const SeamContact> all);
