@@ -192,16 +192,16 @@ bool is_below(const TouchedPart& touched, const Vec3<Position>& at, const FaceOf
 bool hides(const TouchedPart& touched, const TouchedPoint& at) {
   bool found = false;
   for_each_piece_at(touched.placed, at.point, [&](const Piece& piece) {
-    found = found || (!piece.triangle.is_triangle && piece.part == touched.part &&
-                      rise_above(piece, at) > k_rise);
+    found = found || (is_part(piece, touched.part) && rise_above(piece, at) > k_rise);
   });
   return found;
 }
 
-bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at) {
+bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at,
+            const Vec3<Position>& viewer) {
   bool found = false;
   for_each_piece_at(placed, at.point, [&](const Piece& piece) {
-    if (piece.part == except) return;
+    if (piece.part == except || is_behind(viewer, piece)) return;
     found = found ||
             (holds(piece, local_point(piece, at.point)) && rise_above(piece, at) > k_rise);
   });

@@ -57,8 +57,10 @@ struct FaceOfShape {
 inline constexpr std::uint32_t k_no_part = 0xffffffff;
 
 /// Whether a part of the shape, `except` apart, holds the point or comes within `k_seam_width` of
-/// it, and rises above the plane that the normal spans there.
-[[nodiscard]] bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at);
+/// it, and rises above the plane that the normal spans there. Of triangles only those count that
+/// `viewer` is before.
+[[nodiscard]] bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at,
+                          const Vec3<Position>& viewer);
 
 /// Whether the part rises above the plane that the normal spans at one of its own points.
 [[nodiscard]] bool hides(const TouchedPart& touched, const TouchedPoint& at);

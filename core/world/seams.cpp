@@ -172,9 +172,10 @@ bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end, const SeamC
     const bool is_own = other == contact.other;
     const bool has_triangles = body_assets[other] != nullptr &&
                                body_assets[other]->mesh_kernels() != nullptr;
-    if (has_triangles && (is_own || found_contacts[i].count == 0)) continue;
+    if (has_triangles && is_own) continue;
     if (!joined_pairs.empty() && are_joined(pairs[i].a, other)) continue;
-    if (covers(placed(other), is_own ? origins[contact.slot].part_b : k_no_part, at)) return true;
+    const std::uint32_t except = is_own ? origins[contact.slot].part_b : k_no_part;
+    if (covers(placed(other), except, at, bodies[pairs[i].a].position)) return true;
   }
   return false;
 }
