@@ -189,14 +189,6 @@ bool is_below(const TouchedPart& touched, const Vec3<Position>& at, const FaceOf
   return any && all;
 }
 
-bool hides(const TouchedPart& touched, const TouchedPoint& at) {
-  bool found = false;
-  for_each_piece_at(touched.placed, at.point, [&](const Piece& piece) {
-    found = found || (is_part(piece, touched.part) && rise_above(piece, at) > k_rise);
-  });
-  return found;
-}
-
 bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at,
             const Vec3<Position>& viewer) {
   bool found = false;

@@ -62,9 +62,6 @@ inline constexpr std::uint32_t k_no_part = 0xffffffff;
 [[nodiscard]] bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at,
                           const Vec3<Position>& viewer);
 
-/// Whether the part rises above the plane that the normal spans at one of its own points.
-[[nodiscard]] bool hides(const TouchedPart& touched, const TouchedPoint& at);
-
 /// Whether two normals differ by less than can be felt.
 [[nodiscard]] bool are_alike(const Vec3<Unit>& a, const Vec3<Unit>& b);
 

@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint32_t k_seam_grain = 64;
 
+// Points that much farther apart than the nearest say nothing of the edge that is met.
+constexpr Displacement k_slant = Displacement::from_ratio(1, 2000);
+
 bool is_round(ShapeKind kind) {
   return kind == ShapeKind::sphere || kind == ShapeKind::capsule;
 }
@@ -147,20 +150,15 @@ void World::Impl::judge_seam(std::uint32_t first, std::uint32_t end, SeamContact
   if (!is_covered(first, end, contact)) contact.ghost_of = SeamContact::k_none;
 }
 
-// Points where the shape itself rises above the plane of the contact are there because a face of
-// the body that lies above it was clipped; the others tell.
+// The points that are farther apart than the nearest are there because slanted faces were clipped.
 bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end,
                              const SeamContact& contact) const {
-  const PlacedShape shape = placed(contact.other);
-  const TouchedPart part{shape, origins[contact.slot].part_b};
-  bool any = false;
   for (int i = 0; i < manifolds[contact.slot].count; ++i) {
-    const TouchedPoint at = touched_point(pairs[first].a, contact, i);
-    if (hides(part, at)) continue;
-    any = true;
-    if (!is_covered(first, end, contact, at)) return false;
+    const Displacement separation = found_separations[contact.slot][static_cast<std::size_t>(i)];
+    if (separation > contact.separation + k_slant) continue;
+    if (!is_covered(first, end, contact, touched_point(pairs[first].a, contact, i))) return false;
   }
-  return any;
+  return true;
 }
 
 bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end, const SeamContact& contact,
