@@ -17,21 +17,26 @@ bool is_round(ShapeKind kind) {
   return kind == ShapeKind::sphere || kind == ShapeKind::capsule;
 }
 
-// By separation, then by key.
-bool is_deeper(std::span<const SeamContact> all, std::uint32_t a, std::uint32_t b) {
+bool is_on_face(const SeamContact& contact) {
+  return contact.face && are_alike(contact.face->normal, contact.normal);
+}
+
+// First those whose normals are their faces', then by separation, then by key.
+bool keeps_better(std::span<const SeamContact> all, std::uint32_t a, std::uint32_t b) {
+  if (is_on_face(all[a]) != is_on_face(all[b])) return is_on_face(all[a]);
   return all[a].separation != all[b].separation ? all[a].separation < all[b].separation : a < b;
 }
 
-// Of contacts that are ghosts of one another the deepest stays, so that nothing falls through.
+// Of contacts that are ghosts of one another the best stays, so that nothing falls through.
 void break_rings(std::span<SeamContact> all) {
   for (std::uint32_t first = 0; first < all.size(); ++first) {
-    std::uint32_t deepest = first, at = all[first].ghost_of;
+    std::uint32_t best = first, at = all[first].ghost_of;
     for (std::size_t steps = 0; steps < all.size() && at != SeamContact::k_none && at != first;
          ++steps) {
-      if (is_deeper(all, at, deepest)) deepest = at;
+      if (keeps_better(all, at, best)) best = at;
       at = all[at].ghost_of;
     }
-    if (at == first) all[deepest].ghost_of = SeamContact::k_none;
+    if (at == first) all[best].ghost_of = SeamContact::k_none;
   }
 }
 
@@ -131,7 +136,7 @@ const std::optional<FaceOfShape>& World::Impl::face_of(std::uint32_t body,
   return contact.face;
 }
 
-// A ghost names the deepest contact whose face keeps the body off.
+// A ghost names the best contact whose face keeps the body off.
 void World::Impl::judge_seam(std::uint32_t first, std::uint32_t end, SeamContact& contact,
                              std::span<SeamContact> all) const {
   const std::uint32_t body = pairs[first].a;
@@ -142,9 +147,10 @@ void World::Impl::judge_seam(std::uint32_t first, std::uint32_t end, SeamContact
     SeamContact& keeper = all[i];
     if (&keeper == &contact || are_alike(keeper.normal, contact.normal)) continue;
     if (origins[keeper.slot].part_a != origins[contact.slot].part_a) continue;
-    if (contact.ghost_of != SeamContact::k_none && !is_deeper(all, i, contact.ghost_of)) continue;
     const std::optional<FaceOfShape>& face = face_of(body, keeper);
-    if (face && is_below(part, at, *face)) contact.ghost_of = i;
+    if (!face || !is_below(part, at, *face)) continue;
+    if (contact.ghost_of == SeamContact::k_none || keeps_better(all, i, contact.ghost_of))
+      contact.ghost_of = i;
   }
   if (contact.ghost_of == SeamContact::k_none) return;
   if (!is_covered(first, end, contact)) contact.ghost_of = SeamContact::k_none;
