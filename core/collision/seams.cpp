@@ -96,8 +96,7 @@ Fine reach_along(const Piece& piece, const Vec3<Unit>& axis) {
     case ShapeKind::capsule:
       return fine(shape.size.x) + (abs(axis.y) * shape.size.y).raw;
     default:
-      return (abs(axis.x) * shape.size.x + abs(axis.y) * shape.size.y +
-              abs(axis.z) * shape.size.z)
+      return (abs(axis.x) * shape.size.x + abs(axis.y) * shape.size.y + abs(axis.z) * shape.size.z)
           .raw;
   }
 }
@@ -194,8 +193,7 @@ bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint&
   bool found = false;
   for_each_piece_at(placed, at.point, [&](const Piece& piece) {
     if (piece.part == except || is_behind(viewer, piece)) return;
-    found = found ||
-            (holds(piece, local_point(piece, at.point)) && rise_above(piece, at) > k_rise);
+    found = found || (holds(piece, local_point(piece, at.point)) && rise_above(piece, at) > k_rise);
   });
   return found;
 }

@@ -42,7 +42,7 @@ struct TouchedPart {
 
 /// A face of a static shape.
 struct FaceOfShape {
-  Vec3<Unit> normal{};      ///< away from the shape
+  Vec3<Unit> normal{};  ///< away from the shape
   Vec3<Position> point{};
 };
 

@@ -71,7 +71,7 @@ struct alignas(64) PairScratch {
   PartContacts part_contacts;                  // of the pair at hand
   std::unique_ptr<TriangleScratch> triangles;  // null when no asset has triangles
   WaitingBoxes boxes;
-  SeamContacts seams;  // of the body at hand
+  SeamContacts seams;               // of the body at hand
   std::uint32_t next = 0, end = 0;  // slots at hand
   std::uint32_t taken = 0;          // slots that hold a contact
 };

@@ -14,10 +14,10 @@ struct SeamContact {
   static constexpr std::uint32_t k_none = 0xffffffff;
 
   std::uint32_t slot = 0;
-  std::uint32_t other = 0;  ///< the static body
-  Vec3<Unit> normal{};      ///< away from it
+  std::uint32_t other = 0;    ///< the static body
+  Vec3<Unit> normal{};        ///< away from it
   Displacement separation{};  ///< the least
-  bool has_looked = false;  ///< for the face
+  bool has_looked = false;    ///< for the face
   std::optional<FaceOfShape> face{};
   /// The contact whose face keeps the body off this one's shape, where this one is a ghost.
   std::uint32_t ghost_of = k_none;

@@ -1,8 +1,9 @@
 // Ghosts at the seams between static bodies, removed from the contacts of each moving body.
 
+#include "core/collision/seams.h"
+
 #include <algorithm>
 
-#include "core/collision/seams.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -174,8 +175,8 @@ bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end, const SeamC
     const std::uint32_t other = pairs[i].b;
     if (!is_static_pair(i) || !overlap(near, broad_phase.bounds(other))) continue;
     const bool is_own = other == contact.other;
-    const bool has_triangles = body_assets[other] != nullptr &&
-                               body_assets[other]->mesh_kernels() != nullptr;
+    const bool has_triangles =
+        body_assets[other] != nullptr && body_assets[other]->mesh_kernels() != nullptr;
     if (has_triangles && is_own) continue;
     if (!joined_pairs.empty() && are_joined(pairs[i].a, other)) continue;
     const std::uint32_t except = is_own ? origins[contact.slot].part_b : k_no_part;

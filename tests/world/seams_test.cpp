@@ -113,10 +113,10 @@ void add_tiles(World& world, const Assets& assets, Tile kind, int length, Coeffi
       if (kind == Tile::compound && row != 0) continue;
       const auto turn = static_cast<std::size_t>(7 * i + 3 * row + 21) % 4;
       const Length up = jitter * (static_cast<int>((5 * i + row + 20) % 3) - 1);
-      add_fixed(world, assets.shape(kind == Tile::mixed ? k_kinds[turn] : kind),
-                {Position::from_integer(i), -raised(k_half) + raised(up),
-                 Position::from_integer(row)},
-                friction);
+      add_fixed(
+          world, assets.shape(kind == Tile::mixed ? k_kinds[turn] : kind),
+          {Position::from_integer(i), -raised(k_half) + raised(up), Position::from_integer(row)},
+          friction);
     }
   }
 }
@@ -146,8 +146,7 @@ Course roll(Tile kind, int speed, const Shape& shape, Length jitter = {}) {
   BodyDef def = test::dynamic_body(shape, {}, rounded<Position>(radius), 0.13_m);
   def.orientation = from_axis_angle({1_r, {}, {}}, 1.5707963_rad);
   def.velocity = {Velocity::from_integer(speed), {}, {}};
-  def.angular_velocity.z =
-      AngularVelocity::from_raw(-(std::int64_t{speed} << 52) / radius.raw);
+  def.angular_velocity.z = AngularVelocity::from_raw(-(std::int64_t{speed} << 52) / radius.raw);
   def.material.friction = 0.6_r;
   return travel(world, test::add(world, def), 120);
 }
@@ -166,7 +165,7 @@ class Seams : public ::testing::TestWithParam<Tile> {};
 
 INSTANTIATE_TEST_SUITE_P(Tiles, Seams,
                          ::testing::Values(Tile::box, Tile::hull, Tile::compound, Tile::mesh,
-                                         Tile::height_field, Tile::mixed));
+                                           Tile::height_field, Tile::mixed));
 
 TEST_P(Seams, DoNotKickABallThatRollsOverThem) {
   for (const int speed : {3, 8, 20}) {
@@ -268,8 +267,8 @@ Vec3<Position> tipped(bool is_parted) {
   } else {
     add_fixed(world, Shape::box(1_m, 0.5_m, 2_m), {-1_m, -0.5_m, {}}, 0.5_r);
   }
-  const BodyHandle body = test::add(
-      world, test::dynamic_body(Shape::box(0.3_m, 0.1_m, 0.2_m), 0.05_m, 0.1_m, 0.05_m));
+  const BodyHandle body =
+      test::add(world, test::dynamic_body(Shape::box(0.3_m, 0.1_m, 0.2_m), 0.05_m, 0.1_m, 0.05_m));
   travel(world, body, 40);
   return world.body(body).position;
 }
@@ -290,9 +289,9 @@ TEST(NoSeam, AreFoundAlikeByAnyNumberOfThreads) {
     world.set_task_runner(&pool, TaskPieces::smallest);
     add_tiles(world, assets, Tile::mixed, 24, {});
     for (int i = 0; i < 24; ++i) {
-      BodyDef def = test::dynamic_body(
-          i % 2 == 0 ? Shape::sphere(0.1_m) : Shape::box(0.1_m, 0.1_m, 0.1_m),
-          Position::from_ratio(i, 2), 0.1_m, Position::from_ratio(i % 3 - 1, 2));
+      BodyDef def =
+          test::dynamic_body(i % 2 == 0 ? Shape::sphere(0.1_m) : Shape::box(0.1_m, 0.1_m, 0.1_m),
+                             Position::from_ratio(i, 2), 0.1_m, Position::from_ratio(i % 3 - 1, 2));
       def.velocity.x = 5_mps;
       test::add(world, def);
     }
