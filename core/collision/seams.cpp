@@ -13,7 +13,7 @@ using geometry::fine;
 /// Above the rounding errors of points and supports.
 constexpr Fine k_rise = Fine{1} << (geometry::k_fine_bits - 15);  // 31 µm
 
-/// How far behind its front a triangle counts as solid: beyond what a load presses a body in.
+/// How far behind its front a triangle counts as solid: farther than a load presses a body in.
 constexpr Length k_triangle_depth = Length::from_ratio(1, 50);
 
 /// Further than a shape reaches.

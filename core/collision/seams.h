@@ -1,14 +1,14 @@
 // Seams: where static shapes lie side by side as one surface.
 //
 // A shape does not know that its neighbour carries on where it ends: its sides and edges are met as
-// if it stood alone, and what slides over a floor of boxes bumps into the sides between them. A
-// contact is such a ghost when
+// if it stood alone, and a body that slides over a floor of boxes bumps into the sides between
+// them. A contact is such a ghost when
 // - each of its points lies on a neighbour too, which rises above the plane that the normal spans
 //   there, so that no ball could touch the two there with this normal; and
 // - the whole shape lies below a face that the body touches elsewhere, so that the body clears it
 //   as long as that face holds.
 // The first is the rule by which a mesh finds the ghosts among its own edges (mesh_contacts.h); the
-// second lets steps, walls and the corner between a wall and a floor be what they are. That all
+// second keeps the contacts with steps and walls, and in the corner of wall and floor. That all
 // static shapes near a body are judged together, whatever bodies they belong to, is Jolt Physics'
 // InternalEdgeRemovingCollector.h (J. Rouwe), after Pierre Terdiman, "Contact generation for
 // meshes".

@@ -46,7 +46,178 @@ Displacement least_of(const std::array<Displacement, k_max_manifold_points>& sep
   return *std::min_element(separations.begin(), separations.begin() + count);
 }
 
+std::uint32_t end_of(std::span<const Pair> pairs, std::uint32_t first) {
+  std::uint32_t end = first;
+  while (end < pairs.size() && pairs[end].a == pairs[first].a)
+    ++end;
+  return end;
+}
+
 }  // namespace
+
+// The contacts of one moving body with static ones.
+struct World::Impl::SeamSearch {
+  Impl& world;
+  const std::uint32_t first, end;  // the body's pairs
+  const std::uint32_t body;
+  SeamContacts& found;
+
+  SeamSearch(Impl& of, std::uint32_t first_pair, SeamContacts& scratch)
+      : world(of),
+        first(first_pair),
+        end(end_of(of.pairs, first_pair)),
+        body(of.pairs[first_pair].a),
+        found(scratch) {}
+
+  void run();
+
+ private:
+  void list_contacts();
+  void list_contacts_of(std::uint32_t pair);
+  void judge(SeamContact& contact);
+  void drop_ghosts(std::uint32_t pair);
+  void move_slot(std::uint32_t from, std::uint32_t to);
+  [[nodiscard]] bool is_static(std::uint32_t pair) const;
+  [[nodiscard]] TouchedPoint point_of(const SeamContact& contact, int point) const;
+  [[nodiscard]] const std::optional<FaceOfShape>& face_of(SeamContact& contact) const;
+  [[nodiscard]] bool is_covered(const SeamContact& contact) const;
+  [[nodiscard]] bool is_covered(const SeamContact& contact, const TouchedPoint& at) const;
+  [[nodiscard]] std::uint32_t part_of(const SeamContact& contact) const {
+    return world.origins[contact.slot].part_b;
+  }
+};
+
+void World::Impl::SeamSearch::run() {
+  list_contacts();
+  bool any = false;
+  for (SeamContact& each : found.all()) {
+    judge(each);
+    any = any || each.ghost_of != SeamContact::k_none;
+  }
+  if (!any) return;
+  break_rings(found.all());
+  for (std::uint32_t i = first; i < end; ++i)
+    drop_ghosts(i);
+}
+
+bool World::Impl::SeamSearch::is_static(std::uint32_t pair) const {
+  const BodyRecord& other = world.bodies[world.pairs[pair].b];
+  return !other.moves() && !other.is_trigger() && !world.bodies[body].is_trigger();
+}
+
+// Nothing is listed where all have one normal: then none can do harm.
+void World::Impl::SeamSearch::list_contacts() {
+  found.count = 0;
+  for (std::uint32_t i = first; i < end; ++i)
+    if (world.found_contacts[i].count > 0 && is_static(i)) list_contacts_of(i);
+  const auto is_like_first = [&](const SeamContact& each) {
+    return are_alike(each.normal, found.contacts.front().normal);
+  };
+  if (std::ranges::all_of(found.all(), is_like_first)) found.count = 0;
+}
+
+void World::Impl::SeamSearch::list_contacts_of(std::uint32_t pair) {
+  const FoundContacts& of_pair = world.found_contacts[pair];
+  for (std::uint32_t i = 0; i < of_pair.count; ++i) {
+    if (found.count == SeamContacts::k_capacity) return;
+    const std::uint32_t slot = of_pair.slot + i;
+    const Manifold& manifold = world.manifolds[slot];
+    found.contacts[found.count++] = {slot, world.pairs[pair].b, -manifold.normal,
+                                     least_of(world.found_separations[slot], manifold.count)};
+  }
+}
+
+// On the surface of the static body. Overlapping bodies share a point, which is round bodies' own.
+TouchedPoint World::Impl::SeamSearch::point_of(const SeamContact& contact, int point) const {
+  const auto at = static_cast<std::size_t>(point);
+  const BodyRecord& record = world.bodies[body];
+  const Vec3<Length>& anchor = world.manifolds[contact.slot].points[at].anchor_a;
+  const Displacement separation = world.found_separations[contact.slot][at];
+  const bool halves = separation.raw < 0 && !is_round(record.shape().kind);
+  const Displacement way = halves ? separation / 2 : separation;
+  const bool may_drift = world.is_found_at_contact_poses({body, contact.other});
+  const Vec3<Position> centre = may_drift ? contact_position(record) : record.position;
+  return {centre + anchor - rounded<Position>(contact.normal * way), contact.normal};
+}
+
+const std::optional<FaceOfShape>& World::Impl::SeamSearch::face_of(SeamContact& contact) const {
+  if (contact.has_looked) return contact.face;
+  contact.has_looked = true;
+  contact.face =
+      touched_face({world.placed(contact.other), part_of(contact)}, point_of(contact, 0));
+  return contact.face;
+}
+
+// A ghost names the best contact whose face keeps the body off.
+void World::Impl::SeamSearch::judge(SeamContact& contact) {
+  const std::span<SeamContact> all = found.all();
+  const PlacedShape shape = world.placed(contact.other);
+  const Vec3<Position> at = point_of(contact, 0).point;
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    SeamContact& keeper = all[i];
+    if (&keeper == &contact || are_alike(keeper.normal, contact.normal)) continue;
+    if (world.origins[keeper.slot].part_a != world.origins[contact.slot].part_a) continue;
+    const std::optional<FaceOfShape>& face = face_of(keeper);
+    if (!face || !is_below({shape, part_of(contact)}, at, *face)) continue;
+    if (contact.ghost_of == SeamContact::k_none || keeps_better(all, i, contact.ghost_of))
+      contact.ghost_of = i;
+  }
+  if (contact.ghost_of == SeamContact::k_none) return;
+  if (!is_covered(contact)) contact.ghost_of = SeamContact::k_none;
+}
+
+// The points that are farther apart than the nearest are there because slanted faces were clipped.
+bool World::Impl::SeamSearch::is_covered(const SeamContact& contact) const {
+  for (int i = 0; i < world.manifolds[contact.slot].count; ++i) {
+    const Displacement separation =
+        world.found_separations[contact.slot][static_cast<std::size_t>(i)];
+    if (separation > contact.separation + k_slant) continue;
+    if (!is_covered(contact, point_of(contact, i))) return false;
+  }
+  return true;
+}
+
+// By any static body that the moving one may touch. A mesh knows the ghosts among its own edges.
+bool World::Impl::SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) const {
+  const Bounds near = bounds_of_way(at.point, at.point, k_seam_width);
+  for (std::uint32_t i = first; i < end; ++i) {
+    const std::uint32_t other = world.pairs[i].b;
+    if (!is_static(i) || !overlap(near, world.broad_phase.bounds(other))) continue;
+    const Asset* asset = world.body_assets[other];
+    const bool is_own = other == contact.other;
+    if (is_own && asset != nullptr && asset->mesh_kernels() != nullptr) continue;
+    if (!world.joined_pairs.empty() && world.are_joined(body, other)) continue;
+    const std::uint32_t except = is_own ? part_of(contact) : k_no_part;
+    if (covers(world.placed(other), except, at, world.bodies[body].position)) return true;
+  }
+  return false;
+}
+
+// The contacts that stay move up to the pair's first slots.
+void World::Impl::SeamSearch::drop_ghosts(std::uint32_t pair) {
+  FoundContacts& of_pair = world.found_contacts[pair];
+  const auto is_ghost = [&](std::uint32_t slot) {
+    const auto at = std::ranges::find(found.all(), slot, &SeamContact::slot);
+    return at != found.all().end() && at->ghost_of != SeamContact::k_none;
+  };
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < of_pair.count; ++i) {
+    const std::uint32_t from = of_pair.slot + i, to = of_pair.slot + kept;
+    if (is_ghost(from)) continue;
+    ++kept;
+    if (from != to) move_slot(from, to);
+  }
+  world.narrow.note_dropped(of_pair.count - kept);
+  of_pair.count = kept;
+}
+
+void World::Impl::SeamSearch::move_slot(std::uint32_t from, std::uint32_t to) {
+  world.origins[to] = world.origins[from];
+  world.manifolds[to] = world.manifolds[from];
+  world.inputs[to] = world.inputs[from];
+  world.found_separations[to] = world.found_separations[from];
+  world.surfaces[to] = world.surfaces[from];
+}
 
 // The pairs of a body follow one another; whoever has the first of them does all.
 void World::Impl::remove_seams() {
@@ -56,7 +227,7 @@ void World::Impl::remove_seams() {
                     [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
                       for (std::uint32_t i = first; i < end; ++i) {
                         if (i > 0 && pairs[i - 1].a == pairs[i].a) continue;
-                        remove_seams_of(i, narrow.scratch(worker).seams);
+                        SeamSearch(*this, i, narrow.scratch(worker).seams).run();
                       }
                     });
 }
@@ -69,146 +240,6 @@ bool World::Impl::look_for_seam(std::uint32_t pair, bool beside_static) {
   if (bodies[both.b].moves()) return goes_on;
   if (goes_on || !has_one_piece(both.b)) narrow.note_seams();
   return true;
-}
-
-bool World::Impl::is_static_pair(std::uint32_t pair) const {
-  const BodyRecord& other = bodies[pairs[pair].b];
-  return !other.moves() && !other.is_trigger() && !bodies[pairs[pair].a].is_trigger();
-}
-
-// `first`: the first pair of a body.
-void World::Impl::remove_seams_of(std::uint32_t first, SeamContacts& scratch) {
-  std::uint32_t end = first;
-  while (end < pairs.size() && pairs[end].a == pairs[first].a)
-    ++end;
-  list_static_contacts(first, end, scratch);
-  const std::span<SeamContact> all = scratch.all();
-  bool any = false;
-  for (SeamContact& each : all) {
-    judge_seam(first, end, each, all);
-    any = any || each.ghost_of != SeamContact::k_none;
-  }
-  if (!any) return;
-  break_rings(all);
-  for (std::uint32_t i = first; i < end; ++i)
-    drop_ghosts(i, all);
-}
-
-// Nothing is listed where all have one normal: then none can do harm.
-void World::Impl::list_static_contacts(std::uint32_t first, std::uint32_t end,
-                                       SeamContacts& out) const {
-  out.count = 0;
-  bool differ = false;
-  for (std::uint32_t i = first; i < end; ++i) {
-    const FoundContacts& found = found_contacts[i];
-    if (found.count == 0 || !is_static_pair(i)) continue;
-    for (std::uint32_t slot = found.slot; slot < found.slot + found.count; ++slot) {
-      if (out.count == SeamContacts::k_capacity) break;
-      const Manifold& manifold = manifolds[slot];
-      SeamContact& contact = out.contacts[out.count++];
-      contact = {slot, pairs[i].b, -manifold.normal,
-                 least_of(found_separations[slot], manifold.count)};
-      differ = differ || !are_alike(contact.normal, out.contacts.front().normal);
-    }
-  }
-  if (!differ) out.count = 0;
-}
-
-// On the surface of the static body. Overlapping bodies share a point, which is round bodies' own.
-TouchedPoint World::Impl::touched_point(std::uint32_t body, const SeamContact& contact,
-                                        int point) const {
-  const auto at = static_cast<std::size_t>(point);
-  const Vec3<Length>& anchor = manifolds[contact.slot].points[at].anchor_a;
-  const Displacement separation = found_separations[contact.slot][at];
-  const bool halves = separation.raw < 0 && !is_round(bodies[body].shape().kind);
-  const Displacement way = halves ? separation / 2 : separation;
-  const Vec3<Position> centre = is_found_at_contact_poses({body, contact.other})
-                                    ? contact_position(bodies[body])
-                                    : bodies[body].position;
-  return {centre + anchor - rounded<Position>(contact.normal * way), contact.normal};
-}
-
-const std::optional<FaceOfShape>& World::Impl::face_of(std::uint32_t body,
-                                                       SeamContact& contact) const {
-  if (contact.has_looked) return contact.face;
-  contact.has_looked = true;
-  contact.face = touched_face({placed(contact.other), origins[contact.slot].part_b},
-                              touched_point(body, contact, 0));
-  return contact.face;
-}
-
-// A ghost names the best contact whose face keeps the body off.
-void World::Impl::judge_seam(std::uint32_t first, std::uint32_t end, SeamContact& contact,
-                             std::span<SeamContact> all) const {
-  const std::uint32_t body = pairs[first].a;
-  const PlacedShape shape = placed(contact.other);
-  const TouchedPart part{shape, origins[contact.slot].part_b};
-  const Vec3<Position> at = touched_point(body, contact, 0).point;
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    SeamContact& keeper = all[i];
-    if (&keeper == &contact || are_alike(keeper.normal, contact.normal)) continue;
-    if (origins[keeper.slot].part_a != origins[contact.slot].part_a) continue;
-    const std::optional<FaceOfShape>& face = face_of(body, keeper);
-    if (!face || !is_below(part, at, *face)) continue;
-    if (contact.ghost_of == SeamContact::k_none || keeps_better(all, i, contact.ghost_of))
-      contact.ghost_of = i;
-  }
-  if (contact.ghost_of == SeamContact::k_none) return;
-  if (!is_covered(first, end, contact)) contact.ghost_of = SeamContact::k_none;
-}
-
-// The points that are farther apart than the nearest are there because slanted faces were clipped.
-bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end,
-                             const SeamContact& contact) const {
-  for (int i = 0; i < manifolds[contact.slot].count; ++i) {
-    const Displacement separation = found_separations[contact.slot][static_cast<std::size_t>(i)];
-    if (separation > contact.separation + k_slant) continue;
-    if (!is_covered(first, end, contact, touched_point(pairs[first].a, contact, i))) return false;
-  }
-  return true;
-}
-
-bool World::Impl::is_covered(std::uint32_t first, std::uint32_t end, const SeamContact& contact,
-                             const TouchedPoint& at) const {
-  const Bounds near = bounds_of_way(at.point, at.point, k_seam_width);
-  for (std::uint32_t i = first; i < end; ++i) {
-    const std::uint32_t other = pairs[i].b;
-    if (!is_static_pair(i) || !overlap(near, broad_phase.bounds(other))) continue;
-    const bool is_own = other == contact.other;
-    const bool has_triangles =
-        body_assets[other] != nullptr && body_assets[other]->mesh_kernels() != nullptr;
-    if (has_triangles && is_own) continue;
-    if (!joined_pairs.empty() && are_joined(pairs[i].a, other)) continue;
-    const std::uint32_t except = is_own ? origins[contact.slot].part_b : k_no_part;
-    if (covers(placed(other), except, at, bodies[pairs[i].a].position)) return true;
-  }
-  return false;
-}
-
-// The contacts that stay move up to the pair's first slots.
-void World::Impl::drop_ghosts(std::uint32_t pair, std::span<const SeamContact> all) {
-  FoundContacts& found = found_contacts[pair];
-  const auto is_ghost = [&](std::uint32_t slot) {
-    const auto at = std::ranges::find(all, slot, &SeamContact::slot);
-    return at != all.end() && at->ghost_of != SeamContact::k_none;
-  };
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < found.count; ++i) {
-    const std::uint32_t from = found.slot + i, to = found.slot + kept;
-    if (is_ghost(from)) continue;
-    ++kept;
-    if (from != to) move_slot(from, to);
-  }
-  narrow.note_dropped(found.count - kept);
-  found.count = kept;
-}
-
-void World::Impl::move_slot(std::uint32_t from, std::uint32_t to) {
-  origins[to] = origins[from];
-  manifolds[to] = manifolds[from];
-  inputs[to] = inputs[from];
-  found_separations[to] = found_separations[from];
-  surfaces[to] = surfaces[from];
 }
 
 }  // namespace lockstone
