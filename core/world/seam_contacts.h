@@ -23,7 +23,7 @@ struct SeamContact {
   std::uint32_t ghost_of = k_none;
 };
 
-/// The contacts of one body. Beyond the capacity the last are taken for what they are.
+/// The contacts of one body. Beyond the capacity the last are not judged, and stay.
 struct SeamContacts {
   static constexpr std::uint32_t k_capacity = 96;
 

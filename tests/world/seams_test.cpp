@@ -1,4 +1,4 @@
-// Static bodies side by side are met as one surface; real steps, walls and rims are what they are.
+// Static bodies side by side are met as one surface; real steps, walls and rims are still met.
 #include <algorithm>
 #include <array>
 #include <cmath>
