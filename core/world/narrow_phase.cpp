@@ -51,6 +51,7 @@ void World::Impl::collide_pairs(StepReport& report) {
   separating_axes.begin(pairs.size());
   if (!collide_side_by_side()) collide_one_by_one();
   if (narrow.has_overflowed()) report.status = Status::capacity_exhausted;
+  remove_seams();
   number_contacts(report);
   remembers_manifolds = true;
 }
@@ -101,7 +102,9 @@ void World::Impl::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
   std::span<const ContactRecord> before(begin, all.end());
   auto joined = std::ranges::lower_bound(joined_pairs, pairs[first]);
   SeparatingAxes::Reader last_axes = separating_axes.read_from(pairs[first]);
+  bool beside_static = first > 0;  // a static body may come before
   for (std::uint32_t i = first; i < end; ++i) {
+    beside_static = look_for_seam(i, beside_static);
     found_contacts[i] = {};
     separating_axes.note(i, pairs[i], {});
     while (joined != joined_pairs.end() && *joined < pairs[i])

@@ -300,6 +300,9 @@ struct World::Impl {
   void add_trigger(std::uint32_t index, std::span<const ContactRecord> before,
                    PairScratch& scratch);
   [[nodiscard]] std::uint32_t index_of(const ContactRecord& record) const;
+  struct SeamSearch;  // for ghosts between static bodies (seams.cpp)
+  bool look_for_seam(std::uint32_t pair, bool beside_static);
+  void remove_seams();
   void number_contacts(StepReport& report);
   void number_contacts_of(std::uint32_t pair);
 
@@ -316,9 +319,7 @@ struct World::Impl {
   void store_impulses();
   void move_bodies(StepReport& report);
   struct MoveCounts {
-    std::uint32_t free_bodies = 0;
-    std::uint32_t axis_turns = 0;
-    std::uint32_t saturations = 0;
+    std::uint32_t free_bodies = 0, axis_turns = 0, saturations = 0;
   };
   void move_body(std::uint32_t body, MoveCounts& counts);
   [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
@@ -440,9 +441,7 @@ struct World::Impl {
 
   // By pair: the contacts that were found, in slots and in the list of contacts.
   struct FoundContacts {
-    std::uint32_t slot = 0;
-    std::uint32_t count = 0;
-    std::uint32_t index = 0;
+    std::uint32_t slot = 0, count = 0, index = 0;
   };
   std::vector<FoundContacts> found_contacts;
 
