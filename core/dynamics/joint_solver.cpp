@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dynamics/joint_numbers.h"
+#include "core/math/product_sum.h"
 
 namespace lockstone {
 namespace {
@@ -83,6 +84,8 @@ void JointSolver::load_impulses(Joint& joint, int shift) const {
     joint.locks[i] = std::int64_t{joint.record->axes[i].impulse.raw} * (1 << shift);
     joint.relaxed[i] = 0;
     joint.driven[i] = std::int64_t{joint.record->axes[i].drive_impulse.raw} * (1 << 30);
+    if (joint.drives[i].is_spring)
+      joint.driven[i] = product_rounded(joint.driven[i], joint.drives[i].before.share, 30);
   }
 }
 
@@ -208,6 +211,8 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
   }
   linearize(cluster);
   begin_pushes(run, cluster);
+  for (Joint& joint : joints_of(cluster))
+    solve_springs_later(run, joint);
   for (int i = 0; i < k_velocity_solves; ++i) {
     for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);

@@ -157,11 +157,17 @@ class JointSolver {
     int exponent = 0;  // power of two that scales it in a factor
   };
   using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
+  // What a spring gives before positions move, or after it.
+  struct SpringPart {
+    std::int64_t stiffness = 0;  // 1/s, Q40, per 1 + a
+    std::int64_t damping = 0;    // a, Q30, per 1 + a
+    std::int64_t forgets = 0;    // Q30, 1 / (1 + a)
+    std::int64_t share = 0;      // of its bound, Q30
+  };
   struct Drive {
-    std::int32_t bias_rate = 0;  // 1/s, Q20
-    std::int32_t keep = 0;       // Q30: 1 − impulse scale
     bool is_spring = false;
     std::int64_t bound = 0;  // Q50; 0: none
+    SpringPart before, after;
   };
   struct Joint {
     const JointRecord* record = nullptr;
@@ -173,7 +179,7 @@ class JointSolver {
     std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
-    std::array<std::int64_t, k_joint_axes> driven_later{};  // by motors of loops, as `relaxed`
+    std::array<std::int64_t, k_joint_axes> driven_later{};  // after positions moved, as `relaxed`
     std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
@@ -240,6 +246,7 @@ class JointSolver {
   void make_joint(Link& link);
   [[nodiscard]] static std::uint32_t most_locks(const JointRecord& joint);
   void set_drives(Joint& joint) const;
+  void set_spring(const Joint& joint, const JointAxisRecord& axis, Drive& drive) const;
   void load_impulses(Joint& joint, int shift) const;
   [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
                                     const JointPose& b) const;
@@ -278,6 +285,9 @@ class JointSolver {
   void leave_out_far(const JointRun& run, Joint& joint) const;
   [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
   bool solve_drives(const JointRun& run, Joint& joint, bool motors);
+  void solve_springs_later(const JointRun& run, Joint& joint);
+  [[nodiscard]] std::int64_t spring_impulse(const JointRun& run, const Joint& joint,
+                                            std::size_t row, bool later) const;
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);

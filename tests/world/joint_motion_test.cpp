@@ -280,6 +280,52 @@ TEST(Joints, SpringSagsAsHookeSays) {
   EXPECT_NEAR(torque / (40 * 9.81 * 0.5 * std::cos(lever.angle())), 1, 0.15);
 }
 
+// A ball of 0.2 m on a spring of 1 m, pulled by `pulled` beyond it, without gravity.
+struct Swinger {
+  World world = test::make_world({.body_capacity = 4, .gravity = {}});
+  JointDef def = JointDef::of(JointKind::distance, add_fixed(world), {});
+
+  Swinger(Number hertz, Number damping_ratio, Position pulled) {
+    def.body_b = test::add(world, test::dynamic_body(Shape::sphere(0.2_m), 1_m + pulled, {}, {}));
+    def.linear[0].target = 1_m;
+    def.linear[0].hertz = hertz;
+    def.linear[0].damping_ratio = damping_ratio;
+    join(world, def);
+  }
+  double stretch() { return number(world.body(def.body_b).centre_of_mass.x.raw, 32) - 1; }
+};
+
+TEST(Joints, AnUndampedSpringKeepsItsAmplitudeAndItsFrequency) {
+  for (const int tenths : {3, 20, 97}) {
+    const double hertz = tenths / 10.0;
+    Swinger swings(Number::from_ratio(tenths, 10), {}, 0.25_m);
+    for (int tick = 1; tick <= 600; ++tick) {
+      (void)swings.world.step();
+      ASSERT_NEAR(swings.stretch(), 0.25 * std::cos(2 * M_PI * hertz * tick / 60), 0.0025)
+          << hertz << " Hz, tick " << tick;
+    }
+  }
+}
+
+TEST(Joints, ASpringBeyondWhatTheSubstepResolvesComesToRest) {
+  Swinger stiff(60_r, {}, 0.25_m);
+  test::step(stiff.world, 60);
+  EXPECT_NEAR(stiff.stretch(), 0, 1e-3);
+}
+
+TEST(Joints, ADampedSpringDecaysAsItShould) {
+  Swinger damped(3_r, 0.05_r, 0.25_m);
+  const double omega = 2 * M_PI * 3, rate = 0.05 * omega, beat = omega * std::sqrt(1 - 0.0025);
+  for (int tick = 1; tick <= 120; ++tick) {
+    (void)damped.world.step();
+    const double t = tick / 60.0;
+    ASSERT_NEAR(
+        damped.stretch(),
+        0.25 * std::exp(-rate * t) * (std::cos(beat * t) + rate / beat * std::sin(beat * t)), 0.004)
+        << "tick " << tick;
+  }
+}
+
 TEST(Joints, WeldHoldsAsOne) {
   World world = test::make_world();
   const BodyHandle a =
