@@ -173,6 +173,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   before_.reserve(most_rows);
   travel_.reserve(most_rows);
   axes_.reserve(most_rows);
+  gained_.reserve(most_rows);
+  gains_.reserve(body_capacity + 1);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);

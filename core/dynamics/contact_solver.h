@@ -80,7 +80,10 @@ class ContactSolver {
 
   /// Writes a touched body's substeps back: position, orientation, velocity and spin.
   /// `rotation` is the matrix of its orientation; answers as `fly`.
-  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body) const;
+  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body);
+
+  /// Once all have moved: bounces that would give an island energy give less.
+  void limit_bounces(std::span<BodyRecord> bodies);
 
   /// The velocity and the spin that a touched body has after `run`.
   [[nodiscard]] std::array<Vec3<Velocity>, 2> speeds(const SolverBody& solved) const;
@@ -128,6 +131,7 @@ class ContactSolver {
     relax,
     relax_islands,
     end_islands,
+    keep_speeds,
     bounce,
     store,
   };
@@ -191,6 +195,19 @@ class ContactSolver {
     bool mixed = false;
 
     void add(const Vec3<Unit>& n);
+  };
+
+  // What bounces gave a body, and what it had before.
+  struct Bounce {
+    Vec3<Velocity> velocity, spin, velocity_gain, spin_gain;
+  };
+  // Of an island, twice energies in a unit of its own.
+  struct IslandGain {
+    BlockFloat unit{};        // inverse mass
+    std::int64_t gained = 0;  // besides the work of gravity and forces
+    std::int64_t square = 0;  // of bounces
+    std::int64_t linear = 0;  // of bounces and what was there before
+    std::int32_t share = 0;   // of bounces that is left, Q30
   };
 
   std::uint32_t take_up(Side side);
@@ -277,6 +294,14 @@ class ContactSolver {
   void hold(std::size_t index);
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
+  std::uint32_t move(std::size_t index, const Mat3& rotation, BodyRecord& body) const;
+  void find_fed_islands(const ContactScene& scene);
+  void keep_speeds(std::size_t first, std::size_t end);
+  void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);
+  [[nodiscard]] Bounce bounce_of(std::size_t index, const BodyRecord& body) const;
+  [[nodiscard]] static std::int32_t share_of_bounces(const IslandGain& gain);
+  template <class Visit>
+  void for_gaining(const Visit& visit);
   [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
   void add_axes(const Entry& entry, const Vec3<Unit>& normal);
   [[nodiscard]] bool is_alone(const Entry& entry) const;
@@ -308,6 +333,8 @@ class ContactSolver {
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
   std::vector<PushAxis> axes_;
+  std::vector<std::int64_t> gained_;  // twice the energy that no force accounts for, of each mass
+  std::vector<IslandGain> gains_;
   std::vector<lanes::BodyPlace> places_;  // of what nets of joints hold
 
   std::unique_ptr<JointSolver> joints_;

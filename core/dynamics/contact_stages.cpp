@@ -63,6 +63,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       joints_->prepare(joint_run(), first, end);
                     });
+  if (bounces_) find_fed_islands(scene);
   begin_converged(scene);
   find_first_loads(scene, parallel);
 }
@@ -138,7 +139,10 @@ void ContactSolver::run(Parallel& parallel) {
   for (int substep = 0; substep < step_.substeps; ++substep)
     add_loops_of_substep(static_cast<std::uint8_t>(substep));
   add_loop({StageKind::end_islands}, converged_islands(), 1);
-  if (bounces_) add_loop_of_each_color(StageKind::bounce);
+  if (bounces_) {
+    add_loop({StageKind::keep_speeds}, static_cast<std::uint32_t>(members_.size()), k_body_grain);
+    add_loop_of_each_color(StageKind::bounce);
+  }
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { run_piece(stages_[loop], first, end); });
   joints_->end(joint_run());
@@ -160,6 +164,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints_->solve(joint_run(), first, end);
     case StageKind::positions:
       return integrate_positions(first, end);
+    case StageKind::keep_speeds:
+      return keep_speeds(first, end);
     case StageKind::move_joined:
       return joints_->move(joint_run(), first, end);
     case StageKind::relax_joints:

@@ -164,5 +164,47 @@ TEST(Bounce, OnABallThatRestsPressesItToTheGround) {
   EXPECT_GT(to_double(world.position(upper).y), 0.249);
 }
 
+// Of a body without forces but gravity, J/kg.
+double energy_of(const World& world, BodyHandle body, double i_x, double i_yz) {
+  const BodyView view = world.body(body);
+  const auto w = view.angular_velocity;
+  const Mat3 turn = to_matrix(view.orientation);
+  const auto about = [&](int axis) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+      sum += to_double(turn.column(axis)[i]) * to_double(w[i]);
+    return sum;
+  };
+  double moving = 9.81 * to_double(view.centre_of_mass.y);
+  for (int i = 0; i < 3; ++i)
+    moving += 0.5 * to_double(view.velocity[i]) * to_double(view.velocity[i]);
+  return moving +
+         0.5 * (i_x * about(0) * about(0) + i_yz * (about(1) * about(1) + about(2) * about(2)));
+}
+
+TEST(Bounce, OfARodThatTumblesNeverGains) {
+  // m·(a² + b²)/3 for half extents a, b
+  const double i_x = (0.01 + 0.01) / 3, i_yz = (0.36 + 0.01) / 3;
+  for (int seed = 0; seed < 40; ++seed) {
+    World world = test::make_world();
+    test::add_ground(world);
+    BodyDef def = test::dynamic_body(Shape::box(0.6_m, 0.1_m, 0.1_m), 0_m, 3_m, 0_m);
+    def.material.restitution = 1_r;
+    def.material.friction = Coefficient::from_ratio(seed % 6, 10);
+    def.orientation =
+        from_axis_angle({0.6_r, {}, 0.8_r}, Angle::from_ratio(seed * 17 % 61 - 30, 20));
+    def.angular_velocity = {1_rps, AngularVelocity::from_integer(seed % 7 - 3), 2_rps};
+    const BodyHandle rod = test::add(world, def);
+    double least = energy_of(world, rod, i_x, i_yz);
+    const double first = least;
+    for (int tick = 0; tick < 480; ++tick) {
+      (void)world.step();
+      const double now = energy_of(world, rod, i_x, i_yz);
+      ASSERT_LT(now - least, 0.02 * first) << "seed " << seed << ", tick " << tick;
+      least = std::min(least, now);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lockstone
