@@ -120,7 +120,7 @@ void ContactSolver::for_gaining(const Visit& visit) {
 }
 
 // Masses count as parts of that of the island's first body.
-void ContactSolver::limit_bounces(std::span<BodyRecord> bodies) {
+void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_limit) {
   if (!bounces_) return;
   gains_.assign(islands_.count(), {});
   const auto add = [this](std::uint32_t i, const IslandGain& gain, std::int64_t& sum,
@@ -153,6 +153,8 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies) {
       body.velocity[axis] = bounce.velocity[axis] + part(bounce.velocity_gain[axis]);
       body.spin[axis] = bounce.spin[axis] + part(bounce.spin_gain[axis]);
     }
+    hold_axes(body);
+    (void)limit_speed(body, inertia_now(body), speed_limit);
   });
 }
 

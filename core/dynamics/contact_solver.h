@@ -83,7 +83,7 @@ class ContactSolver {
   std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body);
 
   /// Once all have moved: bounces that would give an island energy give less.
-  void limit_bounces(std::span<BodyRecord> bodies);
+  void limit_bounces(std::span<BodyRecord> bodies, Velocity speed_limit);
 
   /// The velocity and the spin that a touched body has after `run`.
   [[nodiscard]] std::array<Vec3<Velocity>, 2> speeds(const SolverBody& solved) const;
