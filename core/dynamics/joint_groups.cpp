@@ -135,7 +135,8 @@ void JointSolver::plan_group(Group group) {
   const auto rows = [&](std::uint32_t k) { return most_locks(*joint_at(k).record); };
   // The pushed bodies of a tree on the ground are as many as its joints.
   const bool has_few_loops = group.count <= group.body_count + k_most_loops;
-  if (loops_ != nullptr && has_loops(group) && plan_loops(group)) return groups_.push_back(group);
+  const bool needs_factor = has_loops(group) || has_motors(group);
+  if (loops_ != nullptr && needs_factor && plan_loops(group)) return groups_.push_back(group);
   if (has_few_loops && factor_.plan(group.count, neighbours, rows)) {
     group.exact = true;
     group.column = factor_.first();

@@ -23,9 +23,7 @@ JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
                          std::size_t joint_capacity, bool solves_loops)
     : step_(step), place_(body_capacity), factor_(joint_capacity) {
   const std::size_t bodies = std::min(body_capacity, 2 * joint_capacity);
-  // A group with loops has no more bodies than joints.
-  if (solves_loops)
-    loops_ = std::make_unique<ProximalLocks>(std::min(bodies, joint_capacity), joint_capacity);
+  if (solves_loops) loops_ = std::make_unique<ProximalLocks>(bodies, joint_capacity);
   bodies_.reserve(bodies);
   placed_.reserve(bodies);
   group_bodies_.reserve(bodies);

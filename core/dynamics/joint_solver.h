@@ -225,6 +225,7 @@ class JointSolver {
     return group.loops != ProximalLocks::k_too_large;
   }
   [[nodiscard]] bool has_loops(const Group& group) const;
+  [[nodiscard]] bool has_motors(const Group& group) const;
   [[nodiscard]] bool plan_loops(Group& group);
   void factor_loops(Group& group, bool ahead);
   [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
