@@ -36,6 +36,18 @@ bool JointSolver::has_motors(const Group& group) const {
   });
 }
 
+// Whether contacts press what is pulled hard. There locks that hold exactly turn the rounding of
+// contacts into energy: ropes about posts flew apart.
+bool JointSolver::is_pressed(const Group& group) const {
+  bool touches = false, pulled = false;
+  for (std::uint32_t i = 0; i < group.body_count; ++i) {
+    const Body& body = bodies_[group_bodies_[group.first_body + i]];
+    touches = touches || body.touches;
+    pulled = pulled || body.pulled;
+  }
+  return touches && pulled;
+}
+
 bool JointSolver::plan_loops(Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i)
     bodies_[group_bodies_[group.first_body + i]].local = i;

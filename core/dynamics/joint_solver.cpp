@@ -87,10 +87,10 @@ void JointSolver::load_impulses(Joint& joint, int shift) const {
   }
 }
 
-void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contacts) {
+void JointSolver::begin(const JointRun& run) {
   const RoundDivisor rate(step_.substep_rate());
   for (Body& body : bodies_) {
-    body.centred = body.pushed && !body.in_net && body.solver >= first_without_contacts;
+    body.centred = body.pushed && !body.in_net && !body.touches;
     body.rate = rate;
   }
   for (Group& group : groups_)
@@ -101,9 +101,9 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
     load_impulses(joint, is_centred(bodies_[joint.a]) && is_centred(bodies_[joint.b]) ? 29 : 30);
   pulls_.assign(bodies_.size(), 0);
   add_pulls(joints_, false);
-  add_net_pulls();
+  for (const std::uint32_t link : in_net_)
+    add_pulls(links_[link]);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
-    bodies_[body].lever_inertia = lever_inertia(body);
     resist_pull(run, body);
   }
   after_.resize(bodies_.size());

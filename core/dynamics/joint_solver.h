@@ -64,10 +64,10 @@ class JointSolver {
   [[nodiscard]] bool has_own() const { return !joints_.empty(); }
 
   /// Once all are added: groups. Answers which joints, in the order of adding, are left to a net.
-  std::span<const std::uint32_t> plan();
+  std::span<const std::uint32_t> plan(std::uint32_t first_without_contacts);
 
   /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
-  void begin(const JointRun& run, std::uint32_t first_without_contacts);
+  void begin(const JointRun& run);
 
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
@@ -125,6 +125,7 @@ class JointSolver {
     lanes::RowBody looked{};  // with what velocity it goes where `after_` says
     bool has_looked = false;
     bool pushed = false;
+    bool touches = false;            // has contacts
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick
@@ -143,7 +144,6 @@ class JointSolver {
     std::uint32_t a = 0, b = 0;  // bodies of this solver
     std::uint32_t order = 0;     // within its group
     std::uint32_t joint = 0;     // in joints_, or k_in_net
-    std::int32_t share_b = 0;    // in a net: of the pair's inverse mass, Q30
   };
   // A part of an inverse mass as mantissa · 2^-shift.
   struct Share {
@@ -226,6 +226,7 @@ class JointSolver {
   }
   [[nodiscard]] bool has_loops(const Group& group) const;
   [[nodiscard]] bool has_motors(const Group& group) const;
+  [[nodiscard]] bool is_pressed(const Group& group) const;
   [[nodiscard]] bool plan_loops(Group& group);
   void factor_loops(Group& group, bool ahead);
   [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
@@ -259,7 +260,9 @@ class JointSolver {
   void stay(Cluster& cluster);
   void move(const JointRun& run, std::uint32_t body);
   void add_pulls(std::span<const Joint> joints, bool free);
-  void add_net_pulls();
+  void add_pulls(const Link& link);
+  void find_pulled();
+  [[nodiscard]] static std::int64_t swung_inertia(const Body& body);
   [[nodiscard]] std::int64_t lever_inertia(std::uint32_t body) const;
   void resist_pull(const JointRun& run, std::uint32_t body);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
