@@ -226,6 +226,44 @@ TEST(Joints, WeldHoldsAsOne) {
   }
 }
 
+// A rope of capsules falls about a post, with a load at its end.
+double widest_gap_about_a_post(int links, std::int64_t load) {
+  World world = test::make_world();
+  BodyDef post;
+  post.motion = MotionType::static_body;
+  post.shape = Shape::capsule(0.2_m, 3_m);
+  post.position = {Position::from_ratio(links, 20), Position::from_ratio(-links, 10), {}};
+  post.orientation = from_axis_angle({1_r, {}, {}}, 1.570796327_rad);
+  test::add(world, post);
+  JointDef joint = JointDef::of(JointKind::ball, add_fixed(world), {});
+  for (int i = 0; i <= links; ++i) {
+    const bool is_load = i == links;
+    BodyDef def =
+        test::dynamic_body(is_load ? Shape::sphere(0.2_m) : Shape::capsule(0.04_m, 0.06_m),
+                           Position::from_ratio(is_load ? 2 * links : 2 * i + 1, 10), {}, {});
+    def.orientation = from_axis_angle({{}, {}, 1_r}, 1.570796327_rad);
+    def.material.density = Density::from_integer(is_load ? 27 * load : 1000);
+    joint.body_b = test::add(world, def);
+    joint.frame_b.position.y = is_load ? Length{} : 0.1_m;
+    join(world, joint);
+    joint.body_a = joint.body_b;
+    joint.frame_a.position.y = -0.1_m;
+  }
+  double widest = 0;
+  for (int tick = 0; tick < 480; ++tick) {
+    (void)world.step();
+    widest = std::max(widest, worst_gap(world));
+  }
+  return widest;
+}
+
+TEST(Joints, RopesAboutAPostStayTogether) {
+  for (const int links : {6, 12, 16, 24, 36})
+    for (const int load : {10, 100, 250})
+      EXPECT_LT(widest_gap_about_a_post(links, load), 0.02)
+          << links << " links, " << load << " : 1";
+}
+
 TEST(Joints, FastBodiesPassWhatTheyAreJoinedTo) {
   World world = test::make_world();
   BodyDef base;
