@@ -119,6 +119,7 @@ class ContactSolver {
   enum class StageKind : std::uint8_t {
     velocities,
     warm_joints,
+    impacts,
     solve,
     push_islands,
     lift_net,
@@ -295,6 +296,11 @@ class ContactSolver {
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
   std::uint32_t move(std::size_t index, const Mat3& rotation, BodyRecord& body) const;
+  void find_impacts(const ContactScene& scene);
+  [[nodiscard]] bool meets(const Entry& entry) const;
+  void push_by_impact(std::uint32_t index, const BodyRecord& before, const BodyRecord& after);
+  void answer(std::uint32_t index);
+  void run_impacts();
   void find_fed_islands(const ContactScene& scene);
   void keep_speeds(std::size_t first, std::size_t end);
   void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);
@@ -359,6 +365,8 @@ class ContactSolver {
 
   std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
+  std::vector<std::uint32_t> impacts_;  // entries of balls that may bounce within a substep
+  ContactScene scene_{};                // of such a tick
   TickIslands islands_;
   Range ranges_[k_graph_colors + 1];
   const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most

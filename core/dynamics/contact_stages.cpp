@@ -63,6 +63,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       joints_->prepare(joint_run(), first, end);
                     });
+  find_impacts(scene);
   if (bounces_) find_fed_islands(scene);
   begin_converged(scene);
   find_first_loads(scene, parallel);
@@ -116,6 +117,8 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   const auto bodies = static_cast<std::uint32_t>(members_.size());
   add_loop({StageKind::velocities, 0, substep}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
+  const std::uint32_t impacts = impacts_.empty() ? 0 : 1;
+  add_loop({StageKind::impacts}, impacts, 1, true);
   add_loop_of_each_color(StageKind::solve);
   add_loop({StageKind::push_islands}, converged_islands(), 1);
   for (int i = 0; i < k_net_sweeps; ++i)
@@ -127,6 +130,7 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   add_net_loops(StageKind::follow_net);
   for (int i = 1; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::relax_net);
+  add_loop({StageKind::impacts}, impacts, 1, true);
   add_loop_of_each_color(StageKind::relax, substep);
   add_loop({StageKind::relax_islands}, converged_islands(), 1);
 }
@@ -154,6 +158,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return integrate_velocities(stage.substep == 0, first, end);
     case StageKind::warm_joints:
       return joints_->warm_start(joint_run(), first, end);
+    case StageKind::impacts:
+      return run_impacts();
     case StageKind::lift_net:
       return net_.lift(net_run(), stage.color, first, end);
     case StageKind::push_islands:

@@ -206,5 +206,64 @@ TEST(Bounce, OfARodThatTumblesNeverGains) {
   }
 }
 
+// Balls of 0.2 m, each on two rods of 2 m; the first `lifted` of them out by 0.7 rad.
+struct Cradle {
+  World world = test::make_world();
+  std::vector<BodyHandle> balls;
+
+  Cradle(int count, int lifted) {
+    for (int i = 0; i < count; ++i) {
+      const double turn = i < lifted ? -0.7 : 0;
+      const auto place = [](double x) {
+        return Position::from_raw(std::llround(std::ldexp(x, 32)));
+      };
+      BodyDef def = test::dynamic_body(Shape::sphere(0.2_m), place(0.4002 * i + 2 * std::sin(turn)),
+                                       place(-2 * std::cos(turn)), {});
+      def.material.restitution = 1_r;
+      def.material.friction = {};
+      balls.push_back(test::add(world, def));
+      for (const int side : {-1, 1}) {
+        BodyDef hook;
+        hook.motion = MotionType::static_body;
+        hook.shape = Shape::sphere(0.01_m);
+        hook.position = {place(0.4002 * i), {}, Position::from_integer(side)};
+        JointDef rod = JointDef::of(JointKind::distance, test::add(world, hook), balls.back());
+        rod.linear[0].mode = AxisMode::limited;
+        rod.linear[0].lower = rod.linear[0].upper = Length::from_raw(2344686);  // √5 m
+        (void)world.create_joint(rod).value();
+      }
+    }
+  }
+  [[nodiscard]] double energy() const {
+    double sum = 0;
+    for (const BodyHandle ball : balls) {
+      const auto v = world.velocity(ball);
+      sum += 9.81 * (to_double(world.position(ball).y) + 2);
+      for (int i = 0; i < 3; ++i)
+        sum += 0.5 * to_double(v[i]) * to_double(v[i]);
+    }
+    return sum;
+  }
+};
+
+TEST(Bounce, OfACradleKeepsItsEnergyForTenSeconds) {
+  for (const auto& [count, lifted] :
+       {std::pair{2, 1}, std::pair{3, 1}, std::pair{5, 2}, std::pair{7, 3}}) {
+    Cradle cradle(count, lifted);
+    const double first = cradle.energy();
+    test::step(cradle.world, 600);
+    EXPECT_NEAR(cradle.energy() / first, 1, 0.03) << count << " balls, " << lifted << " lifted";
+  }
+}
+
+TEST(Bounce, OfACradlePassesAlongToItsLastBall) {
+  Cradle cradle(5, 1);
+  test::step(cradle.world, 60);  // after the first impact
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(to_double(cradle.world.velocity(cradle.balls[static_cast<std::size_t>(i)]).x), 0,
+                0.1);
+  EXPECT_GT(to_double(cradle.world.velocity(cradle.balls[4]).x), 2);
+}
+
 }  // namespace
 }  // namespace lockstone
