@@ -1,6 +1,6 @@
-// Balls with restitution that have something besides to obey, such as joints, meet others within
-// the substep: one impact after the other, so that a push passes along a row of them. What an
-// impact of a ball gives is known exactly, whichever way the ball turns.
+// Impacts of balls with restitution that the solver keeps, because of joints or of other contacts.
+// They follow one after the other within the substep, so that a push passes along a row of balls.
+// The normal of a ball's impact does not depend on how the ball turns.
 
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/impact_response.h"
@@ -20,7 +20,7 @@ constexpr std::int64_t k_least_impact = std::int64_t{1} << 48;
 
 constexpr int k_row_bits_more = lanes::k_velocity_bits - lanes::k_grid_bits;
 
-// What rows may hold, Q50, and what changes them, Q32: 2048 m/s.
+// The bounds of rows, Q50, and of their changes, Q32: 2048 m/s.
 constexpr std::int64_t k_most_row = std::int64_t{1} << 61;
 constexpr std::int64_t k_most_change = k_most_row >> k_row_bits_more;
 

@@ -43,7 +43,7 @@ BlockFloat quotient(BlockFloat a, BlockFloat b) {
 
 }  // namespace
 
-// Islands that something else gives energy: what a moving surface or a drive pushes.
+// Moving surfaces and drives give islands energy.
 void ContactSolver::find_fed_islands(const ContactScene& scene) {
   const auto moves = [&](std::uint32_t index) {
     const BodyRecord& body = scene.bodies[index];
@@ -74,7 +74,7 @@ void ContactSolver::keep_speeds(std::size_t first, std::size_t end) {
   }
 }
 
-// Once a body has moved: what it has gained besides the work of gravity and forces on its way.
+// Once a body has moved: its gain of energy, less the work of gravity and forces on its way.
 void ContactSolver::note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start) {
   ProductSum work;  // twice of each mass, by half a substep's rate
   for (int i = 0; i < 3; ++i)
@@ -84,7 +84,7 @@ void ContactSolver::note_gain(std::size_t index, const BodyRecord& body, const B
                    twice_energy(start, bodies_[index].inverse_inertia) - work.rounded(31);
 }
 
-// What bounces gave the body, and what it had before them: velocities and spins.
+// Velocity and spin before the bounces, and the gains that bounces gave.
 ContactSolver::Bounce ContactSolver::bounce_of(std::size_t index, const BodyRecord& body) const {
   const auto read = [](const auto& v) {
     const auto part = [](std::int64_t x) {
@@ -96,8 +96,8 @@ ContactSolver::Bounce ContactSolver::bounce_of(std::size_t index, const BodyReco
   return {velocity, spin, body.velocity - velocity, body.spin - spin};
 }
 
-// The greatest share s of its bounces with which an island gains nothing: s²·square + s·linear is
-// what they gain it.
+// The greatest share s of its bounces with which an island gains nothing; their own gain of energy
+// is s²·square + s·linear.
 std::int32_t ContactSolver::share_of_bounces(const IslandGain& gain) {
   const std::int64_t allowed =
       raw::saturating_add(raw::saturating_add(gain.square, gain.linear), -gain.gained);

@@ -198,7 +198,7 @@ class ContactSolver {
     void add(const Vec3<Unit>& n);
   };
 
-  // What bounces gave a body, and what it had before.
+  // Velocity and spin before the bounces of a tick, and the gains that bounces gave.
   struct Bounce {
     Vec3<Velocity> velocity, spin, velocity_gain, spin_gain;
   };
@@ -207,7 +207,7 @@ class ContactSolver {
     BlockFloat unit{};        // inverse mass
     std::int64_t gained = 0;  // besides the work of gravity and forces
     std::int64_t square = 0;  // of bounces
-    std::int64_t linear = 0;  // of bounces and what was there before
+    std::int64_t linear = 0;  // of bounces and of the speeds before them
     std::int32_t share = 0;   // of bounces that is left, Q30
   };
 

@@ -50,8 +50,7 @@ class HeapLoads {
                      Scratch& scratch);
   static void add_columns(const ContactRun& run, const Support& support, bool is_b,
                           std::vector<Motion6>& columns);
-  [[nodiscard]] static bool balance(const ContactRun& run, const Motion6& change,
-                                    Scratch& scratch);
+  [[nodiscard]] static bool balance(const ContactRun& run, const Motion6& change, Scratch& scratch);
   [[nodiscard]] static bool holds(const ContactRun& run, const Support& support);
   static void push(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
 

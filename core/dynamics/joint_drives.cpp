@@ -90,7 +90,7 @@ void JointSolver::leave_out_far(const JointRun& run, Joint& joint) const {
   joint.holds_a_point = lockstone::holds_a_point(*joint.record, joint.far);
 }
 
-// What a spring gives besides what it has given.
+// The change of a spring's impulse.
 std::int64_t JointSolver::spring_impulse(const JointRun& run, const Joint& joint, std::size_t i,
                                          bool later) const {
   const JointRow& row = joint.rows.rows[i];

@@ -36,7 +36,7 @@ bool JointSolver::has_motors(const Group& group) const {
   });
 }
 
-// Whether contacts press what is pulled hard. There locks that hold exactly turn the rounding of
+// Whether contacts press links that are pulled hard. There locks that hold exactly turn errors of
 // contacts into energy: ropes about posts flew apart.
 bool JointSolver::is_pressed(const Group& group) const {
   bool touches = false, pulled = false;

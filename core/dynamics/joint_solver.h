@@ -157,7 +157,7 @@ class JointSolver {
     int exponent = 0;  // power of two that scales it in a factor
   };
   using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
-  // What a spring gives before positions move, or after it.
+  // The impulse of a spring before positions move, or after it.
   struct SpringPart {
     std::int64_t stiffness = 0;  // 1/s, Q40, per 1 + a
     std::int64_t damping = 0;    // a, Q30, per 1 + a

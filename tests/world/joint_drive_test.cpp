@@ -1,4 +1,4 @@
-// What drives of joints do: limits, motors and springs.
+// Limits, motors and springs of joints.
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// What the tests of joints share.
+// Shared by the tests of joints.
 #pragma once
 
 #include <cmath>
