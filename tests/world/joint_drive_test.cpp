@@ -102,6 +102,15 @@ TEST(JointDrives, SpringSagsAsHookeSays) {
   EXPECT_NEAR(torque / (40 * 9.81 * 0.5 * std::cos(lever.angle())), 1, 0.15);
 }
 
+// It swings beyond half a turn, and comes back.
+TEST(JointDrives, ASpringTurnsTheShorterWayRound) {
+  Lever lever;
+  (void)lever.world.apply(SetGravity{{}});
+  lever.set({.target = -2.9_rad, .hertz = 2_r, .damping_ratio = 0.3_r});
+  test::step(lever.world, 600);
+  EXPECT_NEAR(lever.angle(), -2.9, 1e-3);
+}
+
 // A ball of 0.2 m on a spring of 1 m, pulled by `pulled` beyond it, without gravity.
 struct Swinger {
   World world = test::make_world({.body_capacity = 4, .gravity = {}});
