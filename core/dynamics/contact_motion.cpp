@@ -74,8 +74,16 @@ std::array<Vec3<Velocity>, 2> ContactSolver::speeds(const SolverBody& solved) co
 }
 
 std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation,
-                                  BodyRecord& body) const {
+                                  BodyRecord& body) {
   const auto index = static_cast<std::size_t>(&solved - bodies_.data());
+  if (!bounces_ || !body.is_dynamic()) return move(index, rotation, body);
+  const BodyRecord start = body;
+  const std::uint32_t turns = move(index, rotation, body);
+  note_gain(index, body, start);
+  return turns;
+}
+
+std::uint32_t ContactSolver::move(std::size_t index, const Mat3& rotation, BodyRecord& body) const {
   const RowBody& row = rows_[index];
   const RowTravel& travel = travel_[index];
   const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(index, body) : Vec3<Velocity>{};

@@ -176,9 +176,12 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   before_.reserve(most_rows);
   travel_.reserve(most_rows);
   axes_.reserve(most_rows);
+  gained_.reserve(most_rows);
+  gains_.reserve(body_capacity + 1);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);
+  impacts_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
       std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);

@@ -80,7 +80,10 @@ class ContactSolver {
 
   /// Writes a touched body's substeps back: position, orientation, velocity and spin.
   /// `rotation` is the matrix of its orientation; answers as `fly`.
-  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body) const;
+  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body);
+
+  /// Once all have moved: bounces that would give an island energy give less.
+  void limit_bounces(std::span<BodyRecord> bodies, Velocity speed_limit);
 
   /// The velocity and the spin that a touched body has after `run`.
   [[nodiscard]] std::array<Vec3<Velocity>, 2> speeds(const SolverBody& solved) const;
@@ -116,6 +119,7 @@ class ContactSolver {
   enum class StageKind : std::uint8_t {
     velocities,
     warm_joints,
+    impacts,
     solve,
     push_islands,
     lift_net,
@@ -128,6 +132,7 @@ class ContactSolver {
     relax,
     relax_islands,
     end_islands,
+    keep_speeds,
     bounce,
     store,
   };
@@ -190,6 +195,19 @@ class ContactSolver {
     bool mixed = false;
 
     void add(const Vec3<Unit>& n);
+  };
+
+  // Velocity and spin before the bounces of a tick, and the gains that bounces gave.
+  struct Bounce {
+    Vec3<Velocity> velocity, spin, velocity_gain, spin_gain;
+  };
+  // Of an island, twice energies in a unit of its own.
+  struct IslandGain {
+    BlockFloat unit{};        // inverse mass
+    std::int64_t gained = 0;  // besides the work of gravity and forces
+    std::int64_t square = 0;  // of bounces
+    std::int64_t linear = 0;  // of bounces and of the speeds before them
+    std::int32_t share = 0;   // of bounces that is left, Q30
   };
 
   std::uint32_t take_up(Side side);
@@ -276,6 +294,19 @@ class ContactSolver {
   void hold(std::size_t index);
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
+  std::uint32_t move(std::size_t index, const Mat3& rotation, BodyRecord& body) const;
+  void find_impacts(const ContactScene& scene);
+  [[nodiscard]] bool meets(const Entry& entry) const;
+  void push_by_impact(std::uint32_t index, const BodyRecord& before, const BodyRecord& after);
+  void answer(std::uint32_t index);
+  void run_impacts();
+  void find_fed_islands(const ContactScene& scene);
+  void keep_speeds(std::size_t first, std::size_t end);
+  void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);
+  [[nodiscard]] Bounce bounce_of(std::size_t index, const BodyRecord& body) const;
+  [[nodiscard]] static std::int32_t share_of_bounces(const IslandGain& gain);
+  template <class Visit>
+  void for_gaining(const Visit& visit);
   [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
   void add_axes(const Entry& entry, const Vec3<Unit>& normal);
   [[nodiscard]] bool is_alone(const Entry& entry) const;
@@ -307,6 +338,8 @@ class ContactSolver {
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
   std::vector<PushAxis> axes_;
+  std::vector<std::int64_t> gained_;  // twice the energy that no force accounts for, of each mass
+  std::vector<IslandGain> gains_;
   std::vector<lanes::BodyPlace> places_;  // of the bodies in nets of joints
 
   std::unique_ptr<JointSolver> joints_;
@@ -331,6 +364,8 @@ class ContactSolver {
 
   std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
+  std::vector<std::uint32_t> impacts_;  // entries of balls that may bounce within a substep
+  ContactScene scene_{};                // of such a tick
   TickIslands islands_;
   Range ranges_[k_graph_colors + 1];
   const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most

@@ -112,6 +112,7 @@ void ContactSolver::reserve_rows() {
   if (bodies_.size() < members_.size()) {
     bodies_.resize(members_.size());
     axes_.resize(members_.size());
+    gained_.resize(members_.size());
   }
   if (rows_.size() >= row_count()) return;  // they only grow, within their capacity
   inertias_.resize(row_count());

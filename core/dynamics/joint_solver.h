@@ -65,10 +65,10 @@ class JointSolver {
 
   /// Once all are added: forms groups. Returns the joints, in the order of adding, that are left to
   /// a net.
-  std::span<const std::uint32_t> plan();
+  std::span<const std::uint32_t> plan(std::uint32_t first_without_contacts);
 
   /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
-  void begin(const JointRun& run, std::uint32_t first_without_contacts);
+  void begin(const JointRun& run);
 
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
@@ -126,6 +126,7 @@ class JointSolver {
     lanes::RowBody looked{};  // its velocity on the way to its pose in `after_`
     bool has_looked = false;
     bool pushed = false;
+    bool touches = false;            // has contacts
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick
@@ -144,7 +145,6 @@ class JointSolver {
     std::uint32_t a = 0, b = 0;  // bodies of this solver
     std::uint32_t order = 0;     // within its group
     std::uint32_t joint = 0;     // in joints_, or k_in_net
-    std::int32_t share_b = 0;    // in a net: of the pair's inverse mass, Q30
   };
   // A part of an inverse mass as mantissa · 2^-shift.
   struct Share {
@@ -158,11 +158,17 @@ class JointSolver {
     int exponent = 0;  // power of two that scales it in a factor
   };
   using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
+  // The impulse of a spring before positions move, or after it.
+  struct SpringPart {
+    std::int64_t stiffness = 0;  // 1/s, Q40, per 1 + a
+    std::int64_t damping = 0;    // a, Q30, per 1 + a
+    std::int64_t forgets = 0;    // Q30, 1 / (1 + a)
+    std::int64_t share = 0;      // of its bound, Q30
+  };
   struct Drive {
-    std::int32_t bias_rate = 0;  // 1/s, Q20
-    std::int32_t keep = 0;       // Q30: 1 − impulse scale
     bool is_spring = false;
     std::int64_t bound = 0;  // Q50; 0: none
+    SpringPart before, after;
   };
   struct Joint {
     const JointRecord* record = nullptr;
@@ -174,7 +180,7 @@ class JointSolver {
     std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
-    std::array<std::int64_t, k_joint_axes> driven_later{};  // by motors of loops, as `relaxed`
+    std::array<std::int64_t, k_joint_axes> driven_later{};  // after positions moved, as `relaxed`
     std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
@@ -220,6 +226,8 @@ class JointSolver {
     return group.loops != ProximalLocks::k_too_large;
   }
   [[nodiscard]] bool has_loops(const Group& group) const;
+  [[nodiscard]] bool has_motors(const Group& group) const;
+  [[nodiscard]] bool is_pressed(const Group& group) const;
   [[nodiscard]] bool plan_loops(Group& group);
   void factor_loops(Group& group, bool ahead);
   [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
@@ -241,6 +249,7 @@ class JointSolver {
   void make_joint(Link& link);
   [[nodiscard]] static std::uint32_t most_locks(const JointRecord& joint);
   void set_drives(Joint& joint) const;
+  void set_spring(const Joint& joint, const JointAxisRecord& axis, Drive& drive) const;
   void load_impulses(Joint& joint, int shift) const;
   [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
                                     const JointPose& b) const;
@@ -252,7 +261,9 @@ class JointSolver {
   void stay(Cluster& cluster);
   void move(const JointRun& run, std::uint32_t body);
   void add_pulls(std::span<const Joint> joints, bool free);
-  void add_net_pulls();
+  void add_pulls(const Link& link);
+  void find_pulled();
+  [[nodiscard]] static std::int64_t swung_inertia(const Body& body);
   [[nodiscard]] std::int64_t lever_inertia(std::uint32_t body) const;
   void resist_pull(const JointRun& run, std::uint32_t body);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
@@ -279,6 +290,9 @@ class JointSolver {
   void leave_out_far(const JointRun& run, Joint& joint) const;
   [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
   bool solve_drives(const JointRun& run, Joint& joint, bool motors);
+  void solve_springs_later(const JointRun& run, Joint& joint);
+  [[nodiscard]] std::int64_t spring_impulse(const JointRun& run, const Joint& joint,
+                                            std::size_t row, bool later) const;
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);

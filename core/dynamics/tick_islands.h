@@ -32,6 +32,8 @@ struct IslandLoad {
   static constexpr std::uint32_t k_most_loaded = 128;
 
   bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
+  bool is_fed = false;        ///< something besides gravity and forces may give it energy
+  bool is_struck = false;     ///< something comes in fast
   bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
   std::uint32_t bodies = 0;   ///< dynamic ones
   std::uint32_t contacts = 0;

@@ -160,6 +160,7 @@ void World::Impl::move_bodies(StepReport& report) {
     add(axis_turns, counts.axis_turns);
     add(saturations, counts.saturations);
   });
+  solver.limit_bounces(bodies, def.speed_limit);
   report.free_bodies = free_bodies;
   report.axis_turns += axis_turns;
   report.saturations += saturations;
