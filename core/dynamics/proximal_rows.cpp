@@ -33,13 +33,14 @@ struct Sides {
   std::array<std::int64_t, 6> a{}, b{};
 };
 
-// `part` is the root of the share, with the sign of the side, Q30; |linear| ≤ 1.
+// `part` is the root of the share, with the sign of the side, Q30. Of gears and pulleys |linear| may
+// be above 1.
 std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& angular,
                                         const InertiaRoot& root, std::int64_t part) {
   std::array<std::int64_t, 6> side{};
   if (part == 0) return side;
   for (std::size_t i = 0; i < 3; ++i) {
-    side[i] = raw::round_shift(linear[i] * part, 30);
+    side[i] = product_rounded(linear[i], part, 30);
     ProductSum sum;
     for (std::size_t k = i; k < 3; ++k)
       sum.add(root.c[k][i], angular[k]);
