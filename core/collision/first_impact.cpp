@@ -186,6 +186,56 @@ class PiecesOfB final : public PieceVisitor {
   Impact& best_;
 };
 
+// Whether any piece of B touches one piece of A on their way.
+class TouchingPiecesOfB final : public PieceVisitor {
+ public:
+  TouchingPiecesOfB(const Piece& a, const Sweep& motion_a, const Sweep& motion_b)
+      : a_(a), sweep_a_(a, motion_a), motion_b_(motion_b) {}
+
+  void visit(const Piece& piece) override {
+    const bool unbounded = piece.shape.kind == ShapeKind::half_space;
+    if (touched_ || (unbounded && !may_meet(piece, a_.origin))) return;
+    const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
+    const PieceSweep sweep_b(b, motion_b_);
+    const SweptShape swept_a{a_.shape, sweep_a_.sweep, a_.polytope, sweep_a_.origin};
+    const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
+    const TimeOfImpact found = time_of_impact(swept_a, swept_b, k_touch_limits);
+    touched_ = found.state != TimeOfImpactState::separated;
+  }
+
+  [[nodiscard]] bool touched() const { return touched_; }
+
+ private:
+  static constexpr TimeOfImpactLimits k_touch_limits{Length::from_raw(4), Length::from_raw(4), 256};
+
+  const Piece& a_;
+  const PieceSweep sweep_a_;
+  const Sweep& motion_b_;
+  bool touched_ = false;
+};
+
+class TouchingPieces final : public PieceVisitor {
+ public:
+  TouchingPieces(const MovingShape& a, const MovingShape& b)
+      : a_(a), b_(b), placed_b_(placed_at_start(b)), way_(way_of(a, b)) {}
+
+  void visit(const Piece& piece) override {
+    if (touched_) return;
+    TouchingPiecesOfB others(piece, a_.motion, b_.motion);
+    visit_pieces(placed_b_, way_, {}, others);
+    touched_ = others.touched();
+  }
+
+  [[nodiscard]] bool touched() const { return touched_; }
+
+ private:
+  const MovingShape& a_;
+  const MovingShape& b_;
+  const PlacedShape placed_b_;
+  const OrientedBox way_;
+  bool touched_ = false;
+};
+
 class PiecesOfA final : public PieceVisitor {
  public:
   PiecesOfA(const MovingShape& a, const MovingShape& b)
@@ -213,6 +263,13 @@ Impact first_impact(const MovingShape& a, const MovingShape& b) {
   PiecesOfA pieces(a, b);
   visit_pieces(placed, oriented_box(placed), {}, pieces);
   return pieces.best();
+}
+
+bool touch_on_way(const MovingShape& a, const MovingShape& b) {
+  const PlacedShape placed = placed_at_start(a);
+  TouchingPieces pieces(a, b);
+  visit_pieces(placed, oriented_box(placed), {}, pieces);
+  return pieces.touched();
 }
 
 }  // namespace lockstone

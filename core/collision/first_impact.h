@@ -38,4 +38,8 @@ inline constexpr Length k_impact_gap = Length::from_ratio(1, 2000);
 /// A's way is tried; ties go to the lower parts.
 [[nodiscard]] Impact first_impact(const MovingShape& a, const MovingShape& b);
 
+/// Whether A and B touch at any moment, triangles from either side. Ways that pass within 8 µm
+/// count.
+[[nodiscard]] bool touch_on_way(const MovingShape& a, const MovingShape& b);
+
 }  // namespace lockstone
