@@ -139,7 +139,8 @@ bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
   return shows_turning && goes_far(radius);
 }
 
-// How it turned is of interest only where something is in its way.
+// How it turned is of interest only where something is in its way. A sweeper that it meets twice
+// takes it along from the first time on: what flies straight is behind a blade that turns.
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
   const Transform& start = starts[body];
@@ -150,24 +151,29 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
   if (!joint_edges.of(body, joint_links).empty()) return follow_joined(body, report);
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = rotations[body];
-  Unit done{};           // of the tick
-  bool is_alone = true;  // all impacts are with one body
+  Unit done{};                    // of the tick
+  Transform held = motion.start;  // at the last impact, with `met`
+  Unit held_since{};
   std::uint32_t met = body;
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
     note_passes(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
+    if (!next.impact.hit && i > 0 && carries(met)) push_out(body, met);
     if (!next.impact.hit) return;
     ++report.impacts;
-    is_alone = is_alone && (i == 0 || met == next.body);
-    met = next.body;
+    if (i > 0 && next.body == met && carries(met)) {
+      stop_at(record, carried(held, motion_of(met, held_since)), rotation);
+      answer(body, next, k_whole_tick);
+      return push_out(body, met);
+    }
     stop_at(record, pose_at(motion, next.impact.fraction), rotation);
     const Unit left = k_whole_tick - done;
     done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
     answer(body, next, done);
+    held = pose_of(record);
+    held_since = done;
+    met = next.body;
     const bool last = i + 1 == k_max_impacts;
-    if (last && is_alone && carries(next.body))
-      stop_at(record, carried(pose_of(record), motion_of(next.body, done)),
-              to_matrix(record.orientation));
     if (last) return;
     rotation = to_matrix(record.orientation);
     motion = go_on(record, k_whole_tick - done);
@@ -175,6 +181,31 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
     ++report.saturations;
     motion.translation = record.position - motion.start.position;
   }
+}
+
+// Out of a sweeper, where both are at the tick's end: contacts alone are too slow for it.
+void World::Impl::push_out(std::uint32_t body, std::uint32_t sweeper) {
+  BodyRecord& record = bodies[body];
+  const BodyRecord& other = bodies[sweeper];
+  PairScratch& scratch = narrow.scratch(0);
+  collide_bodies(
+      place(record.shape(), body_assets[body], record.position, to_matrix(record.orientation)),
+      place(other.shape(), body_assets[sweeper], other.position, to_matrix(other.orientation)), {},
+      scratch.triangles.get(), scratch.part_contacts);
+  Displacement deepest{};
+  Vec3<Unit> normal{};
+  for (const PartContact& contact : scratch.part_contacts) {
+    const Manifold& manifold = contact.manifold;
+    for (int i = 0; i < manifold.count; ++i) {
+      const Displacement separation = manifold.points[static_cast<std::size_t>(i)].separation;
+      if (separation >= deepest) continue;
+      deepest = separation;
+      normal = manifold.normal;
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+    record.position[i] += rounded<Position>(normal[i] * deepest);
+  (void)limit_position(record);
 }
 
 // Bodies connected by joints stop together where the first of them runs into something, and lose
@@ -285,9 +316,12 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
     const Shape other_shape = bodies[other].shape();
     const Sweep other_motion = motion_of(other, done);
     const Length turned = radius > inner ? radius : Length{};
-    if (relative_way(motion, other_motion, turned) <= rounded<Position>(inner / 2)) return;
+    const bool sweeps = is_sweeper(other);
+    const Length free_way = sweeps ? inner / 8 : inner / 2;
+    if (relative_way(motion, other_motion, turned) <= rounded<Position>(free_way)) return;
     const Impact impact = first_impact({shape, body_assets[body], motion},
-                                       {other_shape, body_assets[other], other_motion});
+                                       {other_shape, body_assets[other], other_motion},
+                                       sweeps ? ImpactDepth::shallow : ImpactDepth::half);
     const bool sooner =
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
                        (impact.fraction == next.impact.fraction && other < next.body));

@@ -398,6 +398,7 @@ struct World::Impl {
   void wake_struck();
   void find_struck(std::uint32_t sweeper);
   [[nodiscard]] bool carries(std::uint32_t body) const;
+  void push_out(std::uint32_t body, std::uint32_t sweeper);
   void carry_joined(std::uint32_t body, const Sweep& by);
 
   // Triggers that are passed within a tick (passes.cpp).
