@@ -69,7 +69,7 @@ void World::Impl::note_pass(const Pair& pair, const Sweep& a, const Sweep& b) {
   if (std::ranges::binary_search(new_contacts, key, {}, bodies_of)) return;
   const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
   if (!touch_on_way({shape_a, body_assets[pair.a], a}, {shape_b, body_assets[pair.b], b})) return;
-  if (passes.size() < passes.capacity())
+  if (passes.size() < def.body_capacity)
     passes.push_back(key);
   else
     passes_overflowed = true;

@@ -67,7 +67,7 @@ void World::Impl::find_struck(std::uint32_t sweeper) {
       [&](std::uint32_t other) {
         const BodyRecord& record = bodies[other];
         const bool sleeps = record.is_dynamic() && record.is_asleep() && !record.is_trigger();
-        if (!sleeps || !is_obstacle(other, sweeper) || struck.size() == struck.capacity()) return;
+        if (!sleeps || !is_obstacle(other, sweeper) || struck.size() == def.body_capacity) return;
         const Shape shape_of_other = record.shape();
         const Sweep still{{record.position, record.orientation}, {}, {}};
         const bool hit = first_impact({shape_of_other, body_assets[other], still},
