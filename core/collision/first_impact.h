@@ -35,7 +35,7 @@ inline constexpr Length k_impact_gap = Length::from_ratio(1, 2000);
 /// How deep A must come to sink into B for an impact.
 enum class ImpactDepth : std::uint8_t {
   half,     ///< half of A's thickness
-  shallow,  ///< an eighth, of what it has not sunk already: B goes on whatever A does
+  shallow,  ///< an eighth more than at the beginning: nothing stops B
 };
 
 /// The first moment at which A would run into B by more than half of A's inner radius, or an

@@ -63,8 +63,8 @@ Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
   return manifold;
 }
 
-// A half-space has nothing behind it to come out at, and what triangles sweep over is found by
-// contacts.
+// A half-space has nothing behind it to come out at, and contacts find the bodies that
+// triangles sweep over.
 bool may_sweep(const BodyRecord& body, const Asset* asset) {
   return body.shape().kind != ShapeKind::half_space &&
          (asset == nullptr || asset->mesh_kernels() == nullptr);
@@ -140,7 +140,7 @@ bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
 }
 
 // How it turned is of interest only where something is in its way. A sweeper that it meets twice
-// takes it along from the first time on: what flies straight is behind a blade that turns.
+// takes it along from the first time on: a straight way ends behind a blade that turns.
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
   const Transform& start = starts[body];

@@ -53,7 +53,7 @@ void World::Impl::note_passes(std::uint32_t body, const Sweep& motion, Unit done
     if ((!sweeps || body < each.body) && overlap(way, each.way)) look_at(each.body);
 }
 
-// What moves past the other by less than half its own thickness is seen where ticks begin.
+// A body that moves past the other by less than half its own thickness is seen where ticks begin.
 void World::Impl::note_pass(const Pair& pair, const Sweep& a, const Sweep& b) {
   const auto is_short = [&](std::uint32_t body, const Sweep& motion, const Sweep& other) {
     const Length radius = bounding_radius(bodies[body].shape(), body_assets[body]);

@@ -83,7 +83,7 @@ bool World::Impl::carries(std::uint32_t body) const {
 }
 
 // Moves bodies that joints connect as far as the sweeper takes the centre of the one that it hit.
-// What a joint holds to a body that nothing pushes stays.
+// Nothing moves if a joint holds one of them to a body that nothing pushes.
 void World::Impl::carry_joined(std::uint32_t body, const Sweep& by) {
   for (const std::uint32_t each : joined_movers)
     for (const std::uint32_t other : joint_edges.of(each, joint_links))

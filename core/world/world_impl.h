@@ -387,7 +387,7 @@ struct World::Impl {
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
 
-  // What sweeps over others: fast kinematic bodies, and fast triggers (sweepers.cpp).
+  // Bodies that sweep over others: fast kinematic bodies, and fast triggers (sweepers.cpp).
   struct Sweeper {
     std::uint32_t body = 0;
     Bounds way{};
