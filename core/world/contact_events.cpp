@@ -164,6 +164,7 @@ void World::Impl::find_events() {
                                contact_store.begin() + first);
                    });
   active_contacts = count;
+  add_passes();
   events.insert(events.end(), impacts.begin(), impacts.end());
   header.contact_count = active_contacts + frozen.count();
 }

@@ -44,6 +44,7 @@ void World::Impl::turn_frame(std::uint32_t body) {
 void World::Impl::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
   inner_radii[body] = inner_radius(record.shape(), body_assets[body]);
+  if (triggers.has(body) != record.is_trigger()) triggers.flip(body);
   broad_phase.set(body, bounds_of(body),
                   {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
                    record.is_asleep()});

@@ -46,6 +46,14 @@ inline constexpr int k_max_impacts = 4;
 // Pairs closer than this get contact points ahead of time. Half of it widens each body's bounds.
 inline constexpr Length k_contact_margin = Length::from_ratio(1, 50);
 
+/// Bits of World::Impl::far_movers.
+enum FarMover : std::uint8_t {
+  k_far_mover = 1,     // moved farther than half its thickness
+  k_joined_mover = 2,  // joints connect it to one that did
+  k_swept_over = 4,    // near the way of a sweeper
+  k_sweeper = 8,
+};
+
 struct World::Impl {
   [[gnu::cold]] Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -199,7 +207,8 @@ struct World::Impl {
 
   // Derived from flags of bodies.
   std::uint32_t active_contacts = 0, asleep_count = 0;
-  IndexSet awake;  // bodies that move
+  IndexSet awake;     // bodies that move
+  IndexSet triggers;  // triggers that exist
 
   // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
   std::vector<JointLink> joint_links;
@@ -362,7 +371,12 @@ struct World::Impl {
   };
   void stop_at_impacts(StepReport& report);
   void note_far_mover(std::uint32_t body);
-  [[nodiscard]] bool went_far(std::uint32_t body) const;
+  [[nodiscard]] bool went_far(std::uint32_t body) const {
+    return goes_far(body, starts[body], bodies[body]);
+  }
+  /// From a pose to that of `end`.
+  [[nodiscard]] bool goes_far(std::uint32_t body, const Transform& start,
+                              const BodyRecord& end) const;
   void follow(std::uint32_t body, StepReport& report);
   void follow_joined(std::uint32_t body, StepReport& report);
   void list_joined(std::uint32_t body);
@@ -373,6 +387,27 @@ struct World::Impl {
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
+
+  // Bodies that sweep over others: fast kinematic bodies, and fast triggers (sweepers.cpp).
+  struct Sweeper {
+    std::uint32_t body = 0;
+    Bounds way{};
+  };
+  [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
+  [[nodiscard]] Bounds bounds_on_way(std::uint32_t body, const Sweep& motion) const;
+  void list_sweepers();
+  void wake_struck();
+  void find_struck(std::uint32_t sweeper);
+  [[nodiscard]] bool carries(std::uint32_t body) const;
+  void push_out(std::uint32_t body, std::uint32_t sweeper);
+  void carry_joined(std::uint32_t body, const Sweep& by);
+
+  // Triggers that are passed within a tick (passes.cpp).
+  void note_passes(std::uint32_t body, const Sweep& motion, Unit done, Unit fraction);
+  void note_pass(const Pair& pair, const Sweep& a, const Sweep& b);
+  [[nodiscard]] bool senses(std::uint32_t body, std::uint32_t other) const;
+  void add_passes();
+
   void hold_before_fronts();  // thin bodies (fronts.cpp)
   void hold_before_fronts(std::uint32_t body);
 
@@ -423,6 +458,10 @@ struct World::Impl {
   std::vector<std::uint8_t> leaves_fat_box;         // by place in `moved`
   std::vector<std::uint8_t> far_movers;             // by body that moved
   std::vector<Transform> starts;                    // by body: where it was before it moved
+  std::vector<Sweeper> sweepers;                    // of this tick, by body
+  std::vector<std::uint32_t> struck;                // sleepers
+  std::vector<Pair> passes;                         // that one of the two sensed within the tick
+  bool passes_overflowed = false;
   std::vector<ContactEvent> impacts;
   // Bounces within the tick: contacts by group, a group by its least body.
   struct BouncingContact {
