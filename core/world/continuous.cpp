@@ -306,8 +306,7 @@ void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f
     broad_phase.traverse_immovable(test, visit);
 }
 
-World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion,
-                                                 Unit done) const {
+NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Unit done) const {
   const Shape shape = bodies[body].shape();
   const Length inner = inner_radii[body];
   const Length radius = bounding_radius(shape, body_assets[body]);

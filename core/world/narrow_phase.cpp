@@ -266,7 +266,8 @@ void World::Impl::fill_slot(std::uint32_t slot, const ContactKey& key, const Sur
                             const Surface* surface_b, const ManifoldInput& input,
                             std::span<const ContactRecord> before) {
   const auto old = std::ranges::find(before, key, &ContactRecord::key);
-  origins[slot] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old), false};
+  origins[slot] = {key.part_a, key.part_b,
+                   old == before.end() ? ContactOrigin::k_new : index_of(*old), false};
   inputs[slot] = input;
   for (std::size_t i = 0; i < k_max_manifold_points; ++i)
     found_separations[slot][i] = manifolds[slot].points[i].separation;
@@ -317,7 +318,7 @@ void World::Impl::add_trigger(std::uint32_t index, std::span<const ContactRecord
   const std::uint32_t slot = narrow.take(scratch, 1);
   if (slot == NarrowSlots::k_none) return;
   found_contacts[index] = {slot, 1};
-  origins[slot] = {0, 0, before.empty() ? k_new : index_of(before.front()), true};
+  origins[slot] = {0, 0, before.empty() ? ContactOrigin::k_new : index_of(before.front()), true};
   manifolds[slot] = {};
   inputs[slot] = {};
   surfaces[slot] = {};
@@ -399,7 +400,7 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
     const ContactOrigin& origin = origins[slot];
     const Pair& both = pairs[pair];
     ContactRecord& record = new_contacts[of_pair.index + i];
-    if (origin.before == k_new)
+    if (origin.before == ContactOrigin::k_new)
       record = {};
     else
       record = contact_store[origin.before];

@@ -35,6 +35,7 @@
 #include "core/world/record_checks.h"
 #include "core/world/record_hashes.h"
 #include "core/world/separating_axes.h"
+#include "core/world/step_records.h"
 #include "core/world/stores.h"
 #include "core/world/world_header.h"
 
@@ -45,14 +46,6 @@ inline constexpr int k_max_impacts = 4;
 
 // Pairs closer than this get contact points ahead of time. Half of it widens each body's bounds.
 inline constexpr Length k_contact_margin = Length::from_ratio(1, 50);
-
-/// Bits of World::Impl::far_movers.
-enum FarMover : std::uint8_t {
-  k_far_mover = 1,     // moved farther than half its thickness
-  k_joined_mover = 2,  // joints connect it to one that did
-  k_swept_over = 4,    // near the way of a sweeper
-  k_sweeper = 8,
-};
 
 struct World::Impl {
   [[gnu::cold]] Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
@@ -67,13 +60,6 @@ struct World::Impl {
 #undef LKS_DECLARE_EXECUTE
 
   Result<JointHandle> create_joint(const JointDef& joint_def);
-  // A push, and the velocities that it gives a body (force_commands.cpp).
-  struct Push {
-    Vec3<Impulse> impulse{};
-    Vec3<AngularImpulse> turn{};
-    const Vec3<Length>* point = nullptr;  // null: the centre of mass
-    Frame frame{};
-  };
   [[nodiscard]] Status gain_of(BodyHandle body, const Push& push, TickGain& gain) const;
   Status push_now(BodyHandle body, const Push& push);
   Status push_in_tick(BodyHandle body, const Push& push);
@@ -327,9 +313,6 @@ struct World::Impl {
   void run_substeps();
   void store_impulses();
   void move_bodies(StepReport& report);
-  struct MoveCounts {
-    std::uint32_t free_bodies = 0, axis_turns = 0, saturations = 0;
-  };
   void move_body(std::uint32_t body, MoveCounts& counts);
   [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
   [[nodiscard]] Loop each_moved() const;
@@ -353,11 +336,6 @@ struct World::Impl {
   void run_bounce_group(std::uint32_t index);
 
   // A pendulum (swings.cpp).
-  struct Swing {
-    std::uint32_t joint = 0;
-    std::uint32_t body = 0;
-    bool is_first = false;  // of the joint's bodies
-  };
   void find_swings();
   void look_for_swing(const JointLink& link);
   [[nodiscard]] SwingPivot pivot_of(const Swing& swing) const;
@@ -365,10 +343,6 @@ struct World::Impl {
   std::uint32_t run_swing(const Swing& swing);
 
   // Continuous collision (continuous.cpp).
-  struct NextImpact {
-    std::uint32_t body = 0;
-    Impact impact{};
-  };
   void stop_at_impacts(StepReport& report);
   void note_far_mover(std::uint32_t body);
   [[nodiscard]] bool went_far(std::uint32_t body) const {
@@ -389,10 +363,6 @@ struct World::Impl {
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
 
   // Bodies that sweep over others: fast kinematic bodies, and fast triggers (sweepers.cpp).
-  struct Sweeper {
-    std::uint32_t body = 0;
-    Bounds way{};
-  };
   [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
   [[nodiscard]] Bounds bounds_on_way(std::uint32_t body, const Sweep& motion) const;
   void list_sweepers();
@@ -432,13 +402,6 @@ struct World::Impl {
   void freeze_contacts();
   void add_sleep_events();
 
-  // The contacts of a pair of bodies taken together.
-  struct PairState {
-    Pair bodies;
-    bool exists = false, trigger = false, touching = false;  // touching of a trigger: overlapping
-    SolverVelocity approach{};
-    std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of the fastest contact
-  };
   PairState take_pair(std::span<const ContactRecord>& records,
                       std::span<const SolverVelocity> approaches) const;
   std::optional<ContactEvent> event_of(const PairState& before, const PairState& now) const;
@@ -464,12 +427,6 @@ struct World::Impl {
   bool passes_overflowed = false;
   std::vector<ContactEvent> impacts;
   // Bounces within the tick: contacts by group, a group by its least body.
-  struct BouncingContact {
-    std::uint32_t root = 0;
-    std::uint32_t contact = 0;
-
-    friend auto operator<=>(const BouncingContact&, const BouncingContact&) = default;
-  };
   std::vector<BouncingContact> bouncing_contacts;
   std::vector<std::uint32_t> bounce_groups, bouncing_bodies;  // a group is its first contact
   std::vector<std::uint8_t> has_bounced, bounce_marks;        // by body
@@ -478,20 +435,7 @@ struct World::Impl {
   std::vector<JointLink> solved_joints;  // the others, where there are any swings
   NarrowSlots narrow;
 
-  // By pair: the contacts that were found, in slots and in the list of contacts.
-  struct FoundContacts {
-    std::uint32_t slot = 0, count = 0, index = 0;
-  };
-  std::vector<FoundContacts> found_contacts;
-
-  // The origin of a new contact: parts, and its record of the tick before.
-  static constexpr std::uint32_t k_new = 0xffffffff;
-  struct ContactOrigin {
-    std::uint32_t part_a = 0;
-    std::uint32_t part_b = 0;
-    std::uint32_t before = k_new;  // in contact_store
-    bool is_trigger = false;
-  };
+  std::vector<FoundContacts> found_contacts;        // by pair
   std::vector<ContactOrigin> origins;               // by slot
   std::vector<Manifold> manifolds;                  // by slot
   std::vector<ManifoldInput> inputs;                // by slot
