@@ -40,14 +40,14 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
-// Points that overlap by more than this are squeezed; at twice this overlap, a row keeps no more
-// than half of its impulse from one iteration to the next.
+// In a pinched island, points that overlap by more than this are squeezed; at twice this overlap, a
+// row keeps no more than half of its impulse from one iteration to the next.
 constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
 constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
 
-// The share of its impulse that a soft row keeps. Between two bodies that close in without end, a
-// heavily damped spring pushes without limit, until the body between them slips out and is thrown
-// away. A squeezed contact gives way instead. Bodies that only rest or fall never overlap as far.
+// The share of its impulse that a soft row keeps in a pinched island. Between two bodies that close
+// in without end, a heavily damped spring pushes without limit, until the body between them slips
+// out and is thrown away. A squeezed contact gives way instead.
 std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
@@ -175,7 +175,7 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.scale_a = scale(a);
   out.scale_b = scale(b);
   out.bias_rate = soft.bias_rate;
-  out.keep = kept_share(soft.mass_scale, in.manifold);
+  out.keep = in.is_pinched ? kept_share(soft.mass_scale, in.manifold) : soft.mass_scale;
   out.inertia_a = 1 << (12 - pair_exponent + a.inverse_inertia.exponent);
   out.inertia_b = 1 << (12 - pair_exponent + b.inverse_inertia.exponent);
   out.inverse_scale_a = inverse_scale(a);

@@ -170,6 +170,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       islands_(body_capacity + contact_capacity + joint_capacity + 1, body_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
+  moving_holds_.reserve(contact_capacity);
   bodies_.reserve(most_rows);
   rows_.reserve(most_rows);
   inertias_.reserve(most_rows);
@@ -300,10 +301,10 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     if (is_alone(entry))
       bodies_[(entry.body_a & k_immovable) == 0 ? entry.body_a : entry.body_b].is_alone = true;
     const ContactSurface& surface = scene.surfaces[entry.slot];
-    const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface};
+    IslandLoad& island = island_of(slot);
+    const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface, island.is_pinched};
     kept_[block * k_block_lanes + lane] =
         fill_source(input, softness_, sources.lanes[lane]) ? 1 : 0;
-    IslandLoad& island = island_of(slot);
     if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
     if (island.few_are_loaded() && is_loaded(scene, entry, source.share_b)) island.loaded.raise();

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -224,11 +225,23 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
+  // Where a body that no impulse moves pushes an island.
+  struct Hold {
+    std::uint32_t island = 0;
+    std::uint32_t body = 0;
+    Vec3<Unit> normal{};
+
+    friend bool operator==(const Hold&, const Hold&) = default;
+    [[nodiscard]] auto key() const {
+      return std::tuple(island, body, normal.x.raw, normal.y.raw, normal.z.raw);
+    }
+  };
   void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
                        std::size_t converged);
   void bar_islands(const ContactScene& scene);
   void list_island(std::uint32_t island);
-  [[nodiscard]] bool is_pinched(const ContactScene& scene);
+  [[nodiscard]] Hold hold_of(const ContactScene& scene, std::size_t entry) const;
+  void mark_pinched(const ContactScene& scene);
   void chain_islands();
   [[nodiscard]] ProximalContact converged_contact(std::uint32_t index) const;
   [[nodiscard]] std::uint32_t converged_islands() const;
@@ -350,13 +363,7 @@ class ContactSolver {
   std::vector<std::uint32_t> next_of_;   // of a body, then of an entry: the next, + 1
   std::vector<std::uint32_t> island_bodies_;
   std::vector<ProximalContact> island_contacts_;
-  // Where something that no impulse moves pushes an island.
-  struct Hold {
-    Vec3<Unit> normal{};
-    std::uint32_t body = 0;
-    bool moves = false;
-  };
-  std::vector<Hold> holds_found_;
+  std::vector<Hold> moving_holds_;  // by island
   SupportOrder supports_;
   FirstLoads first_loads_;
   HeapLoads heap_loads_;

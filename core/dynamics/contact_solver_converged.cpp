@@ -36,7 +36,6 @@ void ContactSolver::reserve_islands(std::size_t rows, std::size_t bodies, std::s
   next_of_.reserve(rows + contacts);
   island_bodies_.reserve(BodyFactor::k_most_bodies);
   island_contacts_.reserve(most);
-  holds_found_.reserve(most);
 }
 
 std::uint32_t ContactSolver::converged_islands() const {
@@ -86,27 +85,44 @@ void ContactSolver::chain_islands() {
   }
 }
 
-// Whether a kinematic body presses the island of `island_contacts_` against another body that no
-// impulse moves. Then no impulses satisfy the rows, and they would grow without limit.
-bool ContactSolver::is_pinched(const ContactScene& scene) {
+// Where a body that no impulse moves holds an island, by the entry's number.
+ContactSolver::Hold ContactSolver::hold_of(const ContactScene& scene, std::size_t index) const {
+  const Entry& entry = entries_[index];
+  const auto is_pushed = [this](std::uint32_t number) {
+    return (number & k_immovable) == 0 && islands_.of(number) != 0;
+  };
+  const bool holds_a = !is_pushed(entry.body_a);
+  if (!holds_a && is_pushed(entry.body_b)) return {};
+  const ContactRecord& record = scene.records[entry.record];
+  const Vec3<Unit> normal = scene.manifolds[entry.slot].normal;
+  const std::uint32_t island = islands_.of(holds_a ? entry.body_b : entry.body_a);
+  return {island, holds_a ? record.body_a : record.body_b, holds_a ? normal : -normal};
+}
+
+// Marks islands that a moving kinematic body presses against another body that no impulse moves.
+// No impulses satisfy their rows: they would grow without limit.
+void ContactSolver::mark_pinched(const ContactScene& scene) {
   constexpr std::int64_t k_against = -(std::int64_t{1} << 57);  // cosine of −1/8, Q60
-  holds_found_.clear();
-  for (const ProximalContact& contact : island_contacts_) {
-    if (contact.a != 0 && contact.b != 0) continue;
-    const Entry& entry = entries_[contact.slot];
-    const ContactRecord& record = scene.records[entry.record];
-    const std::uint32_t body = contact.a == 0 ? record.body_a : record.body_b;
-    const Vec3<Unit> normal = scene.manifolds[entry.slot].normal;
-    const BodyRecord& holder = scene.bodies[body];
-    const bool moves = holder.velocity != Vec3<Velocity>{} || holder.spin != Vec3<Velocity>{};
-    const Hold hold{contact.a == 0 ? normal : -normal, body, moves};
-    for (const Hold& other : holds_found_)
-      if ((hold.moves || other.moves) && hold.body != other.body &&
-          dot(hold.normal, other.normal).raw < k_against)
-        return true;
-    holds_found_.push_back(hold);
+  moving_holds_.clear();
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Hold hold = hold_of(scene, i);
+    if (hold.island == 0) continue;
+    const BodyRecord& holder = scene.bodies[hold.body];
+    if (holder.velocity != Vec3<Velocity>{} || holder.spin != Vec3<Velocity>{})
+      moving_holds_.push_back(hold);
   }
-  return false;
+  if (moving_holds_.empty()) return;
+  std::ranges::sort(moving_holds_, {}, &Hold::key);
+  const auto repeated = std::ranges::unique(moving_holds_);
+  moving_holds_.erase(repeated.begin(), repeated.end());
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Hold hold = hold_of(scene, i);
+    if (hold.island == 0 || islands_.load(hold.island).is_pinched) continue;
+    for (const Hold& moving :
+         std::ranges::equal_range(moving_holds_, hold.island, {}, &Hold::island))
+      if (moving.body != hold.body && dot(hold.normal, moving.normal).raw < k_against)
+        islands_.load(hold.island).is_pinched = true;
+  }
 }
 
 // A contact as it is known before the blocks are laid out: `slot` is the entry, and the rows are
@@ -134,9 +150,9 @@ void ContactSolver::plan_converged(const ContactScene& scene) {
     IslandLoad& load = islands_.load(island);
     const bool is_small = load.contacts != 0 && load.contacts <= most_island_contacts_ &&
                           load.bodies <= BodyFactor::k_most_bodies;
-    if (load.is_barred || !is_small) continue;
+    if (load.is_barred || load.is_pinched || !is_small) continue;
     list_island(island);
-    load.is_converged = !is_pinched(scene) && proximal_->add(island_bodies_, island_contacts_);
+    load.is_converged = proximal_->add(island_bodies_, island_contacts_);
   }
 }
 

@@ -103,6 +103,7 @@ void ContactSolver::count_islands(const ContactScene& scene) {
     load.fresh += sides.is_new() ? 1U : 0U;
     load.bearing += sides.is_bearing() ? 1U : 0U;
   }
+  mark_pinched(scene);
   plan_converged(scene);
   has_heap_ = islands_.any(&IslandLoad::is_heap);
 }

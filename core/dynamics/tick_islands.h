@@ -32,6 +32,7 @@ struct IslandLoad {
   static constexpr std::uint32_t k_most_loaded = 128;
 
   bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
+  bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
   bool is_fed = false;        ///< something besides gravity and forces may give it energy
   bool is_struck = false;     ///< something comes in fast
   bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`

@@ -200,7 +200,9 @@ TEST_F(Sweepers, AFastKinematicWallTakesAlongWhatItHits) {
     def.shape = any_shape();
     def.orientation = any_turn();
     const BodyHandle body = test::add(world, def);
-    if (run % 2 == 0) ASSERT_EQ(world.apply(SleepBody{body}), Status::ok);
+    if (run % 2 == 0) {
+      ASSERT_EQ(world.apply(SleepBody{body}), Status::ok);
+    }
     for (int tick = 0; tick < 60; ++tick) {
       (void)world.step();
       ASSERT_GT(metres(world.body(body).centre_of_mass.x), metres(world.position(paddle).x))
@@ -247,7 +249,9 @@ TEST_F(Sweepers, NothingPassesAThinPaddleThatTurns) {
     };
     body_def.position = {position(r * std::cos(angle)), {}, position(-r * std::sin(angle))};
     const BodyHandle body = test::add(world, body_def);
-    if (run % 2 == 0) ASSERT_EQ(world.apply(SleepBody{body}), Status::ok);
+    if (run % 2 == 0) {
+      ASSERT_EQ(world.apply(SleepBody{body}), Status::ok);
+    }
     Side before(world, paddle, body);
     for (int tick = 0; tick < 60; ++tick) {
       (void)world.step();
