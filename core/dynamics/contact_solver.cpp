@@ -191,7 +191,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
   kept_.reserve(most * k_block_lanes);
-  reserve_islands(most_rows, body_capacity, contact_capacity,
+  reserve_islands(most_rows, body_capacity, contact_capacity, joint_capacity,
                   std::min(converged_contacts, contact_capacity));
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());

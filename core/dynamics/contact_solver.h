@@ -237,12 +237,13 @@ class ContactSolver {
     }
   };
   void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
-                       std::size_t converged);
+                       std::size_t joints, std::size_t converged);
+  [[nodiscard]] IslandLoad& load_of(const ContactScene& scene, const JointLink& link);
   void bar_islands(const ContactScene& scene);
   void list_island(std::uint32_t island);
   [[nodiscard]] Hold hold_of(const ContactScene& scene, std::size_t entry) const;
   void mark_pinched(const ContactScene& scene);
-  void chain_islands();
+  void chain_islands(const ContactScene& scene);
   [[nodiscard]] ProximalContact converged_contact(std::uint32_t index) const;
   [[nodiscard]] std::uint32_t converged_islands() const;
   void plan_converged(const ContactScene& scene);
@@ -363,6 +364,7 @@ class ContactSolver {
   std::vector<std::uint32_t> next_of_;   // of a body, then of an entry: the next, + 1
   std::vector<std::uint32_t> island_bodies_;
   std::vector<ProximalContact> island_contacts_;
+  std::vector<IslandJoint> island_joints_;
   std::vector<Hold> moving_holds_;  // by island
   SupportOrder supports_;
   FirstLoads first_loads_;

@@ -148,17 +148,21 @@ void JointSolver::solve_springs_later(const JointRun& run, Joint& joint) {
 }
 
 // A limit that is `error` away may be closed at error / substep; beyond it, it is pushed back.
+std::int64_t JointSolver::limit_speed(const JointRow& row, bool positions) const {
+  std::int64_t bias = closing_speed(row.error, step_.substep_rate());
+  if (row.error < 0) bias = positions ? std::max(bias / 4, -k_close_speed / 2) : 0;
+  return bounded(bias, k_row_bound);
+}
+
 bool JointSolver::solve_limits(const JointRun& run, Joint& joint, bool positions) {
   bool pushed = false;
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind != RowKind::limit) continue;
     const Solved& solved = joint.solved[i];
-    std::int64_t bias = closing_speed(row.error, step_.substep_rate());
-    if (row.error < 0) bias = positions ? std::max(bias / 4, -k_close_speed / 2) : 0;
     std::int64_t& stored = joint.locks[row.axis];
     const std::int64_t total = row.flipped ? -stored : stored;
-    const std::int64_t miss = speed(run, joint, row) + bounded(bias, k_row_bound);
+    const std::int64_t miss = speed(run, joint, row) + limit_speed(row, positions);
     const std::int64_t change = product_rounded(-miss, solved.inverse, solved.shift);
     const std::int64_t after =
         std::clamp(total + bounded(change, k_row_bound), std::int64_t{0}, k_row_bound);

@@ -248,6 +248,48 @@ void JointSolver::store(std::size_t added, JointRecord& record) const {
   }
 }
 
+IslandJoint JointSolver::island_joint(std::uint32_t index) const {
+  const Joint& joint = joints_[index];
+  const auto number = [this](std::uint32_t body) {
+    return bodies_[body].pushed ? bodies_[body].solver : 0;
+  };
+  const BlockFloat inverse_a = bodies_[joint.a].record->inverse_mass_value(),
+                   inverse_b = bodies_[joint.b].record->inverse_mass_value();
+  IslandJoint result;
+  result.joint = index;
+  result.a = number(joint.a);
+  result.b = number(joint.b);
+  if (result.a != 0) result.share_a = ratio(inverse_a, inverse_b).raw;
+  if (result.b != 0) result.share_b = ratio(inverse_b, inverse_a).raw;
+  result.inverse_mass = joint.inverse_mass;
+  return result;
+}
+
+std::int64_t JointSolver::limit_impulse(std::uint32_t index, std::size_t row) const {
+  const Joint& joint = joints_[index];
+  const JointRow& limit = joint.rows.rows[row];
+  const std::int64_t stored = joint.locks[limit.axis];
+  return std::max<std::int64_t>(limit.flipped ? -stored : stored, 0);
+}
+
+void JointSolver::give(const JointRun& run, std::uint32_t index, const RowImpulses& impulses) {
+  Joint& joint = joints_[index];
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < joint.rows.count; ++i) {
+    if (impulses[i] == 0) continue;
+    const JointRow& row = joint.rows.rows[i];
+    std::int64_t& total = joint.locks[row.axis];
+    total = bounded(total + (row.flipped ? -impulses[i] : impulses[i]), k_product_bound);
+    end = std::max(i + 1, joint.rows.locks);
+  }
+  if (end == 0) return;
+  const std::array<std::uint32_t, 2> ends = {joint.a, joint.b};
+  for (const std::uint32_t body : ends)
+    bodies_[body].unpushed = run.rows[bodies_[body].solver];
+  push(run, joint, 0, end, impulses);
+  end_pushes(run, ends);
+}
+
 const JointPose* JointSolver::find(std::uint32_t body) const {
   const std::uint32_t place = place_[body];
   return place == 0 ? nullptr : &bodies_[place - 1].pose;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/dynamics/body_record.h"
+#include "core/dynamics/island_joint.h"
 #include "core/dynamics/joint_factor.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/joint_rows.h"
@@ -104,6 +105,29 @@ class JointSolver {
   /// Impulses back to a record, in the order of adding; not of those in a net.
   void store(std::size_t added, JointRecord& joint) const;
 
+  // The problem of an island's contacts has the joints' locks and limits too (`ProximalSolver`).
+
+  /// The number of the joint that was added so; k_in_net of one that is left to a net.
+  static constexpr std::uint32_t k_in_net = 0xffffffff;
+  [[nodiscard]] std::uint32_t number_of(std::size_t added) const { return links_[added].joint; }
+  [[nodiscard]] IslandJoint island_joint(std::uint32_t joint) const;
+  [[nodiscard]] std::span<const JointRow> rows(std::uint32_t joint) const {
+    return joints_[joint].rows.rows.first(joints_[joint].rows.count);
+  }
+  /// As a row sees it, m/s, Q50.
+  [[nodiscard]] std::int64_t speed(const JointRun& run, std::uint32_t joint,
+                                   std::size_t row) const {
+    return speed(run, joints_[joint], joints_[joint].rows.rows[row]);
+  }
+  /// The speed at which the rest of the way to a limit may be gone, or, before positions move, at
+  /// which it is pushed back; Q50.
+  [[nodiscard]] std::int64_t limit_speed(const JointRow& row, bool positions) const;
+  /// The impulse of a limit so far, ≥ 0, Q50.
+  [[nodiscard]] std::int64_t limit_impulse(std::uint32_t joint, std::size_t row) const;
+  /// Adds impulses, by row, which the next substep begins with.
+  using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
+  void give(const JointRun& run, std::uint32_t joint, const RowImpulses& impulses);
+
   /// Where a body of the world is now; null when no joint holds it.
   [[nodiscard]] const JointPose* find(std::uint32_t body) const;
 
@@ -137,7 +161,6 @@ class JointSolver {
     std::uint32_t joint_count = 0;
     std::uint32_t local = 0;  // in its group
   };
-  static constexpr std::uint32_t k_in_net = 0xffffffff;
 
   // A joint as groups are found.
   struct Link {
@@ -157,7 +180,6 @@ class JointSolver {
     int shift = 1;
     int exponent = 0;  // power of two that scales it in a factor
   };
-  using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
   // The impulse of a spring before positions move, or after it.
   struct SpringPart {
     std::int64_t stiffness = 0;  // 1/s, Q40, per 1 + a
@@ -283,7 +305,10 @@ class JointSolver {
             const RowImpulses& impulses);
   [[nodiscard]] JointPose pose_after(const JointRun& run, Body& body) const;
   void begin_pushes(const JointRun& run, const Cluster& cluster);
-  void end_pushes(const JointRun& run, const Cluster& cluster);
+  void end_pushes(const JointRun& run, std::span<const std::uint32_t> bodies);
+  void end_pushes(const JointRun& run, const Cluster& cluster) {
+    end_pushes(run, bodies_of(cluster));
+  }
   void warm_start(const JointRun& run, Joint& joint);
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);

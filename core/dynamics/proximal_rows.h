@@ -35,6 +35,8 @@ struct ProximalRow {
   std::int64_t weight_leak = 0;  // most that a normal's centre leaks, in units of the row
   std::int64_t leak = 0;         // leak of the centre in this substep
   std::int64_t total = 0;        // impulse as the pair's velocity jump, m/s, Q32
+  std::int64_t carried = 0;      // of its speed: by kinematic bodies; only with joints
+  std::int64_t give = 0;         // γ of a normal that does not overlap deeply, Q30
 };
 
 /// Fraction bits of kept quantities in units of their rows.
@@ -90,7 +92,10 @@ struct ProximalJoint {
 
 /// How soft the rows are: overloaded contacts, by more than 400 times `weight` (a body's impulse in
 /// a substep, m/s, Q32), give less.
-void set_gives(std::int64_t weight, const PreparedRows& prepared, const ProximalContact& contact,
+void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContact& contact,
                lanes::ProximalBlock& problem);
+
+/// Sets γ of a row, Q30: 2^-14 … 1.
+void set_give(std::int64_t give, std::size_t row, lanes::ProximalBlock& problem);
 
 }  // namespace lockstone

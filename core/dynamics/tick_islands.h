@@ -31,13 +31,14 @@ struct IslandLoad {
   /// An island with more contacts of a kind is a large one: its loads take long to spread.
   static constexpr std::uint32_t k_most_loaded = 128;
 
-  bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
+  bool is_barred = false;     ///< nets, locked axes or rolling resistance: iterations alone do it
   bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
   bool is_fed = false;        ///< something besides gravity and forces may give it energy
   bool is_struck = false;     ///< something comes in fast
   bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
   std::uint32_t bodies = 0;   ///< dynamic ones
   std::uint32_t contacts = 0;
+  std::uint32_t joints = 0;
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
