@@ -28,8 +28,7 @@ void JointSolver::set_drives(Joint& joint) const {
           scale_saturating(effort, joint.inverse_mass, 24 - (i < 3 ? 0 : joint.exponent));
       drive.bound = std::clamp(bound, std::int64_t{1}, k_row_bound);
     }
-    drive.is_spring = axis.is_spring();
-    if (drive.is_spring) set_spring(joint, axis, drive);
+    if (axis.is_spring()) set_spring(joint, axis, drive);
   }
 }
 
@@ -58,7 +57,8 @@ void JointSolver::set_spring(const Joint& joint, const JointAxisRecord& axis, Dr
     const std::int64_t a = product_rounded(damping, share, 30) + implicit;
     const std::int64_t forgets = raw::round_divide(k_one << 24, (k_one + a) >> 6);
     const std::int64_t pushes = product_rounded(product_rounded(stiffness, share, 30), forgets, 30);
-    return {product_rounded(pushes, rate, 4), k_one - forgets, forgets, share};
+    return {product_rounded(pushes, rate, 4), static_cast<std::int32_t>(forgets),
+            static_cast<std::int32_t>(share)};
   };
   const std::int64_t later = (k_one - soft) / 2;
   drive.before = part(k_one - later, product_rounded(square, soft, 30));
@@ -98,7 +98,7 @@ std::int64_t JointSolver::spring_impulse(const JointRun& run, const Joint& joint
   const SpringPart& part = later ? drive.after : drive.before;
   const std::int64_t miss = bounded(row.speed, k_row_bound) - speed(run, joint, row);
   const std::int64_t wanted =
-      bounded(product_rounded(miss, part.damping, 30) -
+      bounded(product_rounded(miss, k_one - part.forgets, 30) -
                   bounded(product_rounded(row.error, part.stiffness, 22), k_row_bound),
               k_row_bound);
   const std::int64_t total = later ? joint.driven_later[row.axis] : joint.driven[row.axis];
@@ -113,9 +113,9 @@ bool JointSolver::solve_drives(const JointRun& run, Joint& joint, bool motors) {
     const JointRow& row = joint.rows.rows[i];
     if (row.kind != RowKind::drive) continue;
     const Drive& drive = joint.drives[row.axis];
-    if (!motors && !drive.is_spring) continue;
+    if (!motors && !drive.is_spring()) continue;
     std::int64_t change = 0, bound = drive.bound == 0 ? k_row_bound : drive.bound;
-    if (drive.is_spring) {
+    if (drive.is_spring()) {
       change = spring_impulse(run, joint, i, false);
       bound = product_rounded(bound, drive.before.share, 30);
     } else {
@@ -136,7 +136,7 @@ void JointSolver::solve_springs_later(const JointRun& run, Joint& joint) {
   for (std::size_t i = joint.rows.locks; i < joint.rows.count; ++i) {
     const JointRow& row = joint.rows.rows[i];
     const Drive& drive = joint.drives[row.axis];
-    if (row.kind != RowKind::drive || !drive.is_spring) continue;
+    if (row.kind != RowKind::drive || !drive.is_spring()) continue;
     std::int64_t& total = joint.driven_later[row.axis];
     total = 0;
     if (drive.after.share == 0) continue;

@@ -71,7 +71,7 @@ void JointSolver::forget_impulses(const Cluster& cluster) {
   for (Joint& joint : joints_of(cluster)) {
     joint.locks = joint.driven_later = {};
     for (std::size_t axis = 0; axis < k_joint_axes; ++axis)
-      if (!joint.drives[axis].is_spring) joint.driven[axis] = 0;
+      if (!joint.drives[axis].is_spring()) joint.driven[axis] = 0;
   }
 }
 
@@ -81,7 +81,7 @@ std::uint32_t JointSolver::rows_left_out(const JointRun& run, const Joint& joint
   for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
     const JointRow& row = joint.rows.rows[r];
     const Drive& drive = joint.drives[row.axis];
-    bool is_out = row.kind != RowKind::drive || drive.is_spring;
+    bool is_out = row.kind != RowKind::drive || drive.is_spring();
     if (!is_out) {
       const std::int64_t total = joint.driven[row.axis] + joint.driven_later[row.axis];
       const std::int64_t speed_now = speed(run, joint, row);

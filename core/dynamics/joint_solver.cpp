@@ -82,7 +82,7 @@ void JointSolver::load_impulses(Joint& joint, int shift) const {
     joint.locks[i] = std::int64_t{joint.record->axes[i].impulse.raw} * (1 << shift);
     joint.relaxed[i] = 0;
     joint.driven[i] = std::int64_t{joint.record->axes[i].drive_impulse.raw} * (1 << 30);
-    if (joint.drives[i].is_spring)
+    if (joint.drives[i].is_spring())
       joint.driven[i] = product_rounded(joint.driven[i], joint.drives[i].before.share, 30);
   }
 }

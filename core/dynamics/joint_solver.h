@@ -180,17 +180,17 @@ class JointSolver {
     int shift = 1;
     int exponent = 0;  // power of two that scales it in a factor
   };
-  // The impulse of a spring before positions move, or after it.
+  // The impulse of a spring before positions move, or after it, with its damping a.
   struct SpringPart {
     std::int64_t stiffness = 0;  // 1/s, Q40, per 1 + a
-    std::int64_t damping = 0;    // a, Q30, per 1 + a
-    std::int64_t forgets = 0;    // Q30, 1 / (1 + a)
-    std::int64_t share = 0;      // of its bound, Q30
+    std::int32_t forgets = 0;    // Q30, 1 / (1 + a)
+    std::int32_t share = 0;      // of its bound, Q30
   };
   struct Drive {
-    bool is_spring = false;
     std::int64_t bound = 0;  // Q50; 0: none
     SpringPart before, after;
+
+    [[nodiscard]] bool is_spring() const { return before.share != 0; }
   };
   struct Joint {
     const JointRecord* record = nullptr;

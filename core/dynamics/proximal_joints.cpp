@@ -1,8 +1,8 @@
 // The joints among an island's contacts. Locks are rows that may pull, limits are rows that push;
 // both are read anew in each phase, where the joint solver has them. Their impulses go to the joint
-// solver, which repeats those of locks in the next substep: so a phase finds what they change.
-// Springs and motors act in between, one by one, and the joint solver closes what second-order
-// terms leave open.
+// solver, which repeats those of locks in the next substep, and a phase finds their changes.
+// Springs and motors act in between, one by one; then the joint solver closes the openings that
+// second-order terms leave.
 
 #include <algorithm>
 
@@ -63,6 +63,20 @@ std::int64_t ProximalSolver::seen_speed(const Island& island, const Problem& pro
     sum.add(high_word(problem.by_row[row][i]), b[i]);
   }
   return sum.rounded(30);
+}
+
+// Joints may hold bodies where they overlap, and then no impulses part them: they would grow
+// without limit. The deeper a point overlaps, the softer its row, and the more of its impulse it
+// forgets.
+void ProximalSolver::soften(std::int64_t overlap, const ProximalRow& row, std::size_t i,
+                            Problem& problem) {
+  constexpr std::int64_t k_firm = (std::int64_t{1} << 24) / 4000, k_soft = 16 * k_firm;  // m, Q24
+  constexpr std::int64_t k_most_give = k_whole >> 3;
+  constexpr std::int64_t k_width = k_soft - k_firm;
+  const std::int64_t beyond = std::clamp<std::int64_t>(overlap - k_firm, 0, k_width);
+  const std::int64_t more = std::max<std::int64_t>(k_most_give - row.give, 0);
+  set_give(row.give + raw::round_divide(more * beyond, k_width), i, problem);
+  problem.held_centre[i] -= raw::round_divide(problem.held[i] / 2, k_width) * beyond;
 }
 
 // The rest of the rows' speeds, which kinematic bodies give them.

@@ -184,7 +184,6 @@ bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, Proxima
     lock.b[i] = static_cast<std::int32_t>(scaled_entry(sides.b[i], inverse));
   }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
-  lock.own = product_rounded(length, length, 30);
   lock.to_speed = joint.mass * norm.reciprocal();
   lock.to_impulse = (joint.mass * norm).reciprocal();
   return true;

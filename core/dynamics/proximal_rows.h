@@ -72,7 +72,6 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
 struct ProximalLock {
   RowSide a{}, b{};               // Q30; 0 of a body that nothing pushes
   RowScale to_speed, to_impulse;  // as ProximalRow's
-  std::int64_t own = 0;           // response to itself, Q30
   std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
 };
 

@@ -306,19 +306,6 @@ void ProximalSolver::return_leaks(const Island& island) {
   }
 }
 
-// Joints may hold bodies where they overlap, and then no impulses part them: they would grow without
-// limit. The deeper a point overlaps, the softer its row, and the more of its impulse it forgets.
-void ProximalSolver::soften(std::int64_t overlap, const ProximalRow& row, std::size_t i,
-                            Problem& problem) {
-  constexpr std::int64_t k_firm = (std::int64_t{1} << 24) / 4000, k_soft = 16 * k_firm;  // m, Q24
-  constexpr std::int64_t k_most_give = k_whole >> 3;
-  constexpr std::int64_t k_width = k_soft - k_firm;
-  const std::int64_t beyond = std::clamp<std::int64_t>(overlap - k_firm, 0, k_width);
-  const std::int64_t more = std::max<std::int64_t>(k_most_give - row.give, 0);
-  set_give(row.give + raw::round_divide(more * beyond, k_width), i, problem);
-  problem.held_centre[i] -= raw::round_divide(problem.held[i] / 2, k_width) * beyond;
-}
-
 // Sets the speeds at which separations close, or overlap is pushed out.
 void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& contact,
                               Problem& problem, bool pushes_out, bool is_jointed) {
