@@ -43,7 +43,7 @@ BlockFloat quotient(BlockFloat a, BlockFloat b) {
 
 }  // namespace
 
-// Moving surfaces and drives give islands energy.
+// Marks islands that restitution, and those that moving surfaces and drives, may give energy.
 void ContactSolver::find_fed_islands(const ContactScene& scene) {
   const auto moves = [&](std::uint32_t index) {
     const BodyRecord& body = scene.bodies[index];
@@ -53,6 +53,7 @@ void ContactSolver::find_fed_islands(const ContactScene& scene) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const ContactRecord& record = scene.records[entries_[i].record];
     const ContactSurface& surface = scene.surfaces[entries_[i].slot];
+    if (surface.restitution != Coefficient{}) island_of(i).may_bounce = true;
     if (moves(record.body_a) || moves(record.body_b) || surface.twist_drive != Rate{} ||
         surface.drive != Vec3<SolverVelocity>{})
       island_of(i).is_fed = true;
@@ -130,7 +131,8 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
   };
   for (std::uint32_t i = 1; i < members_.size(); ++i) {
     IslandGain& gain = gains_[islands_.of(i)];
-    if (islands_.load(islands_.of(i)).is_fed || !bodies_[i].is_pushed()) continue;
+    const IslandLoad& load = islands_.load(islands_.of(i));
+    if (!load.may_bounce || load.is_fed || !bodies_[i].is_pushed()) continue;
     if (gain.unit == BlockFloat{}) gain.unit = bodies_[i].inverse_mass;
     add(i, gain, gain.gained, gained_[i]);
   }

@@ -130,14 +130,14 @@ void ContactSolver::mark_pinched(const ContactScene& scene) {
   }
   if (moving_holds_.empty()) return;
   std::ranges::sort(moving_holds_, {}, &Hold::key);
-  const auto repeated = std::ranges::unique(moving_holds_);
-  moving_holds_.erase(repeated.begin(), repeated.end());
+  const auto end = std::unique(moving_holds_.begin(), moving_holds_.end());
+  moving_holds_.erase(end, moving_holds_.end());
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Hold hold = hold_of(scene, i);
     if (hold.island == 0 || islands_.load(hold.island).is_pinched) continue;
-    for (const Hold& moving :
-         std::ranges::equal_range(moving_holds_, hold.island, {}, &Hold::island))
-      if (moving.body != hold.body && dot(hold.normal, moving.normal).raw < k_against)
+    auto moving = std::ranges::lower_bound(moving_holds_, hold.island, {}, &Hold::island);
+    for (; moving != moving_holds_.end() && moving->island == hold.island; ++moving)
+      if (moving->body != hold.body && dot(hold.normal, moving->normal).raw < k_against)
         islands_.load(hold.island).is_pinched = true;
   }
 }

@@ -1,4 +1,4 @@
-// Solves each small island's contacts to convergence: one proximal problem a phase.
+// Solves each small island's contacts and joints to convergence: one proximal problem a phase.
 //
 // A phase finds impulses λ and velocities v = v* + M⁻¹Jᵀλ such that J·v + b + γ(λ − c) = 0 for
 // every row that is neither separating nor sliding, with λ ≥ 0 along normals and friction within

@@ -33,6 +33,7 @@ struct IslandLoad {
 
   bool is_barred = false;     ///< nets, locked axes or rolling resistance: iterations alone do it
   bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
+  bool may_bounce = false;    ///< any restitution
   bool is_fed = false;        ///< something besides gravity and forces may give it energy
   bool is_struck = false;     ///< something comes in fast
   bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
