@@ -171,6 +171,9 @@ void ContactSolver::plan_converged(const ContactScene& scene) {
     if (load.is_barred || load.is_pinched || !is_small) continue;
     list_island(island);
     load.is_converged = proximal_->add(island_bodies_, island_contacts_, island_joints_);
+    if (!load.is_converged) continue;
+    for (const IslandJoint& joint : island_joints_)
+      joints_->put_among_contacts(joint.joint);
   }
 }
 

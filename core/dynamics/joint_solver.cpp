@@ -90,7 +90,7 @@ void JointSolver::load_impulses(Joint& joint, int shift) const {
 void JointSolver::begin(const JointRun& run) {
   const RoundDivisor rate(step_.substep_rate());
   for (Body& body : bodies_) {
-    body.centred = body.pushed && !body.in_net && !body.touches;
+    body.centred = body.pushed && !body.in_net && !body.touches && !body.is_among_contacts;
     body.rate = rate;
   }
   for (Group& group : groups_)
@@ -263,6 +263,11 @@ IslandJoint JointSolver::island_joint(std::uint32_t index) const {
   if (result.b != 0) result.share_b = ratio(inverse_b, inverse_a).raw;
   result.inverse_mass = joint.inverse_mass;
   return result;
+}
+
+void JointSolver::put_among_contacts(std::uint32_t joint) {
+  bodies_[joints_[joint].a].is_among_contacts = true;
+  bodies_[joints_[joint].b].is_among_contacts = true;
 }
 
 std::int64_t JointSolver::limit_impulse(std::uint32_t index, std::size_t row) const {

@@ -111,6 +111,9 @@ class JointSolver {
   static constexpr std::uint32_t k_in_net = 0xffffffff;
   [[nodiscard]] std::uint32_t number_of(std::size_t added) const { return links_[added].joint; }
   [[nodiscard]] IslandJoint island_joint(std::uint32_t joint) const;
+  /// Before `begin`: the problem has the joint, and gravity acts on its bodies as on those with
+  /// contacts.
+  void put_among_contacts(std::uint32_t joint);
   [[nodiscard]] std::span<const JointRow> rows(std::uint32_t joint) const {
     return joints_[joint].rows.rows.first(joints_[joint].rows.count);
   }
@@ -151,6 +154,7 @@ class JointSolver {
     bool has_looked = false;
     bool pushed = false;
     bool touches = false;            // has contacts
+    bool is_among_contacts = false;  // its joints are in the problem of its island's contacts
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick

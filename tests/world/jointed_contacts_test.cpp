@@ -78,6 +78,35 @@ TEST(JointedContacts, BendTheTableWhereTheyAreSolvedInTurn) {
   EXPECT_GT(Table(0).moves(), 1e-3);
 }
 
+// A ladder of 4 m at 15° against a wall, with a load welded to it that touches nothing.
+TEST(JointedContacts, LetALoadedLadderLeanStill) {
+  World world = test::make_world();
+  test::add_ground(world);
+  BodyDef wall;
+  wall.motion = MotionType::static_body;
+  wall.shape = Shape::box(0.5_m, 4_m, 2_m);
+  wall.position = {Position::from_ratio(-10563, 10000), 4_m, {}};
+  wall.material.friction = Coefficient::from_ratio(8, 10);
+  test::add(world, wall);
+  BodyDef def = test::dynamic_body(Shape::box(0.04_m, 2_m, 0.25_m), {},
+                                   Position::from_ratio(19422, 10000), {});
+  def.orientation = from_axis_angle({{}, {}, 1_r}, 0.261799388_rad);
+  def.material.friction = Coefficient::from_ratio(8, 10);
+  const BodyHandle ladder = test::add(world, def);
+  BodyDef load =
+      test::dynamic_body(Shape::box(0.2_m, 0.2_m, 0.2_m), Position::from_ratio(1294, 10000),
+                         Position::from_ratio(1459, 1000), {});
+  load.orientation = def.orientation;
+  load.filter.mask = 0;
+  JointDef weld = JointDef::of(JointKind::weld, ladder, test::add(world, load));
+  weld.frame_a.position.y = -0.5_m;
+  (void)test::join(world, weld);
+  const Vec3<Position> start = world.position(ladder);
+  test::step(world, 600);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(test::metres(world.position(ladder)[axis] - start[axis]), 0, 1e-3);
+}
+
 // A chain between two posts wedges a ball that is too wide for it: no impulses part them.
 TEST(JointedContacts, DoNotThrowBodiesThatJointsHoldWhereTheyOverlap) {
   for (const int wedge : {10, 15, 20, 25}) {
