@@ -72,10 +72,12 @@ std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint3
   return place;
 }
 
-// Divides the impulses of points that are gone among the new ones, each at most the mean impulse of
-// the contact: the impulse of a blow is dropped.
-void hand_on(std::int64_t left, std::uint32_t fresh, std::int64_t load, ManifoldSource& out) {
-  const std::int64_t each = std::min(left / std::popcount(fresh), load);
+// Divides the impulses of points that are gone among the new ones: where boxes fall flush onto each
+// other, points change names from tick to tick, and contacts that forgot their impulses each time
+// would rattle.
+void hand_on(std::int64_t left, std::uint32_t fresh, ManifoldSource& out) {
+  const std::int64_t each =
+      std::min<std::int64_t>(left / std::popcount(fresh), lanes::k_most_impulse);
   for (std::size_t i = 0; i < lanes::k_block_points; ++i)
     if ((fresh >> i & 1) != 0) out.impulses[i] = static_cast<std::int32_t>(each);
 }
@@ -103,7 +105,7 @@ bool fill_points(const ContactInput& in, ManifoldSource& out) {
   for (std::size_t i = count; i < lanes::k_block_points; ++i)
     kept = kept && in.record.points[i] == ContactPointRecord{};
   out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
-  if (fresh != 0 && left > 0) hand_on(left, fresh, out.load, out);
+  if (fresh != 0 && left > 0) hand_on(left, fresh, out);
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];
   return kept;
