@@ -30,6 +30,8 @@ class SharedCount {
 struct IslandLoad {
   /// An island with more contacts of a kind is a large one: its loads take long to spread.
   static constexpr std::uint32_t k_most_loaded = 128;
+  /// With more that bear several times a weight, iterations alone would let it bend.
+  static constexpr std::uint32_t k_most_bearing = 256;
 
   bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
   bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
@@ -43,7 +45,7 @@ struct IslandLoad {
   SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
                               ///< k_most_loaded + 1 on it may be any greater number
 
-  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_loaded; }
+  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
   /// Left to the iterations, and large.
   [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }

@@ -1,4 +1,4 @@
-// The part of its impulse that a soft contact keeps.
+// How softly a contact begins.
 #include "core/dynamics/contact_prepare.h"
 
 #include <gtest/gtest.h>
@@ -45,6 +45,19 @@ TEST_F(ContactPrepare, OfAPinchedIslandKeepsLessTheDeeperItIsAndHalfFromSixMilli
   }
   for (const Displacement separation : {-mm(6), -mm(100), Displacement::min()})
     EXPECT_NEAR(kept_at(separation), 1 << 29, 1 << 14) << separation.raw;
+}
+
+TEST_F(ContactPrepare, RemembersItsMeanImpulseInHeapsAlone) {
+  Manifold manifold;
+  manifold.count = 1;
+  ContactRecord record;
+  record.load.raw = 1000;
+  const ContactSurface surface;
+  for (const bool is_heap : {false, true}) {
+    lanes::ManifoldSource source;
+    (void)fill_source({body_, body_, manifold, record, surface, false, is_heap}, softness_, source);
+    EXPECT_EQ(source.load, is_heap ? 1000 : 0);
+  }
 }
 
 }  // namespace
