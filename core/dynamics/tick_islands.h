@@ -47,8 +47,6 @@ struct IslandLoad {
 
   [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
-  /// Left to the iterations, and large.
-  [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
   /// Many contacts are loaded, and a good part of all are new and have no impulses yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;
