@@ -104,7 +104,7 @@ bool fill_points(const ContactInput& in, ManifoldSource& out) {
   }
   for (std::size_t i = count; i < lanes::k_block_points; ++i)
     kept = kept && in.record.points[i] == ContactPointRecord{};
-  out.load = in.is_heap ? std::clamp(in.record.load.raw, 0, lanes::k_most_impulse) : 0;
+  out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
   if (fresh != 0 && left > 0) hand_on(left, fresh, out);
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];

@@ -34,7 +34,6 @@ struct ContactInput {
   const ContactRecord& record;
   const ContactSurface& surface;
   bool is_pinched = false;  ///< its island is
-  bool is_heap = false;     ///< its island is: a soft row forgets towards the mean impulse
 };
 
 /// The manifold as lanes read it.

@@ -113,9 +113,12 @@ std::int64_t mean_impulse(const ContactRecord& record) {
   return raw::round_shift(sum * k_one_over_q28[record.count], 28);
 }
 
-// The mean impulse (`load`) follows the impulses over 2^shift ticks.
+// The mean impulse (`load`) follows the impulses over 2^shift ticks, from the initial warm start
+// on. Contacts without one have none: what they learned while bodies settle would keep them
+// trembling.
 void follow_load(std::int64_t now, int shift, ContactRecord& record) {
   const std::int64_t load = record.load.raw;
+  if (load == 0) return;
   record.load.raw = static_cast<std::int32_t>(load + raw::round_shift(now - load, shift));
 }
 
@@ -289,8 +292,7 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
       bodies_[(entry.body_a & k_immovable) == 0 ? entry.body_a : entry.body_b].is_alone = true;
     const ContactSurface& surface = scene.surfaces[entry.slot];
     IslandLoad& island = island_of(slot);
-    const ContactInput input{
-        a, b, scene.manifolds[entry.slot], record, surface, island.is_pinched, island.is_heap()};
+    const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface, island.is_pinched};
     kept_[block * k_block_lanes + lane] =
         fill_source(input, softness_, sources.lanes[lane]) ? 1 : 0;
     if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);

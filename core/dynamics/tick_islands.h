@@ -28,10 +28,10 @@ class SharedCount {
 
 /// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
-  /// An island with more contacts of a kind is a large one: its loads take long to spread.
-  static constexpr std::uint32_t k_most_loaded = 128;
-  /// With more that bear several times a weight, iterations alone would let it bend.
-  static constexpr std::uint32_t k_most_bearing = 256;
+  /// With more loaded contacts an island gets first loads: it would settle for long without.
+  static constexpr std::uint32_t k_most_loaded = 8;
+  /// With more that bear several times a weight it is rebalanced: it would bend without.
+  static constexpr std::uint32_t k_most_bearing = 128;
 
   bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
   bool is_pinched = false;    ///< between a moving kinematic body and another immovable one

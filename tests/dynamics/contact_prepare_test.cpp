@@ -47,18 +47,5 @@ TEST_F(ContactPrepare, OfAPinchedIslandKeepsLessTheDeeperItIsAndHalfFromSixMilli
     EXPECT_NEAR(kept_at(separation), 1 << 29, 1 << 14) << separation.raw;
 }
 
-TEST_F(ContactPrepare, RemembersItsMeanImpulseInHeapsAlone) {
-  Manifold manifold;
-  manifold.count = 1;
-  ContactRecord record;
-  record.load.raw = 1000;
-  const ContactSurface surface;
-  for (const bool is_heap : {false, true}) {
-    lanes::ManifoldSource source;
-    (void)fill_source({body_, body_, manifold, record, surface, false, is_heap}, softness_, source);
-    EXPECT_EQ(source.load, is_heap ? 1000 : 0);
-  }
-}
-
 }  // namespace
 }  // namespace lockstone

@@ -73,7 +73,7 @@ TEST(IslandLoad, NeedsFirstLoadsWhereManyAreLoadedAndAQuarterIsNew) {
   EXPECT_TRUE(load.needs_first_loads());
   load.fresh = 249;
   EXPECT_FALSE(load.needs_first_loads());
-  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128};
+  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = IslandLoad::k_most_loaded};
   EXPECT_FALSE(load.needs_first_loads());
 }
 
