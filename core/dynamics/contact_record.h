@@ -47,7 +47,7 @@ struct ContactRecord {
   Vec3<SolverVelocity> friction_impulse{};  // of all points, in world axes
   Vec3<SolverVelocity> rolling_impulse{};   // torque / ℓ, in world axes
   SolverVelocity twist_impulse{};           // about the normal, at the points' mean radius
-  SolverVelocity load{};                    // mean normal impulse of a point in the last seconds
+  SolverVelocity load{};                    // mean normal impulse of a point, or 0
   std::uint16_t count = 0;                  // 0 … 4
   std::uint16_t flags = 0;                  // ContactFlag
 

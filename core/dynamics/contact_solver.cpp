@@ -113,9 +113,8 @@ std::int64_t mean_impulse(const ContactRecord& record) {
   return raw::round_shift(sum * k_one_over_q28[record.count], 28);
 }
 
-// The mean impulse (`load`) follows the impulses over 2^shift ticks, from the initial warm start
-// on. Contacts without one have none: what they learned while bodies settle would keep them
-// trembling.
+// The mean impulse (`load`) follows the impulses over 2^shift ticks, where the initial warm start
+// gave one. If other contacts learned theirs while bodies settle, these would tremble on.
 void follow_load(std::int64_t now, int shift, ContactRecord& record) {
   const std::int64_t load = record.load.raw;
   if (load == 0) return;

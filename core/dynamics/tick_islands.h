@@ -28,7 +28,7 @@ class SharedCount {
 
 /// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
-  /// With more loaded contacts an island gets first loads: it would settle for long without.
+  /// With more loaded contacts an island starts warm: it would settle for long otherwise.
   static constexpr std::uint32_t k_most_loaded = 8;
   /// With more that bear several times a weight it is rebalanced: it would bend without.
   static constexpr std::uint32_t k_most_bearing = 128;
