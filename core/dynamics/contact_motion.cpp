@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "core/dynamics/contact_pose.h"
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/joint_solver.h"
 #include "core/dynamics/motion.h"
@@ -58,6 +59,14 @@ Vec3<Velocity> ContactSolver::half_step_back(std::size_t index, const BodyRecord
     return Velocity::from_raw(raw::round_divide(step_.substep.times(v.raw), 2));
   };
   return {half(gain.x), half(gain.y), half(gain.z)};
+}
+
+bool ContactSolver::keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const {
+  const std::uint32_t index = solver_index_[body];
+  const std::uint32_t island = index == 0 ? 0 : islands_.of(index);
+  if (island == 0 || islands_.load(island).is_converged) return false;
+  const bool is_heap = islands_.load(island).is_heap();
+  return is_near_contact_pose(record, is_heap ? k_fine_drift : k_coarse_drift);
 }
 
 const SolverBody* ContactSolver::find(std::uint32_t body) const {

@@ -113,23 +113,12 @@ std::int64_t mean_impulse(const ContactRecord& record) {
   return raw::round_shift(sum * k_one_over_q28[record.count], 28);
 }
 
-// The mean impulse (`load`) follows the impulses over 2^shift ticks. For a body that touches
-// nothing else, and so cannot swing with a neighbour, it is at first the mean over all ticks of the
-// contact. There the lesser impulse of two ticks in a row counts, so that a blow does not; a
-// contact that stops pushing for a while begins anew.
-void follow_load(std::int64_t before, std::int64_t now, bool alone, int shift,
-                 ContactRecord& record) {
-  constexpr std::uint8_t k_oldest = 255;
+// The mean impulse (`load`) follows the impulses over 2^shift ticks, where the initial warm start
+// gave one. If other contacts learned theirs while bodies settle, these would tremble on.
+void follow_load(std::int64_t now, int shift, ContactRecord& record) {
   const std::int64_t load = record.load.raw;
-  const bool learns = alone && record.age < k_oldest;
-  if (now == 0 || !alone)
-    record.age = record.age / 2;
-  else if (learns)
-    ++record.age;
-  const std::int64_t gained = learns && now != 0
-                                  ? raw::round_divide(std::min(before, now) - load, record.age)
-                                  : raw::round_shift(now - load, shift);
-  record.load.raw = static_cast<std::int32_t>(load + gained);
+  if (load == 0) return;
+  record.load.raw = static_cast<std::int32_t>(load + raw::round_shift(now - load, shift));
 }
 
 // The points of a contact that are not those of the tick before.
@@ -428,10 +417,9 @@ std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first,
     const Entry& entry = entries_[slots_[slot]];
     ContactRecord& record = target.records[entry.record];
     const std::size_t block = slot / k_block_lanes, lane = slot % k_block_lanes;
-    const std::int64_t before = mean_impulse(record);
     if (kept_[slot] == 0) name_points(target.manifolds[entry.slot], record);
     clamped += store_contact(block, lane, record);
-    follow_load(before, mean_impulse(record), is_alone(entry), load_shift_, record);
+    follow_load(mean_impulse(record), load_shift_, record);
     target.approaches[entry.record].raw = approaches_[block].fastest(lane);
     if (record.is_touching()) add_axes(entry, unit_normal_of(blocks_[block], lane));
   }

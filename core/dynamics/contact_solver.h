@@ -93,11 +93,9 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
-  /// Whether the body's island is large, and left to the iterations.
-  [[nodiscard]] bool is_iterated(std::uint32_t body) const {
-    const std::uint32_t index = solver_index_[body];
-    return index != 0 && islands_.load(islands_.of(index)).is_iterated();
-  }
+  /// Whether the body's manifolds may stay as they are: its island is left to the iterations, and
+  /// it has not drifted far.
+  [[nodiscard]] bool keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const;
 
   /// Values that were clamped to their range.
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }

@@ -28,8 +28,10 @@ class SharedCount {
 
 /// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
-  /// An island with more contacts of a kind is a large one: its loads take long to spread.
-  static constexpr std::uint32_t k_most_loaded = 128;
+  /// With more loaded contacts an island starts warm: it would settle for long otherwise.
+  static constexpr std::uint32_t k_most_loaded = 8;
+  /// With more that bear several times a weight it is rebalanced: it would bend without.
+  static constexpr std::uint32_t k_most_bearing = 128;
 
   bool is_barred = false;     ///< nets, locked axes or rolling resistance: iterations alone do it
   bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
@@ -45,10 +47,8 @@ struct IslandLoad {
   SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
                               ///< k_most_loaded + 1 on it may be any greater number
 
-  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_loaded; }
+  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
-  /// Left to the iterations, and large.
-  [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
   /// Many contacts are loaded, and a good part of all are new and have no impulses yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;

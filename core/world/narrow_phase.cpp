@@ -409,7 +409,7 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
     record.part_a = origin.part_a;
     record.part_b = origin.part_b;
     if (origin.is_trigger) {
-      record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
+      record.flags = static_cast<std::uint16_t>(record.flags | k_contact_trigger);
     }
     slots[of_pair.index + i] = slot;
     approach_speeds[of_pair.index + i] = {};

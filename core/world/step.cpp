@@ -171,14 +171,12 @@ Loop World::Impl::each_moved() const {
   return {static_cast<std::uint32_t>(moved.size()), k_body_grain};
 }
 
-// A body that left its contact pose takes another. Only in large islands that iterations solve,
-// which have many contacts to find, may a body drift from its pose: the residual motion of
-// converged contacts is finer.
+// A body that left its contact pose takes another. Only in islands that iterations solve may a body
+// drift from its pose: the residual motion of converged contacts is finer.
 void World::Impl::follow_with_contacts() {
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
-      if (!solver.is_iterated(moved[i]) || !is_near_contact_pose(bodies[moved[i]]))
-        take_contact_pose(moved[i]);
+      if (!solver.keeps_contact_pose(moved[i], bodies[moved[i]])) take_contact_pose(moved[i]);
   });
 }
 

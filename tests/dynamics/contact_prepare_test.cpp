@@ -1,4 +1,4 @@
-// The part of its impulse that a soft contact keeps.
+// How softly a contact begins.
 #include "core/dynamics/contact_prepare.h"
 
 #include <gtest/gtest.h>
