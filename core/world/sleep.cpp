@@ -11,7 +11,7 @@
 namespace lockstone {
 namespace {
 
-constexpr Displacement k_deep = Displacement::from_ratio(1, 1500);
+constexpr Displacement k_deep = Displacement::from_ratio(1, 300);
 
 }  // namespace
 
