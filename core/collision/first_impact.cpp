@@ -114,8 +114,10 @@ Vec3<Unit> crossing_from_front(const Piece& b, const Vec3<Unit>& crossing) {
 // Tries every piece of B near the way of one piece of A.
 class PiecesOfB final : public PieceVisitor {
  public:
-  PiecesOfB(const Piece& a, const Sweep& motion_a, const Sweep& motion_b, Impact& best)
+  PiecesOfB(const Piece& a, const Sweep& motion_a, const Sweep& motion_b, ImpactDepth depth,
+            Impact& best)
       : a_(a),
+        depth_(depth),
         inner_radius_(inner_radius_of(a)),
         limits_(limits_for(inner_radius_)),
         sweep_a_(a, motion_a),
@@ -128,7 +130,8 @@ class PiecesOfB final : public PieceVisitor {
     const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
     if (is_behind(middle_of(a_), b)) return;
     const PieceSweep sweep_b(b, motion_b_);
-    const Meeting meeting = meet({b.shape, sweep_b.sweep, b.polytope, sweep_b.origin});
+    const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
+    const Meeting meeting = depth_ == ImpactDepth::half ? meet(swept_b) : meet_soon(swept_b);
     if (meeting.time == k_never || (best_.hit && meeting.time >= best_.fraction)) return;
     const Vec3<Unit> crossing = crossing_from_front(b, meeting.crossing);
     best_ = {true, meeting.time, a_.part, b.part, crossing};
@@ -155,6 +158,18 @@ class PiecesOfB final : public PieceVisitor {
     return {deep, {}};
   }
 
+  // As soon as A sinks an eighth deeper than it is.
+  [[nodiscard]] Meeting meet_soon(const SweptShape& b) const {
+    for (int depth = 1; depth <= k_last_depth; ++depth) {
+      const Unit time = time_at(depth, b);
+      if (time == k_never) return {};
+      if (time == Unit{}) continue;
+      const Unit whole = depth == 1 ? time_at(0, b) : k_never;
+      return {whole != k_never && whole > Unit{} ? whole : time, {}};
+    }
+    return cross(b);
+  }
+
   // The moment at which the middle of A, deep in B from the beginning, runs into it too: or a rod
   // would pass through a wall that its tip was in.
   [[nodiscard]] Meeting cross(const SweptShape& b) const {
@@ -179,6 +194,7 @@ class PiecesOfB final : public PieceVisitor {
   }
 
   const Piece& a_;
+  const ImpactDepth depth_;
   const Length inner_radius_;
   const TimeOfImpactLimits limits_;
   const PieceSweep sweep_a_;
@@ -186,13 +202,63 @@ class PiecesOfB final : public PieceVisitor {
   Impact& best_;
 };
 
-class PiecesOfA final : public PieceVisitor {
+// Whether any piece of B touches one piece of A on their way.
+class TouchingPiecesOfB final : public PieceVisitor {
  public:
-  PiecesOfA(const MovingShape& a, const MovingShape& b)
+  TouchingPiecesOfB(const Piece& a, const Sweep& motion_a, const Sweep& motion_b)
+      : a_(a), sweep_a_(a, motion_a), motion_b_(motion_b) {}
+
+  void visit(const Piece& piece) override {
+    const bool unbounded = piece.shape.kind == ShapeKind::half_space;
+    if (touched_ || (unbounded && !may_meet(piece, a_.origin))) return;
+    const Piece b = unbounded ? as_box(piece, a_.origin) : piece;
+    const PieceSweep sweep_b(b, motion_b_);
+    const SweptShape swept_a{a_.shape, sweep_a_.sweep, a_.polytope, sweep_a_.origin};
+    const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
+    const TimeOfImpact found = time_of_impact(swept_a, swept_b, k_touch_limits);
+    touched_ = found.state != TimeOfImpactState::separated;
+  }
+
+  [[nodiscard]] bool touched() const { return touched_; }
+
+ private:
+  static constexpr TimeOfImpactLimits k_touch_limits{Length::from_raw(4), Length::from_raw(4), 256};
+
+  const Piece& a_;
+  const PieceSweep sweep_a_;
+  const Sweep& motion_b_;
+  bool touched_ = false;
+};
+
+class TouchingPieces final : public PieceVisitor {
+ public:
+  TouchingPieces(const MovingShape& a, const MovingShape& b)
       : a_(a), b_(b), placed_b_(placed_at_start(b)), way_(way_of(a, b)) {}
 
   void visit(const Piece& piece) override {
-    PiecesOfB others(piece, a_.motion, b_.motion, best_);
+    if (touched_) return;
+    TouchingPiecesOfB others(piece, a_.motion, b_.motion);
+    visit_pieces(placed_b_, way_, {}, others);
+    touched_ = others.touched();
+  }
+
+  [[nodiscard]] bool touched() const { return touched_; }
+
+ private:
+  const MovingShape& a_;
+  const MovingShape& b_;
+  const PlacedShape placed_b_;
+  const OrientedBox way_;
+  bool touched_ = false;
+};
+
+class PiecesOfA final : public PieceVisitor {
+ public:
+  PiecesOfA(const MovingShape& a, const MovingShape& b, ImpactDepth depth)
+      : a_(a), b_(b), depth_(depth), placed_b_(placed_at_start(b)), way_(way_of(a, b)) {}
+
+  void visit(const Piece& piece) override {
+    PiecesOfB others(piece, a_.motion, b_.motion, depth_, best_);
     visit_pieces(placed_b_, way_, {}, others);
   }
 
@@ -201,6 +267,7 @@ class PiecesOfA final : public PieceVisitor {
  private:
   const MovingShape& a_;
   const MovingShape& b_;
+  const ImpactDepth depth_;
   const PlacedShape placed_b_;
   const OrientedBox way_;
   Impact best_;
@@ -208,11 +275,18 @@ class PiecesOfA final : public PieceVisitor {
 
 }  // namespace
 
-Impact first_impact(const MovingShape& a, const MovingShape& b) {
+Impact first_impact(const MovingShape& a, const MovingShape& b, ImpactDepth depth) {
   const PlacedShape placed = placed_at_start(a);
-  PiecesOfA pieces(a, b);
+  PiecesOfA pieces(a, b, depth);
   visit_pieces(placed, oriented_box(placed), {}, pieces);
   return pieces.best();
+}
+
+bool touch_on_way(const MovingShape& a, const MovingShape& b) {
+  const PlacedShape placed = placed_at_start(a);
+  TouchingPieces pieces(a, b);
+  visit_pieces(placed, oriented_box(placed), {}, pieces);
+  return pieces.touched();
 }
 
 }  // namespace lockstone

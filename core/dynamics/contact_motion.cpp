@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "core/dynamics/contact_pose.h"
 #include "core/dynamics/contact_solver.h"
 #include "core/dynamics/joint_solver.h"
 #include "core/dynamics/motion.h"
@@ -60,6 +61,14 @@ Vec3<Velocity> ContactSolver::half_step_back(std::size_t index, const BodyRecord
   return {half(gain.x), half(gain.y), half(gain.z)};
 }
 
+bool ContactSolver::keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const {
+  const std::uint32_t index = solver_index_[body];
+  const std::uint32_t island = index == 0 ? 0 : islands_.of(index);
+  if (island == 0 || islands_.load(island).is_converged) return false;
+  const bool is_heap = islands_.load(island).is_heap();
+  return is_near_contact_pose(record, is_heap ? k_fine_drift : k_coarse_drift);
+}
+
 const SolverBody* ContactSolver::find(std::uint32_t body) const {
   const std::uint32_t index = solver_index_[body];
   return index == 0 ? nullptr : &bodies_[index];
@@ -74,8 +83,16 @@ std::array<Vec3<Velocity>, 2> ContactSolver::speeds(const SolverBody& solved) co
 }
 
 std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation,
-                                  BodyRecord& body) const {
+                                  BodyRecord& body) {
   const auto index = static_cast<std::size_t>(&solved - bodies_.data());
+  if (!bounces_ || !body.is_dynamic()) return move(index, rotation, body);
+  const BodyRecord start = body;
+  const std::uint32_t turns = move(index, rotation, body);
+  note_gain(index, body, start);
+  return turns;
+}
+
+std::uint32_t ContactSolver::move(std::size_t index, const Mat3& rotation, BodyRecord& body) const {
   const RowBody& row = rows_[index];
   const RowTravel& travel = travel_[index];
   const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(index, body) : Vec3<Velocity>{};

@@ -8,13 +8,8 @@
 namespace lockstone {
 namespace {
 
-// Powers of two: a hair, and its part of the scale of a small body.
-constexpr int k_drift_exponent = -14;
-constexpr int k_drift_of_scale = -14;
-
-int drift_exponent(const BodyRecord& body) {
-  return std::min(k_drift_exponent, body.scale_exponent + k_drift_of_scale);
-}
+// Fraction bits of the angles of a drift.
+constexpr int k_turn_bits = 34;
 
 // Steps of lengths within those of positions.
 constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
@@ -43,8 +38,8 @@ Vec3<Position> contact_position(const BodyRecord& body) {
   return place;
 }
 
-bool is_near_contact_pose(const BodyRecord& body) {
-  const int exponent = drift_exponent(body);
+bool is_near_contact_pose(const BodyRecord& body, int drift) {
+  const int exponent = std::min(drift, body.scale_exponent + drift);
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
                            << std::max(Position::frac_bits + exponent, k_place_shift + 1);
@@ -67,26 +62,27 @@ ContactDrift drift_of(const BodyRecord& body) {
   ContactDrift drift;
   for (int i = 0; i < 3; ++i) {
     drift.way[static_cast<std::size_t>(i)] =
-        static_cast<std::int32_t>(within_bits(way_of(body, i), 20));
+        static_cast<std::int32_t>(within_bits(way_of(body, i), 25));
   }
   const Quat& then = body.contact_orientation;
   if (body.orientation == then) return drift;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
-  const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 20);
-  const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 20);
-  const std::int64_t z = within_bits(std::int64_t{body.orientation.z.raw} - then.z.raw, 20);
-  const std::int64_t w = within_bits(std::int64_t{body.orientation.w.raw} - then.w.raw, 20);
+  const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 22);
+  const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 22);
+  const std::int64_t z = within_bits(std::int64_t{body.orientation.z.raw} - then.z.raw, 22);
+  const std::int64_t w = within_bits(std::int64_t{body.orientation.w.raw} - then.w.raw, 22);
   const std::int64_t half[] = {x * then.w.raw - w * then.x.raw - y * then.z.raw + z * then.y.raw,
                                y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
                                z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
   for (std::size_t i = 0; i < 3; ++i)
-    drift.turn[i] = static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 19), 27));
+    drift.turn[i] =
+        static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 59 - k_turn_bits), 27));
   return drift;
 }
 
 void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold) {
   const Vec3<Unit>& n = manifold.normal;
-  // n × turn, Q40: n · (turn × r) = r · (n × turn).
+  // n × turn, Q34: n · (turn × r) = r · (n × turn).
   const auto across = [&](const ContactDrift& drift) -> RawVec3 {
     const auto& turn = drift.turn;
     const auto part = [](std::int64_t x) { return raw::round_shift(x, Unit::frac_bits); };
@@ -98,17 +94,18 @@ void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& m
     return v[0] * r.x.raw + v[1] * r.y.raw + v[2] * r.z.raw;
   };
   const RawVec3 across_a = across(a), across_b = across(b);
-  std::int64_t way = 0;  // Q62
+  std::int64_t way = 0;  // Q62, then that of an angle times a length
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     way += n[axis].raw * (std::int64_t{b.way[i]} - a.way[i]);
   }
-  way >>= 2;
+  way >>= 62 - k_turn_bits - Length::frac_bits;
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
     ManifoldPoint& point = manifold.points[i];
     const std::int64_t by = way + along(across_b, point.anchor_b) - along(across_a, point.anchor_a);
-    point.separation.raw =
-        raw::saturate<std::int32_t>(point.separation.raw + raw::round_shift(by, 36));
+    point.separation.raw = raw::saturate<std::int32_t>(
+        point.separation.raw +
+        raw::round_shift(by, k_turn_bits + Length::frac_bits - Displacement::frac_bits));
   }
 }
 

@@ -19,11 +19,11 @@ constexpr std::int64_t k_one_q30 = std::int64_t{1} << 30;
 constexpr std::array<std::int32_t, 5> k_one_over = {0, 1 << 30, 1 << 29, ((1 << 30) + 1) / 3,
                                                     1 << 28};
 
-// Contacts are as stiff as the substep resolves, 3/16 of its rate (at 1/4 tall stacks hum, at 1/8
-// they buckle under their weight), and heavily overdamped, so that penetration is pushed out
-// without adding energy.
+// Contacts are as stiff as a single iteration of a substep holds still, 1/8 of its rate (at 3/16
+// cards and pyramids tremble), and heavily overdamped, so that penetration is pushed out without
+// adding energy.
 constexpr std::int64_t contact_hertz(std::int64_t substep_rate) {
-  return substep_rate * 3 / 16;
+  return substep_rate / 8;
 }
 constexpr std::int32_t k_contact_damping_ratio = 10;
 
@@ -40,14 +40,14 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
-// Points that overlap by more than this are squeezed; at twice this overlap, a row keeps no more
-// than half of its impulse from one iteration to the next.
+// In a pinched island, points that overlap by more than this are squeezed; at twice this overlap, a
+// row keeps no more than half of its impulse from one iteration to the next.
 constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
 constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
 
-// The share of its impulse that a soft row keeps. Between two bodies that close in without end, a
-// heavily damped spring pushes without limit, until the body between them slips out and is thrown
-// away. A squeezed contact gives way instead. Bodies that only rest or fall never overlap as far.
+// The share of its impulse that a soft row keeps in a pinched island. Between two bodies that close
+// in without end, a heavily damped spring pushes without limit, until the body between them slips
+// out and is thrown away. A squeezed contact gives way instead.
 std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
@@ -72,10 +72,12 @@ std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint3
   return place;
 }
 
-// Divides the impulses of points that are gone among the new ones, each at most the mean impulse of
-// the contact: the impulse of a blow is dropped.
-void hand_on(std::int64_t left, std::uint32_t fresh, std::int64_t load, ManifoldSource& out) {
-  const std::int64_t each = std::min(left / std::popcount(fresh), load);
+// Divides the impulses of points that are gone among the new ones: where boxes fall flush onto each
+// other, points change names from tick to tick, and contacts that forgot their impulses each time
+// would rattle.
+void hand_on(std::int64_t left, std::uint32_t fresh, ManifoldSource& out) {
+  const std::int64_t each =
+      std::min<std::int64_t>(left / std::popcount(fresh), lanes::k_most_impulse);
   for (std::size_t i = 0; i < lanes::k_block_points; ++i)
     if ((fresh >> i & 1) != 0) out.impulses[i] = static_cast<std::int32_t>(each);
 }
@@ -103,7 +105,7 @@ bool fill_points(const ContactInput& in, ManifoldSource& out) {
   for (std::size_t i = count; i < lanes::k_block_points; ++i)
     kept = kept && in.record.points[i] == ContactPointRecord{};
   out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
-  if (fresh != 0 && left > 0) hand_on(left, fresh, out.load, out);
+  if (fresh != 0 && left > 0) hand_on(left, fresh, out);
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];
   return kept;
@@ -175,7 +177,7 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.scale_a = scale(a);
   out.scale_b = scale(b);
   out.bias_rate = soft.bias_rate;
-  out.keep = kept_share(soft.mass_scale, in.manifold);
+  out.keep = in.is_pinched ? kept_share(soft.mass_scale, in.manifold) : soft.mass_scale;
   out.inertia_a = 1 << (12 - pair_exponent + a.inverse_inertia.exponent);
   out.inertia_b = 1 << (12 - pair_exponent + b.inverse_inertia.exponent);
   out.inverse_scale_a = inverse_scale(a);

@@ -33,6 +33,7 @@ struct ContactInput {
   const Manifold& manifold;
   const ContactRecord& record;
   const ContactSurface& surface;
+  bool is_pinched = false;  ///< its island is
 };
 
 /// The manifold as lanes read it.

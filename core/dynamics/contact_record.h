@@ -12,7 +12,7 @@
 namespace lockstone {
 
 /// Bits of ContactRecord::flags.
-enum ContactFlag : std::uint8_t {
+enum ContactFlag : std::uint16_t {
   k_contact_trigger = 1,   // one of the two is a trigger: no points
   k_contact_touching = 2,  // the surfaces met, or pushed, in the last step
   k_all_contact_flags = k_contact_trigger | k_contact_touching,
@@ -47,10 +47,9 @@ struct ContactRecord {
   Vec3<SolverVelocity> friction_impulse{};  // of all points, in world axes
   Vec3<SolverVelocity> rolling_impulse{};   // torque / ℓ, in world axes
   SolverVelocity twist_impulse{};           // about the normal, at the points' mean radius
-  SolverVelocity load{};                    // normal impulse of a point, mean over the last seconds
+  SolverVelocity load{};                    // mean normal impulse of a point, or 0
   std::uint16_t count = 0;                  // 0 … 4
-  std::uint8_t flags = 0;                   // ContactFlag
-  std::uint8_t age = 0;                     // ticks that `load` is the mean of, to 255
+  std::uint16_t flags = 0;                  // ContactFlag
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
@@ -77,7 +76,6 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
   visit_value("load", "", record.load, f);
   visit_value("count", "", record.count, f);
   visit_value("flags", "", record.flags, f);
-  visit_value("age", "", record.age, f);
 }
 
 static_assert(visited_bytes<ContactRecord>() == sizeof(ContactRecord), "a field is missing");

@@ -113,23 +113,12 @@ std::int64_t mean_impulse(const ContactRecord& record) {
   return raw::round_shift(sum * k_one_over_q28[record.count], 28);
 }
 
-// The mean impulse (`load`) follows the impulses over 2^shift ticks. For a body that touches
-// nothing else, and so cannot swing with a neighbour, it is at first the mean over all ticks of the
-// contact. There the lesser impulse of two ticks in a row counts, so that a blow does not; a
-// contact that stops pushing for a while begins anew.
-void follow_load(std::int64_t before, std::int64_t now, bool alone, int shift,
-                 ContactRecord& record) {
-  constexpr std::uint8_t k_oldest = 255;
+// The mean impulse (`load`) follows the impulses over 2^shift ticks, where the initial warm start
+// gave one. If other contacts learned theirs while bodies settle, these would tremble on.
+void follow_load(std::int64_t now, int shift, ContactRecord& record) {
   const std::int64_t load = record.load.raw;
-  const bool learns = alone && record.age < k_oldest;
-  if (now == 0 || !alone)
-    record.age = record.age / 2;
-  else if (learns)
-    ++record.age;
-  const std::int64_t gained = learns && now != 0
-                                  ? raw::round_divide(std::min(before, now) - load, record.age)
-                                  : raw::round_shift(now - load, shift);
-  record.load.raw = static_cast<std::int32_t>(load + gained);
+  if (load == 0) return;
+  record.load.raw = static_cast<std::int32_t>(load + raw::round_shift(now - load, shift));
 }
 
 // The points of a contact that are not those of the tick before.
@@ -170,15 +159,19 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       islands_(body_capacity + contact_capacity + joint_capacity + 1, body_capacity) {
   const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
   members_.reserve(most_rows);
+  moving_holds_.reserve(contact_capacity);
   bodies_.reserve(most_rows);
   rows_.reserve(most_rows);
   inertias_.reserve(most_rows);
   before_.reserve(most_rows);
   travel_.reserve(most_rows);
   axes_.reserve(most_rows);
+  gained_.reserve(most_rows);
+  gains_.reserve(body_capacity + 1);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);
+  impacts_.reserve(contact_capacity);
   // Each colour may leave one block half empty, but none without a contact.
   const std::size_t most =
       std::min(contact_capacity, blocks_for(contact_capacity) + k_graph_colors);
@@ -187,7 +180,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
   kept_.reserve(most * k_block_lanes);
-  reserve_islands(most_rows, body_capacity, contact_capacity,
+  reserve_islands(most_rows, body_capacity, contact_capacity, joint_capacity,
                   std::min(converged_contacts, contact_capacity));
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
@@ -297,10 +290,10 @@ std::uint32_t ContactSolver::fill_block(const ContactScene& scene, std::size_t b
     if (is_alone(entry))
       bodies_[(entry.body_a & k_immovable) == 0 ? entry.body_a : entry.body_b].is_alone = true;
     const ContactSurface& surface = scene.surfaces[entry.slot];
-    const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface};
+    IslandLoad& island = island_of(slot);
+    const ContactInput input{a, b, scene.manifolds[entry.slot], record, surface, island.is_pinched};
     kept_[block * k_block_lanes + lane] =
         fill_source(input, softness_, sources.lanes[lane]) ? 1 : 0;
-    IslandLoad& island = island_of(slot);
     if (island.is_heap() && is_firm(scene, entry)) make_rigid(sources.lanes[lane]);
     const lanes::ManifoldSource& source = sources.lanes[lane];
     if (island.few_are_loaded() && is_loaded(scene, entry, source.share_b)) island.loaded.raise();
@@ -424,10 +417,9 @@ std::uint32_t ContactSolver::store_blocks(const Stage& stage, std::size_t first,
     const Entry& entry = entries_[slots_[slot]];
     ContactRecord& record = target.records[entry.record];
     const std::size_t block = slot / k_block_lanes, lane = slot % k_block_lanes;
-    const std::int64_t before = mean_impulse(record);
     if (kept_[slot] == 0) name_points(target.manifolds[entry.slot], record);
     clamped += store_contact(block, lane, record);
-    follow_load(before, mean_impulse(record), is_alone(entry), load_shift_, record);
+    follow_load(mean_impulse(record), load_shift_, record);
     target.approaches[entry.record].raw = approaches_[block].fastest(lane);
     if (record.is_touching()) add_axes(entry, unit_normal_of(blocks_[block], lane));
   }

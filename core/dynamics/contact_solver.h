@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -80,7 +81,10 @@ class ContactSolver {
 
   /// Writes a touched body's substeps back: position, orientation, velocity and spin.
   /// `rotation` is the matrix of its orientation; answers as `fly`.
-  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body) const;
+  std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body);
+
+  /// Once all have moved: bounces that would give an island energy give less.
+  void limit_bounces(std::span<BodyRecord> bodies, Velocity speed_limit);
 
   /// The velocity and the spin that a touched body has after `run`.
   [[nodiscard]] std::array<Vec3<Velocity>, 2> speeds(const SolverBody& solved) const;
@@ -89,11 +93,9 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t points() const { return points_.load(); }
   [[nodiscard]] std::uint32_t colors() const { return graph_.colors(); }
   [[nodiscard]] std::uint32_t overflow() const { return graph_.count(k_overflow_color); }
-  /// Whether the body's island is large, and left to the iterations.
-  [[nodiscard]] bool is_iterated(std::uint32_t body) const {
-    const std::uint32_t index = solver_index_[body];
-    return index != 0 && islands_.load(islands_.of(index)).is_iterated();
-  }
+  /// Whether the body's manifolds may stay as they are: its island is left to the iterations, and
+  /// it has not drifted far.
+  [[nodiscard]] bool keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const;
 
   /// Values that were clamped to their range.
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }
@@ -116,6 +118,7 @@ class ContactSolver {
   enum class StageKind : std::uint8_t {
     velocities,
     warm_joints,
+    impacts,
     solve,
     push_islands,
     lift_net,
@@ -128,6 +131,7 @@ class ContactSolver {
     relax,
     relax_islands,
     end_islands,
+    keep_speeds,
     bounce,
     store,
   };
@@ -192,6 +196,19 @@ class ContactSolver {
     void add(const Vec3<Unit>& n);
   };
 
+  // Velocity and spin before the bounces of a tick, and the gains that bounces gave.
+  struct Bounce {
+    Vec3<Velocity> velocity, spin, velocity_gain, spin_gain;
+  };
+  // Of an island, twice energies in a unit of its own.
+  struct IslandGain {
+    BlockFloat unit{};        // inverse mass
+    std::int64_t gained = 0;  // besides the work of gravity and forces
+    std::int64_t square = 0;  // of bounces
+    std::int64_t linear = 0;  // of bounces and of the speeds before them
+    std::int32_t share = 0;   // of bounces that is left, Q30
+  };
+
   std::uint32_t take_up(Side side);
   std::uint32_t number_of(Side side) {
     const std::uint32_t known = side.is_dynamic() ? solver_index_[side.body()] : 0;
@@ -206,12 +223,25 @@ class ContactSolver {
   void take_up_joints(const ContactScene& scene);
   void begin_joints();
   void take_up_net(const ContactScene& scene);
+  // Where a body that no impulse moves pushes an island.
+  struct Hold {
+    std::uint32_t island = 0;
+    std::uint32_t body = 0;
+    Vec3<Unit> normal{};
+
+    friend bool operator==(const Hold&, const Hold&) = default;
+    [[nodiscard]] auto key() const {
+      return std::tuple(island, body, normal.x.raw, normal.y.raw, normal.z.raw);
+    }
+  };
   void reserve_islands(std::size_t rows, std::size_t bodies, std::size_t contacts,
-                       std::size_t converged);
+                       std::size_t joints, std::size_t converged);
+  [[nodiscard]] IslandLoad& load_of(const ContactScene& scene, const JointLink& link);
   void bar_islands(const ContactScene& scene);
   void list_island(std::uint32_t island);
-  [[nodiscard]] bool is_pinched(const ContactScene& scene);
-  void chain_islands();
+  [[nodiscard]] Hold hold_of(const ContactScene& scene, std::size_t entry) const;
+  void mark_pinched(const ContactScene& scene);
+  void chain_islands(const ContactScene& scene);
   [[nodiscard]] ProximalContact converged_contact(std::uint32_t index) const;
   [[nodiscard]] std::uint32_t converged_islands() const;
   void plan_converged(const ContactScene& scene);
@@ -276,6 +306,19 @@ class ContactSolver {
   void hold(std::size_t index);
   void hold_blocks(std::size_t first, std::size_t end);
   void bounce(const lanes::ManifoldKernels& kernels, std::size_t first, std::size_t end);
+  std::uint32_t move(std::size_t index, const Mat3& rotation, BodyRecord& body) const;
+  void find_impacts(const ContactScene& scene);
+  [[nodiscard]] bool meets(const Entry& entry) const;
+  void push_by_impact(std::uint32_t index, const BodyRecord& before, const BodyRecord& after);
+  void answer(std::uint32_t index);
+  void run_impacts();
+  void find_fed_islands(const ContactScene& scene);
+  void keep_speeds(std::size_t first, std::size_t end);
+  void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);
+  [[nodiscard]] Bounce bounce_of(std::size_t index, const BodyRecord& body) const;
+  [[nodiscard]] static std::int32_t share_of_bounces(const IslandGain& gain);
+  template <class Visit>
+  void for_gaining(const Visit& visit);
   [[nodiscard]] Vec3<Velocity> half_step_back(std::size_t index, const BodyRecord& body) const;
   void add_axes(const Entry& entry, const Vec3<Unit>& normal);
   [[nodiscard]] bool is_alone(const Entry& entry) const;
@@ -307,6 +350,8 @@ class ContactSolver {
   std::vector<lanes::RowBody> before_;  // at the beginning of the substep; before the first: warm
   std::vector<lanes::RowTravel> travel_;
   std::vector<PushAxis> axes_;
+  std::vector<std::int64_t> gained_;  // twice the energy that no force accounts for, of each mass
+  std::vector<IslandGain> gains_;
   std::vector<lanes::BodyPlace> places_;  // of the bodies in nets of joints
 
   std::unique_ptr<JointSolver> joints_;
@@ -317,13 +362,8 @@ class ContactSolver {
   std::vector<std::uint32_t> next_of_;   // of a body, then of an entry: the next, + 1
   std::vector<std::uint32_t> island_bodies_;
   std::vector<ProximalContact> island_contacts_;
-  // Where something that no impulse moves pushes an island.
-  struct Hold {
-    Vec3<Unit> normal{};
-    std::uint32_t body = 0;
-    bool moves = false;
-  };
-  std::vector<Hold> holds_found_;
+  std::vector<IslandJoint> island_joints_;
+  std::vector<Hold> moving_holds_;  // by island
   SupportOrder supports_;
   FirstLoads first_loads_;
   HeapLoads heap_loads_;
@@ -331,6 +371,8 @@ class ContactSolver {
 
   std::vector<Sides> sides_;  // by record
   std::vector<Entry> entries_;
+  std::vector<std::uint32_t> impacts_;  // entries of balls that may bounce within a substep
+  ContactScene scene_{};                // of such a tick
   TickIslands islands_;
   Range ranges_[k_graph_colors + 1];
   const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most

@@ -30,7 +30,7 @@ void ContactSolver::take_up_joints(const ContactScene& scene) {
 // Precondition: all bodies have their numbers. A body that stands still has a row of its own in
 // each joint of a net, as in each contact.
 void ContactSolver::take_up_net(const ContactScene& scene) {
-  const std::span<const std::uint32_t> in_net = joints_->plan();
+  const std::span<const std::uint32_t> in_net = joints_->plan(first_without_contacts_);
   net_.clear(in_net.empty() ? 0 : static_cast<std::uint32_t>(members_.size()));
   for (const std::uint32_t i : in_net) {
     const JointLink& link = scene.joint_links[i];
@@ -46,7 +46,7 @@ void ContactSolver::take_up_net(const ContactScene& scene) {
 }
 
 void ContactSolver::begin_joints() {
-  joints_->begin({bodies_, rows_, {}, {}, {}}, first_without_contacts_);
+  joints_->begin({bodies_, rows_, {}, {}, {}});
   for (std::size_t i = 1; i < members_.size(); ++i)
     inertias_[i] = source_body(bodies_[i].inverse_inertia);
 }

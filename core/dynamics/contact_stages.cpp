@@ -63,6 +63,8 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       joints_->prepare(joint_run(), first, end);
                     });
+  find_impacts(scene);
+  if (bounces_) find_fed_islands(scene);
   begin_converged(scene);
   find_first_loads(scene, parallel);
 }
@@ -115,6 +117,8 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   const auto bodies = static_cast<std::uint32_t>(members_.size());
   add_loop({StageKind::velocities, 0, substep}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
+  const std::uint32_t impacts = impacts_.empty() ? 0 : 1;
+  add_loop({StageKind::impacts}, impacts, 1, true);
   add_loop_of_each_color(StageKind::solve);
   add_loop({StageKind::push_islands}, converged_islands(), 1);
   for (int i = 0; i < k_net_sweeps; ++i)
@@ -126,6 +130,7 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   add_net_loops(StageKind::follow_net);
   for (int i = 1; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::relax_net);
+  add_loop({StageKind::impacts}, impacts, 1, true);
   add_loop_of_each_color(StageKind::relax, substep);
   add_loop({StageKind::relax_islands}, converged_islands(), 1);
 }
@@ -138,7 +143,10 @@ void ContactSolver::run(Parallel& parallel) {
   for (int substep = 0; substep < step_.substeps; ++substep)
     add_loops_of_substep(static_cast<std::uint8_t>(substep));
   add_loop({StageKind::end_islands}, converged_islands(), 1);
-  if (bounces_) add_loop_of_each_color(StageKind::bounce);
+  if (bounces_) {
+    add_loop({StageKind::keep_speeds}, static_cast<std::uint32_t>(members_.size()), k_body_grain);
+    add_loop_of_each_color(StageKind::bounce);
+  }
   parallel.run_all(loops_, [&](std::size_t loop, std::uint32_t first, std::uint32_t end,
                                std::uint32_t) { run_piece(stages_[loop], first, end); });
   joints_->end(joint_run());
@@ -150,6 +158,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return integrate_velocities(stage.substep == 0, first, end);
     case StageKind::warm_joints:
       return joints_->warm_start(joint_run(), first, end);
+    case StageKind::impacts:
+      return run_impacts();
     case StageKind::lift_net:
       return net_.lift(net_run(), stage.color, first, end);
     case StageKind::push_islands:
@@ -160,6 +170,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints_->solve(joint_run(), first, end);
     case StageKind::positions:
       return integrate_positions(first, end);
+    case StageKind::keep_speeds:
+      return keep_speeds(first, end);
     case StageKind::move_joined:
       return joints_->move(joint_run(), first, end);
     case StageKind::relax_joints:

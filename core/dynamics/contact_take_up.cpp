@@ -103,6 +103,7 @@ void ContactSolver::count_islands(const ContactScene& scene) {
     load.fresh += sides.is_new() ? 1U : 0U;
     load.bearing += sides.is_bearing() ? 1U : 0U;
   }
+  mark_pinched(scene);
   plan_converged(scene);
   has_heap_ = islands_.any(&IslandLoad::is_heap);
 }
@@ -112,6 +113,7 @@ void ContactSolver::reserve_rows() {
   if (bodies_.size() < members_.size()) {
     bodies_.resize(members_.size());
     axes_.resize(members_.size());
+    gained_.resize(members_.size());
   }
   if (rows_.size() >= row_count()) return;  // they only grow, within their capacity
   inertias_.resize(row_count());

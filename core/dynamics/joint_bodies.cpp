@@ -64,22 +64,19 @@ void JointSolver::add_pulls(std::span<const Joint> joints, bool free) {
   }
 }
 
-// At a tick's beginning only.
-void JointSolver::add_net_pulls() {
-  for (const std::uint32_t index : in_net_) {
-    const Link& link = links_[index];
-    const auto part = [&](std::size_t i) {
-      return std::int64_t{link.record->axes[i].impulse.raw} * (1 << 10);
-    };
-    const auto pull = static_cast<std::int64_t>(norm(part(0), part(1), part(2)));  // Q30
-    if (bodies_[link.a].pushed) {
-      add_pull(link.a, product_rounded(pull, k_one - link.share_b, 30),
-               size_of(link.record->anchor_a));
-    }
-    if (bodies_[link.b].pushed) {
-      add_pull(link.b, product_rounded(pull, link.share_b, 30), size_of(link.record->anchor_b));
-    }
-  }
+// As the last tick ended.
+void JointSolver::add_pulls(const Link& link) {
+  const Body &a = bodies_[link.a], &b = bodies_[link.b];
+  const std::int32_t share_b =
+      share_of_b(a.record->inverse_mass_value(), b.record->inverse_mass_value());
+  const auto part = [&](std::size_t i) {
+    return std::int64_t{link.record->axes[i].impulse.raw} * (1 << 10);
+  };
+  const auto pull = static_cast<std::int64_t>(norm(part(0), part(1), part(2)));  // Q30
+  if (a.pushed)
+    add_pull(link.a, product_rounded(pull, k_one - share_b, 30), size_of(link.record->anchor_a));
+  if (b.pushed)
+    add_pull(link.b, product_rounded(pull, share_b, 30), size_of(link.record->anchor_b));
 }
 
 // The inertia, besides its own, that a body has when its joints swing against each other: m·d²,
@@ -116,6 +113,11 @@ std::int64_t JointSolver::lever_inertia(std::uint32_t index) const {
   return product_rounded(scaled(whole, shift), own, 30);
 }
 
+std::int64_t JointSolver::swung_inertia(const Body& body) {
+  const auto& own = body.record->inertia;
+  return min(own.x, min(own.y, own.z)).raw + body.lever_inertia;
+}
+
 // A link that is pulled at both ends by T swings at ω² = ΣT·r / I, which the step does not resolve
 // where h·ω is large: there links are taken to be heavier to turn. A diagonal form of the geometric
 // stiffness: S. Andrews, M. Teichmann, J. Kövecses, "Geometric Stiffness for Real-time Constrained
@@ -125,10 +127,8 @@ void JointSolver::resist_pull(const JointRun& run, std::uint32_t index) {
   if (!body.pushed || !body.record->rotates()) return;
   // Some of it grows with the number of links that swing against each other.
   const std::int64_t least = 2 * raw::round_divide(pulls_[index], step_.substep_rate());
-  const auto& own = body.record->inertia;
-  const std::int64_t smallest = min(own.x, min(own.y, own.z)).raw;
   const std::uint64_t rounded = std::bit_ceil(static_cast<std::uint64_t>(least));
-  const std::int64_t swung = smallest + body.lever_inertia;
+  const std::int64_t swung = swung_inertia(body);
   body.pulled = least > swung / 8;
   set_inertia(run, body,
               least <= swung

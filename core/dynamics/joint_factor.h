@@ -18,8 +18,8 @@ namespace lockstone {
 inline constexpr int k_matrix_bits = 56;
 inline constexpr int k_factor_bits = 40;
 
-/// Most rows of a column: a joint has up to six, a contact with its friction seven.
-inline constexpr std::size_t k_factor_rows = 7;
+/// Most rows of a column: the locks of a joint.
+inline constexpr std::size_t k_factor_rows = k_joint_axes;
 
 class JointFactor {
  public:

@@ -4,7 +4,6 @@
 
 #include "core/dynamics/joint_numbers.h"
 #include "core/dynamics/joint_solver.h"
-#include "core/dynamics/mass_share.h"
 
 namespace lockstone {
 namespace {
@@ -15,8 +14,11 @@ constexpr std::uint32_t k_most_loops = 2;
 
 }  // namespace
 
-std::span<const std::uint32_t> JointSolver::plan() {
+std::span<const std::uint32_t> JointSolver::plan(std::uint32_t first_without_contacts) {
+  for (Body& body : bodies_)
+    body.touches = body.pushed && body.solver < first_without_contacts;
   link_bodies();
+  find_pulled();
   factor_.clear();
   if (loops_ != nullptr) loops_->clear();
   groups_.clear();
@@ -70,6 +72,19 @@ void JointSolver::link_bodies() {
   for_each_end([&](Body& body, std::uint32_t joint) {
     by_body_[body.first_joint + body.joint_count++] = joint;
   });
+}
+
+// Marks the bodies that joints pulled hard in the last tick: `resist_pull`.
+void JointSolver::find_pulled() {
+  pulls_.assign(bodies_.size(), 0);
+  for (const Link& link : links_)
+    add_pulls(link);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    body.lever_inertia = lever_inertia(i);
+    body.pulled = body.pushed && body.record->rotates() &&
+                  2 * raw::round_divide(pulls_[i], step_.substep_rate()) > swung_inertia(body) / 8;
+  }
 }
 
 // Finds all joints connected to a body, breadth first. Backwards, each joint of a tree comes after
@@ -135,7 +150,8 @@ void JointSolver::plan_group(Group group) {
   const auto rows = [&](std::uint32_t k) { return most_locks(*joint_at(k).record); };
   // The pushed bodies of a tree on the ground are as many as its joints.
   const bool has_few_loops = group.count <= group.body_count + k_most_loops;
-  if (loops_ != nullptr && has_loops(group) && plan_loops(group)) return groups_.push_back(group);
+  const bool needs_factor = has_loops(group) || has_motors(group) || is_pressed(group);
+  if (loops_ != nullptr && needs_factor && plan_loops(group)) return groups_.push_back(group);
   if (has_few_loops && factor_.plan(group.count, neighbours, rows)) {
     group.exact = true;
     group.column = factor_.first();
@@ -189,7 +205,6 @@ void JointSolver::add_to_net(Link& link) {
   Body& a = bodies_[link.a];
   Body& b = bodies_[link.b];
   link.joint = k_in_net;
-  link.share_b = share_of_b(a.record->inverse_mass_value(), b.record->inverse_mass_value());
   a.in_net = b.in_net = true;
 }
 

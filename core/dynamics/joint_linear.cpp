@@ -244,10 +244,11 @@ void JointSolver::begin_pushes(const JointRun& run, const Cluster& cluster) {
     bodies_[body].unpushed = run.rows[bodies_[body].solver];
 }
 
-void JointSolver::end_pushes(const JointRun& run, const Cluster& cluster) {
+void JointSolver::end_pushes(const JointRun& run, std::span<const std::uint32_t> bodies) {
   if (run.before.empty()) return;
-  for (const std::uint32_t index : bodies_of(cluster)) {
+  for (const std::uint32_t index : bodies) {
     const Body& body = bodies_[index];
+    if (!body.pushed) continue;
     const RowBody& row = run.rows[body.solver];
     RawVec3 velocity, spin;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -27,6 +27,27 @@ bool JointSolver::has_loops(const Group& group) const {
   return group.count >= group.body_count + (is_hung ? 1 : 0);
 }
 
+// Links yet, as above. A motor pushes as well as locks do, and has a solution along with them.
+bool JointSolver::has_motors(const Group& group) const {
+  return std::ranges::any_of(joints_of(group), [this](std::uint32_t link) {
+    return std::ranges::any_of(links_[link].record->axes, [](const JointAxisRecord& axis) {
+      return axis.is_driven() && !axis.is_spring();
+    });
+  });
+}
+
+// Whether contacts press links that are pulled hard. There locks that hold exactly turn errors of
+// contacts into energy: ropes about posts flew apart.
+bool JointSolver::is_pressed(const Group& group) const {
+  bool touches = false, pulled = false;
+  for (std::uint32_t i = 0; i < group.body_count; ++i) {
+    const Body& body = bodies_[group_bodies_[group.first_body + i]];
+    touches = touches || body.touches;
+    pulled = pulled || body.pulled;
+  }
+  return touches && pulled;
+}
+
 bool JointSolver::plan_loops(Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i)
     bodies_[group_bodies_[group.first_body + i]].local = i;
@@ -50,7 +71,7 @@ void JointSolver::forget_impulses(const Cluster& cluster) {
   for (Joint& joint : joints_of(cluster)) {
     joint.locks = joint.driven_later = {};
     for (std::size_t axis = 0; axis < k_joint_axes; ++axis)
-      if (!joint.drives[axis].is_spring) joint.driven[axis] = 0;
+      if (!joint.drives[axis].is_spring()) joint.driven[axis] = 0;
   }
 }
 
@@ -60,7 +81,7 @@ std::uint32_t JointSolver::rows_left_out(const JointRun& run, const Joint& joint
   for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
     const JointRow& row = joint.rows.rows[r];
     const Drive& drive = joint.drives[row.axis];
-    bool is_out = row.kind != RowKind::drive || drive.is_spring;
+    bool is_out = row.kind != RowKind::drive || drive.is_spring();
     if (!is_out) {
       const std::int64_t total = joint.driven[row.axis] + joint.driven_later[row.axis];
       const std::int64_t speed_now = speed(run, joint, row);

@@ -5,6 +5,7 @@
 
 #include "core/dynamics/joint_geometry.h"
 #include "core/dynamics/joint_numbers.h"
+#include "core/dynamics/time_step.h"
 #include "core/math/product_sum.h"
 #include "core/math/roots.h"
 #include "core/math/trig.h"
@@ -166,7 +167,14 @@ class RowFiller {
     if (!settings.is_driven()) return;
     JointRow drive = row;
     drive.speed = speed_of(axis, settings.speed);
-    push(drive, axis, RowKind::drive, value - (soft ? 0 : value_of(axis, settings.target)));
+    const std::int64_t error = value - (soft ? 0 : value_of(axis, settings.target));
+    push(drive, axis, RowKind::drive, axis == 3 && mode == AxisMode::free ? nearer(error) : error);
+  }
+
+  // The twist that is left, the shorter way round.
+  [[nodiscard]] std::int64_t nearer(std::int64_t error) const {
+    const std::int64_t whole = arc(k_two_pi_q28 << 4), half = whole / 2;
+    return error > half ? error - whole : error < -half ? error + whole : error;
   }
 
   void add_limit(std::size_t axis, const JointRow& row, std::int64_t above, std::int64_t below) {

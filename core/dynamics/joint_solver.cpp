@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dynamics/joint_numbers.h"
+#include "core/math/product_sum.h"
 
 namespace lockstone {
 namespace {
@@ -22,9 +23,7 @@ JointSolver::JointSolver(const TimeStep& step, std::size_t body_capacity,
                          std::size_t joint_capacity, bool solves_loops)
     : step_(step), place_(body_capacity), factor_(joint_capacity) {
   const std::size_t bodies = std::min(body_capacity, 2 * joint_capacity);
-  // A group with loops has no more bodies than joints.
-  if (solves_loops)
-    loops_ = std::make_unique<ProximalLocks>(std::min(bodies, joint_capacity), joint_capacity);
+  if (solves_loops) loops_ = std::make_unique<ProximalLocks>(bodies, joint_capacity);
   bodies_.reserve(bodies);
   placed_.reserve(bodies);
   group_bodies_.reserve(bodies);
@@ -83,13 +82,15 @@ void JointSolver::load_impulses(Joint& joint, int shift) const {
     joint.locks[i] = std::int64_t{joint.record->axes[i].impulse.raw} * (1 << shift);
     joint.relaxed[i] = 0;
     joint.driven[i] = std::int64_t{joint.record->axes[i].drive_impulse.raw} * (1 << 30);
+    if (joint.drives[i].is_spring())
+      joint.driven[i] = product_rounded(joint.driven[i], joint.drives[i].before.share, 30);
   }
 }
 
-void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contacts) {
+void JointSolver::begin(const JointRun& run) {
   const RoundDivisor rate(step_.substep_rate());
   for (Body& body : bodies_) {
-    body.centred = body.pushed && !body.in_net && body.solver >= first_without_contacts;
+    body.centred = body.pushed && !body.in_net && !body.touches && !body.is_among_contacts;
     body.rate = rate;
   }
   for (Group& group : groups_)
@@ -100,9 +101,9 @@ void JointSolver::begin(const JointRun& run, std::uint32_t first_without_contact
     load_impulses(joint, is_centred(bodies_[joint.a]) && is_centred(bodies_[joint.b]) ? 29 : 30);
   pulls_.assign(bodies_.size(), 0);
   add_pulls(joints_, false);
-  add_net_pulls();
+  for (const std::uint32_t link : in_net_)
+    add_pulls(links_[link]);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
-    bodies_[body].lever_inertia = lever_inertia(body);
     resist_pull(run, body);
   }
   after_.resize(bodies_.size());
@@ -208,6 +209,8 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
   }
   linearize(cluster);
   begin_pushes(run, cluster);
+  for (Joint& joint : joints_of(cluster))
+    solve_springs_later(run, joint);
   for (int i = 0; i < k_velocity_solves; ++i) {
     for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);
@@ -243,6 +246,53 @@ void JointSolver::store(std::size_t added, JointRecord& record) const {
           k_product_bound));
     }
   }
+}
+
+IslandJoint JointSolver::island_joint(std::uint32_t index) const {
+  const Joint& joint = joints_[index];
+  const auto number = [this](std::uint32_t body) {
+    return bodies_[body].pushed ? bodies_[body].solver : 0;
+  };
+  const BlockFloat inverse_a = bodies_[joint.a].record->inverse_mass_value(),
+                   inverse_b = bodies_[joint.b].record->inverse_mass_value();
+  IslandJoint result;
+  result.joint = index;
+  result.a = number(joint.a);
+  result.b = number(joint.b);
+  if (result.a != 0) result.share_a = ratio(inverse_a, inverse_b).raw;
+  if (result.b != 0) result.share_b = ratio(inverse_b, inverse_a).raw;
+  result.inverse_mass = joint.inverse_mass;
+  return result;
+}
+
+void JointSolver::put_among_contacts(std::uint32_t joint) {
+  bodies_[joints_[joint].a].is_among_contacts = true;
+  bodies_[joints_[joint].b].is_among_contacts = true;
+}
+
+std::int64_t JointSolver::limit_impulse(std::uint32_t index, std::size_t row) const {
+  const Joint& joint = joints_[index];
+  const JointRow& limit = joint.rows.rows[row];
+  const std::int64_t stored = joint.locks[limit.axis];
+  return std::max<std::int64_t>(limit.flipped ? -stored : stored, 0);
+}
+
+void JointSolver::give(const JointRun& run, std::uint32_t index, const RowImpulses& impulses) {
+  Joint& joint = joints_[index];
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < joint.rows.count; ++i) {
+    if (impulses[i] == 0) continue;
+    const JointRow& row = joint.rows.rows[i];
+    std::int64_t& total = joint.locks[row.axis];
+    total = bounded(total + (row.flipped ? -impulses[i] : impulses[i]), k_product_bound);
+    end = std::max(i + 1, joint.rows.locks);
+  }
+  if (end == 0) return;
+  const std::array<std::uint32_t, 2> ends = {joint.a, joint.b};
+  for (const std::uint32_t body : ends)
+    bodies_[body].unpushed = run.rows[bodies_[body].solver];
+  push(run, joint, 0, end, impulses);
+  end_pushes(run, ends);
 }
 
 const JointPose* JointSolver::find(std::uint32_t body) const {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/dynamics/body_record.h"
+#include "core/dynamics/island_joint.h"
 #include "core/dynamics/joint_factor.h"
 #include "core/dynamics/joint_record.h"
 #include "core/dynamics/joint_rows.h"
@@ -65,10 +66,10 @@ class JointSolver {
 
   /// Once all are added: forms groups. Returns the joints, in the order of adding, that are left to
   /// a net.
-  std::span<const std::uint32_t> plan();
+  std::span<const std::uint32_t> plan(std::uint32_t first_without_contacts);
 
   /// Then, before contacts are prepared: bodies as heavy to turn as the step needs.
-  void begin(const JointRun& run, std::uint32_t first_without_contacts);
+  void begin(const JointRun& run);
 
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
@@ -104,6 +105,32 @@ class JointSolver {
   /// Impulses back to a record, in the order of adding; not of those in a net.
   void store(std::size_t added, JointRecord& joint) const;
 
+  // The problem of an island's contacts has the joints' locks and limits too (`ProximalSolver`).
+
+  /// The number of the joint that was added so; k_in_net of one that is left to a net.
+  static constexpr std::uint32_t k_in_net = 0xffffffff;
+  [[nodiscard]] std::uint32_t number_of(std::size_t added) const { return links_[added].joint; }
+  [[nodiscard]] IslandJoint island_joint(std::uint32_t joint) const;
+  /// Before `begin`: the problem has the joint, and gravity acts on its bodies as on those with
+  /// contacts.
+  void put_among_contacts(std::uint32_t joint);
+  [[nodiscard]] std::span<const JointRow> rows(std::uint32_t joint) const {
+    return joints_[joint].rows.rows.first(joints_[joint].rows.count);
+  }
+  /// As a row sees it, m/s, Q50.
+  [[nodiscard]] std::int64_t speed(const JointRun& run, std::uint32_t joint,
+                                   std::size_t row) const {
+    return speed(run, joints_[joint], joints_[joint].rows.rows[row]);
+  }
+  /// The speed at which the rest of the way to a limit may be gone, or, before positions move, at
+  /// which it is pushed back; Q50.
+  [[nodiscard]] std::int64_t limit_speed(const JointRow& row, bool positions) const;
+  /// The impulse of a limit so far, ≥ 0, Q50.
+  [[nodiscard]] std::int64_t limit_impulse(std::uint32_t joint, std::size_t row) const;
+  /// Adds impulses, by row, which the next substep begins with.
+  using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
+  void give(const JointRun& run, std::uint32_t joint, const RowImpulses& impulses);
+
   /// Where a body of the world is now; null when no joint holds it.
   [[nodiscard]] const JointPose* find(std::uint32_t body) const;
 
@@ -126,6 +153,8 @@ class JointSolver {
     lanes::RowBody looked{};  // its velocity on the way to its pose in `after_`
     bool has_looked = false;
     bool pushed = false;
+    bool touches = false;            // has contacts
+    bool is_among_contacts = false;  // its joints are in the problem of its island's contacts
     std::int64_t lever_inertia = 0;  // Q30, besides its own
     bool pulled = false;             // an eighth as hard as needs more inertia
     bool centred = false;            // half kick, drift, half kick
@@ -136,7 +165,6 @@ class JointSolver {
     std::uint32_t joint_count = 0;
     std::uint32_t local = 0;  // in its group
   };
-  static constexpr std::uint32_t k_in_net = 0xffffffff;
 
   // A joint as groups are found.
   struct Link {
@@ -144,7 +172,6 @@ class JointSolver {
     std::uint32_t a = 0, b = 0;  // bodies of this solver
     std::uint32_t order = 0;     // within its group
     std::uint32_t joint = 0;     // in joints_, or k_in_net
-    std::int32_t share_b = 0;    // in a net: of the pair's inverse mass, Q30
   };
   // A part of an inverse mass as mantissa · 2^-shift.
   struct Share {
@@ -157,12 +184,17 @@ class JointSolver {
     int shift = 1;
     int exponent = 0;  // power of two that scales it in a factor
   };
-  using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
+  // The impulse of a spring before positions move, or after it, with its damping a.
+  struct SpringPart {
+    std::int64_t stiffness = 0;  // 1/s, Q40, per 1 + a
+    std::int32_t forgets = 0;    // Q30, 1 / (1 + a)
+    std::int32_t share = 0;      // of its bound, Q30
+  };
   struct Drive {
-    std::int32_t bias_rate = 0;  // 1/s, Q20
-    std::int32_t keep = 0;       // Q30: 1 − impulse scale
-    bool is_spring = false;
     std::int64_t bound = 0;  // Q50; 0: none
+    SpringPart before, after;
+
+    [[nodiscard]] bool is_spring() const { return before.share != 0; }
   };
   struct Joint {
     const JointRecord* record = nullptr;
@@ -174,7 +206,7 @@ class JointSolver {
     std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
-    std::array<std::int64_t, k_joint_axes> driven_later{};  // by motors of loops, as `relaxed`
+    std::array<std::int64_t, k_joint_axes> driven_later{};  // after positions moved, as `relaxed`
     std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
@@ -220,6 +252,8 @@ class JointSolver {
     return group.loops != ProximalLocks::k_too_large;
   }
   [[nodiscard]] bool has_loops(const Group& group) const;
+  [[nodiscard]] bool has_motors(const Group& group) const;
+  [[nodiscard]] bool is_pressed(const Group& group) const;
   [[nodiscard]] bool plan_loops(Group& group);
   void factor_loops(Group& group, bool ahead);
   [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
@@ -241,6 +275,7 @@ class JointSolver {
   void make_joint(Link& link);
   [[nodiscard]] static std::uint32_t most_locks(const JointRecord& joint);
   void set_drives(Joint& joint) const;
+  void set_spring(const Joint& joint, const JointAxisRecord& axis, Drive& drive) const;
   void load_impulses(Joint& joint, int shift) const;
   [[nodiscard]] JointPlace place_of(const Joint& joint, const JointPose& a,
                                     const JointPose& b) const;
@@ -252,7 +287,9 @@ class JointSolver {
   void stay(Cluster& cluster);
   void move(const JointRun& run, std::uint32_t body);
   void add_pulls(std::span<const Joint> joints, bool free);
-  void add_net_pulls();
+  void add_pulls(const Link& link);
+  void find_pulled();
+  [[nodiscard]] static std::int64_t swung_inertia(const Body& body);
   [[nodiscard]] std::int64_t lever_inertia(std::uint32_t body) const;
   void resist_pull(const JointRun& run, std::uint32_t body);
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
@@ -272,13 +309,19 @@ class JointSolver {
             const RowImpulses& impulses);
   [[nodiscard]] JointPose pose_after(const JointRun& run, Body& body) const;
   void begin_pushes(const JointRun& run, const Cluster& cluster);
-  void end_pushes(const JointRun& run, const Cluster& cluster);
+  void end_pushes(const JointRun& run, std::span<const std::uint32_t> bodies);
+  void end_pushes(const JointRun& run, const Cluster& cluster) {
+    end_pushes(run, bodies_of(cluster));
+  }
   void warm_start(const JointRun& run, Joint& joint);
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);
   void leave_out_far(const JointRun& run, Joint& joint) const;
   [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
   bool solve_drives(const JointRun& run, Joint& joint, bool motors);
+  void solve_springs_later(const JointRun& run, Joint& joint);
+  [[nodiscard]] std::int64_t spring_impulse(const JointRun& run, const Joint& joint,
+                                            std::size_t row, bool later) const;
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);

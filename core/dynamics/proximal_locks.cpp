@@ -135,8 +135,9 @@ void ProximalLocks::factor(std::uint32_t index) {
 void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t row,
                          std::int64_t impulse) {
   Joint& on = joints_[groups_[group].first_joint + joint];
-  on.errors[row] +=
-      bounded(product_rounded(impulse, on.rows[row].own, 30 + k_give_bits), k_row_bound);
+  const ProximalLock& lock = on.rows[row];
+  const RowScale own = (lock.to_speed * lock.to_impulse).reciprocal();  // its response to itself
+  on.errors[row] += bounded(own.times(impulse, k_give_bits), k_row_bound);
 }
 
 // −Jᵀ·r/γ, times 2^-14.

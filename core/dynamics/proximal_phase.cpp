@@ -17,7 +17,10 @@ using namespace proximal;
 constexpr int k_residual_bits = 27, k_more_drop = 4, k_most_drop = 42;
 
 // Passes before the first direct step, and after each; direct steps.
-constexpr int k_first_passes = 2, k_passes = 4, k_direct_steps = 3;
+struct Effort {
+  int first_passes, passes, direct_steps;
+};
+constexpr Effort k_of_contacts{2, 4, 3}, k_with_joints{4, 4, 1};
 
 // Friction that is as near to its limit as 2^-this may slide.
 constexpr int k_near_shift = 8;
@@ -49,7 +52,8 @@ void ProximalSolver::scale_warm_start(Island& island) {
   const int down = k_row_unit_bits - island.bits;
   ProductSum slope, curve;
   for (Problem& problem : problems_of(island)) {
-    for (std::size_t i = 0; i < problem.rows; ++i) {
+    if (problem.has_locks) problem.next = problem.impulse;
+    for (std::size_t i = 0; i < problem.rows && !problem.has_locks; ++i) {
       const bool pushes_out = i < problem.points && problem.bias[i] < 0;
       const std::int64_t out = pushes_out ? raw::round_shift(problem.bias[i], down) : 0;
       problem.next[i] = island.warms ? within_units(raw::round_shift(problem.warm[i], down)) : 0;
@@ -88,6 +92,8 @@ void ProximalSolver::mark_active(Island& island) {
       mark(problem.active[i], problem.impulse[i] > 0);
       pushes = pushes || problem.impulse[i] > 0;
     }
+    for (std::size_t i = problem.points; problem.has_locks && i < problem.rows; ++i)
+      mark(problem.active[i], true);
     if (!problem.has_friction()) continue;
     const std::int64_t limit = pushes ? lanes::friction_limit(problem, problem.impulse) : 0;
     const std::int64_t near = limit - (limit >> k_near_shift);
@@ -106,9 +112,9 @@ void ProximalSolver::factor(Island& island) {
   const auto block = [this](std::uint32_t index) {
     return index == k_no_block ? nullptr : &factor_.block(index);
   };
-  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    const Blocks& blocks = blocks_[c];
-    kernels.add_to_matrix(problems_[c], {block(blocks.a), block(blocks.b), block(blocks.both.block),
+  for (std::uint32_t i = island.first_problem; i < island.first_problem + island.problems(); ++i) {
+    const Blocks& blocks = blocks_[i];
+    kernels.add_to_matrix(problems_[i], {block(blocks.a), block(blocks.b), block(blocks.both.block),
                                          blocks.both.a_is_row});
   }
   factor_.factor(island.plan);
@@ -211,7 +217,8 @@ bool ProximalSolver::converge(Island& island, bool scales) {
   std::ranges::fill(of(velocities_, island), BodyVector{});
   if (scales) scale_warm_start(island);
   iterate(island);
-  for (int i = 0; i < k_most_centres && island.fits && move_centres(island); ++i)
+  const int centres = island.joints == 0 ? k_most_centres : 0;
+  for (int i = 0; i < centres && island.fits && move_centres(island); ++i)
     iterate(island);
   return island.fits;
 }
@@ -240,10 +247,11 @@ void ProximalSolver::iterate(Island& island) {
   island.is_solved = false;
   if (island.is_factored || !island.was_factored) (void)direct_step(island);
   bool done = island.is_solved;
+  const Effort& effort = island.joints == 0 ? k_of_contacts : k_with_joints;
   for (int step = 0; !done && island.fits; ++step) {
-    for (int i = 0; i < (step == 0 ? k_first_passes : k_passes) && !done; ++i)
+    for (int i = 0; i < (step == 0 ? effort.first_passes : effort.passes) && !done; ++i)
       done = pass(island);
-    if (step == k_direct_steps || done) break;
+    if (step == effort.direct_steps || done) break;
     mark_active(island);
     (void)direct_step(island);
     done = island.is_solved;

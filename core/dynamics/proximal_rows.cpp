@@ -33,13 +33,14 @@ struct Sides {
   std::array<std::int64_t, 6> a{}, b{};
 };
 
-// `part` is the root of the share, with the sign of the side, Q30; |linear| ≤ 1.
+// `part` is the root of the share, with the sign of the side, Q30. Of gears and pulleys |linear|
+// may be above 1.
 std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& angular,
                                         const InertiaRoot& root, std::int64_t part) {
   std::array<std::int64_t, 6> side{};
   if (part == 0) return side;
   for (std::size_t i = 0; i < 3; ++i) {
-    side[i] = raw::round_shift(linear[i] * part, 30);
+    side[i] = product_rounded(linear[i], part, 30);
     ProductSum sum;
     for (std::size_t k = i; k < 3; ++k)
       sum.add(root.c[k][i], angular[k]);
@@ -183,7 +184,6 @@ bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, Proxima
     lock.b[i] = static_cast<std::int32_t>(scaled_entry(sides.b[i], inverse));
   }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
-  lock.own = product_rounded(length, length, 30);
   lock.to_speed = joint.mass * norm.reciprocal();
   lock.to_impulse = (joint.mass * norm).reciprocal();
   return true;
@@ -257,7 +257,7 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
   }
 }
 
-void set_gives(std::int64_t weight, const PreparedRows& prepared, const ProximalContact& contact,
+void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContact& contact,
                lanes::ProximalBlock& problem) {
   std::int64_t most = 0, load = 0;
   for (std::size_t i = 0; i < contact.rows; ++i) {
@@ -272,10 +272,17 @@ void set_gives(std::int64_t weight, const PreparedRows& prepared, const Proximal
   for (std::size_t i = 0; i < contact.rows; ++i) {
     const std::int64_t ratio = raw::round_divide(most << 16, prepared.own[i]);  // 1 or more, Q16
     const std::int64_t give = std::min(ratio << (30 - 16 - k_give_bits - overload), k_whole_q30);
-    problem.give[i] = give;
-    problem.own_part[i] = raw::round_divide(k_whole_q30 << 30, k_whole_q30 + give);
-    problem.weight[i] = raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give);
+    contact.all[i].give = give;
+    set_give(give, i, problem);
   }
+}
+
+void set_give(std::int64_t give, std::size_t row, lanes::ProximalBlock& problem) {
+  std::int64_t& own = problem.coupling[row][row];
+  if (own != 0) own = std::min<std::int64_t>(own - problem.give[row] + give, INT32_MAX);
+  problem.give[row] = give;
+  problem.own_part[row] = raw::round_divide(k_whole_q30 << 30, k_whole_q30 + give);
+  problem.weight[row] = raw::round_divide(std::int64_t{1} << (60 - BodyFactor::k_least_bits), give);
 }
 
 }  // namespace lockstone

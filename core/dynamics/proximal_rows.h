@@ -35,6 +35,8 @@ struct ProximalRow {
   std::int64_t weight_leak = 0;  // most that a normal's centre leaks, in units of the row
   std::int64_t leak = 0;         // leak of the centre in this substep
   std::int64_t total = 0;        // impulse as the pair's velocity jump, m/s, Q32
+  std::int64_t carried = 0;      // of its speed: by kinematic bodies; only with joints
+  std::int64_t give = 0;         // γ of a normal that does not overlap deeply, Q30
 };
 
 /// Fraction bits of kept quantities in units of their rows.
@@ -50,7 +52,7 @@ struct ProximalContact : ContactPair {
   RawVec3 normal{}, tangent{}, binormal{};
   std::array<std::int64_t, lanes::k_block_points> x{}, y{};  // offsets, Q30
   // Words of the block that make its iterations idle, as they were.
-  std::array<std::int64_t, 8> words{};
+  std::array<std::int64_t, 7> words{};
 };
 
 /// Quantities of a contact's rows that only preparation reads.
@@ -70,7 +72,6 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
 struct ProximalLock {
   RowSide a{}, b{};               // Q30; 0 of a body that nothing pushes
   RowScale to_speed, to_impulse;  // as ProximalRow's
-  std::int64_t own = 0;           // response to itself, Q30
   std::int64_t impulse = 0;       // the pair's velocity jump, m/s, Q50
 };
 
@@ -90,7 +91,10 @@ struct ProximalJoint {
 
 /// How soft the rows are: overloaded contacts, by more than 400 times `weight` (a body's impulse in
 /// a substep, m/s, Q32), give less.
-void set_gives(std::int64_t weight, const PreparedRows& prepared, const ProximalContact& contact,
+void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContact& contact,
                lanes::ProximalBlock& problem);
+
+/// Sets γ of a row, Q30: 2^-14 … 1.
+void set_give(std::int64_t give, std::size_t row, lanes::ProximalBlock& problem);
 
 }  // namespace lockstone

@@ -29,6 +29,8 @@ constexpr std::int64_t k_leak_part = 10;
 
 // Overlap goes at this rate, 1/s.
 constexpr std::int64_t k_push_rate = 9;
+// And no faster than this where there are joints, m/s, Q24.
+constexpr std::int64_t k_most_jointed_push = (std::int64_t{1} << 24) / 4;
 
 // Bounds of a body's velocity and spin, Q50, and of a total impulse.
 constexpr std::int64_t k_motion_bound = std::int64_t{1} << 61;
@@ -37,14 +39,16 @@ constexpr std::int64_t k_most_total = std::int64_t{1} << (k_row_impulse_bits + 1
 }  // namespace
 
 ProximalSolver::ProximalSolver(std::size_t rows, std::size_t body_capacity,
-                               std::size_t contact_capacity)
+                               std::size_t contact_capacity, std::size_t joint_capacity)
     : local_(rows),
       body_capacity_(body_capacity),
       contact_capacity_(contact_capacity),
+      joint_capacity_(std::min(joint_capacity, contact_capacity)),
       factor_(body_capacity, contact_capacity) {
   islands_.reserve(body_capacity);
   bodies_.reserve(body_capacity);
   contacts_.reserve(contact_capacity);
+  joints_.reserve(joint_capacity_);
   problems_.reserve(contact_capacity);
   blocks_.reserve(contact_capacity);
   velocities_.reserve(2 * body_capacity);
@@ -54,10 +58,12 @@ ProximalSolver::ProximalSolver(std::size_t rows, std::size_t body_capacity,
   pairs_.reserve(contact_capacity);
 }
 
-void ProximalSolver::clear() {
+void ProximalSolver::clear(std::uint32_t first_free) {
+  first_free_ = first_free;
   islands_.clear();
   bodies_.clear();
   contacts_.clear();
+  joints_.clear();
   problems_.clear();
   blocks_.clear();
   velocities_.clear();
@@ -68,35 +74,39 @@ void ProximalSolver::clear() {
 }
 
 bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
-                         std::span<const ProximalContact> contacts) {
+                         std::span<const ProximalContact> contacts,
+                         std::span<const IslandJoint> joints) {
   Island island;
   island.first_body = static_cast<std::uint32_t>(bodies_.size());
   island.bodies = static_cast<std::uint32_t>(bodies.size());
   island.first_vector = static_cast<std::uint32_t>(velocities_.size());
   island.first_contact = static_cast<std::uint32_t>(contacts_.size());
   island.contacts = static_cast<std::uint32_t>(contacts.size());
+  island.first_joint = static_cast<std::uint32_t>(joints_.size());
+  island.joints = static_cast<std::uint32_t>(joints.size());
+  island.first_problem = static_cast<std::uint32_t>(problems_.size());
   if (bodies_.size() + bodies.size() > body_capacity_ ||
-      contacts_.size() + contacts.size() > contact_capacity_)
+      problems_.size() + island.problems() > contact_capacity_ ||
+      joints_.size() + joints.size() > joint_capacity_)
     return false;
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
     local_[bodies[i]] = i;
   pairs_.clear();
+  const auto add_pair = [this](std::uint32_t a, std::uint32_t b) {
+    if (a != 0 && b != 0) pairs_.emplace_back(local_[a], local_[b]);
+  };
   for (const ProximalContact& contact : contacts)
-    if (contact.a != 0 && contact.b != 0) pairs_.emplace_back(local_[contact.a], local_[contact.b]);
+    add_pair(contact.a, contact.b);
+  for (const IslandJoint& joint : joints)
+    add_pair(joint.a, joint.b);
   if (!factor_.plan(island.bodies, pairs_, island.plan)) return false;
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
-  for (const ProximalContact& contact : contacts) {
-    contacts_.push_back(contact);
-    Problem& problem = problems_.emplace_back();
-    problem.a = contact.a != 0 ? local_[contact.a] : island.bodies;
-    problem.b = contact.b != 0 ? local_[contact.b] : island.bodies;
-    Blocks blocks;
-    if (contact.a != 0) blocks.a = factor_.diagonal(island.plan, problem.a);
-    if (contact.b != 0) blocks.b = factor_.diagonal(island.plan, problem.b);
-    if (contact.a != 0 && contact.b != 0)
-      blocks.both = factor_.find(island.plan, problem.a, problem.b);
-    blocks_.push_back(blocks);
-  }
+  contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
+  joints_.insert(joints_.end(), joints.begin(), joints.end());
+  for (const ProximalContact& contact : contacts)
+    add_problem(island, contact.a, contact.b);
+  for (const IslandJoint& joint : joints)
+    add_problem(island, joint.a, joint.b);
   const std::size_t vectors = velocities_.size() + bodies.size() + 1;
   velocities_.resize(vectors);
   changes_.resize(vectors);
@@ -106,13 +116,23 @@ bool ProximalSolver::add(std::span<const std::uint32_t> bodies,
   return true;
 }
 
+void ProximalSolver::add_problem(const Island& island, std::uint32_t a, std::uint32_t b) {
+  Problem& problem = problems_.emplace_back();
+  problem.a = a != 0 ? local_[a] : island.bodies;
+  problem.b = b != 0 ? local_[b] : island.bodies;
+  Blocks blocks;
+  if (a != 0) blocks.a = factor_.diagonal(island.plan, problem.a);
+  if (b != 0) blocks.b = factor_.diagonal(island.plan, problem.b);
+  if (a != 0 && b != 0) blocks.both = factor_.find(island.plan, problem.a, problem.b);
+  blocks_.push_back(blocks);
+}
+
 // From here on the iterations only update the contact's separations.
 void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   contact.words = {block.mass_01[lane],
                    block.mass_23[lane],
-                   block.common[lane],
                    block.tangent_mass[0][lane],
                    block.tangent_mass[1][lane],
                    block.twist_row[1][lane],
@@ -123,7 +143,6 @@ void ProximalSolver::take_over(const ContactRun& run, ProximalContact& contact) 
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
   block.rest[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;
-  block.common[lane] -= low_word(block.common[lane]);
   block.friction[lane] = 0;
   block.twist[lane] = pack(0, contact.radius);
   block.tangent_mass[0][lane] = block.tangent_mass[1][lane] = 0;
@@ -136,27 +155,30 @@ BlockFloat ProximalSolver::find_unit(const ContactRun& run, const Island& island
   const auto is_less = [](BlockFloat x, BlockFloat y) {
     return x.exponent != y.exponent ? x.exponent < y.exponent : x.mantissa < y.mantissa;
   };
-  for (const ProximalContact& contact : contacts_of(island)) {
-    const BlockFloat inverse =
-        lockstone::add(run.bodies[contact.a].inverse_mass, run.bodies[contact.b].inverse_mass);
+  const auto take = [&](BlockFloat inverse) {
     if (unit.mantissa == 0 || is_less(inverse, unit)) unit = inverse;
-  }
+  };
+  for (const ProximalContact& contact : contacts_of(island))
+    take(lockstone::add(run.bodies[contact.a].inverse_mass, run.bodies[contact.b].inverse_mass));
+  for (const IslandJoint& joint : std::span(joints_).subspan(island.first_joint, island.joints))
+    take(joint.inverse_mass);
   return unit;
 }
 
 void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t weight) {
-  const Island& island = islands_[index];
-  const BlockFloat unit = find_unit(run, island);
+  Island& island = islands_[index];
+  island.unit = find_unit(run, island);
   const std::span<InertiaRoot> roots =
       std::span(roots_).subspan(island.first_vector, island.bodies + 1);
   for (std::uint32_t i = 0; i < island.bodies; ++i)
     roots[i] = inertia_root(run.bodies[bodies_[island.first_body + i]].inverse_inertia);
   roots[island.bodies] = {};
-  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    ProximalContact& contact = contacts_[c];
-    Problem& problem = problems_[c];
+  for (std::uint32_t i = 0; i < island.contacts; ++i) {
+    ProximalContact& contact = contacts_[island.first_contact + i];
+    Problem& problem = problems_[island.first_problem + i];
     PreparedRows prepared;
-    find_proximal_rows(run, roots[problem.a], roots[problem.b], unit, contact, problem, prepared);
+    find_proximal_rows(run, roots[problem.a], roots[problem.b], island.unit, contact, problem,
+                       prepared);
     problem.points = contact.points;
     problem.rows = contact.rows;
     take_over(run, contact);
@@ -166,6 +188,7 @@ void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int6
     measure(run, prepared, contact, problem);
     set_drives(run, contact, problem);
   }
+  if (island.joints != 0) find_carried_speeds(run, island);
 }
 
 // Sets the parts of rows that stay for the tick.
@@ -253,9 +276,9 @@ void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared
 // Rows do not change in a tick. Each substep but the first begins with the bodies gaining the same
 // velocities as in the one before, so the rows' speeds gain the same, too.
 void ProximalSolver::begin_substep(Island& island) {
-  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    ProximalContact& contact = contacts_[c];
-    Problem& problem = problems_[c];
+  for (std::uint32_t c = 0; c < island.contacts; ++c) {
+    ProximalContact& contact = contacts_[island.first_contact + c];
+    Problem& problem = problems_[island.first_problem + c];
     for (std::size_t i = 0; i < contact.rows; ++i) {
       if (!island.is_first) {
         const std::int64_t start = problem.moving[i];
@@ -276,26 +299,29 @@ void ProximalSolver::begin_substep(Island& island) {
 
 // The leak drives overlap out: the phase after it, which leaves overlap alone, has none.
 void ProximalSolver::return_leaks(const Island& island) {
-  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    for (std::size_t i = 0; i < contacts_[c].points; ++i)
-      problems_[c].held_centre[i] += contacts_[c].all[i].leak;
+  for (std::uint32_t c = 0; c < island.contacts; ++c) {
+    const ProximalContact& contact = contacts_[island.first_contact + c];
+    for (std::size_t i = 0; i < contact.points; ++i)
+      problems_[island.first_problem + c].held_centre[i] += contact.all[i].leak;
   }
 }
 
 // Sets the speeds at which separations close, or overlap is pushed out.
 void ProximalSolver::set_bias(const ContactRun& run, const ProximalContact& contact,
-                              Problem& problem, bool pushes_out) {
+                              Problem& problem, bool pushes_out, bool is_jointed) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   for (std::size_t i = 0; i < contact.points; ++i) {
     const RowScale& to_speed = contact.all[i].to_speed;
     const std::int64_t apart = high_word(block.points[i].separation[lane]) + run.rules.overlap;
+    if (is_jointed && pushes_out) soften(-apart, contact.all[i], i, problem);
     if (apart > 0) {
       problem.bias[i] =
           within_row(to_speed.times(apart * run.rules.substep_rate, 24 - k_row_unit_bits));
     } else if (pushes_out) {
-      const std::int64_t out =
-          std::max(apart * k_push_rate, -std::int64_t{run.rules.push_out} * (1 << 4));
+      const std::int64_t most =
+          is_jointed ? k_most_jointed_push : std::int64_t{run.rules.push_out} * (1 << 4);
+      const std::int64_t out = std::max(apart * k_push_rate, -most);
       problem.bias[i] = to_speed.times(out, 24 - k_row_unit_bits);
     } else {
       problem.bias[i] = 0;
@@ -311,7 +337,7 @@ void ProximalSolver::loosen(Island& island) {
         std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(x, 0))));
   };
   int most = 0;
-  for (const Problem& problem : problems_of(island)) {
+  for (const Problem& problem : problems_of(island).first(island.contacts)) {
     for (std::size_t i = 0; i < problem.points; ++i)
       most = std::max(
           most, width(-(problem.moved[i] + problem.bias[i])) - width(problem.least_change[i]));
@@ -390,9 +416,10 @@ void ProximalSolver::give(const ContactRun& run, Island& island) {
   const std::span<Gain> gains = std::span(gains_).subspan(island.first_vector, island.bodies + 1);
   for (Gain& gain : gains)
     gain = {};
-  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c) {
-    Problem& problem = problems_[c];
-    give_contact(run, island.bits, contacts_[c], problem, gains[problem.a], gains[problem.b]);
+  for (std::uint32_t c = 0; c < island.contacts; ++c) {
+    Problem& problem = problems_[island.first_problem + c];
+    give_contact(run, island.bits, contacts_[island.first_contact + c], problem, gains[problem.a],
+                 gains[problem.b]);
   }
   const auto add = [](std::int64_t& to, std::int64_t by) {
     constexpr std::int64_t k_most = k_motion_bound >> k_row_shift;
@@ -415,14 +442,17 @@ void ProximalSolver::follow(Island& island) {
                                    30 + island.bits - k_row_unit_bits);
 }
 
-void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool pushes_out) {
+void ProximalSolver::solve(const ContactRun& run, const JointAccess& joints, std::uint32_t index,
+                           bool pushes_out) {
   Island& island = islands_[index];
   if (pushes_out)
     begin_substep(island);
   else
     return_leaks(island);
-  for (std::uint32_t c = island.first_contact; c < island.first_contact + island.contacts; ++c)
-    set_bias(run, contacts_[c], problems_[c], pushes_out);
+  if (island.joints != 0) see_joints(run, joints, island, pushes_out);
+  for (std::uint32_t c = 0; c < island.contacts; ++c)
+    set_bias(run, contacts_[island.first_contact + c], problems_[island.first_problem + c],
+             pushes_out, island.joints != 0);
   loosen(island);
   if (!set_units(island)) return;
   while (!converge(island, pushes_out) && island.bits >= k_least_bits + k_coarser_bits)
@@ -432,6 +462,7 @@ void ProximalSolver::solve(const ContactRun& run, std::uint32_t index, bool push
       problem.warm = {};
   island.warms = false;
   give(run, island);
+  give_joints(joints, island);
   follow(island);
 }
 
@@ -450,12 +481,11 @@ void ProximalSolver::end(const ContactRun& run, std::uint32_t index) const {
     block.twist[lane] = pack(seen[2], contact.radius);
     block.mass_01[lane] = contact.words[0];
     block.mass_23[lane] = contact.words[1];
-    block.common[lane] = contact.words[2];
-    block.tangent_mass[0][lane] = contact.words[3];
-    block.tangent_mass[1][lane] = contact.words[4];
-    block.twist_row[1][lane] = contact.words[5];
-    block.rest[lane] = contact.words[6];
-    block.soft[lane] = contact.words[7];
+    block.tangent_mass[0][lane] = contact.words[2];
+    block.tangent_mass[1][lane] = contact.words[3];
+    block.twist_row[1][lane] = contact.words[4];
+    block.rest[lane] = contact.words[5];
+    block.soft[lane] = contact.words[6];
   }
 }
 

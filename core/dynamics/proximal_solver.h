@@ -1,4 +1,4 @@
-// Solves each small island's contacts to convergence: one proximal problem a phase.
+// Solves each small island's contacts and joints to convergence: one proximal problem a phase.
 //
 // A phase finds impulses λ and velocities v = v* + M⁻¹Jᵀλ such that J·v + b + γ(λ − c) = 0 for
 // every row that is neither separating nor sliding, with λ ≥ 0 along normals and friction within
@@ -19,24 +19,34 @@
 #include <vector>
 
 #include "core/dynamics/body_factor.h"
+#include "core/dynamics/island_joint.h"
+#include "core/dynamics/joint_solver.h"
 #include "core/dynamics/proximal_rows.h"
 
 namespace lockstone {
 
+/// The joints of a tick, and the data that they are solved with.
+struct JointAccess {
+  JointSolver& joints;
+  JointRun run;
+};
+
 class ProximalSolver {
  public:
-  /// Room for so many bodies and contacts of islands, whose bodies are among the first `rows` of
-  /// the solver. No function but this allocates.
+  /// Room for so many bodies, contacts with joints, and joints of islands, whose bodies are among
+  /// the first `rows` of the solver. No function but this allocates.
   [[gnu::cold]] ProximalSolver(std::size_t rows, std::size_t body_capacity,
-                               std::size_t contact_capacity);
+                               std::size_t contact_capacity, std::size_t joint_capacity);
 
-  void clear();
+  /// `first_free`: bodies of this number or above touch nothing.
+  void clear(std::uint32_t first_free);
 
-  /// An island whose bodies and contacts are given in their order; false if it is too large. Bodies
-  /// are numbers in the solver; of a contact the pair's numbers are read, 0 for a body that nothing
-  /// moves.
+  /// An island whose bodies, contacts and joints are given in their order; false if it is too
+  /// large. Bodies are numbers in the solver; of a contact the pair's numbers are read, 0 for a
+  /// body that nothing moves.
   [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
-                         std::span<const ProximalContact> contacts);
+                         std::span<const ProximalContact> contacts,
+                         std::span<const IslandJoint> joints);
 
   [[nodiscard]] std::span<ProximalContact> contacts() { return contacts_; }
 
@@ -50,7 +60,8 @@ class ProximalSolver {
   void begin(const ContactRun& run, std::uint32_t island, std::int64_t weight);
 
   /// One phase. With `pushes_out` overlap goes.
-  void solve(const ContactRun& run, std::uint32_t island, bool pushes_out);
+  void solve(const ContactRun& run, const JointAccess& joints, std::uint32_t island,
+             bool pushes_out);
 
   /// After the last phase: writes the impulses to the blocks, and gives the contacts back to the
   /// iterations.
@@ -64,18 +75,24 @@ class ProximalSolver {
     std::uint32_t first_vector = 0;  // in velocities_ … : one more than bodies
     std::uint32_t first_contact = 0;
     std::uint32_t contacts = 0;
-    int bits = 0;               // fraction bits of the phase's units
-    int loose = 0;              // the phase's tolerance is 2^this times the least
-    int drop = 0;               // bits of residuals that the direct step at hand leaves out
-    bool fits = true;           // so far nothing in the phase had to be clamped
-    bool is_solved = false;     // by the last direct step
-    bool is_first = true;       // substep of the tick
-    bool warms = false;         // this phase begins with the impulses of the tick before
-    bool was_factored = false;  // in this tick
-    bool is_factored = false;   // for the rows that are active
+    std::uint32_t first_joint = 0;
+    std::uint32_t joints = 0;
+    std::uint32_t first_problem = 0;  // contacts first, then joints
+    BlockFloat unit{};                // 1/m₀
+    int bits = 0;                     // fraction bits of the phase's units
+    int loose = 0;                    // the phase's tolerance is 2^this times the least
+    int drop = 0;                     // bits of residuals that the direct step at hand leaves out
+    bool fits = true;                 // so far nothing in the phase had to be clamped
+    bool is_solved = false;           // by the last direct step
+    bool is_first = true;             // substep of the tick
+    bool warms = false;               // this phase begins with the impulses of the tick before
+    bool was_factored = false;        // in this tick
+    bool is_factored = false;         // for the rows that are active
+
+    [[nodiscard]] std::uint32_t problems() const { return contacts + joints; }
   };
   static constexpr std::uint32_t k_no_block = 0xffffffff;
-  // Where blocks of a contact's bodies are in the factor.
+  // Where blocks of the bodies of a contact or a joint are in the factor.
   struct Blocks {
     std::uint32_t a = k_no_block, b = k_no_block;
     BodyFactor::Place both{k_no_block, false};
@@ -100,7 +117,8 @@ class ProximalSolver {
   void return_leaks(const Island& island);
   void loosen(Island& island);
   static void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& problem,
-                       bool pushes_out);
+                       bool pushes_out, bool is_jointed);
+  static void soften(std::int64_t overlap, const ProximalRow& row, std::size_t i, Problem& problem);
   [[nodiscard]] bool set_units(Island& island);
   void scale_warm_start(Island& island);
   [[nodiscard]] bool pass(Island& island);
@@ -115,6 +133,17 @@ class ProximalSolver {
   [[nodiscard]] bool converge(Island& island, bool scales);
   [[nodiscard]] bool move_centres(Island& island);
   void iterate(Island& island);
+  void add_problem(const Island& island, std::uint32_t a, std::uint32_t b);
+  void see_bodies(const ContactRun& run, const Island& island);
+  [[nodiscard]] std::int64_t seen_speed(const Island& island, const Problem& problem,
+                                        std::size_t row);
+  void find_carried_speeds(const ContactRun& run, const Island& island);
+  void see_joints(const ContactRun& run, const JointAccess& joints, Island& island,
+                  bool pushes_out);
+  void see_joint(const JointAccess& access, const Island& island, IslandJoint& joint,
+                 Problem& problem, bool pushes_out);
+  static void set_lock(const ProximalLock& lock, std::size_t lane, Problem& problem);
+  void give_joints(const JointAccess& access, const Island& island);
   void give(const ContactRun& run, Island& island);
   void follow(Island& island);
   static void give_contact(const ContactRun& run, int bits, ProximalContact& contact,
@@ -124,7 +153,7 @@ class ProximalSolver {
     return std::span(contacts_).subspan(island.first_contact, island.contacts);
   }
   [[nodiscard]] std::span<Problem> problems_of(const Island& island) {
-    return std::span(problems_).subspan(island.first_contact, island.contacts);
+    return std::span(problems_).subspan(island.first_problem, island.problems());
   }
   [[nodiscard]] std::span<BodyVector> of(std::vector<BodyVector>& all, const Island& island) {
     return std::span(all).subspan(island.first_vector, island.bodies + 1);
@@ -133,14 +162,16 @@ class ProximalSolver {
   std::vector<Island> islands_;
   std::vector<std::uint32_t> bodies_;  // numbers in the solver, island by island
   std::vector<ProximalContact> contacts_;
-  std::vector<Problem> problems_;       // by contact: its rows
-  std::vector<Blocks> blocks_;          // by contact
+  std::vector<IslandJoint> joints_;
+  std::vector<Problem> problems_;       // rows of contacts and joints, island by island
+  std::vector<Blocks> blocks_;          // alike
   std::vector<BodyVector> velocities_;  // changes since the phase began
   std::vector<BodyVector> changes_;
   std::vector<Gain> gains_;
   std::vector<InertiaRoot> roots_;
   std::vector<std::uint32_t> local_;  // by number in the solver
-  std::size_t body_capacity_, contact_capacity_;
+  std::size_t body_capacity_, contact_capacity_, joint_capacity_;
+  std::uint32_t first_free_ = 0;
   std::vector<BodyFactor::Pair> pairs_;
   BodyFactor factor_;
 };

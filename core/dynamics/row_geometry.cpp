@@ -88,7 +88,6 @@ void find_masses(const ContactRun& run, ContactRows& contact) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   contact.masses = masses_of(block, lane);
-  contact.common_mass = low_word(block.common[lane]);
   while (contact.count < k_block_points && contact.masses[contact.count] != 0)
     ++contact.count;
 }

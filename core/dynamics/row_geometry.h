@@ -68,7 +68,6 @@ struct ContactRows : ContactPair {
   RawVec3 normal{}, tangent{}, binormal{};
   BlockFloat inverse_mass{};                                 // of the pair
   std::array<std::int64_t, lanes::k_block_points> masses{};  // as in the block
-  std::int64_t common_mass = 0;
 };
 
 /// Which points the contact has, and their masses.

@@ -28,22 +28,27 @@ class SharedCount {
 
 /// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
-  /// An island with more contacts of a kind is a large one: its loads take long to spread.
-  static constexpr std::uint32_t k_most_loaded = 128;
+  /// With more loaded contacts an island starts warm: it would settle for long otherwise.
+  static constexpr std::uint32_t k_most_loaded = 8;
+  /// With more that bear several times a weight it is rebalanced: it would bend without.
+  static constexpr std::uint32_t k_most_bearing = 128;
 
-  bool is_barred = false;     ///< joints, locked axes or rolling resistance: iterations alone do it
+  bool is_barred = false;     ///< nets, locked axes or rolling resistance: iterations alone do it
+  bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
+  bool may_bounce = false;    ///< any restitution
+  bool is_fed = false;        ///< something besides gravity and forces may give it energy
+  bool is_struck = false;     ///< something comes in fast
   bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
   std::uint32_t bodies = 0;   ///< dynamic ones
   std::uint32_t contacts = 0;
+  std::uint32_t joints = 0;
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
                               ///< k_most_loaded + 1 on it may be any greater number
 
-  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_loaded; }
+  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
-  /// Left to the iterations, and large.
-  [[nodiscard]] bool is_iterated() const { return !is_converged && contacts > k_most_loaded; }
   /// Many contacts are loaded, and a good part of all are new and have no impulses yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;

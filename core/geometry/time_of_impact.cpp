@@ -114,6 +114,10 @@ Transform pose_at(const Sweep& sweep, Unit fraction) {
   return {sweep.start.position + moved, integrate(sweep.start.orientation, turned)};
 }
 
+Transform carried(const Transform& pose, const Sweep& by) {
+  return compose(pose_at(by, Unit::from_integer(1)), compose(inverse(by.start), pose));
+}
+
 TimeOfImpact time_of_impact(const SweptShape& a, const SweptShape& b,
                             const TimeOfImpactLimits& limits) {
   using namespace geometry;

@@ -9,6 +9,9 @@ namespace lockstone {
 /// The placement at a fraction in [0, 1].
 [[nodiscard]] Transform pose_at(const Sweep& sweep, Unit fraction);
 
+/// Where a pose goes that is fixed to the body in motion.
+[[nodiscard]] Transform carried(const Transform& pose, const Sweep& by);
+
 /// A convex shape on a body in motion; the shape's axes are the body's.
 struct SweptShape {
   const Shape& shape;

@@ -166,6 +166,7 @@ Status World::Impl::execute(const DestroyBody& command) {
   changed_sleep.erase(index);
   drop_contacts_of(index);
   broad_phase.remove(index);
+  triggers.erase(index);
   BodyRecord empty;
   empty.generation = record->generation;
   bodies[index] = empty;

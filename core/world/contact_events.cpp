@@ -77,8 +77,8 @@ std::optional<ContactEvent> World::Impl::event_of(const PairState& before,
 
 // The combined state of the first pair's records, which are removed from the list. The
 // approach speed is the greatest of its contacts.
-World::Impl::PairState World::Impl::take_pair(std::span<const ContactRecord>& records,
-                                              std::span<const SolverVelocity> approaches) const {
+PairState World::Impl::take_pair(std::span<const ContactRecord>& records,
+                                 std::span<const SolverVelocity> approaches) const {
   PairState state;
   state.exists = true;
   state.bodies = {records.front().body_a, records.front().body_b};
@@ -164,6 +164,7 @@ void World::Impl::find_events() {
                                contact_store.begin() + first);
                    });
   active_contacts = count;
+  add_passes();
   events.insert(events.end(), impacts.begin(), impacts.end());
   header.contact_count = active_contacts + frozen.count();
 }

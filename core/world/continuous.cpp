@@ -14,9 +14,6 @@
 namespace lockstone {
 namespace {
 
-// In `far_movers`: a body that joints connect to a far mover.
-constexpr std::uint8_t k_joined_mover = 2;
-
 Transform pose_of(const BodyRecord& body) {
   return {body.position, body.orientation};
 }
@@ -66,11 +63,26 @@ Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
   return manifold;
 }
 
+// A half-space has nothing behind it to come out at, and contacts find the bodies that
+// triangles sweep over.
+bool may_sweep(const BodyRecord& body, const Asset* asset) {
+  return body.shape().kind != ShapeKind::half_space &&
+         (asset == nullptr || asset->mesh_kernels() == nullptr);
+}
+
+// Compounds may have parts much thinner than their thickest.
+Position sweeping_limit(Length inner_radius, const Asset* asset) {
+  constexpr Length k_least = Length::from_ratio(1, 1000);
+  const bool has_parts = asset != nullptr && asset->polytope() == nullptr;
+  return rounded<Position>(has_parts ? k_least : max(inner_radius / 2, k_least));
+}
+
 // Whether |Δq| may hide most of a turn: w·dt > 3 s for the surface speed w.
 bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
   const std::int64_t limit =
       raw::scale_binary(std::int64_t{3 * step.tick_rate} << 32, body.scale_exponent);
   const std::int64_t spin = sum_of_magnitudes(body.spin);
+  if (!body.is_dynamic()) return spin > limit;
   const Unit least = min(body.inertia.x, min(body.inertia.y, body.inertia.z));
   if (spin <= raw::multiply_shift(limit, least.raw, Unit::frac_bits)) return false;
   return sum_of_magnitudes(surface_velocity(inverse_inertia(body, rotation), body.spin)) > limit;
@@ -81,25 +93,34 @@ bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeSt
 void World::Impl::stop_at_impacts(StepReport& report) {
   const StageTimer timer(profiler, StepStage::continuous);
   impacts.clear();
+  passes.clear();
+  passes_overflowed = false;
+  list_sweepers();
   for (const std::uint32_t body : moved) {
-    if (far_movers[body] == 0) continue;
+    if ((far_movers[body] & (k_far_mover | k_swept_over)) == 0) continue;
     ++report.continuous_bodies;
     follow(body, report);
   }
+  if (triggers.count() != 0)
+    for (const Sweeper& each : sweepers)
+      note_passes(each.body, motion_in_tick(each.body), {}, k_whole_tick);
   hold_before_fronts();
+  if (passes_overflowed) report.status = Status::capacity_exhausted;
 }
 
 // Anew when an impact changes how a body turns before its own way is looked at.
 void World::Impl::note_far_mover(std::uint32_t body) {
-  far_movers[body] = went_far(body) ? 1 : 0;
+  const bool is_followed = bodies[body].is_dynamic() && !bodies[body].is_trigger();
+  far_movers[body] = !went_far(body) ? 0 : is_followed ? k_far_mover : k_sweeper;
 }
 
 // Farther than half its thickness: a shorter motion cannot take it through anything.
-bool World::Impl::went_far(std::uint32_t body) const {
-  const BodyRecord& record = bodies[body];
-  if (!record.is_dynamic() || record.is_trigger()) return false;
-  const Transform& start = starts[body];
-  const std::int64_t limit = rounded<Position>(inner_radii[body] / 2).raw;
+bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
+                           const BodyRecord& record) const {
+  const bool is_followed = record.is_dynamic() && !record.is_trigger();
+  if (!is_followed && !may_sweep(record, body_assets[body])) return false;
+  const std::int64_t limit = is_followed ? rounded<Position>(inner_radii[body] / 2).raw
+                                         : sweeping_limit(inner_radii[body], body_assets[body]).raw;
   const Vec3<Position> gone = record.position - start.position;
   std::int64_t way = sum_of_magnitudes(gone);
   if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
@@ -114,29 +135,44 @@ bool World::Impl::went_far(std::uint32_t body) const {
       Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
   if (body_assets[body] == nullptr && !goes_far(reach)) return false;
   const Length radius = bounding_radius(record.shape(), body_assets[body]);
-  return radius > inner_radii[body] && goes_far(radius);
+  const bool shows_turning = radius > inner_radii[body] || !is_followed;
+  return shows_turning && goes_far(radius);
 }
 
-// How it turned is of interest only where something is in its way.
+// How it turned is of interest only where something is in its way. A sweeper that it meets twice
+// takes it along from the first time on: a straight way ends behind a blade that turns.
 void World::Impl::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = bodies[body];
   const Transform& start = starts[body];
   bool is_free = true;
   visit_obstacles(body, {start, record.position - start.position, {}},
                   [&](std::uint32_t) { is_free = false; });
-  if (is_free) return;
+  if (is_free) return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
   if (!joint_edges.of(body, joint_links).empty()) return follow_joined(body, report);
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = rotations[body];
-  Unit done{};  // of the tick
+  Unit done{};                    // of the tick
+  Transform held = motion.start;  // at the last impact, with `met`
+  Unit held_since{};
+  std::uint32_t met = body;
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
+    note_passes(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
+    if (!next.impact.hit && i > 0 && carries(met)) push_out(body, met);
     if (!next.impact.hit) return;
     ++report.impacts;
+    if (i > 0 && next.body == met && carries(met)) {
+      stop_at(record, carried(held, motion_of(met, held_since)), rotation);
+      answer(body, next, k_whole_tick);
+      return push_out(body, met);
+    }
     stop_at(record, pose_at(motion, next.impact.fraction), rotation);
     const Unit left = k_whole_tick - done;
     done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
     answer(body, next, done);
+    held = pose_of(record);
+    held_since = done;
+    met = next.body;
     const bool last = i + 1 == k_max_impacts;
     if (last) return;
     rotation = to_matrix(record.orientation);
@@ -147,11 +183,37 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
   }
 }
 
+// Out of a sweeper, where both are at the tick's end: contacts alone are too slow for it.
+void World::Impl::push_out(std::uint32_t body, std::uint32_t sweeper) {
+  BodyRecord& record = bodies[body];
+  const BodyRecord& other = bodies[sweeper];
+  PairScratch& scratch = narrow.scratch(0);
+  collide_bodies(
+      place(record.shape(), body_assets[body], record.position, to_matrix(record.orientation)),
+      place(other.shape(), body_assets[sweeper], other.position, to_matrix(other.orientation)), {},
+      scratch.triangles.get(), scratch.part_contacts);
+  Displacement deepest{};
+  Vec3<Unit> normal{};
+  for (const PartContact& contact : scratch.part_contacts) {
+    const Manifold& manifold = contact.manifold;
+    for (int i = 0; i < manifold.count; ++i) {
+      const Displacement separation = manifold.points[static_cast<std::size_t>(i)].separation;
+      if (separation >= deepest) continue;
+      deepest = separation;
+      normal = manifold.normal;
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+    record.position[i] += rounded<Position>(normal[i] * deepest);
+  (void)limit_position(record);
+}
+
 // Bodies connected by joints stop together where the first of them runs into something, and lose
 // the rest of the tick: a limb that stopped alone would leave its joint. The solver propagates the
 // impact to the others.
 void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
-  if (!find_impact(body, motion_in_tick(body), {}).impact.hit) return;
+  if (!find_impact(body, motion_in_tick(body), {}).impact.hit)
+    return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
   list_joined(body);
   NextImpact first;
   std::uint32_t body_of_first = body;
@@ -165,11 +227,15 @@ void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
   }
   ++report.impacts;
   for (const std::uint32_t each : joined_movers) {
-    const Transform pose = pose_at(motion_in_tick(each), first.impact.fraction);
+    const Sweep motion = motion_in_tick(each);
+    const Transform pose = pose_at(motion, first.impact.fraction);
+    note_passes(each, motion, {}, first.impact.fraction);
     stop_at(bodies[each], pose, rotations[each]);
     far_movers[each] = 0;
   }
   answer(body_of_first, first, first.impact.fraction);
+  if (carries(first.body))
+    carry_joined(body_of_first, motion_of(first.body, first.impact.fraction));
 }
 
 // The body and the dynamic bodies that joints connect to it, all of which move.
@@ -230,16 +296,17 @@ void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
     const bool considered = other != body && (record.is_bullet() || !bodies[other].is_dynamic());
-    if (considered && is_obstacle(body, other)) f(other);
+    if (considered && !is_sweeper(other) && is_obstacle(body, other)) f(other);
   };
+  for (const Sweeper& each : sweepers)
+    if (overlap(way, each.way) && is_obstacle(body, each.body)) f(each.body);
   if (record.is_bullet())
     broad_phase.traverse(k_every_category, test, visit);
   else
     broad_phase.traverse_immovable(test, visit);
 }
 
-World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion,
-                                                 Unit done) const {
+NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Unit done) const {
   const Shape shape = bodies[body].shape();
   const Length inner = inner_radii[body];
   const Length radius = bounding_radius(shape, body_assets[body]);
@@ -248,9 +315,12 @@ World::Impl::NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep
     const Shape other_shape = bodies[other].shape();
     const Sweep other_motion = motion_of(other, done);
     const Length turned = radius > inner ? radius : Length{};
-    if (relative_way(motion, other_motion, turned) <= rounded<Position>(inner / 2)) return;
+    const bool sweeps = is_sweeper(other);
+    const Length free_way = sweeps ? inner / 8 : inner / 2;
+    if (relative_way(motion, other_motion, turned) <= rounded<Position>(free_way)) return;
     const Impact impact = first_impact({shape, body_assets[body], motion},
-                                       {other_shape, body_assets[other], other_motion});
+                                       {other_shape, body_assets[other], other_motion},
+                                       sweeps ? ImpactDepth::shallow : ImpactDepth::half);
     const bool sooner =
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
                        (impact.fraction == next.impact.fraction && other < next.body));
@@ -296,7 +366,11 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   (void)limit_speed(a, inertia_a, def.speed_limit);
   if (b.is_dynamic()) (void)limit_speed(b, inertia_b, def.speed_limit);
   body_hashes.mark(other);
-  if (b.moves()) note_far_mover(other);
+  if (b.is_dynamic()) {
+    const auto swept_over = static_cast<std::uint8_t>(far_movers[other] & k_swept_over);
+    note_far_mover(other);
+    far_movers[other] |= swept_over;
+  }
   if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
   if (impacts.size() < def.body_capacity) {
     impacts.push_back(

@@ -124,6 +124,7 @@ bool World::Impl::take_body(std::uint32_t body, const BodyRecord& record) {
     refresh(body);
   } else {
     broad_phase.remove(body);
+    triggers.erase(body);
   }
   return false;
 }

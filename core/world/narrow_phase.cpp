@@ -51,6 +51,7 @@ void World::Impl::collide_pairs(StepReport& report) {
   separating_axes.begin(pairs.size());
   if (!collide_side_by_side()) collide_one_by_one();
   if (narrow.has_overflowed()) report.status = Status::capacity_exhausted;
+  remove_seams();
   number_contacts(report);
   remembers_manifolds = true;
 }
@@ -101,7 +102,9 @@ void World::Impl::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
   std::span<const ContactRecord> before(begin, all.end());
   auto joined = std::ranges::lower_bound(joined_pairs, pairs[first]);
   SeparatingAxes::Reader last_axes = separating_axes.read_from(pairs[first]);
+  bool beside_static = first > 0;  // a static body may come before
   for (std::uint32_t i = first; i < end; ++i) {
+    beside_static = look_for_seam(i, beside_static);
     found_contacts[i] = {};
     separating_axes.note(i, pairs[i], {});
     while (joined != joined_pairs.end() && *joined < pairs[i])
@@ -263,7 +266,8 @@ void World::Impl::fill_slot(std::uint32_t slot, const ContactKey& key, const Sur
                             const Surface* surface_b, const ManifoldInput& input,
                             std::span<const ContactRecord> before) {
   const auto old = std::ranges::find(before, key, &ContactRecord::key);
-  origins[slot] = {key.part_a, key.part_b, old == before.end() ? k_new : index_of(*old), false};
+  origins[slot] = {key.part_a, key.part_b,
+                   old == before.end() ? ContactOrigin::k_new : index_of(*old), false};
   inputs[slot] = input;
   for (std::size_t i = 0; i < k_max_manifold_points; ++i)
     found_separations[slot][i] = manifolds[slot].points[i].separation;
@@ -314,7 +318,7 @@ void World::Impl::add_trigger(std::uint32_t index, std::span<const ContactRecord
   const std::uint32_t slot = narrow.take(scratch, 1);
   if (slot == NarrowSlots::k_none) return;
   found_contacts[index] = {slot, 1};
-  origins[slot] = {0, 0, before.empty() ? k_new : index_of(before.front()), true};
+  origins[slot] = {0, 0, before.empty() ? ContactOrigin::k_new : index_of(before.front()), true};
   manifolds[slot] = {};
   inputs[slot] = {};
   surfaces[slot] = {};
@@ -396,7 +400,7 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
     const ContactOrigin& origin = origins[slot];
     const Pair& both = pairs[pair];
     ContactRecord& record = new_contacts[of_pair.index + i];
-    if (origin.before == k_new)
+    if (origin.before == ContactOrigin::k_new)
       record = {};
     else
       record = contact_store[origin.before];
@@ -405,7 +409,7 @@ void World::Impl::number_contacts_of(std::uint32_t pair) {
     record.part_a = origin.part_a;
     record.part_b = origin.part_b;
     if (origin.is_trigger) {
-      record.flags = static_cast<std::uint8_t>(record.flags | k_contact_trigger);
+      record.flags = static_cast<std::uint16_t>(record.flags | k_contact_trigger);
     }
     slots[of_pair.index + i] = slot;
     approach_speeds[of_pair.index + i] = {};

@@ -14,6 +14,7 @@
 #include "core/collision/collide_bodies.h"
 #include "core/dynamics/contact_record.h"
 #include "core/geometry/box_batch.h"
+#include "core/world/seam_contacts.h"
 
 namespace lockstone {
 
@@ -70,6 +71,7 @@ struct alignas(64) PairScratch {
   PartContacts part_contacts;                  // of the pair at hand
   std::unique_ptr<TriangleScratch> triangles;  // null when no asset has triangles
   WaitingBoxes boxes;
+  SeamContacts seams;               // of the body at hand
   std::uint32_t next = 0, end = 0;  // slots at hand
   std::uint32_t taken = 0;          // slots that hold a contact
 };
@@ -99,7 +101,8 @@ class NarrowSlots {
   void begin(std::uint32_t workers, bool with_batches) {
     block_ = workers > 1 ? k_block : 1;
     used_ = 0;
-    out_of_slots_ = overflowed_ = has_elastic_ = false;
+    out_of_slots_ = overflowed_ = has_elastic_ = has_seams_ = false;
+    dropped_ = 0;
     for (const std::unique_ptr<PairScratch>& scratch : scratch_) {
       scratch->next = scratch->end = scratch->taken = 0;
       scratch->boxes.are_admitted = with_batches;
@@ -134,13 +137,25 @@ class NarrowSlots {
 
   [[nodiscard]] bool is_out_of_slots() const { return out_of_slots_; }
 
-  /// Contacts since `begin`, those without a slot included.
+  /// Contacts since `begin`, those without a slot included, those dropped not.
   [[nodiscard]] std::uint32_t taken() const {
     std::uint32_t sum = 0;
     for (const std::unique_ptr<PairScratch>& scratch : scratch_)
       sum += scratch->taken;
-    return sum;
+    return sum - dropped_;
   }
+
+  /// For contacts that turned out to be none; their slots stay taken.
+  void note_dropped(std::uint32_t count) {
+    if (count != 0) dropped_.fetch_add(count, std::memory_order_relaxed);
+  }
+
+  /// For bodies that may touch more than one static piece.
+  void note_seams() {
+    if (!has_seams_.load(std::memory_order_relaxed))
+      has_seams_.store(true, std::memory_order_relaxed);
+  }
+  [[nodiscard]] bool has_seams() const { return has_seams_; }
 
   /// For pairs of which parts were left out.
   void note_overflow() { overflowed_.store(true, std::memory_order_relaxed); }
@@ -164,6 +179,8 @@ class NarrowSlots {
   std::atomic<bool> out_of_slots_{false};
   std::atomic<bool> overflowed_{false};
   std::atomic<bool> has_elastic_{false};
+  std::atomic<bool> has_seams_{false};
+  std::atomic<std::uint32_t> dropped_{0};
 };
 
 }  // namespace lockstone

@@ -11,7 +11,7 @@
 namespace lockstone {
 namespace {
 
-constexpr Displacement k_deep = Displacement::from_ratio(1, 1500);
+constexpr Displacement k_deep = Displacement::from_ratio(1, 300);
 
 }  // namespace
 
@@ -172,6 +172,7 @@ bool World::Impl::wake_met() {
     const std::uint32_t sleeper = a_awake ? pair.b : pair.a;
     if (bodies[sleeper].is_dynamic() && meet(pair)) list_to_wake(sleeper);
   }
+  wake_struck();
   const bool any = !to_wake.empty();
   wake_listed();
   return any;

@@ -44,6 +44,7 @@ void World::Impl::turn_frame(std::uint32_t body) {
 void World::Impl::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
   inner_radii[body] = inner_radius(record.shape(), body_assets[body]);
+  if (triggers.has(body) != record.is_trigger()) triggers.flip(body);
   broad_phase.set(body, bounds_of(body),
                   {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
                    record.is_asleep()});
@@ -160,6 +161,7 @@ void World::Impl::move_bodies(StepReport& report) {
     add(axis_turns, counts.axis_turns);
     add(saturations, counts.saturations);
   });
+  solver.limit_bounces(bodies, def.speed_limit);
   report.free_bodies = free_bodies;
   report.axis_turns += axis_turns;
   report.saturations += saturations;
@@ -169,14 +171,12 @@ Loop World::Impl::each_moved() const {
   return {static_cast<std::uint32_t>(moved.size()), k_body_grain};
 }
 
-// A body that left its contact pose takes another. Only in large islands that iterations solve,
-// which have many contacts to find, may a body drift from its pose: the residual motion of
-// converged contacts is finer.
+// A body that left its contact pose takes another. Only in islands that iterations solve may a body
+// drift from its pose: the residual motion of converged contacts is finer.
 void World::Impl::follow_with_contacts() {
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
-      if (!solver.is_iterated(moved[i]) || !is_near_contact_pose(bodies[moved[i]]))
-        take_contact_pose(moved[i]);
+      if (!solver.keeps_contact_pose(moved[i], bodies[moved[i]])) take_contact_pose(moved[i]);
   });
 }
 

@@ -64,6 +64,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       joints(definition.joint_capacity),
       names(definition.body_capacity),
       awake(definition.body_capacity),
+      triggers(definition.body_capacity),
       joint_edges(definition.body_capacity, definition.joint_capacity),
       rotations(definition.body_capacity),
       contact_rotations(definition.body_capacity),
@@ -80,7 +81,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       solver(time_step, definition.body_capacity, definition.contact_capacity,
              definition.joint_capacity, definition.converged_contacts) {
   header.gravity = definition.gravity;
-  events.reserve(std::size_t{2} * (definition.contact_capacity + definition.body_capacity));
+  events.reserve(std::size_t{2} * definition.contact_capacity +
+                 std::size_t{4} * definition.body_capacity);
   to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);
   to_sleep.reserve(definition.body_capacity);
   joint_links.reserve(definition.joint_capacity);
@@ -89,6 +91,9 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   joint_events.reserve(definition.joint_capacity);
   impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);
+  sweepers.reserve(definition.body_capacity);
+  struck.reserve(definition.body_capacity);
+  passes.reserve(definition.body_capacity);
   leaves_fat_box.resize(definition.body_capacity);
   far_movers.resize(definition.body_capacity);
   joined_movers.reserve(definition.joint_capacity == 0 ? 0 : definition.body_capacity);
@@ -162,6 +167,7 @@ void World::Impl::rebuild_derived() {
   separating_axes.forget();
   free_hint = 0;
   awake.clear();
+  triggers.clear();
   changed_sleep.clear();
   asleep_count = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {

@@ -35,6 +35,7 @@
 #include "core/world/record_checks.h"
 #include "core/world/record_hashes.h"
 #include "core/world/separating_axes.h"
+#include "core/world/step_records.h"
 #include "core/world/stores.h"
 #include "core/world/world_header.h"
 
@@ -59,13 +60,6 @@ struct World::Impl {
 #undef LKS_DECLARE_EXECUTE
 
   Result<JointHandle> create_joint(const JointDef& joint_def);
-  // A push, and the velocities that it gives a body (force_commands.cpp).
-  struct Push {
-    Vec3<Impulse> impulse{};
-    Vec3<AngularImpulse> turn{};
-    const Vec3<Length>* point = nullptr;  // null: the centre of mass
-    Frame frame{};
-  };
   [[nodiscard]] Status gain_of(BodyHandle body, const Push& push, TickGain& gain) const;
   Status push_now(BodyHandle body, const Push& push);
   Status push_in_tick(BodyHandle body, const Push& push);
@@ -199,7 +193,8 @@ struct World::Impl {
 
   // Derived from flags of bodies.
   std::uint32_t active_contacts = 0, asleep_count = 0;
-  IndexSet awake;  // bodies that move
+  IndexSet awake;     // bodies that move
+  IndexSet triggers;  // triggers that exist
 
   // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
   std::vector<JointLink> joint_links;
@@ -300,6 +295,9 @@ struct World::Impl {
   void add_trigger(std::uint32_t index, std::span<const ContactRecord> before,
                    PairScratch& scratch);
   [[nodiscard]] std::uint32_t index_of(const ContactRecord& record) const;
+  struct SeamSearch;  // for ghosts between static bodies (seams.cpp)
+  bool look_for_seam(std::uint32_t pair, bool beside_static);
+  void remove_seams();
   void number_contacts(StepReport& report);
   void number_contacts_of(std::uint32_t pair);
 
@@ -315,11 +313,6 @@ struct World::Impl {
   void run_substeps();
   void store_impulses();
   void move_bodies(StepReport& report);
-  struct MoveCounts {
-    std::uint32_t free_bodies = 0;
-    std::uint32_t axis_turns = 0;
-    std::uint32_t saturations = 0;
-  };
   void move_body(std::uint32_t body, MoveCounts& counts);
   [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
   [[nodiscard]] Loop each_moved() const;
@@ -343,11 +336,6 @@ struct World::Impl {
   void run_bounce_group(std::uint32_t index);
 
   // A pendulum (swings.cpp).
-  struct Swing {
-    std::uint32_t joint = 0;
-    std::uint32_t body = 0;
-    bool is_first = false;  // of the joint's bodies
-  };
   void find_swings();
   void look_for_swing(const JointLink& link);
   [[nodiscard]] SwingPivot pivot_of(const Swing& swing) const;
@@ -355,13 +343,14 @@ struct World::Impl {
   std::uint32_t run_swing(const Swing& swing);
 
   // Continuous collision (continuous.cpp).
-  struct NextImpact {
-    std::uint32_t body = 0;
-    Impact impact{};
-  };
   void stop_at_impacts(StepReport& report);
   void note_far_mover(std::uint32_t body);
-  [[nodiscard]] bool went_far(std::uint32_t body) const;
+  [[nodiscard]] bool went_far(std::uint32_t body) const {
+    return goes_far(body, starts[body], bodies[body]);
+  }
+  /// From a pose to that of `end`.
+  [[nodiscard]] bool goes_far(std::uint32_t body, const Transform& start,
+                              const BodyRecord& end) const;
   void follow(std::uint32_t body, StepReport& report);
   void follow_joined(std::uint32_t body, StepReport& report);
   void list_joined(std::uint32_t body);
@@ -372,6 +361,23 @@ struct World::Impl {
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
+
+  // Bodies that sweep over others: fast kinematic bodies, and fast triggers (sweepers.cpp).
+  [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
+  [[nodiscard]] Bounds bounds_on_way(std::uint32_t body, const Sweep& motion) const;
+  void list_sweepers();
+  void wake_struck();
+  void find_struck(std::uint32_t sweeper);
+  [[nodiscard]] bool carries(std::uint32_t body) const;
+  void push_out(std::uint32_t body, std::uint32_t sweeper);
+  void carry_joined(std::uint32_t body, const Sweep& by);
+
+  // Triggers that are passed within a tick (passes.cpp).
+  void note_passes(std::uint32_t body, const Sweep& motion, Unit done, Unit fraction);
+  void note_pass(const Pair& pair, const Sweep& a, const Sweep& b);
+  [[nodiscard]] bool senses(std::uint32_t body, std::uint32_t other) const;
+  void add_passes();
+
   void hold_before_fronts();  // thin bodies (fronts.cpp)
   void hold_before_fronts(std::uint32_t body);
 
@@ -396,13 +402,6 @@ struct World::Impl {
   void freeze_contacts();
   void add_sleep_events();
 
-  // The contacts of a pair of bodies taken together.
-  struct PairState {
-    Pair bodies;
-    bool exists = false, trigger = false, touching = false;  // touching of a trigger: overlapping
-    SolverVelocity approach{};
-    std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of the fastest contact
-  };
   PairState take_pair(std::span<const ContactRecord>& records,
                       std::span<const SolverVelocity> approaches) const;
   std::optional<ContactEvent> event_of(const PairState& before, const PairState& now) const;
@@ -422,14 +421,12 @@ struct World::Impl {
   std::vector<std::uint8_t> leaves_fat_box;         // by place in `moved`
   std::vector<std::uint8_t> far_movers;             // by body that moved
   std::vector<Transform> starts;                    // by body: where it was before it moved
+  std::vector<Sweeper> sweepers;                    // of this tick, by body
+  std::vector<std::uint32_t> struck;                // sleepers
+  std::vector<Pair> passes;                         // that one of the two sensed within the tick
+  bool passes_overflowed = false;
   std::vector<ContactEvent> impacts;
   // Bounces within the tick: contacts by group, a group by its least body.
-  struct BouncingContact {
-    std::uint32_t root = 0;
-    std::uint32_t contact = 0;
-
-    friend auto operator<=>(const BouncingContact&, const BouncingContact&) = default;
-  };
   std::vector<BouncingContact> bouncing_contacts;
   std::vector<std::uint32_t> bounce_groups, bouncing_bodies;  // a group is its first contact
   std::vector<std::uint8_t> has_bounced, bounce_marks;        // by body
@@ -438,22 +435,7 @@ struct World::Impl {
   std::vector<JointLink> solved_joints;  // the others, where there are any swings
   NarrowSlots narrow;
 
-  // By pair: the contacts that were found, in slots and in the list of contacts.
-  struct FoundContacts {
-    std::uint32_t slot = 0;
-    std::uint32_t count = 0;
-    std::uint32_t index = 0;
-  };
-  std::vector<FoundContacts> found_contacts;
-
-  // The origin of a new contact: parts, and its record of the tick before.
-  static constexpr std::uint32_t k_new = 0xffffffff;
-  struct ContactOrigin {
-    std::uint32_t part_a = 0;
-    std::uint32_t part_b = 0;
-    std::uint32_t before = k_new;  // in contact_store
-    bool is_trigger = false;
-  };
+  std::vector<FoundContacts> found_contacts;        // by pair
   std::vector<ContactOrigin> origins;               // by slot
   std::vector<Manifold> manifolds;                  // by slot
   std::vector<ManifoldInput> inputs;                // by slot

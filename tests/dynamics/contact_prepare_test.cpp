@@ -1,4 +1,4 @@
-// The part of its impulse that a soft contact keeps.
+// How softly a contact begins.
 #include "core/dynamics/contact_prepare.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ class ContactPrepare : public ::testing::Test {
     const ContactRecord record;
     const ContactSurface surface;
     lanes::ManifoldSource source;
-    (void)fill_source({body_, body_, manifold, record, surface}, softness_, source);
+    (void)fill_source({body_, body_, manifold, record, surface, true}, softness_, source);
     return source.keep;
   }
 
@@ -36,7 +36,7 @@ TEST_F(ContactPrepare, KeepsItsShareUpToThreeMillimetres) {
     EXPECT_EQ(kept_at(separation), softness_.between_moving.mass_scale) << separation.raw;
 }
 
-TEST_F(ContactPrepare, KeepsLessTheDeeperItIsAndHalfFromSixMillimetres) {
+TEST_F(ContactPrepare, OfAPinchedIslandKeepsLessTheDeeperItIsAndHalfFromSixMillimetres) {
   std::int32_t before = softness_.between_moving.mass_scale;
   for (const int tenths : {31, 40, 50, 59}) {
     const std::int32_t kept = kept_at(Displacement::from_ratio(-tenths, 10'000));

@@ -59,12 +59,21 @@ TEST(IslandLoad, HasFewLoadsUpToItsBudget) {
   EXPECT_FALSE(load.few_are_loaded());
 }
 
+TEST(IslandLoad, IsAHeapBeyondItsBudgetOfBearingContacts) {
+  IslandLoad load{.bearing = IslandLoad::k_most_bearing, .loaded = 0};
+  EXPECT_FALSE(load.is_heap());
+  ++load.bearing;
+  EXPECT_TRUE(load.is_heap());
+  load.is_converged = true;
+  EXPECT_FALSE(load.is_heap());
+}
+
 TEST(IslandLoad, NeedsFirstLoadsWhereManyAreLoadedAndAQuarterIsNew) {
   IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200};
   EXPECT_TRUE(load.needs_first_loads());
   load.fresh = 249;
   EXPECT_FALSE(load.needs_first_loads());
-  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 128};
+  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = IslandLoad::k_most_loaded};
   EXPECT_FALSE(load.needs_first_loads());
 }
 

@@ -164,5 +164,106 @@ TEST(Bounce, OnABallThatRestsPressesItToTheGround) {
   EXPECT_GT(to_double(world.position(upper).y), 0.249);
 }
 
+// Of a body without forces but gravity, J/kg.
+double energy_of(const World& world, BodyHandle body, double i_x, double i_yz) {
+  const BodyView view = world.body(body);
+  const auto w = view.angular_velocity;
+  const Mat3 turn = to_matrix(view.orientation);
+  const auto about = [&](int axis) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+      sum += to_double(turn.column(axis)[i]) * to_double(w[i]);
+    return sum;
+  };
+  double moving = 9.81 * to_double(view.centre_of_mass.y);
+  for (int i = 0; i < 3; ++i)
+    moving += 0.5 * to_double(view.velocity[i]) * to_double(view.velocity[i]);
+  return moving +
+         0.5 * (i_x * about(0) * about(0) + i_yz * (about(1) * about(1) + about(2) * about(2)));
+}
+
+TEST(Bounce, OfARodThatTumblesNeverGains) {
+  // m·(a² + b²)/3 for half extents a, b
+  const double i_x = (0.01 + 0.01) / 3, i_yz = (0.36 + 0.01) / 3;
+  for (int seed = 0; seed < 40; ++seed) {
+    World world = test::make_world();
+    test::add_ground(world);
+    BodyDef def = test::dynamic_body(Shape::box(0.6_m, 0.1_m, 0.1_m), 0_m, 3_m, 0_m);
+    def.material.restitution = 1_r;
+    def.material.friction = Coefficient::from_ratio(seed % 6, 10);
+    def.orientation =
+        from_axis_angle({0.6_r, {}, 0.8_r}, Angle::from_ratio(seed * 17 % 61 - 30, 20));
+    def.angular_velocity = {1_rps, AngularVelocity::from_integer(seed % 7 - 3), 2_rps};
+    const BodyHandle rod = test::add(world, def);
+    double least = energy_of(world, rod, i_x, i_yz);
+    const double first = least;
+    for (int tick = 0; tick < 480; ++tick) {
+      (void)world.step();
+      const double now = energy_of(world, rod, i_x, i_yz);
+      ASSERT_LT(now - least, 0.02 * first) << "seed " << seed << ", tick " << tick;
+      least = std::min(least, now);
+    }
+  }
+}
+
+// Balls of 0.2 m, each on two rods of 2 m; the first `lifted` of them out by 0.7 rad.
+struct Cradle {
+  World world = test::make_world();
+  std::vector<BodyHandle> balls;
+
+  Cradle(int count, int lifted) {
+    for (int i = 0; i < count; ++i) {
+      const double turn = i < lifted ? -0.7 : 0;
+      const auto place = [](double x) {
+        return Position::from_raw(std::llround(std::ldexp(x, 32)));
+      };
+      BodyDef def = test::dynamic_body(Shape::sphere(0.2_m), place(0.4002 * i + 2 * std::sin(turn)),
+                                       place(-2 * std::cos(turn)), {});
+      def.material.restitution = 1_r;
+      def.material.friction = {};
+      balls.push_back(test::add(world, def));
+      for (const int side : {-1, 1}) {
+        BodyDef hook;
+        hook.motion = MotionType::static_body;
+        hook.shape = Shape::sphere(0.01_m);
+        hook.position = {place(0.4002 * i), {}, Position::from_integer(side)};
+        JointDef rod = JointDef::of(JointKind::distance, test::add(world, hook), balls.back());
+        rod.linear[0].mode = AxisMode::limited;
+        rod.linear[0].lower = rod.linear[0].upper = Length::from_raw(2344686);  // √5 m
+        (void)world.create_joint(rod).value();
+      }
+    }
+  }
+  [[nodiscard]] double energy() const {
+    double sum = 0;
+    for (const BodyHandle ball : balls) {
+      const auto v = world.velocity(ball);
+      sum += 9.81 * (to_double(world.position(ball).y) + 2);
+      for (int i = 0; i < 3; ++i)
+        sum += 0.5 * to_double(v[i]) * to_double(v[i]);
+    }
+    return sum;
+  }
+};
+
+TEST(Bounce, OfACradleKeepsItsEnergyForTenSeconds) {
+  for (const auto& [count, lifted] :
+       {std::pair{2, 1}, std::pair{3, 1}, std::pair{5, 2}, std::pair{7, 3}}) {
+    Cradle cradle(count, lifted);
+    const double first = cradle.energy();
+    test::step(cradle.world, 600);
+    EXPECT_NEAR(cradle.energy() / first, 1, 0.03) << count << " balls, " << lifted << " lifted";
+  }
+}
+
+TEST(Bounce, OfACradlePassesAlongToItsLastBall) {
+  Cradle cradle(5, 1);
+  test::step(cradle.world, 60);  // after the first impact
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(to_double(cradle.world.velocity(cradle.balls[static_cast<std::size_t>(i)]).x), 0,
+                0.1);
+  EXPECT_GT(to_double(cradle.world.velocity(cradle.balls[4]).x), 2);
+}
+
 }  // namespace
 }  // namespace lockstone

@@ -5,32 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/world/world_fixture.h"
+#include "tests/world/joint_fixture.h"
 
 namespace lockstone {
 namespace {
 
 using namespace literals;
-
-double number(std::int64_t raw, int bits) {
-  return std::ldexp(static_cast<double>(raw), -bits);
-}
-
-BodyHandle add_fixed(World& world) {
-  BodyDef def;
-  def.motion = MotionType::static_body;
-  def.shape = Shape::sphere(0.05_m);
-  return test::add(world, def);
-}
-
-JointHandle join(World& world, const JointDef& def) {
-  return world.create_joint(def).value();
-}
-
-double gap(const JointView& joint) {
-  return std::hypot(number(joint.offset.x.raw, 20), number(joint.offset.y.raw, 20),
-                    number(joint.offset.z.raw, 20));
-}
+using test::add_fixed, test::gap, test::join, test::number;
 
 // A row of links that begins at the origin and points along x.
 std::vector<BodyHandle> add_chain(World& world, int links, std::int64_t end_mass) {
@@ -226,60 +207,6 @@ TEST(Joints, NetsStayTogetherWellAndComeToRest) {
   }
 }
 
-// A bar of 40 kg that turns about z at its end.
-struct Lever {
-  World world = test::make_world();
-  JointDef def = hinge();
-  JointHandle joint = join(world, def);
-
-  JointDef hinge() {
-    JointDef hinge = JointDef::of(JointKind::hinge, add_fixed(world), {});
-    hinge.body_b =
-        test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.1_m, 0.1_m), 0.5_m, {}, {}));
-    hinge.frame_a.orientation = from_axis_angle({{}, 1_r, {}}, -1.570796327_rad);
-    hinge.frame_b.orientation = hinge.frame_a.orientation;
-    hinge.frame_b.position.x = -0.5_m;
-    return hinge;
-  }
-  double angle() { return number(world.joint(joint).angle.x.raw, 27); }
-  void set(const AngularAxis& axis) {
-    ASSERT_EQ(world.apply(SetAngularAxis{joint, 0, axis}), Status::ok);
-  }
-};
-
-TEST(Joints, HingeStopsAtItsLimits) {
-  Lever lever;
-  lever.set({.mode = AxisMode::limited, .lower = -0.5_rad, .upper = 0.5_rad});
-  test::step(lever.world, 240);
-  EXPECT_NEAR(lever.angle(), -0.5, 1e-3);
-  const JointView view = lever.world.joint(lever.joint);
-  EXPECT_NEAR(number(view.torque.x.raw, 20), 40 * 9.81 * 0.5 * std::cos(0.5), 20);
-  EXPECT_LT(gap(view), 1e-5);
-}
-
-TEST(Joints, MotorTurnsAtItsSpeedAndNoStrongerThanItMay) {
-  Lever lever;
-  lever.set({.speed = 2_rps, .max_effort = Torque::from_integer(1000)});
-  test::step(lever.world, 120);
-  EXPECT_NEAR(number(lever.world.body(lever.def.body_b).angular_velocity.z.raw, 32), 2, 0.1);
-  Lever weak;
-  weak.set({.speed = 2_rps, .max_effort = Torque::from_integer(50)});
-  for (int tick = 0; tick < 60; ++tick) {
-    (void)weak.world.step();
-    ASSERT_LE(std::abs(number(weak.world.joint(weak.joint).torque.x.raw, 20)), 50.001);
-  }
-}
-
-TEST(Joints, SpringSagsAsHookeSays) {
-  Lever lever;
-  lever.set({.target = 0.25_rad, .hertz = 2_r, .damping_ratio = 1_r});
-  test::step(lever.world, 300);
-  // k = I·(2πf)² with I of the bar alone, and at rest k·(target − angle) = m·g·l/2·cos(angle)
-  const double inertia = 40 * (1 + 0.04) / 12;
-  const double torque = inertia * std::pow(2 * M_PI * 2, 2) * (0.25 - lever.angle());
-  EXPECT_NEAR(torque / (40 * 9.81 * 0.5 * std::cos(lever.angle())), 1, 0.15);
-}
-
 TEST(Joints, WeldHoldsAsOne) {
   World world = test::make_world();
   const BodyHandle a =
@@ -297,6 +224,44 @@ TEST(Joints, WeldHoldsAsOne) {
     for (int i = 0; i < 3; ++i)
       ASSERT_NEAR(number(view.angle[i].raw, 27), 0, 2e-3);
   }
+}
+
+// A rope of capsules falls about a post, with a load at its end.
+double widest_gap_about_a_post(int links, std::int64_t load) {
+  World world = test::make_world();
+  BodyDef post;
+  post.motion = MotionType::static_body;
+  post.shape = Shape::capsule(0.2_m, 3_m);
+  post.position = {Position::from_ratio(links, 20), Position::from_ratio(-links, 10), {}};
+  post.orientation = from_axis_angle({1_r, {}, {}}, 1.570796327_rad);
+  test::add(world, post);
+  JointDef joint = JointDef::of(JointKind::ball, add_fixed(world), {});
+  for (int i = 0; i <= links; ++i) {
+    const bool is_load = i == links;
+    BodyDef def =
+        test::dynamic_body(is_load ? Shape::sphere(0.2_m) : Shape::capsule(0.04_m, 0.06_m),
+                           Position::from_ratio(is_load ? 2 * links : 2 * i + 1, 10), {}, {});
+    def.orientation = from_axis_angle({{}, {}, 1_r}, 1.570796327_rad);
+    def.material.density = Density::from_integer(is_load ? 27 * load : 1000);
+    joint.body_b = test::add(world, def);
+    joint.frame_b.position.y = is_load ? Length{} : 0.1_m;
+    join(world, joint);
+    joint.body_a = joint.body_b;
+    joint.frame_a.position.y = -0.1_m;
+  }
+  double widest = 0;
+  for (int tick = 0; tick < 480; ++tick) {
+    (void)world.step();
+    widest = std::max(widest, worst_gap(world));
+  }
+  return widest;
+}
+
+TEST(Joints, RopesAboutAPostStayTogether) {
+  for (const int links : {6, 12, 16, 24, 36})
+    for (const int load : {10, 100, 250})
+      EXPECT_LT(widest_gap_about_a_post(links, load), 0.02)
+          << links << " links, " << load << " : 1";
 }
 
 TEST(Joints, FastBodiesPassWhatTheyAreJoinedTo) {

@@ -133,6 +133,37 @@ TEST(SurfaceMotion, ATurntableTurnsWhatStandsAtItsCentre) {
   EXPECT_NEAR(to_double(world.body(box).angular_velocity.y), 2, 1e-3);
 }
 
+// Two whole turns of 1 rad/s at 1 m: the tangent of each tick alone would lead outwards by 0.1 m.
+void expect_to_ride_at_its_radius(bool is_kinematic) {
+  World world = test::make_world();
+  BodyDef table;
+  table.motion = is_kinematic ? MotionType::kinematic : MotionType::static_body;
+  table.shape = Shape::box(5_m, 0.5_m, 5_m);
+  table.position = {{}, -0.5_m, {}};
+  if (is_kinematic)
+    table.angular_velocity.y = 1_rps;
+  else
+    table.surface_motion.turning.y = 1_rps;
+  test::add(world, table);
+  BodyDef box = test::dynamic_body(Shape::box(0.25_m, 0.25_m, 0.25_m), 1_m, 0.25_m, 0_m);
+  box.velocity = {{}, {}, -1_mps};
+  box.angular_velocity = {{}, 1_rps, {}};
+  const BodyHandle rider = test::add(world, box);
+  for (int i = 0; i < 754; ++i) {
+    test::step(world, 1);
+    const double x = to_double(world.position(rider).x), z = to_double(world.position(rider).z);
+    ASSERT_NEAR(std::hypot(x, z), 1, 1e-4) << i;
+  }
+}
+
+TEST(SurfaceMotion, ATurntableCarriesAlongACircle) {
+  expect_to_ride_at_its_radius(false);
+}
+
+TEST(SurfaceMotion, AKinematicTableCarriesAlongACircle) {
+  expect_to_ride_at_its_radius(true);
+}
+
 TEST(SurfaceMotion, TurnsAboutTheOriginOfAnAssetsFrame) {
   // A disc whose centre of mass is 2 m beside its frame.
   std::array<CompoundChild, 1> children{};

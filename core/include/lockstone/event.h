@@ -20,6 +20,7 @@ enum class EventKind : std::uint8_t {
 };
 [[nodiscard]] std::string_view to_string(EventKind kind);
 
+/// A body that passes a trigger within a tick enters and exits in that tick, in this order.
 /// Contacts and triggers come first, by pair; then impacts; then sleep and wake, by body.
 /// Destroying or teleporting a body drops its contacts without an event. While neither body of a
 /// pair is awake it has no events: trigger_stay goes on once one of them wakes.

@@ -18,7 +18,7 @@ HWY_INLINE HWY_ATTR bool is_empty(const ManifoldBlock& block, std::size_t lane) 
   if constexpr (k_lanes == k_block_lanes) return false;
   std::int64_t used = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
-    used |= block.common[i];
+    used |= block.used[i];
   return used == 0;
 }
 

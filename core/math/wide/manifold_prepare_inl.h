@@ -176,7 +176,6 @@ HWY_INLINE HWY_ATTR void point_responses(const CenterResponse& k, const Offsets&
 /// The results of divisions and roots, Q30 but for the twist's mass in Q24.
 struct Quotients {
   Lanes point[4];     // 1/Aᵢᵢ; 0: no point
-  Lanes all;          // 1/K_nn
   Lanes determinant;  // of the tangents' response, inverted
   Lanes radius;       // ρ, the root of the mean square of offsets
   Lanes twist;        // 1/(ρ²K_ww)
@@ -208,19 +207,19 @@ HWY_INLINE HWY_ATTR void find_rolling_mass(const ManifoldSource* in, const Cente
 
 /// The divisors of 2^(shift + 30): A of each point, K_nn, the tangents' determinant.
 struct Divisors {
-  Lanes of[6];
+  Lanes of[5];
 };
 
 /// Puts the quotients, rounded down, in the place of their divisors, lane by lane.
 HWY_INLINE HWY_ATTR void divide_each(const ManifoldSource* in, Divisors& d) {
-  std::int64_t words[6][k_lanes];
-  for (std::size_t i = 0; i < 6; ++i)
+  std::int64_t words[5][k_lanes];
+  for (std::size_t i = 0; i < 5; ++i)
     store(d.of[i], words[i]);
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
     for (auto& word : words)
       word[lane] = bounded_quotient(in[lane].shift + 30, word[lane], k_one);
   }
-  for (std::size_t i = 0; i < 6; ++i)
+  for (std::size_t i = 0; i < 5; ++i)
     d.of[i] = load(words[i]);
 }
 
@@ -256,7 +255,7 @@ HWY_INLINE HWY_ATTR Lanes quotient_of(Lanes d, Lanes shift, Lanes power) {
 HWY_INLINE HWY_ATTR void divide(const ManifoldSource* in, Lanes shift, Divisors& d) {
   const Lanes one = power_of_two(shift);
   Lanes least = d.of[0], most = d.of[0];
-  for (std::size_t i = 1; i < 6; ++i) {
+  for (std::size_t i = 1; i < 5; ++i) {
     least = min(least, d.of[i]);
     most = max(most, d.of[i]);
   }
@@ -279,10 +278,10 @@ HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, Lanes cou
     words[1][lane] = twist_mass(in[lane].shift, words[1][lane], words[0][lane]);
   }
   const Lanes determinant = by.round(subtract(multiply(k.tt, k.bb), multiply(k.tb, k.tb)));
-  Divisors d{{of[0][0], of[1][1], of[2][2], of[3][3], k.nn,
+  Divisors d{{of[0][0], of[1][1], of[2][2], of[3][3],
               max(lower_part(determinant), power_of_two(by.shift))}};
   divide(in, by.shift, d);
-  Quotients q{{}, d.of[4], d.of[5], load(words[0]), load(words[1]), {}};
+  Quotients q{{}, d.of[4], load(words[0]), load(words[1]), {}};
   for (std::size_t i = 0; i < 4; ++i)
     q.point[i] = select_less(broadcast(static_cast<std::int64_t>(i)), count, d.of[i], broadcast(0));
   if constexpr (!plain) find_rolling_mass(in, k, q.rolling);
@@ -304,9 +303,7 @@ HWY_INLINE HWY_ATTR void store_points_of(const SourceLanes& in, const SourcePoin
   store(pack(of[0][1], of[2][3]), &out.response_01_23[lane]);
   store(pack(of[0][2], of[1][3]), &out.response_02_13[lane]);
   store(pack(of[0][3], of[1][2]), &out.response_03_12[lane]);
-  // The centre is the points' mean, where all at once feel K_nn.
-  const Lanes share = in.one_over_count;
-  store(pack(round_shift_low<30>(multiply(q.all, share)), share), &out.common[lane]);
+  store(in.one_over_count, &out.used[lane]);
 }
 
 /// Impulses along t and b, and torques about them.
@@ -371,7 +368,7 @@ HWY_INLINE HWY_ATTR bool are_plain(const ManifoldSources& in, std::size_t lane) 
 
 HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
                                      ManifoldApproach& approach) {
-  store(broadcast(0), &block.common[lane]);
+  store(broadcast(0), &block.used[lane]);
   store(broadcast(0), &approach.summary[lane]);
 }
 

@@ -132,23 +132,6 @@ struct SoftRow {
   }
 };
 
-/// All points as one row, each by the same share: symmetric motion stays symmetric.
-template <class Row>
-HWY_INLINE HWY_ATTR void solve_common(const ManifoldBlock& block, std::size_t lane, const Row& row,
-                                      PointLanes& points) {
-  const Lanes none = broadcast(0), share = load_upper(&block.common[lane]);
-  Lanes mean = none;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Lanes error = add(points.speed[i], points.bias[i]);
-    mean = multiply_add(mean, share, select_equal(points.mass[i], none, none, error));
-  }
-  const Lanes mass_error = multiply(load(&block.common[lane]), round_shift_low<30>(mean));
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Lanes own = select_equal(points.mass[i], none, none, mass_error);
-    points.impulse[i] = row.next(points, i, own, points.widest);
-  }
-}
-
 /// Responses of the points to each other, in Q(shift).
 struct Responses {
   Lanes of[4][4];
@@ -166,20 +149,6 @@ HWY_INLINE HWY_ATTR void load_responses(const ManifoldBlock& block, std::size_t 
   r.of[1][3] = r.of[3][1] = load_upper(&block.response_02_13[lane]);
   r.of[0][3] = r.of[3][0] = load(&block.response_03_12[lane]);
   r.of[1][2] = r.of[2][1] = load_upper(&block.response_03_12[lane]);
-}
-
-/// vⱼ += Σ responseⱼᵢ·ΔPᵢ
-HWY_INLINE HWY_ATTR void follow_common(const Responses& r, const EachShift& by,
-                                       PointLanes& points) {
-  Lanes moved[4];
-  for (std::size_t i = 0; i < 4; ++i)
-    moved[i] = subtract(points.impulse[i], points.start[i]);
-  for (std::size_t j = 0; j < 4; ++j) {
-    Lanes sum = multiply(r.of[j][0], moved[0]);
-    for (std::size_t i = 1; i < 4; ++i)
-      sum = multiply_add(sum, r.of[j][i], moved[i]);
-    points.speed[j] = add(points.speed[j], by.round(sum));
-  }
 }
 
 /// The points in turn; each tells those after it.
@@ -224,8 +193,6 @@ HWY_INLINE HWY_ATTR void solve_rows(const ManifoldBlock& block, std::size_t lane
                                     const EachShift& by, const Row& row, PointLanes& points) {
   Responses responses{};
   load_responses(block, lane, responses);
-  solve_common(block, lane, row, points);
-  follow_common(responses, by, points);
   solve_points(responses, by, row, points);
 }
 

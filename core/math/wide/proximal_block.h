@@ -29,8 +29,9 @@ inline constexpr int k_weight_point = 14;
 /// Fraction bits of friction's limits and of the twist's ratio.
 inline constexpr int k_friction_point = 20;
 
-/// A contact of the problem. Words that end a sentence with Qn have n fraction bits; those of the
-/// phase are in its units; kept ones are in units of their rows, Q44.
+/// A contact of the problem, or a joint: normal rows for its limits, then its locks. Words that end
+/// a sentence with Qn have n fraction bits; those of the phase are in its units; kept ones are in
+/// units of their rows, Q44.
 struct alignas(64) ProximalBlock {
   BlockWord sides[k_body_words]{};    // by component; low: of A, high: of B, Q30
   BlockWord by_row[k_most_rows]{};    // the same by row, components in lanes
@@ -63,6 +64,7 @@ struct alignas(64) ProximalBlock {
   std::uint32_t rows = 0;                // all of them
   std::uint32_t a = 0, b = 0;            // bodies in the island
   bool slides = false;                   // friction's last pass wanted more than its limit
+  bool has_locks = false;                // a joint: its other rows may pull, without a limit
 
   [[nodiscard]] bool has_friction() const { return limits[0] != 0; }
 

@@ -147,6 +147,8 @@ struct RowPass {
       const std::int64_t impulse = wanted(i);
       push(i, impulse > 0 ? impulse : 0);
     }
+    for (std::size_t i = block.points; block.has_locks && i < block.rows; ++i)
+      push(i, wanted(i));
     if (!block.has_friction()) return;
     BlockWord next = block.impulse;
     for (std::size_t i = block.points; i < block.rows; ++i)

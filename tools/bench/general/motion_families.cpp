@@ -88,6 +88,61 @@ void fill_tiles_slide(SceneMaker& m) {
   m.judge(Judge::slowed, 0.01, 2);
 }
 
+// Boxes or hulls in rows and columns, turned about y, up to 10 µm apart and 10 µm higher or lower
+// than y = 0, under a way along x.
+void tile_grid(SceneMaker& m, double way, double width) {
+  const double turn = m.random.between(-3, 3), c = std::cos(turn), s = std::sin(turn);
+  const double x = m.random.between(0.2, 1), z = m.random.between(0.2, 1);
+  const double gap = m.random.between(0, 1e-5), rough = m.random.between(0, 1e-5);
+  const bool hulls = m.random.chance(0.5);
+  std::vector<Triple> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({i % 2 == 0 ? -x : x, i % 4 < 2 ? -0.5 : 0.5, i < 4 ? -z : z});
+  const int n = static_cast<int>((way + 4) / std::min(x, z));
+  for (int i = -n; i <= n; ++i) {
+    for (int k = -n; k <= n; ++k) {
+      const double u = i * (2 * x + gap), v = k * (2 * z + gap);
+      const Triple at{c * u + s * v, -0.5 + m.random.between(-rough, rough), c * v - s * u};
+      const double reach = x + z;
+      if (at[0] < -2 - reach || at[0] > way + reach || std::abs(at[2]) > width + reach) continue;
+      const int tile = hulls ? m.hull(corners, at) : m.box({x, 0.5, z}, at);
+      m.fix(tile);
+      m.turn(tile, {0, std::sin(turn / 2), 0, std::cos(turn / 2)});
+    }
+  }
+}
+
+// A ball or a capsule rolls over them.
+void fill_grid_roll(SceneMaker& m) {
+  const double speed = m.random.between(2, 20), r = m.random.between(0.05, 0.5);
+  tile_grid(m, 2 * speed + 2, 3 * r);
+  const bool ball = m.random.chance(0.5);
+  const int body = ball ? m.ball(r, {0, r, 0}) : m.capsule(r, r, {0, r, 0});
+  m.turn(body, {std::sqrt(0.5), 0, 0, std::sqrt(0.5)});
+  m.body(body).velocity = {speed, 0, 0};
+  m.body(body).angular_velocity = {0, 0, -speed / r};
+  m.scene.low = -1;
+  m.judge(Judge::bounce, 0.001, 2);
+}
+
+// A box, a brick as a hull, or a ball slides over them without friction.
+void fill_grid_slide(SceneMaker& m) {
+  const double speed = m.random.between(1, 15), x = m.random.between(0.05, 0.5);
+  const double y = x * m.random.between(0.3, 1), z = x * m.random.between(0.3, 1);
+  tile_grid(m, 2 * speed + 2, 2 * x);
+  std::vector<Triple> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({i % 2 == 0 ? -x : x, i % 4 < 2 ? -y : y, i < 4 ? -z : z});
+  const int kind = m.random.count(0, 2);
+  const int body = kind == 0   ? m.box({x, y, z}, {0, y, 0})
+                   : kind == 1 ? m.hull(corners, {0, y, 0})
+                               : m.ball(y, {0, y, 0});
+  m.body(body).velocity = {speed, 0, 0};
+  m.set_friction(0);
+  m.scene.low = -1;
+  m.judge(Judge::slowed, 0.01, 2);
+}
+
 // Crates ride on a platform that speeds up gently, stops, and goes up and down.
 void fill_platform(SceneMaker& m) {
   const int platform = m.box({3, 0.2, 3}, {0, -0.2, 0});
@@ -147,6 +202,8 @@ void add_motion_families(std::vector<Family>& all) {
               {"trigger", "ball of 5-300 m/s through a trigger", fill_trigger},
               {"tiles-roll", "ball over static boxes, 2-20 m/s: kick", fill_tiles_roll},
               {"tiles-slide", "box over them without friction: slowed", fill_tiles_slide},
+              {"grid-roll", "ball, capsule over a grid of boxes, hulls: kick", fill_grid_roll},
+              {"grid-slide", "box, hull, ball over one without friction: slowed", fill_grid_slide},
               {"platform", "crates on a platform that moves and comes back", fill_platform},
               {"turntable", "crates on a table that makes whole turns", fill_turntable}});
 }
