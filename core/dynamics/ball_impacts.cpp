@@ -35,10 +35,6 @@ std::int64_t along(const std::array<std::int64_t, 3>& a, const std::array<std::i
   return sum.rounded(Unit::frac_bits);
 }
 
-bool is_ball(const BodyRecord& body) {
-  return body.shape().kind == ShapeKind::sphere;
-}
-
 }  // namespace
 
 // Contacts of balls, in the order of the records, of islands in which anything comes in fast.
@@ -56,7 +52,7 @@ void ContactSolver::find_impacts(const ContactScene& scene) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const ContactRecord& record = scene.records[entries_[i].record];
     const BodyRecord &a = scene.bodies[record.body_a], &b = scene.bodies[record.body_b];
-    const bool are_balls = (is_ball(a) || !a.is_dynamic()) && (is_ball(b) || !b.is_dynamic());
+    const bool are_balls = (a.is_ball() || !a.is_dynamic()) && (b.is_ball() || !b.is_dynamic());
     if (are_balls && scene.surfaces[entries_[i].slot].restitution > Coefficient{} &&
         scene.manifolds[entries_[i].slot].count == 1 && island_of(i).is_struck)
       impacts_.push_back(static_cast<std::uint32_t>(i));

@@ -84,6 +84,7 @@ struct BodyRecord {
   [[nodiscard]] bool moves() const { return motion >= 2; }
   [[nodiscard]] bool is_static() const { return is(MotionType::static_body); }
   [[nodiscard]] bool is_dynamic() const { return is(MotionType::dynamic); }
+  [[nodiscard]] bool is_ball() const { return shape().kind == ShapeKind::sphere; }
   [[nodiscard]] bool is_trigger() const { return (flags & k_body_trigger) != 0; }
   [[nodiscard]] bool is_pushed() const { return (flags & k_body_pushed) != 0; }
   [[nodiscard]] bool is_bullet() const { return (flags & k_body_bullet) != 0; }

@@ -70,13 +70,9 @@ Vec3<Velocity> velocity_at(const BodyRecord& body, const Vec3<Velocity>& w, cons
                                         arm(w.x, r.y) - arm(w.y, r.x)};
 }
 
-bool is_ball(const BodyRecord& body) {
-  return body.shape().kind == ShapeKind::sphere;
-}
-
 // Two balls are where their centres are; of other shapes the normal stays for the tick.
 bool are_balls(const BouncePair& pair) {
-  return is_ball(*pair.a) && is_ball(*pair.b);
+  return pair.a->is_ball() && pair.b->is_ball();
 }
 
 struct Balls {
