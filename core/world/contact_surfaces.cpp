@@ -28,8 +28,9 @@ std::int64_t cross(const Vec3<Unit>& n, const std::int64_t (&x)[3], int i) {
 // circle, but its velocity u at the tick's beginning is along the tangent: without this, friction
 // would let bodies on a turntable drift outwards by θ²/2 of the radius a tick. Adds n × u·(1 − cos
 // θ)/θ − u·(1 − sin θ/θ), both fractions by Padé approximants that err by less than 2^-7 of
-// themselves up to one radian. `about` is the rate of turning, 1/s, Q20; `along` is u, m/s, Q20.
-void follow_arc(std::int64_t about, const std::int64_t (&along)[3], const Vec3<Unit>& normal,
+// themselves up to one radian. `about` is the rate of turning, 1/s, Q20; `speed` is u, m/s, Q20, of
+// which no more counts than a drive holds.
+void follow_arc(std::int64_t about, const std::int64_t (&speed)[3], const Vec3<Unit>& normal,
                 const WorldDef& def, std::int32_t sign, ContactSurface& surface) {
   constexpr std::int64_t k_one = 1 << 24, k_most = 8 * k_one;
   const std::int64_t angle =
@@ -38,6 +39,9 @@ void follow_arc(std::int64_t about, const std::int64_t (&along)[3], const Vec3<U
   const std::int64_t at_once = raw::round_divide(angle * k_one, 2 * k_one + square / 6);
   const std::int64_t inwards = at_once + raw::round_divide(at_once, std::int64_t{def.substeps});
   const std::int64_t behind = raw::round_divide(square * k_one, 6 * k_one + square * 3 / 10);
+  const std::int64_t along[] = {raw::saturate<std::int32_t>(speed[0]),
+                                raw::saturate<std::int32_t>(speed[1]),
+                                raw::saturate<std::int32_t>(speed[2])};
   std::int64_t along_normal = 0;
   for (int i = 0; i < 3; ++i)
     along_normal += normal[i].raw * along[i] >> 4;
