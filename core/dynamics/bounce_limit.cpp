@@ -4,41 +4,21 @@
 // account for.
 
 #include "core/dynamics/contact_solver.h"
+#include "core/dynamics/energy.h"
 #include "core/dynamics/motion.h"
 #include "core/math/product_sum.h"
 
 namespace lockstone {
 namespace {
 
-// Of shares of a bounce.
-constexpr int k_share_bits = 30;
-constexpr int k_shares_tried = 20;
-
-// u·v + s·t of velocities and spins, m²/s², Q32.
-std::int64_t product(const Vec3<Velocity>& u, const Vec3<Velocity>& v, const Vec3<Velocity>& s,
-                     const Vec3<Velocity>& t) {
-  ProductSum sum;
-  for (int i = 0; i < 3; ++i) {
-    sum.add(u[i].raw, v[i].raw);
-    sum.add(s[i].raw, t[i].raw);
-  }
-  return sum.rounded(32);
-}
-
 // Twice the kinetic energy for each mass.
 std::int64_t twice_energy(const BodyRecord& body, const InverseInertia& inertia) {
-  return product(body.velocity, body.velocity, body.spin, surface_velocity(inertia, body.spin));
+  return energy_product(body.velocity, body.velocity, body.spin,
+                        surface_velocity(inertia, body.spin));
 }
 
 InverseInertia inertia_now(const BodyRecord& body) {
   return inverse_inertia(body, to_matrix(body.orientation));
-}
-
-// a / b
-BlockFloat quotient(BlockFloat a, BlockFloat b) {
-  const auto dividend = static_cast<std::uint64_t>(a.mantissa) << 31;
-  return block_float(dividend / static_cast<std::uint64_t>(b.mantissa),
-                     a.exponent - b.exponent - 31);
 }
 
 }  // namespace
@@ -62,9 +42,12 @@ void ContactSolver::find_fed_islands(const ContactScene& scene) {
     const auto& axes = scene.joints[link.joint].axes;
     const bool is_fed = std::ranges::any_of(axes, &JointAxisRecord::is_driven) ||
                         moves(link.body_a) || moves(link.body_b);
-    for (const std::uint32_t body : {link.body_a, link.body_b})
-      if (is_fed && scene.bodies[body].is_dynamic())
-        islands_.load(islands_.of(solver_index_[body])).is_fed = true;
+    for (const std::uint32_t body : {link.body_a, link.body_b}) {
+      if (!scene.bodies[body].is_dynamic()) continue;
+      IslandLoad& load = islands_.load(islands_.of(solver_index_[body]));
+      load.has_joints = true;
+      load.is_fed = load.is_fed || is_fed;
+    }
   }
 }
 
@@ -102,14 +85,7 @@ ContactSolver::Bounce ContactSolver::bounce_of(std::size_t index, const BodyReco
 std::int32_t ContactSolver::share_of_bounces(const IslandGain& gain) {
   const std::int64_t allowed =
       raw::saturating_add(raw::saturating_add(gain.square, gain.linear), -gain.gained);
-  std::int32_t share = 0;
-  for (int bit = k_share_bits - 1; bit >= k_share_bits - k_shares_tried; --bit) {
-    const std::int32_t tried = share | std::int32_t{1} << bit;
-    const std::int64_t inner =
-        raw::saturating_add(product_rounded(gain.square, tried, k_share_bits), gain.linear);
-    if (product_rounded(inner, tried, k_share_bits) <= allowed) share = tried;
-  }
-  return share;
+  return greatest_share(gain.square, gain.linear, allowed);
 }
 
 template <class Visit>
@@ -141,9 +117,9 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
     const Bounce bounce = bounce_of(i, body);
     const Vec3<Velocity> gained = surface_velocity(inertia_now(body), bounce.spin_gain);
     add(i, gain, gain.square,
-        product(bounce.velocity_gain, bounce.velocity_gain, bounce.spin_gain, gained));
+        energy_product(bounce.velocity_gain, bounce.velocity_gain, bounce.spin_gain, gained));
     add(i, gain, gain.linear,
-        2 * product(bounce.velocity, bounce.velocity_gain, bounce.spin, gained));
+        2 * energy_product(bounce.velocity, bounce.velocity_gain, bounce.spin, gained));
   });
   for (IslandGain& gain : gains_)
     if (gain.gained > 0) gain.share = share_of_bounces(gain);

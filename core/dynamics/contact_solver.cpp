@@ -98,9 +98,9 @@ void prefetch(const T& object) {
 #endif
 }
 
-// Loops of a substep: eight of bodies, joints and direct contacts; the colours of contacts twice,
+// Loops of a substep: ten of bodies, joints and direct contacts; the colours of contacts twice,
 // of nets four times.
-constexpr std::size_t k_most_substep_loops = 11 + 6 * (k_graph_colors + 1);
+constexpr std::size_t k_most_substep_loops = 13 + 6 * (k_graph_colors + 1);
 
 // How many lanes ahead of the one being filled memory is asked for.
 constexpr std::size_t k_lanes_ahead = 12;
@@ -168,6 +168,10 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   axes_.reserve(most_rows);
   gained_.reserve(most_rows);
   gains_.reserve(body_capacity + 1);
+  if (joint_capacity != 0) {
+    energies_.reserve(body_capacity + 1);
+    starts_.reserve(body_capacity + 1);
+  }
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);

@@ -97,6 +97,9 @@ class ContactSolver {
   /// it has not drifted far.
   [[nodiscard]] bool keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const;
 
+  /// Times that an island gave back energy in the tick.
+  [[nodiscard]] std::uint32_t energy_limits() const;
+
   /// Values that were clamped to their range.
   [[nodiscard]] std::uint32_t saturations() const { return saturations_; }
 
@@ -116,6 +119,7 @@ class ContactSolver {
   };
   // A loop of the substeps.
   enum class StageKind : std::uint8_t {
+    note_energies,
     velocities,
     warm_joints,
     impacts,
@@ -130,6 +134,7 @@ class ContactSolver {
     relax_net,
     relax,
     relax_islands,
+    limit_energies,
     end_islands,
     keep_speeds,
     bounce,
@@ -207,6 +212,14 @@ class ContactSolver {
     std::int64_t square = 0;  // of bounces
     std::int64_t linear = 0;  // of bounces and of the speeds before them
     std::int32_t share = 0;   // of bounces that is left, Q30
+  };
+
+  // Of an island, twice energies by its heaviest body's mass.
+  struct IslandEnergy {
+    BlockFloat unit{};        // its inverse mass; zero: the island is not watched
+    std::int64_t gained = 0;  // in this tick, besides the work of gravity and forces
+    std::int64_t now = 0;
+    std::int32_t share = 0;  // of velocities that is left, Q30
   };
 
   std::uint32_t take_up(Side side);
@@ -313,6 +326,12 @@ class ContactSolver {
   void answer(std::uint32_t index);
   void run_impacts();
   void find_fed_islands(const ContactScene& scene);
+  void watch_energies();
+  [[nodiscard]] std::int64_t row_energy(std::uint32_t index) const;
+  template <class Visit>
+  void for_watched(const Visit& visit);
+  void note_energies();
+  void limit_energies();
   void keep_speeds(std::size_t first, std::size_t end);
   void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);
   [[nodiscard]] Bounce bounce_of(std::size_t index, const BodyRecord& body) const;
@@ -352,6 +371,10 @@ class ContactSolver {
   std::vector<PushAxis> axes_;
   std::vector<std::int64_t> gained_;  // twice the energy that no force accounts for, of each mass
   std::vector<IslandGain> gains_;
+  std::vector<IslandEnergy> energies_;
+  std::vector<Vec3<Velocity>> starts_;  // velocities at the beginning of the substep, if watched
+  bool watches_energy_ = false;
+  std::uint32_t energy_limits_ = 0;
   std::vector<lanes::BodyPlace> places_;  // of the bodies in nets of joints
 
   std::unique_ptr<JointSolver> joints_;

@@ -64,7 +64,8 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                       joints_->prepare(joint_run(), first, end);
                     });
   find_impacts(scene);
-  if (bounces_) find_fed_islands(scene);
+  if (bounces_ || joints_->has_own()) find_fed_islands(scene);
+  watch_energies();
   begin_converged(scene);
   find_first_loads(scene, parallel);
 }
@@ -115,6 +116,8 @@ void ContactSolver::add_net_loops(StageKind kind) {
 void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   const std::uint32_t clusters = joints_->cluster_count();
   const auto bodies = static_cast<std::uint32_t>(members_.size());
+  const std::uint32_t watches = watches_energy_ ? 1 : 0;
+  add_loop({StageKind::note_energies}, watches, 1, true);
   add_loop({StageKind::velocities, 0, substep}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
   const std::uint32_t impacts = impacts_.empty() ? 0 : 1;
@@ -133,6 +136,7 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   add_loop({StageKind::impacts}, impacts, 1, true);
   add_loop_of_each_color(StageKind::relax, substep);
   add_loop({StageKind::relax_islands}, converged_islands(), 1);
+  add_loop({StageKind::limit_energies}, watches, 1, true);
 }
 
 // All substeps; then colours that bounce.
@@ -156,6 +160,10 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
   switch (stage.kind) {
     case StageKind::velocities:
       return integrate_velocities(stage.substep == 0, first, end);
+    case StageKind::note_energies:
+      return note_energies();
+    case StageKind::limit_energies:
+      return limit_energies();
     case StageKind::warm_joints:
       return joints_->warm_start(joint_run(), first, end);
     case StageKind::impacts:

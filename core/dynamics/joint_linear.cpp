@@ -85,13 +85,21 @@ JointPlace JointSolver::place_of(const Joint& joint, const JointPose& a, const J
           joint.holds_a_point};
 }
 
-// Rows and factors where the bodies are now.
-void JointSolver::linearize(const Cluster& cluster) {
-  for (Joint& joint : joints_of(cluster)) {
-    fill_rows(place_of(joint, bodies_[joint.a].pose, bodies_[joint.b].pose), RowParts::all,
-              joint.rows);
-    respond(joint, joint.rows.count, false);
+// Rows where the bodies are now.
+void JointSolver::linearize(Joint& joint) const {
+  fill_rows(place_of(joint, bodies_[joint.a].pose, bodies_[joint.b].pose), RowParts::all,
+            joint.rows);
+  respond(joint, joint.rows.count, false);
+  const std::int64_t most = raw::round_divide(k_close_way, step_.substep_rate());
+  for (std::size_t r = 0; r < joint.rows.locks; ++r) {
+    const std::int64_t open = joint.rows.rows[r].error;
+    joint.left_open[r] = open - bounded(open, most);
   }
+}
+
+void JointSolver::linearize(const Cluster& cluster) {
+  for (Joint& joint : joints_of(cluster))
+    linearize(joint);
   for (Group& group : groups_of(cluster))
     group.is_factored = false;
 }

@@ -20,6 +20,9 @@ constexpr int k_most_solves = 12;
 // Locks that are open by less, m, Q32, are closed: 1 µm.
 constexpr std::int64_t k_closed = 1 << 12;
 
+// Where they are left open by more than 2 mm, the method has failed.
+constexpr std::int64_t k_lost = 1 << 23;
+
 // Openings that rounding leaves: 4 nm.
 constexpr std::int64_t k_rounding = 16;
 
@@ -99,9 +102,9 @@ std::int64_t JointSolver::set_position_errors(const Group& group) {
     if (joint.rows.locks == 0) continue;
     std::int64_t* errors = errors_at(group, k);
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
-      const std::int64_t error = joint.rows.rows[r].error;
+      const std::int64_t error = joint.rows.rows[r].error - joint.left_open[r];
       widest = std::max(widest, std::abs(error));
-      errors[r] = bounded(closing_speed(error, group.rate), k_close_speed);
+      errors[r] = bounded(closing_speed(error, group.rate), k_row_bound);
     }
   }
   return widest;
@@ -133,16 +136,38 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
 // now, as RATTLE wants them, while that converges. Where links swing fast it does not, and Newton's
 // method with the directions after the substep takes its place.
 void JointSolver::solve_positions(const JointRun& run, Group& group) {
-  if (has_solved_loops(group)) return close_loops(run, group);
-  if (!is_stiff(group)) {
-    save(run, group);
-    if (close(run, group)) return;
-    restore(run, group);
+  save(run, group);
+  if (find_positions(run, group) <= k_lost) return;
+  restore(run, group);
+  hold_roughly(run, group);
+}
+
+// Returns the widest opening that is left.
+std::int64_t JointSolver::find_positions(const JointRun& run, Group& group) {
+  if (has_solved_loops(group)) {
+    close_loops(run, group);
+  } else {
+    if (!is_stiff(group)) {
+      if (close(run, group)) return 0;
+      restore(run, group);
+    }
+    for (int i = 0; i < k_most_solves; ++i) {
+      const std::int64_t widest = approach(run, group, 0, true);
+      if (i + 1 >= k_position_solves && widest <= k_closed) return 0;
+    }
   }
-  for (int i = 0; i < k_most_solves; ++i) {
-    const std::int64_t widest = approach(run, group, 0, true);
-    if (i + 1 >= k_position_solves && widest <= k_closed) return;
-  }
+  look_ahead(run, group, false);
+  return set_position_errors(group);
+}
+
+// Where the method does not converge: velocities such that locks do not open, and close by a
+// quarter of their openings. A projection, which gives no energy but for that.
+void JointSolver::hold_roughly(const JointRun& run, Group& group) {
+  for (const std::uint32_t index : joints_of(group))
+    linearize(joints_[index]);
+  group.is_factored = false;
+  set_speed_errors(run, group, true);
+  solve_locks(run, group, true);
 }
 
 // One step of the method, unless no opening is wider than `enough`. Returns the widest before it.

@@ -23,6 +23,9 @@ inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
   return std::clamp(x, -bound, bound);
 }
 
+/// The same as the way in a second, m, Q32.
+inline constexpr std::int64_t k_close_way = std::int64_t{8} << 32;
+
 /// |x| + |y| + |z|, Q20
 [[nodiscard]] constexpr std::int64_t size_of(const Vec3<Length>& v) {
   const auto size = [](Length x) { return std::int64_t{x.raw < 0 ? -std::int64_t{x.raw} : x.raw}; };

@@ -51,6 +51,7 @@ void JointSolver::clear() {
   joints_.clear();
   row_count_ = 0;
   clamps_ = 0;
+  energy_limits_ = 0;
 }
 
 std::uint32_t JointSolver::take_up(const Side& side) {
@@ -126,6 +127,7 @@ void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t en
     for (Joint& joint : joints_of(clusters_[i]))
       leave_out_far(run, joint);
     if (clusters_[i].free) drift(run, clusters_[i]);
+    open_account(clusters_[i]);
   }
 }
 
@@ -134,10 +136,12 @@ void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t
     Cluster& cluster = clusters_[i];
     const bool is_last = ++cluster.substep == step_.substeps;
     if (cluster.free) set_rate(cluster, std::int64_t{step_.substep_rate()} * (is_last ? 2 : 1));
+    begin_account(run, cluster);
     begin_pushes(run, cluster);
     forget_impulses(cluster);
     for (Joint& joint : joints_of(cluster))
       warm_start(run, joint);
+    limit_warm_start(run, cluster);
     end_pushes(run, cluster);
   }
 }
@@ -196,8 +200,10 @@ void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
 }
 
 void JointSolver::relax(const JointRun& run, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i)
+  for (std::size_t i = first; i < end; ++i) {
     relax(run, clusters_[i]);
+    settle_account(run, clusters_[i]);
+  }
 }
 
 void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
@@ -211,6 +217,12 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
   begin_pushes(run, cluster);
   for (Joint& joint : joints_of(cluster))
     solve_springs_later(run, joint);
+  hold_speeds(run, cluster);
+  end_pushes(run, cluster);
+}
+
+// Locks and limits such that they do not open.
+void JointSolver::hold_speeds(const JointRun& run, const Cluster& cluster) {
   for (int i = 0; i < k_velocity_solves; ++i) {
     for (Joint& joint : joints_of(cluster))
       solve_limits(run, joint, false);
@@ -221,7 +233,6 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
         solve_locks(run, group, false);
     }
   }
-  end_pushes(run, cluster);
 }
 
 void JointSolver::store(std::size_t added, JointRecord& record) const {

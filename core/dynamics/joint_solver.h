@@ -131,8 +131,16 @@ class JointSolver {
   using RowImpulses = std::array<std::int64_t, k_max_joint_rows>;
   void give(const JointRun& run, std::uint32_t joint, const RowImpulses& impulses);
 
+  /// The spin that a body of the world with this surface velocity has by its own inertia, which
+  /// `spin` need not be: a body may be taken to be heavier to turn.
+  [[nodiscard]] Vec3<Velocity> own_spin(std::uint32_t body, const Vec3<Velocity>& spin,
+                                        const Vec3<Velocity>& surface) const;
+
   /// Where a body of the world is now; null when no joint holds it.
   [[nodiscard]] const JointPose* find(std::uint32_t body) const;
+
+  /// Times that a cluster gave back energy.
+  [[nodiscard]] std::uint32_t energy_limits() const { return energy_limits_; }
 
   /// Pivots left out and values clamped.
   [[nodiscard]] std::uint32_t clamps() const { return clamps_; }
@@ -150,6 +158,9 @@ class JointSolver {
     int scale = 0;              // exponent
     lanes::RowBody unpushed{};  // as the stage at hand found it
     lanes::RowBody saved_row{};
+    lanes::RowBody start{};  // of the substep
+    Vec3<Position> start_position{};
+    std::int64_t start_turning = 0;  // twice the energy for each mass
     lanes::RowBody looked{};  // its velocity on the way to its pose in `after_`
     bool has_looked = false;
     bool pushed = false;
@@ -203,10 +214,13 @@ class JointSolver {
     std::array<Drive, k_joint_axes> drives{};
     std::array<std::int64_t, k_joint_axes> locks{};    // impulses by axis, Q50; limits too
     std::array<std::int64_t, k_joint_axes> relaxed{};  // of locks, after positions moved
-    std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before
+    std::array<std::int64_t, k_joint_axes> carried{};  // `relaxed` of the substep before, or
+                                                       // saved where the cluster does not drift
     std::array<std::int64_t, k_joint_axes> saved{};    // locks
     std::array<std::int64_t, k_joint_axes> driven{};
     std::array<std::int64_t, k_joint_axes> driven_later{};  // after positions moved, as `relaxed`
+    std::array<std::int64_t, k_joint_axes> left_open{};     // of locks, by row: too far to close in
+                                                            // the substep, m, Q32
     std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
     BlockFloat inverse_mass{};  // of the pair
@@ -240,6 +254,10 @@ class JointSolver {
     std::uint32_t body_count = 0;
     std::int32_t substep = 0;
     bool free = false;
+    bool is_driven = false;   // by springs or motors
+    bool is_passive = false;  // only gravity and forces give it energy
+    BlockFloat unit{};        // inverse mass of its heaviest body
+    std::int64_t gained = 0;  // besides, in this tick: twice the energy by that mass
   };
 
   std::uint32_t take_up(const Side& side);
@@ -295,6 +313,7 @@ class JointSolver {
   void set_inertia(const JointRun& run, Body& body, std::int64_t least);
   static void set_principal(Body& body);
   [[nodiscard]] static InverseInertia inverse_inertia_of(const Body& body, const Mat3& rotation);
+  void linearize(Joint& joint) const;
   void linearize(const Cluster& cluster);
   static void hold(const Body& body, RawVec3& linear);
   void respond(Joint& joint, std::size_t rows, bool ahead) const;
@@ -316,6 +335,30 @@ class JointSolver {
   void warm_start(const JointRun& run, Joint& joint);
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);
+  void hold_speeds(const JointRun& run, const Cluster& cluster);
+  // Velocity and surface velocity of a body.
+  struct Motion {
+    Vec3<Velocity> velocity{}, surface{};
+  };
+  [[nodiscard]] static Motion motion_of(const Body& body, const lanes::RowBody& row);
+  [[nodiscard]] static std::int64_t product_of(const Body& body, const Motion& a, const Motion& b);
+  template <class Each>
+  [[nodiscard]] std::int64_t sum_over(const Cluster& cluster, const Each& each) const;
+  void open_account(Cluster& cluster);
+  void begin_account(const JointRun& run, Cluster& cluster);
+  // Twice a cluster's energy, and the terms of its change.
+  struct Energies {
+    std::int64_t first = 0, linear = 0, square = 0;
+  };
+  [[nodiscard]] Energies energies_between(const JointRun& run, const Cluster& cluster,
+                                          const lanes::RowBody Body::*from) const;
+  void go_part(const JointRun& run, const Cluster& cluster, const lanes::RowBody Body::*from,
+               std::int32_t share);
+  void scale(const JointRun& run, const Cluster& cluster, std::int32_t share);
+  void limit_warm_start(const JointRun& run, const Cluster& cluster);
+  [[nodiscard]] static std::int64_t turning_energy(const Body& body, const lanes::RowBody& row);
+  void project_start(const JointRun& run, const Cluster& cluster);
+  void settle_account(const JointRun& run, Cluster& cluster);
   void leave_out_far(const JointRun& run, Joint& joint) const;
   [[nodiscard]] bool is_far(const JointRun& run, const Joint& joint, const JointRow& row) const;
   bool solve_drives(const JointRun& run, Joint& joint, bool motors);
@@ -325,6 +368,8 @@ class JointSolver {
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);
+  [[nodiscard]] std::int64_t find_positions(const JointRun& run, Group& group);
+  void hold_roughly(const JointRun& run, Group& group);
   bool close(const JointRun& run, Group& group);
   std::int64_t approach(const JointRun& run, Group& group, std::int64_t enough, bool turn);
   [[nodiscard]] bool is_stiff(const Group& group) const;
@@ -372,6 +417,7 @@ class JointSolver {
   JointFactor factor_;
   std::unique_ptr<ProximalLocks> loops_;  // null unless it solves loops
   std::atomic<std::uint32_t> clamps_{0};
+  std::atomic<std::uint32_t> energy_limits_{0};
 };
 
 }  // namespace lockstone

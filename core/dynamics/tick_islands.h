@@ -37,6 +37,7 @@ struct IslandLoad {
   bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
   bool may_bounce = false;    ///< any restitution
   bool is_fed = false;        ///< something besides gravity and forces may give it energy
+  bool has_joints = false;    ///< known where an island may gain energy
   bool is_struck = false;     ///< something comes in fast
   bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
   std::uint32_t bodies = 0;   ///< dynamic ones

@@ -111,6 +111,7 @@ void World::Impl::solve_contacts(StepReport& report) {
   report.colors = solver.colors();
   report.overflow_contacts = solver.overflow();
   report.saturations += solver.saturations();
+  report.energy_limits = solver.energy_limits();
 }
 
 void World::Impl::prepare_contacts() {

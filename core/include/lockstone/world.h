@@ -75,6 +75,8 @@ struct StepReport {
   std::uint32_t continuous_bodies = 0;  ///< moved far enough to be followed along their way
   std::uint32_t impacts = 0;            ///< stops on the way
   std::uint32_t saturations = 0;        ///< values clamped to their range
+  std::uint32_t energy_limits = 0;      ///< times that an island gave back energy that its joints
+                                        ///< had added, by substep
 
   friend bool operator==(const StepReport&, const StepReport&) = default;
 };

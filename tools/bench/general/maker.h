@@ -79,5 +79,6 @@ void add_motion_families(std::vector<Family>& all);
 void add_rest_families(std::vector<Family>& all);
 void add_machine_families(std::vector<Family>& all);
 void add_furniture_families(std::vector<Family>& all);
+void add_jumble_families(std::vector<Family>& all);
 
 }  // namespace lockstone::bench

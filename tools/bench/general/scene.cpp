@@ -94,6 +94,7 @@ const std::vector<Family>& families() {
     add_rest_families(list);
     add_machine_families(list);
     add_furniture_families(list);
+    add_jumble_families(list);
     return list;
   }();
   return all;

@@ -86,6 +86,7 @@ lks_step_report raw_report(const StepReport& report) {
   raw.continuous_bodies = report.continuous_bodies;
   raw.impacts = report.impacts;
   raw.saturations = report.saturations;
+  raw.energy_limits = report.energy_limits;
   return raw;
 }
 

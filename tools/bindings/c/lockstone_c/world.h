@@ -75,7 +75,7 @@ typedef struct lks_step_report {
   uint32_t continuous_bodies;
   uint32_t impacts;
   uint32_t saturations;
-  uint32_t reserved; /* 0 */
+  uint32_t energy_limits;
 } lks_step_report;
 
 /* Advances by 1 / tick_rate seconds. `report` may be null; else `report->size` must be set. */
