@@ -17,8 +17,9 @@
 namespace lockstone {
 namespace {
 
-// A cluster may gain this part of its kinetic energy in a tick: 2^-14.
-constexpr int k_free_gain_shift = 14;
+// In a tick a cluster may gain 2^-this of its kinetic energy: where steps hold the joints, whose
+// errors come and go, and where they do not.
+constexpr int k_free_gain_shift = 6, k_rough_gain_shift = 10;
 
 // Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.
 constexpr std::int64_t k_least_gain = 43;
@@ -79,6 +80,8 @@ void JointSolver::open_account(Cluster& cluster) {
     return body.touches || body.is_among_contacts || body.in_net;
   };
   cluster.gained = 0;
+  for (Group& group : groups_of(cluster))
+    group.is_rough = false;
   cluster.is_driven = std::ranges::any_of(joints_of(cluster), [](const Joint& joint) {
     return std::ranges::any_of(joint.record->axes, &JointAxisRecord::is_driven);
   });
@@ -161,8 +164,7 @@ void JointSolver::project_start(const JointRun& run, const Cluster& cluster) {
     body.saved_row = row;
     const SolverBody& solver = run.bodies[body.solver];
     // A body whose spin stays while it turns far may turn with more energy than before.
-    const std::int32_t kept =
-        root_of_share(body.start_turning, turning_energy(body, body.start));
+    const std::int32_t kept = root_of_share(body.start_turning, turning_energy(body, body.start));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       row.velocity[axis] = bounded(body.start.velocity[axis], k_row_bound) +
                            solver.gain[axis] * (std::int64_t{1} << 18);
@@ -213,7 +215,10 @@ void JointSolver::settle_account(const JointRun& run, Cluster& cluster) {
     return twice.rounded(31);
   });
   cluster.gained = raw::saturating_add(cluster.gained, raw::saturating_add(energy, -work));
-  if (cluster.gained <= (energy >> k_free_gain_shift) + k_least_gain) return;
+  const bool is_rough = std::ranges::any_of(
+      groups_of(cluster), [&](const Group& group) { return group.is_rough || is_stiff(group); });
+  const int shift = is_rough ? k_rough_gain_shift : k_free_gain_shift;
+  if (cluster.gained <= (energy >> shift) + k_least_gain) return;
   energy_limits_.fetch_add(1, std::memory_order_relaxed);
   begin_pushes(run, cluster);
   project_start(run, cluster);

@@ -140,6 +140,7 @@ void JointSolver::solve_positions(const JointRun& run, Group& group) {
   if (find_positions(run, group) <= k_lost) return;
   restore(run, group);
   hold_roughly(run, group);
+  group.is_rough = true;
 }
 
 // Returns the widest opening that is left.

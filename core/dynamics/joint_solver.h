@@ -240,6 +240,7 @@ class JointSolver {
     bool drifts = false;
     bool is_plain = false;  // neither limits nor drives
     bool is_factored = false;
+    bool is_rough = false;  // a step of this tick did not hold the joints
     std::int64_t rate = 0;                             // 1 / the time that its bodies drift for
     int exponent = 0;                                  // least of its rows
     std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
