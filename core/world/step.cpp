@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "core/dynamics/motion.h"
-#include "core/geometry/shape_properties.h"
-#include "core/math/wide/rotations.h"
+#include "core/dynamics/body/motion.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/kernels/rotations/rotations.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {

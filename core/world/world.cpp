@@ -4,11 +4,11 @@
 #include <lockstone/hash.h>
 #include <lockstone/world.h>
 
-#include "core/dynamics/inertia.h"
-#include "core/dynamics/limits.h"
-#include "core/geometry/shape_properties.h"
+#include "core/dynamics/body/inertia.h"
+#include "core/dynamics/state/limits.h"
+#include "core/geometry/convex/shape_properties.h"
 #include "core/math/block_float.h"
-#include "core/world/command_checks.h"
+#include "core/world/commands/command_checks.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {

@@ -4,7 +4,7 @@
 #include <lockstone/hull.h>
 #include <lockstone/mesh.h>
 
-#include "core/collision/collide_bodies.h"
+#include "core/collision/narrow_phase/collide_bodies.h"
 #include "tests/geometry/asset_parts.h"
 
 namespace lockstone::test {

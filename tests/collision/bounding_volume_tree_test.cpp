@@ -1,4 +1,4 @@
-#include "core/collision/bounding_volume_tree.h"
+#include "core/collision/broad_phase/bounding_volume_tree.h"
 
 #include <algorithm>
 #include <vector>

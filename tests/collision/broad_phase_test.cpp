@@ -1,4 +1,4 @@
-#include "core/collision/broad_phase.h"
+#include "core/collision/broad_phase/broad_phase.h"
 
 #include <algorithm>
 #include <vector>

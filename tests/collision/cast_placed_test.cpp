@@ -1,5 +1,5 @@
 // Casts against many pieces and points near them: the same as asking every piece by itself.
-#include "core/collision/cast_placed.h"
+#include "core/collision/query/cast_placed.h"
 
 #include <memory>
 
@@ -10,8 +10,8 @@
 #include <lockstone/hull.h>
 #include <lockstone/mesh.h>
 
-#include "core/collision/pieces.h"
-#include "core/geometry/shape_cast.h"
+#include "core/collision/narrow_phase/pieces.h"
+#include "core/geometry/distance/shape_cast.h"
 #include "tests/geometry/asset_parts.h"
 
 namespace lockstone::test {

@@ -1,4 +1,4 @@
-#include "core/collision/placed_shape.h"
+#include "core/collision/narrow_phase/placed_shape.h"
 
 #include <gtest/gtest.h>
 

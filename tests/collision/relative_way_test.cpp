@@ -1,5 +1,3 @@
-#include "core/collision/relative_way.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +6,8 @@
 #include <lockstone/literals.h>
 #include <lockstone/testing/floating.h>
 
-#include "core/geometry/time_of_impact.h"
+#include "core/collision/continuous/relative_path.h"
+#include "core/geometry/distance/time_of_impact.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

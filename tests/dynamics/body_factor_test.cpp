@@ -1,7 +1,7 @@
 // Cholesky factors of islands: solutions of random systems, independence, limits; and the scales
 // and roots that rows are made of.
 
-#include "core/dynamics/body_factor.h"
+#include "core/dynamics/problem/body_factor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/proximal_rows.h"
-#include "core/dynamics/row_scale.h"
+#include "core/dynamics/contact/row_scale.h"
+#include "core/dynamics/problem/proximal_rows.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

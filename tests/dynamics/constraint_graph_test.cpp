@@ -1,4 +1,4 @@
-#include "core/dynamics/constraint_graph.h"
+#include "core/dynamics/islands/constraint_graph.h"
 
 #include <set>
 #include <utility>

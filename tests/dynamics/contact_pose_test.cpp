@@ -1,12 +1,11 @@
 // Contacts of bodies that hardly move: how far they may drift, and how separations follow.
 
-#include "core/dynamics/contact_pose.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/dynamics/contact/recycling_pose.h"
 #include "tests/geometry/scene.h"
 
 namespace lockstone {

@@ -1,5 +1,5 @@
 // How softly a contact begins.
-#include "core/dynamics/contact_prepare.h"
+#include "core/dynamics/contact/contact_prepare.h"
 
 #include <gtest/gtest.h>
 

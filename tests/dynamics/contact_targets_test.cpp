@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/math/wide/target.h"
+#include "core/kernels/target.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/contact_prepare.h"
+#include "core/dynamics/contact/contact_prepare.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

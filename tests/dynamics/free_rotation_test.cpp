@@ -1,5 +1,5 @@
 // Rotation without torque: its invariants, its cost, and its end.
-#include "core/dynamics/free_rotation.h"
+#include "core/dynamics/body/free_rotation.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 #include <lockstone/testing/floating.h>
 
-#include "core/dynamics/inertia.h"
+#include "core/dynamics/body/inertia.h"
 #include "core/math/rotation_log.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"

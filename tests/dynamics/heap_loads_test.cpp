@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/motion_balance.h"
+#include "core/dynamics/stack/motion_balance.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

@@ -1,6 +1,6 @@
 // Impacts within a tick: the energy after them.
 
-#include "core/dynamics/impact_response.h"
+#include "core/dynamics/impact/impact_response.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/islands.h"
+#include "core/dynamics/islands/islands.h"
 
 #include <numeric>
 #include <vector>

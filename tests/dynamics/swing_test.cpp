@@ -1,6 +1,4 @@
 // A pendulum, a body that hangs on one point: its invariants, and its accuracy.
-#include "core/dynamics/swing.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -8,9 +6,10 @@
 #include <lockstone/literals.h>
 #include <lockstone/testing/floating.h>
 
-#include "core/dynamics/inertia.h"
-#include "core/dynamics/joint_geometry.h"
-#include "core/dynamics/tick_gain.h"
+#include "core/dynamics/body/inertia.h"
+#include "core/dynamics/body/tick_gain.h"
+#include "core/dynamics/joint/joint_geometry.h"
+#include "core/dynamics/joint/pivot_integrator.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

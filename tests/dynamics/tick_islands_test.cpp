@@ -1,4 +1,4 @@
-#include "core/dynamics/tick_islands.h"
+#include "core/dynamics/islands/tick_islands.h"
 
 #include <gtest/gtest.h>
 

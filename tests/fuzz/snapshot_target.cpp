@@ -3,7 +3,7 @@
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
 
-#include "core/world/snapshot_format.h"
+#include "core/world/state/snapshot_format.h"
 #include "tests/fuzz/target.h"
 #include "tests/world/world_fixture.h"
 

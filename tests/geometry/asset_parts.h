@@ -6,7 +6,7 @@
 
 #include <lockstone/mesh.h>
 
-#include "core/geometry/triangle_polytope.h"
+#include "core/geometry/mesh_contact/triangle_polytope.h"
 #include "tests/geometry/scene.h"
 
 namespace lockstone::test {

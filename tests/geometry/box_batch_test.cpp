@@ -1,9 +1,9 @@
 // Box pairs side by side against one at a time.
-#include "core/geometry/box_batch.h"
+#include "core/geometry/contact/box_batch.h"
 
 #include <vector>
 
-#include "core/math/wide/target.h"
+#include "core/kernels/target.h"
 #include "tests/geometry/scene.h"
 
 namespace lockstone::test {

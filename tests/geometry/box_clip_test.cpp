@@ -1,11 +1,11 @@
 // Clipping of a box's face to slabs, against exact quotients and against areas in floating point.
-#include "core/geometry/box_clip.h"
+#include "core/geometry/contact/box_clip.h"
 
 #include <cmath>
 #include <set>
 
-#include "core/geometry/box_face.h"
-#include "core/geometry/preference.h"
+#include "core/geometry/contact/box_face.h"
+#include "core/geometry/contact/contact_tolerances.h"
 #include "core/math/int128.h"
 #include "tests/geometry/scene.h"
 

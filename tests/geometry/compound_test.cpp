@@ -7,9 +7,9 @@
 #include <lockstone/literals.h>
 #include <lockstone/testing/floating.h>
 
-#include "core/geometry/parts.h"
-#include "core/geometry/shape_properties.h"
-#include "core/geometry/solid.h"
+#include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/solid.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

@@ -1,5 +1,5 @@
 // Depth of overlapping convex shapes.
-#include "core/geometry/epa.h"
+#include "core/geometry/distance/epa.h"
 
 #include <numbers>
 

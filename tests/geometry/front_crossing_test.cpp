@@ -3,7 +3,7 @@
 
 #include <lockstone/mesh.h>
 
-#include "core/geometry/front_crossing_search.h"
+#include "core/geometry/mesh_contact/front_crossing_search.h"
 #include "tests/geometry/asset_parts.h"
 
 namespace lockstone::geometry {

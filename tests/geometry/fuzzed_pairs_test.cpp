@@ -1,7 +1,7 @@
 // Pairs that `lockstone fuzz-pairs` found broken once, each with its defect.
-#include "core/geometry/epa.h"
-#include "core/geometry/shape_cast.h"
-#include "core/geometry/triangle_polytope.h"
+#include "core/geometry/distance/epa.h"
+#include "core/geometry/distance/shape_cast.h"
+#include "core/geometry/mesh_contact/triangle_polytope.h"
 #include "tests/geometry/convex_scene.h"
 
 namespace lockstone::test {

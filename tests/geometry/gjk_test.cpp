@@ -1,5 +1,5 @@
 // Distance of convex shapes.
-#include "core/geometry/gjk.h"
+#include "core/geometry/distance/gjk.h"
 
 #include "tests/geometry/convex_scene.h"
 

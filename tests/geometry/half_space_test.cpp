@@ -1,5 +1,5 @@
 // Half-spaces against everything, and rays against half-spaces and polytopes.
-#include "core/geometry/raycast.h"
+#include "core/geometry/dispatch/raycast.h"
 #include "tests/geometry/polytope_scene.h"
 
 namespace lockstone::test {

@@ -1,6 +1,6 @@
-#include "core/geometry/exact_plane.h"
-#include "core/geometry/polytope.h"
-#include "core/geometry/solid_integrals.h"
+#include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/solid_integrals.h"
+#include "core/geometry/numeric/exact_plane.h"
 #include "tests/geometry/hull_clouds.h"
 
 namespace lockstone::test {

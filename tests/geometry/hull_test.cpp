@@ -3,9 +3,9 @@
 
 #include <lockstone/hull.h>
 
-#include "core/geometry/exact_plane.h"
-#include "core/geometry/parts.h"
-#include "core/geometry/solid.h"
+#include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/solid.h"
+#include "core/geometry/numeric/exact_plane.h"
 #include "core/math/predicates.h"
 #include "tests/geometry/hull_clouds.h"
 

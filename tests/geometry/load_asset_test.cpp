@@ -10,7 +10,7 @@
 #include <lockstone/load_asset.h>
 #include <lockstone/mesh.h>
 
-#include "core/geometry/asset_frame.h"
+#include "core/geometry/assets/asset_frame.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_assets.h"
 

@@ -1,11 +1,11 @@
-#include "core/geometry/mesh_contacts.h"
+#include "core/geometry/mesh_contact/mesh_contacts.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "core/geometry/contact_point.h"
-#include "core/geometry/polytope_kernels.h"
+#include "core/geometry/dispatch/polytope_kernels.h"
+#include "core/geometry/distance/contact_point.h"
 #include "tests/geometry/asset_parts.h"
 
 namespace lockstone::test {

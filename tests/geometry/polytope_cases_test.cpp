@@ -1,8 +1,8 @@
 // Polytopes against each other by construction: boxes as polytopes, flat and one-sided ones,
 // degenerate positions, extreme sizes.
-#include "core/geometry/manifold_reduction.h"
-#include "core/geometry/polytope_box.h"
-#include "core/geometry/preference.h"
+#include "core/geometry/contact/contact_tolerances.h"
+#include "core/geometry/contact/manifold_reduction.h"
+#include "core/geometry/convex/polytope_box.h"
 #include "tests/geometry/clipped_face.h"
 #include "tests/geometry/polytope_scene.h"
 

@@ -1,5 +1,5 @@
 // Laws that every pair with a polytope obeys, over random scenes of all sizes.
-#include "core/geometry/separation.h"
+#include "core/geometry/distance/separation.h"
 #include "tests/geometry/polytope_scene.h"
 
 namespace lockstone::test {

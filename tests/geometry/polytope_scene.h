@@ -6,8 +6,8 @@
 #include <memory>
 #include <set>
 
-#include "core/geometry/polytope.h"
-#include "core/geometry/polytope_kernels.h"
+#include "core/geometry/convex/polytope.h"
+#include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/math/predicates.h"
 #include "core/math/roots.h"
 #include "tests/geometry/scene.h"

@@ -1,4 +1,4 @@
-#include "core/geometry/raycast.h"
+#include "core/geometry/dispatch/raycast.h"
 
 #include <optional>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/geometry/manifold.h"
+#include "core/geometry/distance/manifold.h"
 
 namespace lockstone::test {
 

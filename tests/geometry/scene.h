@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/geometry/manifold.h"
-#include "core/geometry/shape_properties.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/dispatch/collide.h"
 #include "tests/geometry/reference.h"
 #include "tests/support/random.h"
 

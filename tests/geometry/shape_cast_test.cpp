@@ -1,7 +1,7 @@
 // Shapes cast along lines.
-#include "core/geometry/shape_cast.h"
+#include "core/geometry/distance/shape_cast.h"
 
-#include "core/geometry/epa.h"
+#include "core/geometry/distance/epa.h"
 #include "tests/geometry/convex_scene.h"
 
 namespace lockstone::test {

@@ -1,4 +1,4 @@
-#include "core/geometry/shape_properties.h"
+#include "core/geometry/convex/shape_properties.h"
 
 #include "tests/geometry/scene.h"
 

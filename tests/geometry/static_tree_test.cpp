@@ -1,4 +1,4 @@
-#include "core/geometry/static_tree.h"
+#include "core/geometry/assets/static_tree.h"
 
 #include <algorithm>
 

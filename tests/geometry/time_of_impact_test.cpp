@@ -1,7 +1,7 @@
 // When shapes in motion come near.
-#include "core/geometry/time_of_impact.h"
+#include "core/geometry/distance/time_of_impact.h"
 
-#include "core/geometry/epa.h"
+#include "core/geometry/distance/epa.h"
 #include "tests/geometry/convex_scene.h"
 
 namespace lockstone::test {

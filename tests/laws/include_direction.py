@@ -1,6 +1,6 @@
-"""Includes point one way: base → math → geometry → collision → dynamics → world within core; net and
-replay see core only through the simulation interface, and never each other; tests and tools are
-seen by nobody."""
+"""Includes point one way: base → math → kernels → geometry → collision → dynamics → world within core,
+and from floor to floor within each of them; net and replay see core only through the simulation
+interface, and never each other; tests and tools are seen by nobody."""
 
 import fnmatch
 import pathlib
@@ -8,7 +8,21 @@ import pathlib
 from cpp_source import Tree, expect_only, includes, run_law
 
 FOLDERS = ["core", "net", "replay"]
-MODULES = ["base", "math", "geometry", "collision", "dynamics", "world"]
+# The modules of core, lowest first, and the floors of each: folders, lowest first; "" is the module's
+# own folder. A floor includes itself and those before it.
+FLOORS = {
+    "base": [""],
+    "math": ["", "wide"],
+    "kernels": ["contact", "ball", "box", "points", "rotations", "proximal", ""],
+    "geometry": ["numeric", "convex", "distance", "contact", "query", "dispatch", "mesh_contact", "assets"],
+    "collision": ["broad_phase", "narrow_phase", "continuous", "query"],
+    "dynamics": ["state", "body", "islands", "contact", "joint", "stack", "problem", "linkage", "direct",
+                 "impact", "step"],
+    "world": ["state", "commands", "phases", "sleep", "debug", "query", ""],
+}
+MODULES = list(FLOORS)
+# Its folders share the world's one class, so their order is not checked.
+WITHOUT_ORDER = {"world"}
 
 # The module that each public header of core belongs to: its implementation lives there, and the
 # header may include the same modules.
@@ -31,7 +45,7 @@ SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "bytes", "
 THIRD_PARTY = {
     "xxhash.h": "core/base/",
     "enet/*": "net/",
-    "hwy/*": "core/math/wide/",
+    "hwy/*": "core/math/wide/ core/kernels/",
 }
 
 
@@ -49,6 +63,13 @@ def module_of(path):
     return area, module if module in MODULES else None
 
 
+def floor_of(path):
+    """The floor of a file within its module of core, or None for a public header or an unknown folder."""
+    _, module, *folders, _ = path.split("/")
+    floor = "/".join(folders)
+    return floor if module in FLOORS and floor in FLOORS[module] else None
+
+
 def resolve(name, quoted, tree):
     """The project's file that an include names, or None when it is not ours."""
     if quoted:
@@ -57,6 +78,13 @@ def resolve(name, quoted, tree):
         for area in FOLDERS:
             if pathlib.PurePosixPath(f"{area}/include/{name}") in tree.files:
                 return f"{area}/include/{name}"
+    return None
+
+
+def floor_refusal(module, floor, other):
+    floors = FLOORS[module]
+    if floor is not None and other is not None and floors.index(other) > floors.index(floor):
+        return f"{module}/{floor} does not see {module}/{other}"
     return None
 
 
@@ -73,6 +101,8 @@ def refusal(path, target):
             return f"core does not know {other_area}"
         if module and other_module and MODULES.index(other_module) > MODULES.index(module):
             return f"{module} does not see {other_module}"
+        if module == other_module and module not in WITHOUT_ORDER:
+            return floor_refusal(module, floor_of(path), floor_of(target))
     elif other_area == "core" and target not in SEAM:
         return f"{area} sees core only through the simulation interface"
     elif other_area not in (area, "core"):
@@ -82,7 +112,7 @@ def refusal(path, target):
 
 def third_party_refusal(path, name):
     for pattern, place in THIRD_PARTY.items():
-        if fnmatch.fnmatch(name, pattern) and not path.startswith(place):
+        if fnmatch.fnmatch(name, pattern) and not path.startswith(tuple(place.split())):
             return f"only {place} uses it"
     return None
 
@@ -93,6 +123,8 @@ def without_module(tree):
         if path.startswith("core/") and not path.startswith(TESTING) and module_of(path)[1] is None:
             yield (f"{path}: has no module: put it into one of {', '.join(MODULES)}; for a public header, "
                    f"by an entry in PUBLIC_MODULES of tests/laws/include_direction.py")
+        elif path.startswith("core/") and not path.startswith("core/include/") and floor_of(path) is None:
+            yield f"{path}: has no floor: enter its folder in FLOORS of tests/laws/include_direction.py"
 
 
 def check(tree):
@@ -121,6 +153,9 @@ def control():
 
     expect_only(found("core/math/a.cpp", "<vector>", '"core/world/world.h"'),
                 "core/math/a.cpp:2: includes core/world/world.h: math does not see world")
+    expect_only(found("core/geometry/convex/a.cpp", '"core/geometry/distance/gjk.h"'),
+                "geometry/convex does not see geometry/distance")
+    expect_only(found("core/geometry/hall/a.cpp"), "core/geometry/hall/a.cpp: has no floor")
     expect_only(found("core/base/a.cpp", "<lockstone/fixed.h>"), "base does not see math")
     expect_only(found("core/include/lockstone/vec3.h", "<lockstone/world.h>"), "math does not see world")
     expect_only(found("core/include/lockstone/novel.h"), "novel.h: has no module")
@@ -137,6 +172,7 @@ def control():
     expect_only(found("core/world/a.cpp", "<lockstone/gone.h>"), "no such public header")
     expect_only(found("core/world/a.cpp", "<enet/enet.h>"), "only net/ uses it")
     # Must pass.
+    expect_only(found("core/geometry/distance/a.cpp", '"core/geometry/convex/hull.h"', '"core/geometry/distance/b.h"'))
     expect_only(found("core/world/a.cpp", '"core/base/a.h"', "<lockstone/shape.h>", "<xxhash_like.h>"))
     expect_only(found("net/a.cpp", "<lockstone/simulation.h>", '"net/b.h"', "<lockstone/session.h>", "<enet/enet.h>"))
     expect_only(check(Tree(headers | {"core/base/a.cpp": "// #include <lockstone/world.h>\n"})))

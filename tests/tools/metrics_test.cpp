@@ -1,4 +1,4 @@
-#include "tools/lockstone/metrics.h"
+#include "tools/lockstone/match/metrics.h"
 
 #include <array>
 #include <string>

@@ -13,7 +13,7 @@
 #include <lockstone/mesh.h>
 #include <lockstone/thread_pool.h>
 
-#include "core/geometry/asset_frame.h"
+#include "core/geometry/assets/asset_frame.h"
 #include "tests/world/world_fixture.h"
 
 namespace {

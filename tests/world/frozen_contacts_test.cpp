@@ -1,11 +1,10 @@
-#include "core/world/frozen_contacts.h"
-
 #include <map>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/world/record_hash.h"
+#include "core/world/sleep/sleeping_contacts.h"
+#include "core/world/state/record_hash.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

@@ -6,8 +6,8 @@
 
 #include <lockstone/hash.h>
 
-#include "core/dynamics/joint_record.h"
-#include "core/world/world_header.h"
+#include "core/dynamics/state/joint_record.h"
+#include "core/world/state/world_header.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {

@@ -7,7 +7,7 @@
 #include <lockstone/compound.h>
 #include <lockstone/testing/floating.h>
 
-#include "core/dynamics/surface.h"
+#include "core/dynamics/state/surface.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {

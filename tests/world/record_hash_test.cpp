@@ -1,13 +1,13 @@
 // A record's hash is XXH3 of its canonical bytes, of a long one's part by part.
 
-#include "core/world/record_hash.h"
+#include "core/world/state/record_hash.h"
 
 #include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/joint_record.h"
+#include "core/dynamics/state/joint_record.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

@@ -1,13 +1,13 @@
 // Pairs that are apart keep the axis that parted them, and nothing depends on it.
 
-#include "core/world/separating_axes.h"
+#include "core/world/phases/separating_axes.h"
 
 #include <gtest/gtest.h>
 
 #include <lockstone/hull.h>
 #include <lockstone/profile.h>
 
-#include "core/collision/collide_bodies.h"
+#include "core/collision/narrow_phase/collide_bodies.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

@@ -4,7 +4,7 @@
 
 #include <lockstone/hash.h>
 
-#include "core/world/snapshot_format.h"
+#include "core/world/state/snapshot_format.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

@@ -12,9 +12,9 @@
 
 #include <lockstone/hash.h>
 
-#include "core/dynamics/body_record.h"
-#include "core/dynamics/contact_record.h"
-#include "core/world/world_header.h"
+#include "core/dynamics/state/body_record.h"
+#include "core/dynamics/state/contact_record.h"
+#include "core/world/state/world_header.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

@@ -1,7 +1,7 @@
 // One list of stores and fields: nothing of the state can be left out of snapshots, hashes,
 // comparison or validation.
 
-#include "core/world/stores.h"
+#include "core/world/state/stores.h"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,9 @@
 
 #include <lockstone/hash.h>
 
-#include "core/world/delta.h"
-#include "core/world/record_fields.h"
-#include "core/world/snapshot_format.h"
+#include "core/world/state/delta.h"
+#include "core/world/state/record_fields.h"
+#include "core/world/state/snapshot_format.h"
 #include "tests/support/random.h"
 #include "tests/world/world_fixture.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/geometry/fine.h"
+#include "core/geometry/numeric/q50.h"
 #include "tools/fuzz/pair_source.h"
 
 namespace lockstone::fuzz {

@@ -1,6 +1,7 @@
 #include "tools/fuzz/pair_checks.h"
 
-#include "core/geometry/separation.h"
+#include "core/geometry/dispatch/collide.h"
+#include "core/geometry/distance/separation.h"
 
 namespace lockstone::fuzz {
 namespace {

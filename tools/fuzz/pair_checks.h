@@ -1,9 +1,9 @@
 // Checks that must hold of every pair of shapes.
 #pragma once
 
-#include "core/geometry/epa.h"
-#include "core/geometry/gjk.h"
-#include "core/geometry/manifold.h"
+#include "core/geometry/distance/epa.h"
+#include "core/geometry/distance/gjk.h"
+#include "core/geometry/distance/manifold.h"
 #include "tools/fuzz/pair_source.h"
 #include "tools/fuzz/verdict.h"
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/geometry/gjk.h"
-#include "core/geometry/normals.h"
+#include "core/geometry/distance/gjk.h"
+#include "core/geometry/numeric/normals.h"
 
 namespace lockstone::fuzz {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry/manifold.h"
-#include "core/geometry/triangle_polytope.h"
+#include "core/geometry/distance/manifold.h"
+#include "core/geometry/mesh_contact/triangle_polytope.h"
 #include "tools/fuzz/dice.h"
 #include "tools/fuzz/hull_pool.h"
 

@@ -5,10 +5,10 @@
 #include <CLI/Formatter.hpp>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/console.h"
-#include "tools/lockstone/log_commands.h"
-#include "tools/lockstone/net_commands.h"
-#include "tools/lockstone/suggestion.h"
+#include "tools/lockstone/logs/log_commands.h"
+#include "tools/lockstone/match/net_commands.h"
+#include "tools/lockstone/support/console.h"
+#include "tools/lockstone/support/suggestion.h"
 
 namespace lockstone::tool {
 namespace {

@@ -7,7 +7,7 @@
 #include <lockstone/compound.h>
 #include <lockstone/literals.h>
 
-#include "core/geometry/parts.h"
+#include "core/geometry/convex/parts.h"
 
 namespace lockstone::render {
 namespace {

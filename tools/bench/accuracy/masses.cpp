@@ -2,7 +2,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "core/geometry/solid.h"
+#include "core/geometry/convex/solid.h"
 #include "tools/bench/accuracy/accuracy.h"
 #include "tools/bench/accuracy/reference_mass.h"
 #include "tools/fuzz/dice.h"

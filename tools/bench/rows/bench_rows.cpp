@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-#include "core/math/wide/target.h"
+#include "core/kernels/target.h"
 #include "tools/bench/rows/float_rows.h"
 #include "tools/bench/rows/integer_rows.h"
 #include "tools/bench/support/measure.h"

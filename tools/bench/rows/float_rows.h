@@ -1,5 +1,6 @@
 // The yardstick of the integer kernel: the same iteration in single precision, four lanes of
-// SSE2, the structure that float engines use. See core/math/wide/contact_rows.h for the equations.
+// SSE2, the structure that float engines use. See core/kernels/contact/contact_rows.h for the
+// equations.
 #pragma once
 
 #include <cstddef>

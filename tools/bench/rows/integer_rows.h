@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/math/wide/contact_rows.h"
+#include "core/kernels/contact/contact_rows.h"
 #include "tools/bench/rows/row_scene.h"
 
 namespace lockstone::bench {

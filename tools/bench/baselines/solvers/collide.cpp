@@ -5,7 +5,7 @@
 
 #include <lockstone/testing/floating.h>
 
-#include "core/geometry/manifold.h"
+#include "core/geometry/distance/manifold.h"
 #include "tools/bench/baselines/solvers/system.h"
 
 namespace lockstone::bench::trial {

@@ -1,0 +1,98 @@
+// The broad phase by trees: one for static and kinematic bodies and one for dynamic bodies.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/collision/broad_phase/bounding_volume_tree.h"
+#include "core/collision/broad_phase/proxy.h"
+
+namespace lockstone {
+
+class TreeSearch {
+ public:
+  explicit TreeSearch(std::uint32_t body_capacity)
+      : trees_{BoundingVolumeTree(body_capacity), BoundingVolumeTree(body_capacity)},
+        places_(body_capacity) {
+    waiting_.reserve(body_capacity);
+    items_.reserve(body_capacity);
+  }
+
+  void clear();
+
+  /// Adds the body, or takes over its new box or traits, at the next `refresh`. Until then it is
+  /// found without the trees.
+  void put(std::uint32_t body);
+  void remove(std::uint32_t body);
+
+  /// Puts the waiting bodies into the trees: one by one, or a tree as a whole when much of it
+  /// changes.
+  void refresh(std::span<const Proxy> proxies);
+
+  /// Calls `emit(a, b)` once, in no promised order, for every two bodies of which one is touched
+  /// and one moves, whose fat boxes overlap and whose layers may collide. Stops when it answers
+  /// false, and answers that.
+  template <class Emit>
+  bool search(std::span<const std::uint32_t> touched, std::span<const Proxy> proxies,
+              std::span<const std::uint8_t> is_touched, Emit&& emit) const {
+    bool goes_on = true;
+    for (const std::uint32_t body : touched) {
+      const Proxy& proxy = proxies[body];
+      if (!proxy.present) continue;
+      const Layers layers = layers_of(proxy.traits.filter);
+      const auto test = [&](const Bounds& other, const Layers& others) {
+        return goes_on && overlap(proxy.fat, other) && may_collide(layers, others);
+      };
+      const auto visit = [&](std::uint32_t other) {
+        const bool others = is_touched[other] != 0 && other <= body;
+        if (!others) goes_on = goes_on && emit(body, other);
+      };
+      for (const BoundingVolumeTree& tree : trees_)
+        tree.traverse(test, visit);
+    }
+    return goes_on;
+  }
+
+  /// Calls `visit(body)` for the bodies whose category is in `mask` and whose fat box passes
+  /// `test`: all of them, or perhaps no dynamic ones.
+  template <class Test, class Visit>
+  void traverse(std::uint32_t mask, bool with_dynamic, Test&& test, Visit&& visit) const {
+    const auto passes = [&](const Bounds& bounds, const Layers& layers) {
+      return (layers.categories & mask) != 0 && test(bounds);
+    };
+    const auto settled = [&](std::uint32_t body) {
+      if (!places_[body].waits) visit(body);
+    };
+    trees_[0].traverse(passes, settled);
+    if (with_dynamic) trees_[1].traverse(passes, settled);
+    for (const std::uint32_t body : waiting_)
+      if (places_[body].waits) visit(body);
+  }
+
+  [[nodiscard]] bool is_valid() const { return trees_[0].is_valid() && trees_[1].is_valid(); }
+
+ private:
+  static constexpr std::uint32_t k_null = BoundingVolumeTree::k_null;
+
+  // Where a body's leaf is. That of a body that waits, if it has one, is out of date.
+  struct Place {
+    std::uint32_t leaf = k_null;
+    bool is_dynamic = false;
+    bool waits = false;
+    bool listed = false;  // in waiting_, perhaps in vain
+  };
+
+  void remove_leaf(Place& place);
+  void insert(std::uint32_t body, const Proxy& proxy);
+  void rebuild(bool dynamic, std::span<const Proxy> proxies);
+
+  BoundingVolumeTree trees_[2];  // of static and kinematic bodies; of dynamic bodies
+  std::uint32_t leaves_[2] = {};
+  std::uint32_t inserted_[2] = {};  // one by one, since all were put in at once
+  std::vector<Place> places_;       // by body
+  std::vector<std::uint32_t> waiting_;
+  std::vector<BoundingVolumeTree::Item> items_;
+};
+
+}  // namespace lockstone

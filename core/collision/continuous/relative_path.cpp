@@ -1,0 +1,57 @@
+#include "core/collision/continuous/relative_path.h"
+
+#include <algorithm>
+
+#include "core/geometry/numeric/wide_vectors.h"
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace {
+
+using geometry::Metres;
+using geometry::RawVec;
+
+constexpr Metres k_way_rounding = 8;
+
+template <class V>
+RawVec raws(const V& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
+
+// Below half a radian: fits 32 bits.
+bool is_small(const RawVec& turn) {
+  constexpr std::int64_t k_half = std::int64_t{1} << (geometry::k_metre_bits - 1);
+  return std::max({std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)}) < k_half;
+}
+
+Metres times(Metres x, std::int64_t small_turn) {
+  return raw::multiply_shift(x, static_cast<std::int32_t>(small_turn), geometry::k_metre_bits);
+}
+
+RawVec cross(const RawVec& turn, const RawVec& v) {
+  return {times(v.z, turn.y) - times(v.y, turn.z), times(v.x, turn.z) - times(v.z, turn.x),
+          times(v.y, turn.x) - times(v.x, turn.y)};
+}
+
+Metres norm_of(const RawVec& v) {
+  return static_cast<Metres>(norm(v.x, v.y, v.z));
+}
+
+}  // namespace
+
+Position relative_way(const Sweep& a, const Sweep& b, Length radius) {
+  const RawVec turn_a = raws(a.rotation), turn_b = raws(b.rotation);
+  RawVec drift = raws(a.translation) - raws(b.translation);
+  Metres bend = 0;
+  if (turn_b != RawVec{}) {
+    if (!is_small(turn_b)) return Position::max();
+    const Metres angle = norm_of(turn_b);  // below 1 rad
+    bend = times(norm_of(drift), angle / 4) * 2 + k_way_rounding;
+    drift = drift - cross(turn_b, raws(a.start.position - b.start.position));
+  }
+  const Metres turned =
+      raw::multiply_shift(norm_of(turn_a - turn_b), radius.raw, Length::frac_bits);
+  return Position::from_raw(norm_of(drift) + bend + turned + k_way_rounding);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,68 @@
+#include "core/collision/continuous/shrunk_core.h"
+
+#include <algorithm>
+
+#include "core/geometry/convex/shape_properties.h"
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace {
+
+// The least distance of the interior point from a face.
+Length inner_radius_of(const geometry::Polytope& polytope) {
+  std::int64_t least = geometry::fine(k_max_shape_size);
+  for (const geometry::PolytopeFace& face : polytope.faces)
+    least = std::min(least, face.offset - dot(face.normal, polytope.interior).raw);
+  return Length::from_raw(
+      static_cast<std::int32_t>(std::max<std::int64_t>(least, 0) >> geometry::k_fine_per_length));
+}
+
+}  // namespace
+
+Length inner_radius_of(const Piece& piece) {
+  return piece.polytope != nullptr ? inner_radius_of(*piece.polytope) : inner_radius(piece.shape);
+}
+
+ErodedShape::ErodedShape(const Piece& piece, Length depth, Unit share) : shape(piece.shape) {
+  if (piece.polytope != nullptr) {
+    erode_vertices(*piece.polytope, depth);
+  } else {
+    const int axes = shape.kind == ShapeKind::box ? 3 : 1;  // the radius is in x
+    for (int i = 0; i < axes; ++i)
+      shape.size[i] -= depth;
+  }
+  if (share != Unit::from_integer(1)) shorten(share);
+}
+
+void ErodedShape::shorten(Unit share) {
+  if (!is_polytope) {
+    const int first = shape.kind == ShapeKind::box ? 0 : 1;
+    for (int i = first; i < 3; ++i)
+      shape.size[i] = rounded<Length>(shape.size[i] * share);
+    return;
+  }
+  for (std::size_t i = 0; i < polytope.vertices.size(); ++i) {
+    Vec3<Length>& vertex = vertices_[i];
+    vertex = polytope.interior + rounded<Length>((vertex - polytope.interior) * share);
+  }
+}
+
+void ErodedShape::erode_vertices(const geometry::Polytope& full, Length depth) {
+  std::array<geometry::RawVec, geometry::k_max_polytope_vertices> normals{};
+  for (const geometry::HalfEdge& edge : full.edges) {
+    const Vec3<Unit>& n = full.faces[edge.face].normal;
+    geometry::RawVec& sum = normals[edge.origin];
+    sum = sum + geometry::RawVec{n.x.raw, n.y.raw, n.z.raw};
+  }
+  for (std::size_t i = 0; i < full.vertices.size(); ++i) {
+    const geometry::RawVec& n = normals[i];
+    const Vec3<Unit> outward = direction_of(n.x, n.y, n.z);
+    for (int axis = 0; axis < 3; ++axis)
+      vertices_[i][axis] = full.vertices[i][axis] - rounded<Length>(outward[axis] * depth);
+  }
+  polytope = full;
+  polytope.vertices = std::span(vertices_).first(full.vertices.size());
+  is_polytope = true;
+}
+
+}  // namespace lockstone

@@ -1,0 +1,116 @@
+#include "core/collision/narrow_phase/placed_shape.h"
+
+#include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/solid.h"
+
+namespace lockstone {
+namespace {
+
+const geometry::Solid* solid_of(const Asset* asset) {
+  return asset == nullptr ? nullptr : asset->solid();
+}
+
+// Beyond any coordinate of a world, within the range of bounds.
+constexpr Position k_everywhere = Position::from_integer((1 << 21) - 1);
+
+// A half-space with an upright normal ends at its plane; a tilted one is everywhere.
+WorldBox half_space_box(const PlacedShape& placed) {
+  WorldBox box{{-k_everywhere, -k_everywhere, -k_everywhere},
+               {k_everywhere, k_everywhere, k_everywhere}};
+  if (placed.rotation.y == Mat3{}.y) box.upper.y = placed.origin.y;
+  return box;
+}
+
+// The bounds of a turned box: the middle turned, the half extents by the magnitudes of the axes.
+WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& local) {
+  const auto middle = [](Length low, Length high) {
+    return Position::from_raw((std::int64_t{low.raw} + high.raw) << 11);
+  };
+  const Vec3<Position> centre{middle(local.lower.x, local.upper.x),
+                              middle(local.lower.y, local.upper.y),
+                              middle(local.lower.z, local.upper.z)};
+  const Vec3<Length> half{(local.upper.x - local.lower.x + Length::from_raw(1)) / 2,
+                          (local.upper.y - local.lower.y + Length::from_raw(1)) / 2,
+                          (local.upper.z - local.lower.z + Length::from_raw(1)) / 2};
+  const Vec3<Position> at = placed.origin + rotate(placed.rotation, centre);
+  const Vec3<Position> reach =
+      rounded<Position>(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
+  return {at - reach, at + reach};
+}
+
+// The least and the greatest of the vertices along each axis, and their rounding error.
+WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytope) {
+  constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
+  constexpr Position k_rounding = Position::from_raw(1 << 13);
+  WorldBox box;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<Unit> axis{placed.rotation.x[i], placed.rotation.y[i], placed.rotation.z[i]};
+    const geometry::Fine above = geometry::support_of(polytope, axis).height;
+    const geometry::Fine below = geometry::support_of(polytope, -axis).height;
+    box.lower[i] = placed.origin[i] - Position::from_raw(below >> k_bits) - k_rounding;
+    box.upper[i] = placed.origin[i] + Position::from_raw(above >> k_bits) + k_rounding;
+  }
+  return box;
+}
+
+}  // namespace
+
+ShapeFrame shape_frame(const Asset* asset, const Mat3& rotation) {
+  const geometry::Solid* solid = solid_of(asset);
+  if (solid == nullptr) return {rotation, {}};
+  const bool turned = solid->axes != Quat{};
+  const Mat3 frame = turned ? multiply(rotation, transposed(to_matrix(solid->axes))) : rotation;
+  return {frame, rotate(frame, rounded<Position>(solid->centre))};
+}
+
+PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
+                  const Mat3& rotation) {
+  return place(shape, asset, centre, shape_frame(asset, rotation));
+}
+
+PlacedShape place(const Shape& shape, const Asset* asset, const Vec3<Position>& centre,
+                  const ShapeFrame& frame) {
+  return {shape, asset, centre - frame.centre, frame.rotation, centre};
+}
+
+Transform body_pose(const Asset* asset, const Transform& shape_pose) {
+  const Quat orientation = normalized(shape_pose.orientation);
+  const geometry::Solid* solid = solid_of(asset);
+  if (solid == nullptr) return {shape_pose.position, orientation};
+  return {apply({shape_pose.position, orientation}, solid->centre),
+          normalized(multiply(orientation, solid->axes))};
+}
+
+Transform shape_pose(const Asset* asset, const Transform& body_pose) {
+  const geometry::Solid* solid = solid_of(asset);
+  if (solid == nullptr) return body_pose;
+  const Quat orientation = normalized(multiply(body_pose.orientation, conjugate(solid->axes)));
+  return {apply({body_pose.position, orientation}, -solid->centre), orientation};
+}
+
+WorldBox world_box(const PlacedShape& placed) {
+  if (placed.shape.kind == ShapeKind::half_space) return half_space_box(placed);
+  if (placed.asset != nullptr) {
+    const geometry::Polytope* polytope = placed.asset->polytope();
+    return polytope != nullptr ? vertex_box(placed, *polytope)
+                               : turned_box(placed, placed.asset->bounds());
+  }
+  const Vec3<Position> reach = rounded<Position>(world_half_extents(placed.shape, placed.rotation));
+  return {placed.origin - reach, placed.origin + reach};
+}
+
+Length bounding_radius(const Shape& shape, const Asset* asset) {
+  if (is_primitive(shape.kind)) return bounding_radius(shape);
+  const geometry::Solid* solid = solid_of(asset);
+  return solid == nullptr ? Length{} : solid->radius;
+}
+
+Length inner_radius(const Shape& shape, const Asset* asset) {
+  if (is_primitive(shape.kind)) return inner_radius(shape);
+  const geometry::Solid* solid = solid_of(asset);
+  return solid == nullptr ? Length{} : solid->inner_radius;
+}
+
+}  // namespace lockstone

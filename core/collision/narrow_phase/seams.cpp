@@ -1,0 +1,201 @@
+#include "core/collision/narrow_phase/seams.h"
+
+#include "core/collision/narrow_phase/pieces.h"
+#include "core/geometry/convex/polytope.h"
+#include "core/geometry/numeric/q50.h"
+
+namespace lockstone {
+namespace {
+
+using geometry::Fine;
+using geometry::fine;
+
+/// Above the rounding errors of points and supports.
+constexpr Fine k_rise = Fine{1} << (geometry::k_fine_bits - 15);  // 31 µm
+
+/// How far behind its front a triangle counts as solid: farther than a load presses a body in.
+constexpr Length k_triangle_depth = Length::from_ratio(1, 50);
+
+/// Further than a shape reaches.
+constexpr Fine k_no_end = Fine{1} << 62;
+
+constexpr std::int64_t k_face_cosine = (std::int64_t{1} << 60) - (std::int64_t{1} << 51);
+
+/// A point near a piece, in the piece's frame.
+Vec3<Length> local_point(const Piece& piece, const Vec3<Position>& point) {
+  return rotate_inverse(piece.rotation, saturated<Length>(point - piece.origin));
+}
+
+bool is_in_ball(const Vec3<Length>& from_centre, Length radius) {
+  std::uint64_t square = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (abs(from_centre[i]) > radius) return false;
+    square += static_cast<std::uint64_t>((from_centre[i] * from_centre[i]).raw);  // below 2^61
+  }
+  return square <= static_cast<std::uint64_t>((radius * radius).raw);
+}
+
+/// The nearest point of a capsule's core is its centre.
+Vec3<Length> from_core(const Shape& capsule, const Vec3<Length>& point) {
+  return {point.x, point.y - clamp(point.y, -capsule.size.y, capsule.size.y), point.z};
+}
+
+/// Within a prism as deep as `k_triangle_depth` behind the front.
+bool is_in_triangle(const geometry::Polytope& triangle, const Vec3<Length>& point) {
+  const geometry::PolytopeFace& front = triangle.faces.front();
+  const Fine height = lockstone::dot(front.normal, point).raw - front.offset;
+  if (height > fine(k_seam_width) || height < -fine(k_triangle_depth)) return false;
+  for (int i = 0; i < 3; ++i) {
+    const int edge = front.first_edge + i;
+    const Vec3<Length> side = geometry::edge_vector(triangle, edge);
+    const Vec3<Length> outward = rounded<Length>(cross(side, front.normal));
+    const Length longest = max(max(abs(side.x), abs(side.y)), abs(side.z));
+    const Vec3<Length> way = point - geometry::start_of(triangle, edge);
+    if (lockstone::dot(outward, way) > longest * k_seam_width) return false;
+  }
+  return true;
+}
+
+bool is_in_hull(const geometry::Polytope& hull, const Vec3<Length>& point) {
+  for (const geometry::PolytopeFace& face : hull.faces)
+    if (lockstone::dot(face.normal, point).raw - face.offset > fine(k_seam_width)) return false;
+  return true;
+}
+
+bool is_in_box(const Shape& box, const Vec3<Length>& point) {
+  for (int i = 0; i < 3; ++i)
+    if (abs(point[i]) > box.size[i] + k_seam_width) return false;
+  return true;
+}
+
+/// Whether the piece holds the point (its own frame), or nearly.
+bool holds(const Piece& piece, const Vec3<Length>& point) {
+  if (piece.triangle.is_triangle) return is_in_triangle(*piece.polytope, point);
+  if (piece.polytope != nullptr) return is_in_hull(*piece.polytope, point);
+  switch (piece.shape.kind) {
+    case ShapeKind::half_space:
+      return point.y <= k_seam_width;
+    case ShapeKind::sphere:
+      return is_in_ball(point, piece.shape.size.x + k_seam_width);
+    case ShapeKind::capsule:
+      return is_in_ball(from_core(piece.shape, point), piece.shape.size.x + k_seam_width);
+    default:
+      return is_in_box(piece.shape, point);
+  }
+}
+
+/// How far the piece reaches from the origin of its frame along a unit vector of that frame.
+Fine reach_along(const Piece& piece, const Vec3<Unit>& axis) {
+  if (piece.polytope != nullptr) return geometry::support_of(*piece.polytope, axis).height;
+  const Shape& shape = piece.shape;
+  switch (shape.kind) {
+    case ShapeKind::half_space:
+      return are_alike(axis, Mat3{}.y) ? 0 : k_no_end;
+    case ShapeKind::sphere:
+      return fine(shape.size.x);
+    case ShapeKind::capsule:
+      return fine(shape.size.x) + (abs(axis.y) * shape.size.y).raw;
+    default:
+      return (abs(axis.x) * shape.size.x + abs(axis.y) * shape.size.y + abs(axis.z) * shape.size.z)
+          .raw;
+  }
+}
+
+/// How far the piece rises above the plane through the point with this normal.
+Fine rise_above(const Piece& piece, const TouchedPoint& at) {
+  const Vec3<Unit> axis = rotate_inverse(piece.rotation, at.normal);
+  return raw::subtract(reach_along(piece, axis),
+                       lockstone::dot(axis, local_point(piece, at.point)).raw);
+}
+
+/// The outward normal of the face that looks most along the axis, both in the piece's frame.
+Vec3<Unit> face_along(const Piece& piece, const Vec3<Unit>& axis) {
+  if (piece.triangle.is_triangle) return piece.polytope->faces.front().normal;
+  if (piece.polytope != nullptr) {
+    const geometry::PolytopeFace* best = &piece.polytope->faces.front();
+    for (const geometry::PolytopeFace& face : piece.polytope->faces)
+      if (lockstone::dot(face.normal, axis) > lockstone::dot(best->normal, axis)) best = &face;
+    return best->normal;
+  }
+  if (piece.shape.kind == ShapeKind::half_space) return Mat3{}.y;
+  if (piece.shape.kind != ShapeKind::box) return axis;  // round: any direction is a face
+  int longest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (abs(axis[i]) > abs(axis[longest])) longest = i;
+  return geometry::signed_axis(Mat3{}.column(longest), geometry::sign_of(axis[longest].raw));
+}
+
+/// Calls `f(piece)` for the pieces at a point, and for no other piece of an asset with triangles.
+template <class F>
+class AtPoint final : public PieceVisitor {
+ public:
+  AtPoint(const Vec3<Position>& point, F& f) : point_(point), f_(f) {}
+  void visit(const Piece& piece) override {
+    if (!piece.triangle.is_triangle || holds(piece, local_point(piece, point_))) f_(piece);
+  }
+
+ private:
+  const Vec3<Position>& point_;
+  F& f_;
+};
+
+template <class F>
+void for_each_piece_at(const PlacedShape& placed, const Vec3<Position>& point, F&& f) {
+  AtPoint<F> visitor(point, f);
+  visit_pieces(brought_near(placed, point), {point, Mat3{}, {}}, k_triangle_depth, visitor);
+}
+
+bool is_part(const Piece& piece, std::uint32_t part) {
+  return piece.triangle.is_triangle || piece.part == part;
+}
+
+}  // namespace
+
+bool are_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {
+  constexpr Unit k_least = Unit::from_raw(1 << (Unit::frac_bits - 11));
+  const Vec3<Unit> apart = a - b;
+  return max(max(abs(apart.x), abs(apart.y)), abs(apart.z)) <= k_least;
+}
+
+std::optional<FaceOfShape> touched_face(const TouchedPart& touched, const TouchedPoint& at) {
+  std::optional<FaceOfShape> found;
+  std::int64_t best = k_face_cosine;
+  for_each_piece_at(touched.placed, at.point, [&](const Piece& piece) {
+    if (!is_part(piece, touched.part)) return;
+    const Vec3<Unit> axis = rotate_inverse(piece.rotation, at.normal);
+    const Vec3<Unit> normal = face_along(piece, axis);
+    const std::int64_t cosine = lockstone::dot(normal, axis).raw;
+    if (cosine < best) return;
+    best = cosine;
+    const Vec3<Unit> outward = rotate(piece.rotation, normal);
+    const Fine height = rise_above(piece, {at.point, outward});
+    constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
+    const geometry::RawVec way = geometry::shifted(geometry::along(outward, height), k_bits);
+    found = {outward,
+             at.point + Vec3<Position>{Position::from_raw(way.x), Position::from_raw(way.y),
+                                       Position::from_raw(way.z)}};
+  });
+  return found;
+}
+
+bool is_below(const TouchedPart& touched, const Vec3<Position>& at, const FaceOfShape& face) {
+  bool any = false, all = true;
+  for_each_piece_at(touched.placed, at, [&](const Piece& piece) {
+    if (!is_part(piece, touched.part)) return;
+    any = true;
+    all = all && rise_above(piece, {face.point, face.normal}) <= fine(k_seam_width);
+  });
+  return any && all;
+}
+
+bool covers(const PlacedShape& placed, std::uint32_t except, const TouchedPoint& at,
+            const Vec3<Position>& viewer) {
+  bool found = false;
+  for_each_piece_at(placed, at.point, [&](const Piece& piece) {
+    if (piece.part == except || is_behind(viewer, piece)) return;
+    found = found || (holds(piece, local_point(piece, at.point)) && rise_above(piece, at) > k_rise);
+  });
+  return found;
+}
+
+}  // namespace lockstone

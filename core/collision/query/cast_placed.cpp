@@ -1,0 +1,192 @@
+#include "core/collision/query/cast_placed.h"
+
+#include <algorithm>
+
+#include "core/geometry/distance/gjk.h"
+#include "core/geometry/distance/shape_cast.h"
+#include "core/math/int128.h"
+
+namespace lockstone {
+namespace {
+
+// Boxes grow by this much, for the rounding of the frames of shape, path and asset. 8 µm
+constexpr Length k_frame_margin = Length::from_raw(8);
+
+class RayPieces final : public geometry::WayPartVisitor {
+ public:
+  RayPieces(const PlacedShape& placed, const Vec3<Position>& origin,
+            const Vec3<Length>& translation, Unit limit)
+      : placed_(placed), origin_(origin), translation_(translation), limit_(limit) {}
+
+  Unit visit(const geometry::Part& part) override {
+    visit(piece_of(placed_, part));
+    return limit_;
+  }
+
+  void visit(const Piece& piece) {
+    const ShapeRayHit hit =
+        cast_ray(piece.posed(), saturated<Length>(origin_ - piece.origin), translation_);
+    if (!hit.hit || hit.fraction > limit_) return;
+    if (best_.hit && hit.fraction == best_.fraction && piece.part > best_.part) return;
+    best_ = {true, piece.part, hit.fraction, hit.normal};
+    limit_ = hit.fraction;
+  }
+
+  [[nodiscard]] const PlacedRayHit& best() const { return best_; }
+
+ private:
+  const PlacedShape& placed_;
+  const Vec3<Position>& origin_;
+  const Vec3<Length>& translation_;
+  Unit limit_;
+  PlacedRayHit best_;
+};
+
+// Against a half-space the distance falls evenly.
+ShapeCastHit cast_at_half_space(const PosedShape& plane, const PosedShape& shape,
+                                const Vec3<Length>& offset, const Vec3<Length>& translation) {
+  const ClosestPoints start = distance(plane, shape, offset);
+  ShapeCastHit hit{false, start.overlapping, {}, plane.rotation.y, start.point_a, start.point_b};
+  const std::int64_t way = -dot(plane.rotation.y, translation).raw;  // 50 fraction bits
+  const std::int64_t gap = start.distance.raw;                       // 32
+  const bool closes = way > 0 && gap <= raw::round_shift(way, 18);
+  hit.hit = start.overlapping || closes;
+  if (start.overlapping || !closes) return hit;
+  const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(gap)} << 48;
+  const std::uint64_t quotient = divide(numerator, static_cast<std::uint64_t>(way)).quotient;
+  hit.fraction.raw = static_cast<std::int32_t>(std::min(quotient, std::uint64_t{1} << 30));
+  return hit;
+}
+
+class CastPieces final : public geometry::WayPartVisitor {
+ public:
+  CastPieces(const PlacedShape& placed, const PlacedShape& convex, const Vec3<Length>& translation,
+             Unit limit)
+      : placed_(placed),
+        shape_(single_piece(convex)),
+        middle_(middle_of(shape_)),
+        translation_(translation),
+        limit_(limit) {}
+
+  Unit visit(const geometry::Part& part) override {
+    visit(piece_of(placed_, part));
+    return limit_;
+  }
+
+  void visit(const Piece& piece) {
+    if (is_behind(middle_, piece)) return;
+    const Vec3<Length> offset = saturated<Length>(shape_.origin - piece.origin);
+    const ShapeCastHit hit =
+        piece.shape.kind == ShapeKind::half_space
+            ? cast_at_half_space(piece.posed(), shape_.posed(), offset, translation_)
+            : lockstone::cast_shape(piece.posed(), shape_.posed(), offset, translation_, limit_);
+    if (!hit.hit || hit.fraction > limit_) return;
+    if (best_.hit && hit.fraction == best_.fraction && piece.part > best_.part) return;
+    best_ = {true, piece.part, hit.fraction, hit.normal,
+             piece.origin + rounded<Position>(hit.point_a)};
+    limit_ = hit.fraction;
+  }
+
+  [[nodiscard]] const PlacedShapeHit& best() const { return best_; }
+
+ private:
+  const PlacedShape& placed_;
+  Piece shape_;
+  Vec3<Position> middle_;
+  const Vec3<Length>& translation_;
+  Unit limit_;
+  PlacedShapeHit best_;
+};
+
+class NearestPiece final : public geometry::NearPartVisitor {
+ public:
+  NearestPiece(const PlacedShape& placed, const Vec3<Position>& point, Length reach)
+      : placed_(placed), point_(point), reach_(reach) {}
+
+  Length visit(const geometry::Part& part) override {
+    visit(piece_of(placed_, part));
+    return reach_ + k_frame_margin;
+  }
+
+  void visit(const Piece& piece) {
+    const Shape dot = Shape::sphere({});
+    const Mat3 identity;
+    const ClosestPoints found = lockstone::distance(piece.posed(), {dot, identity},
+                                                    saturated<Length>(point_ - piece.origin));
+    const Length distance = saturated<Length>(found.distance);
+    if (distance > reach_) return;
+    if (best_.found && distance == best_.distance && piece.part > best_.part) return;
+    best_ = {true, piece.part, distance,
+             found.overlapping ? point_ : piece.origin + rounded<Position>(found.point_a)};
+    reach_ = distance;
+  }
+
+  [[nodiscard]] const PlacedClosest& best() const { return best_; }
+
+ private:
+  const PlacedShape& placed_;
+  const Vec3<Position>& point_;
+  Length reach_;
+  PlacedClosest best_;
+};
+
+// In the frame of a placed asset.
+Vec3<Length> local_point(const PlacedShape& placed, const Vec3<Position>& point) {
+  return saturated<Length>(rotate_inverse(placed.rotation, point - placed.origin));
+}
+
+// A box about the shape in the frame of a placed asset: its middle and its half extents.
+struct LocalBox {
+  Vec3<Length> middle{};
+  Vec3<Length> reach{};
+};
+
+LocalBox local_box(const PlacedShape& placed, const PlacedShape& shape) {
+  const geometry::LocalBounds bounds = local_region(placed, oriented_box(shape), k_frame_margin);
+  LocalBox box;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
+    box.middle[i].raw = static_cast<std::int32_t>((low + high) >> 1);
+    box.reach[i].raw = raw::saturate<std::int32_t>(((high - low) >> 1) + 1);
+  }
+  return box;
+}
+
+}  // namespace
+
+PlacedShapeHit cast_shape(const PlacedShape& placed, const PlacedShape& convex,
+                          const Vec3<Length>& translation, Unit limit) {
+  CastPieces pieces(placed, convex, translation, limit);
+  if (is_single(placed)) {
+    pieces.visit(single_piece(brought_near(placed, convex.origin)));
+    return pieces.best();
+  }
+  const LocalBox box = local_box(placed, convex);
+  placed.asset->visit_parts_on_way(box.middle, rotate_inverse(placed.rotation, translation),
+                                   box.reach, pieces);
+  return pieces.best();
+}
+
+PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& point, Length reach) {
+  NearestPiece nearest(placed, point, reach);
+  if (is_single(placed)) {
+    nearest.visit(single_piece(brought_near(placed, point)));
+    return nearest.best();
+  }
+  placed.asset->visit_parts_near(local_point(placed, point), reach + k_frame_margin, nearest);
+  return nearest.best();
+}
+
+PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
+                      const Vec3<Length>& translation, Unit limit) {
+  RayPieces pieces(placed, origin, translation, limit);
+  if (is_single(placed)) {
+    pieces.visit(single_piece(brought_near(placed, origin)));
+    return pieces.best();
+  }
+  placed.asset->visit_parts_on_way(local_point(placed, origin),
+                                   rotate_inverse(placed.rotation, translation), {}, pieces);
+  return pieces.best();
+}
+
+}  // namespace lockstone

@@ -1,0 +1,70 @@
+// Bodies as kernels read them.
+#pragma once
+
+#include "core/dynamics/body/solver_body.h"
+#include "core/kernels/ball/ball_block.h"
+#include "core/math/wide/scalar_lanes.h"
+
+namespace lockstone {
+
+/// From the Q32 of velocities to the Q50 of rows.
+inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits;
+
+[[nodiscard]] inline lanes::SourceBody source_body(const InverseInertia& m) {
+  return {{m.xx, m.yy, m.zz, m.xy, m.xz, m.yz}};
+}
+
+[[nodiscard]] inline lanes::BodyPlace body_place(const Vec3<Position>& position, const Mat3& r) {
+  const auto both = [](Unit low, Unit high) { return lanes::scalar::pack(low.raw, high.raw); };
+  return {{position.x.raw, position.y.raw, position.z.raw, both(r.x.x, r.x.y), both(r.x.z, r.y.x),
+           both(r.y.y, r.y.z), both(r.z.x, r.z.y), both(r.z.z, {})}};
+}
+
+/// Eight steps of the velocities that rows can read, 7.6 µm/s: a body held by contacts trembles by
+/// so much.
+inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_bits - 20);
+
+[[nodiscard]] constexpr bool is_below(std::int64_t x, std::int64_t bound) {
+  return x < bound && x > -bound;
+}
+
+/// Whether all components of its motion are.
+[[nodiscard]] inline bool is_below(const lanes::RowBody& row, std::int64_t bound) {
+  return is_below(row.velocity[0], bound) && is_below(row.velocity[1], bound) &&
+         is_below(row.velocity[2], bound) && is_below(row.spin[0], bound) &&
+         is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
+}
+
+/// A body that only trembles counts as still.
+[[nodiscard]] inline bool is_still(const lanes::RowBody& row) {
+  return is_below(row, k_tremble);
+}
+
+/// Clears each component below k_tremble, if all are below eight times that: a body that sinks or
+/// rises by a hair on a slope does not creep down meanwhile. Only for bodies that touch one other,
+/// which does not give way: in a pile, the cleared velocities would add up.
+[[nodiscard]] inline lanes::RowBody steadied(const lanes::RowBody& row) {
+  if (!is_below(row, 8 * k_tremble)) return row;
+  lanes::RowBody result = row;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (is_below(row.velocity[i], k_tremble)) result.velocity[i] = 0;
+    if (is_below(row.spin[i], k_tremble)) result.spin[i] = 0;
+  }
+  return result;
+}
+
+/// Whether a body is slower than 2^-shift of the speed that gravity and forces give it in a
+/// substep.
+[[nodiscard]] inline bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift) {
+  return is_below(row, (body.greatest_gain() >> shift) * (std::int64_t{1} << k_grid_to_row));
+}
+
+/// Whether it is slower than 1/4 m/s along each axis, so that contact impulses may be taken for
+/// weight.
+[[nodiscard]] inline bool is_at_rest(const lanes::RowBody& row) {
+  constexpr std::int64_t k_most = std::int64_t{1} << (lanes::k_velocity_bits - 2);
+  return is_below(row.velocity[0], k_most) && is_below(row.velocity[1], k_most) &&
+         is_below(row.velocity[2], k_most);
+}
+
+}  // namespace lockstone

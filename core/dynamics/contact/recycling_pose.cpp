@@ -1,0 +1,112 @@
+#include "core/dynamics/contact/recycling_pose.h"
+
+#include <algorithm>
+
+#include "core/dynamics/body/pose_distance.h"
+#include "core/dynamics/body/raw_vec3.h"
+
+namespace lockstone {
+namespace {
+
+// Fraction bits of the angles of a drift.
+constexpr int k_turn_bits = 34;
+
+// Steps of lengths within those of positions.
+constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
+
+// From the contact pose's place to the body's, Q32, with the fraction below a step of Length.
+std::int64_t way_of(const BodyRecord& body, int axis) {
+  const std::int64_t now = body.position[axis].raw;
+  const auto steps = static_cast<std::uint32_t>(now >> k_place_shift) -
+                     static_cast<std::uint32_t>(body.contact_place[axis].raw);
+  const std::int64_t rest = now & ((std::int64_t{1} << k_place_shift) - 1);
+  return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + rest;
+}
+
+// A state in which somebody flipped a bit may have its contact pose anywhere, for a tick.
+std::int64_t within_bits(std::int64_t x, int bits) {
+  const std::int64_t most = std::int64_t{1} << bits;
+  return std::clamp(x, -most, most);
+}
+
+}  // namespace
+
+Vec3<Position> contact_position(const BodyRecord& body) {
+  Vec3<Position> place;
+  for (int i = 0; i < 3; ++i)
+    place[i].raw = body.position[i].raw - way_of(body, i);
+  return place;
+}
+
+bool is_near_contact_pose(const BodyRecord& body, int drift) {
+  const int exponent = std::min(drift, body.scale_exponent + drift);
+  // A place is rounded to a step of lengths.
+  const std::int64_t way = std::int64_t{1}
+                           << std::max(Position::frac_bits + exponent, k_place_shift + 1);
+  // Turning by θ moves a surface by θ · scale.
+  const std::int64_t turn = std::int64_t{1}
+                            << std::max(Unit::frac_bits - 1 + exponent - body.scale_exponent, 0);
+  return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
+         is_turned_within(turn, body.orientation, body.contact_orientation);
+}
+
+void set_contact_pose(BodyRecord& body) {
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t steps = raw::round_shift(body.position[i].raw, k_place_shift);
+    body.contact_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
+  }
+  body.contact_orientation = body.orientation;
+}
+
+ContactDrift drift_of(const BodyRecord& body) {
+  ContactDrift drift;
+  for (int i = 0; i < 3; ++i) {
+    drift.way[static_cast<std::size_t>(i)] =
+        static_cast<std::int32_t>(within_bits(way_of(body, i), 25));
+  }
+  const Quat& then = body.contact_orientation;
+  if (body.orientation == then) return drift;
+  // The vector of now · then*, of which the part then · then* is none. Q60, halved.
+  const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 22);
+  const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 22);
+  const std::int64_t z = within_bits(std::int64_t{body.orientation.z.raw} - then.z.raw, 22);
+  const std::int64_t w = within_bits(std::int64_t{body.orientation.w.raw} - then.w.raw, 22);
+  const std::int64_t half[] = {x * then.w.raw - w * then.x.raw - y * then.z.raw + z * then.y.raw,
+                               y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
+                               z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
+  for (std::size_t i = 0; i < 3; ++i)
+    drift.turn[i] =
+        static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 59 - k_turn_bits), 27));
+  return drift;
+}
+
+void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold) {
+  const Vec3<Unit>& n = manifold.normal;
+  // n × turn, Q34: n · (turn × r) = r · (n × turn).
+  const auto across = [&](const ContactDrift& drift) -> RawVec3 {
+    const auto& turn = drift.turn;
+    const auto part = [](std::int64_t x) { return raw::round_shift(x, Unit::frac_bits); };
+    return {part(std::int64_t{n.y.raw} * turn[2] - std::int64_t{n.z.raw} * turn[1]),
+            part(std::int64_t{n.z.raw} * turn[0] - std::int64_t{n.x.raw} * turn[2]),
+            part(std::int64_t{n.x.raw} * turn[1] - std::int64_t{n.y.raw} * turn[0])};
+  };
+  const auto along = [](const RawVec3& v, const Vec3<Length>& r) {
+    return v[0] * r.x.raw + v[1] * r.y.raw + v[2] * r.z.raw;
+  };
+  const RawVec3 across_a = across(a), across_b = across(b);
+  std::int64_t way = 0;  // Q62, then that of an angle times a length
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    way += n[axis].raw * (std::int64_t{b.way[i]} - a.way[i]);
+  }
+  way >>= 62 - k_turn_bits - Length::frac_bits;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
+    ManifoldPoint& point = manifold.points[i];
+    const std::int64_t by = way + along(across_b, point.anchor_b) - along(across_a, point.anchor_a);
+    point.separation.raw = raw::saturate<std::int32_t>(
+        point.separation.raw +
+        raw::round_shift(by, k_turn_bits + Length::frac_bits - Displacement::frac_bits));
+  }
+}
+
+}  // namespace lockstone

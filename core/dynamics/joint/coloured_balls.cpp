@@ -1,0 +1,160 @@
+#include "core/dynamics/joint/coloured_balls.h"
+
+#include <algorithm>
+
+#include "core/dynamics/body/lane_bodies.h"
+#include "core/dynamics/body/mass_share.h"
+
+namespace lockstone {
+namespace {
+
+using lanes::BallBlock;
+using lanes::BallKernels;
+using lanes::k_block_lanes;
+using lanes::scalar::high;
+using lanes::scalar::low;
+using lanes::scalar::pack;
+
+// The inertia of a pair is told by the greater exponent of the two.
+constexpr int k_factor_exponent = 12;
+constexpr int k_inertia_bits = 28;
+
+// A lane without a joint: nothing moves its bodies.
+constexpr std::int64_t k_empty_scale = pack(20, 20);
+constexpr std::int64_t k_empty_share = pack(1 << 30, k_inertia_bits);
+
+std::int32_t impulse_of(const JointRecord& record, std::size_t axis) {
+  return std::clamp(record.axes[axis].impulse.raw, -lanes::k_most_impulse, lanes::k_most_impulse);
+}
+
+void empty_lane(std::size_t lane, BallBlock& block) {
+  block.body_a[lane] = block.body_b[lane] = 0;
+  for (lanes::BlockWord& word : block.anchor)
+    word[lane] = 0;
+  for (lanes::BlockWord& word : block.impulse)
+    word[lane] = 0;
+  block.scale[lane] = k_empty_scale;
+  block.factor[lane] = pack(1, 1);
+  block.share[lane] = k_empty_share;
+}
+
+}  // namespace
+
+JointNet::JointNet(std::int32_t substep_rate, std::size_t row_capacity, std::size_t joint_capacity)
+    : substep_rate_(substep_rate), graph_(row_capacity, joint_capacity) {
+  const std::size_t blocks = (joint_capacity + k_block_lanes - 1) / k_block_lanes;
+  // Each colour may leave one block half empty, but none without a joint.
+  const std::size_t most = std::min(joint_capacity, blocks + k_graph_colors);
+  entries_.reserve(joint_capacity);
+  blocks_.reserve(most);
+  slots_.reserve(most * k_block_lanes);
+}
+
+void JointNet::clear(std::uint32_t rows) {
+  entries_.clear();
+  slots_.clear();
+  graph_.clear();
+  for (std::uint32_t row = 1; row < rows; ++row)
+    graph_.add_body();
+  std::fill(std::begin(ranges_), std::end(ranges_), Range{});
+}
+
+void JointNet::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
+  graph_.add(a.row, a.pushed, b.row, b.pushed);
+  entries_.push_back({link, &record, a, b});
+}
+
+void JointNet::lay_out() {
+  std::size_t blocks = 0;
+  for (std::size_t color = 0; color <= k_graph_colors; ++color) {
+    ranges_[color] = {blocks, (graph_.count(color) + k_block_lanes - 1) / k_block_lanes};
+    blocks += ranges_[color].count;
+  }
+  kernels_ = &lanes::ball_kernels(graph_.greatest_count());
+  slots_.assign(blocks * k_block_lanes, k_no_joint);
+  if (blocks_.size() < blocks) blocks_.resize(blocks);  // they only grow
+  const std::span<const ConstraintGraph::Place> places = graph_.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank] =
+        static_cast<std::uint32_t>(i);
+  }
+}
+
+const BallKernels& JointNet::kernels_of(std::size_t color) const {
+  return color == k_overflow_color ? lanes::k_scalar_balls : *kernels_;
+}
+
+void JointNet::fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  const BallKernels& kernels = kernels_of(color);
+  for (std::size_t i = ranges_[color].first + first; i < ranges_[color].first + end; ++i) {
+    for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
+      const std::uint32_t entry = slots_[i * k_block_lanes + lane];
+      if (entry == k_no_joint) {
+        empty_lane(lane, blocks_[i]);
+      } else {
+        fill_lane(run, entries_[entry], lane, blocks_[i]);
+      }
+    }
+    kernels.begin(&blocks_[i], 1, run.places, run.inertias, run.before, substep_rate_);
+  }
+}
+
+// Fills a lane, and writes the places of bodies that are not pushed.
+void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane,
+                         BallBlock& block) {
+  const JointRecord& joint = *entry.record;
+  const auto exponent_of = [&](const End& end) {
+    return end.pushed ? run.bodies[end.row].inverse_inertia.exponent : 0;
+  };
+  const auto scale_of = [](const End& end) {
+    return 20 + (end.pushed ? end.record->scale_exponent : 0);
+  };
+  for (const End* end : {&entry.a, &entry.b}) {
+    if (!end->pushed) run.places[end->row] = body_place(end->record->position, *end->rotation);
+  }
+  const int of_a = exponent_of(entry.a), of_b = exponent_of(entry.b), pair = std::max(of_a, of_b);
+  block.body_a[lane] = lanes::row_body_offset(entry.a.row);
+  block.body_b[lane] = lanes::row_body_offset(entry.b.row);
+  for (int axis = 0; axis < 3; ++axis) {
+    block.anchor[axis][lane] = pack(joint.anchor_a[axis].raw, joint.anchor_b[axis].raw);
+  }
+  block.scale[lane] = pack(scale_of(entry.a), scale_of(entry.b));
+  block.factor[lane] = pack(std::int64_t{1} << (k_factor_exponent - pair + of_a),
+                            std::int64_t{1} << (k_factor_exponent - pair + of_b));
+  block.share[lane] =
+      pack(share_of_b(entry.a.record->inverse_mass_value(), entry.b.record->inverse_mass_value()),
+           k_inertia_bits - pair);
+  block.impulse[0][lane] = pack(impulse_of(joint, 0), impulse_of(joint, 1));
+  block.impulse[1][lane] = impulse_of(joint, 2);
+}
+
+void JointNet::lift(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  kernels_of(color).lift(run.rows, &blocks_[ranges_[color].first + first], end - first);
+}
+
+void JointNet::relax(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  kernels_of(color).relax(run.rows, &blocks_[ranges_[color].first + first], end - first);
+}
+
+void JointNet::follow(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  kernels_of(color).follow(run.rows, run.before, &blocks_[ranges_[color].first + first],
+                           end - first, run.places, run.inertias, substep_rate_);
+}
+
+void JointNet::store(std::span<const JointLink> links, std::span<JointRecord> joints,
+                     std::size_t first, std::size_t end) const {
+  for (std::size_t slot = first; slot < end; ++slot) {
+    if (slots_[slot] == k_no_joint) continue;
+    const BallBlock& block = blocks_[slot / k_block_lanes];
+    const std::size_t lane = slot % k_block_lanes;
+    JointRecord& joint = joints[links[entries_[slots_[slot]].link].joint];
+    const std::int32_t impulse[] = {low(block.impulse[0][lane]), high(block.impulse[0][lane]),
+                                    low(block.impulse[1][lane])};
+    for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
+      joint.axes[axis].impulse = SolverVelocity::from_raw(axis < 3 ? impulse[axis] : 0);
+      joint.axes[axis].drive_impulse = {};
+    }
+  }
+}
+
+}  // namespace lockstone

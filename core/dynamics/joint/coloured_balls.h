@@ -1,0 +1,100 @@
+// Ball joints of many loops: coloured like contacts, and solved in blocks of eight.
+//
+// A net of joints has too many loops for a direct solve of all its locks. Each substep closes a
+// part of the openings before positions move, and keeps the rest from opening afterwards. Impulses
+// of the substep before are part of the bodies' warm start.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/body/solver_body.h"
+#include "core/dynamics/islands/constraint_graph.h"
+#include "core/dynamics/state/body_record.h"
+#include "core/dynamics/state/joint_record.h"
+#include "core/kernels/ball/ball_block.h"
+
+namespace lockstone {
+
+/// The data of the iterations, by row.
+struct NetRun {
+  lanes::RowBody* rows;
+  lanes::RowBody* before;  // at the beginning of the substep; before the first: warm
+  const lanes::SourceBody* inertias;
+  const SolverBody* bodies;  // those that are pushed
+  lanes::BodyPlace* places;
+};
+
+class JointNet {
+ public:
+  /// No function but this allocates.
+  JointNet(std::int32_t substep_rate, std::size_t row_capacity, std::size_t joint_capacity);
+
+  /// Leaves nothing; bodies are those in rows 0 … rows − 1.
+  void clear(std::uint32_t rows);
+
+  /// One end of a joint; a body that is not pushed stands still, in a row of this joint alone.
+  struct End {
+    std::uint32_t row = 0;
+    const BodyRecord* record = nullptr;
+    const Mat3* rotation = nullptr;
+    bool pushed = false;
+  };
+
+  /// A joint, in the order of their indices: the colours follow from that order.
+  void add(std::uint32_t link, const JointRecord& record, const End& a, const End& b);
+
+  /// Gives each colour its blocks and each joint its lane.
+  void lay_out();
+
+  [[nodiscard]] bool empty() const { return entries_.empty(); }
+
+  /// Blocks of one colour; the last is the overflow, whose joints may share bodies.
+  [[nodiscard]] std::uint32_t block_count(std::size_t color) const {
+    return static_cast<std::uint32_t>(ranges_[color].count);
+  }
+
+  // Blocks of one colour, counted from its first.
+
+  /// Fills them, and adds the velocities that their impulses give to the bodies' warm start.
+  void fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
+  void lift(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
+  void relax(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
+  /// After bodies moved; relaxes as well.
+  void follow(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
+
+  /// Impulses back to the records of `links`, in which `add` counted.
+  void store(std::span<const JointLink> links, std::span<JointRecord> joints, std::size_t first,
+             std::size_t end) const;
+  [[nodiscard]] std::uint32_t slot_count() const {
+    return static_cast<std::uint32_t>(slots_.size());
+  }
+
+ private:
+  static constexpr std::uint32_t k_no_joint = 0xffffffff;
+
+  struct Range {
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+  struct Entry {
+    std::uint32_t link;
+    const JointRecord* record;
+    End a, b;
+  };
+
+  [[nodiscard]] const lanes::BallKernels& kernels_of(std::size_t color) const;
+  static void fill_lane(const NetRun& run, const Entry& entry, std::size_t lane,
+                        lanes::BallBlock& block);
+
+  std::int32_t substep_rate_;
+  ConstraintGraph graph_;
+  std::vector<Entry> entries_;
+  Range ranges_[k_graph_colors + 1];
+  const lanes::BallKernels* kernels_ = nullptr;  // for as many balls as a colour has at most
+  std::vector<std::uint32_t> slots_;             // by lane of each block: an entry, or k_no_joint
+  std::vector<lanes::BallBlock> blocks_;
+};
+
+}  // namespace lockstone

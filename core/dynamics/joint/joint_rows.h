@@ -1,0 +1,87 @@
+// The rows of a joint: errors and Jacobians from the poses of two bodies.
+//
+// Units: velocities are m/s, Q50, as in `lanes::RowBody`; Jacobians have 30 fraction bits. A row of
+// an angle is an angle times 2^k m, k = `angular_exponent`. An impulse is the pair's velocity jump
+// λ·(1/mA + 1/mB).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/dynamics/body/inertia.h"
+#include "core/dynamics/body/raw_vec3.h"
+#include "core/dynamics/state/joint_record.h"
+#include "core/dynamics/state/time_step.h"
+
+namespace lockstone {
+
+/// Where a body is within a tick.
+struct JointPose {
+  Vec3<Position> position{};
+  Quat orientation{};
+  Mat3 rotation{};
+};
+
+enum class RowKind : std::uint8_t { lock, limit, drive };
+
+struct JointRow {
+  RawVec3 linear_a{}, linear_b{};      // Q30, signs included
+  RawVec3 angular_a{}, angular_b{};    // of surface velocity
+  RawVec3 response_a{}, response_b{};  // M·angular: of spin
+  std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit the way left
+  RowKind kind = RowKind::lock;
+  std::uint8_t axis = 0;
+  bool flipped = false;  // the upper limit: impulses count against the axis
+
+  // A drive's.
+  std::int64_t speed = 0;  // Q50
+};
+
+/// Each axis has at most a lock or limit, and a drive.
+inline constexpr std::size_t k_max_joint_rows = 2 * k_joint_axes;
+
+struct JointRows {
+  std::span<JointRow> rows;  // room for them
+  std::size_t locks = 0;     // these come first
+  std::size_t count = 0;
+  bool is_point = false;  // the first three lock the axes of the world
+};
+
+/// The inputs from which a joint's rows are found.
+struct JointPlace {
+  const JointRecord& joint;
+  const JointPose& a;
+  const JointPose& b;
+  int scale_a;  // exponents of the bodies
+  int scale_b;
+  int exponent;                // of angular rows
+  std::uint8_t far = 0;        // axes, a bit each, whose limits get no rows
+  bool holds_a_point = false;  // as below
+};
+
+/// The parts of a joint's rows to compute; `lock_errors` leaves Jacobians alone.
+enum class RowParts : std::uint8_t { all, locks, lock_errors };
+
+/// Jacobians and errors; responses are left alone.
+void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
+
+/// The most rows that it can have.
+[[nodiscard]] std::size_t most_rows(const JointRecord& joint);
+
+/// The opening of a joint that locks the axes of the world, as errors of its first three rows.
+[[nodiscard]] RawVec3 point_gap(const JointPlace& place);
+
+/// Whether the locks of the first three axes are along the axes of the world, not of frame a.
+[[nodiscard]] bool has_world_axes(const JointRecord& joint);
+
+/// Whether it holds a point and nothing else: a ball without limits and drives.
+[[nodiscard]] bool is_point(const JointRecord& joint);
+
+/// Whether it holds a point and nothing else has rows, without limits that are far.
+[[nodiscard]] bool holds_a_point(const JointRecord& joint, std::uint8_t far);
+
+/// M·j for a Jacobian.
+[[nodiscard]] RawVec3 response_of(const InverseInertia& inertia, const RawVec3& angular);
+
+}  // namespace lockstone

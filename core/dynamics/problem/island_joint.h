@@ -1,0 +1,20 @@
+// A joint in the problem of its island's contacts (`ProximalSolver`).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/dynamics/problem/proximal_rows.h"
+
+namespace lockstone {
+
+struct IslandJoint {
+  std::uint32_t joint = 0;                // as `JointSolver` numbers it
+  std::uint32_t a = 0, b = 0;             // numbers of its bodies; 0: no impulse moves it
+  std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
+  BlockFloat inverse_mass{};              // of the pair
+  std::array<std::uint8_t, k_contact_rows> rows{};  // of the joint, by lane
+  std::array<RowScale, k_contact_rows> to_impulse{};
+};
+
+}  // namespace lockstone

@@ -1,0 +1,296 @@
+// Canonical bytes: asset head · u32 children · per child: u8 kind, 3 × i32 size, u64 hull id,
+// 3 × i32 position, 4 × i32 orientation, i32 density, u8 has surface, 2 × i32 surface.
+
+#include <algorithm>
+
+#include <lockstone/compound.h>
+
+#include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/convex/compound_solid.h"
+#include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/slab_tests.h"
+#include "core/math/rotation_log.h"
+
+namespace lockstone {
+namespace {
+
+using geometry::LocalBounds;
+
+constexpr std::uint16_t k_compound_version = 2;
+constexpr std::size_t k_child_bytes = 1 + 12 + 8 + 12 + 16 + 4 + 1 + geometry::k_surface_bytes;
+constexpr Number k_max_density = Number::from_integer(1024);
+constexpr Number k_min_density = Number::from_ratio(1, 1024);
+
+// Left alone when it is as good as normalising makes it, so that doing it twice changes nothing.
+Quat normalized_once(const Quat& q) {
+  const std::int64_t norm = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).raw;  // 60 bits
+  const std::int64_t error = norm - (std::int64_t{1} << 60);
+  constexpr std::int64_t k_bound = std::int64_t{1} << 33;
+  return error <= k_bound && error >= -k_bound ? q : normalized(q);
+}
+
+CompoundFault fault_of(const CompoundChild& child) {
+  const bool hull = child.shape.kind == ShapeKind::hull;
+  if (!is_primitive(child.shape.kind) && !hull) return CompoundFault::invalid_shape;
+  if (validate(child.shape) != Status::ok) return CompoundFault::invalid_shape;
+  const AssetId named = child.asset == nullptr ? AssetId{} : child.asset->id();
+  if (named != child.shape.asset) return CompoundFault::missing_asset;
+  if (hull && child.asset->polytope() == nullptr) return CompoundFault::missing_asset;
+  if (!has_direction(child.orientation)) return CompoundFault::invalid_orientation;
+  if (child.density < k_min_density || child.density > k_max_density) {
+    return CompoundFault::invalid_density;
+  }
+  if (child.surface && !geometry::is_valid(*child.surface)) return CompoundFault::invalid_surface;
+  return CompoundFault::none;
+}
+
+// In the compound's frame, rounded outward by a few micrometres.
+LocalBounds bounds_of(const CompoundChild& child, const Mat3& rotation) {
+  LocalBounds own;
+  if (child.asset != nullptr) {
+    own = child.asset->bounds();
+  } else {
+    const Vec3<Length> half = world_half_extents(child.shape, Mat3{});
+    own = {-half, half};
+  }
+  LocalBounds result;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::int64_t low = geometry::fine(child.position[axis]), high = low;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t a = (rotation.column(i)[axis] * own.lower[i]).raw;
+      const std::int64_t b = (rotation.column(i)[axis] * own.upper[i]).raw;
+      low += std::min(a, b);
+      high += std::max(a, b);
+    }
+    result.lower[axis].raw = raw::saturate<std::int32_t>((low >> 30) - 2);
+    result.upper[axis].raw = raw::saturate<std::int32_t>((high >> 30) + 2);
+  }
+  return result;
+}
+
+LocalBounds united(const LocalBounds& a, const LocalBounds& b) {
+  LocalBounds result;
+  for (int i = 0; i < 3; ++i) {
+    result.lower[i] = min(a.lower[i], b.lower[i]);
+    result.upper[i] = max(a.upper[i], b.upper[i]);
+  }
+  return result;
+}
+
+bool is_in_range(const LocalBounds& bounds) {
+  return geometry::is_asset_coordinate(bounds.lower) && geometry::is_asset_coordinate(bounds.upper);
+}
+
+void encode(const CompoundChild& child, ByteWriter& writer) {
+  writer.put(child.shape.kind);
+  geometry::put_vector(writer, child.shape.size);
+  writer.put(child.shape.asset.value);
+  geometry::put_vector(writer, child.position);
+  for (const Unit c :
+       {child.orientation.x, child.orientation.y, child.orientation.z, child.orientation.w}) {
+    writer.put(c.raw);
+  }
+  writer.put(child.density.raw);
+  writer.put(static_cast<std::uint8_t>(child.surface.has_value()));
+  geometry::put_surface(writer, child.surface.value_or(Surface{{}, {}}));
+}
+
+std::vector<std::byte> encode(std::span<const CompoundChild> children) {
+  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 4 +
+                               children.size() * k_child_bytes);
+  ByteWriter writer(bytes);
+  geometry::put_asset_header(writer, ShapeKind::compound, k_compound_version);
+  writer.put(static_cast<std::uint32_t>(children.size()));
+  for (const CompoundChild& child : children)
+    encode(child, writer);
+  LKS_CHECK(writer.ok() && writer.size() == bytes.size());
+  return bytes;
+}
+
+// Whether it is canonical shows when the compound is built: it must give the same bytes.
+CompoundChild decode_child(ByteReader& reader, const AssetSet& hulls) {
+  CompoundChild child;
+  child.shape.kind = static_cast<ShapeKind>(reader.get<std::uint8_t>());
+  child.shape.size = geometry::get_vector(reader);
+  child.shape.asset.value = reader.get<std::uint64_t>();
+  child.position = geometry::get_vector(reader);
+  child.orientation.x.raw = reader.get<std::int32_t>();
+  child.orientation.y.raw = reader.get<std::int32_t>();
+  child.orientation.z.raw = reader.get<std::int32_t>();
+  child.orientation.w.raw = reader.get<std::int32_t>();
+  child.density.raw = reader.get<std::int32_t>();
+  const bool has_surface = reader.get<std::uint8_t>() != 0;
+  const Surface surface = geometry::get_surface(reader);
+  if (has_surface) child.surface = surface;
+  for (const AssetPtr& hull : hulls.all()) {
+    if (hull->id() == child.shape.asset) child.asset = hull;
+  }
+  return child;
+}
+
+}  // namespace
+
+struct Compound::Data {
+  struct Placed {
+    Mat3 rotation;
+    LocalBounds bounds;
+  };
+
+  std::vector<CompoundChild> children;
+  std::vector<Placed> placed;  // by child
+  LocalBounds bounds;
+  geometry::Solid solid;
+
+  [[nodiscard]] geometry::Part part(std::size_t index) const;
+  void derive();
+};
+
+void Compound::Data::derive() {
+  std::vector<geometry::PlacedSolid> solids;
+  for (const CompoundChild& child : children) {
+    const Mat3 rotation = to_matrix(child.orientation);
+    placed.push_back({rotation, bounds_of(child, rotation)});
+    bounds = placed.size() == 1 ? placed.front().bounds : united(bounds, placed.back().bounds);
+    geometry::PlacedSolid part{
+        child.asset != nullptr ? *child.asset->solid() : geometry::solid_of(child.shape),
+        child.position,
+        child.orientation,
+        {}};
+    const std::uint64_t weight = static_cast<std::uint64_t>(part.solid.volume.mantissa) *
+                                 static_cast<std::uint64_t>(child.density.raw);
+    part.weight = block_float(weight, part.solid.volume.exponent - Number::frac_bits);
+    solids.push_back(part);
+  }
+  if (is_in_range(bounds)) solid = geometry::combined(solids);
+}
+
+geometry::Part Compound::Data::part(std::size_t index) const {
+  const CompoundChild& child = children[index];
+  return {static_cast<std::uint32_t>(index),
+          child.shape,
+          child.asset != nullptr ? child.asset->polytope() : nullptr,
+          child.position,
+          placed[index].rotation,
+          child.surface ? &*child.surface : nullptr,
+          {}};
+}
+
+std::string_view to_string(CompoundFault fault) {
+  switch (fault) {
+    case CompoundFault::none:
+      return "none";
+    case CompoundFault::no_children:
+      return "no children";
+    case CompoundFault::too_many_children:
+      return "too many children";
+    case CompoundFault::invalid_shape:
+      return "a child's shape is not a valid sphere, capsule, box or hull";
+    case CompoundFault::missing_asset:
+      return "a child's hull is missing";
+    case CompoundFault::invalid_orientation:
+      return "a child's orientation has no direction";
+    case CompoundFault::invalid_density:
+      return "a child's density is out of range";
+    case CompoundFault::invalid_surface:
+      return "a child's surface is out of range";
+    case CompoundFault::coordinate_out_of_range:
+      return "a child reaches too far from the origin";
+  }
+  return "unknown";
+}
+
+Compound::Compound(AssetId id, std::unique_ptr<const Data> data)
+    : Asset(ShapeKind::compound, id), data_(std::move(data)) {}
+Compound::~Compound() = default;
+
+CompoundResult Compound::build(std::span<const CompoundChild> children) {
+  if (children.empty()) return {nullptr, CompoundFault::no_children};
+  if (children.size() > k_max_compound_children) return {nullptr, CompoundFault::too_many_children};
+  auto data = std::make_unique<Data>();
+  for (const CompoundChild& child : children) {
+    const auto index = static_cast<std::uint32_t>(data->children.size());
+    if (const CompoundFault fault = fault_of(child); fault != CompoundFault::none) {
+      return {nullptr, fault, index};
+    }
+    data->children.push_back(child);
+    data->children.back().orientation = normalized_once(child.orientation);
+  }
+  data->derive();
+  for (std::size_t i = 0; i < children.size(); ++i) {
+    if (is_in_range(data->placed[i].bounds)) continue;
+    return {nullptr, CompoundFault::coordinate_out_of_range, static_cast<std::uint32_t>(i)};
+  }
+  const AssetId id = geometry::id_of(encode(data->children));
+  return {std::shared_ptr<const Compound>(new Compound(id, std::move(data)))};
+}
+
+Result<std::shared_ptr<const Compound>> Compound::from_bytes(ByteView bytes,
+                                                             const AssetSet& hulls) {
+  ByteReader reader(bytes);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::compound, k_compound_version);
+  if (head != Status::ok) return head;
+  const auto count = reader.get<std::uint32_t>();
+  if (!reader.ok()) return Status::truncated;
+  if (count == 0 || count > k_max_compound_children) return Status::malformed;
+  if (reader.remaining() < count * k_child_bytes) return Status::truncated;
+  std::vector<CompoundChild> children;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    children.push_back(decode_child(reader, hulls));
+    if (!children.back().shape.asset.is_null() && children.back().asset == nullptr) {
+      return Status::not_found;
+    }
+  }
+  const CompoundResult built = build(children);
+  if (!built.ok() || !std::ranges::equal(built.compound->canonical_bytes(), bytes)) {
+    return Status::malformed;
+  }
+  return built.compound;
+}
+
+std::span<const CompoundChild> Compound::children() const {
+  return data_->children;
+}
+std::vector<std::byte> Compound::canonical_bytes() const {
+  return encode(data_->children);
+}
+const LocalBounds& Compound::bounds() const {
+  return data_->bounds;
+}
+const geometry::Solid* Compound::solid() const {
+  return &data_->solid;
+}
+
+namespace {
+
+// Children that the window meets within the visitor's present limit.
+template <class Data, class Window, class Limit, class Visitor>
+void visit_met(const Data& data, const Window& window, Limit most, Visitor& visitor) {
+  std::int64_t at = 0;
+  for (std::size_t i = 0; i < data.children.size(); ++i) {
+    if (window.meets(data.placed[i].bounds, window.limit_of(most), at))
+      most = visitor.visit(data.part(i));
+  }
+}
+
+}  // namespace
+
+void Compound::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
+  for (std::size_t i = 0; i < data_->children.size(); ++i) {
+    if (geometry::overlap(region, data_->placed[i].bounds)) visitor.visit(data_->part(i));
+  }
+}
+
+void Compound::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                                  const Vec3<Length>& reach,
+                                  geometry::WayPartVisitor& visitor) const {
+  visit_met(*data_, geometry::RayWindow(origin, translation, reach), Unit::from_integer(1),
+            visitor);
+}
+
+void Compound::visit_parts_near(const Vec3<Length>& point, Length reach,
+                                geometry::NearPartVisitor& visitor) const {
+  visit_met(*data_, geometry::NearWindow(point), reach, visitor);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,370 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <tuple>
+
+#include <lockstone/hull.h>
+
+#include "core/geometry/assets/asset_frame.h"
+#include "core/geometry/convex/hull_faces.h"
+#include "core/geometry/convex/parts.h"
+#include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/polytope_columns.h"
+#include "core/geometry/convex/slab_tests.h"
+#include "core/geometry/convex/solid.h"
+#include "core/geometry/convex/solid_integrals.h"
+#include "core/geometry/dispatch/polytope_kernels.h"
+#include "core/geometry/numeric/exact_plane.h"
+
+namespace lockstone {
+
+using geometry::Fine;
+using geometry::HalfEdge;
+using geometry::LocalBounds;
+using geometry::Loop;
+using geometry::PolytopeFace;
+
+static_assert(k_max_hull_vertices == geometry::k_max_polytope_vertices);
+
+struct Hull::Data {
+  std::vector<Vec3<Length>> vertices;
+  std::vector<PolytopeFace> faces;
+  std::vector<HalfEdge> edges;
+  geometry::PolytopeColumns columns;
+  geometry::Polytope polytope;
+  LocalBounds bounds;
+  geometry::Solid solid;
+  Length tolerance{};  // as asked for
+};
+
+namespace {
+
+constexpr std::uint16_t k_hull_version = 1;
+
+using Points = std::vector<Vec3<Length>>;
+
+void sort_unique(Points& points) {
+  const auto key = [](const Vec3<Length>& p) { return std::tie(p.x, p.y, p.z); };
+  std::ranges::sort(points, {}, key);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
+HullFault fault_of(std::span<const Vec3<Length>> points, const HullOptions& options) {
+  const bool good_count = options.max_vertices >= 4 && options.max_vertices <= k_max_hull_vertices;
+  if (!good_count || options.tolerance < Length{}) return HullFault::invalid_options;
+  if (points.size() > k_max_hull_points) return HullFault::too_many_points;
+  const auto is_inside = [](Length c) {
+    return c >= -k_max_asset_coordinate && c <= k_max_asset_coordinate;
+  };
+  for (const Vec3<Length>& p : points)
+    if (!is_inside(p.x) || !is_inside(p.y) || !is_inside(p.z))
+      return HullFault::coordinate_out_of_range;
+  return points.size() < 4 ? HullFault::too_few_points : HullFault::none;
+}
+
+/// Keeps the points that at least `least` of the groups name; whether any was dropped.
+template <class Groups>
+bool keep_used(Points& points, const Groups& groups, int least) {
+  std::vector<int> uses(points.size());
+  for (const auto& group : groups)
+    for (const std::uint16_t index : group)
+      ++uses[index];
+  Points kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (uses[i] >= least) kept.push_back(points[i]);
+  const bool dropped = kept.size() < points.size();
+  points = std::move(kept);
+  return dropped;
+}
+
+struct Boundary {
+  HullFault fault = HullFault::none;
+  std::vector<geometry::Triangle> triangles;  // the exact hull
+  std::vector<Loop> faces;
+};
+
+/// Whether the hull of the other points reaches within its tolerance of the one.
+bool is_redundant(const Points& points, std::size_t index, const HullOptions& options) {
+  Points others = points;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(index));
+  const geometry::HullTriangles hull = geometry::hull_triangles(others, options);
+  if (hull.fault != HullFault::none) return false;
+  return std::ranges::all_of(hull.triangles, [&](const geometry::Triangle& t) {
+    const auto plane = geometry::plane_through(others[t[0]], others[t[1]], others[t[2]]);
+    return geometry::height(plane, points[index]) <= geometry::fine(hull.tolerance);
+  });
+}
+
+/// Drops points in an edge or a face but for less than the tolerance; whether there were any.
+bool drop_redundant(Points& points, std::vector<std::uint16_t> suspects,
+                    const HullOptions& options) {
+  const std::size_t before = points.size();
+  for (; !suspects.empty() && points.size() > 4; suspects.pop_back()) {  // from the last
+    const std::size_t index = suspects.back();
+    if (!is_redundant(points, index, options)) continue;
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(index));
+  }
+  return points.size() < before;
+}
+
+/// Drops points until every remaining one is a vertex where three or more faces meet. Reducing the
+/// result again changes nothing.
+Boundary reduce(Points& points, const HullOptions& options) {
+  while (!points.empty()) {
+    geometry::HullTriangles hull = geometry::hull_triangles(points, options);
+    if (hull.fault != HullFault::none) return {hull.fault, {}, {}};
+    if (keep_used(points, hull.triangles, 1)) continue;
+    geometry::MergedFaces faces = geometry::merge_faces(points, hull.triangles, hull.tolerance);
+    if (keep_used(points, faces.loops, 3)) continue;
+    if (drop_redundant(points, std::move(faces.dented), options)) continue;
+    return {HullFault::none, std::move(hull.triangles), std::move(faces.loops)};
+  }
+  return {HullFault::flat, {}, {}};
+}
+
+/// The faces' half edges in their order, joined to their twins.
+std::vector<HalfEdge> half_edges_of(const std::vector<Loop>& faces, std::size_t vertex_count) {
+  std::vector<HalfEdge> edges;
+  std::vector<std::uint16_t> index_of(vertex_count * vertex_count);
+  const auto end_of = [](const Loop& loop, std::size_t i) {
+    return loop[i + 1 == loop.size() ? 0 : i + 1];
+  };
+  for (std::size_t face = 0; face < faces.size(); ++face) {
+    const Loop& loop = faces[face];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      index_of[loop[i] * vertex_count + end_of(loop, i)] = static_cast<std::uint16_t>(edges.size());
+      edges.push_back({loop[i], 0, static_cast<std::uint16_t>(face)});
+    }
+  }
+  std::size_t edge = 0;
+  for (const Loop& loop : faces)
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      edges[edge++].twin = index_of[end_of(loop, i) * vertex_count + loop[i]];
+  return edges;
+}
+
+std::vector<PolytopeFace> planes_of(const std::vector<Loop>& faces, const Points& vertices) {
+  std::vector<PolytopeFace> planes;
+  std::uint16_t first_edge = 0;
+  for (const Loop& loop : faces) {
+    const geometry::SupportingFace face = geometry::supporting_face(vertices, loop);
+    const auto count = static_cast<std::uint16_t>(loop.size());
+    planes.push_back({face.normal, face.offset, first_edge, count});
+    first_edge = static_cast<std::uint16_t>(first_edge + count);
+  }
+  return planes;
+}
+
+/// How far a vertex lies below a face that it is around, at most.
+Fine unevenness_of(const std::vector<Loop>& loops, const std::vector<PolytopeFace>& faces,
+                   const Points& vertices) {
+  Fine most = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (const std::uint16_t v : loops[i])
+      most = std::max(most, faces[i].offset - dot(vertices[v], faces[i].normal).raw);
+  return most;
+}
+
+LocalBounds bounds_of(std::span<const Vec3<Length>> points) {
+  LocalBounds bounds{points.front(), points.front()};
+  for (const Vec3<Length>& point : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds.lower[axis] = min(bounds.lower[axis], point[axis]);
+      bounds.upper[axis] = max(bounds.upper[axis], point[axis]);
+    }
+  }
+  return bounds;
+}
+
+/// The least extent square to a face.
+Fine thickness_of(const std::vector<PolytopeFace>& faces, const Points& vertices) {
+  Fine least = geometry::fine(Length::max());
+  for (const PolytopeFace& face : faces) {
+    Fine extent = 0;
+    for (const Vec3<Length>& vertex : vertices)
+      extent = std::max(extent, face.offset - dot(vertex, face.normal).raw);
+    least = std::min(least, extent);
+  }
+  return least;
+}
+
+/// Of a sphere about `centre` below all faces and the vertices around them, rounded down.
+Length inner_radius(const std::vector<Loop>& loops, const std::vector<PolytopeFace>& faces,
+                    const Points& vertices, const Vec3<Length>& centre) {
+  Fine least = geometry::fine(Length::max());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (const std::uint16_t v : loops[i])
+      least =
+          std::min(least, dot(vertices[v], faces[i].normal).raw - dot(centre, faces[i].normal).raw);
+  least -= least >> 28;  // the norm of a normal may be off by 2^-29
+  return Length::from_raw(
+      static_cast<std::int32_t>(std::max<Fine>(least, 0) >> geometry::k_fine_per_length));
+}
+
+/// The most by which a point lies beyond a face, rounded up.
+Length deviation_of(const std::vector<PolytopeFace>& faces, std::span<const Vec3<Length>> points) {
+  Fine most = 0;
+  for (const Vec3<Length>& point : points)
+    for (const PolytopeFace& face : faces)
+      most = std::max(most, dot(point, face.normal).raw - face.offset);
+  constexpr Fine below_one = (Fine{1} << geometry::k_fine_per_length) - 1;
+  return Length::from_raw(
+      static_cast<std::int32_t>((most + below_one) >> geometry::k_fine_per_length));
+}
+
+std::vector<std::byte> encode(std::span<const Vec3<Length>> vertices, Length tolerance) {
+  std::vector<std::byte> bytes(geometry::k_asset_header_bytes + 6 + 12 * vertices.size());
+  ByteWriter writer(bytes);
+  geometry::put_asset_header(writer, ShapeKind::hull, k_hull_version);
+  writer.put(tolerance.raw);
+  writer.put(static_cast<std::uint16_t>(vertices.size()));
+  for (const Vec3<Length>& v : vertices)
+    for (const Length c : {v.x, v.y, v.z})
+      writer.put(c.raw);
+  LKS_CHECK(writer.ok() && writer.size() == bytes.size());
+  return bytes;
+}
+
+}  // namespace
+
+Hull::Hull(AssetId id, std::unique_ptr<const Data> data)
+    : Asset(ShapeKind::hull, id), data_(std::move(data)) {}
+
+Hull::~Hull() = default;
+
+HullResult Hull::build(std::span<const Vec3<Length>> points, const HullOptions& options) {
+  if (const HullFault fault = fault_of(points, options); fault != HullFault::none)
+    return {nullptr, fault, {}};
+  auto data = std::make_unique<Data>();
+  data->vertices.assign(points.begin(), points.end());
+  sort_unique(data->vertices);
+  const Boundary surface = reduce(data->vertices, options);
+  if (surface.fault != HullFault::none) return {nullptr, surface.fault, {}};
+  data->faces = planes_of(surface.faces, data->vertices);
+  if (thickness_of(data->faces, data->vertices) < geometry::fine(k_min_hull_thickness))
+    return {nullptr, HullFault::flat, {}};
+  const auto solid = geometry::solid_of(data->vertices, surface.triangles);
+  if (!solid) return {nullptr, HullFault::too_large, {}};
+  data->solid = *solid;
+  data->solid.inner_radius =
+      inner_radius(surface.faces, data->faces, data->vertices, solid->centre);
+  data->edges = half_edges_of(surface.faces, data->vertices.size());
+  data->bounds = bounds_of(data->vertices);
+  data->tolerance = options.tolerance;
+  data->polytope = {data->vertices, data->faces, data->edges, solid->centre,
+                    &geometry::polytope_kernels()};
+  data->columns.fill(data->vertices, data->faces);
+  data->polytope.wide = &data->columns.view();
+  data->polytope.unevenness = unevenness_of(surface.faces, data->faces, data->vertices);
+  const AssetId id = geometry::id_of(encode(data->vertices, options.tolerance));
+  const Length deviation = deviation_of(data->faces, points);
+  return {std::shared_ptr<const Hull>(new Hull(id, std::move(data))), HullFault::none, deviation};
+}
+
+Result<std::shared_ptr<const Hull>> Hull::from_bytes(ByteView bytes) {
+  ByteReader reader(bytes);
+  const Status head = geometry::read_asset_header(reader, ShapeKind::hull, k_hull_version);
+  if (head != Status::ok) return head;
+  const auto tolerance = Length::from_raw(reader.get<std::int32_t>());
+  const std::size_t count = reader.get<std::uint16_t>();
+  if (!reader.ok() || reader.remaining() < 12 * count) return Status::truncated;
+  if (reader.remaining() > 12 * count || count > k_max_hull_vertices) return Status::malformed;
+  Points vertices(count);
+  for (Vec3<Length>& v : vertices)
+    for (int axis = 0; axis < 3; ++axis)
+      v[axis].raw = reader.get<std::int32_t>();
+  HullResult result = build(vertices, {tolerance, k_max_hull_vertices});
+  const bool same = result.ok() && std::ranges::equal(result.hull->vertices(), vertices);
+  if (!same) return Status::malformed;
+  return std::move(result.hull);
+}
+
+std::span<const Vec3<Length>> Hull::vertices() const {
+  return data_->vertices;
+}
+
+int Hull::face_count() const {
+  return static_cast<int>(data_->faces.size());
+}
+
+std::vector<int> Hull::face_vertices(int face) const {
+  if (face < 0 || face >= face_count())
+    misused("Hull::face_vertices: the face must be 0 … face_count() - 1");
+  const PolytopeFace& loop = data_->faces[static_cast<std::size_t>(face)];
+  std::vector<int> indices;
+  for (const HalfEdge& edge : std::span(data_->edges).subspan(loop.first_edge, loop.edge_count))
+    indices.push_back(edge.origin);
+  return indices;
+}
+
+std::vector<std::byte> Hull::canonical_bytes() const {
+  return encode(data_->vertices, data_->tolerance);
+}
+
+const LocalBounds& Hull::bounds() const {
+  return data_->bounds;
+}
+
+const geometry::Solid* Hull::solid() const {
+  return &data_->solid;
+}
+
+const geometry::Polytope* Hull::polytope() const {
+  return &data_->polytope;
+}
+
+namespace {
+
+geometry::Part part_of(const Hull& hull) {
+  geometry::Part part;
+  part.shape = hull.shape();
+  part.polytope = hull.polytope();
+  return part;
+}
+
+}  // namespace
+
+void Hull::visit_parts(const LocalBounds& region, geometry::PartVisitor& visitor) const {
+  if (overlap(region, data_->bounds)) visitor.visit(part_of(*this));
+}
+
+void Hull::visit_parts_on_way(const Vec3<Length>& origin, const Vec3<Length>& translation,
+                              const Vec3<Length>& reach, geometry::WayPartVisitor& visitor) const {
+  std::int64_t at = 0;
+  const geometry::RayWindow window(origin, translation, reach);
+  if (window.meets(data_->bounds, window.limit_of(Unit::from_integer(1)), at))
+    visitor.visit(part_of(*this));
+}
+
+void Hull::visit_parts_near(const Vec3<Length>& point, Length reach,
+                            geometry::NearPartVisitor& visitor) const {
+  std::int64_t at = 0;
+  const geometry::NearWindow window(point);
+  if (window.meets(data_->bounds, window.limit_of(reach), at)) visitor.visit(part_of(*this));
+}
+
+std::string_view to_string(HullFault fault) {
+  switch (fault) {
+    case HullFault::none:
+      return "none";
+    case HullFault::invalid_options:
+      return "invalid options";
+    case HullFault::too_few_points:
+      return "too few points";
+    case HullFault::too_many_points:
+      return "too many points";
+    case HullFault::coordinate_out_of_range:
+      return "coordinate out of range";
+    case HullFault::coincident:
+      return "points coincide";
+    case HullFault::collinear:
+      return "points lie on a line";
+    case HullFault::flat:
+      return "points lie in a plane";
+    case HullFault::too_large:
+      return "too large";
+  }
+  return "unknown hull fault";
+}
+
+}  // namespace lockstone

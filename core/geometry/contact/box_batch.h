@@ -1,0 +1,47 @@
+// Box pairs collided side by side.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/geometry/distance/manifold.h"
+#include "core/kernels/box/box_block.h"
+
+namespace lockstone::geometry {
+
+/// Some pairs of boxes at once. Those that meet on a face, as nearly all in a pile, are settled:
+/// their manifolds are those of `collide`, bit for bit. The others are left to it.
+class BoxBatch {
+ public:
+  static constexpr std::size_t k_capacity = lanes::k_box_pairs;
+
+  /// Boxes whose sizes and offset are below 16 m, together too.
+  [[nodiscard]] static bool takes(const Shape& a, const Shape& b, const Vec3<Length>& offset);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool is_full() const { return size_ == k_capacity; }
+  void clear() { size_ = 0; }
+
+  /// Of a pair that it takes; there is room.
+  void add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset, Length margin);
+  void collide();
+
+  /// After `collide`. A settled pair has points.
+  [[nodiscard]] bool is_settled(std::size_t pair) const { return counts_[pair] > 0; }
+  void write(std::size_t pair, Manifold& out) const;
+
+ private:
+  void settle(std::size_t pair);
+
+  std::array<lanes::BoxSource, k_capacity> sources_{};
+  std::array<lanes::FaceMeeting, k_capacity> meetings_{};
+  std::array<lanes::FourPoints, k_capacity> points_{};
+  std::array<lanes::FourPlaced, k_capacity> placed_{};
+  std::array<std::int64_t, k_capacity> flips_{};    // 1: the first box is the manifold's B
+  std::array<std::int64_t, k_capacity> swapped_{};  // 1: the reference box is
+  std::array<std::uint8_t, k_capacity> counts_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace lockstone::geometry

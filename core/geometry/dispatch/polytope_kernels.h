@@ -1,0 +1,22 @@
+// The operations on polytopes, behind pointers that hulls and triangles carry: a program that makes
+// none of them links none of this.
+#pragma once
+
+#include "core/geometry/distance/manifold.h"
+#include "core/geometry/query/ray_hit.h"
+
+namespace lockstone::geometry {
+
+struct PolytopeKernels {
+  /// As `lockstone::collide`; `a` is a polytope, `b` a sphere, capsule, box or polytope.
+  Manifold (*collide)(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                      Length margin);
+  /// As `lockstone::cast_ray`.
+  ShapeRayHit (*cast_ray)(const Polytope& polytope, const Mat3& rotation,
+                          const Vec3<Length>& origin, const Vec3<Length>& translation);
+};
+
+/// The one table.
+[[nodiscard]] const PolytopeKernels& polytope_kernels();
+
+}  // namespace lockstone::geometry

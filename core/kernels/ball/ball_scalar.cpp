@@ -1,0 +1,10 @@
+// The kernels of ball_block.h on lanes of one word: the scalar twin.
+#define LKS_SCALAR_TWIN
+#include "core/kernels/ball/ball_block_inl.h"
+
+namespace lockstone::lanes {
+
+constexpr BallKernels k_scalar_balls{N_SCALAR_TWIN::begin_balls, N_SCALAR_TWIN::lift_balls,
+                                     N_SCALAR_TWIN::follow_balls, N_SCALAR_TWIN::relax_balls};
+
+}  // namespace lockstone::lanes

@@ -1,0 +1,206 @@
+// The sweep of manifold_block.h with friction, for the target at hand.
+#if defined(LKS_WIDE_MANIFOLD_RELAX_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_MANIFOLD_RELAX_INL_H
+#undef LKS_WIDE_MANIFOLD_RELAX_INL_H
+#else
+#define LKS_WIDE_MANIFOLD_RELAX_INL_H
+#endif
+
+#include <bit>
+
+#include "core/kernels/contact/friction_limit.h"
+#include "core/kernels/contact/manifold_iterate_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lockstone::lanes {
+namespace HWY_NAMESPACE {
+
+/// In Q17, within ±16384 m/s.
+HWY_INLINE HWY_ATTR Vector surface_travel(const BodyLanes& went) {
+  return round_shift_low<15>(Vector{went.spin[0], went.spin[1], went.spin[2]});
+}
+
+/// s = s₀ + h·(sum of the points' speeds apart): the Jacobian of velocities, applied to travel.
+HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                          const std::int64_t* travel, const SweepRules& rules) {
+  BodyPair went{};
+  went.load_from(travel, block, lane);
+  const Vector apart = {subtract(went.b.velocity[0], went.a.velocity[0]),
+                        subtract(went.b.velocity[1], went.a.velocity[1]),
+                        subtract(went.b.velocity[2], went.a.velocity[2])};
+  const CenterMotion motion = motion_of_center(BlockSides<true>{block, lane}, shift_left<15>(apart),
+                                               surface_travel(went.a), surface_travel(went.b));
+  const Lanes along = dot(axes.n, round_shift_low<30>(motion.velocity));
+  const Lanes about_t = round_shift_low<30>(dot(axes.t, motion.turning));
+  const Lanes about_b = round_shift_low<30>(dot(axes.b, motion.turning));
+  const EachShift by = each_shift(broadcast(rules.step_shift));
+  const Lanes step = broadcast(rules.step_mantissa);
+  for (auto& point : block.points) {
+    const Lanes x = load(&point.offset[lane]);
+    const Lanes went_apart =
+        round_shift_low<30>(multiply_subtract(multiply_add(along, upper(x), about_t), x, about_b));
+    const Lanes start = load(&point.separation[lane]);
+    const Lanes now = add(start, by.round(multiply(went_apart, step)));
+    store(pack(start, now), &point.separation[lane]);
+  }
+}
+
+/// ΣP as an operand.
+HWY_INLINE HWY_ATTR Lanes sum_of_pushes(const PointLanes& points) {
+  return saturate(
+      add(add(points.impulse[0], points.impulse[1]), add(points.impulse[2], points.impulse[3])));
+}
+
+/// Friction impulses along t and b and, at the radius ρ, about n: as a whole at most μ·ΣP.
+struct FrictionLanes {
+  Lanes t, b, twist;
+};
+
+/// Shortens friction that exceeds its limit to the limit. Few lanes do, so that one at a time is
+/// fast enough; only lanes whose limit is 0 are cleared together.
+HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, FrictionLanes& f) {
+  const Lanes none = broadcast(0);
+  f = {select_equal(limit, none, none, f.t), select_equal(limit, none, none, f.b),
+       select_equal(limit, none, none, f.twist)};
+  const Lanes size = multiply_add(multiply_add(multiply(f.t, f.t), f.b, f.b), f.twist, f.twist);
+  const std::uint32_t beyond = bits_of_less(multiply(limit, limit), size);
+  if (beyond == 0) return;
+  std::int64_t limits[k_lanes], along_t[k_lanes], along_b[k_lanes], about_n[k_lanes];
+  store(limit, limits);
+  store(f.t, along_t);
+  store(f.b, along_b);
+  store(f.twist, about_n);
+  for (std::uint32_t left = beyond; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    shorten_friction(limits[lane], rules.part_sway, along_t[lane], along_b[lane], about_n[lane]);
+  }
+  f = {load(along_t), load(along_b), load(about_n)};
+}
+
+/// The tangents as one row of two, after the twist.
+template <bool plain>
+HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                        const CenterMotion& motion, const PointLanes& points,
+                                        const SweepRules& rules, Impulse& p) {
+  const Lanes x = subtract(broadcast(0), p.about_b);
+  const Vector given = {p.n, x, p.about_t};
+  const Vector coupling = load_vector(block.coupling, lane);
+  const Lanes row_0 = load(&block.twist_row[0][lane]), row_1 = load(&block.twist_row[1][lane]);
+  const Lanes twist_word = load(&block.twist[lane]), friction = load(&block.friction[lane]);
+  const Lanes radius = upper(twist_word);
+  const Vector u = round_shift_low<30>(motion.velocity);
+
+  Lanes drive = broadcast(0);
+  Lanes spin = round_shift_low<30>(dot(axes.n, motion.turning));
+  if constexpr (!plain) {
+    drive = load(&block.drive[lane]);
+    spin = add(spin, load(&block.turn[lane]));
+  }
+  const Lanes twist_speed = add(round_shift_low<30>(multiply(radius, spin)),
+                                axes.by.round(dot({row_0, upper(row_0), row_1}, given)));
+  FrictionLanes f{};
+  f.twist = limited_difference<24>(twist_word, multiply(upper(row_1), twist_speed));
+  const Lanes twist_change = subtract(f.twist, twist_word);
+
+  const Lanes response = load(&block.twist_response[lane]);
+  const Lanes along_t =
+      add(add(round_shift_low<30>(dot(axes.t, u)), drive),
+          axes.by.round(multiply_add(dot(coupling, given), response, twist_change)));
+  const Lanes along_b =
+      add(add(round_shift_low<30>(dot(axes.b, u)), upper(drive)),
+          axes.by.round(multiply_add(dot(upper(coupling), given), upper(response), twist_change)));
+  const Lanes mass = load(&block.tangent_mass[0][lane]);
+  const Lanes mixed = load(&block.tangent_mass[1][lane]);
+  f.t = limited_difference<30>(friction, multiply_add(multiply(mass, along_t), mixed, along_b));
+  f.b = limited_difference<30>(upper(friction),
+                               multiply_add(multiply(upper(mass), along_b), mixed, along_t));
+
+  const Lanes pushed = sum_of_pushes(points);
+  const Lanes coefficient = upper(load(&block.share[lane]));
+  const Lanes most = min(multiply(coefficient, pushed), broadcast(std::int64_t{1} << 60));
+  limit_friction(round_shift_positive<30>(add(most, broadcast(rules.limit_sway)), 1 << 30), rules,
+                 f);
+  p.t = subtract(f.t, friction);
+  p.b = subtract(f.b, upper(friction));
+  p.about_n = round_shift_low<30>(multiply(radius, subtract(f.twist, twist_word)));
+  store(pack(f.t, f.b), &block.friction[lane]);
+  store(with_upper_of(f.twist, twist_word), &block.twist[lane]);
+}
+
+/// Turning about the tangents, against a torque of at most the rolling limit times ΣP. A pass of
+/// its own, for few ask for it.
+HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, const Axes& axes,
+                                        const PointLanes& points, const SweepRules& rules,
+                                        BodyPair& bodies) {
+  const Lanes none = broadcast(0);
+  const Lanes factor = upper_part(load(&block.turn[lane]));
+  if (!any_less(none, factor)) return;
+  const Vector turning = read_motion(BlockSides<false>{block, lane}, axes, bodies).turning;
+  const Lanes about_t = round_shift_low<30>(dot(axes.t, turning));
+  const Lanes about_b = round_shift_low<30>(dot(axes.b, turning));
+  const Lanes mass = load(&block.rolling_mass[0][lane]);
+  const Lanes mixed = load(&block.rolling_mass[1][lane]);
+  const Lanes rolling = load(&block.rolling[lane]);
+  FrictionLanes f{};
+  f.t = limited_difference<24>(rolling, multiply_add(multiply(mass, about_t), mixed, about_b));
+  f.b = limited_difference<24>(upper(rolling),
+                               multiply_add(multiply(upper(mass), about_b), mixed, about_t));
+  f.twist = none;
+  const Lanes limit = multiply(factor, sum_of_pushes(points));
+  limit_friction(round_shift_low<28>(min(limit, broadcast(std::int64_t{1} << 58))), rules, f);
+  Impulse p = {none, none, none, none, none, none};
+  p.about_t = subtract(f.t, rolling);
+  p.about_b = subtract(f.b, upper(rolling));
+  store(pack(f.t, f.b), &block.rolling[lane]);
+  apply(BlockSides<false>{block, lane}, axes, p, bodies);
+}
+
+template <bool plain>
+HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
+                                     const std::int64_t* travel, const SweepRules& rules,
+                                     Ahead& ahead) {
+  BodyPair bodies{};
+  bodies.load_from(words, block, lane);
+  ahead.ask(k_friction_lines);
+  const Axes axes = load_axes(block, lane);
+  move_separations(block, lane, axes, travel, rules);
+  ahead.ask(k_friction_lines);
+  const CenterMotion motion = read_motion(BlockSides<plain>{block, lane}, axes, bodies);
+  ahead.ask(k_friction_lines);
+  PointLanes points{};
+  Impulse p = solve_normals<false>(block, lane, axes, motion, rules, ahead, points);
+  solve_friction<plain>(block, lane, axes, motion, points, rules, p);
+  ahead.ask(k_friction_lines);
+  apply(BlockSides<plain>{block, lane}, axes, p, bodies);
+  ahead.ask(k_friction_lines);
+  if constexpr (!plain) resist_rolling(block, lane, axes, points, rules, bodies);
+  bodies.store_to(words, block, lane);
+}
+
+HWY_ATTR inline void relax_manifolds(RowBody* bodies, const RowTravel* travel,
+                                     ManifoldBlock* blocks, std::size_t count,
+                                     const SweepRules& rules) {
+  std::int64_t* words = bodies->velocity.data();
+  const std::int64_t* way = travel->velocity.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const ManifoldBlock& next = block_at(blocks, i + 1, count);
+    Ahead(&block_at(blocks, i + 2, count)).ask(1);
+    Ahead ahead(&next.axes);
+    for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
+      if (is_empty(blocks[i], lane)) continue;
+      ask_for_bodies(words, next, lane);
+      ask_for_bodies(way, next, lane);
+      if (are_plain(blocks[i], lane)) {
+        relax_lanes<true>(blocks[i], lane, words, way, rules, ahead);
+      } else {
+        relax_lanes<false>(blocks[i], lane, words, way, rules, ahead);
+      }
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lockstone::lanes
+HWY_AFTER_NAMESPACE();
+
+#endif  // the guard

@@ -1,0 +1,278 @@
+// Why definitions are refused: the checks of `create`, `create_body` and `create_joint`, field by
+// field. A test holds the two together.
+
+#include <algorithm>
+#include <array>
+
+#include "core/dynamics/state/limits.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/solid.h"
+#include "core/math/block_float.h"
+#include "core/math/rotation_log.h"
+#include "core/world/commands/command_checks.h"
+#include "core/world/commands/joint_checks.h"
+#include "core/world/commands/refusal_finder.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+constexpr Coefficient k_most_friction = Coefficient::from_ratio(199, 100);
+constexpr Coefficient k_one = Coefficient::from_integer(1);
+
+void check_sizes(RefusalFinder& find, const Shape& shape) {
+  using Names = std::array<std::string_view, 3>;
+  Names names{"shape.size.x", "shape.size.y", "shape.size.z"};
+  int used = 0;
+  if (shape.kind == ShapeKind::sphere) names = {"shape.radius", "", ""}, used = 1;
+  if (shape.kind == ShapeKind::capsule) names = {"shape.radius", "shape.half_height", ""}, used = 2;
+  if (shape.kind == ShapeKind::box)
+    names = {"shape.half_x", "shape.half_y", "shape.half_z"}, used = 3;
+  for (int i = 0; i < 3; ++i) {
+    if (i < used) {
+      find.within(names[static_cast<std::size_t>(i)], shape.size[i], k_min_shape_size,
+                  k_max_shape_size, "m");
+    } else {
+      const std::string_view axis = std::string_view("xyz").substr(static_cast<std::size_t>(i), 1);
+      find.require(shape.size[i] == Length{}, "shape.size." + std::string(axis),
+                   RefusalFinder::text(shape.size[i], "m"),
+                   "0 m for a " + std::string(to_string(shape.kind)));
+    }
+  }
+}
+
+void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
+  find.known("shape.kind", shape.kind, ShapeKind::sphere, ShapeKind::compound);
+  if (find.done()) return;
+  const std::string kind(to_string(shape.kind));
+  const std::string id = hexadecimal(shape.asset.value);
+  check_sizes(find, shape);
+  if (!is_asset(shape.kind)) {
+    find.require(shape.asset.is_null(), "shape.asset", id, "null for a " + kind);
+    return;
+  }
+  find.require(!shape.asset.is_null(), "shape.asset", id,
+               "an asset's id for a " + kind + ": use Asset::shape");
+  find.require(asset != nullptr, "shape.asset", id, "in the AssetSet that the world was made with");
+  if (asset != nullptr) {
+    find.require(asset->kind() == shape.kind, "shape.kind", kind,
+                 std::string(to_string(asset->kind())) + ", as the asset is");
+  }
+}
+
+Mass mass_of(const BodyDef& def, const Asset* asset) {
+  if (asset == nullptr) return mass_of(def.shape, def.material.density);
+  return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
+}
+
+void check_mass(RefusalFinder& find, const BodyDef& def, const Asset* asset) {
+  const bool has_solid =
+      asset != nullptr ? asset->solid() != nullptr : is_primitive(def.shape.kind);
+  if (!has_solid) {
+    find.require(def.motion == MotionType::static_body, "motion", to_string(def.motion),
+                 "static for a " + std::string(to_string(def.shape.kind)) + " without volume");
+    return;
+  }
+  if (def.motion != MotionType::dynamic) return;
+  find.within("mass (volume of the shape · material.density)", mass_of(def, asset), k_min_mass,
+              k_max_mass, "kg");
+}
+
+void check_own_fields(RefusalFinder& find, const BodyDef& def) {
+  find.within("position", def.position, k_world_limit, "m");
+  find.direction("orientation", def.orientation);
+  find.within("velocity", def.velocity, k_speed_limit, "m/s");
+  RefusalFinder of_material("body.material.");
+  check(of_material, def.material.surface());
+  of_material.above_zero("density", def.material.density, "kg/m³");
+  find.adopt(of_material.take());
+  RefusalFinder of_surface("body.surface_motion.");
+  check(of_surface, def.surface_motion);
+  find.adopt(of_surface.take());
+  find.require(def.motion != MotionType::dynamic || def.surface_motion == SurfaceMotion{},
+               "surface_motion", "not zero", "zero for a dynamic body");
+  find.within("gravity_scale", def.gravity_scale, -k_gravity_scale_limit, k_gravity_scale_limit);
+  find.at_least("linear_damping", def.linear_damping, Rate{}, "1/s");
+  find.at_least("angular_damping", def.angular_damping, Rate{}, "1/s");
+  RefusalFinder of_limit("body.speed_limit.");
+  check(of_limit, def.speed_limit);
+  find.adopt(of_limit.take());
+}
+
+template <class Axis>
+void check_axis_settings(RefusalFinder& find, const std::string& name, const Axis& axis,
+                         std::string_view unit, std::string_view effort_unit) {
+  find.known(name + "mode", axis.mode, AxisMode::locked, AxisMode::limited);
+  find.within(name + "hertz", axis.hertz, Number{}, Number::from_integer(1000), "Hz");
+  find.within(name + "damping_ratio", axis.damping_ratio, Number{}, Number::from_integer(100));
+  using Effort = decltype(axis.max_effort);
+  find.within(name + "max_effort", axis.max_effort, Effort{}, Effort::from_raw(k_effort_limit),
+              effort_unit);
+  if (axis.lower > axis.upper) {
+    find.require(false, name + "lower", RefusalFinder::text(axis.lower, unit),
+                 "at most the upper limit, " + RefusalFinder::text(axis.upper, unit));
+  }
+}
+
+// A joint whose axes were never set as its kind asks.
+void check_made_by_of(RefusalFinder& find, const JointDef& def) {
+  find.require(holds_something(def), "kind",
+               std::string(to_string(def.kind)) + " with all axes free",
+               "made by JointDef::of(kind, a, b), which locks the axes of the kind");
+}
+
+void check_ratio(RefusalFinder& find, const JointDef& def) {
+  const bool positive = def.kind == JointKind::pulley;
+  find.within("ratio", def.ratio, positive ? Number::from_raw(1) : Number::from_raw(-k_ratio_limit),
+              Number::from_raw(k_ratio_limit));
+}
+
+void check_anchor(RefusalFinder& find, std::string_view field, const BodyRecord& body,
+                  const JointFrame& frame, const Vec3<Length>& anchor) {
+  if (is_anchor(body, anchor)) return;
+  find.require(
+      false, field, to_decimal(frame.position) + " m",
+      "within " + to_decimal(anchor_reach(body)) + " m of the centre of mass along each axis");
+}
+
+void check_forces(RefusalFinder& find, const JointDef& def) {
+  find.within("ground_a", def.ground_a, k_world_limit, "m");
+  find.within("ground_b", def.ground_b, k_world_limit, "m");
+  find.within("break_force", def.break_force, Force{}, Force::from_raw(k_effort_limit), "N");
+  find.within("break_torque", def.break_torque, Torque{}, Torque::from_raw(k_effort_limit), "N·m");
+}
+
+}  // namespace
+
+void RefusalFinder::direction(std::string_view field, const Quat& q) {
+  require(has_direction(q), field,
+          '(' + text(q.x) + ", " + text(q.y) + ", " + text(q.z) + ", " + text(q.w) + ')',
+          "a quaternion of a norm well above 0");
+}
+
+void check(RefusalFinder& find, const Surface& surface) {
+  const CombineRule first = CombineRule::standard, last = CombineRule::maximum;
+  find.within("friction", surface.friction, Coefficient{}, k_most_friction);
+  find.within("restitution", surface.restitution, Coefficient{}, k_one);
+  find.within("rolling_resistance", surface.rolling_resistance, Coefficient{}, k_one);
+  find.known("friction_rule", surface.friction_rule, first, last);
+  find.known("restitution_rule", surface.restitution_rule, first, last);
+  find.known("rolling_rule", surface.rolling_rule, first, last);
+}
+
+void check(RefusalFinder& find, const SurfaceMotion& motion) {
+  find.within("velocity", motion.velocity, SolverVelocity::from_integer(500), "m/s");
+  find.within("turning", motion.turning, Rate::from_integer(500), "rad/s");
+}
+
+void check(RefusalFinder& find, const SpeedLimit& limit) {
+  find.above_zero("linear", limit.linear, "m/s");
+  find.above_zero("angular", limit.angular, "rad/s");
+}
+
+void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings) {
+  const std::string name = "linear[" + std::to_string(axis) + "].";
+  check_axis_settings(find, name, settings, "m", "N");
+  if (kind == JointKind::distance && axis == 0)
+    find.at_least(name + "lower", settings.lower, Length{}, "m");
+}
+
+void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis,
+                const AngularAxis& settings) {
+  const std::string name = "angular[" + std::to_string(axis) + "].";
+  const Angle pi = Angle::from_raw(k_pi);
+  check_axis_settings(find, name, settings, "rad", "N·m");
+  find.within(name + "lower", settings.lower, -pi, pi, "rad");
+  find.within(name + "upper", settings.upper, -pi, pi, "rad");
+  find.within(name + "target", settings.target, -pi, pi, "rad");
+  if (kind == JointKind::ball && axis == 1)
+    find.at_least(name + "upper", settings.upper, Angle{}, "rad");
+}
+
+void check_turning(RefusalFinder& find, const Vec3<AngularVelocity>& turning, int exponent) {
+  Vec3<Velocity> surface;
+  if (find.done() || to_surface_velocity(turning, exponent, surface)) return;
+  const std::int64_t most =
+      std::min(raw::scale_saturating(k_speed_limit.raw, -exponent), std::int64_t{1} << 52);
+  find.within("angular_velocity", turning, AngularVelocity::from_raw(most), "rad/s");
+}
+
+std::string Refusal::to_line() const {
+  if (field.empty()) return "nothing is wrong";
+  return field + ": " + value + ", " + rule;
+}
+
+Refusal World::explain(const WorldDef& def) {
+  RefusalFinder find("world.");
+  find.within("body_capacity", def.body_capacity, 1U, 1U << 20);
+  find.within("pair_capacity", def.pair_capacity, 1U, 1U << 24);
+  find.within("contact_capacity", def.contact_capacity, 1U, 1U << 24);
+  find.within("joint_capacity", def.joint_capacity, 0U, 1U << 20);
+  find.within("converged_contacts", def.converged_contacts, 0U, 1U << 16);
+  find.within("tick_rate", std::uint32_t{def.tick_rate}, 10U, 480U, "ticks/s");
+  find.within("substeps", std::uint32_t{def.substeps}, 1U, 16U);
+  find.within("sleep_ms", std::uint32_t{def.sleep_ms}, 0U, 60'000U, "ms");
+  find.within("sleep_distance", def.sleep_distance, Length::from_ratio(1, 1000),
+              Length::from_integer(1), "m");
+  find.within("gravity", def.gravity, Acceleration::from_integer(1000), "m/s²");
+  find.within("speed_limit", def.speed_limit, Velocity::from_integer(1), k_speed_limit, "m/s");
+  find.known("broad_phase", def.broad_phase, BroadPhaseKind::tree, BroadPhaseKind::sweep_and_prune);
+  return find.take();
+}
+
+Refusal World::explain(const BodyDef& def) const {
+  RefusalFinder find("body.");
+  const Asset* asset = is_asset(def.shape.kind) ? impl_->assets->find(def.shape.asset) : nullptr;
+  find.known("motion", def.motion, MotionType::static_body, MotionType::dynamic);
+  check(find, def.shape, asset);
+  check_own_fields(find, def);
+  if (find.done()) return find.take();
+  check_mass(find, def, asset);
+  find.within("position (of the centre of mass)",
+              body_pose(asset, {def.position, def.orientation}).position, k_world_limit, "m");
+  check_turning(find, def.angular_velocity, properties_of(def.shape, asset).scale_exponent);
+  const std::uint32_t capacity = impl_->def.body_capacity;
+  find.require(body_count() < capacity, "count", std::to_string(body_count()),
+               "below WorldDef::body_capacity, " + std::to_string(capacity));
+  return find.take();
+}
+
+Refusal World::explain(const JointDef& def) const {
+  RefusalFinder find("joint.");
+  const BodyRecord* a = impl_->find(def.body_a);
+  const BodyRecord* b = impl_->find(def.body_b);
+  const auto handle = [](BodyHandle body) {
+    return RefusalFinder::handle_text(body.index, body.generation);
+  };
+  constexpr std::string_view k_body = "the handle of a body that exists";
+  find.require(a != nullptr, "body_a", handle(def.body_a), k_body);
+  find.require(b != nullptr, "body_b", handle(def.body_b), k_body);
+  find.require(def.body_a != def.body_b, "body_b", handle(def.body_b), "another body than body_a");
+  find.known("kind", def.kind, JointKind::distance, JointKind::rack);
+  find.direction("frame_a.orientation", def.frame_a.orientation);
+  find.direction("frame_b.orientation", def.frame_b.orientation);
+  if (find.done()) return find.take();
+  find.require(a->is_dynamic() || b->is_dynamic(), "body_a", "neither body is dynamic",
+               "dynamic, or body_b");
+  check_made_by_of(find, def);
+  for (std::size_t i = 0; i < 3; ++i)
+    check_axis(find, def.kind, i, def.linear[i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    check_axis(find, def.kind, i, def.angular[i]);
+  check_ratio(find, def);
+  check_forces(find, def);
+  if (find.done()) return find.take();
+  JointRecord joint;
+  (void)make_joint(def, impl_->body_assets[def.body_a.index], impl_->body_assets[def.body_b.index],
+                   joint);
+  check_anchor(find, "frame_a.position", *a, def.frame_a, joint.anchor_a);
+  check_anchor(find, "frame_b.position", *b, def.frame_b, joint.anchor_b);
+  find.require(!joint.is(JointKind::pulley) || find.done() || impl_->set_total_length(joint),
+               "ground_a", to_decimal(def.ground_a) + " m",
+               "where each rope, and both by the ratio, are 1000 m long at most");
+  find.require(joint_count() < impl_->def.joint_capacity, "count", std::to_string(joint_count()),
+               "below WorldDef::joint_capacity, " + std::to_string(impl_->def.joint_capacity));
+  return find.take();
+}
+
+}  // namespace lockstone

@@ -1,0 +1,450 @@
+// Joints of a world: creating, changing, destroying and querying them.
+
+#include <algorithm>
+
+#include "core/collision/narrow_phase/placed_shape.h"
+#include "core/dynamics/joint/joint_geometry.h"
+#include "core/dynamics/joint/joint_rows.h"
+#include "core/dynamics/state/limits.h"
+#include "core/math/divide.h"
+#include "core/math/roots.h"
+#include "core/math/rotation_log.h"
+#include "core/world/commands/joint_checks.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+constexpr std::uint8_t k_last_kind = static_cast<std::uint8_t>(JointKind::rack);
+
+bool in_world(const Vec3<Position>& p) {
+  const auto is_within = [](Position x) { return x <= k_world_limit && x >= -k_world_limit; };
+  return is_within(p.x) && is_within(p.y) && is_within(p.z);
+}
+
+bool is_valid(const JointAxisRecord& axis, std::uint8_t mode, bool is_angle) {
+  const bool ranges = axis.hertz >= Number{} && axis.hertz <= Number::from_integer(1000) &&
+                      axis.damping_ratio >= Number{} &&
+                      axis.damping_ratio <= Number::from_integer(100) && axis.max_effort >= 0 &&
+                      axis.max_effort <= k_effort_limit;
+  if (mode > static_cast<std::uint8_t>(AxisMode::limited) || !ranges) return false;
+  const auto known = [&](std::int32_t x) { return !is_angle || (x >= -k_pi && x <= k_pi); };
+  return axis.lower <= axis.upper && known(axis.lower) && known(axis.upper) && known(axis.target);
+}
+
+bool has_valid_axes(const JointRecord& joint) {
+  for (std::size_t i = 0; i < k_joint_axes; ++i) {
+    if (!is_valid(joint.axes[i], joint.modes[i], i >= 3)) return false;
+  }
+  if (joint.is(JointKind::ball) && joint.axes[4].upper < 0) return false;
+  return !joint.is(JointKind::distance) || joint.axes[0].lower >= 0;
+}
+
+bool has_valid_ratio(const JointRecord& joint) {
+  const std::int32_t ratio = joint.ratio.raw;
+  if (joint.is(JointKind::pulley)) return ratio > 0 && ratio <= k_ratio_limit;
+  return ratio >= -k_ratio_limit && ratio <= k_ratio_limit;
+}
+
+template <class Axis>
+void set_axis(JointRecord& joint, std::size_t index, const Axis& from) {
+  JointAxisRecord& axis = joint.axes[index];
+  axis.max_effort = from.max_effort.raw;
+  axis.lower = from.lower.raw;
+  axis.upper = from.upper.raw;
+  axis.target = from.target.raw;
+  axis.speed = from.speed.raw;
+  axis.hertz = from.hertz;
+  axis.damping_ratio = from.damping_ratio;
+  joint.modes[index] = static_cast<std::uint8_t>(from.mode);
+}
+
+// From the frame of the shape to that of mass.
+bool set_frame(const JointFrame& frame, const Asset* asset, Vec3<Length>& anchor,
+               Quat& orientation) {
+  if (!has_direction(frame.orientation)) return false;
+  const Transform mass = body_pose(asset, {});
+  const Vec3<Position> point = apply_inverse(mass, rounded<Position>(frame.position));
+  anchor = saturated<Length>(point);
+  const Quat turn = normalized(frame.orientation);
+  orientation =
+      mass.orientation == Quat{} ? turn : normalized(multiply(conjugate(mass.orientation), turn));
+  return true;
+}
+
+Position length_of(const Vec3<Position>& v) {
+  return Position::from_raw(static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw)));
+}
+
+JointRecord make_joint(const JointDef& from) {
+  JointRecord joint;
+  joint.generation = 1;
+  joint.kind = static_cast<std::uint8_t>(from.kind);
+  joint.flags = from.collide ? k_joint_collide : 0;
+  joint.body_a = from.body_a.index;
+  joint.body_b = from.body_b.index;
+  for (std::size_t i = 0; i < 3; ++i) {
+    set_axis(joint, i, from.linear[i]);
+    set_axis(joint, i + 3, from.angular[i]);
+  }
+  joint.ground_a = from.ground_a;
+  joint.ground_b = from.ground_b;
+  joint.ratio = from.ratio;
+  joint.break_force = from.break_force;
+  joint.break_torque = from.break_torque;
+  joint.user_data = from.user_data;
+  return joint;
+}
+
+}  // namespace
+
+std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inverse_mass,
+                       int exponent) {
+  const int shift = std::clamp(exponent - inverse_mass.exponent, -63, 63);
+  return divide_raw_saturating(impulse * rate, inverse_mass.mantissa, shift);
+}
+
+JointDef JointDef::of(JointKind kind, BodyHandle a, BodyHandle b) {
+  JointDef def;
+  def.kind = kind;
+  def.body_a = a;
+  def.body_b = b;
+  const auto lock = [&](std::initializer_list<int> axes) {
+    for (const int axis : axes) {
+      const auto i = static_cast<std::size_t>(axis % 3);
+      (axis < 3 ? def.linear[i].mode : def.angular[i].mode) = AxisMode::locked;
+    }
+  };
+  switch (kind) {
+    case JointKind::ball:
+      lock({0, 1, 2});
+      break;
+    case JointKind::hinge:
+      lock({0, 1, 2, 4, 5});
+      break;
+    case JointKind::slider:
+      lock({1, 2, 3, 4, 5});
+      break;
+    case JointKind::weld:
+      lock({0, 1, 2, 3, 4, 5});
+      break;
+    case JointKind::wheel:
+      lock({0, 2, 4, 5});
+      break;
+    default:
+      break;
+  }
+  return def;
+}
+
+bool can_join(const BodyRecord& a, const BodyRecord& b) {
+  return a.exists() && b.exists() && (a.is_dynamic() || b.is_dynamic());
+}
+
+Length anchor_reach(const BodyRecord& body) {
+  const bool turns = body.moves() && body.rotates();
+  const std::int64_t limit = turns ? std::int64_t{k_max_anchor_ratio}
+                                         << (Length::frac_bits + body.scale_exponent)
+                                   : std::int64_t{1024} << Length::frac_bits;
+  return Length::from_raw(
+      static_cast<std::int32_t>(std::min(limit, std::int64_t{1024} << Length::frac_bits)));
+}
+
+bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor) {
+  return is_within(anchor, anchor_reach(body));
+}
+
+bool holds_something(const JointDef& def) {
+  const JointDef made = JointDef::of(def.kind, {}, {});
+  bool locks = false, holds = false;
+  const auto look = [&](const auto& axis, AxisMode wanted) {
+    if (wanted != AxisMode::locked) return;
+    locks = true;
+    holds =
+        holds || axis.mode != AxisMode::free || axis.hertz > Number{} || axis.max_effort.raw > 0;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    look(def.linear[i], made.linear[i].mode);
+    look(def.angular[i], made.angular[i].mode);
+  }
+  return holds || !locks;
+}
+
+Status validate(const JointRecord& joint) {
+  if (!is_generation(joint.generation) || joint.kind > k_last_kind) return Status::malformed;
+  if (!joint.exists()) {
+    JointRecord empty;
+    empty.generation = joint.generation;
+    return joint == empty ? Status::ok : Status::malformed;
+  }
+  const bool known = (joint.flags & ~k_all_joint_flags) == 0 && joint.reserved == 0 &&
+                     joint.body_a != joint.body_b;
+  const bool in_range = in_world(joint.ground_a) && in_world(joint.ground_b) &&
+                        joint.break_force >= Force{} && joint.break_torque >= Torque{} &&
+                        joint.break_force.raw <= k_effort_limit &&
+                        joint.break_torque.raw <= k_effort_limit && joint.total_length >= Length{};
+  const bool turned = has_unit_norm(joint.orientation_a) && has_unit_norm(joint.orientation_b);
+  const bool valid = known && in_range && turned && has_valid_axes(joint) && has_valid_ratio(joint);
+  return valid ? Status::ok : Status::malformed;
+}
+
+bool make_joint(const JointDef& from, const Asset* asset_a, const Asset* asset_b,
+                JointRecord& joint) {
+  joint = make_joint(from);
+  return set_frame(from.frame_a, asset_a, joint.anchor_a, joint.orientation_a) &&
+         set_frame(from.frame_b, asset_b, joint.anchor_b, joint.orientation_b);
+}
+
+Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
+  const BodyRecord* a = find(from.body_a);
+  const BodyRecord* b = find(from.body_b);
+  if (a == nullptr || b == nullptr) return Status::stale_handle;
+  JointRecord joint;
+  const bool framed =
+      make_joint(from, body_assets[from.body_a.index], body_assets[from.body_b.index], joint);
+  if (!framed || !joint.exists() || !holds_something(from) || validate(joint) != Status::ok ||
+      !can_join(*a, *b) || !is_anchor(*a, joint.anchor_a) || !is_anchor(*b, joint.anchor_b)) {
+    return Status::invalid_argument;
+  }
+  if (joint.is(JointKind::pulley) && !set_total_length(joint)) return Status::invalid_argument;
+  std::uint32_t slot = joint_hint;
+  while (slot < header.joint_limit && !is_free(joints[slot]))
+    ++slot;
+  if (slot == def.joint_capacity) return Status::capacity_exhausted;
+  joint_hint = slot + 1;
+  header.joint_limit = std::max(header.joint_limit, slot + 1);
+  joint.generation = joints[slot].generation + 1;
+  joints[slot] = joint;
+  joint_hashes.mark(slot);
+  link_joint(slot);
+  wake_ends(joint);
+  return JointHandle{slot, joint.generation};
+}
+
+// At most 1000 m each and together.
+bool World::Impl::set_total_length(JointRecord& joint) const {
+  const Vec3<Position> end_a =
+      bodies[joint.body_a].position + arm_of(rotations[joint.body_a], joint.anchor_a);
+  const Vec3<Position> end_b =
+      bodies[joint.body_b].position + arm_of(rotations[joint.body_b], joint.anchor_b);
+  const Position first = length_of(end_a - joint.ground_a);
+  const Position second = length_of(end_b - joint.ground_b);
+  constexpr Position k_most = Position::from_integer(1000);
+  if (first > k_most || second > k_most) return false;
+  const Position total = first + multiply<Position>(second, joint.ratio);
+  if (total > k_most) return false;
+  joint.total_length = rounded<Length>(total);
+  return true;
+}
+
+const JointRecord* World::Impl::find(JointHandle joint) const {
+  if (joint.is_null() || joint.index >= header.joint_limit) return nullptr;
+  const JointRecord& record = joints[joint.index];
+  return record.exists() && record.generation == joint.generation ? &record : nullptr;
+}
+
+JointRecord* World::Impl::edit(JointHandle joint) {
+  if (find(joint) == nullptr) return nullptr;
+  joint_hashes.mark(joint.index);
+  return &joints[joint.index];
+}
+
+bool World::Impl::fits_joints(std::uint32_t body, const BodyRecord& changed) const {
+  return std::ranges::all_of(joint_links, [&](const JointLink& link) {
+    const JointRecord& joint = joints[link.joint];
+    return (link.body_a != body || is_anchor(changed, joint.anchor_a)) &&
+           (link.body_b != body || is_anchor(changed, joint.anchor_b));
+  });
+}
+
+void World::Impl::destroy_joint(std::uint32_t joint) {
+  wake_ends(joints[joint]);
+  unlink_joint(joint);
+  joint_hashes.mark(joint);
+  JointRecord empty;
+  empty.generation = joints[joint].generation;
+  joints[joint] = empty;
+  joint_hint = std::min(joint_hint, joint);
+}
+
+void World::Impl::destroy_joints_of(std::uint32_t body) {
+  for (std::size_t i = joint_links.size(); i-- > 0;) {
+    const JointLink link = joint_links[i];
+    if (link.body_a == body || link.body_b == body) destroy_joint(link.joint);
+  }
+}
+
+// Joints that had to bear more than they do are destroyed, by index.
+void World::Impl::break_joints() {
+  joint_events.clear();
+  const auto exceeds = [](const auto& v, auto limit) {
+    return limit.raw > 0 && norm(v.x.raw, v.y.raw, v.z.raw) > static_cast<std::uint64_t>(limit.raw);
+  };
+  for (const JointLink& link : active_joints) {
+    const std::uint32_t index = link.joint;
+    const JointRecord& joint = joints[index];
+    if (joint.break_force.raw == 0 && joint.break_torque.raw == 0) continue;
+    const JointView now = view(joint);
+    if (!exceeds(now.force, joint.break_force) && !exceeds(now.torque, joint.break_torque)) {
+      continue;
+    }
+    joint_events.push_back({{index, joint.generation}, now.body_a, now.body_b, joint.user_data});
+  }
+  for (const JointEvent& event : joint_events)
+    destroy_joint(event.joint.index);
+}
+
+void World::Impl::link_joint(std::uint32_t index) {
+  const JointRecord& joint = joints[index];
+  joint_edges.clear();
+  are_active_joints_current = false;
+  const auto place = std::ranges::lower_bound(joint_links, index, {}, &JointLink::joint);
+  joint_links.insert(place, {index, joint.body_a, joint.body_b});
+  if (joint.collides()) return;
+  const Pair pair = joined_pair(joint);
+  joined_pairs.insert(std::ranges::lower_bound(joined_pairs, pair), pair);
+}
+
+void World::Impl::unlink_joint(std::uint32_t index) {
+  joint_edges.clear();
+  are_active_joints_current = false;
+  joint_links.erase(std::ranges::lower_bound(joint_links, index, {}, &JointLink::joint));
+  if (joints[index].collides()) return;
+  joined_pairs.erase(std::ranges::lower_bound(joined_pairs, joined_pair(joints[index])));
+}
+
+// The moving body first, or the lower index, as the broad phase gives them.
+Pair World::Impl::pair_of(std::uint32_t a, std::uint32_t b) const {
+  const bool a_moves = bodies[a].moves(), b_moves = bodies[b].moves();
+  const bool swap = a_moves == b_moves ? a > b : b_moves;
+  return swap ? Pair{b, a} : Pair{a, b};
+}
+
+Pair World::Impl::joined_pair(const JointRecord& joint) const {
+  return pair_of(joint.body_a, joint.body_b);
+}
+
+bool World::Impl::are_joined(std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::binary_search(joined_pairs, pair_of(a, b));
+}
+
+void World::Impl::rebuild_joint_links() {
+  joint_edges.clear();
+  are_active_joints_current = false;
+  joint_links.clear();
+  joined_pairs.clear();
+  joint_hint = 0;
+  for (std::uint32_t i = 0; i < header.joint_limit; ++i) {
+    if (!joints[i].exists()) continue;
+    joint_links.push_back({i, joints[i].body_a, joints[i].body_b});
+    if (!joints[i].collides()) joined_pairs.push_back(joined_pair(joints[i]));
+  }
+  std::ranges::sort(joined_pairs);
+}
+
+Status World::Impl::execute(const CreateJoint& command) {
+  return create_joint(command.def).status();
+}
+
+Status World::Impl::execute(const DestroyJoint& command) {
+  if (find(command.joint) == nullptr) return Status::stale_handle;
+  destroy_joint(command.joint.index);
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetLinearAxis& command) {
+  JointRecord* joint = edit(command.joint);
+  if (joint == nullptr) return Status::stale_handle;
+  if (command.axis > 2) return Status::invalid_argument;
+  JointRecord changed = *joint;
+  set_axis(changed, command.axis, command.settings);
+  if (validate(changed) != Status::ok) return Status::invalid_argument;
+  if (*joint == changed) return Status::ok;
+  wake_ends(changed);
+  *joint = changed;
+  return Status::ok;
+}
+
+Status World::Impl::execute(const SetAngularAxis& command) {
+  JointRecord* joint = edit(command.joint);
+  if (joint == nullptr) return Status::stale_handle;
+  if (command.axis > 2) return Status::invalid_argument;
+  JointRecord changed = *joint;
+  set_axis(changed, command.axis + std::size_t{3}, command.settings);
+  if (validate(changed) != Status::ok) return Status::invalid_argument;
+  if (*joint == changed) return Status::ok;
+  wake_ends(changed);
+  *joint = changed;
+  return Status::ok;
+}
+
+JointView World::Impl::view(const JointRecord& joint) const {
+  const BodyRecord& a = bodies[joint.body_a];
+  const BodyRecord& b = bodies[joint.body_b];
+  const Mat3& turn_a = rotations[joint.body_a];
+  const Mat3& turn_b = rotations[joint.body_b];
+  const Vec3<Position> gap =
+      (b.position + arm_of(turn_b, joint.anchor_b)) - (a.position + arm_of(turn_a, joint.anchor_a));
+  const Mat3 frame_a = frame_of(turn_a, joint.orientation_a);
+  JointView view{.kind = static_cast<JointKind>(joint.kind),
+                 .body_a = handle_of(joint.body_a),
+                 .body_b = handle_of(joint.body_b),
+                 .user_data = joint.user_data,
+                 .offset = saturated<Length>(rotate_inverse(frame_a, gap)),
+                 .angle = swing_twist(frame_a, frame_of(turn_b, joint.orientation_b))};
+  if (joint.is(JointKind::distance)) view.offset = {saturated<Length>(length_of(gap)), {}, {}};
+  const BlockFloat inverse_mass = add(a.inverse_mass_value(), b.inverse_mass_value());
+  const int exponent = angular_exponent(a, b);
+  for (int i = 0; i < 3; ++i) {
+    const auto impulse = [&](int axis) {
+      const JointAxisRecord& record = joint.axes[static_cast<std::size_t>(axis)];
+      return std::int64_t{record.impulse.raw} + record.drive_impulse.raw;
+    };
+    const std::int32_t rate = time_step.substep_rate();
+    view.force[i].raw = effort_of(impulse(i), rate, inverse_mass, 0);
+    view.torque[i].raw = effort_of(impulse(i + 3), rate, inverse_mass, exponent);
+  }
+  if (has_world_axes(joint)) {
+    // A force at the type's limit along two axes is, rotated, longer than that along one.
+    const auto within = [](Force f) {
+      constexpr std::int64_t k_most = std::int64_t{1} << 62;
+      return Position::from_raw(std::clamp(f.raw, -k_most, k_most));
+    };
+    const auto raws = [&](const Vec3<Force>& f) {
+      return Vec3<Position>{within(f.x), within(f.y), within(f.z)};
+    };
+    const Vec3<Position> along = rotate_inverse(frame_a, raws(view.force));
+    view.force = {Force::from_raw(along.x.raw), Force::from_raw(along.y.raw),
+                  Force::from_raw(along.z.raw)};
+  }
+  return view;
+}
+
+Result<JointHandle> World::create_joint(const JointDef& def) {
+  return impl_->create_joint(def);
+}
+std::span<const JointEvent> World::joint_events() const {
+  return impl_->joint_events;
+}
+bool World::exists(JointHandle joint) const {
+  return impl_->find(joint) != nullptr;
+}
+std::uint32_t World::joint_count() const {
+  return static_cast<std::uint32_t>(impl_->joint_links.size());
+}
+std::uint32_t World::joint_limit() const {
+  return impl_->header.joint_limit;
+}
+JointHandle World::joint_at(std::uint32_t index) const {
+  if (index >= impl_->header.joint_limit || !impl_->joints[index].exists()) return {};
+  return {index, impl_->joints[index].generation};
+}
+JointView World::joint(JointHandle joint) const {
+  const JointRecord* record = impl_->find(joint);
+  if (record == nullptr)
+    misused("World::joint", joint.index, joint.generation,
+            "names no joint (destroyed, or broken?); ask World::exists first");
+  return impl_->view(*record);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,169 @@
+// Debug drawing of a world.
+
+#include <algorithm>
+
+#include <lockstone/debug_draw.h>
+
+#include "core/dynamics/joint/joint_geometry.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+Position from_bounds(BoundsCoordinate x) {
+  return Position::from_raw(std::int64_t{x.raw} << (Position::frac_bits - 10));
+}
+
+DebugState state_of(const BodyRecord& body) {
+  if (body.is_trigger()) return DebugState::trigger;
+  if (body.is_dynamic()) return body.is_asleep() ? DebugState::asleep : DebugState::awake;
+  return body.moves() ? DebugState::kinematic : DebugState::static_body;
+}
+
+// The normal impulse of the point with this feature in the last tick.
+SolverVelocity impulse_of(const ContactRecord& record, std::uint32_t feature) {
+  for (std::size_t i = 0; i < record.count; ++i)
+    if (record.points[i].feature == feature) return record.points[i].normal_impulse;
+  return {};
+}
+
+}  // namespace
+
+// Of all dynamic bodies there are, asleep ones too.
+void World::Impl::find_all_islands() {
+  to_sleep.clear();  // not in use between the ticks
+  for (std::uint32_t i = 0; i < header.body_limit; ++i)
+    if (bodies[i].exists() && bodies[i].is_dynamic()) to_sleep.push_back(i);
+  islands.begin(to_sleep);
+  const auto tie = [&](std::uint32_t a, std::uint32_t b) {
+    if (bodies[a].is_dynamic() && bodies[b].is_dynamic()) islands.join(a, b);
+  };
+  for_each_contact([&](const ContactRecord& contact) {
+    if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
+  });
+  for (const JointLink& joint : joint_links)
+    tie(joint.body_a, joint.body_b);
+  to_sleep.clear();
+}
+
+void World::Impl::draw_shapes(DebugDraw& out) {
+  find_all_islands();
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
+    const BodyRecord& body = bodies[i];
+    if (!body.exists()) continue;
+    const Transform pose = shape_pose(body_assets[i], {body.position, body.orientation});
+    out.draw_shape({.body = handle_of(i),
+                    .state = state_of(body),
+                    .shape = body.shape(),
+                    .pose = pose,
+                    .rotation = to_matrix(pose.orientation),
+                    .asset = body_assets[i],
+                    .island = body.is_dynamic() ? handle_of(islands.root(i)) : BodyHandle{},
+                    .user_data = body.user_data});
+  }
+}
+
+void World::Impl::draw_bounds(DebugDraw& out) const {
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
+    if (!bodies[i].exists()) continue;
+    const Bounds& bounds = broad_phase.bounds(i);
+    DebugBounds drawn{.body = handle_of(i)};
+    for (int axis = 0; axis < 3; ++axis) {
+      drawn.lower[axis] = from_bounds(bounds.lower[axis]);
+      drawn.upper[axis] = from_bounds(bounds.upper[axis]);
+    }
+    out.draw_bounds(drawn);
+  }
+}
+
+void World::Impl::draw_masses(DebugDraw& out) const {
+  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
+    if (!bodies[i].exists() || !bodies[i].is_dynamic()) continue;
+    out.draw_mass({handle_of(i), bodies[i].position, rotations[i], mass_of(bodies[i])});
+  }
+}
+
+// A manifold as bodies are now, with the impulses of the last step.
+DebugContact World::Impl::drawn_contact(const ContactRecord& record,
+                                        const Manifold& manifold) const {
+  const BodyRecord& a = bodies[record.body_a];
+  const BodyRecord& b = bodies[record.body_b];
+  const BlockFloat inverse_mass = add(a.inverse_mass_value(), b.inverse_mass_value());
+  const auto force_of = [&](SolverVelocity impulse) {
+    return Force::from_raw(effort_of(impulse.raw, time_step.substep_rate(), inverse_mass, 0));
+  };
+  DebugContact drawn{.a = handle_of(record.body_a),
+                     .b = handle_of(record.body_b),
+                     .normal = manifold.normal,
+                     .touching = record.is_touching(),
+                     .count = static_cast<std::uint32_t>(manifold.count)};
+  for (int i = 0; i < 3; ++i)
+    drawn.friction[i] = force_of(record.friction_impulse[i]);
+  for (std::size_t i = 0; i < drawn.count; ++i) {
+    const ManifoldPoint& point = manifold.points[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Position on_a = a.position[axis] + rounded<Position>(point.anchor_a[axis]);
+      const Position on_b = b.position[axis] + rounded<Position>(point.anchor_b[axis]);
+      drawn.points[i].point[axis] = on_a + (on_b - on_a) / 2;
+    }
+    drawn.points[i].separation = point.separation;
+    drawn.points[i].force = force_of(impulse_of(record, point.feature));
+  }
+  return drawn;
+}
+
+void World::Impl::draw_contacts(DebugDraw& out) {
+  PairScratch& scratch = narrow.scratch(0);
+  Pair collided;
+  for_each_contact([&](const ContactRecord& record) {
+    if (record.is_trigger()) return;
+    const Pair pair{record.body_a, record.body_b};
+    if (pair != collided) {
+      collide_bodies(placed(pair.a), placed(pair.b), margin_of(pair), scratch.triangles.get(),
+                     scratch.part_contacts);
+    }
+    collided = pair;
+    const auto part = std::ranges::find_if(scratch.part_contacts, [&](const PartContact& contact) {
+      return contact.part_a == record.part_a && contact.part_b == record.part_b;
+    });
+    if (part != scratch.part_contacts.end())
+      out.draw_contact(drawn_contact(record, part->manifold));
+  });
+}
+
+void World::Impl::draw_joints(DebugDraw& out) const {
+  for (const JointLink& link : joint_links) {
+    const JointRecord& joint = joints[link.joint];
+    const Mat3& turn_a = rotations[joint.body_a];
+    const Mat3& turn_b = rotations[joint.body_b];
+    DebugJoint drawn{
+        .joint = {link.joint, joint.generation},
+        .view = view(joint),
+        .place_a = bodies[joint.body_a].position + arm_of(turn_a, joint.anchor_a),
+        .place_b = bodies[joint.body_b].position + arm_of(turn_b, joint.anchor_b),
+        .frame_a = frame_of(turn_a, joint.orientation_a),
+        .frame_b = frame_of(turn_b, joint.orientation_b),
+        .ground_a = joint.ground_a,
+        .ground_b = joint.ground_b,
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      drawn.modes[i] = joint.mode(i);
+      drawn.modes[i + 3] = joint.mode(i + 3);
+      drawn.linear_lower[i].raw = joint.axes[i].lower;
+      drawn.linear_upper[i].raw = joint.axes[i].upper;
+      drawn.angular_lower[i].raw = joint.axes[i + 3].lower;
+      drawn.angular_upper[i].raw = joint.axes[i + 3].upper;
+    }
+    out.draw_joint(drawn);
+  }
+}
+
+void World::draw(DebugDraw& out, const DebugDrawOptions& options) const {
+  if (options.shapes) impl_->draw_shapes(out);
+  if (options.bounds) impl_->draw_bounds(out);
+  if (options.masses) impl_->draw_masses(out);
+  if (options.contacts) impl_->draw_contacts(out);
+  if (options.joints) impl_->draw_joints(out);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,381 @@
+// Continuous collision: each body that moved far in a tick is swept along its path, stopped at its
+// first impact, given the impact's impulses, and moved on for the rest of the tick.
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/collision/continuous/first_impact.h"
+#include "core/collision/continuous/relative_path.h"
+#include "core/dynamics/body/motion.h"
+#include "core/dynamics/impact/impact_response.h"
+#include "core/math/roots.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+Transform pose_of(const BodyRecord& body) {
+  return {body.position, body.orientation};
+}
+
+// To a pose on a path that began with the matrix `rotation`. The angular momentum turns with the
+// body: kept in world axes it would not fit a pose off the free rotation, and a thin body could
+// gain any amount of energy.
+void stop_at(BodyRecord& body, const Transform& pose, const Mat3& rotation) {
+  body.position = pose.position;
+  body.orientation = pose.orientation;
+  if (!body.rotates() || body.has_spherical_inertia()) return;
+  body.spin = rotate_wide(to_matrix(pose.orientation), rotate_inverse_wide(rotation, body.spin));
+}
+
+// The rest of a motion after a fraction of it.
+Sweep rest_of(const Sweep& motion, Unit fraction) {
+  const std::int32_t left = (k_whole_tick - fraction).raw;
+  const auto part = [&](std::int64_t x) { return raw::multiply_shift(x, left, Unit::frac_bits); };
+  Sweep rest = motion;
+  rest.start = pose_at(motion, fraction);
+  for (int i = 0; i < 3; ++i) {
+    rest.translation[i].raw = part(motion.translation[i].raw);
+    rest.rotation[i].raw = part(motion.rotation[i].raw);
+  }
+  return rest;
+}
+
+// At least the way of any point of a body about its centre, 32 bits: |Δq| = d is a turn of
+// 4·asin(d/2), which is at most 65/32 of d up to ½ and below 4·d beyond.
+std::int64_t turned_way(const Quat& from, const Quat& to, Length radius) {
+  const auto change = [](Unit a, Unit b) { return std::int64_t{a.raw} - b.raw; };
+  const auto square = [](std::int64_t x) { return static_cast<std::uint64_t>(x * x); };
+  const std::uint64_t sum = square(change(from.x, to.x)) + square(change(from.y, to.y)) +
+                            square(change(from.z, to.z)) + square(change(from.w, to.w));
+  const std::int64_t chord = isqrt(sum) + std::int64_t{1};
+  constexpr std::int64_t k_half = std::int64_t{1} << (Unit::frac_bits - 1);
+  const std::int64_t angle = chord <= k_half ? 2 * chord + chord / 32 : 4 * chord;
+  return raw::multiply_shift(angle, radius.raw, Unit::frac_bits - 12);
+}
+
+// One point, at the centre of A.
+Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
+  Manifold manifold;
+  manifold.normal = normal;
+  manifold.count = 1;
+  manifold.points[0].anchor_b = from_b;
+  return manifold;
+}
+
+// A half-space has nothing behind it to come out at, and contacts find the bodies that
+// triangles sweep over.
+bool may_sweep(const BodyRecord& body, const Asset* asset) {
+  return body.shape().kind != ShapeKind::half_space &&
+         (asset == nullptr || asset->mesh_kernels() == nullptr);
+}
+
+// Compounds may have parts much thinner than their thickest.
+Position sweeping_limit(Length inner_radius, const Asset* asset) {
+  constexpr Length k_least = Length::from_ratio(1, 1000);
+  const bool has_parts = asset != nullptr && asset->polytope() == nullptr;
+  return rounded<Position>(has_parts ? k_least : max(inner_radius / 2, k_least));
+}
+
+// Whether |Δq| may hide most of a turn: w·dt > 3 s for the surface speed w.
+bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeStep& step) {
+  const std::int64_t limit =
+      raw::scale_binary(std::int64_t{3 * step.tick_rate} << 32, body.scale_exponent);
+  const std::int64_t spin = sum_of_magnitudes(body.spin);
+  if (!body.is_dynamic()) return spin > limit;
+  const Unit least = min(body.inertia.x, min(body.inertia.y, body.inertia.z));
+  if (spin <= raw::multiply_shift(limit, least.raw, Unit::frac_bits)) return false;
+  return sum_of_magnitudes(surface_velocity(inverse_inertia(body, rotation), body.spin)) > limit;
+}
+
+}  // namespace
+
+void World::Impl::stop_at_impacts(StepReport& report) {
+  const StageTimer timer(profiler, StepStage::continuous);
+  impacts.clear();
+  passes.clear();
+  passes_overflowed = false;
+  list_sweepers();
+  for (const std::uint32_t body : moved) {
+    if ((far_movers[body] & (k_far_mover | k_swept_over)) == 0) continue;
+    ++report.continuous_bodies;
+    follow(body, report);
+  }
+  if (triggers.count() != 0)
+    for (const Sweeper& each : sweepers)
+      note_passes(each.body, motion_in_tick(each.body), {}, k_whole_tick);
+  hold_before_fronts();
+  if (passes_overflowed) report.status = Status::capacity_exhausted;
+}
+
+// Anew when an impact changes how a body turns before its own way is looked at.
+void World::Impl::note_far_mover(std::uint32_t body) {
+  const bool is_followed = bodies[body].is_dynamic() && !bodies[body].is_trigger();
+  far_movers[body] = !went_far(body) ? 0 : is_followed ? k_far_mover : k_sweeper;
+}
+
+// Farther than half its thickness: a shorter motion cannot take it through anything.
+bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
+                           const BodyRecord& record) const {
+  const bool is_followed = record.is_dynamic() && !record.is_trigger();
+  if (!is_followed && !may_sweep(record, body_assets[body])) return false;
+  const std::int64_t limit = is_followed ? rounded<Position>(inner_radii[body] / 2).raw
+                                         : sweeping_limit(inner_radii[body], body_assets[body]).raw;
+  const Vec3<Position> gone = record.position - start.position;
+  std::int64_t way = sum_of_magnitudes(gone);
+  if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
+  if (way > limit) return true;
+  if (start.orientation == record.orientation) return false;
+  const auto goes_far = [&](Length radius) {
+    return way + turned_way(start.orientation, record.orientation, radius) > limit ||
+           may_turn_by_half(record, rotations[body], time_step);
+  };
+  // Most go nowhere near as far, and need no root.
+  const Length reach =
+      Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
+  if (body_assets[body] == nullptr && !goes_far(reach)) return false;
+  const Length radius = bounding_radius(record.shape(), body_assets[body]);
+  const bool shows_turning = radius > inner_radii[body] || !is_followed;
+  return shows_turning && goes_far(radius);
+}
+
+// How it turned is of interest only where something is in its way. A sweeper that it meets twice
+// takes it along from the first time on: a straight way ends behind a blade that turns.
+void World::Impl::follow(std::uint32_t body, StepReport& report) {
+  BodyRecord& record = bodies[body];
+  const Transform& start = starts[body];
+  bool is_free = true;
+  visit_obstacles(body, {start, record.position - start.position, {}},
+                  [&](std::uint32_t) { is_free = false; });
+  if (is_free) return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
+  if (!joint_edges.of(body, joint_links).empty()) return follow_joined(body, report);
+  Sweep motion = motion_in_tick(body);
+  Mat3 rotation = rotations[body];
+  Unit done{};                    // of the tick
+  Transform held = motion.start;  // at the last impact, with `met`
+  Unit held_since{};
+  std::uint32_t met = body;
+  for (int i = 0; i < k_max_impacts; ++i) {
+    const NextImpact next = find_impact(body, motion, done);
+    note_passes(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
+    if (!next.impact.hit && i > 0 && carries(met)) push_out(body, met);
+    if (!next.impact.hit) return;
+    ++report.impacts;
+    if (i > 0 && next.body == met && carries(met)) {
+      stop_at(record, carried(held, motion_of(met, held_since)), rotation);
+      answer(body, next, k_whole_tick);
+      return push_out(body, met);
+    }
+    stop_at(record, pose_at(motion, next.impact.fraction), rotation);
+    const Unit left = k_whole_tick - done;
+    done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
+    answer(body, next, done);
+    held = pose_of(record);
+    held_since = done;
+    met = next.body;
+    const bool last = i + 1 == k_max_impacts;
+    if (last) return;
+    rotation = to_matrix(record.orientation);
+    motion = go_on(record, k_whole_tick - done);
+    if (!limit_position(record)) continue;
+    ++report.saturations;
+    motion.translation = record.position - motion.start.position;
+  }
+}
+
+// Out of a sweeper, where both are at the tick's end: contacts alone are too slow for it.
+void World::Impl::push_out(std::uint32_t body, std::uint32_t sweeper) {
+  BodyRecord& record = bodies[body];
+  const BodyRecord& other = bodies[sweeper];
+  PairScratch& scratch = narrow.scratch(0);
+  collide_bodies(
+      place(record.shape(), body_assets[body], record.position, to_matrix(record.orientation)),
+      place(other.shape(), body_assets[sweeper], other.position, to_matrix(other.orientation)), {},
+      scratch.triangles.get(), scratch.part_contacts);
+  Displacement deepest{};
+  Vec3<Unit> normal{};
+  for (const PartContact& contact : scratch.part_contacts) {
+    const Manifold& manifold = contact.manifold;
+    for (int i = 0; i < manifold.count; ++i) {
+      const Displacement separation = manifold.points[static_cast<std::size_t>(i)].separation;
+      if (separation >= deepest) continue;
+      deepest = separation;
+      normal = manifold.normal;
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+    record.position[i] += rounded<Position>(normal[i] * deepest);
+  (void)limit_position(record);
+}
+
+// Bodies connected by joints stop together where the first of them runs into something, and lose
+// the rest of the tick: a limb that stopped alone would leave its joint. The solver propagates the
+// impact to the others.
+void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
+  if (!find_impact(body, motion_in_tick(body), {}).impact.hit)
+    return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
+  list_joined(body);
+  NextImpact first;
+  std::uint32_t body_of_first = body;
+  for (const std::uint32_t each : joined_movers) {
+    if (far_movers[each] == k_joined_mover) continue;
+    const NextImpact next = find_impact(each, motion_in_tick(each), {});
+    const bool sooner = next.impact.hit &&
+                        (!first.impact.hit || next.impact.fraction < first.impact.fraction ||
+                         (next.impact.fraction == first.impact.fraction && each < body_of_first));
+    if (sooner) first = next, body_of_first = each;
+  }
+  ++report.impacts;
+  for (const std::uint32_t each : joined_movers) {
+    const Sweep motion = motion_in_tick(each);
+    const Transform pose = pose_at(motion, first.impact.fraction);
+    note_passes(each, motion, {}, first.impact.fraction);
+    stop_at(bodies[each], pose, rotations[each]);
+    far_movers[each] = 0;
+  }
+  answer(body_of_first, first, first.impact.fraction);
+  if (carries(first.body))
+    carry_joined(body_of_first, motion_of(first.body, first.impact.fraction));
+}
+
+// The body and the dynamic bodies that joints connect to it, all of which move.
+void World::Impl::list_joined(std::uint32_t body) {
+  joined_movers.assign(1, body);
+  far_movers[body] |= k_joined_mover;
+  for (std::size_t i = 0; i < joined_movers.size(); ++i) {
+    for (const std::uint32_t other : joint_edges.of(joined_movers[i], joint_links)) {
+      if (!bodies[other].is_dynamic() || (far_movers[other] & k_joined_mover) != 0) continue;
+      far_movers[other] |= k_joined_mover;
+      joined_movers.push_back(other);
+    }
+  }
+}
+
+Sweep World::Impl::motion_in_tick(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
+  const Transform& start = starts[body];
+  return {start, record.position - start.position,
+          turn_since(start.orientation, rotations[body], record, time_step, k_whole_tick)};
+}
+
+// Moves a body for the rest of a tick at the velocities at hand, which already hold the whole
+// tick's gravity; answers the way.
+Sweep World::Impl::go_on(BodyRecord& record, Unit left) const {
+  const Mat3 rotation = to_matrix(record.orientation);
+  Sweep motion{pose_of(record), {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    motion.translation[i].raw = raw::multiply_shift(time_step.tick.times(record.velocity[i].raw),
+                                                    left.raw, Unit::frac_bits);
+  }
+  record.position += motion.translation;
+  (void)turn_in_flight(record, rotation, time_step, left);
+  motion.rotation = turn_since(motion.start.orientation, rotation, record, time_step, left);
+  return motion;
+}
+
+// How a body moves from `done` to the end of the tick, itself followed or not.
+Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
+  const BodyRecord& record = bodies[body];
+  if (!record.is_awake()) return {pose_of(record), {}, {}};
+  return rest_of(motion_in_tick(body), done);
+}
+
+bool World::Impl::is_obstacle(std::uint32_t body, std::uint32_t other) const {
+  const BodyRecord& obstacle = bodies[other];
+  return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
+         !are_joined(body, other);
+}
+
+// The obstacles at which a body may stop on its path.
+template <class F>
+void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
+  const BodyRecord& record = bodies[body];
+  const Vec3<Position>& from = motion.start.position;
+  const Bounds way = bounds_of_way(from, from + motion.translation,
+                                   bounding_radius(record.shape(), body_assets[body]));
+  const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
+  const auto visit = [&](std::uint32_t other) {
+    const bool considered = other != body && (record.is_bullet() || !bodies[other].is_dynamic());
+    if (considered && !is_sweeper(other) && is_obstacle(body, other)) f(other);
+  };
+  for (const Sweeper& each : sweepers)
+    if (overlap(way, each.way) && is_obstacle(body, each.body)) f(each.body);
+  if (record.is_bullet())
+    broad_phase.traverse(k_every_category, test, visit);
+  else
+    broad_phase.traverse_immovable(test, visit);
+}
+
+NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Unit done) const {
+  const Shape shape = bodies[body].shape();
+  const Length inner = inner_radii[body];
+  const Length radius = bounding_radius(shape, body_assets[body]);
+  NextImpact next;
+  visit_obstacles(body, motion, [&](std::uint32_t other) {
+    const Shape other_shape = bodies[other].shape();
+    const Sweep other_motion = motion_of(other, done);
+    const Length turned = radius > inner ? radius : Length{};
+    const bool sweeps = is_sweeper(other);
+    const Length free_way = sweeps ? inner / 8 : inner / 2;
+    if (relative_way(motion, other_motion, turned) <= rounded<Position>(free_way)) return;
+    const Impact impact = first_impact({shape, body_assets[body], motion},
+                                       {other_shape, body_assets[other], other_motion},
+                                       sweeps ? ImpactDepth::shallow : ImpactDepth::half);
+    const bool sooner =
+        impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
+                       (impact.fraction == next.impact.fraction && other < next.body));
+    if (sooner) next = {other, impact};
+  });
+  return next;
+}
+
+// Impulses between the two where they are at `done`. Velocities hold the whole tick's gravity; the
+// part that acts after the impact is taken off while it is resolved.
+void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) {
+  const std::uint32_t other = next.body;
+  BodyRecord& a = bodies[body];
+  BodyRecord& b = bodies[other];
+  PairScratch& scratch = narrow.scratch(0);
+  const Sweep other_motion = motion_of(other, done);
+  const Mat3 rotation_a = to_matrix(a.orientation),
+             rotation_b = to_matrix(other_motion.start.orientation);
+  collide_bodies(place(a.shape(), body_assets[body], a.position, rotation_a),
+                 place(b.shape(), body_assets[other], other_motion.start.position, rotation_b),
+                 k_impact_gap * 4, scratch.triangles.get(), scratch.part_contacts);
+  const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
+  const InverseInertia inertia_b = inverse_inertia(b, rotation_b);
+  const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole_tick - done);
+  a.velocity -= to_come;
+  Velocity approach{};
+  std::uint32_t tag_a = a.tag, tag_b = b.tag;
+  for (const PartContact& contact : scratch.part_contacts) {
+    ContactSurface surface;
+    find_surface({body, other}, contact.surface_a, contact.surface_b, contact.manifold, surface);
+    tag_a = surface.tag_a;
+    tag_b = surface.tag_b;
+    approach =
+        max(approach, answer_impact({a, inertia_a}, {b, inertia_b},
+                                    {contact.manifold, surface.friction, surface.restitution}));
+  }
+  if (next.impact.crossing != Vec3<Unit>{}) {
+    const Vec3<Position> arm = a.position - other_motion.start.position;
+    (void)answer_impact({a, inertia_a}, {b, inertia_b},
+                        {through_centre(next.impact.crossing, saturated<Length>(arm)), {}, {}});
+  }
+  a.velocity += to_come;
+  (void)limit_speed(a, inertia_a, def.speed_limit);
+  if (b.is_dynamic()) (void)limit_speed(b, inertia_b, def.speed_limit);
+  body_hashes.mark(other);
+  if (b.is_dynamic()) {
+    const auto swept_over = static_cast<std::uint8_t>(far_movers[other] & k_swept_over);
+    note_far_mover(other);
+    far_movers[other] |= swept_over;
+  }
+  if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
+  if (impacts.size() < def.body_capacity) {
+    impacts.push_back(
+        {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
+  }
+}
+
+}  // namespace lockstone

@@ -1,0 +1,30 @@
+// Checks of bytes from outside that are to be records of a state.
+#pragma once
+
+#include <lockstone/asset.h>
+#include <lockstone/quat.h>
+#include <lockstone/status.h>
+
+#include "core/dynamics/state/body_record.h"
+#include "core/dynamics/state/contact_record.h"
+#include "core/dynamics/state/joint_record.h"
+
+namespace lockstone {
+
+/// ok, or the reason why a stored record is invalid. For bytes from outside.
+[[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
+[[nodiscard]] Status validate(const JointRecord& record);
+
+/// The same with the bodies that a contact is between, or that a joint holds.
+[[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,
+                              const BodyRecord& b);
+[[nodiscard]] Status validate(const JointRecord& record, const BodyRecord& a, const BodyRecord& b);
+
+/// Whether a joint may hold the two, and whether a body's joints may sit there.
+[[nodiscard]] bool can_join(const BodyRecord& a, const BodyRecord& b);
+[[nodiscard]] bool is_anchor(const BodyRecord& body, const Vec3<Length>& anchor);
+
+/// |q| = 1 within 2^-20. For bytes from outside.
+[[nodiscard]] bool has_unit_norm(const Quat& q);
+
+}  // namespace lockstone

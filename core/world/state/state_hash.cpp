@@ -1,0 +1,85 @@
+// The hash of a state: one hash a record, seeded with its place, summed per store. A sum lets a
+// record be exchanged without hashing the others again, and does not depend on their order.
+
+#include <algorithm>
+#include <array>
+
+#include "core/world/state/stores.h"
+#include "core/world/world_impl.h"
+
+namespace lockstone {
+namespace {
+
+// Each half of its own.
+Hash128 operator+(const Hash128& a, const Hash128& b) {
+  return {a.low + b.low, a.high + b.high};
+}
+
+template <class Store, class State>
+Hash128 sum_of(const State& state) {
+  Hash128 sum;
+  for_each_record<Store>(state, [&](std::uint32_t index, const auto& record) {
+    sum = sum + hash_record128(record, hash_seed<Store>(index));
+  });
+  return sum;
+}
+
+template <class Store, class State>
+std::size_t list_hashes(const State& state, std::span<std::uint64_t> out) {
+  std::size_t count = 0;
+  for_each_record<Store>(state, [&](std::uint32_t index, const auto& record) {
+    if (count < out.size()) out[count] = hash_record(record, hash_seed<Store>(index));
+    ++count;
+  });
+  return count;
+}
+
+}  // namespace
+
+StateHash World::hash() const {
+  Impl& world = *impl_;
+  StateHash hash;
+  hash.header = hash_record(world.header, 0);
+  world.visit(BodyStore{}, [&](auto bodies) { hash.bodies = world.body_hashes.sum(bodies); });
+  hash.contacts = world.frozen.hash() + hash_contacts(world.contacts());
+  world.visit(JointStore{}, [&](auto joints) { hash.joints = world.joint_hashes.sum(joints); });
+  hash.hashed =
+      1 + world.body_hashes.hashed() + world.active_contacts + world.joint_hashes.hashed();
+  std::array<std::byte, 32> parts{};
+  ByteWriter writer(parts);
+  writer.put(hash.header);
+  writer.put(hash.bodies);
+  writer.put(hash.contacts);
+  writer.put(hash.joints);
+  hash.total = hash64(writer.written());
+  return hash;
+}
+
+StateHash128 World::hash128() const {
+  StateHash128 hash;
+  hash.header = hash_record128(impl_->header, 0);
+  hash.bodies = sum_of<BodyStore>(*impl_);
+  hash.contacts = sum_of<ContactStore>(*impl_);
+  hash.joints = sum_of<JointStore>(*impl_);
+  std::array<std::byte, 64> parts{};
+  ByteWriter writer(parts);
+  for (const Hash128& part : {hash.header, hash.bodies, hash.contacts, hash.joints}) {
+    writer.put(part.low);
+    writer.put(part.high);
+  }
+  hash.total = lockstone::hash128(writer.written());
+  return hash;
+}
+
+std::size_t World::record_hashes(StateStore store, std::span<std::uint64_t> out) const {
+  switch (store) {
+    case StateStore::bodies:
+      return list_hashes<BodyStore>(*impl_, out);
+    case StateStore::contacts:
+      return list_hashes<ContactStore>(*impl_, out);
+    default:
+      return list_hashes<JointStore>(*impl_, out);
+  }
+}
+
+}  // namespace lockstone

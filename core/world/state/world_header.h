@@ -1,0 +1,37 @@
+// The part of a world's state that stands before its stores.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+#include "core/dynamics/state/fields.h"
+
+namespace lockstone {
+
+/// The part of the state that belongs to no object.
+struct WorldHeader {
+  std::uint64_t tick = 0;
+  Vec3<Acceleration> gravity{};
+  std::uint32_t body_limit = 0;  // slots ever used
+  std::uint32_t contact_count = 0;
+  std::uint32_t joint_limit = 0;  // slots ever used
+  std::uint32_t reserved = 0;     // keeps the record free of padding; always 0
+
+  friend bool operator==(const WorldHeader&, const WorldHeader&) = default;
+};
+
+template <class F>
+constexpr void visit_fields(WorldHeader& header, F&& f) {
+  visit_value("tick", "", header.tick, f);
+  visit_value("gravity", "", header.gravity, f);
+  visit_value("body_limit", "", header.body_limit, f);
+  visit_value("contact_count", "", header.contact_count, f);
+  visit_value("joint_limit", "", header.joint_limit, f);
+  visit_value("reserved", "", header.reserved, f);
+}
+
+static_assert(visited_bytes<WorldHeader>() == sizeof(WorldHeader), "a field is missing");
+
+}  // namespace lockstone

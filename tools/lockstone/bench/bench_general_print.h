@@ -1,0 +1,29 @@
+// The output and the page of `lockstone bench general`.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "tools/bench/general/run.h"
+#include "tools/lockstone/support/output_file.h"
+
+namespace lockstone::tool {
+
+/// A line a family and engine.
+[[nodiscard]] std::string general_table(std::span<const bench::FamilyRun> runs);
+
+/// How each of our failing seeds is played again, a line each.
+[[nodiscard]] std::string general_failures(std::span<const bench::FamilyRun> runs,
+                                           std::uint64_t first_seed);
+
+/// The table as Markdown, with a head that describes it.
+[[nodiscard]] std::string general_page(std::span<const bench::FamilyRun> runs,
+                                       std::string_view command);
+
+/// A chart a family into a folder: the errors of each engine, in order. False when the system
+/// refuses.
+[[nodiscard]] bool plot_general(std::span<const bench::FamilyRun> runs, const Output& folder);
+
+void print_general_json(std::span<const bench::FamilyRun> runs, std::uint64_t first_seed);
+
+}  // namespace lockstone::tool

@@ -1,0 +1,22 @@
+// The subcommands that measure, fuzz and simulate networks, in a build without them.
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/support/absent_command.h"
+
+namespace lockstone::tool {
+
+static constexpr const char* k_no_bench = "LOCKSTONE_BUILD_BENCH is off";
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  add_absent_command(app, exit_code, "bench", k_no_bench);
+}
+void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
+  add_absent_command(app, exit_code, "fuzz-pairs", k_no_bench);
+}
+void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
+  add_absent_command(app, exit_code, "fuzz-scene", k_no_bench);
+}
+void add_simnet_command(CLI::App& app, int& exit_code) {
+  add_absent_command(app, exit_code, "simnet", k_no_bench);
+}
+
+}  // namespace lockstone::tool

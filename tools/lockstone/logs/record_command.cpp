@@ -1,0 +1,111 @@
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lockstone/replay/recorder.h>
+
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/logs/flipping_simulation.h"
+#include "tools/lockstone/logs/log_commands.h"
+#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/match_inputs.h"
+#include "tools/lockstone/support/console.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct RecordOptions {
+  std::string scene = "arena";
+  std::string out;
+  std::uint64_t ticks = 600;
+  std::uint64_t seed = 1;
+  std::optional<std::uint32_t> keyframes;
+  bool plain = false;
+  std::string key;
+  std::optional<std::uint64_t> flip_bit_at;
+  std::optional<std::uint64_t> match_id;
+  bool force = false;
+};
+
+bool prepare(const RecordOptions& options, replay::RecorderOptions& recorder) {
+  recorder.compress = !options.plain;
+  if (options.keyframes) {
+    recorder.keyframe_interval_ticks = *options.keyframes;
+    recorder.early_keyframe_interval_ticks = *options.keyframes;
+  }
+  if (options.key.empty()) return true;
+  recorder.signing_key = read_signing_key(options.key);
+  return recorder.signing_key.has_value();
+}
+
+Status play(const RecordOptions& options, Simulation& simulation, replay::Recorder& recorder) {
+  Progress progress;
+  MatchInputs inputs(options.seed);
+  for (std::uint64_t tick = 0; tick < options.ticks; ++tick) {
+    progress.show("record", tick, options.ticks);
+    const std::span<const PlayerInput> pressed = inputs.next(unwrapped(simulation));
+    simulation.step(pressed);
+    const Status status = recorder.record_step(simulation, pressed);
+    if (status != Status::ok) return status;
+  }
+  return recorder.finish("recorded");
+}
+
+int record(const RecordOptions& options) {
+  Result<Match> match = make_match(options.scene, options.seed);
+  if (!match) {
+    complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
+    return k_usage;
+  }
+  std::unique_ptr<Simulation> made = std::move(match.value().simulation);
+  if (options.flip_bit_at) made = make_flipping(std::move(made), *options.flip_bit_at);
+  Simulation& simulation = *made;
+  replay::RecorderOptions recorder_options{
+      .keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical)};
+  if (!prepare(options, recorder_options)) return k_usage;
+  const std::unique_ptr<replay::FileSink> sink = create_log({options.out, options.force});
+  if (sink == nullptr) return k_unavailable;
+  replay::Recorder recorder(*sink, recorder_options);
+  const std::vector<std::byte>& config = match.value().config;
+  Status status = recorder.begin(simulation.info(), config,
+                                 {.match_id = options.match_id.value_or(random_match_id()),
+                                  .seed = options.seed,
+                                  .build = "lockstone " LOCKSTONE_VERSION});
+  if (status == Status::ok) status = play(options, simulation, recorder);
+  if (status == Status::ok) {
+    fmt::print("{}: {} ticks, final hash {}\n", options.out, options.ticks,
+               hash_text(simulation.hash()));
+    return k_ok;
+  }
+  complain(fmt::format("{}: {}", options.out, to_string(status)));
+  return k_unavailable;
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RecordOptions>();
+  CLI::App* command = app.add_subcommand("record", "Run a scene, or bots in the arena, into a log");
+  command->add_option("out", options->out, "The log to write (.lks)")->required();
+  command->add_option("--scene", options->scene, "Name, see `scenes`")->capture_default_str();
+  command->add_option("--ticks", options->ticks, "Ticks to record")->capture_default_str();
+  command->add_option("--seed", options->seed, "For scenes with chance in them")
+      ->capture_default_str();
+  command->add_option("--keyframes", options->keyframes,
+                      "Ticks between keyframes; 0: none [600, at first 150]");
+  command->add_flag("--plain", options->plain, "Compress nothing, so that every build can read it");
+  command->add_option("--sign", options->key, "Sign with the secret key in this file");
+  command->add_option("--flip-bit-at", options->flip_bit_at,
+                      "Go wrong by one bit in this tick, for trying out `verify` and `bisect`");
+  command->add_option("--match-id", options->match_id,
+                      "Number of the match; chosen at random when left out");
+  add_force_option(*command, options->force);
+  command->callback([options, &exit_code] { exit_code = record(*options); });
+}
+
+}  // namespace lockstone::tool

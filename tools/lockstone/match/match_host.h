@@ -1,0 +1,96 @@
+// A server with its simulation and its log, for `serve` and `demo`.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lockstone/net/server.h>
+#include <lockstone/net/token.h>
+#include <lockstone/net/transport_enet.h>
+#include <lockstone/replay/recorder.h>
+#include <lockstone/simulation.h>
+
+#include "tools/lockstone/match/metrics.h"
+#include "tools/lockstone/support/console.h"
+
+namespace lockstone::tool {
+
+struct MatchOptions {
+  std::string scene = "arena";
+  unsigned players = 4;
+  std::uint64_t ticks = 3600;  ///< 0: until interrupted
+  std::uint64_t seed = 1;
+  std::uint16_t bodies = 216;  ///< loose bodies of the arena
+  std::string bind = "127.0.0.1";
+  std::uint16_t port = 0;  ///< 0: the system chooses
+  std::size_t max_per_address = net::EnetOptions{}.max_connections_per_address;
+  unsigned input_delay = 4;
+  double drop_after_s = 5;  ///< of silence
+  bool strict = false;
+  bool fast = false;
+  bool insecure = false;
+  std::optional<net::Key> key;  ///< seals the tokens; none: insecure
+  std::uint64_t match = 0;      ///< of the tokens
+  net::ServerList addresses;  ///< the addresses of this server that tokens may name; none: no check
+  std::string record;         ///< empty: no log
+  std::string resume;         ///< the log of a killed server, whose match goes on; empty: none
+  unsigned start_players = 0;  ///< the match begins with so many; 0: with all
+  std::uint16_t spectators = 0;
+  unsigned spectator_delay_s = 0;
+  net::DesyncPolicy desync_policy = net::DesyncPolicy::resync;
+  std::string bundle;              ///< the first desync is written to this file; empty: nowhere
+  std::uint16_t metrics_port = 0;  ///< 0: none
+  std::string metrics_bind = "127.0.0.1";
+  bool force = false;                             ///< replace files that are there
+  std::optional<replay::SigningKey> signing_key;  ///< of the log; none: it is not signed
+};
+
+/// The outcome of a match.
+struct MatchSummary {
+  std::uint64_t ticks = 0;
+  double seconds = 0;          ///< from the first tick to the last
+  double longest_seconds = 0;  ///< between two ticks
+  net::FinishReason reason = net::FinishReason::stopped;
+  std::uint64_t final_hash = 0;
+  unsigned desyncs = 0;
+  Status record_status = Status::ok;
+  std::vector<net::PlayerStats> players;
+};
+
+/// One match. Prints joins, leaves, refusals and desyncs as they come.
+class MatchHost {
+ public:
+  /// Null, with a complaint, when it cannot be set up.
+  [[nodiscard]] static std::unique_ptr<MatchHost> create(const MatchOptions& options);
+  ~MatchHost();
+
+  [[nodiscard]] std::uint16_t port() const;
+
+  /// Does the work that is due; false once the match is over.
+  [[nodiscard]] bool update();
+
+  /// Ends the match after the ticks closed so far.
+  void stop();
+
+  /// Finishes the log and sums up. Once.
+  [[nodiscard]] MatchSummary finish();
+
+  [[nodiscard]] const Simulation& simulation() const;
+  [[nodiscard]] std::uint64_t ticks_closed() const;
+
+  [[nodiscard]] MatchMetrics metrics() const;
+
+  /// A line about how it goes.
+  [[nodiscard]] std::string progress_line() const;
+  [[nodiscard]] Progress& progress();
+
+ private:
+  struct Impl;
+  explicit MatchHost(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lockstone::tool

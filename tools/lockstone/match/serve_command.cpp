@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/match/match_host.h"
+#include "tools/lockstone/match/match_options.h"
+#include "tools/lockstone/match/secrets.h"
+#include "tools/lockstone/match/servers.h"
+#include "tools/lockstone/support/console.h"
+#include "tools/lockstone/support/interrupt.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct ServeOptions {
+  MatchOptions match;
+  std::string policy = "deadline";
+  std::string on_desync = "resync";
+  unsigned matches = 1;
+  std::string key;
+  std::string sign;
+  std::vector<std::string> addresses;
+};
+
+// Not k_ok, with a complaint, unless the match is either for tokens or insecure by name.
+int set_security(ServeOptions& options) {
+  if (options.match.insecure == !options.key.empty()) {
+    complain("give --key FILE and --match N, or say --insecure");
+    return k_usage;
+  }
+  if (options.match.insecure) return k_ok;
+  if (!require_security()) return k_unavailable;
+  options.match.key = read_key(options.key);
+  if (!add_servers(options.addresses, options.match.addresses)) return k_usage;
+  return options.match.key ? k_ok : k_corrupt;
+}
+
+// False, with a complaint, when a log is to be signed and cannot be.
+bool set_signing(ServeOptions& options) {
+  if (options.sign.empty()) return true;
+  if (options.match.record.empty()) {
+    complain("--sign signs the log of --record FILE");
+    return false;
+  }
+  options.match.signing_key = read_signing_key(options.sign);
+  return options.match.signing_key.has_value();
+}
+
+void print_players(const MatchSummary& summary) {
+  for (std::size_t slot = 0; slot < summary.players.size(); ++slot) {
+    const net::PlayerStats& player = summary.players[slot];
+    fmt::print("player {}: {} of {} hashes equal, {} late inputs, {} bytes in, {} bytes out\n",
+               slot, player.hashes_equal, player.hashes_compared, player.late_inputs,
+               player.bytes_received, player.bytes_sent);
+  }
+}
+
+int run_match(MatchHost& host) {
+  bool stopping = false;
+  while (host.update()) {
+    if (!interrupted() || stopping) continue;
+    host.stop();
+    stopping = true;
+  }
+  const MatchSummary summary = host.finish();
+  fmt::print("the match is over: {}, {} ticks, final hash {}\n", to_string(summary.reason),
+             summary.ticks, hash_text(summary.final_hash));
+  fmt::print("{:.1f} s, longest between two ticks {:.0f} ms\n", summary.seconds,
+             1000 * summary.longest_seconds);
+  print_players(summary);
+  if (summary.desyncs > 0) return k_different;
+  return summary.record_status == Status::ok ? k_ok : k_unavailable;
+}
+
+// The options of one of several matches: ports count up, files get the number as an ending.
+MatchOptions options_of(const ServeOptions& options, unsigned index) {
+  MatchOptions match = options.match;
+  if (options.matches == 1) return match;
+  if (match.port != 0) match.port = static_cast<std::uint16_t>(match.port + index);
+  if (match.metrics_port != 0) {
+    match.metrics_port = static_cast<std::uint16_t>(match.metrics_port + index);
+  }
+  for (std::string* file : {&match.record, &match.bundle}) {
+    if (!file->empty()) *file += fmt::format(".{}", index);
+  }
+  return match;
+}
+
+// Each match has ports of its own, and they must exist.
+int check_matches(const ServeOptions& options) {
+  constexpr unsigned k_last_port = 65535;
+  for (const std::uint16_t port : {options.match.port, options.match.metrics_port}) {
+    if (port == 0 || port + options.matches - 1 <= k_last_port) continue;
+    complain(fmt::format("{} matches from port {} on: there is none above {}", options.matches,
+                         port, k_last_port));
+    return k_usage;
+  }
+  if (options.matches == 1 || options.match.resume.empty()) return k_ok;
+  complain("--resume is for one match");
+  return k_usage;
+}
+
+// `[::1]`, as addresses with a port have it, means `::1`.
+void remove_brackets(std::string& address) {
+  const bool bracketed = address.size() > 2 && address.front() == '[' && address.back() == ']';
+  const bool ipv6 = address.find(':') != std::string::npos;
+  if (bracketed && ipv6) address = address.substr(1, address.size() - 2);
+}
+
+int serve(ServeOptions options) {
+  remove_brackets(options.match.bind);
+  remove_brackets(options.match.metrics_bind);
+  options.match.strict = options.policy == "strict";
+  options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
+                                : options.on_desync == "resync" ? net::DesyncPolicy::resync
+                                                                : net::DesyncPolicy::end_match;
+  if (const int code = set_security(options); code != k_ok) return code;
+  if (const int code = check_matches(options); code != k_ok) return code;
+  if (!set_signing(options)) return k_usage;
+  catch_interrupts();
+  std::vector<std::unique_ptr<MatchHost>> hosts;
+  for (unsigned i = 0; i < options.matches; ++i) {
+    hosts.push_back(MatchHost::create(options_of(options, i)));
+    if (hosts.back() == nullptr) return k_unavailable;
+    const net::HostPort where{options.match.bind, hosts.back()->port()};
+    fmt::print("listening on {}\n", where.to_text());
+  }
+  std::fflush(stdout);
+  std::vector<int> exits(hosts.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 1; i < hosts.size(); ++i)
+    threads.emplace_back([&hosts, &exits, i] { exits[i] = run_match(*hosts[i]); });
+  exits[0] = run_match(*hosts[0]);
+  for (std::thread& thread : threads)
+    thread.join();
+  return *std::max_element(exits.begin(), exits.end());
+}
+
+void add_security_options(CLI::App& command, ServeOptions& options) {
+  command.add_option("--key", options.key, "File with the key of `token key`");
+  command.add_option("--match", options.match.match, "The number that the tokens are for")
+      ->capture_default_str();
+  command.add_option(
+      "--address", options.addresses,
+      "Take only tokens that name this server, like 1.2.3.4:7777, [2001:db8::1]:7777 or "
+      "game.example:7777, or any server");
+  command.add_flag("--insecure", options.match.insecure,
+                   "No tokens and no encryption: anybody may join, listen and forge");
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ServeOptions>();
+  CLI::App* command = app.add_subcommand("serve", "Host a match over UDP");
+  add_match_options(*command, options->match);
+  command
+      ->add_option("--bind", options->match.bind,
+                   "Numeric address; :: for all of IPv6 and IPv4, 0.0.0.0 for all of IPv4")
+      ->capture_default_str();
+  command->add_option("--port", options->match.port, "UDP port; 0: the system chooses")
+      ->capture_default_str();
+  command
+      ->add_option("--max-connections-per-address", options->match.max_per_address,
+                   "Players and spectators behind one router share an address; IPv6: a /64")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--scene", options->match.scene, "The scene to simulate, see `scenes`")
+      ->capture_default_str();
+  command->add_option("--record", options->match.record, "Write the log to this file");
+  command->add_option("--resume", options->match.resume,
+                      "Go on with the match of a killed server, from its log; the scene comes "
+                      "from there, other options as before. The log goes on in the same file, or "
+                      "in that of --record");
+  command->add_option("--sign", options->sign,
+                      "Sign the log with the secret key in this file, see `keygen`");
+  command->add_option("--policy", options->policy, "On a late input: replace it, or wait for it")
+      ->check(CLI::IsMember({"deadline", "strict"}))
+      ->capture_default_str();
+  command
+      ->add_option("--start-players", options->match.start_players,
+                   "Begin with so many; others may come later. 0: with all")
+      ->check(CLI::Range(0, 16))
+      ->capture_default_str();
+  command
+      ->add_option("--drop-after", options->match.drop_after_s,
+                   "Drop a player that is silent for so many seconds")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_option("--spectators", options->match.spectators, "So many may watch")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_option("--spectator-delay", options->match.spectator_delay_s, "Seconds")
+      ->check(CLI::Range(0, 180))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--on-desync", options->on_desync,
+          "A player whose state is wrong: end the match, send the player away for good, or "
+          "correct it once")
+      ->check(CLI::IsMember({"end", "kick", "resync"}))
+      ->capture_default_str();
+  command->add_option("--bundle", options->match.bundle,
+                      "Write the first desync to this file (tar): report, both states, log");
+  command->add_option("--metrics-port", options->match.metrics_port,
+                      "Answer /metrics and /stats.json over HTTP");
+  command
+      ->add_option("--metrics-bind", options->match.metrics_bind,
+                   "Numeric address for that; whoever reaches it may read")
+      ->capture_default_str();
+  command->add_option("--matches", options->matches, "Host so many, on ports that follow")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  add_security_options(*command, *options);
+  command->callback([options, &exit_code] { exit_code = serve(*options); });
+}
+
+}  // namespace lockstone::tool

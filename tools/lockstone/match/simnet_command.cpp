@@ -1,0 +1,193 @@
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/arena/config.h"
+#include "tools/lockstone/commands.h"
+#include "tools/lockstone/support/console.h"
+#include "tools/lockstone/support/json_text.h"
+#include "tools/scenes/play.h"
+#include "tools/simnet/batch.h"
+#include "tools/simnet/toy_game.h"
+
+namespace lockstone::tool {
+namespace {
+
+struct SimnetOptions {
+  simnet::BatchOptions batch;
+  std::string faults = "all";
+  std::string schedule;
+  std::string scene = "toy";
+  std::string control;
+  std::uint16_t bodies = 60;
+  bool json = false;
+};
+
+simnet::Game arena_game(const SimnetOptions& options, std::uint64_t seed) {
+  arena::ArenaConfig config;
+  config.seed = seed;
+  config.players = static_cast<std::uint8_t>(options.batch.clients);
+  config.loose_bodies = options.bodies;
+  const auto bytes = config.encode();
+  return {{bytes.begin(), bytes.end()}, scenes::make_simulation, scenes::make_simulation};
+}
+
+simnet::GameMaker game_maker(const SimnetOptions& options) {
+  return [&options](std::uint64_t seed, std::optional<simnet::Control>& control) {
+    if (options.scene == "arena") return arena_game(options, seed);
+    const simnet::Defect defect = options.control == "flip"      ? simnet::Defect::flipped_bit
+                                  : options.control == "unsaved" ? simnet::Defect::unsaved
+                                                                 : simnet::Defect::none;
+    return simnet::make_toy_game(seed, options.batch.clients, options.batch.ticks, defect, control);
+  };
+}
+
+std::string repeat_command(const SimnetOptions& options, const simnet::BatchFailure& failure) {
+  std::string line =
+      fmt::format("lockstone simnet --first-seed {} --seeds 1 --clients {} --ticks {}",
+                  failure.seed, options.batch.clients, options.batch.ticks);
+  if (options.scene != "toy") {
+    line += fmt::format(" --scene {} --bodies {}", options.scene, options.bodies);
+  }
+  if (!options.control.empty()) line += " --control " + options.control;
+  if (options.batch.lie != simnet::Lie::none) {
+    const bool kicks = options.batch.policy == net::DesyncPolicy::kick;
+    line += fmt::format(" --liar {} --on-desync {}", to_string(options.batch.lie),
+                        kicks ? "kick" : "resync");
+  }
+  return line + fmt::format(" --schedule '{}'", to_text(failure.schedule));
+}
+
+void print_json(const SimnetOptions& options, const simnet::BatchTotals& totals, double seconds) {
+  nlohmann::ordered_json failures = nlohmann::ordered_json::array();
+  for (const simnet::BatchFailure& failure : totals.failures) {
+    failures.push_back({{"seed", failure.seed},
+                        {"what", failure.what},
+                        {"mode", to_text(failure.mode)},
+                        {"schedule", to_text(failure.schedule)},
+                        {"command", repeat_command(options, failure)}});
+  }
+  const nlohmann::ordered_json json{{"matches", totals.matches},
+                                    {"ticks", totals.ticks},
+                                    {"client_ticks", totals.client_ticks},
+                                    {"comparisons", totals.comparisons},
+                                    {"faults", totals.faults},
+                                    {"kills", totals.kills},
+                                    {"entries", totals.entries},
+                                    {"too_late", totals.too_late},
+                                    {"rollbacks", totals.rollbacks},
+                                    {"substituted_inputs", totals.substituted_inputs},
+                                    {"resends", totals.resends},
+                                    {"refused_packets", totals.refused_packets},
+                                    {"peak_bytes_in_flight", totals.peak_bytes},
+                                    {"hash", hash_text(totals.hash)},
+                                    {"seconds", seconds},
+                                    {"failures", failures}};
+  write_json(json);
+}
+
+void print_text(const SimnetOptions& options, const simnet::BatchTotals& totals, double seconds) {
+  fmt::print("{} matches, {} ticks, {} client-ticks, {} comparisons in {:.1f} s\n", totals.matches,
+             totals.ticks, totals.client_ticks, totals.comparisons, seconds);
+  fmt::print("{} entries into running matches, {} overtaken by the end, {} rollbacks\n",
+             totals.entries, totals.too_late, totals.rollbacks);
+  fmt::print("{} faults, {} kills, {} inputs replaced, {} resends, {} damaged packets refused\n",
+             totals.faults, totals.kills, totals.substituted_inputs, totals.resends,
+             totals.refused_packets);
+  fmt::print("at most {} bytes on their way; hash of all final states {}\n", totals.peak_bytes,
+             hash_text(totals.hash));
+  for (const simnet::BatchFailure& failure : totals.failures) {
+    fmt::print("seed {} ({}): {}\n  {}\n", failure.seed, to_text(failure.mode), failure.what,
+               repeat_command(options, failure));
+  }
+  if (totals.failures.empty()) fmt::print("all as it must be\n");
+}
+
+int simulate(SimnetOptions options) {
+  const std::optional<simnet::FaultMask> faults = simnet::parse_faults(options.faults);
+  if (!faults) {
+    complain("unknown kind of fault in " + options.faults);
+    return k_usage;
+  }
+  options.batch.faults = *faults;
+  if (!options.schedule.empty()) {
+    options.batch.schedule = simnet::parse_schedule(options.schedule);
+    if (!options.batch.schedule) {
+      complain("not a schedule: " + options.schedule);
+      return k_usage;
+    }
+  }
+  Progress bar;
+  const Stopwatch watch;
+  const simnet::BatchTotals totals =
+      run_batch(options.batch, game_maker(options),
+                [&](std::uint64_t done) { bar.show("matches", done, options.batch.seeds); });
+  bar.clear();
+  if (options.json) {
+    print_json(options, totals, watch.seconds());
+  } else {
+    print_text(options, totals, watch.seconds());
+  }
+  return totals.failures.empty() ? k_ok : k_different;
+}
+
+}  // namespace
+
+void add_simnet_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SimnetOptions>();
+  CLI::App* command =
+      app.add_subcommand("simnet", "Play matches over a simulated network full of faults");
+  simnet::BatchOptions& batch = options->batch;
+  command->add_option("--seeds", batch.seeds, "Matches, one a seed")->capture_default_str();
+  command->add_option("--first-seed", batch.first_seed, "The first match's")->capture_default_str();
+  command->add_option("--clients", batch.clients, "Players of each match")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command->add_option("--ticks", batch.ticks, "Of each match")
+      ->check(CLI::Range(60, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--faults", options->faults, "all, none, or kinds: loss,burst,delay,kill …")
+      ->capture_default_str();
+  command->add_option("--schedule", options->schedule, "These faults instead of drawn ones");
+  command->add_option("--threads", batch.threads, "Matches at a time")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_option("--scene", options->scene, "toy: integers of a few lines; or the arena")
+      ->check(CLI::IsMember({"toy", "arena"}))
+      ->capture_default_str();
+  command->add_option("--bodies", options->bodies, "Loose bodies of the arena")
+      ->check(CLI::Range(0, 600))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--control", options->control,
+          "A fault that must be caught (toy): flip, one bit of one state; unsaved, a field")
+      ->check(CLI::IsMember({"flip", "unsaved"}));
+  command
+      ->add_option_function<std::string>(
+          "--liar",
+          [options](const std::string& text) { options->batch.lie = *simnet::parse_lie(text); },
+          "How the last client lies about its states")
+      ->check(
+          CLI::IsMember({"once", "always", "alternately", "parts", "silence", "future", "dumps"}));
+  command
+      ->add_option_function<std::string>(
+          "--on-desync",
+          [options](const std::string& text) {
+            options->batch.policy =
+                text == "kick" ? net::DesyncPolicy::kick : net::DesyncPolicy::resync;
+          },
+          "How the server treats a liar")
+      ->check(CLI::IsMember({"kick", "resync"}));
+  command->add_flag_callback(
+      "--no-shrink", [options] { options->batch.shrink = false; },
+      "Print failing schedules as they are");
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->callback([options, &exit_code] { exit_code = simulate(*options); });
+}
+
+}  // namespace lockstone::tool
