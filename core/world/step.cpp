@@ -21,29 +21,13 @@ Position travel(Velocity v, const TimeStep& step) {
 }  // namespace
 
 void World::Impl::refresh(std::uint32_t body) {
-  rotations[body] = to_matrix(bodies[body].orientation);
-  contact_rotations[body] = to_matrix(bodies[body].contact_orientation);
-  refresh_contact_pose(body);
-  ++contact_pose_numbers[body];
-  turn_frame(body);
+  cache.refresh(body, bodies[body]);
   refresh_bounds(body);
-}
-
-// After the body's rotation. A contact pose that its body has left keeps its rotation.
-void World::Impl::refresh_contact_pose(std::uint32_t body) {
-  const BodyRecord& record = bodies[body];
-  if (record.contact_orientation == record.orientation) contact_rotations[body] = rotations[body];
-  drifts[body] = drift_of(record);
-}
-
-// After the body's rotation.
-void World::Impl::turn_frame(std::uint32_t body) {
-  if (body_assets[body] != nullptr) frames[body] = shape_frame(body_assets[body], rotations[body]);
 }
 
 void World::Impl::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
-  inner_radii[body] = inner_radius(record.shape(), body_assets[body]);
+  cache.refresh_shape(body, record);
   if (triggers.has(body) != record.is_trigger()) triggers.flip(body);
   broad_phase.set(body, bounds_of(body),
                   {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
@@ -116,9 +100,9 @@ void World::Impl::solve_contacts(StepReport& report) {
 
 void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
-  solver.prepare({std::span(bodies).first(header.body_limit), rotations, slots, manifolds, surfaces,
-                  new_contacts, std::span(joints).first(header.joint_limit), joints_to_solve(),
-                  header.gravity, header.tick},
+  solver.prepare({std::span(bodies).first(header.body_limit), cache.rotations(), slots, manifolds,
+                  surfaces, new_contacts, std::span(joints).first(header.joint_limit),
+                  joints_to_solve(), header.gravity, header.tick},
                  parallel);
 }
 
@@ -136,7 +120,7 @@ void World::Impl::store_impulses() {
 
 // Joints of awake bodies may have changed.
 void World::Impl::mark_joints() {
-  for (const JointLink& joint : active_joints)
+  for (const JointLink& joint : joint_graph.awake_links())
     joint_hashes.mark(joint.joint);
 }
 
@@ -177,17 +161,9 @@ Loop World::Impl::each_moved() const {
 void World::Impl::follow_with_contacts() {
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i)
-      if (!solver.keeps_contact_pose(moved[i], bodies[moved[i]])) take_contact_pose(moved[i]);
+      if (!solver.keeps_contact_pose(moved[i], bodies[moved[i]]))
+        cache.take_contact_pose(moved[i], bodies[moved[i]]);
   });
-}
-
-void World::Impl::take_contact_pose(std::uint32_t body) {
-  BodyRecord& record = bodies[body];
-  const Vec3<Length> place = record.contact_place;
-  const Quat orientation = record.contact_orientation;
-  set_contact_pose(record);
-  if (record.contact_place != place || record.contact_orientation != orientation)
-    ++contact_pose_numbers[body];
 }
 
 // As `refresh` does for each, with the rotations all at once. Only a body that leaves its fat box
@@ -198,11 +174,10 @@ void World::Impl::refresh_moved() {
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     const lanes::QuatField orientations{&bodies.front().orientation, sizeof(BodyRecord)};
     lanes::compute_rotations(orientations, std::span(moved).subspan(first, end - first),
-                             rotations.data());
+                             cache.rotations_out());
     bool any = false;
     for (std::uint32_t i = first; i < end; ++i) {
-      refresh_contact_pose(moved[i]);
-      turn_frame(moved[i]);
+      cache.refresh_turned(moved[i], bodies[moved[i]]);
       const Bounds bounds = bounds_of(moved[i]);
       any = any || bounds != broad_phase.bounds(moved[i]);
       leaves_fat_box[i] = broad_phase.follow(moved[i], bounds) ? 0 : 1;
@@ -220,7 +195,7 @@ void World::Impl::refresh_moved() {
 InverseInertia World::Impl::inertia_of(std::uint32_t body, const SolverBody* solved) const {
   if (bodies[body].spin == Vec3<Velocity>{}) return {};
   return solved != nullptr ? solved->inverse_inertia
-                           : inverse_inertia(bodies[body], rotations[body]);
+                           : inverse_inertia(bodies[body], cache.rotation(body));
 }
 
 void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
@@ -229,7 +204,7 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   if (!bounced) starts[body] = {record.position, record.orientation};
   const SolverBody* solved = solver.find(body);
   if (solved != nullptr) {
-    counts.axis_turns += solver.move(*solved, rotations[body], record);
+    counts.axis_turns += solver.move(*solved, cache.rotation(body), record);
     if (record.is_dynamic()) damp_velocity(record, time_step);
   } else if (bounced) {
     damp_velocity(record, time_step);
@@ -239,7 +214,7 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
     damp_velocity(record, time_step);
     ++counts.free_bodies;
   } else {
-    counts.axis_turns += fly(record, rotations[body], header.gravity, time_step, header.tick);
+    counts.axis_turns += fly(record, cache.rotation(body), header.gravity, time_step, header.tick);
     ++counts.free_bodies;
   }
   damp_spin(record, time_step);

@@ -65,14 +65,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       names(definition.body_capacity),
       awake(definition.body_capacity),
       triggers(definition.body_capacity),
-      joint_edges(definition.body_capacity, definition.joint_capacity),
-      rotations(definition.body_capacity),
-      contact_rotations(definition.body_capacity),
-      drifts(definition.body_capacity),
-      contact_pose_numbers(definition.body_capacity),
-      frames(definition.body_capacity),
-      body_assets(definition.body_capacity),
-      inner_radii(definition.body_capacity),
+      joint_graph(definition.body_capacity, definition.joint_capacity),
+      cache(definition.body_capacity),
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
       body_hashes(definition.body_capacity),
       joint_hashes(definition.joint_capacity),
@@ -85,9 +79,6 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
                  std::size_t{4} * definition.body_capacity);
   to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);
   to_sleep.reserve(definition.body_capacity);
-  joint_links.reserve(definition.joint_capacity);
-  active_joints.reserve(definition.joint_capacity);
-  joined_pairs.reserve(definition.joint_capacity);
   joint_events.reserve(definition.joint_capacity);
   impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);
@@ -172,7 +163,7 @@ void World::Impl::rebuild_derived() {
   asleep_count = 0;
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (!bodies[i].exists()) continue;
-    body_assets[i] = assets->find(bodies[i].asset);
+    cache.set_asset(i, assets->find(bodies[i].asset));
     if (bodies[i].is_asleep()) ++asleep_count;
     if (bodies[i].is_awake()) awake.insert(i);
     if (bodies[i].has_changed_sleep()) changed_sleep.insert(i);
@@ -184,10 +175,7 @@ void World::Impl::rebuild_derived() {
 }
 
 PlacedShape World::Impl::placed(std::uint32_t body) const {
-  const BodyRecord& record = bodies[body];
-  if (body_assets[body] == nullptr)
-    return {record.shape(), nullptr, record.position, rotations[body], record.position};
-  return place(record.shape(), body_assets[body], record.position, frames[body]);
+  return cache.placed(body, bodies[body]);
 }
 
 World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -259,12 +247,12 @@ BodyHandle World::body_at(std::uint32_t index) const {
 BodyView World::body(BodyHandle body) const {
   const BodyRecord* record = existing(impl_->find(body), body, "World::body");
   const Vec3<Velocity> w =
-      surface_velocity(inverse_inertia(*record, impl_->rotations[body.index]), record->spin);
+      surface_velocity(inverse_inertia(*record, impl_->cache.rotation(body.index)), record->spin);
   const auto angular = [&](Velocity v) {
     return AngularVelocity::from_raw(raw::scale_binary(v.raw, -record->scale_exponent));
   };
   const Transform pose =
-      shape_pose(impl_->body_assets[body.index], {record->position, record->orientation});
+      shape_pose(impl_->cache.asset(body.index), {record->position, record->orientation});
   return {.motion = static_cast<MotionType>(record->motion),
           .shape = record->shape(),
           .position = pose.position,
@@ -294,7 +282,7 @@ std::string_view World::name(BodyHandle body) const {
 
 Vec3<Position> World::position(BodyHandle body) const {
   const BodyRecord* record = existing(impl_->find(body), body, "World::position");
-  return shape_pose(impl_->body_assets[body.index], {record->position, record->orientation})
+  return shape_pose(impl_->cache.asset(body.index), {record->position, record->orientation})
       .position;
 }
 

@@ -26,10 +26,11 @@
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/step/contact_solver.h"
 #include "core/geometry/distance/manifold.h"
-#include "core/world/commands/body_names.h"
-#include "core/world/commands/joint_edges.h"
 #include "core/world/debug/profiler.h"
-#include "core/world/index_set.h"
+#include "core/world/derived/body_cache.h"
+#include "core/world/derived/body_names.h"
+#include "core/world/derived/index_set.h"
+#include "core/world/derived/joint_graph.h"
 #include "core/world/phases/narrow_slots.h"
 #include "core/world/phases/separating_axes.h"
 #include "core/world/phases/step_records.h"
@@ -79,7 +80,6 @@ struct World::Impl {
 
   /// Brings the data derived from one body up to date: after every write to it.
   void refresh(std::uint32_t body);
-  void turn_frame(std::uint32_t body);
   void rebuild_derived();
   void drop_derived();
 
@@ -121,7 +121,8 @@ struct World::Impl {
   void unlink_joint(std::uint32_t index);
   void rebuild_joint_links();
   [[nodiscard]] Pair pair_of(std::uint32_t a, std::uint32_t b) const;
-  [[nodiscard]] Pair joined_pair(const JointRecord& joint) const;
+  /// The pair that the joint exempts from collision, if it does.
+  [[nodiscard]] std::optional<Pair> exempt_pair(const JointRecord& joint) const;
   /// By a joint whose bodies do not collide.
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
   /// Whether a body's path may end at another, as far as filters and joints decide.
@@ -196,24 +197,10 @@ struct World::Impl {
   IndexSet awake;     // bodies that move
   IndexSet triggers;  // triggers that exist
 
-  // Derived of the joints: those that exist, by index, and the pairs that do not collide, sorted.
-  std::vector<JointLink> joint_links;
-  std::vector<Pair> joined_pairs;
+  JointGraph joint_graph;        // derived of the joints
   std::uint32_t joint_hint = 0;  // no slot below this is free
-  JointEdges joint_edges;
 
-  // Joints with an awake body, by index.
-  std::vector<JointLink> active_joints;
-  bool are_active_joints_current = false;
-
-  // Derived, by body index.
-  std::vector<Mat3> rotations;
-  std::vector<Mat3> contact_rotations;              // at the contact pose
-  std::vector<ContactDrift> drifts;                 // from there
-  std::vector<std::uint32_t> contact_pose_numbers;  // another when the pose is another
-  std::vector<ShapeFrame> frames;                   // kept where an asset is
-  std::vector<const Asset*> body_assets;            // null: a shape complete in itself
-  std::vector<Length> inner_radii;
+  BodyCache cache;  // derived of each body
   BroadPhase broad_phase;
   RecordHashes<BodyRecord, k_body_domain> body_hashes;
   RecordHashes<JointRecord, k_joint_domain> joint_hashes;
@@ -273,7 +260,7 @@ struct World::Impl {
   [[nodiscard]] bool is_found_at_contact_poses(const Pair& pair) const;
   void drift(const Pair& pair, Manifold& manifold) const;
   [[nodiscard]] const std::vector<Mat3>& rotations_of(const Pair& pair) const {
-    return is_found_at_contact_poses(pair) ? contact_rotations : rotations;
+    return is_found_at_contact_poses(pair) ? cache.contact_rotations() : cache.rotations();
   }
   [[nodiscard]] bool has_one_piece(std::uint32_t body) const;
   [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
@@ -317,9 +304,7 @@ struct World::Impl {
   [[nodiscard]] InverseInertia inertia_of(std::uint32_t body, const SolverBody* solved) const;
   [[nodiscard]] Loop each_moved() const;
   void follow_with_contacts();
-  void take_contact_pose(std::uint32_t body);
   void refresh_moved();
-  void refresh_contact_pose(std::uint32_t body);
 
   // Bounces within the tick (bounces.cpp).
   void find_bounces();

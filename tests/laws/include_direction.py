@@ -18,7 +18,7 @@ FLOORS = {
     "collision": ["broad_phase", "narrow_phase", "continuous", "query"],
     "dynamics": ["state", "body", "islands", "contact", "joint", "stack", "problem", "linkage", "direct",
                  "impact", "step"],
-    "world": ["state", "commands", "phases", "sleep", "debug", "query", ""],
+    "world": ["derived", "state", "commands", "phases", "sleep", "debug", "query", ""],
 }
 MODULES = list(FLOORS)
 # Its folders share the world's one class, so their order is not checked.

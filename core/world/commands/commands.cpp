@@ -137,7 +137,7 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
   body_hashes.mark(slot);
   BodyRecord& record = bodies[slot];
   record = make_record(body_def, asset, record.generation + 1);
-  body_assets[slot] = asset;
+  cache.set_asset(slot, asset);
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
@@ -181,7 +181,7 @@ Status World::Impl::execute(const Teleport& command) {
     return Status::invalid_argument;
   }
   const Transform pose =
-      body_pose(body_assets[command.body.index], {command.position, command.orientation});
+      body_pose(cache.asset(command.body.index), {command.position, command.orientation});
   if (!is_within(pose.position, k_world_limit)) return Status::invalid_argument;
   disturb(command.body.index);
   drop_contacts_of(command.body.index);
@@ -216,7 +216,7 @@ Status World::Impl::execute(const SetAngularVelocity& command) {
     return Status::invalid_argument;
   }
   wake(command.body.index);
-  record->spin = spin_of(*record, rotations[command.body.index], surface);
+  record->spin = spin_of(*record, cache.rotation(command.body.index), surface);
   hold_in_range(record->spin);
   refresh(command.body.index);
   return Status::ok;

@@ -263,7 +263,7 @@ Refusal World::explain(const JointDef& def) const {
   check_forces(find, def);
   if (find.done()) return find.take();
   JointRecord joint;
-  (void)make_joint(def, impl_->body_assets[def.body_a.index], impl_->body_assets[def.body_b.index],
+  (void)make_joint(def, impl_->cache.asset(def.body_a.index), impl_->cache.asset(def.body_b.index),
                    joint);
   check_anchor(find, "frame_a.position", *a, def.frame_a, joint.anchor_a);
   check_anchor(find, "frame_b.position", *b, def.frame_b, joint.anchor_b);

@@ -36,7 +36,7 @@ class CommandExplainer {
     find_.direction("orientation", c.orientation);
     if (find_.done()) return;
     find_.within("position (of the centre of mass)",
-                 body_pose(impl_.body_assets[c.body.index], {c.position, c.orientation}).position,
+                 body_pose(impl_.cache.asset(c.body.index), {c.position, c.orientation}).position,
                  k_world_limit, "m");
   }
 
@@ -63,7 +63,7 @@ class CommandExplainer {
     if (find_.done()) return;
     const Vec3<Position> now = world_.position(c.body);
     const Transform target =
-        body_pose(impl_.body_assets[c.body.index], {c.position, c.orientation});
+        body_pose(impl_.cache.asset(c.body.index), {c.position, c.orientation});
     Vec3<Velocity> velocity, spin;
     find_.require(motion_to(*record, target, impl_.def.tick_rate, velocity, spin), "position",
                   "from " + to_decimal(now) + " to " + to_decimal(c.position) + " m",
@@ -166,7 +166,7 @@ class CommandExplainer {
     TickGain unused;
     const bool near = impl_.gain_of(c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
     const BodyRecord& record = *impl_.find(c.body);
-    const Length radius = properties_of(record.shape(), impl_.body_assets[c.body.index]).radius;
+    const Length radius = properties_of(record.shape(), impl_.cache.asset(c.body.index)).radius;
     find_.require(near, "point", to_decimal(c.point) + " m",
                   "within twice the body's radius, " + to_decimal(radius) +
                       " m, of its centre of mass along each axis");
@@ -188,7 +188,7 @@ class CommandExplainer {
 // Whether every body of the island may.
 bool World::Impl::may_island_sleep(std::uint32_t body) {
   join_islands();
-  are_active_joints_current = false;  // nothing was woken across joints: that is for the next step
+  joint_graph.forget_awake_list();  // nothing was woken across joints: that is for the next step
   const std::uint32_t island = islands.root(body);
   return std::ranges::all_of(awake.list(), [&](std::uint32_t other) {
     const BodyRecord& record = bodies[other];

@@ -79,7 +79,7 @@ Status World::Impl::gain_of(BodyHandle body, const Push& push, TickGain& gain) c
   const BodyRecord* record = find(body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic() || push.frame > Frame::body) return Status::invalid_argument;
-  const Asset* asset = body_assets[body.index];
+  const Asset* asset = cache.asset(body.index);
   Vec3<Impulse> impulse = push.impulse;
   Vec3<AngularImpulse> turn = push.turn;
   Vec3<Length> point = push.point != nullptr ? *push.point : Vec3<Length>{};

@@ -201,7 +201,7 @@ Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
   if (a == nullptr || b == nullptr) return Status::stale_handle;
   JointRecord joint;
   const bool framed =
-      make_joint(from, body_assets[from.body_a.index], body_assets[from.body_b.index], joint);
+      make_joint(from, cache.asset(from.body_a.index), cache.asset(from.body_b.index), joint);
   if (!framed || !joint.exists() || !holds_something(from) || validate(joint) != Status::ok ||
       !can_join(*a, *b) || !is_anchor(*a, joint.anchor_a) || !is_anchor(*b, joint.anchor_b)) {
     return Status::invalid_argument;
@@ -224,9 +224,9 @@ Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
 // At most 1000 m each and together.
 bool World::Impl::set_total_length(JointRecord& joint) const {
   const Vec3<Position> end_a =
-      bodies[joint.body_a].position + arm_of(rotations[joint.body_a], joint.anchor_a);
+      bodies[joint.body_a].position + arm_of(cache.rotation(joint.body_a), joint.anchor_a);
   const Vec3<Position> end_b =
-      bodies[joint.body_b].position + arm_of(rotations[joint.body_b], joint.anchor_b);
+      bodies[joint.body_b].position + arm_of(cache.rotation(joint.body_b), joint.anchor_b);
   const Position first = length_of(end_a - joint.ground_a);
   const Position second = length_of(end_b - joint.ground_b);
   constexpr Position k_most = Position::from_integer(1000);
@@ -250,7 +250,7 @@ JointRecord* World::Impl::edit(JointHandle joint) {
 }
 
 bool World::Impl::fits_joints(std::uint32_t body, const BodyRecord& changed) const {
-  return std::ranges::all_of(joint_links, [&](const JointLink& link) {
+  return std::ranges::all_of(joint_graph.links(), [&](const JointLink& link) {
     const JointRecord& joint = joints[link.joint];
     return (link.body_a != body || is_anchor(changed, joint.anchor_a)) &&
            (link.body_b != body || is_anchor(changed, joint.anchor_b));
@@ -268,8 +268,8 @@ void World::Impl::destroy_joint(std::uint32_t joint) {
 }
 
 void World::Impl::destroy_joints_of(std::uint32_t body) {
-  for (std::size_t i = joint_links.size(); i-- > 0;) {
-    const JointLink link = joint_links[i];
+  for (std::size_t i = joint_graph.links().size(); i-- > 0;) {
+    const JointLink link = joint_graph.links()[i];
     if (link.body_a == body || link.body_b == body) destroy_joint(link.joint);
   }
 }
@@ -280,7 +280,7 @@ void World::Impl::break_joints() {
   const auto exceeds = [](const auto& v, auto limit) {
     return limit.raw > 0 && norm(v.x.raw, v.y.raw, v.z.raw) > static_cast<std::uint64_t>(limit.raw);
   };
-  for (const JointLink& link : active_joints) {
+  for (const JointLink& link : joint_graph.awake_links()) {
     const std::uint32_t index = link.joint;
     const JointRecord& joint = joints[index];
     if (joint.break_force.raw == 0 && joint.break_torque.raw == 0) continue;
@@ -296,21 +296,11 @@ void World::Impl::break_joints() {
 
 void World::Impl::link_joint(std::uint32_t index) {
   const JointRecord& joint = joints[index];
-  joint_edges.clear();
-  are_active_joints_current = false;
-  const auto place = std::ranges::lower_bound(joint_links, index, {}, &JointLink::joint);
-  joint_links.insert(place, {index, joint.body_a, joint.body_b});
-  if (joint.collides()) return;
-  const Pair pair = joined_pair(joint);
-  joined_pairs.insert(std::ranges::lower_bound(joined_pairs, pair), pair);
+  joint_graph.add({index, joint.body_a, joint.body_b}, exempt_pair(joint));
 }
 
 void World::Impl::unlink_joint(std::uint32_t index) {
-  joint_edges.clear();
-  are_active_joints_current = false;
-  joint_links.erase(std::ranges::lower_bound(joint_links, index, {}, &JointLink::joint));
-  if (joints[index].collides()) return;
-  joined_pairs.erase(std::ranges::lower_bound(joined_pairs, joined_pair(joints[index])));
+  joint_graph.remove(index, exempt_pair(joints[index]));
 }
 
 // The moving body first, or the lower index, as the broad phase gives them.
@@ -320,26 +310,19 @@ Pair World::Impl::pair_of(std::uint32_t a, std::uint32_t b) const {
   return swap ? Pair{b, a} : Pair{a, b};
 }
 
-Pair World::Impl::joined_pair(const JointRecord& joint) const {
+std::optional<Pair> World::Impl::exempt_pair(const JointRecord& joint) const {
+  if (joint.collides()) return {};
   return pair_of(joint.body_a, joint.body_b);
 }
 
 bool World::Impl::are_joined(std::uint32_t a, std::uint32_t b) const {
-  return std::ranges::binary_search(joined_pairs, pair_of(a, b));
+  return joint_graph.is_exempt(pair_of(a, b));
 }
 
 void World::Impl::rebuild_joint_links() {
-  joint_edges.clear();
-  are_active_joints_current = false;
-  joint_links.clear();
-  joined_pairs.clear();
   joint_hint = 0;
-  for (std::uint32_t i = 0; i < header.joint_limit; ++i) {
-    if (!joints[i].exists()) continue;
-    joint_links.push_back({i, joints[i].body_a, joints[i].body_b});
-    if (!joints[i].collides()) joined_pairs.push_back(joined_pair(joints[i]));
-  }
-  std::ranges::sort(joined_pairs);
+  joint_graph.rebuild(std::span(joints).first(header.joint_limit),
+                      [&](const JointRecord& joint) { return exempt_pair(joint); });
 }
 
 Status World::Impl::execute(const CreateJoint& command) {
@@ -381,8 +364,8 @@ Status World::Impl::execute(const SetAngularAxis& command) {
 JointView World::Impl::view(const JointRecord& joint) const {
   const BodyRecord& a = bodies[joint.body_a];
   const BodyRecord& b = bodies[joint.body_b];
-  const Mat3& turn_a = rotations[joint.body_a];
-  const Mat3& turn_b = rotations[joint.body_b];
+  const Mat3& turn_a = cache.rotation(joint.body_a);
+  const Mat3& turn_b = cache.rotation(joint.body_b);
   const Vec3<Position> gap =
       (b.position + arm_of(turn_b, joint.anchor_b)) - (a.position + arm_of(turn_a, joint.anchor_a));
   const Mat3 frame_a = frame_of(turn_a, joint.orientation_a);
@@ -430,7 +413,7 @@ bool World::exists(JointHandle joint) const {
   return impl_->find(joint) != nullptr;
 }
 std::uint32_t World::joint_count() const {
-  return static_cast<std::uint32_t>(impl_->joint_links.size());
+  return static_cast<std::uint32_t>(impl_->joint_graph.links().size());
 }
 std::uint32_t World::joint_limit() const {
   return impl_->header.joint_limit;

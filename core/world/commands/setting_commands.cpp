@@ -90,7 +90,7 @@ Status World::Impl::execute(const SetSurfaceMotion& command) {
   if (record->is_dynamic() || !is_valid(command.motion.velocity, command.motion.turning))
     return Status::invalid_argument;
   disturb(command.body.index);
-  set_surface_motion(*record, body_assets[command.body.index], command.motion);
+  set_surface_motion(*record, cache.asset(command.body.index), command.motion);
   return Status::ok;
 }
 
@@ -121,9 +121,9 @@ Status World::Impl::execute(const SetAxisLocks& command) {
   if (!fits_joints(command.body.index, locked)) return Status::invalid_argument;
   disturb(command.body.index);
   const Vec3<Velocity> turning =
-      surface_velocity(inverse_inertia(*record, rotations[command.body.index]), record->spin);
+      surface_velocity(inverse_inertia(*record, cache.rotation(command.body.index)), record->spin);
   record->locks = locked.locks;
-  record->spin = spin_of(*record, rotations[command.body.index], turning);
+  record->spin = spin_of(*record, cache.rotation(command.body.index), turning);
   hold_in_range(record->spin);
   hold_axes(*record);
   refresh(command.body.index);
@@ -146,7 +146,7 @@ Status World::Impl::execute(const MoveKinematic& command) {
     return Status::invalid_argument;
   }
   const Transform target =
-      body_pose(body_assets[command.body.index], {command.position, command.orientation});
+      body_pose(cache.asset(command.body.index), {command.position, command.orientation});
   Vec3<Velocity> velocity, spin;
   if (!motion_to(*record, target, def.tick_rate, velocity, spin)) return Status::invalid_argument;
   wake(command.body.index);

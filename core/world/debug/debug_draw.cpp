@@ -41,7 +41,7 @@ void World::Impl::find_all_islands() {
   for_each_contact([&](const ContactRecord& contact) {
     if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
   });
-  for (const JointLink& joint : joint_links)
+  for (const JointLink& joint : joint_graph.links())
     tie(joint.body_a, joint.body_b);
   to_sleep.clear();
 }
@@ -51,13 +51,13 @@ void World::Impl::draw_shapes(DebugDraw& out) {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     const BodyRecord& body = bodies[i];
     if (!body.exists()) continue;
-    const Transform pose = shape_pose(body_assets[i], {body.position, body.orientation});
+    const Transform pose = shape_pose(cache.asset(i), {body.position, body.orientation});
     out.draw_shape({.body = handle_of(i),
                     .state = state_of(body),
                     .shape = body.shape(),
                     .pose = pose,
                     .rotation = to_matrix(pose.orientation),
-                    .asset = body_assets[i],
+                    .asset = cache.asset(i),
                     .island = body.is_dynamic() ? handle_of(islands.root(i)) : BodyHandle{},
                     .user_data = body.user_data});
   }
@@ -79,7 +79,7 @@ void World::Impl::draw_bounds(DebugDraw& out) const {
 void World::Impl::draw_masses(DebugDraw& out) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     if (!bodies[i].exists() || !bodies[i].is_dynamic()) continue;
-    out.draw_mass({handle_of(i), bodies[i].position, rotations[i], mass_of(bodies[i])});
+    out.draw_mass({handle_of(i), bodies[i].position, cache.rotation(i), mass_of(bodies[i])});
   }
 }
 
@@ -132,10 +132,10 @@ void World::Impl::draw_contacts(DebugDraw& out) {
 }
 
 void World::Impl::draw_joints(DebugDraw& out) const {
-  for (const JointLink& link : joint_links) {
+  for (const JointLink& link : joint_graph.links()) {
     const JointRecord& joint = joints[link.joint];
-    const Mat3& turn_a = rotations[joint.body_a];
-    const Mat3& turn_b = rotations[joint.body_b];
+    const Mat3& turn_a = cache.rotation(joint.body_a);
+    const Mat3& turn_b = cache.rotation(joint.body_b);
     DebugJoint drawn{
         .joint = {link.joint, joint.generation},
         .view = view(joint),

@@ -87,7 +87,7 @@ void World::Impl::join_bouncing() {
     hold(record.body_a);
     hold(record.body_b);
   }
-  for (const JointLink& link : active_joints) {
+  for (const JointLink& link : joint_graph.awake_links()) {
     hold(link.body_a);
     hold(link.body_b);
   }
@@ -144,7 +144,8 @@ void World::Impl::look_for_bounce(std::size_t contact) {
 bool World::Impl::turns_much(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   if (!record.is_dynamic() || record.shape().kind == ShapeKind::sphere) return false;
-  const Vec3<Velocity> w = surface_velocity(inverse_inertia(record, rotations[body]), record.spin);
+  const Vec3<Velocity> w =
+      surface_velocity(inverse_inertia(record, cache.rotation(body)), record.spin);
   const std::int64_t turned =
       raw::scale_binary(time_step.tick.times(sum_of_magnitudes(w)), -record.scale_exponent);
   return turned > std::int64_t{1} << 28;

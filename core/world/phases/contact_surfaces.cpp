@@ -118,7 +118,7 @@ Length World::Impl::rolling_radius(const Pair& pair) const {
   const bool round_a = is_round(bodies[pair.a]), round_b = is_round(bodies[pair.b]);
   const bool use_a = round_a || (!round_b && bodies[pair.a].is_dynamic());
   const bool use_b = round_b || (!round_a && bodies[pair.b].is_dynamic());
-  const Length a = inner_radii[pair.a], b = inner_radii[pair.b];
+  const Length a = cache.inner_radius(pair.a), b = cache.inner_radius(pair.b);
   if (use_a && use_b) return min(a, b);
   return use_a ? a : b;
 }
@@ -127,8 +127,8 @@ Length World::Impl::rolling_radius(const Pair& pair) const {
 void World::Impl::add_drive(std::uint32_t body, const Vec3<Length>& arm, std::int32_t sign,
                             const Vec3<Unit>& normal, ContactSurface& surface) const {
   const BodyRecord& record = bodies[body];
-  const Vec3<SolverVelocity> along = rotate(rotations[body], record.surface_velocity());
-  const Vec3<Rate> turning = rotate(rotations[body], record.surface_turning());
+  const Vec3<SolverVelocity> along = rotate(cache.rotation(body), record.surface_velocity());
+  const Vec3<Rate> turning = rotate(cache.rotation(body), record.surface_turning());
   std::int64_t speed[3];
   for (int i = 0; i < 3; ++i) {
     speed[i] = along[i].raw + speed_around(turning, arm, i);

@@ -118,9 +118,10 @@ void World::Impl::note_far_mover(std::uint32_t body) {
 bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
                            const BodyRecord& record) const {
   const bool is_followed = record.is_dynamic() && !record.is_trigger();
-  if (!is_followed && !may_sweep(record, body_assets[body])) return false;
-  const std::int64_t limit = is_followed ? rounded<Position>(inner_radii[body] / 2).raw
-                                         : sweeping_limit(inner_radii[body], body_assets[body]).raw;
+  if (!is_followed && !may_sweep(record, cache.asset(body))) return false;
+  const std::int64_t limit = is_followed
+                                 ? rounded<Position>(cache.inner_radius(body) / 2).raw
+                                 : sweeping_limit(cache.inner_radius(body), cache.asset(body)).raw;
   const Vec3<Position> gone = record.position - start.position;
   std::int64_t way = sum_of_magnitudes(gone);
   if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
@@ -128,14 +129,14 @@ bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
   if (start.orientation == record.orientation) return false;
   const auto goes_far = [&](Length radius) {
     return way + turned_way(start.orientation, record.orientation, radius) > limit ||
-           may_turn_by_half(record, rotations[body], time_step);
+           may_turn_by_half(record, cache.rotation(body), time_step);
   };
   // Most go nowhere near as far, and need no root.
   const Length reach =
       Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
-  if (body_assets[body] == nullptr && !goes_far(reach)) return false;
-  const Length radius = bounding_radius(record.shape(), body_assets[body]);
-  const bool shows_turning = radius > inner_radii[body] || !is_followed;
+  if (cache.asset(body) == nullptr && !goes_far(reach)) return false;
+  const Length radius = bounding_radius(record.shape(), cache.asset(body));
+  const bool shows_turning = radius > cache.inner_radius(body) || !is_followed;
   return shows_turning && goes_far(radius);
 }
 
@@ -148,9 +149,9 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
   visit_obstacles(body, {start, record.position - start.position, {}},
                   [&](std::uint32_t) { is_free = false; });
   if (is_free) return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
-  if (!joint_edges.of(body, joint_links).empty()) return follow_joined(body, report);
+  if (!joint_graph.neighbours(body).empty()) return follow_joined(body, report);
   Sweep motion = motion_in_tick(body);
-  Mat3 rotation = rotations[body];
+  Mat3 rotation = cache.rotation(body);
   Unit done{};                    // of the tick
   Transform held = motion.start;  // at the last impact, with `met`
   Unit held_since{};
@@ -189,8 +190,8 @@ void World::Impl::push_out(std::uint32_t body, std::uint32_t sweeper) {
   const BodyRecord& other = bodies[sweeper];
   PairScratch& scratch = narrow.scratch(0);
   collide_bodies(
-      place(record.shape(), body_assets[body], record.position, to_matrix(record.orientation)),
-      place(other.shape(), body_assets[sweeper], other.position, to_matrix(other.orientation)), {},
+      place(record.shape(), cache.asset(body), record.position, to_matrix(record.orientation)),
+      place(other.shape(), cache.asset(sweeper), other.position, to_matrix(other.orientation)), {},
       scratch.triangles.get(), scratch.part_contacts);
   Displacement deepest{};
   Vec3<Unit> normal{};
@@ -230,7 +231,7 @@ void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
     const Sweep motion = motion_in_tick(each);
     const Transform pose = pose_at(motion, first.impact.fraction);
     note_passes(each, motion, {}, first.impact.fraction);
-    stop_at(bodies[each], pose, rotations[each]);
+    stop_at(bodies[each], pose, cache.rotation(each));
     far_movers[each] = 0;
   }
   answer(body_of_first, first, first.impact.fraction);
@@ -243,7 +244,7 @@ void World::Impl::list_joined(std::uint32_t body) {
   joined_movers.assign(1, body);
   far_movers[body] |= k_joined_mover;
   for (std::size_t i = 0; i < joined_movers.size(); ++i) {
-    for (const std::uint32_t other : joint_edges.of(joined_movers[i], joint_links)) {
+    for (const std::uint32_t other : joint_graph.neighbours(joined_movers[i])) {
       if (!bodies[other].is_dynamic() || (far_movers[other] & k_joined_mover) != 0) continue;
       far_movers[other] |= k_joined_mover;
       joined_movers.push_back(other);
@@ -255,7 +256,7 @@ Sweep World::Impl::motion_in_tick(std::uint32_t body) const {
   const BodyRecord& record = bodies[body];
   const Transform& start = starts[body];
   return {start, record.position - start.position,
-          turn_since(start.orientation, rotations[body], record, time_step, k_whole_tick)};
+          turn_since(start.orientation, cache.rotation(body), record, time_step, k_whole_tick)};
 }
 
 // Moves a body for the rest of a tick at the velocities at hand, which already hold the whole
@@ -292,7 +293,7 @@ void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f
   const BodyRecord& record = bodies[body];
   const Vec3<Position>& from = motion.start.position;
   const Bounds way = bounds_of_way(from, from + motion.translation,
-                                   bounding_radius(record.shape(), body_assets[body]));
+                                   bounding_radius(record.shape(), cache.asset(body)));
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
     const bool considered = other != body && (record.is_bullet() || !bodies[other].is_dynamic());
@@ -308,8 +309,8 @@ void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f
 
 NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Unit done) const {
   const Shape shape = bodies[body].shape();
-  const Length inner = inner_radii[body];
-  const Length radius = bounding_radius(shape, body_assets[body]);
+  const Length inner = cache.inner_radius(body);
+  const Length radius = bounding_radius(shape, cache.asset(body));
   NextImpact next;
   visit_obstacles(body, motion, [&](std::uint32_t other) {
     const Shape other_shape = bodies[other].shape();
@@ -318,8 +319,8 @@ NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Uni
     const bool sweeps = is_sweeper(other);
     const Length free_way = sweeps ? inner / 8 : inner / 2;
     if (relative_way(motion, other_motion, turned) <= rounded<Position>(free_way)) return;
-    const Impact impact = first_impact({shape, body_assets[body], motion},
-                                       {other_shape, body_assets[other], other_motion},
+    const Impact impact = first_impact({shape, cache.asset(body), motion},
+                                       {other_shape, cache.asset(other), other_motion},
                                        sweeps ? ImpactDepth::shallow : ImpactDepth::half);
     const bool sooner =
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
@@ -339,8 +340,8 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
   const Sweep other_motion = motion_of(other, done);
   const Mat3 rotation_a = to_matrix(a.orientation),
              rotation_b = to_matrix(other_motion.start.orientation);
-  collide_bodies(place(a.shape(), body_assets[body], a.position, rotation_a),
-                 place(b.shape(), body_assets[other], other_motion.start.position, rotation_b),
+  collide_bodies(place(a.shape(), cache.asset(body), a.position, rotation_a),
+                 place(b.shape(), cache.asset(other), other_motion.start.position, rotation_b),
                  k_impact_gap * 4, scratch.triangles.get(), scratch.part_contacts);
   const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
   const InverseInertia inertia_b = inverse_inertia(b, rotation_b);

@@ -22,12 +22,12 @@ PlacedShape moved_by(PlacedShape placed, const Vec3<Position>& way) {
 template <class Impl>  // World::Impl, which nothing outside may name
 FrontPush find_front(const Impl& world, std::uint32_t body, const Vec3<Position>& start) {
   const BodyRecord& record = world.bodies[body];
-  const Asset* asset = world.body_assets[body];
+  const Asset* asset = world.cache.asset(body);
   const Bounds way = bounds_of_way(start, record.position, bounding_radius(record.shape(), asset));
   FrontPush first;
   std::uint32_t body_of_first = 0;
   const auto look_at = [&](std::uint32_t other) {
-    const Asset* mesh = world.body_assets[other];
+    const Asset* mesh = world.cache.asset(other);
     if (mesh == nullptr || mesh->mesh_kernels() == nullptr || !world.is_obstacle(body, other))
       return;
     const PlacedWay gone{
@@ -52,7 +52,7 @@ void World::Impl::hold_before_fronts() {
   if (narrow.scratch(0).triangles == nullptr) return;
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t i = first; i < end; ++i) {
-      if (inner_radii[moved[i]] <= k_thin_radius) hold_before_fronts(moved[i]);
+      if (cache.inner_radius(moved[i]) <= k_thin_radius) hold_before_fronts(moved[i]);
     }
   });
 }

@@ -58,7 +58,7 @@ void World::Impl::collide_pairs(StepReport& report) {
 }
 
 Length World::Impl::margin_of(const Pair& pair) const {
-  const Length thickness = max(inner_radii[pair.a], inner_radii[pair.b]);
+  const Length thickness = max(cache.inner_radius(pair.a), cache.inner_radius(pair.b));
   return speculative_distance(bodies[pair.a], bodies[pair.b], thickness, time_step);
 }
 
@@ -68,8 +68,9 @@ bool World::Impl::meet(const Pair& pair) {
   if (is_found_at_contact_poses(pair)) {
     const BodyRecord &a = bodies[pair.a], &b = bodies[pair.b];
     const Shape shape_a = a.shape(), shape_b = b.shape();
-    return collide({shape_a, contact_rotations[pair.a]}, {shape_b, contact_rotations[pair.b]},
-                   contact_offset(a, b), margin_of(pair))
+    return collide({shape_a, cache.contact_rotations()[pair.a]},
+                   {shape_b, cache.contact_rotations()[pair.b]}, contact_offset(a, b),
+                   margin_of(pair))
                .count > 0;
   }
   PairScratch& scratch = narrow.scratch(0);
@@ -101,16 +102,17 @@ void World::Impl::collide_piece(std::uint32_t first, std::uint32_t end, PairScra
   const std::span<const ContactRecord> all = contacts();
   const auto begin = std::ranges::lower_bound(all, pairs[first], {}, bodies_of);
   std::span<const ContactRecord> before(begin, all.end());
-  auto joined = std::ranges::lower_bound(joined_pairs, pairs[first]);
+  const std::span<const Pair> exempt_pairs = joint_graph.exempt_pairs();
+  auto exempt = std::ranges::lower_bound(exempt_pairs, pairs[first]);
   SeparatingAxes::Reader last_axes = separating_axes.read_from(pairs[first]);
   bool beside_static = first > 0;  // a static body may come before
   for (std::uint32_t i = first; i < end; ++i) {
     beside_static = look_for_seam(i, beside_static);
     found_contacts[i] = {};
     separating_axes.note(i, pairs[i], {});
-    while (joined != joined_pairs.end() && *joined < pairs[i])
-      ++joined;
-    if (joined != joined_pairs.end() && *joined == pairs[i]) continue;
+    while (exempt != exempt_pairs.end() && *exempt < pairs[i])
+      ++exempt;
+    if (exempt != exempt_pairs.end() && *exempt == pairs[i]) continue;
     while (!before.empty() && bodies_of(before.front()) < pairs[i])
       before = before.subspan(1);
     std::size_t known = 0;
@@ -149,8 +151,8 @@ void World::Impl::collide_pair(std::uint32_t index, std::span<const ContactRecor
   ManifoldInput& input = scratch.boxes.entries[scratch.boxes.batch.size()].input;
   if (may_drift) {
     input.margin = margin;
-    input.pose_a = key_of_contact_pose(contact_pose_numbers[pair.a]);
-    input.pose_b = key_of_contact_pose(contact_pose_numbers[pair.b]);
+    input.pose_a = key_of_contact_pose(cache.contact_pose_number(pair.a));
+    input.pose_b = key_of_contact_pose(cache.contact_pose_number(pair.b));
   } else {
     read_poses(pair, margin, input);
   }
@@ -286,13 +288,13 @@ bool World::Impl::is_found_at_contact_poses(const Pair& pair) const {
 
 void World::Impl::drift(const Pair& pair, Manifold& manifold) const {
   if (!is_found_at_contact_poses(pair)) return;
-  const ContactDrift &a = drifts[pair.a], &b = drifts[pair.b];
+  const ContactDrift &a = cache.drift(pair.a), &b = cache.drift(pair.b);
   if (!a.is_none() || !b.is_none()) shift_separations(a, b, manifold);
 }
 
 // Neither an asset nor without end: its frame is the body's.
 bool World::Impl::is_bounded_primitive(std::uint32_t body) const {
-  return body_assets[body] == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
+  return cache.asset(body) == nullptr && bodies[body].shape().kind != ShapeKind::half_space;
 }
 
 bool World::Impl::are_primitives(const Pair& pair) const {
@@ -310,7 +312,7 @@ std::uint32_t World::Impl::remembered_slot(std::span<const ContactRecord> before
 }
 
 bool World::Impl::has_one_piece(std::uint32_t body) const {
-  const Asset* asset = body_assets[body];
+  const Asset* asset = cache.asset(body);
   return asset == nullptr || asset->polytope() != nullptr;
 }
 

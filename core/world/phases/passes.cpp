@@ -56,8 +56,8 @@ void World::Impl::note_passes(std::uint32_t body, const Sweep& motion, Unit done
 // A body that moves past the other by less than half its own thickness is seen where ticks begin.
 void World::Impl::note_pass(const Pair& pair, const Sweep& a, const Sweep& b) {
   const auto is_short = [&](std::uint32_t body, const Sweep& motion, const Sweep& other) {
-    const Length radius = bounding_radius(bodies[body].shape(), body_assets[body]);
-    const Length inner = inner_radii[body];
+    const Length radius = bounding_radius(bodies[body].shape(), cache.asset(body));
+    const Length inner = cache.inner_radius(body);
     return relative_way(motion, other, radius > inner ? radius : Length{}) <=
            rounded<Position>(inner / 2);
   };
@@ -68,7 +68,7 @@ void World::Impl::note_pass(const Pair& pair, const Sweep& a, const Sweep& b) {
   };
   if (std::ranges::binary_search(new_contacts, key, {}, bodies_of)) return;
   const Shape shape_a = bodies[pair.a].shape(), shape_b = bodies[pair.b].shape();
-  if (!touch_on_way({shape_a, body_assets[pair.a], a}, {shape_b, body_assets[pair.b], b})) return;
+  if (!touch_on_way({shape_a, cache.asset(pair.a), a}, {shape_b, cache.asset(pair.b), b})) return;
   if (passes.size() < def.body_capacity)
     passes.push_back(key);
   else

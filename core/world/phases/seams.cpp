@@ -183,10 +183,10 @@ bool World::Impl::SeamSearch::is_covered(const SeamContact& contact, const Touch
   for (std::uint32_t i = first; i < end; ++i) {
     const std::uint32_t other = world.pairs[i].b;
     if (!is_static(i) || !overlap(near, world.broad_phase.bounds(other))) continue;
-    const Asset* asset = world.body_assets[other];
+    const Asset* asset = world.cache.asset(other);
     const bool is_own = other == contact.other;
     if (is_own && asset != nullptr && asset->mesh_kernels() != nullptr) continue;
-    if (!world.joined_pairs.empty() && world.are_joined(body, other)) continue;
+    if (!world.joint_graph.exempt_pairs().empty() && world.are_joined(body, other)) continue;
     const std::uint32_t except = is_own ? part_of(contact) : k_no_part;
     if (covers(world.placed(other), except, at, world.bodies[body].position)) return true;
   }

@@ -18,7 +18,7 @@ bool World::Impl::is_sweeper(std::uint32_t body) const {
 Bounds World::Impl::bounds_on_way(std::uint32_t body, const Sweep& motion) const {
   const Vec3<Position>& from = motion.start.position;
   return bounds_of_way(from, from + motion.translation,
-                       bounding_radius(bodies[body].shape(), body_assets[body]));
+                       bounding_radius(bodies[body].shape(), cache.asset(body)));
 }
 
 // After everything moved. The broad phase still knows bodies where the tick began, so that
@@ -55,11 +55,11 @@ void World::Impl::wake_struck() {
 void World::Impl::find_struck(std::uint32_t sweeper) {
   BodyRecord end = bodies[sweeper];
   const Transform start{end.position, end.orientation};
-  (void)fly(end, rotations[sweeper], header.gravity, time_step, header.tick);
+  (void)fly(end, cache.rotation(sweeper), header.gravity, time_step, header.tick);
   if (!goes_far(sweeper, start, end)) return;
   const Sweep motion{
       start, end.position - start.position,
-      turn_since(start.orientation, rotations[sweeper], end, time_step, k_whole_tick)};
+      turn_since(start.orientation, cache.rotation(sweeper), end, time_step, k_whole_tick)};
   const Bounds way = bounds_on_way(sweeper, motion);
   const Shape shape = end.shape();
   broad_phase.traverse(
@@ -70,8 +70,8 @@ void World::Impl::find_struck(std::uint32_t sweeper) {
         if (!sleeps || !is_obstacle(other, sweeper) || struck.size() == def.body_capacity) return;
         const Shape shape_of_other = record.shape();
         const Sweep still{{record.position, record.orientation}, {}, {}};
-        const bool hit = first_impact({shape_of_other, body_assets[other], still},
-                                      {shape, body_assets[sweeper], motion})
+        const bool hit = first_impact({shape_of_other, cache.asset(other), still},
+                                      {shape, cache.asset(sweeper), motion})
                              .hit;
         if (hit) struck.push_back(other);
       });
@@ -86,7 +86,7 @@ bool World::Impl::carries(std::uint32_t body) const {
 // Nothing moves if a joint holds one of them to a body that nothing pushes.
 void World::Impl::carry_joined(std::uint32_t body, const Sweep& by) {
   for (const std::uint32_t each : joined_movers)
-    for (const std::uint32_t other : joint_edges.of(each, joint_links))
+    for (const std::uint32_t other : joint_graph.neighbours(each))
       if (!bodies[other].is_dynamic()) return;
   const BodyRecord& hit = bodies[body];
   const Vec3<Position> way = carried({hit.position, hit.orientation}, by).position - hit.position;

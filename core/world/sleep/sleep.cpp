@@ -30,7 +30,7 @@ void World::Impl::set_awake(std::uint32_t body) {
   record.flags = static_cast<std::uint8_t>(record.flags & ~k_body_asleep);
   begin_rest(record, rest_rules);
   awake.insert(body);
-  are_active_joints_current = false;
+  joint_graph.forget_awake_list();
   --asleep_count;
   note_changed_sleep(body);
   refresh_bounds(body);
@@ -42,7 +42,7 @@ void World::Impl::set_asleep(std::uint32_t body) {
   record.velocity = record.spin = {};
   begin_rest(record, rest_rules);
   awake.erase(body);
-  are_active_joints_current = false;
+  joint_graph.forget_awake_list();
   ++asleep_count;
   note_changed_sleep(body);
   refresh_bounds(body);
@@ -64,7 +64,7 @@ void World::Impl::wake_listed() {
   while (!to_wake.empty()) {
     const std::uint32_t body = to_wake.back();
     to_wake.pop_back();
-    for (const std::uint32_t other : joint_edges.of(body, joint_links))
+    for (const std::uint32_t other : joint_graph.neighbours(body))
       if (bodies[other].is_dynamic()) list_to_wake(other);
     frozen.remove_all_of(body, [&](const ContactRecord& record) {
       thawed.push_back(record);
@@ -109,8 +109,8 @@ void World::Impl::wake_ends(const JointRecord& joint) {
 // Wakes each body that a joint connects to an awake one: such a body was put to sleep by a command
 // beside a kinematic body, or comes in a state from outside.
 void World::Impl::wake_joined() {
-  if (are_active_joints_current) return;
-  for (const JointLink& link : joint_links) {
+  if (joint_graph.is_awake_list_current()) return;
+  for (const JointLink& link : joint_graph.links()) {
     const bool a_awake = awake.has(link.body_a), b_awake = awake.has(link.body_b);
     const std::uint32_t other = a_awake ? link.body_b : link.body_a;
     if (a_awake != b_awake && bodies[other].is_dynamic()) list_to_wake(other);
@@ -120,11 +120,7 @@ void World::Impl::wake_joined() {
 
 // Those with an awake body: found anew when one slept, woke, came or went.
 void World::Impl::find_active_joints() {
-  if (are_active_joints_current) return;
-  active_joints.clear();
-  for (const JointLink& link : joint_links)
-    if (awake.has(link.body_a) || awake.has(link.body_b)) active_joints.push_back(link);
-  are_active_joints_current = true;
+  joint_graph.list_awake([&](std::uint32_t body) { return awake.has(body); });
 }
 
 // The body changes: it wakes, and so do the bodies in contact with it or joined to it.
@@ -137,7 +133,7 @@ void World::Impl::disturb(std::uint32_t body) {
   frozen.for_each_of(body, [&](const ContactRecord& record) {
     list_to_wake(record.body_a == body ? record.body_b : record.body_a);
   });
-  for (const std::uint32_t other : joint_edges.of(body, joint_links))
+  for (const std::uint32_t other : joint_graph.neighbours(body))
     list_to_wake(other);
   wake_listed();
 }
@@ -247,7 +243,7 @@ void World::Impl::join_islands() {
   };
   for (const ContactRecord& contact : contacts())
     if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
-  for (const JointLink& joint : active_joints)
+  for (const JointLink& joint : joint_graph.awake_links())
     tie(joint.body_a, joint.body_b);
 }
 
@@ -302,7 +298,7 @@ Status World::Impl::execute(const SleepBody& command) {
   if (!record->is_dynamic() || rest_rules.ticks == 0) return Status::invalid_argument;
   if (record->is_asleep()) return Status::ok;
   join_islands();
-  are_active_joints_current = false;  // nothing was woken across joints: that is for the next step
+  joint_graph.forget_awake_list();  // nothing was woken across joints: that is for the next step
   const std::uint32_t island = islands.root(command.body.index);
   to_sleep.clear();
   for (const std::uint32_t body : awake.list()) {

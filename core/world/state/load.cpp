@@ -81,8 +81,7 @@ void World::Impl::take(const WorldHeader& loaded, State&& state) {
   take_contacts();
   refresh_moved();
   broad_phase.settle();
-  joint_edges.clear();
-  are_active_joints_current = false;
+  joint_graph.forget_awake_list();
   if (!same_bodies || !same_links) rebuild_joint_links();
 }
 
@@ -114,13 +113,13 @@ bool World::Impl::take_body(std::uint32_t body, const BodyRecord& record) {
   if (is_derived_stale) return same;
   if (changed_sleep.has(body) != record.has_changed_sleep()) changed_sleep.flip(body);
   if (same) {
-    contact_rotations[body] = to_matrix(record.contact_orientation);
+    cache.refresh_contact_rotation(body, record);
     moved.push_back(body);
     return true;
   }
   if (awake.has(body) != record.is_awake()) awake.flip(body);
   if (record.exists()) {
-    body_assets[body] = assets->find(record.asset);
+    cache.set_asset(body, assets->find(record.asset));
     refresh(body);
   } else {
     broad_phase.remove(body);

@@ -80,13 +80,13 @@ WorldFault World::Impl::fault_of_derived_bodies() const {
     if (broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;
-    if (body_assets[i] != assets->find(body.asset)) return {"the asset of a body", i};
-    if (rotations[i] != to_matrix(body.orientation)) return {"the rotation of a body", i};
+    if (cache.asset(i) != assets->find(body.asset)) return {"the asset of a body", i};
+    if (cache.rotation(i) != to_matrix(body.orientation)) return {"the rotation of a body", i};
     if (broad_phase.bounds(i) != bounds_of(i)) return {"the bounds of a body", i};
     if (!is_near_contact_pose(body)) return {"the contact pose of a body", i};
-    if (contact_rotations[i] != to_matrix(body.contact_orientation))
+    if (cache.contact_rotations()[i] != to_matrix(body.contact_orientation))
       return {"the rotation of a contact pose", i};
-    if (drifts[i] != drift_of(body)) return {"the drift of a body", i};
+    if (cache.drift(i) != drift_of(body)) return {"the drift of a body", i};
   }
   if (awake_count != awake.count()) return {"the number of awake bodies", awake_count};
   if (sleepers != asleep_count) return {"the number of sleeping bodies", sleepers};
@@ -115,17 +115,19 @@ WorldFault World::Impl::fault_of_derived_joints() const {
   for (std::uint32_t i = 0; i < header.joint_limit; ++i) {
     const JointRecord& joint = joints[i];
     if (!joint.exists()) continue;
-    const bool known = links < joint_links.size() && joint_links[links].joint == i &&
-                       joint_links[links].body_a == joint.body_a &&
-                       joint_links[links].body_b == joint.body_b;
+    const bool known = links < joint_graph.links().size() &&
+                       joint_graph.links()[links].joint == i &&
+                       joint_graph.links()[links].body_a == joint.body_a &&
+                       joint_graph.links()[links].body_b == joint.body_b;
     if (!known) return {"the list of joints", i};
     ++links;
     if (joint.collides()) continue;
     ++joined;
     if (!are_joined(joint.body_a, joint.body_b)) return {"the pairs that joints keep apart", i};
   }
-  if (links != joint_links.size()) return {"the number of joints"};
-  if (joined != joined_pairs.size() || !std::ranges::is_sorted(joined_pairs))
+  if (links != joint_graph.links().size()) return {"the number of joints"};
+  if (joined != joint_graph.exempt_pairs().size() ||
+      !std::ranges::is_sorted(joint_graph.exempt_pairs()))
     return {"the pairs that joints keep apart"};
   return {};
 }

@@ -1,0 +1,72 @@
+// Data of each body that many phases read and that follow from its record: rotation matrices, the
+// asset and its frame, the drift from the contact pose. Derived, so neither saved nor hashed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <lockstone/asset.h>
+#include <lockstone/quat.h>
+#include <lockstone/units.h>
+
+#include "core/collision/narrow_phase/placed_shape.h"
+#include "core/dynamics/contact/recycling_pose.h"
+#include "core/dynamics/state/body_record.h"
+
+namespace lockstone {
+
+class BodyCache {
+ public:
+  /// No function but this allocates.
+  explicit BodyCache(std::uint32_t body_capacity);
+
+  /// Null: a shape complete in itself.
+  [[nodiscard]] const Asset* asset(std::uint32_t body) const { return assets_[body]; }
+  void set_asset(std::uint32_t body, const Asset* asset) { assets_[body] = asset; }
+
+  [[nodiscard]] const Mat3& rotation(std::uint32_t body) const { return rotations_[body]; }
+  /// By body index.
+  [[nodiscard]] const std::vector<Mat3>& rotations() const { return rotations_; }
+  /// To be written by a kernel; `refresh_turned` follows for each body.
+  [[nodiscard]] Mat3* rotations_out() { return rotations_.data(); }
+
+  /// The radius of a ball within the shape.
+  [[nodiscard]] Length inner_radius(std::uint32_t body) const { return inner_radii_[body]; }
+
+  /// At the contact pose, by body index.
+  [[nodiscard]] const std::vector<Mat3>& contact_rotations() const { return contact_rotations_; }
+  /// From the contact pose.
+  [[nodiscard]] const ContactDrift& drift(std::uint32_t body) const { return drifts_[body]; }
+  /// Another number whenever the contact pose is another.
+  [[nodiscard]] std::uint32_t contact_pose_number(std::uint32_t body) const {
+    return contact_pose_numbers_[body];
+  }
+
+  /// The body's shape where it is.
+  [[nodiscard]] PlacedShape placed(std::uint32_t body, const BodyRecord& record) const;
+
+  /// After any change of the record but its shape.
+  void refresh(std::uint32_t body, const BodyRecord& record);
+  /// After a change of the shape or the asset.
+  void refresh_shape(std::uint32_t body, const BodyRecord& record);
+  /// After the body moved, and its rotation was written. A contact pose that the body has left
+  /// keeps its rotation.
+  void refresh_turned(std::uint32_t body, const BodyRecord& record);
+  /// After a load of another pose of the same body, before `refresh_turned`.
+  void refresh_contact_rotation(std::uint32_t body, const BodyRecord& record);
+  /// Sets the contact pose to the body's own.
+  void take_contact_pose(std::uint32_t body, BodyRecord& record);
+
+ private:
+  // All by body.
+  std::vector<const Asset*> assets_;
+  std::vector<Mat3> rotations_;
+  std::vector<Mat3> contact_rotations_;
+  std::vector<ContactDrift> drifts_;
+  std::vector<std::uint32_t> contact_pose_numbers_;
+  std::vector<ShapeFrame> frames_;  // kept where an asset is
+  std::vector<Length> inner_radii_;
+};
+
+}  // namespace lockstone
