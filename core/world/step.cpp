@@ -80,15 +80,15 @@ void World::Impl::find_pairs(StepReport& report) {
 }
 
 void World::Impl::solve_contacts(StepReport& report) {
-  find_bounces();
-  find_swings();
+  bounces.find();
+  pendulums.find();
   prepare_contacts();
   run_substeps();
   store_impulses();
   report.contacts = solver.contacts();
   report.contact_points = solver.points();
-  report.contacts += static_cast<std::uint32_t>(bouncing_contacts.size());
-  for (const BouncingContact& each : bouncing_contacts) {
+  report.contacts += static_cast<std::uint32_t>(bounces.contacts().size());
+  for (const BouncingContact& each : bounces.contacts()) {
     const Manifold& manifold = manifolds[slots[each.contact]];
     report.contact_points += static_cast<std::uint32_t>(manifold.count);
   }
@@ -102,7 +102,7 @@ void World::Impl::prepare_contacts() {
   const StageTimer timer(profiler, StepStage::prepare);
   solver.prepare({std::span(bodies).first(header.body_limit), cache.rotations(), slots, manifolds,
                   surfaces, new_contacts, std::span(joints).first(header.joint_limit),
-                  joints_to_solve(), header.gravity, header.tick},
+                  pendulums.joints_to_solve(), header.gravity, header.tick},
                  parallel);
 }
 
@@ -115,7 +115,7 @@ void World::Impl::run_substeps() {
 void World::Impl::store_impulses() {
   const StageTimer timer(profiler, StepStage::store);
   solver.store(manifolds, new_contacts, approach_speeds, parallel);
-  solver.store_joints(joints_to_solve(), joints, parallel);
+  solver.store_joints(pendulums.joints_to_solve(), joints, parallel);
 }
 
 // Joints of awake bodies may have changed.
@@ -131,7 +131,7 @@ void World::Impl::move_bodies(StepReport& report) {
   for (const std::uint32_t body : all)
     body_hashes.mark(body);
   report.moving_bodies = static_cast<std::uint32_t>(moved.size());
-  run_bounces();
+  bounces.run();
   std::atomic<std::uint32_t> free_bodies{0}, axis_turns{0}, saturations{0};
   parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     MoveCounts counts;
@@ -200,7 +200,7 @@ InverseInertia World::Impl::inertia_of(std::uint32_t body, const SolverBody* sol
 
 void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   BodyRecord& record = bodies[body];
-  const bool bounced = has_bounced[body] != 0;
+  const bool bounced = bounces.has_moved(body);
   if (!bounced) starts[body] = {record.position, record.orientation};
   const SolverBody* solved = solver.find(body);
   if (solved != nullptr) {
@@ -209,8 +209,8 @@ void World::Impl::move_body(std::uint32_t body, MoveCounts& counts) {
   } else if (bounced) {
     damp_velocity(record, time_step);
     ++counts.free_bodies;
-  } else if (swing_of[body] != 0) {
-    counts.axis_turns += run_swing(swings[swing_of[body] - 1]);
+  } else if (pendulums.has(body)) {
+    counts.axis_turns += pendulums.run(body);
     damp_velocity(record, time_step);
     ++counts.free_bodies;
   } else {

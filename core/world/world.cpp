@@ -72,6 +72,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       joint_hashes(definition.joint_capacity),
       changed_sleep(definition.body_capacity),
       islands(definition.body_capacity),
+      bounces(*this, definition.body_capacity, definition.contact_capacity),
+      pendulums(*this, definition.body_capacity, definition.joint_capacity),
       solver(time_step, definition.body_capacity, definition.contact_capacity,
              definition.joint_capacity, definition.converged_contacts) {
   header.gravity = definition.gravity;
@@ -90,14 +92,6 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   joined_movers.reserve(definition.joint_capacity == 0 ? 0 : definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
   separating_axes.reserve(definition.pair_capacity);
-  bouncing_bodies.reserve(definition.body_capacity);
-  bouncing_contacts.reserve(definition.contact_capacity);
-  bounce_groups.reserve(definition.contact_capacity);
-  has_bounced.resize(definition.body_capacity);
-  bounce_marks.resize(definition.body_capacity);
-  swings.reserve(std::min(definition.body_capacity, definition.joint_capacity));
-  swing_of.resize(definition.body_capacity);
-  solved_joints.reserve(definition.joint_capacity);
   new_contacts.reserve(definition.contact_capacity);
   event_ends.reserve(definition.contact_capacity / k_event_piece + 1);
   slots.reserve(definition.contact_capacity);

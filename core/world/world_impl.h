@@ -31,7 +31,9 @@
 #include "core/world/derived/body_names.h"
 #include "core/world/derived/index_set.h"
 #include "core/world/derived/joint_graph.h"
+#include "core/world/phases/bounces.h"
 #include "core/world/phases/narrow_slots.h"
+#include "core/world/phases/pendulums.h"
 #include "core/world/phases/separating_axes.h"
 #include "core/world/phases/step_records.h"
 #include "core/world/sleep/sleeping_contacts.h"
@@ -221,32 +223,6 @@ struct World::Impl {
   [[nodiscard]] std::uint64_t digest_of(StepStage stage) const;
   void set_stage_hook();
 
-  // Checks at level 2 (validate.cpp).
-  [[nodiscard]] WorldFault find_fault();
-  void validate_after(StepStage stage);
-
-  // Drawing (debug_draw.cpp).
-  void draw_shapes(DebugDraw& out);
-  void draw_bounds(DebugDraw& out) const;
-  void draw_masses(DebugDraw& out) const;
-  void draw_contacts(DebugDraw& out);
-  void draw_joints(DebugDraw& out) const;
-
- private:
-  [[nodiscard]] WorldFault fault_after(StepStage stage);
-  [[nodiscard]] WorldFault fault_of_bodies() const;
-  [[nodiscard]] WorldFault fault_of_contacts(std::span<const ContactRecord> records) const;
-  [[nodiscard]] WorldFault fault_of_joints() const;
-  [[nodiscard]] WorldFault fault_of_derived_bodies() const;
-  [[nodiscard]] WorldFault fault_of_derived_contacts() const;
-  [[nodiscard]] WorldFault fault_of_derived_joints() const;
-  [[nodiscard]] WorldFault fault_of_hashes();
-  [[nodiscard]] WorldFault fault_of_pairs() const;
-  [[nodiscard]] WorldFault fault_of_manifolds() const;
-  void find_all_islands();
-  [[nodiscard]] DebugContact drawn_contact(const ContactRecord& record,
-                                           const Manifold& manifold) const;
-
   void find_pairs(StepReport& report);
   void collide_pairs(StepReport& report);
   bool collide_side_by_side();
@@ -305,27 +281,6 @@ struct World::Impl {
   [[nodiscard]] Loop each_moved() const;
   void follow_with_contacts();
   void refresh_moved();
-
-  // Bounces within the tick (bounces.cpp).
-  void find_bounces();
-  void join_bouncing();
-  [[nodiscard]] bool flies(std::uint32_t body) const;
-  [[nodiscard]] bool one_flies(const ContactRecord& record) const;
-  [[nodiscard]] std::uint32_t bounce_root(const ContactRecord& record);
-  [[nodiscard]] BouncePair bounce_pair(std::size_t contact);
-  [[nodiscard]] bool may_bounce(const ContactRecord& record);
-  void look_for_bounce(std::size_t contact);
-  [[nodiscard]] bool turns_much(std::uint32_t body) const;
-  void mark_bounce(std::size_t contact);
-  void run_bounces();
-  void run_bounce_group(std::uint32_t index);
-
-  // A pendulum (swings.cpp).
-  void find_swings();
-  void look_for_swing(const JointLink& link);
-  [[nodiscard]] SwingPivot pivot_of(const Swing& swing) const;
-  [[nodiscard]] std::span<const JointLink> joints_to_solve() const;
-  std::uint32_t run_swing(const Swing& swing);
 
   // Continuous collision (continuous.cpp).
   void stop_at_impacts(StepReport& report);
@@ -411,13 +366,8 @@ struct World::Impl {
   std::vector<Pair> passes;                         // that one of the two sensed within the tick
   bool passes_overflowed = false;
   std::vector<ContactEvent> impacts;
-  // Bounces within the tick: contacts by group, a group by its least body.
-  std::vector<BouncingContact> bouncing_contacts;
-  std::vector<std::uint32_t> bounce_groups, bouncing_bodies;  // a group is its first contact
-  std::vector<std::uint8_t> has_bounced, bounce_marks;        // by body
-  std::vector<Swing> swings;
-  std::vector<std::uint32_t> swing_of;   // by body: in `swings`, + 1
-  std::vector<JointLink> solved_joints;  // the others, where there are any swings
+  Bounces bounces;
+  Pendulums pendulums;
   NarrowSlots narrow;
 
   std::vector<FoundContacts> found_contacts;        // by pair

@@ -334,9 +334,10 @@ class World {
   /// not change.
   void drop_derived();
 
+  struct Impl;  // of the library's own files
+
  private:
   friend class CommandExplainer;
-  struct Impl;
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

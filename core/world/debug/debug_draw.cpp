@@ -27,47 +27,64 @@ SolverVelocity impulse_of(const ContactRecord& record, std::uint32_t feature) {
   return {};
 }
 
-}  // namespace
+class WorldDrawing {
+ public:
+  explicit WorldDrawing(World::Impl& world) : world_(world) {}
+
+  void draw_shapes(DebugDraw& out);
+  void draw_bounds(DebugDraw& out) const;
+  void draw_masses(DebugDraw& out) const;
+  void draw_contacts(DebugDraw& out);
+  void draw_joints(DebugDraw& out) const;
+
+ private:
+  void find_all_islands();
+  [[nodiscard]] DebugContact drawn_contact(const ContactRecord& record,
+                                           const Manifold& manifold) const;
+
+  World::Impl& world_;
+};
 
 // Of all dynamic bodies there are, asleep ones too.
-void World::Impl::find_all_islands() {
-  to_sleep.clear();  // not in use between the ticks
-  for (std::uint32_t i = 0; i < header.body_limit; ++i)
-    if (bodies[i].exists() && bodies[i].is_dynamic()) to_sleep.push_back(i);
-  islands.begin(to_sleep);
+void WorldDrawing::find_all_islands() {
+  world_.to_sleep.clear();  // not in use between the ticks
+  for (std::uint32_t i = 0; i < world_.header.body_limit; ++i)
+    if (world_.bodies[i].exists() && world_.bodies[i].is_dynamic()) world_.to_sleep.push_back(i);
+  world_.islands.begin(world_.to_sleep);
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
-    if (bodies[a].is_dynamic() && bodies[b].is_dynamic()) islands.join(a, b);
+    if (world_.bodies[a].is_dynamic() && world_.bodies[b].is_dynamic()) world_.islands.join(a, b);
   };
-  for_each_contact([&](const ContactRecord& contact) {
+  world_.for_each_contact([&](const ContactRecord& contact) {
     if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
   });
-  for (const JointLink& joint : joint_graph.links())
+  for (const JointLink& joint : world_.joint_graph.links())
     tie(joint.body_a, joint.body_b);
-  to_sleep.clear();
+  world_.to_sleep.clear();
 }
 
-void World::Impl::draw_shapes(DebugDraw& out) {
+void WorldDrawing::draw_shapes(DebugDraw& out) {
   find_all_islands();
-  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    const BodyRecord& body = bodies[i];
+  for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
+    const BodyRecord& body = world_.bodies[i];
     if (!body.exists()) continue;
-    const Transform pose = shape_pose(cache.asset(i), {body.position, body.orientation});
-    out.draw_shape({.body = handle_of(i),
-                    .state = state_of(body),
-                    .shape = body.shape(),
-                    .pose = pose,
-                    .rotation = to_matrix(pose.orientation),
-                    .asset = cache.asset(i),
-                    .island = body.is_dynamic() ? handle_of(islands.root(i)) : BodyHandle{},
-                    .user_data = body.user_data});
+    const Transform pose = shape_pose(world_.cache.asset(i), {body.position, body.orientation});
+    out.draw_shape(
+        {.body = world_.handle_of(i),
+         .state = state_of(body),
+         .shape = body.shape(),
+         .pose = pose,
+         .rotation = to_matrix(pose.orientation),
+         .asset = world_.cache.asset(i),
+         .island = body.is_dynamic() ? world_.handle_of(world_.islands.root(i)) : BodyHandle{},
+         .user_data = body.user_data});
   }
 }
 
-void World::Impl::draw_bounds(DebugDraw& out) const {
-  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    if (!bodies[i].exists()) continue;
-    const Bounds& bounds = broad_phase.bounds(i);
-    DebugBounds drawn{.body = handle_of(i)};
+void WorldDrawing::draw_bounds(DebugDraw& out) const {
+  for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
+    if (!world_.bodies[i].exists()) continue;
+    const Bounds& bounds = world_.broad_phase.bounds(i);
+    DebugBounds drawn{.body = world_.handle_of(i)};
     for (int axis = 0; axis < 3; ++axis) {
       drawn.lower[axis] = from_bounds(bounds.lower[axis]);
       drawn.upper[axis] = from_bounds(bounds.upper[axis]);
@@ -76,24 +93,26 @@ void World::Impl::draw_bounds(DebugDraw& out) const {
   }
 }
 
-void World::Impl::draw_masses(DebugDraw& out) const {
-  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    if (!bodies[i].exists() || !bodies[i].is_dynamic()) continue;
-    out.draw_mass({handle_of(i), bodies[i].position, cache.rotation(i), mass_of(bodies[i])});
+void WorldDrawing::draw_masses(DebugDraw& out) const {
+  for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
+    if (!world_.bodies[i].exists() || !world_.bodies[i].is_dynamic()) continue;
+    out.draw_mass({world_.handle_of(i), world_.bodies[i].position, world_.cache.rotation(i),
+                   mass_of(world_.bodies[i])});
   }
 }
 
 // A manifold as bodies are now, with the impulses of the last step.
-DebugContact World::Impl::drawn_contact(const ContactRecord& record,
-                                        const Manifold& manifold) const {
-  const BodyRecord& a = bodies[record.body_a];
-  const BodyRecord& b = bodies[record.body_b];
+DebugContact WorldDrawing::drawn_contact(const ContactRecord& record,
+                                         const Manifold& manifold) const {
+  const BodyRecord& a = world_.bodies[record.body_a];
+  const BodyRecord& b = world_.bodies[record.body_b];
   const BlockFloat inverse_mass = add(a.inverse_mass_value(), b.inverse_mass_value());
   const auto force_of = [&](SolverVelocity impulse) {
-    return Force::from_raw(effort_of(impulse.raw, time_step.substep_rate(), inverse_mass, 0));
+    return Force::from_raw(
+        effort_of(impulse.raw, world_.time_step.substep_rate(), inverse_mass, 0));
   };
-  DebugContact drawn{.a = handle_of(record.body_a),
-                     .b = handle_of(record.body_b),
+  DebugContact drawn{.a = world_.handle_of(record.body_a),
+                     .b = world_.handle_of(record.body_b),
                      .normal = manifold.normal,
                      .touching = record.is_touching(),
                      .count = static_cast<std::uint32_t>(manifold.count)};
@@ -112,15 +131,15 @@ DebugContact World::Impl::drawn_contact(const ContactRecord& record,
   return drawn;
 }
 
-void World::Impl::draw_contacts(DebugDraw& out) {
-  PairScratch& scratch = narrow.scratch(0);
+void WorldDrawing::draw_contacts(DebugDraw& out) {
+  PairScratch& scratch = world_.narrow.scratch(0);
   Pair collided;
-  for_each_contact([&](const ContactRecord& record) {
+  world_.for_each_contact([&](const ContactRecord& record) {
     if (record.is_trigger()) return;
     const Pair pair{record.body_a, record.body_b};
     if (pair != collided) {
-      collide_bodies(placed(pair.a), placed(pair.b), margin_of(pair), scratch.triangles.get(),
-                     scratch.part_contacts);
+      collide_bodies(world_.placed(pair.a), world_.placed(pair.b), world_.margin_of(pair),
+                     scratch.triangles.get(), scratch.part_contacts);
     }
     collided = pair;
     const auto part = std::ranges::find_if(scratch.part_contacts, [&](const PartContact& contact) {
@@ -131,16 +150,16 @@ void World::Impl::draw_contacts(DebugDraw& out) {
   });
 }
 
-void World::Impl::draw_joints(DebugDraw& out) const {
-  for (const JointLink& link : joint_graph.links()) {
-    const JointRecord& joint = joints[link.joint];
-    const Mat3& turn_a = cache.rotation(joint.body_a);
-    const Mat3& turn_b = cache.rotation(joint.body_b);
+void WorldDrawing::draw_joints(DebugDraw& out) const {
+  for (const JointLink& link : world_.joint_graph.links()) {
+    const JointRecord& joint = world_.joints[link.joint];
+    const Mat3& turn_a = world_.cache.rotation(joint.body_a);
+    const Mat3& turn_b = world_.cache.rotation(joint.body_b);
     DebugJoint drawn{
         .joint = {link.joint, joint.generation},
-        .view = view(joint),
-        .place_a = bodies[joint.body_a].position + arm_of(turn_a, joint.anchor_a),
-        .place_b = bodies[joint.body_b].position + arm_of(turn_b, joint.anchor_b),
+        .view = world_.view(joint),
+        .place_a = world_.bodies[joint.body_a].position + arm_of(turn_a, joint.anchor_a),
+        .place_b = world_.bodies[joint.body_b].position + arm_of(turn_b, joint.anchor_b),
         .frame_a = frame_of(turn_a, joint.orientation_a),
         .frame_b = frame_of(turn_b, joint.orientation_b),
         .ground_a = joint.ground_a,
@@ -158,12 +177,15 @@ void World::Impl::draw_joints(DebugDraw& out) const {
   }
 }
 
+}  // namespace
+
 void World::draw(DebugDraw& out, const DebugDrawOptions& options) const {
-  if (options.shapes) impl_->draw_shapes(out);
-  if (options.bounds) impl_->draw_bounds(out);
-  if (options.masses) impl_->draw_masses(out);
-  if (options.contacts) impl_->draw_contacts(out);
-  if (options.joints) impl_->draw_joints(out);
+  WorldDrawing drawing(*impl_);
+  if (options.shapes) drawing.draw_shapes(out);
+  if (options.bounds) drawing.draw_bounds(out);
+  if (options.masses) drawing.draw_masses(out);
+  if (options.contacts) drawing.draw_contacts(out);
+  if (options.joints) drawing.draw_joints(out);
 }
 
 }  // namespace lockstone

@@ -1,10 +1,11 @@
-// Which bodies bounce within the tick, at the moments at which they meet (bounce_group.h): groups
+// Which bodies bounce within the tick, at the moments at which they meet (impact_island.h): groups
 // of bodies that touch nothing but each other and immovable bodies, with restitution in every
 // contact. The contact solver handles all other bounces, at the tick's end.
 
+#include "core/world/phases/bounces.h"
+
 #include <algorithm>
 
-#include "core/dynamics/impact/impact_island.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -23,7 +24,7 @@ constexpr std::uint32_t k_group_grain = 8;
 // so.
 constexpr Displacement k_resting_overlap = Displacement::from_ratio(-1, 100000);
 
-// Of `bounce_marks`, by the least body of a group: contacts, whether some are to be pushed out if
+// Of `marks_`, by the least body of a group: contacts, whether some are to be pushed out if
 // nothing bounces, and whether any will bounce.
 constexpr std::uint8_t k_contact_count = 0x3f;
 constexpr std::uint8_t k_leans = 0x40;
@@ -42,120 +43,132 @@ bool is_nearer(const Manifold& manifold, Displacement separation) {
 
 }  // namespace
 
-void World::Impl::find_bounces() {
-  for (const std::uint32_t body : bouncing_bodies)
-    has_bounced[body] = 0;
-  bouncing_bodies.clear();
-  bouncing_contacts.clear();
-  bounce_groups.clear();
+Bounces::Bounces(World::Impl& world, std::uint32_t body_capacity, std::uint32_t contact_capacity)
+    : world_(world), has_bounced_(body_capacity), marks_(body_capacity) {
+  contacts_.reserve(contact_capacity);
+  groups_.reserve(contact_capacity);
+  bodies_.reserve(body_capacity);
+}
+
+void Bounces::find() {
+  for (const std::uint32_t body : bodies_)
+    has_bounced_[body] = 0;
+  bodies_.clear();
+  contacts_.clear();
+  groups_.clear();
   const auto elastic = [&](std::uint32_t slot) {
-    return surfaces[slot].restitution > Coefficient{};
+    return world_.surfaces[slot].restitution > Coefficient{};
   };
-  if (!narrow.has_elastic() || std::ranges::none_of(slots, elastic)) return;
-  join_bouncing();
-  for (std::size_t i = 0; i < new_contacts.size(); ++i)
-    look_for_bounce(i);
-  for (std::size_t i = 0; i < new_contacts.size(); ++i)
-    mark_bounce(i);
-  std::ranges::sort(bouncing_contacts);
-  for (std::size_t i = 0; i < bouncing_contacts.size(); ++i) {
-    if (i == 0 || bouncing_contacts[i].root != bouncing_contacts[i - 1].root)
-      bounce_groups.push_back(static_cast<std::uint32_t>(i));
+  if (!world_.narrow.has_elastic() || std::ranges::none_of(world_.slots, elastic)) return;
+  join_groups();
+  for (std::size_t i = 0; i < world_.new_contacts.size(); ++i)
+    look_for(i);
+  for (std::size_t i = 0; i < world_.new_contacts.size(); ++i)
+    mark(i);
+  std::ranges::sort(contacts_);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (i == 0 || contacts_[i].root != contacts_[i - 1].root)
+      groups_.push_back(static_cast<std::uint32_t>(i));
   }
 }
 
-bool World::Impl::flies(std::uint32_t body) const {
-  return bodies[body].is_dynamic() && bodies[body].is_awake();
+bool Bounces::flies(std::uint32_t body) const {
+  return world_.bodies[body].is_dynamic() && world_.bodies[body].is_awake();
 }
 
 // Groups of bodies that touch. Held are those with a contact without restitution, with a joint, or
 // with a body that sleeps.
-void World::Impl::join_bouncing() {
-  islands.begin(awake.list());
-  for (const std::uint32_t body : awake.list())
-    bounce_marks[body] = 0;
+void Bounces::join_groups() {
+  world_.islands.begin(world_.awake.list());
+  for (const std::uint32_t body : world_.awake.list())
+    marks_[body] = 0;
   const auto hold = [&](std::uint32_t body) {
-    if (flies(body)) islands.hold(body);
+    if (flies(body)) world_.islands.hold(body);
   };
-  for (std::size_t i = 0; i < new_contacts.size(); ++i) {
-    const ContactRecord& record = new_contacts[i];
+  for (std::size_t i = 0; i < world_.new_contacts.size(); ++i) {
+    const ContactRecord& record = world_.new_contacts[i];
     if (record.is_trigger()) continue;
-    const bool a = bodies[record.body_a].is_dynamic(), b = bodies[record.body_b].is_dynamic();
+    const bool a = world_.bodies[record.body_a].is_dynamic(),
+               b = world_.bodies[record.body_b].is_dynamic();
     const bool both_fly = flies(record.body_a) && flies(record.body_b);
-    if (both_fly) islands.join(record.body_a, record.body_b);
-    if (is_elastic(manifolds[slots[i]], surfaces[slots[i]]) && (both_fly || a != b)) continue;
+    if (both_fly) world_.islands.join(record.body_a, record.body_b);
+    if (is_elastic(world_.manifolds[world_.slots[i]], world_.surfaces[world_.slots[i]]) &&
+        (both_fly || a != b))
+      continue;
     hold(record.body_a);
     hold(record.body_b);
   }
-  for (const JointLink& link : joint_graph.awake_links()) {
+  for (const JointLink& link : world_.joint_graph.awake_links()) {
     hold(link.body_a);
     hold(link.body_b);
   }
-  (void)islands.settle(awake.list());
-  for (const ContactRecord& record : new_contacts) {
+  (void)world_.islands.settle(world_.awake.list());
+  for (const ContactRecord& record : world_.new_contacts) {
     if (record.is_trigger() || !one_flies(record)) continue;
-    std::uint8_t& marks = bounce_marks[bounce_root(record)];
+    std::uint8_t& marks = marks_[root_of(record)];
     if (marks < k_contact_count) ++marks;
   }
 }
 
-bool World::Impl::one_flies(const ContactRecord& record) const {
+bool Bounces::one_flies(const ContactRecord& record) const {
   return flies(record.body_a) || flies(record.body_b);
 }
 
 // The least body of the group.
-std::uint32_t World::Impl::bounce_root(const ContactRecord& record) {
-  return islands.root(flies(record.body_a) ? record.body_a : record.body_b);
+std::uint32_t Bounces::root_of(const ContactRecord& record) {
+  return world_.islands.root(flies(record.body_a) ? record.body_a : record.body_b);
 }
 
-BouncePair World::Impl::bounce_pair(std::size_t contact) {
-  const ContactRecord& record = new_contacts[contact];
-  const std::uint32_t slot = slots[contact];
-  return {&bodies[record.body_a], &bodies[record.body_b], &manifolds[slot], &surfaces[slot]};
+BouncePair Bounces::pair_of(std::size_t contact) {
+  const ContactRecord& record = world_.new_contacts[contact];
+  const std::uint32_t slot = world_.slots[contact];
+  return {&world_.bodies[record.body_a], &world_.bodies[record.body_b], &world_.manifolds[slot],
+          &world_.surfaces[slot]};
 }
 
-bool World::Impl::may_bounce(const ContactRecord& record) {
+bool Bounces::may_bounce(const ContactRecord& record) {
   if (record.is_trigger() || !one_flies(record)) return false;
-  const std::uint32_t root = bounce_root(record);
-  return !islands.is_held(root) && (bounce_marks[root] & k_contact_count) <= k_most_bounce_contacts;
+  const std::uint32_t root = root_of(record);
+  return !world_.islands.is_held(root) &&
+         (marks_[root] & k_contact_count) <= k_most_bounce_contacts;
 }
 
 // A contact that will bounce marks its whole group; a contact that comes to rest leaves the group
 // to the solver. Where no bodies meet, nothing need be solved.
-void World::Impl::look_for_bounce(std::size_t contact) {
-  const ContactRecord& record = new_contacts[contact];
-  const Manifold& manifold = manifolds[slots[contact]];
+void Bounces::look_for(std::size_t contact) {
+  const ContactRecord& record = world_.new_contacts[contact];
+  const Manifold& manifold = world_.manifolds[world_.slots[contact]];
   if (!may_bounce(record) || manifold.count == 0) return;
-  const std::uint32_t root = bounce_root(record);
+  const std::uint32_t root = root_of(record);
   const Meeting meeting =
-      next_meeting(bounce_pair(contact), header.gravity, time_step, k_two_ticks);
+      next_meeting(pair_of(contact), world_.header.gravity, world_.time_step, k_two_ticks);
   const bool rests = meeting.meets && meeting.speed <= k_least_bounce;
   if (rests || is_nearer(manifold, k_overlap) || turns_much(record.body_a) ||
       turns_much(record.body_b))
-    return islands.hold(root);
+    return world_.islands.hold(root);
   if (meeting.meets)
-    bounce_marks[root] |= k_will_bounce;
+    marks_[root] |= k_will_bounce;
   else if (is_nearer(manifold, k_resting_overlap))
-    bounce_marks[root] |= k_leans;
+    marks_[root] |= k_leans;
 }
 
 // Contact points of a body other than a ball stay where they were at the tick's beginning, so it
 // may turn by at most 2^-4 rad.
-bool World::Impl::turns_much(std::uint32_t body) const {
-  const BodyRecord& record = bodies[body];
+bool Bounces::turns_much(std::uint32_t body) const {
+  const BodyRecord& record = world_.bodies[body];
   if (!record.is_dynamic() || record.shape().kind == ShapeKind::sphere) return false;
   const Vec3<Velocity> w =
-      surface_velocity(inverse_inertia(record, cache.rotation(body)), record.spin);
+      surface_velocity(inverse_inertia(record, world_.cache.rotation(body)), record.spin);
   const std::int64_t turned =
-      raw::scale_binary(time_step.tick.times(sum_of_magnitudes(w)), -record.scale_exponent);
+      raw::scale_binary(world_.time_step.tick.times(sum_of_magnitudes(w)), -record.scale_exponent);
   return turned > std::int64_t{1} << 28;
 }
 
 // The solver leaves it out, and its impulses are dropped.
-void World::Impl::mark_bounce(std::size_t contact) {
-  ContactRecord& record = new_contacts[contact];
+void Bounces::mark(std::size_t contact) {
+  ContactRecord& record = world_.new_contacts[contact];
   if (!may_bounce(record)) return;
-  const std::uint8_t marks = bounce_marks[bounce_root(record)];
+  const std::uint8_t marks = marks_[root_of(record)];
   if ((marks & k_will_bounce) == 0 && (marks & k_leans) != 0) return;
   ContactRecord fresh;
   fresh.body_a = record.body_a;
@@ -163,41 +176,41 @@ void World::Impl::mark_bounce(std::size_t contact) {
   fresh.part_a = record.part_a;
   fresh.part_b = record.part_b;
   record = fresh;
-  surfaces[slots[contact]].bounces = true;
-  bouncing_contacts.push_back({bounce_root(record), static_cast<std::uint32_t>(contact)});
+  world_.surfaces[world_.slots[contact]].bounces = true;
+  contacts_.push_back({root_of(record), static_cast<std::uint32_t>(contact)});
   for (const std::uint32_t body : {record.body_a, record.body_b}) {
-    if (!bodies[body].is_dynamic() || has_bounced[body] != 0) continue;
-    has_bounced[body] = 1;
-    bouncing_bodies.push_back(body);
-    starts[body] = {bodies[body].position, bodies[body].orientation};
+    if (!world_.bodies[body].is_dynamic() || has_bounced_[body] != 0) continue;
+    has_bounced_[body] = 1;
+    bodies_.push_back(body);
+    world_.starts[body] = {world_.bodies[body].position, world_.bodies[body].orientation};
   }
 }
 
 // Before all other bodies move, so that the obstacles of these bounces are where the tick began.
-void World::Impl::run_bounces() {
-  const Loop each{static_cast<std::uint32_t>(bounce_groups.size()), k_group_grain};
-  parallel.for_each(each, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+void Bounces::run() {
+  const Loop each{static_cast<std::uint32_t>(groups_.size()), k_group_grain};
+  world_.parallel.for_each(each, [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
     for (std::uint32_t group = first; group < end; ++group)
-      run_bounce_group(group);
+      run_group(group);
   });
 }
 
-void World::Impl::run_bounce_group(std::uint32_t index) {
-  const std::size_t first = bounce_groups[index];
-  const std::size_t end =
-      index + 1 < bounce_groups.size() ? bounce_groups[index + 1] : bouncing_contacts.size();
-  const std::span<const BouncingContact> contacts =
-      std::span(bouncing_contacts).subspan(first, end - first);
-  BounceGroup group(header.gravity, time_step);
-  for (const BouncingContact& each : contacts)
-    group.add(bounce_pair(each.contact));
+void Bounces::run_group(std::uint32_t index) {
+  const std::size_t first = groups_[index];
+  const std::size_t end = index + 1 < groups_.size() ? groups_[index + 1] : contacts_.size();
+  const std::span<const BouncingContact> group_contacts =
+      std::span(contacts_).subspan(first, end - first);
+  BounceGroup group(world_.header.gravity, world_.time_step);
+  for (const BouncingContact& each : group_contacts)
+    group.add(pair_of(each.contact));
   group.run();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const std::uint32_t contact = contacts[i].contact;
-    const bool touches = is_nearer(manifolds[slots[contact]], Displacement::from_raw(1));
-    if (group.touched(i) || touches) new_contacts[contact].flags = k_contact_touching;
+  for (std::size_t i = 0; i < group_contacts.size(); ++i) {
+    const std::uint32_t contact = group_contacts[i].contact;
+    const bool touches =
+        is_nearer(world_.manifolds[world_.slots[contact]], Displacement::from_raw(1));
+    if (group.touched(i) || touches) world_.new_contacts[contact].flags = k_contact_touching;
     if (!group.touched(i)) continue;
-    approach_speeds[contact] = SolverVelocity::from_raw(
+    world_.approach_speeds[contact] = SolverVelocity::from_raw(
         raw::saturate<std::int32_t>(raw::round_shift(group.approach(i).raw, 12)));
   }
 }

@@ -25,13 +25,6 @@ struct MoveCounts {
   std::uint32_t free_bodies = 0, axis_turns = 0, saturations = 0;
 };
 
-/// A pendulum (swings.cpp).
-struct Swing {
-  std::uint32_t joint = 0;
-  std::uint32_t body = 0;
-  bool is_first = false;  // of the joint's bodies
-};
-
 /// Bits of World::Impl::far_movers.
 enum FarMover : std::uint8_t {
   k_far_mover = 1,     // moved farther than half its thickness

@@ -6,6 +6,7 @@
 #include <lockstone/hash.h>
 
 #include "core/world/state/record_hash.h"
+#include "core/world/state/state_validator.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -102,7 +103,7 @@ void World::Impl::set_stage_hook() {
     auto& world = *static_cast<Impl*>(context);
     if (world.traces_stages)
       world.stage_digests.after[static_cast<std::size_t>(stage)] = world.digest_of(stage);
-    if (world.validates) world.validate_after(stage);
+    if (world.validates) StateValidator(world).check_after(stage);
   };
   profiler.set_hook(traces_stages || validates ? +hook : nullptr, this);
 }
