@@ -55,7 +55,7 @@ StepReport World::Impl::step() {
   collide_pairs(report);
   solve_contacts(report);
   move_bodies(report);
-  stop_at_impacts(report);
+  continuous.run(report);
   follow_with_contacts();
   refresh_moved();
   find_events();
@@ -137,7 +137,7 @@ void World::Impl::move_bodies(StepReport& report) {
     MoveCounts counts;
     for (std::uint32_t i = first; i < end; ++i) {
       move_body(moved[i], counts);
-      note_far_mover(moved[i]);
+      continuous.note_far_mover(moved[i]);
     }
     const auto add = [](std::atomic<std::uint32_t>& sum, std::uint32_t count) {
       if (count != 0) sum.fetch_add(count, std::memory_order_relaxed);

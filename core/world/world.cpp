@@ -72,6 +72,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       joint_hashes(definition.joint_capacity),
       changed_sleep(definition.body_capacity),
       islands(definition.body_capacity),
+      continuous(*this, definition),
+      passes(*this, continuous, definition.body_capacity),
       bounces(*this, definition.body_capacity, definition.contact_capacity),
       pendulums(*this, definition.body_capacity, definition.joint_capacity),
       solver(time_step, definition.body_capacity, definition.contact_capacity,
@@ -82,14 +84,8 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
   to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);
   to_sleep.reserve(definition.body_capacity);
   joint_events.reserve(definition.joint_capacity);
-  impacts.reserve(definition.body_capacity);
   starts.resize(definition.body_capacity);
-  sweepers.reserve(definition.body_capacity);
-  struck.reserve(definition.body_capacity);
-  passes.reserve(definition.body_capacity);
   leaves_fat_box.resize(definition.body_capacity);
-  far_movers.resize(definition.body_capacity);
-  joined_movers.reserve(definition.joint_capacity == 0 ? 0 : definition.body_capacity);
   found_contacts.reserve(definition.pair_capacity);
   separating_axes.reserve(definition.pair_capacity);
   new_contacts.reserve(definition.contact_capacity);

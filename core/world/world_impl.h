@@ -32,7 +32,9 @@
 #include "core/world/derived/index_set.h"
 #include "core/world/derived/joint_graph.h"
 #include "core/world/phases/bounces.h"
+#include "core/world/phases/continuous.h"
 #include "core/world/phases/narrow_slots.h"
+#include "core/world/phases/passes.h"
 #include "core/world/phases/pendulums.h"
 #include "core/world/phases/separating_axes.h"
 #include "core/world/phases/step_records.h"
@@ -282,42 +284,6 @@ struct World::Impl {
   void follow_with_contacts();
   void refresh_moved();
 
-  // Continuous collision (continuous.cpp).
-  void stop_at_impacts(StepReport& report);
-  void note_far_mover(std::uint32_t body);
-  [[nodiscard]] bool went_far(std::uint32_t body) const {
-    return goes_far(body, starts[body], bodies[body]);
-  }
-  /// From a pose to that of `end`.
-  [[nodiscard]] bool goes_far(std::uint32_t body, const Transform& start,
-                              const BodyRecord& end) const;
-  void follow(std::uint32_t body, StepReport& report);
-  void follow_joined(std::uint32_t body, StepReport& report);
-  void list_joined(std::uint32_t body);
-  template <class F>
-  void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;
-  [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
-  void answer(std::uint32_t body, const NextImpact& next, Unit done);
-  [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
-  [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
-  [[nodiscard]] Sweep motion_of(std::uint32_t body, Unit done) const;
-
-  // Bodies that sweep over others: fast kinematic bodies, and fast triggers (sweepers.cpp).
-  [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
-  [[nodiscard]] Bounds bounds_on_way(std::uint32_t body, const Sweep& motion) const;
-  void list_sweepers();
-  void wake_struck();
-  void find_struck(std::uint32_t sweeper);
-  [[nodiscard]] bool carries(std::uint32_t body) const;
-  void push_out(std::uint32_t body, std::uint32_t sweeper);
-  void carry_joined(std::uint32_t body, const Sweep& by);
-
-  // Triggers that are passed within a tick (passes.cpp).
-  void note_passes(std::uint32_t body, const Sweep& motion, Unit done, Unit fraction);
-  void note_pass(const Pair& pair, const Sweep& a, const Sweep& b);
-  [[nodiscard]] bool senses(std::uint32_t body, std::uint32_t other) const;
-  void add_passes();
-
   void hold_before_fronts();  // thin bodies (fronts.cpp)
   void hold_before_fronts(std::uint32_t body);
 
@@ -357,15 +323,11 @@ struct World::Impl {
 
   // Scratch of one step.
   std::span<const Pair> pairs;
-  std::vector<std::uint32_t> moved, joined_movers;  // bodies: ascending; that stop together
-  std::vector<std::uint8_t> leaves_fat_box;         // by place in `moved`
-  std::vector<std::uint8_t> far_movers;             // by body that moved
-  std::vector<Transform> starts;                    // by body: where it was before it moved
-  std::vector<Sweeper> sweepers;                    // of this tick, by body
-  std::vector<std::uint32_t> struck;                // sleepers
-  std::vector<Pair> passes;                         // that one of the two sensed within the tick
-  bool passes_overflowed = false;
-  std::vector<ContactEvent> impacts;
+  std::vector<std::uint32_t> moved;          // bodies, ascending
+  std::vector<std::uint8_t> leaves_fat_box;  // by place in `moved`
+  std::vector<Transform> starts;             // by body: where it was before it moved
+  ContinuousCollision continuous;
+  TriggerPasses passes;
   Bounces bounces;
   Pendulums pendulums;
   NarrowSlots narrow;

@@ -164,8 +164,8 @@ void World::Impl::find_events() {
                                contact_store.begin() + first);
                    });
   active_contacts = count;
-  add_passes();
-  events.insert(events.end(), impacts.begin(), impacts.end());
+  passes.add_events();
+  events.insert(events.end(), continuous.impacts().begin(), continuous.impacts().end());
   header.contact_count = active_contacts + frozen.count();
 }
 

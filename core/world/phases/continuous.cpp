@@ -1,6 +1,8 @@
 // Continuous collision: each body that moved far in a tick is swept along its path, stopped at its
 // first impact, given the impact's impulses, and moved on for the rest of the tick.
 
+#include "core/world/phases/continuous.h"
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -90,38 +92,49 @@ bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeSt
 
 }  // namespace
 
-void World::Impl::stop_at_impacts(StepReport& report) {
-  const StageTimer timer(profiler, StepStage::continuous);
-  impacts.clear();
-  passes.clear();
-  passes_overflowed = false;
+ContinuousCollision::ContinuousCollision(World::Impl& world, const WorldDef& def)
+    : world_(world), far_movers_(def.body_capacity) {
+  joined_movers_.reserve(def.joint_capacity == 0 ? 0 : def.body_capacity);
+  sweepers_.reserve(def.body_capacity);
+  struck_.reserve(def.body_capacity);
+  impacts_.reserve(def.body_capacity);
+}
+
+void ContinuousCollision::run(StepReport& report) {
+  const StageTimer timer(world_.profiler, StepStage::continuous);
+  impacts_.clear();
+  world_.passes.begin();
   list_sweepers();
-  for (const std::uint32_t body : moved) {
-    if ((far_movers[body] & (k_far_mover | k_swept_over)) == 0) continue;
+  for (const std::uint32_t body : world_.moved) {
+    if ((far_movers_[body] & (k_far_mover | k_swept_over)) == 0) continue;
     ++report.continuous_bodies;
     follow(body, report);
   }
-  if (triggers.count() != 0)
-    for (const Sweeper& each : sweepers)
-      note_passes(each.body, motion_in_tick(each.body), {}, k_whole_tick);
-  hold_before_fronts();
-  if (passes_overflowed) report.status = Status::capacity_exhausted;
+  if (world_.triggers.count() != 0)
+    for (const Sweeper& each : sweepers_)
+      world_.passes.note(each.body, motion_in_tick(each.body), {}, k_whole_tick);
+  world_.hold_before_fronts();
+  if (world_.passes.overflowed()) report.status = Status::capacity_exhausted;
 }
 
 // Anew when an impact changes how a body turns before its own way is looked at.
-void World::Impl::note_far_mover(std::uint32_t body) {
-  const bool is_followed = bodies[body].is_dynamic() && !bodies[body].is_trigger();
-  far_movers[body] = !went_far(body) ? 0 : is_followed ? k_far_mover : k_sweeper;
+void ContinuousCollision::note_far_mover(std::uint32_t body) {
+  const bool is_followed = world_.bodies[body].is_dynamic() && !world_.bodies[body].is_trigger();
+  far_movers_[body] = !went_far(body) ? 0 : is_followed ? k_far_mover : k_sweeper;
+}
+
+bool ContinuousCollision::went_far(std::uint32_t body) const {
+  return goes_far(body, world_.starts[body], world_.bodies[body]);
 }
 
 // Farther than half its thickness: a shorter motion cannot take it through anything.
-bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
-                           const BodyRecord& record) const {
+bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
+                                   const BodyRecord& record) const {
   const bool is_followed = record.is_dynamic() && !record.is_trigger();
-  if (!is_followed && !may_sweep(record, cache.asset(body))) return false;
-  const std::int64_t limit = is_followed
-                                 ? rounded<Position>(cache.inner_radius(body) / 2).raw
-                                 : sweeping_limit(cache.inner_radius(body), cache.asset(body)).raw;
+  if (!is_followed && !may_sweep(record, world_.cache.asset(body))) return false;
+  const std::int64_t limit =
+      is_followed ? rounded<Position>(world_.cache.inner_radius(body) / 2).raw
+                  : sweeping_limit(world_.cache.inner_radius(body), world_.cache.asset(body)).raw;
   const Vec3<Position> gone = record.position - start.position;
   std::int64_t way = sum_of_magnitudes(gone);
   if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
@@ -129,48 +142,48 @@ bool World::Impl::goes_far(std::uint32_t body, const Transform& start,
   if (start.orientation == record.orientation) return false;
   const auto goes_far = [&](Length radius) {
     return way + turned_way(start.orientation, record.orientation, radius) > limit ||
-           may_turn_by_half(record, cache.rotation(body), time_step);
+           may_turn_by_half(record, world_.cache.rotation(body), world_.time_step);
   };
   // Most go nowhere near as far, and need no root.
   const Length reach =
       Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
-  if (cache.asset(body) == nullptr && !goes_far(reach)) return false;
-  const Length radius = bounding_radius(record.shape(), cache.asset(body));
-  const bool shows_turning = radius > cache.inner_radius(body) || !is_followed;
+  if (world_.cache.asset(body) == nullptr && !goes_far(reach)) return false;
+  const Length radius = bounding_radius(record.shape(), world_.cache.asset(body));
+  const bool shows_turning = radius > world_.cache.inner_radius(body) || !is_followed;
   return shows_turning && goes_far(radius);
 }
 
 // How it turned is of interest only where something is in its way. A sweeper that it meets twice
 // takes it along from the first time on: a straight way ends behind a blade that turns.
-void World::Impl::follow(std::uint32_t body, StepReport& report) {
-  BodyRecord& record = bodies[body];
-  const Transform& start = starts[body];
+void ContinuousCollision::follow(std::uint32_t body, StepReport& report) {
+  BodyRecord& record = world_.bodies[body];
+  const Transform& start = world_.starts[body];
   bool is_free = true;
   visit_obstacles(body, {start, record.position - start.position, {}},
                   [&](std::uint32_t) { is_free = false; });
-  if (is_free) return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
-  if (!joint_graph.neighbours(body).empty()) return follow_joined(body, report);
+  if (is_free) return world_.passes.note(body, motion_in_tick(body), {}, k_whole_tick);
+  if (!world_.joint_graph.neighbours(body).empty()) return follow_joined(body, report);
   Sweep motion = motion_in_tick(body);
-  Mat3 rotation = cache.rotation(body);
+  Mat3 rotation = world_.cache.rotation(body);
   Unit done{};                    // of the tick
   Transform held = motion.start;  // at the last impact, with `met`
   Unit held_since{};
   std::uint32_t met = body;
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
-    note_passes(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
+    world_.passes.note(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
     if (!next.impact.hit && i > 0 && carries(met)) push_out(body, met);
     if (!next.impact.hit) return;
     ++report.impacts;
     if (i > 0 && next.body == met && carries(met)) {
       stop_at(record, carried(held, motion_of(met, held_since)), rotation);
-      answer(body, next, k_whole_tick);
+      resolve(body, next, k_whole_tick);
       return push_out(body, met);
     }
     stop_at(record, pose_at(motion, next.impact.fraction), rotation);
     const Unit left = k_whole_tick - done;
     done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
-    answer(body, next, done);
+    resolve(body, next, done);
     held = pose_of(record);
     held_since = done;
     met = next.body;
@@ -185,14 +198,15 @@ void World::Impl::follow(std::uint32_t body, StepReport& report) {
 }
 
 // Out of a sweeper, where both are at the tick's end: contacts alone are too slow for it.
-void World::Impl::push_out(std::uint32_t body, std::uint32_t sweeper) {
-  BodyRecord& record = bodies[body];
-  const BodyRecord& other = bodies[sweeper];
-  PairScratch& scratch = narrow.scratch(0);
-  collide_bodies(
-      place(record.shape(), cache.asset(body), record.position, to_matrix(record.orientation)),
-      place(other.shape(), cache.asset(sweeper), other.position, to_matrix(other.orientation)), {},
-      scratch.triangles.get(), scratch.part_contacts);
+void ContinuousCollision::push_out(std::uint32_t body, std::uint32_t sweeper) {
+  BodyRecord& record = world_.bodies[body];
+  const BodyRecord& other = world_.bodies[sweeper];
+  PairScratch& scratch = world_.narrow.scratch(0);
+  collide_bodies(place(record.shape(), world_.cache.asset(body), record.position,
+                       to_matrix(record.orientation)),
+                 place(other.shape(), world_.cache.asset(sweeper), other.position,
+                       to_matrix(other.orientation)),
+                 {}, scratch.triangles.get(), scratch.part_contacts);
   Displacement deepest{};
   Vec3<Unit> normal{};
   for (const PartContact& contact : scratch.part_contacts) {
@@ -212,14 +226,14 @@ void World::Impl::push_out(std::uint32_t body, std::uint32_t sweeper) {
 // Bodies connected by joints stop together where the first of them runs into something, and lose
 // the rest of the tick: a limb that stopped alone would leave its joint. The solver propagates the
 // impact to the others.
-void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
+void ContinuousCollision::follow_joined(std::uint32_t body, StepReport& report) {
   if (!find_impact(body, motion_in_tick(body), {}).impact.hit)
-    return note_passes(body, motion_in_tick(body), {}, k_whole_tick);
+    return world_.passes.note(body, motion_in_tick(body), {}, k_whole_tick);
   list_joined(body);
   NextImpact first;
   std::uint32_t body_of_first = body;
-  for (const std::uint32_t each : joined_movers) {
-    if (far_movers[each] == k_joined_mover) continue;
+  for (const std::uint32_t each : joined_movers_) {
+    if (far_movers_[each] == k_joined_mover) continue;
     const NextImpact next = find_impact(each, motion_in_tick(each), {});
     const bool sooner = next.impact.hit &&
                         (!first.impact.hit || next.impact.fraction < first.impact.fraction ||
@@ -227,56 +241,58 @@ void World::Impl::follow_joined(std::uint32_t body, StepReport& report) {
     if (sooner) first = next, body_of_first = each;
   }
   ++report.impacts;
-  for (const std::uint32_t each : joined_movers) {
+  for (const std::uint32_t each : joined_movers_) {
     const Sweep motion = motion_in_tick(each);
     const Transform pose = pose_at(motion, first.impact.fraction);
-    note_passes(each, motion, {}, first.impact.fraction);
-    stop_at(bodies[each], pose, cache.rotation(each));
-    far_movers[each] = 0;
+    world_.passes.note(each, motion, {}, first.impact.fraction);
+    stop_at(world_.bodies[each], pose, world_.cache.rotation(each));
+    far_movers_[each] = 0;
   }
-  answer(body_of_first, first, first.impact.fraction);
+  resolve(body_of_first, first, first.impact.fraction);
   if (carries(first.body))
     carry_joined(body_of_first, motion_of(first.body, first.impact.fraction));
 }
 
 // The body and the dynamic bodies that joints connect to it, all of which move.
-void World::Impl::list_joined(std::uint32_t body) {
-  joined_movers.assign(1, body);
-  far_movers[body] |= k_joined_mover;
-  for (std::size_t i = 0; i < joined_movers.size(); ++i) {
-    for (const std::uint32_t other : joint_graph.neighbours(joined_movers[i])) {
-      if (!bodies[other].is_dynamic() || (far_movers[other] & k_joined_mover) != 0) continue;
-      far_movers[other] |= k_joined_mover;
-      joined_movers.push_back(other);
+void ContinuousCollision::list_joined(std::uint32_t body) {
+  joined_movers_.assign(1, body);
+  far_movers_[body] |= k_joined_mover;
+  for (std::size_t i = 0; i < joined_movers_.size(); ++i) {
+    for (const std::uint32_t other : world_.joint_graph.neighbours(joined_movers_[i])) {
+      if (!world_.bodies[other].is_dynamic() || (far_movers_[other] & k_joined_mover) != 0)
+        continue;
+      far_movers_[other] |= k_joined_mover;
+      joined_movers_.push_back(other);
     }
   }
 }
 
-Sweep World::Impl::motion_in_tick(std::uint32_t body) const {
-  const BodyRecord& record = bodies[body];
-  const Transform& start = starts[body];
+Sweep ContinuousCollision::motion_in_tick(std::uint32_t body) const {
+  const BodyRecord& record = world_.bodies[body];
+  const Transform& start = world_.starts[body];
   return {start, record.position - start.position,
-          turn_since(start.orientation, cache.rotation(body), record, time_step, k_whole_tick)};
+          turn_since(start.orientation, world_.cache.rotation(body), record, world_.time_step,
+                     k_whole_tick)};
 }
 
 // Moves a body for the rest of a tick at the velocities at hand, which already hold the whole
 // tick's gravity; answers the way.
-Sweep World::Impl::go_on(BodyRecord& record, Unit left) const {
+Sweep ContinuousCollision::go_on(BodyRecord& record, Unit left) const {
   const Mat3 rotation = to_matrix(record.orientation);
   Sweep motion{pose_of(record), {}, {}};
   for (int i = 0; i < 3; ++i) {
-    motion.translation[i].raw = raw::multiply_shift(time_step.tick.times(record.velocity[i].raw),
-                                                    left.raw, Unit::frac_bits);
+    motion.translation[i].raw = raw::multiply_shift(
+        world_.time_step.tick.times(record.velocity[i].raw), left.raw, Unit::frac_bits);
   }
   record.position += motion.translation;
-  (void)turn_in_flight(record, rotation, time_step, left);
-  motion.rotation = turn_since(motion.start.orientation, rotation, record, time_step, left);
+  (void)turn_in_flight(record, rotation, world_.time_step, left);
+  motion.rotation = turn_since(motion.start.orientation, rotation, record, world_.time_step, left);
   return motion;
 }
 
 // How a body moves from `done` to the end of the tick, itself followed or not.
-Sweep World::Impl::motion_of(std::uint32_t body, Unit done) const {
-  const BodyRecord& record = bodies[body];
+Sweep ContinuousCollision::motion_of(std::uint32_t body, Unit done) const {
+  const BodyRecord& record = world_.bodies[body];
   if (!record.is_awake()) return {pose_of(record), {}, {}};
   return rest_of(motion_in_tick(body), done);
 }
@@ -289,38 +305,40 @@ bool World::Impl::is_obstacle(std::uint32_t body, std::uint32_t other) const {
 
 // The obstacles at which a body may stop on its path.
 template <class F>
-void World::Impl::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
-  const BodyRecord& record = bodies[body];
+void ContinuousCollision::visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const {
+  const BodyRecord& record = world_.bodies[body];
   const Vec3<Position>& from = motion.start.position;
   const Bounds way = bounds_of_way(from, from + motion.translation,
-                                   bounding_radius(record.shape(), cache.asset(body)));
+                                   bounding_radius(record.shape(), world_.cache.asset(body)));
   const auto test = [&](const Bounds& bounds) { return overlap(way, bounds); };
   const auto visit = [&](std::uint32_t other) {
-    const bool considered = other != body && (record.is_bullet() || !bodies[other].is_dynamic());
-    if (considered && !is_sweeper(other) && is_obstacle(body, other)) f(other);
+    const bool considered =
+        other != body && (record.is_bullet() || !world_.bodies[other].is_dynamic());
+    if (considered && !is_sweeper(other) && world_.is_obstacle(body, other)) f(other);
   };
-  for (const Sweeper& each : sweepers)
-    if (overlap(way, each.way) && is_obstacle(body, each.body)) f(each.body);
+  for (const Sweeper& each : sweepers_)
+    if (overlap(way, each.way) && world_.is_obstacle(body, each.body)) f(each.body);
   if (record.is_bullet())
-    broad_phase.traverse(k_every_category, test, visit);
+    world_.broad_phase.traverse(k_every_category, test, visit);
   else
-    broad_phase.traverse_immovable(test, visit);
+    world_.broad_phase.traverse_immovable(test, visit);
 }
 
-NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Unit done) const {
-  const Shape shape = bodies[body].shape();
-  const Length inner = cache.inner_radius(body);
-  const Length radius = bounding_radius(shape, cache.asset(body));
+NextImpact ContinuousCollision::find_impact(std::uint32_t body, const Sweep& motion,
+                                            Unit done) const {
+  const Shape shape = world_.bodies[body].shape();
+  const Length inner = world_.cache.inner_radius(body);
+  const Length radius = bounding_radius(shape, world_.cache.asset(body));
   NextImpact next;
   visit_obstacles(body, motion, [&](std::uint32_t other) {
-    const Shape other_shape = bodies[other].shape();
+    const Shape other_shape = world_.bodies[other].shape();
     const Sweep other_motion = motion_of(other, done);
     const Length turned = radius > inner ? radius : Length{};
     const bool sweeps = is_sweeper(other);
     const Length free_way = sweeps ? inner / 8 : inner / 2;
     if (relative_way(motion, other_motion, turned) <= rounded<Position>(free_way)) return;
-    const Impact impact = first_impact({shape, cache.asset(body), motion},
-                                       {other_shape, cache.asset(other), other_motion},
+    const Impact impact = first_impact({shape, world_.cache.asset(body), motion},
+                                       {other_shape, world_.cache.asset(other), other_motion},
                                        sweeps ? ImpactDepth::shallow : ImpactDepth::half);
     const bool sooner =
         impact.hit && (!next.impact.hit || impact.fraction < next.impact.fraction ||
@@ -332,26 +350,29 @@ NextImpact World::Impl::find_impact(std::uint32_t body, const Sweep& motion, Uni
 
 // Impulses between the two where they are at `done`. Velocities hold the whole tick's gravity; the
 // part that acts after the impact is taken off while it is resolved.
-void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) {
+void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Unit done) {
   const std::uint32_t other = next.body;
-  BodyRecord& a = bodies[body];
-  BodyRecord& b = bodies[other];
-  PairScratch& scratch = narrow.scratch(0);
+  BodyRecord& a = world_.bodies[body];
+  BodyRecord& b = world_.bodies[other];
+  PairScratch& scratch = world_.narrow.scratch(0);
   const Sweep other_motion = motion_of(other, done);
   const Mat3 rotation_a = to_matrix(a.orientation),
              rotation_b = to_matrix(other_motion.start.orientation);
-  collide_bodies(place(a.shape(), cache.asset(body), a.position, rotation_a),
-                 place(b.shape(), cache.asset(other), other_motion.start.position, rotation_b),
-                 k_impact_gap * 4, scratch.triangles.get(), scratch.part_contacts);
+  collide_bodies(
+      place(a.shape(), world_.cache.asset(body), a.position, rotation_a),
+      place(b.shape(), world_.cache.asset(other), other_motion.start.position, rotation_b),
+      k_impact_gap * 4, scratch.triangles.get(), scratch.part_contacts);
   const InverseInertia inertia_a = inverse_inertia(a, rotation_a);
   const InverseInertia inertia_b = inverse_inertia(b, rotation_b);
-  const Vec3<Velocity> to_come = gravity_gain(a, header.gravity, time_step, k_whole_tick - done);
+  const Vec3<Velocity> to_come =
+      gravity_gain(a, world_.header.gravity, world_.time_step, k_whole_tick - done);
   a.velocity -= to_come;
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
-    find_surface({body, other}, contact.surface_a, contact.surface_b, contact.manifold, surface);
+    world_.find_surface({body, other}, contact.surface_a, contact.surface_b, contact.manifold,
+                        surface);
     tag_a = surface.tag_a;
     tag_b = surface.tag_b;
     approach =
@@ -364,17 +385,17 @@ void World::Impl::answer(std::uint32_t body, const NextImpact& next, Unit done) 
                         {through_centre(next.impact.crossing, saturated<Length>(arm)), {}, {}});
   }
   a.velocity += to_come;
-  (void)limit_speed(a, inertia_a, def.speed_limit);
-  if (b.is_dynamic()) (void)limit_speed(b, inertia_b, def.speed_limit);
-  body_hashes.mark(other);
+  (void)limit_speed(a, inertia_a, world_.def.speed_limit);
+  if (b.is_dynamic()) (void)limit_speed(b, inertia_b, world_.def.speed_limit);
+  world_.body_hashes.mark(other);
   if (b.is_dynamic()) {
-    const auto swept_over = static_cast<std::uint8_t>(far_movers[other] & k_swept_over);
+    const auto swept_over = static_cast<std::uint8_t>(far_movers_[other] & k_swept_over);
     note_far_mover(other);
-    far_movers[other] |= swept_over;
+    far_movers_[other] |= swept_over;
   }
-  if (b.is_dynamic() && b.is_asleep()) to_wake.push_back(other);
-  if (impacts.size() < def.body_capacity) {
-    impacts.push_back(
+  if (b.is_dynamic() && b.is_asleep()) world_.to_wake.push_back(other);
+  if (impacts_.size() < world_.def.body_capacity) {
+    impacts_.push_back(
         {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
   }
 }

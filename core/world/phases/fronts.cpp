@@ -19,8 +19,7 @@ PlacedShape moved_by(PlacedShape placed, const Vec3<Position>& way) {
 
 // The first front that the body has passed on its way from `start`. Rotations are still those of
 // the tick's beginning.
-template <class Impl>  // World::Impl, which nothing outside may name
-FrontPush find_front(const Impl& world, std::uint32_t body, const Vec3<Position>& start) {
+FrontPush find_front(const World::Impl& world, std::uint32_t body, const Vec3<Position>& start) {
   const BodyRecord& record = world.bodies[body];
   const Asset* asset = world.cache.asset(body);
   const Bounds way = bounds_of_way(start, record.position, bounding_radius(record.shape(), asset));

@@ -25,26 +25,6 @@ struct MoveCounts {
   std::uint32_t free_bodies = 0, axis_turns = 0, saturations = 0;
 };
 
-/// Bits of World::Impl::far_movers.
-enum FarMover : std::uint8_t {
-  k_far_mover = 1,     // moved farther than half its thickness
-  k_joined_mover = 2,  // joints connect it to one that did
-  k_swept_over = 4,    // near the way of a sweeper
-  k_sweeper = 8,
-};
-
-/// The next impact on a body's way (continuous.cpp).
-struct NextImpact {
-  std::uint32_t body = 0;
-  Impact impact{};
-};
-
-/// A body that sweeps over others (sweepers.cpp).
-struct Sweeper {
-  std::uint32_t body = 0;
-  Bounds way{};
-};
-
 /// A contact that bounces within the tick; a group of them is named by its least body.
 struct BouncingContact {
   std::uint32_t root = 0;

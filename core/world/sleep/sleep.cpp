@@ -168,7 +168,7 @@ bool World::Impl::wake_met() {
     const std::uint32_t sleeper = a_awake ? pair.b : pair.a;
     if (bodies[sleeper].is_dynamic() && meet(pair)) list_to_wake(sleeper);
   }
-  wake_struck();
+  continuous.wake_struck();
   const bool any = !to_wake.empty();
   wake_listed();
   return any;

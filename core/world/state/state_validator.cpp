@@ -81,8 +81,7 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     awake_count += world_.awake.has(i) ? 1U : 0U;
     if (world_.changed_sleep.has(i) != body.has_changed_sleep())
       return {"the list of changed sleep", i};
-    if (world_.broad_phase.has(i) != body.exists())
-      return {"the bodies of the broad phase", i};
+    if (world_.broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;
     if (world_.cache.asset(i) != world_.assets->find(body.asset)) return {"the asset of a body", i};
@@ -94,8 +93,7 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
       return {"the rotation of a contact pose", i};
     if (world_.cache.drift(i) != drift_of(body)) return {"the drift of a body", i};
   }
-  if (awake_count != world_.awake.count())
-    return {"the number of awake bodies", awake_count};
+  if (awake_count != world_.awake.count()) return {"the number of awake bodies", awake_count};
   if (sleepers != world_.asleep_count) return {"the number of sleeping bodies", sleepers};
   return {};
 }
@@ -105,8 +103,7 @@ WorldFault StateValidator::fault_of_derived_contacts() const {
   const auto is_active = [&](const ContactRecord& record) {
     return world_.awake.has(record.body_a) || world_.awake.has(record.body_b);
   };
-  if (!std::ranges::all_of(world_.contacts(), is_active))
-    return {"an active contact of sleepers"};
+  if (!std::ranges::all_of(world_.contacts(), is_active)) return {"an active contact of sleepers"};
   WorldFault fault;
   world_.frozen.for_each(world_.header.body_limit, [&](const ContactRecord& record) {
     if (is_active(record)) fault = {"a sleeping contact of a body that is awake", record.body_a};

@@ -1,0 +1,43 @@
+// Triggers that something passes within a tick. Overlaps are found where a tick begins; a pair that
+// overlaps neither there nor at the tick's end, but does in between, enters and exits in that tick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <lockstone/world.h>
+
+#include "core/collision/broad_phase/pair.h"
+#include "core/collision/continuous/first_impact.h"
+
+namespace lockstone {
+
+class ContinuousCollision;
+
+class TriggerPasses {
+ public:
+  /// No function but this allocates. `world` and `continuous` outlive this.
+  TriggerPasses(World::Impl& world, ContinuousCollision& continuous, std::uint32_t body_capacity);
+
+  /// Forgets the passes of the tick before.
+  void begin();
+  /// Notes each pair that touches while the body goes a fraction of its motion, which begins at
+  /// `done` of the tick.
+  void note(std::uint32_t body, const Sweep& motion, Unit done, Unit fraction);
+  /// Adds an entry and an exit for each noted pair that is apart again, in the order of the pairs.
+  void add_events();
+
+  /// Whether passes were dropped because there were more than bodies.
+  [[nodiscard]] bool overflowed() const { return overflowed_; }
+
+ private:
+  [[nodiscard]] bool senses(std::uint32_t body, std::uint32_t other) const;
+  void note_pair(const Pair& pair, const Sweep& a, const Sweep& b);
+
+  World::Impl& world_;
+  ContinuousCollision& continuous_;
+  std::vector<Pair> passes_;
+  bool overflowed_ = false;
+};
+
+}  // namespace lockstone
