@@ -20,7 +20,7 @@ using namespace proximal;
 constexpr std::int64_t k_lock_give = std::int64_t{1} << (30 - BodyFactor::k_least_bits);
 
 // A change of speed is none below this, m/s, Q50.
-constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
+constexpr std::int64_t k_least_joint_change = (std::int64_t{1} << 50) / 10000;
 
 // √(m/m₀)·(v, Cᵀ·spin), in units of kept quantities.
 BodyVector motion_of(const lanes::RowBody& row, const InertiaRoot& root, const RowScale& mass) {
@@ -128,7 +128,7 @@ void ProximalSolver::see_joint(const JointAccess& access, const Island& island, 
       return within_row(lock.to_speed.times(speed, 50 - k_row_unit_bits));
     };
     problem.moving[lane] = in_units(access.joints.speed(access.run, joint.joint, r));
-    problem.least_change[lane] = in_units(k_tolerance);
+    problem.least_change[lane] = in_units(k_least_joint_change);
     if (!is_limit) return;
     problem.normal[lane] = -1;
     problem.bias[lane] = in_units(access.joints.limit_speed(rows[r], pushes_out));

@@ -21,7 +21,7 @@ constexpr int k_start_bits = 27;
 constexpr int k_most_bits = k_row_unit_bits - 1, k_least_bits = 2;
 constexpr int k_coarser_bits = 5;
 // A change of speed is none below this, m/s, Q50, nor below 2^-k_loose_bits of an approach.
-constexpr std::int64_t k_tolerance = (std::int64_t{1} << 50) / 10000;
+constexpr std::int64_t k_least_contact_change = (std::int64_t{1} << 50) / 10000;
 constexpr int k_loose_bits = 6;
 
 // The leak of a normal's centre, at most: a tenth of its impulse, and half of the row's own weight.
@@ -200,7 +200,7 @@ void ProximalSolver::begin_rows(const PreparedRows& prepared, std::int64_t weigh
     const RowScale& scale = prepared.from_impulse[i];
     problem.warm[i] = within_row(scale.times(row.total, k_down));
     row.total = 0;
-    problem.least_change[i] = row.to_speed.times(k_tolerance, 50 - k_row_unit_bits);
+    problem.least_change[i] = row.to_speed.times(k_least_contact_change, 50 - k_row_unit_bits);
     if (i < contact.points)
       row.weight_leak = scale.times(raw::round_divide(weight << 29, prepared.own[i]), k_down);
   }

@@ -9,7 +9,7 @@ namespace {
 
 // γ, of a row's response to itself: the factor's least eigenvalue, so that rows are its terms as
 // they are.
-constexpr int k_give_bits = BodyFactor::k_least_bits;
+constexpr int k_lock_give_bits = BodyFactor::k_least_bits;
 constexpr std::int32_t k_weight = 1 << 30;
 
 // Right-hand sides are below 2^27 units at first; where the solution does not fit in 31 bits, units
@@ -137,7 +137,7 @@ void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t r
   Joint& on = joints_[groups_[group].first_joint + joint];
   const ProximalLock& lock = on.rows[row];
   const RowScale own = (lock.to_speed * lock.to_impulse).reciprocal();  // its response to itself
-  on.errors[row] += bounded(own.times(impulse, k_give_bits), k_row_bound);
+  on.errors[row] += bounded(own.times(impulse, k_lock_give_bits), k_row_bound);
 }
 
 // −Jᵀ·r/γ, times 2^-14.
@@ -174,7 +174,7 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) con
       left += row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
     if (joint.b != End::k_unpushed)
       left += row_dot(lock.b, changes_[group.plan.first_column + joint.b]);
-    const std::int64_t impulse = -raw::round_shift(left, 30 - k_give_bits);
+    const std::int64_t impulse = -raw::round_shift(left, 30 - k_lock_give_bits);
     lock.impulse = bounded(lock.to_impulse.times(impulse, bits - 50), k_row_bound);
   }
 }

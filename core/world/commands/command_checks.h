@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <lockstone/asset.h>
 #include <lockstone/body.h>
 #include <lockstone/command.h>
 #include <lockstone/transform.h>
@@ -23,6 +24,9 @@ namespace lockstone {
 /// The velocities that take a body to a pose in one tick; false beyond the speed limit.
 [[nodiscard]] bool motion_to(const BodyRecord& body, const Transform& target, int tick_rate,
                              Vec3<Velocity>& velocity, Vec3<Velocity>& spin);
+
+/// The mass of a body's solid, kg: the asset's or the primitive shape's volume times its density.
+[[nodiscard]] Mass mass_of(const BodyDef& def, const Asset* asset);
 
 /// BodyLock bits.
 [[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);

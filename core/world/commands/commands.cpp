@@ -27,11 +27,6 @@ bool is_valid(const BodyDef& def) {
          def.angular_damping >= Rate{} && is_valid(def.speed_limit);
 }
 
-Mass mass_of(const BodyDef& def, const Asset* asset) {
-  if (asset == nullptr) return mass_of(def.shape, def.material.density);
-  return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
-}
-
 // A shape without volume cannot be dynamic, and only a body with a centre of mass can move. Lighter
 // or heavier bodies would leave the formats of the solver.
 bool has_valid_mass(const BodyDef& def, const Asset* asset) {
@@ -98,6 +93,11 @@ bool has_centre_in_world(const BodyDef& def, const Asset* asset) {
 }
 
 }  // namespace
+
+Mass mass_of(const BodyDef& def, const Asset* asset) {
+  if (asset == nullptr) return mass_of(def.shape, def.material.density);
+  return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
+}
 
 ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
   const auto bounded = [](const Vec3<Unit>& inertia) {

@@ -60,11 +60,6 @@ void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
   }
 }
 
-Mass mass_of(const BodyDef& def, const Asset* asset) {
-  if (asset == nullptr) return mass_of(def.shape, def.material.density);
-  return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
-}
-
 void check_mass(RefusalFinder& find, const BodyDef& def, const Asset* asset) {
   const bool has_solid =
       asset != nullptr ? asset->solid() != nullptr : is_primitive(def.shape.kind);
