@@ -13,7 +13,7 @@ namespace {
 
 using Solids = std::span<const PlacedSolid>;
 
-std::uint64_t raw_of(Length x) {
+std::uint64_t magnitude_of(Length x) {
   return static_cast<std::uint64_t>(x.raw);
 }
 
@@ -27,11 +27,13 @@ BlockFloat volume_of(const Shape& shape) {
   constexpr int k_cubed_bits = 3 * Length::frac_bits;
   const auto& [x, y, z] = shape.size;
   if (shape.kind == ShapeKind::box) {
-    return from_wide(multiply_wide(raw_of(x) * raw_of(y), 8 * raw_of(z)), -k_cubed_bits);
+    return from_wide(multiply_wide(magnitude_of(x) * magnitude_of(y), 8 * magnitude_of(z)),
+                     -k_cubed_bits);
   }
   // 2π/3 · r²(3h + 2r), as in mass_of
   constexpr std::uint64_t two_thirds_pi = 4829346305384748562U;  // 61 fraction bits
-  const UInt128 product = multiply_wide(raw_of(x) * raw_of(x), 3 * raw_of(y) + 2 * raw_of(x));
+  const UInt128 product =
+      multiply_wide(magnitude_of(x) * magnitude_of(x), 3 * magnitude_of(y) + 2 * magnitude_of(x));
   const int zeros = countl_zero(product);
   const UInt128 volume = multiply_wide((product << zeros).high, two_thirds_pi);
   return from_wide(volume, 64 - zeros - 61 - k_cubed_bits);
