@@ -1,5 +1,6 @@
-// The inputs of consecutive ticks, each coded against the tick before it. docs/replay-format.md,
-// "INPUT". A chunk is independent of the others: its first tick is coded against silence.
+// The inputs of consecutive ticks, each coded against the tick before it.
+// docs/reference/replay-format.md, "INPUT". A chunk is independent of the others: its first tick is
+// coded against silence.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ usage: tools/session_figures.py LOCKSTONE [--part PART]… [--seconds N] [--minu
           player is active; then kill -9 of a player and, 5 s later, of the server, and
           whether its log verifies, up to which tick
 
-Without --part all of them. The output is Markdown. `docs/network-session.md` has the figures
+Without --part all of them. The output is Markdown. `docs/explanation/network-session.md` has the figures
 of one run.
 """
 

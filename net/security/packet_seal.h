@@ -1,4 +1,4 @@
-// The packets of an encrypted connection, after docs/wire-format.md, "Secure layer".
+// The packets of an encrypted connection, after docs/reference/wire-format.md, "Secure layer".
 #pragma once
 
 #include <array>

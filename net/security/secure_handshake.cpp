@@ -1,5 +1,6 @@
 // Hello, challenge, confirm: after them both sides have proven that they hold the token's keys, and
-// share fresh ones. docs/wire-format.md has the bytes, docs/security.md the reasons.
+// share fresh ones. docs/reference/wire-format.md has the bytes, docs/explanation/security.md the
+// reasons.
 #include <algorithm>
 
 #include <lockstone/net/wire.h>

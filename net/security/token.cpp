@@ -1,4 +1,4 @@
-// Issues, codes and opens tokens. Layouts: docs/wire-format.md, "Connect token".
+// Issues, codes and opens tokens. Layouts: docs/reference/wire-format.md, "Connect token".
 #include <algorithm>
 
 #include <lockstone/hash.h>

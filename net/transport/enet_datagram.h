@@ -1,6 +1,7 @@
 // The header in front of ENet's datagrams, read before ENet reads them; the checksum that keeps
-// strangers out; and the refusal for a peer of the other kind. Bytes: docs/wire-format.md,
-// "Datagrams". Layouts: ENet 1.3 (Lee Salzman), include/enet/protocol.h.
+// strangers out; and the refusal for a peer of the other kind. Bytes:
+// docs/reference/wire-format.md, "Datagrams". Layouts: ENet 1.3 (Lee Salzman),
+// include/enet/protocol.h.
 #pragma once
 
 #include <array>

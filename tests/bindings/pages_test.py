@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 root, program = pathlib.Path(sys.argv[1]), sys.argv[2]
-pages = [root / "docs/bindings.md", root / "tools/bindings/python/README.md"]
+pages = [root / "docs/how-to/bindings.md", root / "tools/bindings/python/README.md"]
 code = [re.findall(r"^```python\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE) for page in pages]
 commands = [[program]] + [[sys.executable, "-B", "-c", block] for blocks in code for block in blocks]
 lines = [subprocess.run(command, check=True, capture_output=True, text=True).stdout for command in commands]

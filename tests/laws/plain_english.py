@@ -29,7 +29,7 @@ TOPS = ["README.md", "core", "docs", "net", "replay", "tests", "tools"]
 # The folders and pages that are counted by themselves; a path belongs to the longest that it begins with.
 FOLDERS = TOPS + ["core/base", "core/collision", "core/dynamics", "core/geometry", "core/include", "core/kernels", "core/math",
                   "core/world", "core/world/world_def.h", "docs/benchmarks", "docs/notes",
-                  "docs/solver.md", "tests/bindings", "tools/arena", "tools/bench", "tools/bindings", "tools/fuzz",
+                  "docs/explanation/solver.md", "tests/bindings", "tools/arena", "tools/bench", "tools/bindings", "tools/fuzz",
                   "tools/lockstone", "tools/scenes"]
 KINDS = ["what", "answers", "words"]
 # These quote bad English, or are data.

@@ -16,7 +16,7 @@ FUNCTION = re.compile(r"^(?:\[\[[^\n]*?\]\] )?[\w:<>*&][\w:<>*&, ]*?[ *&](\w+)\(
 
 
 def own_names(code):
-    """[(line, what)] of the definitions in a file's unnamed namespaces."""
+    """[(line, name)] of the definitions in a file's unnamed namespaces."""
     for opening in OPEN.finditer(code):
         start = opening.end()
         closing = CLOSE.search(code, start)

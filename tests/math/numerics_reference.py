@@ -1,4 +1,4 @@
-"""A second implementation of docs/numerics.md in exact integers: recomputes every golden vector.
+"""A second implementation of docs/explanation/numerics.md in exact integers: recomputes every golden vector.
 
 usage: numerics_reference.py FILE [--function NAME]
 """

@@ -39,7 +39,7 @@ TEST(Token, SurvivesBytesAndText) {
   EXPECT_EQ(ConnectToken::from_text(text.substr(2)).status(), Status::malformed);
 }
 
-// The bytes of docs/wire-format.md: a change of them is a new version.
+// The bytes of docs/reference/wire-format.md: a change of them is a new version.
 TEST(Token, BytesStayWhatTheyAre) {
   std::array<std::byte, k_token_bytes> bytes{};
   encode_token(sample_token(), bytes);

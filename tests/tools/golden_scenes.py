@@ -3,7 +3,7 @@
 usage: golden_scenes.py LOCKSTONE [--update]
 
 --update writes the hashes of this build: for a change that is meant to change results. Say why in
-docs/determinism.md and raise k_simulation_abi. Without the file the test is skipped (exit code 77).
+docs/explanation/determinism.md and raise k_simulation_abi. Without the file the test is skipped (exit code 77).
 """
 
 import json

@@ -1,5 +1,5 @@
 // Law 9: an island's result does not depend on other islands. Every scene takes the same course
-// alone and beside every other scene, to the bit (docs/locality.md).
+// alone and beside every other scene, to the bit (docs/explanation/locality.md).
 #include <cstdlib>
 #include <memory>
 #include <string>

@@ -30,7 +30,7 @@ Record record_of(const BytesOf<Record>& bytes) {
   return decode<Record>(reader);
 }
 
-// As docs/determinism.md says it.
+// As docs/explanation/determinism.md says it.
 std::uint64_t expected_hash(std::span<const std::byte> bytes, std::uint64_t seed) {
   while (bytes.size() > 240) {
     seed = hash64(bytes.first(128), seed);

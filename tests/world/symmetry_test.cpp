@@ -1,4 +1,4 @@
-// How far a symmetric scene leaves its symmetry: docs/solver.md, "Symmetry".
+// How far a symmetric scene leaves its symmetry: docs/explanation/solver.md, "Symmetry".
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Golden vectors: lines `function inputs… = outputs…` in whole numbers, which another
-// implementation of docs/numerics.md can be checked by. Words above 2^63 are printed as negative
-// ones.
+// implementation of docs/explanation/numerics.md can be checked by. Words above 2^63 are printed as
+// negative ones.
 #pragma once
 
 #include <cstddef>

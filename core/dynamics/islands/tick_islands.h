@@ -1,6 +1,6 @@
 // The islands of a tick: dynamic bodies that contacts or joints connect, and the solver's work for
 // each. Every budget of the solver counts within one island, so that the motion of an island does
-// not depend on others (law 9, docs/locality.md).
+// not depend on others (law 9, docs/explanation/locality.md).
 #pragma once
 
 #include <atomic>

@@ -5,8 +5,8 @@
 // motors of one with loops (`ProximalLocks`). Of other clusters, balls are left to `JointNet`, and
 // other joints are solved one after another, by index. The scheme is RATTLE: impulses at the
 // beginning of the substep such that locks hold at its end, and at the end such that they do not
-// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983). docs/solver.md
-// says how accurate this is.
+// open (H. C. Andersen, "Rattle: a velocity version of the Shake algorithm", 1983).
+// docs/explanation/solver.md says how accurate this is.
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 //
 // Source of the method: E. Catto, "Solver2D", 2024 (the soft-step solver): each substep integrates
 // velocities, starts warm, solves with soft bias, integrates positions and relaxes without bias.
-// docs/solver.md lists the differences.
+// docs/explanation/solver.md lists the differences.
 #pragma once
 
 #include <algorithm>

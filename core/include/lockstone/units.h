@@ -1,4 +1,5 @@
-// The project's quantities: one format each, chosen for its range. See docs/numerics.md.
+// The project's quantities: one format each, chosen for its range. See
+// docs/explanation/numerics.md.
 #pragma once
 
 #include <cstdint>

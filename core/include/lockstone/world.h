@@ -31,7 +31,7 @@
 namespace lockstone {
 
 /// Changes whenever the same commands may give another state. Refused when unequal in a handshake
-/// or a log. History: docs/determinism.md.
+/// or a log. History: docs/explanation/determinism.md.
 inline constexpr std::uint32_t k_simulation_abi = 50;
 
 /// Capacities and rules of a world, fixed for its life.
@@ -42,7 +42,7 @@ struct WorldDef {
   std::uint32_t joint_capacity = 1024;    ///< 0 … 2^20
   /// Contacts that islands solved to convergence may have in all, 0 … 2^16; 0: every island is
   /// iterated. Islands take their places in the order of their bodies' ids; those that find no room
-  /// are iterated: docs/solver.md. Each takes about 7 kB.
+  /// are iterated: docs/explanation/solver.md. Each takes about 7 kB.
   std::uint32_t converged_contacts = 2048;
   std::uint16_t tick_rate = 60;  ///< ticks per second, 10 … 480
   std::uint8_t substeps = 4;     ///< solver steps a tick, 1 … 16

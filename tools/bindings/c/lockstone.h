@@ -1,4 +1,4 @@
-/* Lockstone for C11, and for every language that can call C: docs/bindings.md.
+/* Lockstone for C11, and for every language that can call C: docs/how-to/bindings.md.
  *
  * Quantities are raw fixed-point integers (lockstone_c/units.h). A function returns LKS_OK or the
  * reason why it did nothing; lks_last_error() then says it in words. Results go to `out` arguments,

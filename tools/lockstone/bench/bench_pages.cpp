@@ -109,7 +109,7 @@ std::string accuracy_page(std::span<const MeasuredAccuracy> rows, std::string_vi
   text +=
       "\nEach figure is the worst of its row. Settings are ticks a second and substeps of a tick; "
       "the goal is held at 60 Hz x 4. The state is\n"
-      "the hash at the end of that run, the same on every machine. [Benchmarks](../benchmarks.md) "
+      "the hash at the end of that run, the same on every machine. [Benchmarks](index.md) "
       "describes the rows.\n";
   for (const std::vector<std::string>& columns : columns_of(figures))
     text += table_of(figures, columns);

@@ -1,5 +1,5 @@
 // Connect tokens: who may take which seat of which match, sealed by the game's backend for its
-// servers. The bytes are those of docs/wire-format.md.
+// servers. The bytes are those of docs/reference/wire-format.md.
 //
 // The idea of a token with a private part, which only servers read, and a public one for the client
 // is that of netcode (Glenn Fiedler, "netcode.io protocol").

@@ -1,4 +1,4 @@
-// The messages of a session, byte for byte as in docs/wire-format.md.
+// The messages of a session, byte for byte as in docs/reference/wire-format.md.
 //
 // `encode` writes one message into the caller's buffer and answers its size, 0 if it does not fit.
 // `decode` checks every byte before it answers ok: types, lengths, ranges, nothing left over. On

@@ -1,4 +1,5 @@
-// The vocabulary of the input log, `.lks`. docs/replay-format.md lays it out byte by byte.
+// The vocabulary of the input log, `.lks`. docs/reference/replay-format.md lays it out byte by
+// byte.
 #pragma once
 
 #include <cstddef>
@@ -71,7 +72,7 @@ struct ChunkHeader {
   std::uint8_t flags = 0;
   std::uint32_t sequence = 0;      ///< 0 for the first chunk of the file, then one more each
   std::uint32_t count = 0;         ///< INPUT, HASH: ticks; EVENT: records; else 0
-  std::uint64_t first_tick = 0;    ///< the log's position: see docs/replay-format.md
+  std::uint64_t first_tick = 0;    ///< the log's position: see docs/reference/replay-format.md
   std::uint32_t raw_bytes = 0;     ///< payload bytes after decoding
   std::uint32_t stored_bytes = 0;  ///< payload bytes in the file
 };

@@ -9,8 +9,8 @@
 
 namespace lockstone::replay {
 
-/// The file's bytes (docs/replay-format.md, "Snapshot files"); compressed where this build can and
-/// it helps. `canonical` has at most k_max_keyframe_bytes.
+/// The file's bytes (docs/reference/replay-format.md, "Snapshot files"); compressed where this
+/// build can and it helps. `canonical` has at most k_max_keyframe_bytes.
 [[nodiscard]] std::vector<std::byte> pack_snapshot(ByteView canonical);
 
 /// The canonical snapshot in a file. The bytes may come from anywhere: nothing is allocated before

@@ -18,8 +18,9 @@ using TranscriptHash = std::array<std::byte, 32>;
 [[nodiscard]] std::string to_text(const TranscriptHash& hash);
 
 /// SHA-256 over the confirmed inputs of consecutive ticks, origins included
-/// (docs/replay-format.md, "Transcript"). Two sides that were given the same ticks have the same
-/// value, and nobody can find other inputs that give it. The recorder puts it into the END.
+/// (docs/reference/replay-format.md, "Transcript"). Two sides that were given the same ticks have
+/// the same value, and nobody can find other inputs that give it. The recorder puts it into the
+/// END.
 class Transcript {
  public:
   Transcript();

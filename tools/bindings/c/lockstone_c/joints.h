@@ -30,7 +30,7 @@ enum { LKS_AXIS_LOCKED = 0, LKS_AXIS_FREE = 1, LKS_AXIS_LIMITED = 2 };
 /* One way to move. Of a linear axis `lower`, `upper` and `target` are lks_length, `speed`
  * lks_speed, `max_effort` newtons; of an angular one lks_angle, lks_rate, newton metres. The drive
  * is on when `hertz` or `max_effort` is above 0: a motor without hertz, a spring with them.
- * docs/joints.md. */
+ * docs/reference/joints.md. */
 typedef struct lks_axis {
   uint32_t mode;
   int32_t lower;
