@@ -1,5 +1,5 @@
-// Written by tools/numerics/make_tables.py; a test compares. Definitions:
-// docs/explanation/numerics.md.
+// Written by tools/numerics/make_tables.py; a test compares.
+// Definitions: docs/explanation/numerics.md.
 #pragma once
 
 #include <array>

@@ -13,7 +13,8 @@ GUARD = 256  # fraction bits of every intermediate value
 ENTRIES = 128
 
 HEAD = """\
-// Written by tools/numerics/make_tables.py; a test compares. Definitions: docs/explanation/numerics.md.
+// Written by tools/numerics/make_tables.py; a test compares.
+// Definitions: docs/explanation/numerics.md.
 #pragma once
 
 #include <array>

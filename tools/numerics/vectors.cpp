@@ -8,8 +8,7 @@ namespace {
 
 constexpr int k_lines_each = 60;
 constexpr std::string_view k_head =
-    "# Golden vectors of docs/explanation/numerics.md, written by `lockstone numerics --write "
-    "FILE`:\n"
+    "# Golden vectors of docs/explanation/numerics.md, by `lockstone numerics --write FILE`:\n"
     "# function inputs = outputs, raw whole numbers; words above 2^63 stand as negative ones.\n";
 
 /// Steele, Lea and Flood, Fast splittable pseudorandom number generators (SplitMix64).
