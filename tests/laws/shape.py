@@ -19,6 +19,7 @@ from cpp_source import Tree, code_only, expect
 
 FOLDERS = ["core", "net", "replay", "tools"]
 BASELINE = pathlib.Path(__file__).with_name("shape_baseline.json")
+AIM = 400  # lines of a file
 LIMITS = {"file": 500, "function": 70, "nesting": 3, "median": 12, "p95": 45}
 
 _PREPROCESSOR = re.compile(r"^[ \t]*#(?:\\\n|[^\n])*", re.MULTILINE)
@@ -146,6 +147,19 @@ def lowered(baseline, figures):
     return {key: min(baseline[key], value) for key, value in excess(figures).items() if key in baseline}
 
 
+def summary(figures):
+    """A line for each figure that is bounded: where the largest stand."""
+    def most(kind):
+        return max(((value, key) for key, value in figures.items() if key.startswith(kind + " ")), default=(0, ""))
+    lines = [f"lengths of functions in {key.split()[1]}: median {value}, 95 % within {figures['p95 ' + key.split()[1]]}"
+             for key, value in sorted(figures.items()) if key.startswith("median ")]
+    for kind in ("file", "function", "nesting"):
+        value, key = most(kind)
+        lines.append(f"the longest {key}: {value}" if kind != "nesting" else f"the deepest {key}: {value}")
+    aimed = sum(value > AIM for key, value in figures.items() if key.startswith("file "))
+    return [*lines, f"{aimed} files above {AIM} lines"]
+
+
 def write(baseline):
     BASELINE.write_text(json.dumps(baseline, indent=2, sort_keys=True) + "\n")
 
@@ -227,7 +241,7 @@ def main():
     if arguments.update:
         write(lowered(json.loads(BASELINE.read_text(encoding="utf-8")), figures) if BASELINE.exists() else excess(figures))
     findings = check(figures, json.loads(BASELINE.read_text(encoding="utf-8")))
-    print("\n".join([*findings, f"{len(tree.files)} files, {len(findings)} findings"]))
+    print("\n".join([*summary(figures), *findings, f"{len(tree.files)} files, {len(findings)} findings"]))
     return 1 if findings or not tree.files else 0
 
 
