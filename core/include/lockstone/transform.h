@@ -24,7 +24,9 @@ struct Transform {
 /// rounded rotation matrix gives; that matrix is within 2^-30 of the quaternion's, a nanometre per
 /// metre.
 [[nodiscard]] Vec3<Position> apply(const Transform& t, const Vec3<Position>& point);
+/// @cond  the same for a nearer point; Doxygen takes the two for one
 [[nodiscard]] Vec3<Position> apply(const Transform& t, const Vec3<Length>& point);
+/// @endcond
 
 /// The body point that is at `point` in the world; bounds as for `apply`.
 [[nodiscard]] Vec3<Position> apply_inverse(const Transform& t, const Vec3<Position>& point);

@@ -30,7 +30,7 @@ struct HostPort {
   [[nodiscard]] std::string to_text() const;
 };
 
-/// Where a server listens: an IPv6 address, or an IPv4 one mapped into ::ffff:0:0/96.
+/// Where a server listens: an IPv6 address, or an IPv4 one mapped into its form for IPv6.
 struct ServerAddress {
   std::array<std::byte, 16> address{};
   std::uint16_t port = 0;
