@@ -71,7 +71,7 @@ def links_of(text):
 def check_page(page, text, texts, exists):
     findings = []
     for line, target in links_of(text):
-        if re.match(r"\w+:", target):
+        if re.match(r"\w+:|\.\./\.\./actions/", target):  # elsewhere, or a page of GitHub's own
             continue
         path, _, anchor = target.partition("#")
         full = posixpath.normpath(posixpath.join(posixpath.dirname(page), path)) if path else page
