@@ -27,8 +27,32 @@ constexpr std::size_t k_frame_checksum_offset = k_chunk_header_bytes - k_checksu
 // The longest INPUT payload; tests relate it to InputEncoder::bytes_max.
 constexpr std::size_t k_max_input_payload_bytes = 2U << 20;
 
-std::size_t build_bytes(const LogHeader& header) {
-  return std::min(header.match.build.size(), k_max_build_bytes);
+// The texts of the header, in the order of the file, with their limits.
+template <class Match, class Visit>
+void visit_texts(Match& match, Visit visit) {
+  visit(match.build, k_max_build_bytes);
+  visit(match.game, k_max_game_bytes);
+  visit(match.game_version, k_max_game_bytes);
+}
+
+void put_text(ByteWriter& writer, std::string_view text, std::size_t limit) {
+  const std::string_view cut = text.substr(0, limit);
+  writer.put(static_cast<std::uint16_t>(cut.size()));
+  put_as_text(writer, cut);
+}
+
+DecodeFault get_text(ByteReader& reader, std::string& text, std::size_t limit) {
+  const std::size_t start = reader.position();
+  const std::size_t length = reader.get<std::uint16_t>();
+  if (length > limit) return malformed(start, "text of the header too long");
+  const ByteView bytes = reader.get_bytes(length);
+  if (!reader.ok()) return malformed(start, "text longer than the header");
+  if (!is_text(bytes)) {
+    return malformed(start + sizeof(std::uint16_t),
+                     "control byte in a text of the header, or no UTF-8");
+  }
+  text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return {};
 }
 
 DecodeFault check_ranges(const LogHeader& header) {
@@ -77,7 +101,11 @@ std::uint64_t seal_chunk_frame(std::span<std::byte, k_chunk_header_bytes> frame)
 }
 
 std::size_t file_header_bytes(const LogHeader& header) {
-  return k_min_file_header_bytes + build_bytes(header);
+  std::size_t bytes = k_min_file_header_bytes;
+  visit_texts(header.match, [&](const std::string& text, std::size_t limit) {
+    bytes += std::min(text.size(), limit);
+  });
+  return bytes;
 }
 
 std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> out) {
@@ -98,8 +126,8 @@ std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> o
   writer.put(header.match.match_id);
   writer.put(header.match.seed);
   writer.put(header.match.start_tick);
-  writer.put(static_cast<std::uint16_t>(build_bytes(header)));
-  put_as_text(writer, std::string_view(header.match.build).substr(0, build_bytes(header)));
+  visit_texts(header.match,
+              [&](const std::string& text, std::size_t limit) { put_text(writer, text, limit); });
   LKS_CHECK(writer.ok() && writer.size() == total_bytes - k_checksum_bytes);
   return seal_file_header(out.first(total_bytes));
 }
@@ -142,15 +170,12 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
   header.match.match_id = reader.get<std::uint64_t>();
   header.match.seed = reader.get<std::uint64_t>();
   header.match.start_tick = reader.get<std::uint64_t>();
-  const std::size_t length = reader.get<std::uint16_t>();
-  if (length > k_max_build_bytes) return malformed(72, "build string too long");
-  const ByteView build = reader.get_bytes(length);
-  if (!reader.ok()) return malformed(72, "build string longer than the header");
-  if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the build string");
-  if (!is_text(build)) {
-    return malformed(k_file_fixed_bytes, "control byte in build string, or no UTF-8");
-  }
-  header.match.build.assign(reinterpret_cast<const char*>(build.data()), build.size());
+  DecodeFault fault;
+  visit_texts(header.match, [&](std::string& text, std::size_t limit) {
+    if (fault.ok()) fault = get_text(reader, text, limit);
+  });
+  if (!fault.ok()) return fault;
+  if (reader.remaining() != 0) return malformed(reader.position(), "bytes after the last text");
   return check_ranges(header);
 }
 

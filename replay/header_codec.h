@@ -15,14 +15,18 @@ namespace lockstone::replay {
 
 /// In every format version: magic, version and length come first, the checksum last.
 inline constexpr std::size_t k_file_prefix_bytes = 12;
-inline constexpr std::size_t k_file_fixed_bytes = 74;  ///< up to the build string
+inline constexpr std::size_t k_file_fixed_bytes = 72;  ///< up to the texts
+inline constexpr std::size_t k_file_texts = 3;         ///< each with its length, u16
 inline constexpr std::size_t k_checksum_bytes = 8;
-inline constexpr std::size_t k_min_file_header_bytes = k_file_fixed_bytes + k_checksum_bytes;
+inline constexpr std::size_t k_min_file_header_bytes =
+    k_file_fixed_bytes + k_file_texts * sizeof(std::uint16_t) + k_checksum_bytes;
+inline constexpr std::size_t k_max_written_header_bytes =
+    k_min_file_header_bytes + k_max_build_bytes + 2 * k_max_game_bytes;
 
 /// Bytes that encode_file_header() writes.
 [[nodiscard]] std::size_t file_header_bytes(const LogHeader& header);
 
-/// Writes the header, with `build` cut to k_max_build_bytes; answers its checksum, which the first
+/// Writes the header, with its texts cut to their limits; returns its checksum, which the first
 /// chunk names as its predecessor's. `out` has file_header_bytes() bytes.
 std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> out);
 

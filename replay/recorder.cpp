@@ -93,7 +93,7 @@ void Recorder::allocate(ByteView config) {
       InputEncoder::bytes_max(ticks, info_.player_count, info_.input_bytes) +
       ticks * sizeof(std::uint64_t) + k_event_buffer_bytes;
   const std::size_t beginning_bytes =
-      k_min_file_header_bytes + k_max_build_bytes + k_chunk_header_bytes + config.size();
+      k_max_written_header_bytes + k_chunk_header_bytes + config.size();
   const std::size_t index_bytes =
       options_.index ? k_chunk_header_bytes + k_max_index_bytes : std::size_t{0};
   buffers_->group.resize(std::max({group_bytes, beginning_bytes, index_bytes}));

@@ -27,10 +27,12 @@ Bytes tiny_log() {
   const std::array<std::byte, 2> config{std::byte{0xc0}, std::byte{0xc1}};
   MemorySink sink;
   Recorder recorder(sink, {.keyframe_bytes_max = 16, .compress = false, .index = false});
-  LKS_CHECK(
-      recorder.begin(info, config,
-                     {.match_id = 0x4142434445464748, .seed = 0x5152535455565758, .build = "b1"}) ==
-      Status::ok);
+  LKS_CHECK(recorder.begin(info, config,
+                           {.match_id = 0x4142434445464748,
+                            .seed = 0x5152535455565758,
+                            .build = "b1",
+                            .game = "g",
+                            .game_version = "v2"}) == Status::ok);
   std::array<std::byte, 3> bytes{};
   for (std::uint64_t tick = 0; tick < 5; ++tick) {
     if (tick == 2) bytes[1] = std::byte{0x77};
@@ -53,33 +55,32 @@ std::string hexadecimal(ByteView bytes) {
   return text;
 }
 
-TEST(Golden, TheFirstBytesOfALogAreTheFormatsSecondVersion) {
+TEST(Golden, TheFirstBytesOfALogAreTheFormatsThirdVersion) {
   const Bytes log = tiny_log();
   constexpr std::string_view k_expected =
       // file header
-      "894c4b530d0a1a0a0200540004030201181716151413121128272625242322213837363534333231"
-      "3c00020300000000484746454443424158575655545352510000000000000000020062317c6f4576"
-      "017a6498"
+      "894c4b530d0a1a0a03005b0004030201181716151413121128272625242322213837363534333231"
+      "3c0002030000000048474645444342415857565554535251000000000000000002006231010067"
+      "020076321ed5dd1a7aa32da1"
       // frame of SCENE
-      "a74c4b43010100000000000000000000000000000000000002000000020000007c6f4576017a6498"
-      "23552efe7529935e77007dfcb6db2a47"
+      "a74c4b43010100000000000000000000000000000000000002000000020000001ed5dd1a7aa32da1"
+      "23552efe7529935ea3383bc261b54705"
       // its payload
       "c0c1"
       // frame of INPUT
-      "a74c4b4302010000010000000500000000000000000000000b0000000b00000077007dfcb6db2a47"
-      "11ddfc6472db6f80b8909d9850d8bb20"
+      "a74c4b4302010000010000000500000000000000000000000b0000000b000000a3383bc261b54705"
+      "11ddfc6472db6f80042ca3b898121ef9"
       // its payload
       "0203040277040277010201"
       // the beginning of HASH
-      "a74c4b4303010000020000000500000000000000000000002800000028000000b8909d9850d8bb20"
-      "9cbe8d";
-  EXPECT_EQ(hexadecimal(std::span(log).first(252)), k_expected);
+      "a74c4b4303010000020000000500000000000000000000002800000028000000042ca3b898121ef9";
+  EXPECT_EQ(hexadecimal(std::span(log).first(256)), k_expected);
 }
 
-TEST(Golden, AWholeTinyLogIsTheFormatsSecondVersion) {
+TEST(Golden, AWholeTinyLogIsTheFormatsThirdVersion) {
   const Bytes log = tiny_log();
-  EXPECT_EQ(log.size(), 574U);
-  EXPECT_EQ(hash64(log), 12319566902514708940U);
+  EXPECT_EQ(log.size(), 581U);
+  EXPECT_EQ(hash64(log), 211814405546759195U);
 }
 
 }  // namespace

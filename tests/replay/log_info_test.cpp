@@ -27,6 +27,8 @@ TEST(LogInfo, SumsUpAWholeLog) {
   EXPECT_FALSE(info.damage.has_value());
   EXPECT_EQ(info.end_reason, "match over");
   EXPECT_EQ(info.header.match.build, "toy 1");
+  EXPECT_EQ(info.header.match.game, "toy");
+  EXPECT_EQ(info.header.match.game_version, "1.0");
   std::uint64_t bytes = chunks_of(log)[0].offset;
   for (const ChunkTypeTotals& totals : info.chunk_types)
     bytes += totals.stored_bytes;

@@ -37,9 +37,13 @@ Status record(const ToyMatch& match, Sink& sink) {
                            .compress = match.compress,
                            .index = match.index,
                            .signing_key = match.signing_key});
-  Status status = recorder.begin(
-      game.info(), match.config.encode(),
-      {.match_id = 7, .seed = match.config.seed, .start_tick = match.start_tick, .build = "toy 1"});
+  Status status = recorder.begin(game.info(), match.config.encode(),
+                                 {.match_id = 7,
+                                  .seed = match.config.seed,
+                                  .start_tick = match.start_tick,
+                                  .build = "toy 1",
+                                  .game = "toy",
+                                  .game_version = "1.0"});
   if (status == Status::ok && match.start_tick > 0) status = recorder.keyframe(game);
   for (std::uint64_t i = 0; i < match.ticks && status == Status::ok; ++i) {
     const std::uint64_t tick = game.tick();

@@ -14,12 +14,13 @@
 namespace lockstone::replay {
 
 /// The version of the file header and of the chunk frame. Each chunk type has its own version too.
-inline constexpr std::uint16_t k_format_version = 2;
+inline constexpr std::uint16_t k_format_version = 3;
 inline constexpr std::uint8_t k_chunk_version = 1;
 
 /// Bounds that hold for every log. Readers refuse more before they allocate anything.
 inline constexpr std::size_t k_max_file_header_bytes = 4096;
 inline constexpr std::size_t k_max_build_bytes = 128;        ///< the build string
+inline constexpr std::size_t k_max_game_bytes = 64;          ///< the game's name; its version
 inline constexpr std::size_t k_max_text_bytes = 256;         ///< an event's text, the end's reason
 inline constexpr std::size_t k_max_chunk_ticks = 1024;       ///< and never more than one second
 inline constexpr std::size_t k_max_scene_bytes = 16U << 20;  ///< the game's configuration
@@ -83,6 +84,10 @@ struct MatchMetadata {
   std::uint64_t seed = 0;  ///< for people and tools; the simulation takes its seed from the config
   std::uint64_t start_tick = 0;  ///< 0 … k_max_start_tick; above 0 the log begins with a keyframe
   std::string build = {};        ///< which program wrote it, cut to k_max_build_bytes
+  /// The game's name, by which tools find its simulation, and its version, for people; each cut to
+  /// k_max_game_bytes. Empty: not named.
+  std::string game = {};
+  std::string game_version = {};
 };
 
 /// The file header.
