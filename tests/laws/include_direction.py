@@ -14,7 +14,7 @@ FLOORS = {
     "base": [""],
     "math": ["", "wide"],
     "kernels": ["contact", "ball", "box", "points", "rotations", "proximal", ""],
-    "geometry": ["numeric", "convex", "distance", "contact", "query", "dispatch", "mesh_contact", "assets"],
+    "geometry": ["numeric", "convex", "distance", "contact", "query", "shapes", "dispatch", "mesh_contact", "assets"],
     "collision": ["broad_phase", "narrow_phase", "continuous", "query"],
     "dynamics": ["state", "body", "islands", "contact", "joint", "stack", "problem", "linkage", "direct",
                  "impact", "step"],

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/math/roots.h"
 
 namespace lockstone {
@@ -27,18 +28,14 @@ ErodedShape::ErodedShape(const Piece& piece, Length depth, Unit share) : shape(p
   if (piece.polytope != nullptr) {
     erode_vertices(*piece.polytope, depth);
   } else {
-    const int axes = shape.kind == ShapeKind::box ? 3 : 1;  // the radius is in x
-    for (int i = 0; i < axes; ++i)
-      shape.size[i] -= depth;
+    shape.size = geometry::traits_of(shape).eroded(shape.size, depth);
   }
   if (share != Unit::from_integer(1)) shorten(share);
 }
 
 void ErodedShape::shorten(Unit share) {
   if (!is_polytope) {
-    const int first = shape.kind == ShapeKind::box ? 0 : 1;
-    for (int i = first; i < 3; ++i)
-      shape.size[i] = rounded<Length>(shape.size[i] * share);
+    shape.size = geometry::traits_of(shape).shortened(shape.size, share);
     return;
   }
   for (std::size_t i = 0; i < polytope.vertices.size(); ++i) {

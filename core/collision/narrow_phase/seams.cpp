@@ -2,6 +2,7 @@
 
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/numeric/q50.h"
 
 namespace lockstone {
@@ -26,20 +27,6 @@ Vec3<Length> local_point(const Piece& piece, const Vec3<Position>& point) {
   return rotate_inverse(piece.rotation, saturated<Length>(point - piece.origin));
 }
 
-bool is_in_ball(const Vec3<Length>& from_centre, Length radius) {
-  std::uint64_t square = 0;
-  for (int i = 0; i < 3; ++i) {
-    if (abs(from_centre[i]) > radius) return false;
-    square += static_cast<std::uint64_t>((from_centre[i] * from_centre[i]).raw);  // below 2^61
-  }
-  return square <= static_cast<std::uint64_t>((radius * radius).raw);
-}
-
-/// The nearest point of a capsule's core is its centre.
-Vec3<Length> from_core(const Shape& capsule, const Vec3<Length>& point) {
-  return {point.x, point.y - clamp(point.y, -capsule.size.y, capsule.size.y), point.z};
-}
-
 /// Within a prism as deep as `k_triangle_depth` behind the front.
 bool is_in_triangle(const geometry::Polytope& triangle, const Vec3<Length>& point) {
   const geometry::PolytopeFace& front = triangle.faces.front();
@@ -62,43 +49,20 @@ bool is_in_hull(const geometry::Polytope& hull, const Vec3<Length>& point) {
   return true;
 }
 
-bool is_in_box(const Shape& box, const Vec3<Length>& point) {
-  for (int i = 0; i < 3; ++i)
-    if (abs(point[i]) > box.size[i] + k_seam_width) return false;
-  return true;
-}
-
 /// Whether the piece holds the point (its own frame), or nearly.
 bool holds(const Piece& piece, const Vec3<Length>& point) {
   if (piece.triangle.is_triangle) return is_in_triangle(*piece.polytope, point);
   if (piece.polytope != nullptr) return is_in_hull(*piece.polytope, point);
-  switch (piece.shape.kind) {
-    case ShapeKind::half_space:
-      return point.y <= k_seam_width;
-    case ShapeKind::sphere:
-      return is_in_ball(point, piece.shape.size.x + k_seam_width);
-    case ShapeKind::capsule:
-      return is_in_ball(from_core(piece.shape, point), piece.shape.size.x + k_seam_width);
-    default:
-      return is_in_box(piece.shape, point);
-  }
+  if (piece.shape.kind == ShapeKind::half_space) return point.y <= k_seam_width;
+  return geometry::traits_of(piece.shape).holds(piece.shape.size, point, k_seam_width);
 }
 
 /// How far the piece reaches from the origin of its frame along a unit vector of that frame.
 Fine reach_along(const Piece& piece, const Vec3<Unit>& axis) {
   if (piece.polytope != nullptr) return geometry::support_of(*piece.polytope, axis).height;
   const Shape& shape = piece.shape;
-  switch (shape.kind) {
-    case ShapeKind::half_space:
-      return are_alike(axis, Mat3{}.y) ? 0 : k_no_end;
-    case ShapeKind::sphere:
-      return fine(shape.size.x);
-    case ShapeKind::capsule:
-      return fine(shape.size.x) + (abs(axis.y) * shape.size.y).raw;
-    default:
-      return (abs(axis.x) * shape.size.x + abs(axis.y) * shape.size.y + abs(axis.z) * shape.size.z)
-          .raw;
-  }
+  if (shape.kind == ShapeKind::half_space) return are_alike(axis, Mat3{}.y) ? 0 : k_no_end;
+  return geometry::traits_of(shape).reach(shape.size, axis);
 }
 
 /// How far the piece rises above the plane through the point with this normal.
@@ -118,11 +82,7 @@ Vec3<Unit> face_along(const Piece& piece, const Vec3<Unit>& axis) {
     return best->normal;
   }
   if (piece.shape.kind == ShapeKind::half_space) return Mat3{}.y;
-  if (piece.shape.kind != ShapeKind::box) return axis;  // round: any direction is a face
-  int longest = 0;
-  for (int i = 1; i < 3; ++i)
-    if (abs(axis[i]) > abs(axis[longest])) longest = i;
-  return geometry::signed_axis(Mat3{}.column(longest), geometry::sign_of(axis[longest].raw));
+  return geometry::traits_of(piece.shape).face_along(piece.shape.size, axis);
 }
 
 /// Calls `f(piece)` for the pieces at a point, and for no other piece of an asset with triangles.

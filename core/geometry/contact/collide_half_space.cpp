@@ -4,7 +4,9 @@
 
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/contact/manifold_reduction.h"
+#include "core/geometry/contact/plane_meeting.h"
 #include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
@@ -12,47 +14,11 @@
 namespace lockstone::geometry {
 namespace {
 
-/// A plane through A's centre, and the shape B that may reach below it.
-struct PlaneMeeting {
-  Vec3<Unit> normal;
-  const PosedShape& b;
-  const Vec3<Length>& offset;
-  Length margin;
-  Fine centre_height;  ///< of B's centre
-};
-
 /// `point` relative to A's centre, `height` above the plane.
 void add_below(Manifold& manifold, const PlaneMeeting& plane, const RawVec& point, Fine height,
                std::uint32_t feature) {
   add_point_on(plane.b.shape, manifold, {point - along(plane.normal, height), point}, plane.offset,
                height, plane.margin, feature);
-}
-
-Manifold below_sphere(const PlaneMeeting& plane) {
-  const Length radius = plane.b.shape.size.x;
-  Manifold manifold;
-  manifold.normal = plane.normal;
-  add_below(manifold, plane, fine(plane.offset) - along(plane.normal, radius),
-            plane.centre_height - fine(radius), 0);
-  return manifold;
-}
-
-Manifold below_capsule(const PlaneMeeting& plane) {
-  const Length radius = plane.b.shape.size.x;
-  const Length half = plane.b.shape.size.y;
-  const Vec3<Unit>& axis = plane.b.rotation.y;
-  Manifold manifold;
-  manifold.normal = plane.normal;
-  const std::int64_t lean = lockstone::dot(axis, plane.normal).raw;
-  const bool steep = magnitude_of(lean) > std::int64_t{1} << 55;  // 1/32, as against a box
-  for (const int sign : {-1, 1}) {
-    if (steep && sign == sign_of(lean)) continue;
-    const RawVec end = along(axis, half * sign);
-    const RawVec pole = fine(plane.offset) + end - along(plane.normal, radius);
-    add_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),
-              sign < 0 ? 0 : 1);
-  }
-  return manifold;
 }
 
 /// Vertices of one face, in a frame on the plane.
@@ -127,33 +93,54 @@ void polytope_face(const PlaneMeeting& plane, const Vec3<Unit>& u, const Vec3<Un
   }
 }
 
-Manifold below_polygon(const PlaneMeeting& plane) {
+template <class AddFace>
+Manifold below_face(const PlaneMeeting& plane, AddFace&& add_face) {
   LowPolygon polygon;
   const Vec3<Unit> u = perpendicular_to(plane.normal);
   const Vec3<Unit> v = rounded<Unit>(cross(plane.normal, u));
-  if (plane.b.shape.kind == ShapeKind::box) {
-    box_face(plane, u, v, polygon);
-  } else {
-    polytope_face(plane, u, v, polygon);
-  }
+  add_face(plane, u, v, polygon);
   return manifold_of(plane, polygon);
 }
 
 }  // namespace
 
+Manifold below_sphere(const PlaneMeeting& plane) {
+  const Length radius = plane.b.shape.size.x;
+  Manifold manifold;
+  manifold.normal = plane.normal;
+  add_below(manifold, plane, fine(plane.offset) - along(plane.normal, radius),
+            plane.centre_height - fine(radius), 0);
+  return manifold;
+}
+
+Manifold below_capsule(const PlaneMeeting& plane) {
+  const Length radius = plane.b.shape.size.x;
+  const Length half = plane.b.shape.size.y;
+  const Vec3<Unit>& axis = plane.b.rotation.y;
+  Manifold manifold;
+  manifold.normal = plane.normal;
+  const std::int64_t lean = lockstone::dot(axis, plane.normal).raw;
+  const bool steep = magnitude_of(lean) > std::int64_t{1} << 55;  // 1/32, as against a box
+  for (const int sign : {-1, 1}) {
+    if (steep && sign == sign_of(lean)) continue;
+    const RawVec end = along(axis, half * sign);
+    const RawVec pole = fine(plane.offset) + end - along(plane.normal, radius);
+    add_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),
+              sign < 0 ? 0 : 1);
+  }
+  return manifold;
+}
+
+Manifold below_box(const PlaneMeeting& plane) {
+  return below_face(plane, box_face);
+}
+
 Manifold collide_half_space(const PosedShape& half_space, const PosedShape& b,
                             const Vec3<Length>& offset, Length margin) {
   const Vec3<Unit> normal = unit_axis(half_space.rotation.y);
   const PlaneMeeting plane{normal, b, offset, margin, lockstone::dot(normal, offset).raw};
-  Manifold manifold;
-  if (b.shape.kind == ShapeKind::sphere) {
-    manifold = below_sphere(plane);
-  } else if (b.shape.kind == ShapeKind::capsule) {
-    manifold = below_capsule(plane);
-  } else {
-    LKS_ASSERT(b.shape.kind == ShapeKind::box || b.polytope != nullptr);
-    manifold = below_polygon(plane);
-  }
+  const Manifold manifold = b.polytope != nullptr ? below_face(plane, polytope_face)
+                                                  : traits_of(b.shape).below_plane(plane);
   return manifold.count > 0 ? manifold : Manifold{};
 }
 

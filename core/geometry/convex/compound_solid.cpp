@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/numeric/q50.h"
 #include "core/math/principal_axes.h"
 #include "core/math/roots.h"
@@ -12,32 +13,6 @@ namespace lockstone::geometry {
 namespace {
 
 using Solids = std::span<const PlacedSolid>;
-
-std::uint64_t magnitude_of(Length x) {
-  return static_cast<std::uint64_t>(x.raw);
-}
-
-/// x · 2^exponent from its leading 64 bits.
-BlockFloat from_wide(UInt128 x, int exponent) {
-  const int zeros = countl_zero(x);
-  return block_float((x << zeros).high, exponent + 64 - zeros);
-}
-
-BlockFloat volume_of(const Shape& shape) {
-  constexpr int k_cubed_bits = 3 * Length::frac_bits;
-  const auto& [x, y, z] = shape.size;
-  if (shape.kind == ShapeKind::box) {
-    return from_wide(multiply_wide(magnitude_of(x) * magnitude_of(y), 8 * magnitude_of(z)),
-                     -k_cubed_bits);
-  }
-  // 2π/3 · r²(3h + 2r), as in mass_of
-  constexpr std::uint64_t two_thirds_pi = 4829346305384748562U;  // 61 fraction bits
-  const UInt128 product =
-      multiply_wide(magnitude_of(x) * magnitude_of(x), 3 * magnitude_of(y) + 2 * magnitude_of(x));
-  const int zeros = countl_zero(product);
-  const UInt128 volume = multiply_wide((product << zeros).high, two_thirds_pi);
-  return from_wide(volume, 64 - zeros - 61 - k_cubed_bits);
-}
 
 /// Weights as whole numbers below 2^54: the sum of 256 of them fits.
 class Weights {
@@ -133,7 +108,7 @@ SymMat3<std::int64_t> mean_tensor(Solids solids, const Weights& weights, const R
 
 Solid solid_of(const Shape& primitive) {
   Solid solid;
-  solid.volume = volume_of(primitive);
+  solid.volume = traits_of(primitive).volume(primitive.size);
   const Vec3<Unit> inertia = normalized_inertia(primitive);
   solid.inertia = {to_moment(inertia.x), to_moment(inertia.y), to_moment(inertia.z)};
   solid.scale_exponent = scale_exponent(primitive);

@@ -25,7 +25,7 @@ struct PlacedSolid {
 /// solid.
 [[nodiscard]] Solid combined(std::span<const PlacedSolid> solids);
 
-/// The solid of a sphere, capsule or box.
+/// The solid of a primitive.
 [[nodiscard]] Solid solid_of(const Shape& primitive);
 
 }  // namespace lockstone::geometry

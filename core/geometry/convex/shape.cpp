@@ -1,5 +1,7 @@
 #include <lockstone/shape.h>
 
+#include "core/geometry/convex/shape_traits.h"
+
 namespace lockstone {
 namespace {
 
@@ -10,29 +12,15 @@ constexpr bool is_size(Length x) {
 }  // namespace
 
 Status validate(const Shape& shape) {
-  const auto& [x, y, z] = shape.size;
-  constexpr Length none{};
-  bool good = false;
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      good = is_size(x) && y == none && z == none;
-      break;
-    case ShapeKind::capsule:
-      good = is_size(x) && is_size(y) && z == none;
-      break;
-    case ShapeKind::box:
-      good = is_size(x) && is_size(y) && is_size(z);
-      break;
-    case ShapeKind::half_space:
-    case ShapeKind::hull:
-    case ShapeKind::mesh:
-    case ShapeKind::height_field:
-    case ShapeKind::compound:
-      good = shape.size == Vec3<Length>{};
-      break;
-  }
   if (is_asset(shape.kind) == shape.asset.is_null()) return Status::invalid_argument;
-  return good ? Status::ok : Status::invalid_argument;
+  const geometry::ShapeTraits* traits = geometry::find_traits(shape.kind);
+  if (traits == nullptr && is_primitive(shape.kind)) return Status::invalid_argument;
+  const int used = traits == nullptr ? 0 : traits->size_count;
+  for (int i = 0; i < 3; ++i) {
+    const bool good = i < used ? is_size(shape.size[i]) : shape.size[i] == Length{};
+    if (!good) return Status::invalid_argument;
+  }
+  return Status::ok;
 }
 
 }  // namespace lockstone

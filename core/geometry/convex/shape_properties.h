@@ -1,4 +1,4 @@
-// Sizes and mass distribution of spheres, capsules and boxes; assets carry their own.
+// Sizes and mass distribution of primitives; assets carry their own.
 #pragma once
 
 #include <lockstone/quat.h>

@@ -1,6 +1,7 @@
 #include "core/geometry/dispatch/raycast.h"
 
 #include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/q50.h"
@@ -27,14 +28,12 @@ ShapeRayHit cast_ray_at_half_space(const Mat3& rotation, const Vec3<Length>& ori
 ShapeRayHit cast_ray(const Shape& shape, const Mat3& rotation, const Vec3<Length>& origin,
                      const Vec3<Length>& translation) {
   using namespace geometry;
-  LKS_ASSERT(is_primitive(shape.kind));
-  if (shape.kind == ShapeKind::sphere) {
-    return cast_ray_at_sphere(shape.size.x, origin, translation);
-  }
-  if (shape.kind == ShapeKind::capsule) {
-    return cast_ray_at_capsule(shape, rotation, origin, translation);
-  }
-  return cast_ray_at_box(shape, rotation, origin, translation);
+  if (const auto cast = traits_of(shape).cast_ray; cast != nullptr)
+    return cast(shape, rotation, origin, translation);
+  if (shape.kind == ShapeKind::sphere) return cast_ray_at_sphere(shape.size.x, origin, translation);
+  return shape.kind == ShapeKind::capsule
+             ? cast_ray_at_capsule(shape, rotation, origin, translation)
+             : cast_ray_at_box(shape, rotation, origin, translation);
 }
 
 ShapeRayHit cast_ray(const PosedShape& posed, const Vec3<Length>& origin,

@@ -32,7 +32,7 @@ void add_point(Manifold& manifold, const Witnesses& witnesses, const Vec3<Length
 
 /// Whether `ManifoldPoint` puts the anchors of a contact with a flat shape on this one's surface.
 [[nodiscard]] constexpr bool is_round(const Shape& shape) {
-  return shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
+  return is_primitive(shape.kind) && shape.kind != ShapeKind::box;
 }
 
 /// The same where B is round and A is not.

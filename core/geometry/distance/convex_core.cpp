@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/numeric/wide_vectors.h"
 
 namespace lockstone::geometry {
@@ -12,12 +13,6 @@ constexpr int k_lattice_norm_bits = 30;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
-}
-
-void add_generator(ConvexCore& core, const RawVec& generator) {
-  core.generators[at(core.generator_count++)] = generator;
-  for (int k = 0; k < 3; ++k)
-    core.extent[k] += magnitude_of(generator[k]);
 }
 
 /// The rotated vertices, brought about the middle of their bounds.
@@ -141,18 +136,17 @@ void make_core(const PosedShape& shape, ConvexCore& core) {
   core.radius = {};
   core.reference = {};
   core.extent = {};
-  const auto& [x, y, z] = shape.shape.size;
   if (shape.polytope != nullptr) {
     list_vertices(*shape.polytope, shape.rotation, core);
-  } else if (shape.shape.kind == ShapeKind::box) {
-    add_generator(core, along(shape.rotation.x, x));
-    add_generator(core, along(shape.rotation.y, y));
-    add_generator(core, along(shape.rotation.z, z));
   } else {
-    LKS_ASSERT(is_primitive(shape.shape.kind));
-    core.radius = x;
-    if (shape.shape.kind == ShapeKind::capsule) add_generator(core, along(shape.rotation.y, y));
+    traits_of(shape.shape).make_core(shape, core);
   }
+}
+
+void add_generator(ConvexCore& core, const RawVec& generator) {
+  core.generators[at(core.generator_count++)] = generator;
+  for (int k = 0; k < 3; ++k)
+    core.extent[k] += magnitude_of(generator[k]);
 }
 
 RawVec vertex_of(const ConvexCore& core, int index) {

@@ -31,8 +31,11 @@ struct ConvexCore {
   std::array<Fine, k_max_polytope_vertices> z;
 };
 
-/// The core of a sphere, capsule, box or polytope, written into `core`.
+/// The core of a primitive or polytope, written into `core`.
 void make_core(const PosedShape& shape, ConvexCore& core);
+
+/// Adds ±generator to every vertex; none are listed.
+void add_generator(ConvexCore& core, const RawVec& generator);
 
 /// How many indices of vertices there are.
 [[nodiscard]] constexpr int vertex_count(const ConvexCore& core) {

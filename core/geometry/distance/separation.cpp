@@ -1,6 +1,7 @@
 #include "core/geometry/distance/separation.h"
 
 #include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/q50.h"
 
@@ -14,13 +15,9 @@ constexpr int k_relative_slack_bits = 26;
 
 /// How far the shape reaches from its centre along a unit axis. Half-spaces have no reach.
 Fine reach_along(const PosedShape& posed, const Vec3<Unit>& axis) {
-  const Shape& shape = posed.shape;
   const Vec3<Unit> n = rotate_inverse(posed.rotation, axis);
   if (posed.polytope != nullptr) return geometry::support_of(*posed.polytope, n).height;
-  if (shape.kind == ShapeKind::sphere) return geometry::fine(shape.size.x);
-  if (shape.kind == ShapeKind::capsule)
-    return geometry::fine(shape.size.x) + (shape.size.y * abs(n.y)).raw;
-  return (shape.size.x * abs(n.x) + shape.size.y * abs(n.y) + shape.size.z * abs(n.z)).raw;
+  return geometry::traits_of(posed.shape).reach(posed.shape.size, n);
 }
 
 /// A contact on a merged face is nearer than the vertices by up to this: above each point of the

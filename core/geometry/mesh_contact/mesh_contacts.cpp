@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/mesh_contact/face_plane.h"
 #include "core/geometry/numeric/normals.h"
@@ -179,7 +180,8 @@ Displacement least_separation(const Manifold& manifold) {
 }
 
 Length core_radius(const Shape& shape) {
-  return is_round(shape) ? shape.size.x : Length{};
+  const ShapeTraits* traits = find_traits(shape.kind);
+  return traits != nullptr && traits->has_core_radius ? shape.size.x : Length{};
 }
 
 RawVec witness_on_b(const Manifold& manifold, const ManifoldPoint& point, const Shape& b,

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/geometry/contact/manifold_reduction.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/mesh_contact/face_plane.h"
 #include "core/geometry/mesh_contact/mesh_contacts.h"
@@ -11,30 +12,8 @@
 namespace lockstone::geometry {
 namespace {
 
-/// A point this near to a vertex of the shape is at it: 61 µm.
-constexpr Fine k_at_vertex = Fine{1} << (k_fine_bits - 14);
-
 /// Features that are not the shape's own.
 constexpr std::uint32_t k_foreign = std::uint32_t{1} << 31;
-
-bool is_at(Fine x, Fine y) {
-  return magnitude_of(x - y) <= k_at_vertex;
-}
-
-std::optional<std::uint32_t> box_vertex(const Shape& box, const RawVec& local) {
-  const RawVec half = half_extents(box);
-  std::uint32_t vertex = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!is_at(magnitude_of(local[axis]), half[axis])) return std::nullopt;
-    vertex |= local[axis] > 0 ? 1U << axis : 0U;
-  }
-  return vertex;
-}
-
-std::optional<std::uint32_t> capsule_end(const Shape& capsule, const RawVec& core) {
-  if (!is_at(magnitude_of(core.y), fine(capsule.size.y))) return std::nullopt;
-  return core.y > 0 ? 1U : 0U;
-}
 
 std::optional<std::uint32_t> polytope_vertex(const Polytope& polytope, const RawVec& local) {
   for (std::uint32_t i = 0; i < polytope.vertices.size(); ++i) {
@@ -47,9 +26,7 @@ std::optional<std::uint32_t> polytope_vertex(const Polytope& polytope, const Raw
 /// Which vertex of the shape a point of its core is at, if any. The core of a sphere is one point.
 std::optional<std::uint32_t> vertex_of(const PosedShape& posed, const RawVec& core) {
   if (posed.polytope != nullptr) return polytope_vertex(*posed.polytope, core);
-  if (posed.shape.kind == ShapeKind::sphere) return 0;
-  if (posed.shape.kind == ShapeKind::capsule) return capsule_end(posed.shape, core);
-  return box_vertex(posed.shape, core);
+  return traits_of(posed.shape).vertex_at(posed.shape.size, core);
 }
 
 std::uint32_t foreign_feature(std::uint32_t part, std::uint32_t feature) {
@@ -213,15 +190,11 @@ class CoreVertices {
     if (frame.shape.polytope != nullptr) {
       for (const Vec3<Length>& v : frame.shape.polytope->vertices)
         add(fine(v));
-    } else if (shape.kind == ShapeKind::sphere) {
-      add({});
-    } else if (shape.kind == ShapeKind::capsule) {
-      add({0, -fine(shape.size.y), 0});
-      add({0, fine(shape.size.y), 0});
     } else {
-      const RawVec h = half_extents(shape);
-      for (unsigned i = 0; i < 8; ++i)
-        add({(i & 1) != 0 ? h.x : -h.x, (i & 2) != 0 ? h.y : -h.y, (i & 4) != 0 ? h.z : -h.z});
+      std::array<RawVec, 8> vertices;
+      const int count = traits_of(shape).vertices(shape.size, vertices);
+      for (int i = 0; i < count; ++i)
+        add(vertices[static_cast<std::size_t>(i)]);
     }
   }
 

@@ -6,6 +6,7 @@
 
 #include "core/dynamics/state/limits.h"
 #include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/convex/solid.h"
 #include "core/math/block_float.h"
 #include "core/math/rotation_log.h"
@@ -21,17 +22,13 @@ constexpr Coefficient k_most_friction = Coefficient::from_ratio(199, 100);
 constexpr Coefficient k_one = Coefficient::from_integer(1);
 
 void check_sizes(RefusalFinder& find, const Shape& shape) {
-  using Names = std::array<std::string_view, 3>;
-  Names names{"shape.size.x", "shape.size.y", "shape.size.z"};
-  int used = 0;
-  if (shape.kind == ShapeKind::sphere) names = {"shape.radius", "", ""}, used = 1;
-  if (shape.kind == ShapeKind::capsule) names = {"shape.radius", "shape.half_height", ""}, used = 2;
-  if (shape.kind == ShapeKind::box)
-    names = {"shape.half_x", "shape.half_y", "shape.half_z"}, used = 3;
+  const geometry::ShapeTraits* traits = geometry::find_traits(shape.kind);
+  const int used = traits == nullptr ? 0 : traits->size_count;
   for (int i = 0; i < 3; ++i) {
     if (i < used) {
-      find.within(names[static_cast<std::size_t>(i)], shape.size[i], k_min_shape_size,
-                  k_max_shape_size, "m");
+      const std::string_view name = traits->size_names[static_cast<std::size_t>(i)];
+      find.within("shape." + std::string(name), shape.size[i], k_min_shape_size, k_max_shape_size,
+                  "m");
     } else {
       const std::string_view axis = std::string_view("xyz").substr(static_cast<std::size_t>(i), 1);
       find.require(shape.size[i] == Length{}, "shape.size." + std::string(axis),

@@ -1,0 +1,99 @@
+// The table of shapes: one row for each kind that is complete in itself, solid and bounded. A new
+// kind is a new row; no other code of the core asks for it by name.
+//
+// The functions take the sizes of `Shape` and the shape's own axes. A row links the functions that
+// it names: see `shape_table.h`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include <lockstone/quat.h>
+#include <lockstone/shape.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+#include "core/geometry/numeric/q50.h"
+#include "core/math/block_float.h"
+
+namespace lockstone {
+
+struct Manifold;
+struct PosedShape;
+struct ShapeRayHit;
+
+namespace geometry {
+
+struct ConvexCore;
+struct PlaneMeeting;
+
+/// The three sizes of a shape.
+using Sizes = Vec3<Length>;
+
+/// The sizes as fractions of the scale, 30 bits each.
+using ScaledSizes = std::array<std::uint64_t, 3>;
+
+/// A row of the table. Functions are null only where it is said.
+struct ShapeTraits {
+  /// Of the sizes that the kind uses, the first of the three.
+  std::array<std::string_view, 3> size_names;
+  int size_count = 0;
+  /// The radius that makes the core round is size.x; else there is none.
+  bool has_core_radius = false;
+
+  // Sizes and mass: see shape_properties.h.
+  Length (*bounding_radius)(const Sizes& size);
+  Length (*inner_radius)(const Sizes& size);
+  Sizes (*half_extents)(const Sizes& size, const Mat3& rotation);
+  Mass (*mass)(const Sizes& size, Density density);
+  BlockFloat (*volume)(const Sizes& size);
+  Vec3<Unit> (*inertia)(const ScaledSizes& size);
+
+  /// The greatest n · p over the points p of the shape.
+  Fine (*reach)(const Sizes& size, const Vec3<Unit>& n);
+  /// Whether the shape, grown by `slack`, holds the point.
+  bool (*holds)(const Sizes& size, const Vec3<Length>& point, Length slack);
+  /// The outward normal of the face that looks most along the axis; the axis where any does.
+  Vec3<Unit> (*face_along)(const Sizes& size, const Vec3<Unit>& axis);
+
+  /// Which vertex of the core a point of it is at, within 61 µm.
+  std::optional<std::uint32_t> (*vertex_at)(const Sizes& size, const RawVec& point);
+  /// The vertices of the core that contacts name by number, at most 8; returns their number.
+  int (*vertices)(const Sizes& size, std::array<RawVec, 8>& out);
+
+  /// Sizes of the shape with its surface deeper by about `depth`, less than the inner radius.
+  Sizes (*eroded)(const Sizes& size, Length depth);
+  /// Sizes of the shape shortened about its middle; a round shape keeps its radius.
+  Sizes (*shortened)(const Sizes& size, Unit share);
+
+  /// Fills the core that GJK sees; it is empty before.
+  void (*make_core)(const PosedShape& shape, ConvexCore& core);
+  /// See `collide_half_space`.
+  Manifold (*below_plane)(const PlaneMeeting& plane);
+  /// See `lockstone::cast_ray`; null of spheres, capsules and boxes, lest programs without queries
+  /// link theirs.
+  ShapeRayHit (*cast_ray)(const Shape& shape, const Mat3& rotation, const Vec3<Length>& origin,
+                          const Vec3<Length>& translation) = nullptr;
+};
+
+/// The row of a kind, null of assets, half-spaces, and unknown kinds.
+[[nodiscard]] const ShapeTraits* find_traits(ShapeKind kind);
+
+/// The row of a primitive.
+[[nodiscard]] inline const ShapeTraits& traits_of(const Shape& shape) {
+  const ShapeTraits* traits = find_traits(shape.kind);
+  LKS_ASSERT(traits != nullptr);
+  return *traits;
+}
+
+/// A point this near to a vertex of a core is at it: 61 µm.
+inline constexpr Fine k_at_vertex = Fine{1} << (k_fine_bits - 14);
+
+[[nodiscard]] constexpr bool is_at(Fine x, Fine y) {
+  return magnitude_of(x - y) <= k_at_vertex;
+}
+
+}  // namespace geometry
+}  // namespace lockstone

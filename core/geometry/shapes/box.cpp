@@ -1,0 +1,121 @@
+// Boxes: the sizes are half extents.
+#include "core/geometry/contact/plane_meeting.h"
+#include "core/geometry/convex/mass_arithmetic.h"
+#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/shapes/shape_table.h"
+#include "core/math/roots.h"
+
+namespace lockstone::geometry {
+namespace {
+
+Length box_bounding_radius(const Sizes& size) {
+  return root_up(norm_squared(size));
+}
+
+Length box_inner_radius(const Sizes& size) {
+  return min(min(size.x, size.y), size.z);
+}
+
+Sizes box_extents(const Sizes& size, const Mat3& rotation) {
+  const auto& [x, y, z] = size;
+  Sizes result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t extent = (abs(rotation.y[axis]) * y).raw +
+                                (abs(rotation.x[axis]) * x + abs(rotation.z[axis]) * z).raw;
+    result[axis] = rounded_up(extent);
+  }
+  return result;
+}
+
+/// 2hx · 2hy · 2hz, 60 fraction bits.
+UInt128 box_product(const Sizes& size) {
+  return multiply_wide(raw_of(size.x) * raw_of(size.y), 8 * raw_of(size.z));
+}
+
+/// 60 + 8 fraction bits with the density, below 2^122.
+Mass box_mass(const Sizes& size, Density density) {
+  const UInt128 mass = multiply(box_product(size), static_cast<std::uint32_t>(density.raw));
+  return saturated_mass(round_shift(mass, 60 + Density::frac_bits - Mass::frac_bits));
+}
+
+BlockFloat box_volume(const Sizes& size) {
+  return from_wide(box_product(size), -3 * Length::frac_bits);
+}
+
+Vec3<Unit> box_inertia(const ScaledSizes& size) {
+  const std::uint64_t x = square(size[0]), y = square(size[1]), z = square(size[2]);
+  return {moment_share(y + z, 3), moment_share(z + x, 3), moment_share(x + y, 3)};
+}
+
+Fine box_reach(const Sizes& size, const Vec3<Unit>& n) {
+  return (size.x * abs(n.x) + size.y * abs(n.y) + size.z * abs(n.z)).raw;
+}
+
+bool box_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
+  for (int i = 0; i < 3; ++i)
+    if (abs(point[i]) > size[i] + slack) return false;
+  return true;
+}
+
+Vec3<Unit> box_face_along(const Sizes& /*size*/, const Vec3<Unit>& axis) {
+  int longest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (abs(axis[i]) > abs(axis[longest])) longest = i;
+  return signed_axis(Mat3{}.column(longest), sign_of(axis[longest].raw));
+}
+
+std::optional<std::uint32_t> box_vertex_at(const Sizes& size, const RawVec& point) {
+  const RawVec half = fine(size);
+  std::uint32_t vertex = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_at(magnitude_of(point[axis]), half[axis])) return std::nullopt;
+    vertex |= point[axis] > 0 ? 1U << axis : 0U;
+  }
+  return vertex;
+}
+
+int box_vertices(const Sizes& size, std::array<RawVec, 8>& out) {
+  const RawVec h = fine(size);
+  for (unsigned i = 0; i < 8; ++i)
+    out[i] = {(i & 1) != 0 ? h.x : -h.x, (i & 2) != 0 ? h.y : -h.y, (i & 4) != 0 ? h.z : -h.z};
+  return 8;
+}
+
+Sizes box_eroded(const Sizes& size, Length depth) {
+  return {size.x - depth, size.y - depth, size.z - depth};
+}
+
+Sizes box_shortened(const Sizes& size, Unit share) {
+  return {rounded<Length>(size.x * share), rounded<Length>(size.y * share),
+          rounded<Length>(size.z * share)};
+}
+
+void box_core(const PosedShape& shape, ConvexCore& core) {
+  for (int i = 0; i < 3; ++i)
+    add_generator(core, along(shape.rotation.column(i), shape.shape.size[i]));
+}
+
+}  // namespace
+
+const ShapeTraits k_box{
+    .size_names = {"half_x", "half_y", "half_z"},
+    .size_count = 3,
+    .has_core_radius = false,
+    .bounding_radius = box_bounding_radius,
+    .inner_radius = box_inner_radius,
+    .half_extents = box_extents,
+    .mass = box_mass,
+    .volume = box_volume,
+    .inertia = box_inertia,
+    .reach = box_reach,
+    .holds = box_holds,
+    .face_along = box_face_along,
+    .vertex_at = box_vertex_at,
+    .vertices = box_vertices,
+    .eroded = box_eroded,
+    .shortened = box_shortened,
+    .make_core = box_core,
+    .below_plane = below_box,
+};
+
+}  // namespace lockstone::geometry
