@@ -158,7 +158,7 @@ void judge_end(const TickReader& ticks, CutReport& report) {
 }  // namespace
 
 CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t begin,
-              std::uint64_t end, Sink& sink) {
+              std::uint64_t end, Sink& sink, bool compress) {
   if (begin >= end) {
     return {Status::invalid_argument, "the first tick of the cut must lie before its end", 0};
   }
@@ -173,7 +173,8 @@ CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t be
   MatchMetadata match = header.match;
   match.start_tick = begin;
   Recorder recorder(
-      sink, {.keyframe_bytes_max = found.simulation->snapshot_bytes_max(SnapshotKind::canonical)});
+      sink, {.keyframe_bytes_max = found.simulation->snapshot_bytes_max(SnapshotKind::canonical),
+             .compress = compress});
   CutReport report;
   report.status = recorder.begin(header.info, found.ticks->config(), match);
   if (report.status == Status::ok) report.status = recorder.keyframe(*found.simulation);

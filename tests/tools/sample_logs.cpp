@@ -50,8 +50,8 @@ bool write_log(const std::string& folder, const Sample& sample) {
       *sink.value(), {.keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical)});
   SimulationInfo info = game.info();
   if (sample.foreign) info.config_hash ^= 1;
-  if (recorder.begin(info, k_config.encode(), {.match_id = 1, .build = "sample_logs"}) !=
-      Status::ok) {
+  if (recorder.begin(info, k_config.encode(),
+                     {.match_id = 1, .build = "sample_logs", .game = "arena"}) != Status::ok) {
     return false;
   }
   while (game.tick() < k_ticks) {

@@ -5,6 +5,7 @@
 
 #include "net/transport/enet_datagram.h"
 #include "tests/support/await.h"
+#include "tools/arena/arena_game.h"
 #include "tools/relay/attacks.h"
 #include "tools/relay/datagram_rate.h"
 
@@ -12,7 +13,9 @@ namespace lockstone::relay {
 namespace {
 
 SiegeOptions short_siege() {
+  static const GameDef k_arena = arena::arena_game();
   SiegeOptions options;
+  options.game = &k_arena;
   options.honest = 2;
   options.duration_us = 2'000'000;
   options.least_sent = 40;

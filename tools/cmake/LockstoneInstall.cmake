@@ -5,13 +5,21 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lockstone)
 
 # Each component has targets of its own, so that the core is found without the libraries that net
 # and replay need.
-foreach(room IN ITEMS core net replay)
+set(rooms core net replay)
+if(TARGET lockstone_tool)
+  list(APPEND rooms tool)
+endif()
+foreach(room IN LISTS rooms)
+  set(folder ${room})
+  if(room STREQUAL "tool")
+    set(folder tools/tool)
+  endif()
   install(TARGETS lockstone_${room}
     EXPORT lockstone_${room}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT lockstone_${room}
     NAMESPACE lockstone:: FILE lockstone_${room}.cmake DESTINATION ${package_dir})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/include/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 endforeach()
 if(TARGET lockstone)

@@ -5,6 +5,8 @@
 
 namespace lockstone::tool {
 
+struct Tool;
+
 /// The command's exit codes.
 enum ExitCode : int {
   k_ok = 0,
@@ -16,18 +18,12 @@ enum ExitCode : int {
 };
 
 void add_scenes_command(CLI::App& app, int& exit_code);
-void add_run_command(CLI::App& app, int& exit_code);
-void add_info_command(CLI::App& app, int& exit_code);
-void add_verify_command(CLI::App& app, int& exit_code);
+void add_run_command(CLI::App& app, Tool& tool);
 void add_numerics_command(CLI::App& app, int& exit_code);
-void add_serve_command(CLI::App& app, int& exit_code);
-void add_join_command(CLI::App& app, int& exit_code);
-void add_token_command(CLI::App& app, int& exit_code);
-void add_demo_command(CLI::App& app, int& exit_code);
+void add_demo_command(CLI::App& app, Tool& tool);
 void add_fuzz_pairs_command(CLI::App& app, int& exit_code);
 void add_fuzz_scene_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code);
-void add_simnet_command(CLI::App& app, int& exit_code);
 void add_asset_command(CLI::App& app, int& exit_code);
 
 }  // namespace lockstone::tool

@@ -1,47 +1,49 @@
-#include <initializer_list>
+#include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
+#include "tools/arena/arena_game.h"
+#include "tools/arena/arena_simulation.h"
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/match/net_commands.h"
 #include "tools/lockstone/support/console.h"
-#include "tools/lockstone/support/suggestion.h"
+#include "tools/render/svg.h"
+#include "tools/scenes/play.h"
+#include "tools/scenes/scenes_game.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
 
-constexpr const char* k_footer =
-    "Exit codes: 0 ok, 1 states differ, 2 damaged or unreadable input, 3 incompatible,\n"
-    "64 wrong usage, 69 the network or the system refused.";
-
-using AddCommand = void (*)(CLI::App& app, int& exit_code);
-
-// Adds commands under a title of their own in the help.
-void add_group(CLI::App& app, int& exit_code, const char* title,
-               std::initializer_list<AddCommand> commands) {
-  for (const AddCommand add : commands) {
-    add(app, exit_code);
-    app.get_subcommands({}).back()->group(title)->footer(k_footer);
-  }
+// Commands that need no game.
+template <void (*Add)(CLI::App&, int&)>
+void add_plain(CLI::App& app, Tool& tool) {
+  Add(app, tool.exit_code);
 }
 
-void add_commands(CLI::App& app, int& exit_code) {
-  add_group(app, exit_code, "Scenes",
-            {add_scenes_command, add_run_command, add_flips_command, add_hash_command,
-             add_compare_hashes_command, add_numerics_command});
-  add_group(app, exit_code, "Matches",
-            {add_demo_command, add_serve_command, add_join_command, add_token_command});
-  add_group(app, exit_code, "Logs",
-            {add_record_command, add_info_command, add_verify_command, add_seek_command,
-             add_trace_command, add_diff_command, add_bisect_command, add_repair_command,
-             add_cut_command, add_keygen_command});
-  add_group(app, exit_code, "Assets", {add_asset_command});
-  add_group(app, exit_code, "Measuring, and looking for faults",
-            {add_bench_command, add_simnet_command, add_lossy_command, add_siege_command,
-             add_fuzz_pairs_command, add_fuzz_scene_command});
+std::string draw_built_in(const Simulation& simulation) {
+  render::Picture picture;
+  picture.caption = fmt::format("tick {}   {}", simulation.tick(), hash_text(simulation.hash()));
+  picture.style = render::arena_look;
+  return render::draw(*scenes::world_of(simulation), picture);
+}
+
+Games built_in_games() {
+  std::vector<GameDef> games{arena::arena_game(), scenes::scenes_game()};
+  for (GameDef& game : games) {
+    game.build = "lockstone " LOCKSTONE_VERSION;
+    game.draw = draw_built_in;
+  }
+  return Games(std::move(games));
+}
+
+// The commands for any game, and those that show and measure the library itself.
+std::vector<CommandGroup> all_commands() {
+  CommandGroup scenes = game_commands(), matches = match_commands(), faults = fault_commands();
+  scenes.commands.insert(scenes.commands.begin(), {add_plain<add_scenes_command>, add_run_command});
+  scenes.commands.push_back(add_plain<add_numerics_command>);
+  matches.commands.insert(matches.commands.begin(), add_demo_command);
+  faults.commands.insert(faults.commands.begin(), add_plain<add_bench_command>);
+  faults.commands.push_back(add_plain<add_fuzz_pairs_command>);
+  faults.commands.push_back(add_plain<add_fuzz_scene_command>);
+  return {scenes, matches, log_commands(), {"Assets", {add_plain<add_asset_command>}}, faults};
 }
 
 }  // namespace
@@ -49,20 +51,9 @@ void add_commands(CLI::App& app, int& exit_code) {
 
 int main(int argc, char** argv) {
   using namespace lockstone::tool;
-  CLI::App app("Deterministic lockstep physics: scenes, matches and their logs.", "lockstone");
-  app.set_version_flag("--version", "lockstone " LOCKSTONE_VERSION);
-  app.allow_windows_style_options(false);  // "/" begins a path
-  app.require_subcommand(1);
-  app.footer(k_footer);
-  int exit_code = k_ok;
-  add_commands(app, exit_code);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const std::string unknown = error.get_exit_code() == 0 ? "" : unknown_argument(app);
-    if (unknown.empty()) return app.exit(error) == 0 ? k_ok : k_usage;
-    complain(unknown + "\nRun with --help for more information.");
-    return k_usage;
-  }
-  return exit_code;
+  Tool tool{.games = built_in_games(), .simnet_scene = "toy"};
+  return run_tool(argc, argv, tool,
+                  {"lockstone", "Deterministic lockstep physics: scenes, matches and their logs.",
+                   "lockstone " LOCKSTONE_VERSION},
+                  all_commands());
 }

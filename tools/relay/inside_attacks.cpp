@@ -8,7 +8,6 @@
 #include "net/transport/enet_commands.h"
 #include "tools/relay/attacks.h"
 #include "tools/relay/intruder.h"
-#include "tools/scenes/play.h"
 
 namespace lockstone::relay {
 namespace {
@@ -204,7 +203,7 @@ struct Visitors::One {
     net::ClientParts parts;
     parts.transport = &line->transport();
     parts.connection = line->connection();
-    parts.factory = scenes::make_simulation;
+    parts.factory = match.factory();
     parts.inputs = &inputs;
     client = net::Client::create(config, std::move(parts)).client;
   }

@@ -28,6 +28,7 @@ std::vector<std::unique_ptr<Attack>> attacks_on(TrialMatch& match, const SiegeOp
 
 TrialOptions trial_of(const SiegeOptions& options) {
   TrialOptions trial;
+  trial.game = options.game;
   trial.players = options.honest + 2;
   trial.liar = options.honest + 1;
   trial.seed = options.seed;

@@ -10,6 +10,7 @@
 namespace lockstone::relay {
 
 struct SiegeOptions {
+  const GameDef* game = nullptr;  ///< configures matches
   std::uint64_t seed = 1;
   std::int64_t duration_us = 10'000'000;  ///< at least …
   std::int64_t patience_us = 20'000'000;  ///< … and at most so much more, until
@@ -56,8 +57,8 @@ struct SiegeReport {
   [[nodiscard]] bool withstood() const;
 };
 
-/// Plays and attacks for the duration. Nothing when the system refuses sockets or there is no
-/// libsodium.
+/// Plays and attacks for the duration. Nothing when the system refuses sockets, the game refuses
+/// such a match, or there is no libsodium.
 [[nodiscard]] std::optional<SiegeReport> run_siege(const SiegeOptions& options);
 
 }  // namespace lockstone::relay

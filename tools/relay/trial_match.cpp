@@ -6,23 +6,20 @@
 
 #include <lockstone/net/wire.h>
 
-#include "tools/arena/config.h"
-#include "tools/arena/input.h"
-#include "tools/scenes/play.h"
-
 namespace lockstone::relay {
 namespace {
 
 constexpr std::uint64_t k_match = 7;
 constexpr std::uint64_t k_unix_s = 1'800'000'000;
 
-/// Presses anything: the arena takes all bytes.
+/// Presses anything: games take all bytes.
 class AnyInputs final : public net::InputSource {
  public:
   explicit AnyInputs(std::uint64_t seed) : random_(seed) {}
   void sample(std::uint64_t, std::span<std::byte> out) override {
     if (random_.below(8) == 0) bits_ = random_.next();  // held for some ticks, as by hands
-    ByteWriter(out).put(bits_);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = static_cast<std::byte>(bits_ >> (8 * (i % 8)) & 0xff);
   }
 
  private:
@@ -92,10 +89,11 @@ class Doorkeeper final : public Passage {
 // A changed client: every hash that it reports is wrong.
 class Liar final : public Passage {
  public:
-  using Passage::Passage;
+  Liar(net::Transport& carrier, std::size_t input_bytes)
+      : Passage(carrier), input_bytes_(input_bytes) {}
   Status send(net::ConnectionId connection, net::Channel channel, ByteView bytes) override {
     net::Inputs message;
-    if (decode(bytes, arena::k_input_bytes, message) != Status::ok)
+    if (decode(bytes, input_bytes_, message) != Status::ok)
       return carrier_.send(connection, channel, bytes);
     for (std::size_t i = 0; i < message.hash_count; ++i)
       message.hashes[i] ^= 1;
@@ -104,6 +102,7 @@ class Liar final : public Passage {
   }
 
  private:
+  std::size_t input_bytes_;
   std::array<std::byte, net::k_max_message_bytes> out_{};
 };
 
@@ -145,13 +144,15 @@ struct TrialMatch::Impl {
   std::int64_t busy_us = 0;
 
   [[nodiscard]] bool set_up() {
-    arena::ArenaConfig arena_config;
-    arena_config.seed = options.seed;
-    arena_config.players = static_cast<std::uint8_t>(options.players);
-    arena_config.loose_bodies = options.bodies;
-    const auto bytes = arena_config.encode();
-    config.assign(bytes.begin(), bytes.end());
-    simulation = std::move(scenes::make_simulation(config)).value();
+    Result<std::vector<std::byte>> made =
+        options.game->configure({.seed = options.seed,
+                                 .players = static_cast<std::uint8_t>(options.players),
+                                 .bodies = options.bodies});
+    if (!made) return false;
+    config = std::move(made).value();
+    Result<std::unique_ptr<Simulation>> game = options.game->make(config);
+    if (!game || game.value()->info().player_count != options.players) return false;
+    simulation = std::move(game).value();
     if (!start_server()) return false;
     if (options.faults) {
       auto opened = LossyRelay::open(Endpoint::loopback(0), Endpoint::loopback(enet->port()),
@@ -208,10 +209,10 @@ struct TrialMatch::Impl {
     player.inputs = std::make_unique<AnyInputs>(options.seed + slot);
     net::Transport* transport = player.secure.get();
     if (options.liar == slot) {
-      player.liar = std::make_unique<Liar>(*player.secure);
+      player.liar = std::make_unique<Liar>(*player.secure, simulation->info().input_bytes);
       transport = player.liar.get();
     }
-    player.client = net::Client::create({}, {transport, player.connection, scenes::make_simulation,
+    player.client = net::Client::create({}, {transport, player.connection, options.game->make,
                                              player.inputs.get(), &player.trace})
                         .client;
     return player.client != nullptr;
@@ -265,6 +266,10 @@ void TrialMatch::stop() {
 void TrialMatch::pause(unsigned slot, bool paused) {
   impl_->players[slot].paused = paused;
 }
+const SimulationFactory& TrialMatch::factory() const {
+  return impl_->options.game->make;
+}
+
 std::uint64_t TrialMatch::ticks_closed() const {
   return impl_->server->ticks_closed();
 }

@@ -11,6 +11,7 @@
 #include <lockstone/net/server.h>
 #include <lockstone/net/transport_enet.h>
 #include <lockstone/net/transport_secure.h>
+#include <lockstone/tool.h>
 
 #include "tools/relay/lossy_relay.h"
 #include "tools/relay/stall_watch.h"
@@ -18,6 +19,7 @@
 namespace lockstone::relay {
 
 struct TrialOptions {
+  const GameDef* game = nullptr;  ///< configures matches
   unsigned players = 4;
   std::uint64_t ticks = 0;  ///< 0: until `stop`
   std::uint64_t seed = 1;
@@ -45,7 +47,7 @@ struct PlayerOutcome {
 
 class TrialMatch {
  public:
-  /// Null when the system refuses a socket.
+  /// Null when the system refuses a socket, or the game such a match.
   [[nodiscard]] static std::unique_ptr<TrialMatch> create(const TrialOptions& options);
   ~TrialMatch();
 
@@ -58,6 +60,7 @@ class TrialMatch {
 
   [[nodiscard]] PlayerOutcome outcome(unsigned slot) const;
   [[nodiscard]] std::uint64_t ticks_closed() const;
+  [[nodiscard]] const SimulationFactory& factory() const;  ///< of the game that is played
   [[nodiscard]] std::uint16_t present_mask() const;
   [[nodiscard]] std::int64_t longest_server_gap_us() const;  ///< between two closed ticks
   /// How often the server was busy for more than k_stall_us at a stretch: its own processor time.

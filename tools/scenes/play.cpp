@@ -19,11 +19,7 @@ class WorldPlay final : public ScenePlay {
   WorldPlay(const Scene& scene, std::uint64_t seed, BroadPhaseKind broad_phase)
       : simulation_(scene, seed, broad_phase) {}
 
-  void step() override {
-    constexpr std::array<std::byte, 1> k_nothing{};
-    const PlayerInput input{k_nothing, InputOrigin::absent};
-    simulation_.step({&input, 1});
-  }
+  [[nodiscard]] std::span<const PlayerInput> next_inputs() override { return {&k_absent, 1}; }
   [[nodiscard]] Simulation& simulation() override { return simulation_; }
   [[nodiscard]] const World& world() const override { return simulation_.world(); }
   [[nodiscard]] const StepReport& last_report() const override { return simulation_.last_report(); }
@@ -33,6 +29,9 @@ class WorldPlay final : public ScenePlay {
   }
 
  private:
+  static constexpr std::array<std::byte, 1> k_nothing{};
+  static constexpr PlayerInput k_absent{k_nothing, InputOrigin::absent};
+
   SceneSimulation simulation_;
 };
 
@@ -41,15 +40,13 @@ class ArenaPlay final : public ScenePlay {
   ArenaPlay(const arena::ArenaConfig& config, BroadPhaseKind broad_phase)
       : simulation_(config, broad_phase) {}
 
-  void step() override {
+  [[nodiscard]] std::span<const PlayerInput> next_inputs() override {
     const arena::ArenaConfig& config = simulation_.arena().config;
-    std::array<std::array<std::byte, arena::k_input_bytes>, k_max_players> bytes{};
-    std::array<PlayerInput, k_max_players> inputs{};
     for (std::size_t slot = 0; slot < config.players; ++slot) {
-      arena::bot_input(simulation_.arena(), config.seed, slot).encode(bytes[slot]);
-      inputs[slot] = {bytes[slot], InputOrigin::received};
+      arena::bot_input(simulation_.arena(), config.seed, slot).encode(bytes_[slot]);
+      inputs_[slot] = {bytes_[slot], InputOrigin::received};
     }
-    simulation_.step(std::span(inputs).first(config.players));
+    return std::span(inputs_).first(config.players);
   }
   [[nodiscard]] Simulation& simulation() override { return simulation_; }
   [[nodiscard]] const World& world() const override { return simulation_.arena().world; }
@@ -61,6 +58,8 @@ class ArenaPlay final : public ScenePlay {
 
  private:
   arena::ArenaSimulation simulation_;
+  std::array<std::array<std::byte, arena::k_input_bytes>, k_max_players> bytes_{};
+  std::array<PlayerInput, k_max_players> inputs_{};
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -30,7 +31,10 @@ class ScenePlay {
   virtual ~ScenePlay() = default;
 
   /// Advances by one tick with the bots' inputs, if the scene has players.
-  virtual void step() = 0;
+  void step() { simulation().step(next_inputs()); }
+
+  /// Those inputs; valid until the next call.
+  [[nodiscard]] virtual std::span<const PlayerInput> next_inputs() = 0;
 
   [[nodiscard]] virtual Simulation& simulation() = 0;
   [[nodiscard]] virtual const World& world() const = 0;
@@ -45,8 +49,8 @@ class ScenePlay {
 [[nodiscard]] Result<std::unique_ptr<ScenePlay>> make_play(
     std::string_view name, std::uint64_t seed, BroadPhaseKind broad_phase = BroadPhaseKind::tree);
 
-/// Makes whatever simulation configuration bytes name: the arena or a scene. For replays and
-/// clients.
+/// Makes whatever simulation configuration bytes name: the arena or a scene. For tests; the tools
+/// go by their list of games.
 [[nodiscard]] Result<std::unique_ptr<Simulation>> make_simulation(ByteView config);
 
 /// The world inside a simulation that make_simulation made.

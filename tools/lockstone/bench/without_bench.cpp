@@ -1,4 +1,4 @@
-// The subcommands that measure, fuzz and simulate networks, in a build without them.
+// The subcommands that measure and fuzz, in a build without them.
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/absent_command.h"
 
@@ -14,9 +14,6 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
 }
 void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
   add_absent_command(app, exit_code, "fuzz-scene", k_no_bench);
-}
-void add_simnet_command(CLI::App& app, int& exit_code) {
-  add_absent_command(app, exit_code, "simnet", k_no_bench);
 }
 
 }  // namespace lockstone::tool

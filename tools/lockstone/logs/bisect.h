@@ -8,6 +8,8 @@
 
 #include <lockstone/simulation.h>
 
+#include "tools/tool/games.h"
+
 namespace lockstone::tool {
 
 /// The result of a bisection.
@@ -25,9 +27,11 @@ struct BisectReport {
   [[nodiscard]] nlohmann::ordered_json to_json() const;
 };
 
-[[nodiscard]] BisectReport bisect_logs(const std::string& here, const std::string& there);
+[[nodiscard]] BisectReport bisect_logs(const Games& games, const std::string& here,
+                                       const std::string& there);
 
 /// This build against another one of this program.
-[[nodiscard]] BisectReport bisect_builds(const std::string& log, const std::string& other_program);
+[[nodiscard]] BisectReport bisect_builds(const Games& games, const std::string& log,
+                                         const std::string& other_program);
 
 }  // namespace lockstone::tool

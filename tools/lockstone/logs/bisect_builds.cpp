@@ -15,7 +15,6 @@
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/logs/trace.h"
 #include "tools/lockstone/support/console.h"
-#include "tools/scenes/play.h"
 
 namespace lockstone::tool {
 namespace {
@@ -100,10 +99,10 @@ StageTrace stages_from(const std::optional<nlohmann::json>& answer) {
 }
 
 // Describes the difference of the two builds' states after the tick.
-bool describe(replay::Source& source, const OtherBuild& other, BisectReport& report) {
+bool describe(const GameLog& log, const OtherBuild& other, BisectReport& report) {
   const std::uint64_t after = report.tick + 1;
   const replay::SeekResult found =
-      replay::seek(source, scenes::make_simulation, after, replay::SeekFrom::beginning);
+      replay::seek(*log.source, log.game->make, after, replay::SeekFrom::beginning);
   const TemporaryFile state;
   const auto answer =
       other.ask("seek", fmt::format("{} --replay --json --state {}", after, quoted(state.path())));
@@ -125,11 +124,12 @@ BisectReport failed(int exit_code) {
 
 }  // namespace
 
-BisectReport bisect_builds(const std::string& log, const std::string& other_program) {
-  const auto source = open_log(log);
-  if (source == nullptr) return failed(k_corrupt);
+BisectReport bisect_builds(const Games& games, const std::string& log,
+                           const std::string& other_program) {
+  const GameLog opened = open_game_log(games, log);
+  if (opened.source == nullptr) return failed(opened.exit_code);
   const OtherBuild other(other_program, log);
-  const Result<Trace> here = trace_log(*source);
+  const Result<Trace> here = trace_log(opened);
   if (!here) return failed(exit_code_of(here.status()));
   const auto there = hashes_of(other.ask("trace", ""));
   if (!there) return failed(k_incompatible);
@@ -144,10 +144,10 @@ BisectReport bisect_builds(const std::string& log, const std::string& other_prog
   report.exit_code = k_different;
   report.found = true;
   report.tick = here.value().first_tick + ticks;
-  const std::optional<StageTrace> stages = stages_of(*source, report.tick);
+  const std::optional<StageTrace> stages = stages_of(opened, report.tick);
   const auto others = stages_from(other.ask("trace", fmt::format("--stages {}", report.tick)));
   if (stages) report.stage = first_difference(*stages, others);
-  if (!describe(*source, other, report)) report.note += "; the states could not be compared";
+  if (!describe(opened, other, report)) report.note += "; the states could not be compared";
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include "tools/lockstone/logs/log_commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -20,14 +21,14 @@ struct BisectOptions {
   bool json = false;
 };
 
-int bisect(const BisectOptions& options) {
+int bisect(const Games& games, const BisectOptions& options) {
   if (options.there.empty() == options.other_program.empty()) {
     complain("bisect takes two logs, or one log and --with PROGRAM");
     return k_usage;
   }
   const BisectReport report = options.there.empty()
-                                  ? bisect_builds(options.here, options.other_program)
-                                  : bisect_logs(options.here, options.there);
+                                  ? bisect_builds(games, options.here, options.other_program)
+                                  : bisect_logs(games, options.here, options.there);
   if (report.exit_code != k_ok && !report.found) return report.exit_code;
   if (options.json) {
     write_json(report.to_json());
@@ -69,7 +70,7 @@ nlohmann::ordered_json BisectReport::to_json() const {
   return json;
 }
 
-void add_bisect_command(CLI::App& app, int& exit_code) {
+void add_bisect_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<BisectOptions>();
   CLI::App* command = app.add_subcommand(
       "bisect",
@@ -79,7 +80,7 @@ void add_bisect_command(CLI::App& app, int& exit_code) {
   command->add_option("--with", options->other_program,
                       "Another build of this program, to run the log with both");
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &exit_code] { exit_code = bisect(*options); });
+  command->callback([options, &tool] { tool.exit_code = bisect(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

@@ -13,7 +13,6 @@
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/logs/stage_trace.h"
 #include "tools/lockstone/support/console.h"
-#include "tools/scenes/play.h"
 
 namespace lockstone::tool {
 namespace {
@@ -21,19 +20,19 @@ namespace {
 // One log, stepped through the tick at which the two part.
 struct Side {
   std::string path;
-  std::unique_ptr<replay::FileSource> source;
+  GameLog log;
   replay::SeekResult found;
   StageTrace stages{};
   bool reproduced = false;  // this build computes the hash that was recorded
 
   [[nodiscard]] bool step_through(std::uint64_t tick) {
-    found = replay::seek(*source, scenes::make_simulation, tick);
+    found = replay::seek(*log.source, log.game->make, tick);
     if (found.status == Status::ok && !found.ticks->next()) found.status = Status::not_found;
     if (found.status != Status::ok) {
       complain(fmt::format("{}: {}", path, found.what));
       return false;
     }
-    stages = step_traced(*found.simulation, found.ticks->inputs());
+    stages = step_traced(*log.game, *found.simulation, found.ticks->inputs());
     reproduced = found.simulation->hash() == found.ticks->hash();
     return true;
   }
@@ -60,7 +59,8 @@ StateDifference describe_sides(const Simulation& simulation, ByteView recorded, 
 bool blame_one_bit(Side& odd, bool is_here, BisectReport& report) {
   Simulation& simulation = *odd.found.simulation;
   const std::vector<std::byte> computed = canonical_bytes(simulation);
-  const std::vector<std::byte> flipped = find_flipped_bit(simulation, odd.found.ticks->hash());
+  const std::vector<std::byte> flipped =
+      find_flipped_bit(*odd.log.game, simulation, odd.found.ticks->hash());
   if (flipped.empty()) return false;
   report.difference = describe_sides(simulation, flipped, computed, is_here);
   report.difference_tick = simulation.tick();
@@ -117,11 +117,15 @@ BisectReport logs_failed(int exit_code) {
 
 }  // namespace
 
-BisectReport bisect_logs(const std::string& here_path, const std::string& there_path) {
-  Side here{.path = here_path, .source = open_log(here_path), .found = {}, .stages = {}};
-  Side there{.path = there_path, .source = open_log(there_path), .found = {}, .stages = {}};
-  if (here.source == nullptr || there.source == nullptr) return logs_failed(k_corrupt);
-  const replay::LogComparison comparison = replay::compare_logs(*here.source, *there.source);
+BisectReport bisect_logs(const Games& games, const std::string& here_path,
+                         const std::string& there_path) {
+  Side here{.path = here_path, .log = open_game_log(games, here_path), .found = {}, .stages = {}};
+  Side there{
+      .path = there_path, .log = open_game_log(games, there_path), .found = {}, .stages = {}};
+  for (const Side* side : {&here, &there})
+    if (side->log.source == nullptr) return logs_failed(side->log.exit_code);
+  const replay::LogComparison comparison =
+      replay::compare_logs(*here.log.source, *there.log.source);
   if (!are_of_one_match(comparison)) {
     complain("the logs are of different simulations or configurations; see `lockstone diff`");
     return logs_failed(k_incompatible);

@@ -1,5 +1,7 @@
 #include "tools/lockstone/logs/canonical_fields.h"
 
+#include <algorithm>
+
 #include <lockstone/assert.h>
 #include <lockstone/bytes.h>
 #include <lockstone/hash.h>
@@ -7,8 +9,7 @@
 #include "core/world/state/record_codec.h"
 #include "core/world/state/snapshot_format.h"
 #include "tools/lockstone/logs/canonical_bytes.h"
-#include "tools/lockstone/logs/flipping_simulation.h"
-#include "tools/scenes/play.h"
+#include "tools/tool/games.h"
 
 namespace lockstone::tool {
 namespace {
@@ -35,11 +36,12 @@ class Lister {
 
 }  // namespace
 
-std::span<std::byte> world_part(const Simulation& simulation, std::span<std::byte> canonical) {
-  const World* world = scenes::world_of(simulation);
-  LKS_CHECK(world != nullptr);
-  std::vector<std::byte> bytes(world->snapshot_bytes_max(SnapshotKind::canonical));
-  return canonical.last(world->save(SnapshotKind::canonical, bytes));
+std::span<std::byte> world_part(const World& world, std::span<std::byte> canonical) {
+  std::vector<std::byte> bytes(world.snapshot_bytes_max(SnapshotKind::canonical));
+  bytes.resize(world.save(SnapshotKind::canonical, bytes));
+  const auto found = std::search(canonical.begin(), canonical.end(), bytes.begin(), bytes.end());
+  if (found == canonical.end()) return {};
+  return canonical.subspan(static_cast<std::size_t>(found - canonical.begin()), bytes.size());
 }
 
 std::vector<FieldPlace> fields_of_world(ByteView world) {
@@ -56,13 +58,15 @@ std::vector<FieldPlace> fields_of_world(ByteView world) {
   return lister.take();
 }
 
-std::vector<std::byte> find_flipped_bit(Simulation& simulation, std::uint64_t hash) {
-  World* world = world_to_disturb(simulation);
+std::vector<std::byte> find_flipped_bit(const GameDef& game, Simulation& simulation,
+                                        std::uint64_t hash) {
+  World* world = world_of(game, simulation);
   if (world == nullptr) return {};
   std::vector<std::byte> native(simulation.snapshot_bytes_max(SnapshotKind::native));
   native.resize(simulation.save(SnapshotKind::native, native));
   std::vector<std::byte> bytes = canonical_bytes(simulation);
-  const std::span<std::byte> part = world_part(simulation, bytes);
+  const std::span<std::byte> part = world_part(*world, bytes);
+  if (part.empty()) return {};
   for (const FieldPlace& place : fields_of_world(part)) {
     for (unsigned bit = 0; bit < 8 * place.bytes; ++bit) {
       LKS_CHECK(world->flip_bit(place.store, place.object, place.field, bit));

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <lockstone/simulation.h>
+#include <lockstone/tool.h>
+#include <lockstone/world.h>
 
 namespace lockstone::tool {
 
@@ -19,10 +21,9 @@ struct FieldPlace {
   std::size_t bytes = 0;
 };
 
-/// The world's part of a simulation's canonical snapshot: the whole of a scene's, the tail of the
-/// arena's.
-[[nodiscard]] std::span<std::byte> world_part(const Simulation& simulation,
-                                              std::span<std::byte> canonical);
+/// The world's part of a canonical snapshot that holds the world's own bytes somewhere; empty where
+/// it does not.
+[[nodiscard]] std::span<std::byte> world_part(const World& world, std::span<std::byte> canonical);
 
 /// All fields of the header, the bodies, contacts and joints, in their order. `world` is well
 /// formed.
@@ -30,7 +31,8 @@ struct FieldPlace {
 
 /// The canonical snapshot that differs from the simulation's in one bit of its world, and has this
 /// hash; empty when there is none. Tries all, for a second or so; leaves the simulation as it was.
-[[nodiscard]] std::vector<std::byte> find_flipped_bit(Simulation& simulation, std::uint64_t hash);
+[[nodiscard]] std::vector<std::byte> find_flipped_bit(const GameDef& game, Simulation& simulation,
+                                                      std::uint64_t hash);
 
 /// Makes the checksum at the end right again.
 void reseal(std::span<std::byte> world);

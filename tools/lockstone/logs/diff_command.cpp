@@ -12,6 +12,7 @@
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -75,13 +76,13 @@ int diff(const DiffOptions& options) {
 
 }  // namespace
 
-void add_diff_command(CLI::App& app, int& exit_code) {
+void add_diff_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<DiffOptions>();
   CLI::App* command = app.add_subcommand("diff", "Compare the inputs and hashes of two logs");
   command->add_option("here", options->here, "A .lks log")->required();
   command->add_option("there", options->there, "Another one")->required();
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &exit_code] { exit_code = diff(*options); });
+  command->callback([options, &tool] { tool.exit_code = diff(*options); });
 }
 
 }  // namespace lockstone::tool

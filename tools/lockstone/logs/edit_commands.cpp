@@ -15,7 +15,7 @@
 #include "tools/lockstone/logs/log_commands.h"
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/support/console.h"
-#include "tools/scenes/play.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -26,6 +26,7 @@ struct EditOptions {
   std::uint64_t begin = 0;
   std::uint64_t end = std::numeric_limits<std::uint64_t>::max();
   bool force = false;
+  bool plain = false;
 };
 
 int repair(const EditOptions& options) {
@@ -52,13 +53,13 @@ int repair(const EditOptions& options) {
   return k_ok;
 }
 
-int cut(const EditOptions& options) {
-  const auto source = open_log(options.file);
-  if (source == nullptr) return k_corrupt;
+int cut(const Games& games, const EditOptions& options) {
+  const GameLog of = open_game_log(games, options.file);
+  if (of.source == nullptr) return of.exit_code;
   const auto log = PendingLog::create({options.out, options.force});
   if (log == nullptr) return k_unavailable;
-  const replay::CutReport report =
-      replay::cut(*source, scenes::make_simulation, options.begin, options.end, log->sink());
+  const replay::CutReport report = replay::cut(*of.source, of.game->make, options.begin,
+                                               options.end, log->sink(), !options.plain);
   if (report.status == Status::ok && !log->keep()) return k_unavailable;
   if (report.status == Status::ok) {
     fmt::print("{}: {} ticks from tick {}\n", options.out, report.ticks, options.begin);
@@ -95,33 +96,34 @@ int keygen(const std::string& path) {
 
 }  // namespace
 
-void add_repair_command(CLI::App& app, int& exit_code) {
+void add_repair_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command =
       app.add_subcommand("repair", "Save the good part of a damaged or unfinished log");
   command->add_option("file", options->file, "A .lks log")->required();
   command->add_option("out", options->out, "The log to write")->required();
   add_force_option(*command, options->force);
-  command->callback([options, &exit_code] { exit_code = repair(*options); });
+  command->callback([options, &tool] { tool.exit_code = repair(*options); });
 }
 
-void add_cut_command(CLI::App& app, int& exit_code) {
+void add_cut_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command = app.add_subcommand("cut", "Make a log of some of a log's ticks");
   command->add_option("file", options->file, "A .lks log")->required();
   command->add_option("out", options->out, "The log to write")->required();
   command->add_option("--from", options->begin, "First tick")->capture_default_str();
   command->add_option("--to", options->end, "The tick after the last; default: the log's end");
+  command->add_flag("--plain", options->plain, "Compress nothing, so that every build can read it");
   add_force_option(*command, options->force);
-  command->callback([options, &exit_code] { exit_code = cut(*options); });
+  command->callback([options, &tool] { tool.exit_code = cut(tool.games, *options); });
 }
 
-void add_keygen_command(CLI::App& app, int& exit_code) {
+void add_keygen_command(CLI::App& app, Tool& tool) {
   auto path = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("keygen", "Make a key pair to sign logs with");
   command->add_option("file", *path, "Gets the secret key; FILE.pub gets the public one")
       ->required();
-  command->callback([path, &exit_code] { exit_code = keygen(*path); });
+  command->callback([path, &tool] { tool.exit_code = keygen(*path); });
 }
 
 }  // namespace lockstone::tool

@@ -4,26 +4,17 @@
 #include <vector>
 
 #include <lockstone/assert.h>
+#include <lockstone/world.h>
 
-#include "tools/arena/arena_simulation.h"
-#include "tools/scenes/scene_simulation.h"
+#include "tools/tool/games.h"
 
 namespace lockstone::tool {
-
-World* world_to_disturb(Simulation& simulation) {
-  if (auto* game = dynamic_cast<arena::ArenaSimulation*>(&simulation)) {
-    return &game->arena_for_tests().world;
-  }
-  auto* scene = dynamic_cast<scenes::SceneSimulation*>(&simulation);
-  return scene == nullptr ? nullptr : &scene->world_for_tests();
-}
-
 namespace {
 
 // The lowest bit of the velocity along y of the last dynamic body that is awake: the smallest error
 // there is. A native copy makes the derived data fit again.
-void disturb(Simulation& simulation) {
-  World* world = world_to_disturb(simulation);
+void disturb(const GameDef& game, Simulation& simulation) {
+  World* world = world_of(game, simulation);
   if (world == nullptr) return;
   for (std::uint32_t index = world->body_limit(); index-- > 0;) {
     const BodyHandle body = world->body_at(index);
@@ -40,15 +31,15 @@ void disturb(Simulation& simulation) {
 
 class FlippingSimulation final : public Simulation {
  public:
-  FlippingSimulation(std::unique_ptr<Simulation> inner, std::uint64_t tick)
-      : inner_(std::move(inner)), tick_(tick) {}
+  FlippingSimulation(const GameDef& game, std::unique_ptr<Simulation> inner, std::uint64_t tick)
+      : game_(game), inner_(std::move(inner)), tick_(tick) {}
 
   [[nodiscard]] SimulationInfo info() const override { return inner_->info(); }
   [[nodiscard]] std::uint64_t tick() const override { return inner_->tick(); }
   void step(std::span<const PlayerInput> inputs) override {
     const bool now = inner_->tick() == tick_;
     inner_->step(inputs);
-    if (now) disturb(*inner_);
+    if (now) disturb(game_, *inner_);
   }
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override {
     return inner_->snapshot_bytes_max(kind);
@@ -67,14 +58,16 @@ class FlippingSimulation final : public Simulation {
   [[nodiscard]] const Simulation& inner() const { return *inner_; }
 
  private:
+  const GameDef& game_;
   std::unique_ptr<Simulation> inner_;
   std::uint64_t tick_;
 };
 
 }  // namespace
 
-std::unique_ptr<Simulation> make_flipping(std::unique_ptr<Simulation> inner, std::uint64_t tick) {
-  return std::make_unique<FlippingSimulation>(std::move(inner), tick);
+std::unique_ptr<Simulation> make_flipping(const GameDef& game, std::unique_ptr<Simulation> inner,
+                                          std::uint64_t tick) {
+  return std::make_unique<FlippingSimulation>(game, std::move(inner), tick);
 }
 
 const Simulation& unwrapped(const Simulation& simulation) {

@@ -4,17 +4,15 @@
 #include <memory>
 
 #include <lockstone/simulation.h>
-#include <lockstone/world.h>
+#include <lockstone/tool.h>
 
 namespace lockstone::tool {
 
-/// `inner`, but for one bit of one body's velocity, which changes at the end of tick `tick` (that
-/// is in the step from `tick` to `tick` + 1).
-[[nodiscard]] std::unique_ptr<Simulation> make_flipping(std::unique_ptr<Simulation> inner,
+/// `inner`, of a game that has a world, but for one bit of one body's velocity, which changes at
+/// the end of tick `tick` (that is in the step from `tick` to `tick` + 1).
+[[nodiscard]] std::unique_ptr<Simulation> make_flipping(const GameDef& game,
+                                                        std::unique_ptr<Simulation> inner,
                                                         std::uint64_t tick);
-
-/// The world of a scene or of the arena, to do it harm; null for another simulation.
-[[nodiscard]] World* world_to_disturb(Simulation& simulation);
 
 /// The simulation inside a flipping one, or `simulation` itself.
 [[nodiscard]] const Simulation& unwrapped(const Simulation& simulation);

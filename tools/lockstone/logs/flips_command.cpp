@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,18 @@
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/canonical_bytes.h"
 #include "tools/lockstone/logs/canonical_fields.h"
-#include "tools/lockstone/logs/flipping_simulation.h"
 #include "tools/lockstone/logs/log_commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
-#include "tools/scenes/play.h"
+#include "tools/tool/start_match.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
 
 struct FlipOptions {
-  std::string scene = "arena";
+  StartOptions start;
   std::uint64_t ticks = 200;
-  std::uint64_t seed = 1;
   std::uint64_t count = 1000;
   bool json = false;
 };
@@ -49,8 +49,13 @@ std::uint64_t next_random(std::uint64_t& state) {
 
 class Flips {
  public:
-  Flips(const FlipOptions& options, scenes::ScenePlay& play, Simulation& other)
-      : options_(options), play_(play), other_(other), random_(options.seed) {}
+  Flips(const FlipOptions& options, const GameDef& game, Simulation& simulation, Simulation& other)
+      : options_(options),
+        game_(game),
+        simulation_(simulation),
+        other_(other),
+        inputs_(game, options.start.seed),
+        random_(options.start.seed) {}
 
   Tally run() {
     std::vector<std::uint64_t> ticks(options_.count);
@@ -58,9 +63,9 @@ class Flips {
       tick = next_random(random_) % options_.ticks;
     std::sort(ticks.begin(), ticks.end());
     for (const std::uint64_t tick : ticks) {
-      while (play_.simulation().tick() < tick)
-        play_.step();
-      flip();
+      while (simulation_.tick() < tick)
+        simulation_.step(inputs_.next(simulation_));
+      world_of(game_, simulation_) == nullptr ? flip_bytes() : flip();
       progress_.show("flips", tally_.flips, options_.count);
     }
     return std::move(tally_);
@@ -68,10 +73,11 @@ class Flips {
 
  private:
   void flip() {
-    const Simulation& simulation = play_.simulation();
+    const Simulation& simulation = simulation_;
     const std::vector<std::byte> good = canonical_bytes(simulation);
     std::vector<std::byte> bytes = good;
-    const std::span<std::byte> world = world_part(simulation, bytes);
+    const std::span<std::byte> world = world_part(*world_of(game_, simulation_), bytes);
+    if (world.empty()) return flip_bytes();
     const std::vector<FieldPlace> places = fields_of_world(world);
     const std::size_t front = places.front().offset;
     const std::size_t end = places.back().offset + places.back().bytes;
@@ -95,6 +101,27 @@ class Flips {
                          hashed ? "another hash" : "the same hash", found.to_line()));
   }
 
+  // Of a game that shows no world: the bit of the snapshot is refused, or changes the hash, and the
+  // game describes a difference.
+  void flip_bytes() {
+    const std::vector<std::byte> good = canonical_bytes(simulation_);
+    std::vector<std::byte> bytes = good;
+    const std::size_t offset = next_random(random_) % bytes.size();
+    bytes[offset] ^= static_cast<std::byte>(1U << (next_random(random_) % 8));
+    ++tally_.flips;
+    ++tally_.stores["snapshot"];
+    const bool refused = other_.load(SnapshotKind::canonical, bytes) != Status::ok;
+    const bool hashed = refused || other_.hash() != simulation_.hash();
+    const bool named = refused || simulation_.describe(good, bytes).differs;
+    tally_.refused += refused ? 1U : 0U;
+    tally_.hashed += hashed ? 1U : 0U;
+    tally_.named += named ? 1U : 0U;
+    if (hashed && named) return;
+    complain(fmt::format("tick {}: flipped a bit of byte {} of the snapshot; {}, {}",
+                         simulation_.tick(), offset, hashed ? "another hash" : "the same hash",
+                         named ? "described" : "not described"));
+  }
+
   static const FieldPlace& place_of(const std::vector<FieldPlace>& places, std::size_t offset) {
     return *std::prev(std::upper_bound(
         places.begin(), places.end(), offset,
@@ -103,7 +130,7 @@ class Flips {
 
   // Flips the bit in the memory of a second peer that holds the same state.
   bool is_hashed(const FieldPlace& place, unsigned bit) {
-    const Simulation& simulation = play_.simulation();
+    const Simulation& simulation = simulation_;
     native_.resize(simulation.snapshot_bytes_max(SnapshotKind::native));
     const std::size_t size = simulation.save(SnapshotKind::native, native_);
     const std::uint64_t hash = simulation.hash();
@@ -112,22 +139,25 @@ class Flips {
       return false;
     }
     const bool flipped =
-        world_to_disturb(other_)->flip_bit(place.store, place.object, place.field, bit);
+        world_of(game_, other_)->flip_bit(place.store, place.object, place.field, bit);
     return flipped && other_.hash() != hash;
   }
 
   const FlipOptions& options_;
-  scenes::ScenePlay& play_;
+  const GameDef& game_;
+  Simulation& simulation_;
   Simulation& other_;
+  MatchInputs inputs_;
   std::uint64_t random_;
   std::vector<std::byte> native_;
   Tally tally_;
   Progress progress_;
 };
 
-void print(const FlipOptions& options, const Tally& tally) {
+void print(const FlipOptions& options, const std::string& game, const Tally& tally) {
+  const std::string& scene = options.start.scene.empty() ? game : options.start.scene;
   if (options.json) {
-    nlohmann::ordered_json json{{"scene", options.scene},
+    nlohmann::ordered_json json{{"scene", scene},
                                 {"flips", tally.flips},
                                 {"hashed", tally.hashed},
                                 {"named", tally.named},
@@ -138,40 +168,36 @@ void print(const FlipOptions& options, const Tally& tally) {
     return;
   }
   fmt::print("{} flips in {} ticks of {}: {} gave another hash at that tick,\n", tally.flips,
-             options.ticks, options.scene, tally.hashed);
+             options.ticks, scene, tally.hashed);
   fmt::print("{} were named by store, object and field ({} no world would load)\n", tally.named,
              tally.refused);
   for (const auto& [store, count] : tally.stores)
     fmt::print("  {:<8} {:>6}\n", store, count);
 }
 
-int flips(const FlipOptions& options) {
-  const auto play = scenes::make_play(options.scene, options.seed);
-  if (!play) {
-    complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
-    return k_usage;
-  }
-  const auto other = scenes::make_play(options.scene, options.seed);
-  const Tally tally = Flips(options, *play.value(), other.value()->simulation()).run();
-  print(options, tally);
+int flips(const Games& games, const FlipOptions& options) {
+  const std::optional<Match> match = start_match(games, options.start);
+  if (!match) return k_usage;
+  const Result<std::unique_ptr<Simulation>> other = match->game->make(match->config);
+  if (!other) return k_usage;
+  const Tally tally = Flips(options, *match->game, *match->simulation, *other.value()).run();
+  print(options, match->game->name, tally);
   return tally.good() ? k_ok : k_different;
 }
 
 }  // namespace
 
-void add_flips_command(CLI::App& app, int& exit_code) {
+void add_flips_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<FlipOptions>();
   CLI::App* command = app.add_subcommand(
       "flips", "Flip random bits of the state: each must be found at its tick and named");
-  command->add_option("--scene", options->scene, "Name, see `scenes`")->capture_default_str();
+  add_start_options(*command, tool.games, options->start);
   command->add_option("--ticks", options->ticks, "Flip within so many ticks")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--count", options->count, "Flips")->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the scene and of the flips")
-      ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &exit_code] { exit_code = flips(*options); });
+  command->callback([options, &tool] { tool.exit_code = flips(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

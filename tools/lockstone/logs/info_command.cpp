@@ -15,6 +15,7 @@
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -40,7 +41,9 @@ ordered_json header_json(const replay::LogHeader& header) {
           {"match_id", hash_text(header.match.match_id)},
           {"seed", header.match.seed},
           {"start_tick", header.match.start_tick},
-          {"build", header.match.build}};
+          {"build", header.match.build},
+          {"game", header.match.game},
+          {"game_version", header.match.game_version}};
 }
 
 ordered_json damage_json(const replay::Damage& damage) {
@@ -94,8 +97,14 @@ void print_json(const LogInfo& info, const Extras& extras) {
   write_json(json);
 }
 
+std::string game_text(const replay::MatchMetadata& match) {
+  if (match.game.empty()) return "not named";
+  return match.game_version.empty() ? match.game : match.game + ' ' + match.game_version;
+}
+
 void print_header(const replay::LogHeader& header) {
   const SimulationInfo& info = header.info;
+  fmt::print("game          {}\n", game_text(header.match));
   fmt::print("build         {}\n", header.match.build);
   fmt::print("match         {}, seed {}\n", hash_text(header.match.match_id), header.match.seed);
   fmt::print("simulation    abi {:#x}, config {}, scene {}\n", info.abi,
@@ -159,13 +168,13 @@ int info(const InfoOptions& options) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, int& exit_code) {
+void add_info_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", "Summarise a log");
   command->add_option("file", options->file, "A .lks log")->required();
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--events", options->events, "List joins, leaves and substituted inputs");
-  command->callback([options, &exit_code] { exit_code = info(*options); });
+  command->callback([options, &tool] { tool.exit_code = info(*options); });
 }
 
 }  // namespace lockstone::tool

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <lockstone/replay/log_reader.h>
+
 #include "tools/lockstone/support/console.h"
 
 namespace lockstone::tool {
@@ -26,6 +28,35 @@ std::unique_ptr<replay::FileSource> open_log(const std::string& path) {
   if (source) return std::move(source).value();
   complain(fmt::format("{}: {}", path, to_string(source.status())));
   return nullptr;
+}
+
+GameLog find_game_log(const Games& games, const std::string& path) {
+  GameLog log;
+  auto source = replay::FileSource::open(path);
+  if (!source) {
+    log.what = to_string(source.status());
+    log.exit_code = k_corrupt;
+    return log;
+  }
+  log.source = std::move(source).value();
+  log.game = &games.list().front();
+  replay::LogReader reader(*log.source);
+  if (reader.open() != Status::ok) return log;
+  const replay::LogHeader header = reader.header();
+  log.match = header.match;
+  const bool has_config = header.match.game.empty() && reader.next() == replay::LogItem::scene;
+  log.game = games.of_log(header, has_config ? reader.config() : ByteView());
+  if (log.game != nullptr) return log;
+  log.source = nullptr;
+  log.what = foreign_game_text(header.match, games);
+  log.exit_code = k_incompatible;
+  return log;
+}
+
+GameLog open_game_log(const Games& games, const std::string& path) {
+  GameLog log = find_game_log(games, path);
+  if (log.source == nullptr) complain(fmt::format("{}: {}", path, log.what));
+  return log;
 }
 
 std::unique_ptr<replay::FileSink> create_log(const Output& output) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <lockstone/replay/format.h>
 #include <lockstone/replay/signature.h>
 #include <lockstone/replay/sink.h>
 #include <lockstone/replay/source.h>
@@ -13,6 +14,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/output_file.h"
+#include "tools/tool/games.h"
 
 namespace lockstone::tool {
 
@@ -24,6 +26,21 @@ namespace lockstone::tool {
 
 /// Null, with a complaint, when it cannot be opened, or may not be made.
 [[nodiscard]] std::unique_ptr<replay::FileSource> open_log(const std::string& path);
+
+/// A log and the game that plays it.
+struct GameLog {
+  std::unique_ptr<replay::FileSource> source;  ///< null: it cannot be opened, or `game` is null
+  const GameDef* game = nullptr;
+  replay::MatchMetadata match;  ///< of the header, where that can be read
+  std::string what;             ///< why there is no source
+  int exit_code = k_ok;         ///< then
+};
+
+/// A log whose header cannot be read gets the first game: whoever reads on finds the damage.
+[[nodiscard]] GameLog find_game_log(const Games& games, const std::string& path);
+
+/// The same, with a complaint when there is no source.
+[[nodiscard]] GameLog open_game_log(const Games& games, const std::string& path);
 
 /// In its place from the beginning, so that a recorder that is killed leaves a log.
 [[nodiscard]] std::unique_ptr<replay::FileSink> create_log(const Output& output);

@@ -13,17 +13,17 @@
 #include "tools/lockstone/logs/flipping_simulation.h"
 #include "tools/lockstone/logs/log_commands.h"
 #include "tools/lockstone/logs/log_file.h"
-#include "tools/lockstone/logs/match_inputs.h"
 #include "tools/lockstone/support/console.h"
+#include "tools/tool/start_match.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
 
 struct RecordOptions {
-  std::string scene = "arena";
+  StartOptions start;
   std::string out;
   std::uint64_t ticks = 600;
-  std::uint64_t seed = 1;
   std::optional<std::uint32_t> keyframes;
   bool plain = false;
   std::string key;
@@ -43,9 +43,10 @@ bool prepare(const RecordOptions& options, replay::RecorderOptions& recorder) {
   return recorder.signing_key.has_value();
 }
 
-Status play(const RecordOptions& options, Simulation& simulation, replay::Recorder& recorder) {
+Status play(const RecordOptions& options, const GameDef& game, Simulation& simulation,
+            replay::Recorder& recorder) {
   Progress progress;
-  MatchInputs inputs(options.seed);
+  MatchInputs inputs(game, options.start.seed);
   for (std::uint64_t tick = 0; tick < options.ticks; ++tick) {
     progress.show("record", tick, options.ticks);
     const std::span<const PlayerInput> pressed = inputs.next(unwrapped(simulation));
@@ -56,14 +57,17 @@ Status play(const RecordOptions& options, Simulation& simulation, replay::Record
   return recorder.finish("recorded");
 }
 
-int record(const RecordOptions& options) {
-  Result<Match> match = make_match(options.scene, options.seed);
-  if (!match) {
-    complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
-    return k_usage;
+int record(const Games& games, const RecordOptions& options) {
+  std::optional<Match> match = start_match(games, options.start);
+  if (!match) return k_usage;
+  std::unique_ptr<Simulation> made = std::move(match->simulation);
+  if (options.flip_bit_at) {
+    if (world_of(*match->game, *made) == nullptr) {
+      complain("--flip-bit-at: the game shows no world to flip a bit of");
+      return k_usage;
+    }
+    made = make_flipping(*match->game, std::move(made), *options.flip_bit_at);
   }
-  std::unique_ptr<Simulation> made = std::move(match.value().simulation);
-  if (options.flip_bit_at) made = make_flipping(std::move(made), *options.flip_bit_at);
   Simulation& simulation = *made;
   replay::RecorderOptions recorder_options{
       .keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical)};
@@ -71,12 +75,11 @@ int record(const RecordOptions& options) {
   const std::unique_ptr<replay::FileSink> sink = create_log({options.out, options.force});
   if (sink == nullptr) return k_unavailable;
   replay::Recorder recorder(*sink, recorder_options);
-  const std::vector<std::byte>& config = match.value().config;
-  Status status = recorder.begin(simulation.info(), config,
-                                 {.match_id = options.match_id.value_or(random_match_id()),
-                                  .seed = options.seed,
-                                  .build = "lockstone " LOCKSTONE_VERSION});
-  if (status == Status::ok) status = play(options, simulation, recorder);
+  replay::MatchMetadata metadata{.match_id = options.match_id.value_or(random_match_id()),
+                                 .seed = options.start.seed};
+  name_game(*match->game, metadata);
+  Status status = recorder.begin(simulation.info(), match->config, metadata);
+  if (status == Status::ok) status = play(options, *match->game, simulation, recorder);
   if (status == Status::ok) {
     fmt::print("{}: {} ticks, final hash {}\n", options.out, options.ticks,
                hash_text(simulation.hash()));
@@ -88,14 +91,12 @@ int record(const RecordOptions& options) {
 
 }  // namespace
 
-void add_record_command(CLI::App& app, int& exit_code) {
+void add_record_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<RecordOptions>();
-  CLI::App* command = app.add_subcommand("record", "Run a scene, or bots in the arena, into a log");
+  CLI::App* command = app.add_subcommand("record", "Play a match of bots into a log");
   command->add_option("out", options->out, "The log to write (.lks)")->required();
-  command->add_option("--scene", options->scene, "Name, see `scenes`")->capture_default_str();
+  add_start_options(*command, tool.games, options->start);
   command->add_option("--ticks", options->ticks, "Ticks to record")->capture_default_str();
-  command->add_option("--seed", options->seed, "For scenes with chance in them")
-      ->capture_default_str();
   command->add_option("--keyframes", options->keyframes,
                       "Ticks between keyframes; 0: none [600, at first 150]");
   command->add_flag("--plain", options->plain, "Compress nothing, so that every build can read it");
@@ -105,7 +106,7 @@ void add_record_command(CLI::App& app, int& exit_code) {
   command->add_option("--match-id", options->match_id,
                       "Number of the match; chosen at random when left out");
   add_force_option(*command, options->force);
-  command->callback([options, &exit_code] { exit_code = record(*options); });
+  command->callback([options, &tool] { tool.exit_code = record(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

@@ -7,7 +7,6 @@
 
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/support/console.h"
-#include "tools/scenes/play.h"
 
 namespace lockstone::tool {
 namespace {
@@ -36,7 +35,7 @@ std::optional<std::uint64_t> read_all(const std::string& path, replay::LogReader
   replay::LogItem item = reader.next();
   for (; !is_last(item); item = reader.next()) {
     if (item == replay::LogItem::scene) {
-      match.config.assign(reader.config().begin(), reader.config().end());
+      match.match.config.assign(reader.config().begin(), reader.config().end());
     }
     if (item != replay::LogItem::hashes) continue;
     ticks = reader.chunk().first_tick + reader.hashes().size();
@@ -69,17 +68,18 @@ Status copy_item(replay::LogItem item, const replay::LogReader& reader,
 
 }  // namespace
 
-std::optional<ResumedMatch> load_killed_match(const std::string& path) {
-  const std::unique_ptr<replay::FileSource> source = open_log(path);
-  if (source == nullptr) return std::nullopt;
+std::optional<ResumedMatch> load_killed_match(const Games& games, const std::string& path) {
+  const GameLog log = open_game_log(games, path);
+  if (log.source == nullptr) return std::nullopt;
   ResumedMatch match;
-  replay::LogReader reader(*source);
+  match.match.game = log.game;
+  replay::LogReader reader(*log.source);
   const std::optional<std::uint64_t> ticks = read_all(path, reader, match);
   if (!ticks) return std::nullopt;
-  replay::SeekResult found = replay::seek(*source, scenes::make_simulation, *ticks);
+  replay::SeekResult found = replay::seek(*log.source, log.game->make, *ticks);
   if (found.status != Status::ok) return refuse(path, found.what);
   if (found.diverged || !found.same_canary) return refuse(path, "its ticks give other states here");
-  match.simulation = std::move(found.simulation);
+  match.match.simulation = std::move(found.simulation);
   return match;
 }
 

@@ -12,19 +12,21 @@
 #include <lockstone/replay/recorder.h>
 #include <lockstone/simulation.h>
 
+#include "tools/tool/games.h"
+
 namespace lockstone::tool {
 
 /// The state after the last tick whose hash is in the log, and who played then.
 struct ResumedMatch {
-  std::vector<std::byte> config;
+  Match match;
   replay::LogHeader header;
-  std::unique_ptr<Simulation> simulation;
   std::uint16_t playing_mask = 0;  ///< bit n: slot n had a player in the last tick
 };
 
 /// Nothing, with a complaint: no log, one that has its end, that is damaged in the middle, or whose
 /// ticks give other hashes here.
-[[nodiscard]] std::optional<ResumedMatch> load_killed_match(const std::string& path);
+[[nodiscard]] std::optional<ResumedMatch> load_killed_match(const Games& games,
+                                                            const std::string& path);
 
 /// Copies the log at `path` into the recorder, keyframes and events included. The recorder has
 /// begun and stands at its first tick.

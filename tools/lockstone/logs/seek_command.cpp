@@ -14,8 +14,7 @@
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
-#include "tools/render/svg.h"
-#include "tools/scenes/play.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -37,13 +36,9 @@ bool write_state(const SeekOptions& options, const Simulation& simulation) {
                          std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
-bool draw(const SeekOptions& options, const Simulation& simulation) {
-  const World* world = scenes::world_of(simulation);
-  if (options.svg.empty() || world == nullptr) return true;
-  render::Picture picture;
-  picture.caption = fmt::format("tick {}   {}", simulation.tick(), hash_text(simulation.hash()));
-  picture.style = render::arena_look;
-  return write_text_file({options.svg, options.force}, render::draw(*world, picture));
+bool draw(const SeekOptions& options, const GameDef& game, const Simulation& simulation) {
+  if (options.svg.empty()) return true;
+  return write_text_file({options.svg, options.force}, game.draw(simulation));
 }
 
 void print(const SeekOptions& options, const replay::SeekResult& found) {
@@ -61,21 +56,25 @@ void print(const SeekOptions& options, const replay::SeekResult& found) {
   if (found.diverged) fmt::print("another hash than the log's at tick {}\n", found.diverged_tick);
 }
 
-int seek(const SeekOptions& options) {
+int seek(const Games& games, const SeekOptions& options) {
   const bool writable =
       may_write({options.state, options.force}) && may_write({options.svg, options.force});
   if (!writable) return k_unavailable;
-  const auto source = open_log(options.file);
-  if (source == nullptr) return k_corrupt;
+  const GameLog log = open_game_log(games, options.file);
+  if (log.source == nullptr) return log.exit_code;
+  if (!options.svg.empty() && !log.game->draw) {
+    complain(fmt::format("--svg: the game '{}' draws no pictures", log.game->name));
+    return k_usage;
+  }
   const replay::SeekResult found =
-      replay::seek(*source, scenes::make_simulation, options.tick,
+      replay::seek(*log.source, log.game->make, options.tick,
                    options.replay ? replay::SeekFrom::beginning : replay::SeekFrom::keyframe);
   if (found.status != Status::ok) {
     complain(fmt::format("{}: {}", options.file, found.what));
     return exit_code_of(found.status);
   }
   print(options, found);
-  if (!write_state(options, *found.simulation) || !draw(options, *found.simulation)) {
+  if (!write_state(options, *found.simulation) || !draw(options, *log.game, *found.simulation)) {
     return k_unavailable;
   }
   return found.diverged ? k_different : k_ok;
@@ -83,7 +82,7 @@ int seek(const SeekOptions& options) {
 
 }  // namespace
 
-void add_seek_command(CLI::App& app, int& exit_code) {
+void add_seek_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<SeekOptions>();
   CLI::App* command = app.add_subcommand("seek", "Bring a match to a tick, and show or save it");
   command->add_option("file", options->file, "A .lks log")->required();
@@ -94,7 +93,7 @@ void add_seek_command(CLI::App& app, int& exit_code) {
   add_force_option(*command, options->force);
   command->add_flag("--replay", options->replay, "Use no keyframe but the first");
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &exit_code] { exit_code = seek(*options); });
+  command->callback([options, &tool] { tool.exit_code = seek(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

@@ -5,12 +5,14 @@
 #include <lockstone/profile.h>
 #include <lockstone/world.h>
 
-#include "tools/lockstone/logs/flipping_simulation.h"
+#include "tools/tool/games.h"
 
 namespace lockstone::tool {
 
-StageTrace step_traced(Simulation& simulation, std::span<const PlayerInput> inputs) {
-  World* world = world_to_disturb(simulation);
+StageTrace step_traced(const GameDef& game, Simulation& simulation,
+                       std::span<const PlayerInput> inputs) {
+  if (auto* own = dynamic_cast<SelfTracing*>(&simulation)) return own->step_traced(inputs);
+  World* world = world_of(game, simulation);
   if (world == nullptr) {
     simulation.step(inputs);
     return {};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <lockstone/simulation.h>
+#include <lockstone/tool.h>
 
 namespace lockstone::tool {
 
@@ -16,10 +17,18 @@ struct StageDigest {
 };
 using StageTrace = std::vector<StageDigest>;
 
+/// A simulation that traces its own stages, because its world is out of reach.
+class SelfTracing {
+ public:
+  virtual ~SelfTracing() = default;
+  [[nodiscard]] virtual StageTrace step_traced(std::span<const PlayerInput> inputs) = 0;
+};
+
 /// Steps once; returns the hashes of the stages in their order, between `commands`, the state they
 /// began with, and `rules`, the state after the game's own rules. Empty for a simulation without a
 /// world.
-[[nodiscard]] StageTrace step_traced(Simulation& simulation, std::span<const PlayerInput> inputs);
+[[nodiscard]] StageTrace step_traced(const GameDef& game, Simulation& simulation,
+                                     std::span<const PlayerInput> inputs);
 
 /// The first stage with another digest; empty when there is none, or one of the two is empty.
 [[nodiscard]] std::string first_difference(const StageTrace& here, const StageTrace& there);

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include <lockstone/replay/source.h>
 #include <lockstone/status.h>
 
+#include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/logs/stage_trace.h"
 
 namespace lockstone::tool {
@@ -19,9 +19,9 @@ struct Trace {
 };
 
 /// Hashes after the stages of a tick, simulated from the log's beginning.
-[[nodiscard]] std::optional<StageTrace> stages_of(replay::Source& source, std::uint64_t tick);
+[[nodiscard]] std::optional<StageTrace> stages_of(const GameLog& log, std::uint64_t tick);
 
 /// Simulates from the log's beginning. On an error it complains.
-[[nodiscard]] Result<Trace> trace_log(replay::Source& source);
+[[nodiscard]] Result<Trace> trace_log(const GameLog& log);
 
 }  // namespace lockstone::tool

@@ -13,7 +13,7 @@
 #include "tools/lockstone/logs/trace.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
-#include "tools/scenes/play.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -28,8 +28,8 @@ void print_hashes(const Trace& trace) {
 }
 
 // Prints the hashes after the stages of one tick.
-int print_stages(replay::Source& source, std::uint64_t tick) {
-  const std::optional<StageTrace> stages = stages_of(source, tick);
+int print_stages(const GameLog& log, std::uint64_t tick) {
+  const std::optional<StageTrace> stages = stages_of(log, tick);
   if (!stages) return k_corrupt;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const StageDigest& stage : *stages)
@@ -38,11 +38,12 @@ int print_stages(replay::Source& source, std::uint64_t tick) {
   return k_ok;
 }
 
-int trace(const std::string& file, const std::optional<std::uint64_t>& stages_at) {
-  const auto source = open_log(file);
-  if (source == nullptr) return k_corrupt;
-  if (stages_at) return print_stages(*source, *stages_at);
-  const Result<Trace> trace = trace_log(*source);
+int trace(const Games& games, const std::string& file,
+          const std::optional<std::uint64_t>& stages_at) {
+  const GameLog log = open_game_log(games, file);
+  if (log.source == nullptr) return log.exit_code;
+  if (stages_at) return print_stages(log, *stages_at);
+  const Result<Trace> trace = trace_log(log);
   if (!trace) return exit_code_of(trace.status());
   print_hashes(trace.value());
   return k_ok;
@@ -50,21 +51,21 @@ int trace(const std::string& file, const std::optional<std::uint64_t>& stages_at
 
 }  // namespace
 
-std::optional<StageTrace> stages_of(replay::Source& source, std::uint64_t tick) {
+std::optional<StageTrace> stages_of(const GameLog& log, std::uint64_t tick) {
   replay::SeekResult found =
-      replay::seek(source, scenes::make_simulation, tick, replay::SeekFrom::beginning);
+      replay::seek(*log.source, log.game->make, tick, replay::SeekFrom::beginning);
   if (found.status == Status::ok && found.ticks->next())
-    return step_traced(*found.simulation, found.ticks->inputs());
+    return step_traced(*log.game, *found.simulation, found.ticks->inputs());
   complain(found.what.empty() ? "the log ends before that tick" : found.what);
   return std::nullopt;
 }
 
-Result<Trace> trace_log(replay::Source& source) {
-  replay::LogReader header(source);
+Result<Trace> trace_log(const GameLog& log) {
+  replay::LogReader header(*log.source);
   if (const Status status = header.open(); status != Status::ok) return status;
   const std::uint64_t first = header.header().match.start_tick;
   replay::SeekResult found =
-      replay::seek(source, scenes::make_simulation, first, replay::SeekFrom::beginning);
+      replay::seek(*log.source, log.game->make, first, replay::SeekFrom::beginning);
   if (found.status != Status::ok) {
     complain(found.what);
     return found.status;
@@ -82,14 +83,15 @@ Result<Trace> trace_log(replay::Source& source) {
   return trace;
 }
 
-void add_trace_command(CLI::App& app, int& exit_code) {
+void add_trace_command(CLI::App& app, Tool& tool) {
   auto file = std::make_shared<std::string>();
   auto stages_at = std::make_shared<std::optional<std::uint64_t>>();
   CLI::App* command = app.add_subcommand(
       "trace", "Print, as JSON, the hash that this build computes for each tick of a log");
   command->add_option("file", *file, "A .lks log")->required();
   command->add_option("--stages", *stages_at, "Instead, the hashes after each stage of this tick");
-  command->callback([file, stages_at, &exit_code] { exit_code = trace(*file, *stages_at); });
+  command->callback(
+      [file, stages_at, &tool] { tool.exit_code = trace(tool.games, *file, *stages_at); });
 }
 
 }  // namespace lockstone::tool

@@ -21,6 +21,7 @@
 #include "tools/lockstone/support/output_file.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -38,7 +39,7 @@ std::string token_path(const std::string& folder, unsigned slot) {
 // A token for each player, in files of the folder. False, with a complaint, when there are none.
 bool issue_tokens(const DemoOptions& options, const std::string& folder) {
   net::SystemRandom random;
-  for (unsigned slot = 0; slot < options.match.players; ++slot) {
+  for (unsigned slot = 0; slot < options.match.start.players; ++slot) {
     net::TokenGrant grant;
     grant.match = options.match.match;
     grant.player = slot;
@@ -54,15 +55,16 @@ bool issue_tokens(const DemoOptions& options, const std::string& folder) {
 std::vector<ChildProcess> start_players(const DemoOptions& options, const std::string& folder,
                                         std::uint16_t port) {
   std::vector<ChildProcess> players;
-  for (unsigned slot = 0; slot < options.match.players; ++slot) {
-    std::vector<std::string> arguments{"join",       "--quiet",
-                                       "--port",     std::to_string(port),
-                                       "--bot-seed", std::to_string(options.match.seed + slot),
-                                       "--slot",     std::to_string(slot),
-                                       "--name",     fmt::format("bot {}", slot)};
+  for (unsigned slot = 0; slot < options.match.start.players; ++slot) {
+    std::vector<std::string> arguments{
+        "join",       "--quiet",
+        "--port",     std::to_string(port),
+        "--bot-seed", std::to_string(options.match.start.seed + slot),
+        "--slot",     std::to_string(slot),
+        "--name",     fmt::format("bot {}", slot)};
     arguments.push_back(options.match.insecure ? "--insecure" : "--token");
     if (!options.match.insecure) arguments.push_back(token_path(folder, slot));
-    if (options.flip_bit_at && slot + 1 == options.match.players) {
+    if (options.flip_bit_at && slot + 1 == options.match.start.players) {
       arguments.push_back("--flip-bit-at");
       arguments.push_back(std::to_string(*options.flip_bit_at));
     }
@@ -86,7 +88,7 @@ struct Verification {
   double seconds = 0;
 };
 
-Verification verify_log(const std::string& path) {
+Verification verify_log(const GameDef& game, const std::string& path) {
   Verification result;
   auto source = replay::FileSource::open(path);
   if (!source) {
@@ -96,7 +98,7 @@ Verification verify_log(const std::string& path) {
   Progress progress;
   const Stopwatch watch;
   result.report = replay::verify(
-      *source.value(), scenes::make_simulation, {.strict = true},
+      *source.value(), game.make, {.strict = true},
       [&](std::uint64_t ticks, std::uint64_t total) { progress.show("verify", ticks, total); });
   result.seconds = watch.seconds();
   return result;
@@ -191,7 +193,7 @@ int exit_code_for(const MatchSummary& summary, const Verification& verification,
   return players_ok ? k_ok : k_unavailable;
 }
 
-int demo(DemoOptions options) {
+int demo(const Games& games, DemoOptions options) {
   if (!may_write({options.svg, options.match.force})) return k_unavailable;
   catch_interrupts();
   const PrivateFolder folder;
@@ -202,7 +204,7 @@ int demo(DemoOptions options) {
     if (folder.path().empty() || !issue_tokens(options, folder.path())) return k_unavailable;
   }
   options.match.max_per_address = 64;  // all are on this machine
-  const std::unique_ptr<MatchHost> host = MatchHost::create(options.match);
+  const std::unique_ptr<MatchHost> host = MatchHost::create(games, options.match);
   if (host == nullptr) return k_unavailable;
   std::vector<ChildProcess> players = start_players(options, folder.path(), host->port());
   play(*host);
@@ -210,7 +212,7 @@ int demo(DemoOptions options) {
   for (ChildProcess& player : players)
     players_ok = player.wait(5) == k_ok && players_ok;
   const MatchSummary summary = host->finish();
-  const Verification verification = verify_log(options.match.record);
+  const Verification verification = verify_log(host->game(), options.match.record);
   const bool drawn = draw_end(options, *host);
   print_summary(options, summary, verification, host->simulation());
   const int code = exit_code_for(summary, verification, players_ok);
@@ -219,19 +221,20 @@ int demo(DemoOptions options) {
 
 }  // namespace
 
-void add_demo_command(CLI::App& app, int& exit_code) {
+void add_demo_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<DemoOptions>();
   options->match.record = "demo.lks";
   options->match.ticks = 900;
+  options->match.start.players = 4;
   CLI::App* command = app.add_subcommand(
       "demo", "Play a match of bots on this machine, one process each, and verify its log");
-  add_match_options(*command, options->match);
+  add_match_options(*command, tool.games, options->match);
   command->add_option("--record", options->match.record, "The log")->capture_default_str();
   command->add_option("--svg", options->svg, "A picture of the end")->capture_default_str();
   command->add_flag("--insecure", options->match.insecure, "Without tokens and encryption");
   command->add_option("--flip-bit-at", options->flip_bit_at,
                       "Let the last player go wrong by one bit at this tick: it must be found");
-  command->callback([options, &exit_code] { exit_code = demo(*options); });
+  command->callback([options, &tool] { tool.exit_code = demo(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

@@ -15,8 +15,6 @@
 #include <lockstone/net/transport_enet.h>
 #include <lockstone/net/transport_secure.h>
 
-#include "tools/arena/arena_simulation.h"
-#include "tools/arena/bots.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/flipping_simulation.h"
 #include "tools/lockstone/match/secrets.h"
@@ -26,7 +24,7 @@
 #include "tools/lockstone/support/interrupt.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/relay/stall_watch.h"
-#include "tools/scenes/play.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -48,24 +46,50 @@ struct JoinOptions {
   bool quiet = false;
 };
 
+/// A client's copy of the match: made by whichever game knows its configuration.
+class JoinedGame {
+ public:
+  JoinedGame(const Games& games, std::optional<std::uint64_t> flip_bit_at)
+      : games_(games), flip_bit_at_(flip_bit_at) {}
+
+  [[nodiscard]] SimulationFactory factory() {
+    return [this](ByteView config) -> Result<std::unique_ptr<Simulation>> {
+      Result<std::unique_ptr<Simulation>> made = Status::not_found;
+      for (const GameDef& game : games_.list()) {
+        made = game.make(config);
+        game_ = &game;
+        if (made) break;
+      }
+      if (!made || !flip_bit_at_) return made;
+      return make_flipping(*game_, std::move(made).value(), *flip_bit_at_);
+    };
+  }
+
+  /// The first game until a simulation is made.
+  [[nodiscard]] const GameDef& game() const { return *game_; }
+
+ private:
+  const Games& games_;
+  const GameDef* game_ = &games_.list().front();
+  std::optional<std::uint64_t> flip_bit_at_;
+};
+
 /// Plays for the local player, by the state of this client's own simulation.
 class BotInputs final : public net::InputSource {
  public:
-  explicit BotInputs(std::uint64_t seed) : seed_(seed) {}
+  BotInputs(const JoinedGame& joined, std::uint64_t seed) : joined_(joined), seed_(seed) {}
 
   void watch(const net::Client& client) { client_ = &client; }
 
   void sample(std::uint64_t tick, std::span<std::byte> out) override {
     const Simulation* simulation = client_->simulation();
     if (simulation == nullptr || client_->slot() == net::k_no_slot) return;
-    const auto* game = dynamic_cast<const arena::ArenaSimulation*>(&unwrapped(*simulation));
-    if (game == nullptr) return;  // a scene without players: neutral inputs
-    arena::Input input = arena::bot_input(game->arena(), seed_, client_->slot());
-    input.sequence = static_cast<std::uint16_t>(tick & 0xffff);
-    input.encode(out);
+    const BotView view{unwrapped(*simulation), seed_, client_->slot(), tick};
+    static_cast<void>(press(joined_.game(), view, out));  // neutral inputs where nobody plays
   }
 
  private:
+  const JoinedGame& joined_;
   std::uint64_t seed_;
   const net::Client* client_ = nullptr;
 };
@@ -178,15 +202,6 @@ int conclude(const JoinOptions& options, const net::Client& client, const JoinOb
                hash_text(observer.final_hash));
   }
   return k_ok;
-}
-
-SimulationFactory factory_for(const JoinOptions& options) {
-  if (!options.flip_bit_at) return scenes::make_simulation;
-  return [tick = *options.flip_bit_at](ByteView config) -> Result<std::unique_ptr<Simulation>> {
-    Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
-    if (!made) return made;
-    return make_flipping(std::move(made).value(), tick);
-  };
 }
 
 // A connection on its way, encrypted if there is a token.
@@ -380,7 +395,7 @@ int find_targets(const JoinOptions& options, const std::optional<net::ConnectTok
   return k_usage;
 }
 
-int join(const JoinOptions& options) {
+int join(const Games& games, const JoinOptions& options) {
   constexpr std::int64_t k_patience_us = 2'000'000;  // with a server that may be elsewhere
   catch_interrupts();
   std::optional<net::ConnectToken> token;
@@ -390,7 +405,8 @@ int join(const JoinOptions& options) {
   Targets targets(std::move(found));
   const std::unique_ptr<Caller> caller = call(targets, token);
   if (caller == nullptr) return k_unavailable;
-  BotInputs inputs(options.bot_seed);
+  JoinedGame joined(games, options.flip_bit_at);
+  BotInputs inputs(joined, options.bot_seed);
   JoinObserver observer(options.quiet);
   net::ClientConfig config;
   if (targets.count() > 1) config.timeouts.handshake_us = k_patience_us;
@@ -398,10 +414,10 @@ int join(const JoinOptions& options) {
   config.name = options.name;
   config.wanted_slot =
       static_cast<std::uint8_t>(options.spectate ? net::k_spectator_slot : options.slot);
-  config.build = build_text();
+  config.build = build_text(build_of(joined.game()));
   config.prediction_ticks = static_cast<std::uint8_t>(options.predict);
   const net::Client::Created created = net::Client::create(
-      config, {caller->transport(), caller->connection, factory_for(options), &inputs, &observer});
+      config, {caller->transport(), caller->connection, joined.factory(), &inputs, &observer});
   if (created.client == nullptr) {
     complain(std::string(to_string(created.error)));
     return k_usage;
@@ -413,7 +429,7 @@ int join(const JoinOptions& options) {
 
 }  // namespace
 
-void add_join_command(CLI::App& app, int& exit_code) {
+void add_join_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<JoinOptions>();
   CLI::App* command = app.add_subcommand("join", "Play in a match over UDP, as a bot");
   CLI::Option* server = command->add_option(
@@ -443,7 +459,7 @@ void add_join_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_flag("--quiet", options->quiet, "Print failures only");
   command->add_option("--flip-bit-at", options->flip_bit_at, "")->group("");  // for tests: hidden
-  command->callback([options, &exit_code] { exit_code = join(*options); });
+  command->callback([options, &tool] { tool.exit_code = join(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

@@ -14,6 +14,8 @@
 #include "tools/lockstone/support/interrupt.h"
 #include "tools/relay/lossy_relay.h"
 #include "tools/relay/trial_match.h"
+#include "tools/tool/start_match.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -113,8 +115,10 @@ void print_bots(const LossyOptions& options, const relay::TrialMatch& match) {
   }
 }
 
-int play_match(const LossyOptions& options) {
+int play_match(const Games& games, const LossyOptions& options) {
+  if (!has_matches(games)) return k_usage;
   relay::TrialOptions trial;
+  trial.game = &games.list().front();
   trial.players = options.players;
   trial.seed = options.seed;
   trial.ticks = static_cast<std::uint64_t>(options.match * 60);
@@ -122,7 +126,7 @@ int play_match(const LossyOptions& options) {
   trial.faults = faults_of(options);
   const auto match = relay::TrialMatch::create(trial);
   if (match == nullptr) {
-    complain("no match: no socket, or no libsodium");
+    complain("no match: no socket, no libsodium, or the game refuses so many players");
     return k_unavailable;
   }
   using namespace std::chrono_literals;
@@ -160,7 +164,7 @@ void add_fault_options(CLI::App& command, LossyOptions& options) {
 
 }  // namespace
 
-void add_lossy_command(CLI::App& app, int& exit_code) {
+void add_lossy_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<LossyOptions>();
   CLI::App* command = app.add_subcommand(
       "lossy", "Relay UDP as a bad network would, to a server or in a match of bots");
@@ -181,13 +185,14 @@ void add_lossy_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--pause", options->pause, "Stop its last player for so many seconds");
   match->excludes(to);
-  command->callback([options, &exit_code] {
+  command->callback([options, &tool] {
     if (options->match <= 0 && options->to == 0) {
       complain("give --to PORT or --match SECONDS");
-      exit_code = k_usage;
+      tool.exit_code = k_usage;
       return;
     }
-    exit_code = options->match > 0 ? play_match(*options) : relay_to_server(*options);
+    tool.exit_code =
+        options->match > 0 ? play_match(tool.games, *options) : relay_to_server(*options);
   });
 }
 

@@ -16,8 +16,8 @@
 #include <lockstone/net/transport_secure.h>
 #include <lockstone/replay/background_sink.h>
 #include <lockstone/replay/sink.h>
+#include <lockstone/world.h>
 
-#include "tools/arena/config.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/logs/resume.h"
@@ -25,25 +25,10 @@
 #include "tools/lockstone/support/build_text.h"
 #include "tools/lockstone/support/output_file.h"
 #include "tools/lockstone/support/tar.h"
-#include "tools/scenes/play.h"
-#include "tools/scenes/scene_simulation.h"
+#include "tools/tool/games.h"
 
 namespace lockstone::tool {
 namespace {
-
-std::vector<std::byte> config_bytes(const MatchOptions& options) {
-  const auto to_vector = [](const auto& bytes) {
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
-  };
-  if (options.scene != "arena") {
-    return to_vector(scenes::encode_config(options.scene, options.seed));
-  }
-  arena::ArenaConfig config;
-  config.seed = options.seed;
-  config.players = static_cast<std::uint8_t>(options.players);
-  config.loose_bodies = options.bodies;
-  return to_vector(config.encode());
-}
 
 net::ServerConfig server_config(const MatchOptions& options, std::vector<std::byte> match_config,
                                 ByteView unguessable) {
@@ -68,8 +53,8 @@ net::ServerConfig server_config(const MatchOptions& options, std::vector<std::by
 /// full disk must not end the match.
 class MatchLog {
  public:
-  [[nodiscard]] Status open(const MatchOptions& options, const Simulation& simulation,
-                            ByteView config) {
+  [[nodiscard]] Status open(const MatchOptions& options, const GameDef& game,
+                            const Simulation& simulation, ByteView config) {
     if (options.record.empty() && options.bundle.empty()) return Status::ok;
     if (options.record.empty()) {
       auto memory = std::make_unique<replay::MemorySink>();
@@ -87,10 +72,8 @@ class MatchLog {
     recorder_options.signing_key = options.signing_key;
     background_.emplace(*sink_);
     recorder_.emplace(*background_, recorder_options);
-    const replay::MatchMetadata match{.match_id = random_match_id(),
-                                      .seed = options.seed,
-                                      .start_tick = 0,
-                                      .build = "lockstone " LOCKSTONE_VERSION};
+    replay::MatchMetadata match{.match_id = random_match_id(), .seed = options.start.seed};
+    name_game(game, match);
     const Status begun = recorder_->begin(simulation.info(), config, match);
     return note(begun == Status::ok && !options.resume.empty() ? take_over(options) : begun);
   }
@@ -155,9 +138,11 @@ class MatchLog {
 }  // namespace
 
 struct MatchHost::Impl final : net::ServerObserver {
+  explicit Impl(const Games& known) : games(known) {}
+
+  const Games& games;
   MatchOptions options;
-  std::vector<std::byte> config;
-  std::unique_ptr<Simulation> simulation;
+  Match match;
   net::SystemRandom random;
   std::unique_ptr<net::EnetTransport> transport;
   std::unique_ptr<net::SecureTransport> secure;
@@ -188,7 +173,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     }
     last_tick_seconds = now;
     summary.final_hash = hash.value_or(0);
-    log.record(*simulation, tick, inputs, summary.final_hash);
+    log.record(*match.simulation, tick, inputs, summary.final_hash);
   }
   void player_joined(std::uint8_t slot, std::string_view name) override {
     say(fmt::format("player {} joined: {}", slot, name));
@@ -228,7 +213,8 @@ struct MatchHost::Impl final : net::ServerObserver {
     const std::string text = fmt::format(
         "{}\nverdict: {}\nhash here:  {}\nhash there: {}\nbuild here:  {}\nbuild there: {}\n",
         report.to_line(), to_string(report.verdict), hash_text(report.hash_here),
-        hash_text(report.hash_there), report.build_here.empty() ? build_text() : report.build_here,
+        hash_text(report.hash_there),
+        report.build_here.empty() ? build_text(build_of(*match.game)) : report.build_here,
         report.build_there);
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
     bundle.push_back({"report.txt", {begin, begin + text.size()}});
@@ -249,8 +235,9 @@ struct MatchHost::Impl final : net::ServerObserver {
   }
   void match_started() override {
     started_seconds = watch.seconds();
-    say(fmt::format("the match begins: {} players, {} bodies", options.players,
-                    scenes::world_of(*simulation)->body_count()));
+    const World* world = world_of(*match.game, *match.simulation);
+    say(fmt::format("the match begins: {} players{}", match.simulation->info().player_count,
+                    world == nullptr ? "" : fmt::format(", {} bodies", world->body_count())));
   }
   void match_finished(net::FinishReason reason, std::uint64_t,
                       std::optional<std::uint64_t>) override {
@@ -259,25 +246,24 @@ struct MatchHost::Impl final : net::ServerObserver {
 
   [[nodiscard]] bool make_simulation() {
     if (!options.resume.empty()) return take_up();
-    config = config_bytes(options);
-    Result<std::unique_ptr<Simulation>> made = scenes::make_simulation(config);
-    if (!made) return refuse(fmt::format("scene {}: {}", options.scene, to_string(made.status())));
-    simulation = std::move(made).value();
+    std::optional<Match> started = start_match(games, options.start);
+    if (!started) return false;
+    match = std::move(*started);
+    options.start.players = match.simulation->info().player_count;
     return true;
   }
 
   // The scene comes from the log, everything else from the options.
   [[nodiscard]] bool take_up() {
-    std::optional<ResumedMatch> match = load_killed_match(options.resume);
-    if (!match) return false;
-    config = std::move(match->config);
-    simulation = std::move(match->simulation);
-    resume_mask = match->playing_mask;
-    options.players = simulation->info().player_count;
-    options.seed = match->header.match.seed;
+    std::optional<ResumedMatch> resumed = load_killed_match(games, options.resume);
+    if (!resumed) return false;
+    match = std::move(resumed->match);
+    resume_mask = resumed->playing_mask;
+    options.start.players = match.simulation->info().player_count;
+    options.start.seed = resumed->header.match.seed;
     if (options.record.empty()) options.record = options.resume;
-    ticks_seen = simulation->tick();
-    say(fmt::format("{} goes on at tick {}", options.resume, simulation->tick()));
+    ticks_seen = match.simulation->tick();
+    say(fmt::format("{} goes on at tick {}", options.resume, match.simulation->tick()));
     return true;
   }
 
@@ -303,7 +289,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     if (!listening) return refuse("cannot listen on " + problem);
     transport = std::move(listening).value();
     if (options.key && !encrypt()) return false;
-    const Status status = log.open(options, *simulation, config);
+    const Status status = log.open(options, *match.game, *match.simulation, match.config);
     if (status != Status::ok) {
       return refuse(fmt::format("cannot write {}: {}", options.record, to_string(status)));
     }
@@ -313,10 +299,10 @@ struct MatchHost::Impl final : net::ServerObserver {
     }
     std::array<std::byte, 16> unguessable{};
     random.fill(unguessable);
-    net::ServerConfig server_options = server_config(options, config, unguessable);
+    net::ServerConfig server_options = server_config(options, match.config, unguessable);
     server_options.resume_mask = resume_mask;
-    net::Server::Created created =
-        net::Server::create(server_options, {session_transport(), simulation.get(), nullptr, this});
+    net::Server::Created created = net::Server::create(
+        server_options, {session_transport(), match.simulation.get(), nullptr, this});
     server = std::move(created.server);
     if (server == nullptr) return refuse(std::string(to_string(created.error)));
     return true;
@@ -325,7 +311,7 @@ struct MatchHost::Impl final : net::ServerObserver {
   // All seats, and strangers at the door.
   [[nodiscard]] std::size_t connections() const {
     constexpr std::size_t k_strangers = 16;
-    return options.players + options.spectators + k_strangers;
+    return options.start.players + options.spectators + k_strangers;
   }
 
   [[nodiscard]] bool encrypt() {
@@ -355,8 +341,8 @@ struct MatchHost::Impl final : net::ServerObserver {
 MatchHost::MatchHost(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 MatchHost::~MatchHost() = default;
 
-std::unique_ptr<MatchHost> MatchHost::create(const MatchOptions& options) {
-  auto impl = std::make_unique<Impl>();
+std::unique_ptr<MatchHost> MatchHost::create(const Games& games, const MatchOptions& options) {
+  auto impl = std::make_unique<Impl>(games);
   impl->options = options;
   if (!impl->set_up()) return nullptr;
   return std::unique_ptr<MatchHost>(new MatchHost(std::move(impl)));
@@ -397,14 +383,18 @@ MatchSummary MatchHost::finish() {
   summary.seconds = std::max(0.0, impl.last_tick_seconds - impl.started_seconds);
   summary.record_status = impl.log.finish(to_string(summary.reason));
   impl.write_bundle();
-  for (unsigned slot = 0; slot < impl.simulation->info().player_count; ++slot) {
+  for (unsigned slot = 0; slot < impl.match.simulation->info().player_count; ++slot) {
     summary.players.push_back(impl.server->stats(static_cast<std::uint8_t>(slot)));
   }
   return summary;
 }
 
 const Simulation& MatchHost::simulation() const {
-  return *impl_->simulation;
+  return *impl_->match.simulation;
+}
+
+const GameDef& MatchHost::game() const {
+  return *impl_->match.game;
 }
 
 std::uint64_t MatchHost::ticks_closed() const {
@@ -422,7 +412,7 @@ MatchMetrics MatchHost::metrics() const {
   metrics.connections = impl_->server->connections();
   metrics.socket = impl_->transport->counters();
   if (impl_->secure != nullptr) metrics.security = impl_->secure->counters();
-  for (unsigned slot = 0; slot < impl_->simulation->info().player_count; ++slot) {
+  for (unsigned slot = 0; slot < impl_->match.simulation->info().player_count; ++slot) {
     metrics.players.push_back(impl_->server->stats(static_cast<std::uint8_t>(slot)));
   }
   return metrics;
@@ -431,7 +421,7 @@ MatchMetrics MatchHost::metrics() const {
 std::string MatchHost::progress_line() const {
   const int present = std::popcount(impl_->server->present_mask());
   if (impl_->server->state() == net::ServerState::lobby) {
-    return fmt::format("waiting for players: {} of {}", present, impl_->options.players);
+    return fmt::format("waiting for players: {} of {}", present, impl_->options.start.players);
   }
   std::string line = fmt::format("tick {}", ticks_closed());
   if (impl_->options.ticks > 0) line += fmt::format(" of {}", impl_->options.ticks);

@@ -15,15 +15,13 @@
 
 #include "tools/lockstone/match/metrics.h"
 #include "tools/lockstone/support/console.h"
+#include "tools/tool/start_match.h"
 
 namespace lockstone::tool {
 
 struct MatchOptions {
-  std::string scene = "arena";
-  unsigned players = 4;
+  StartOptions start;
   std::uint64_t ticks = 3600;  ///< 0: until interrupted
-  std::uint64_t seed = 1;
-  std::uint16_t bodies = 216;  ///< loose bodies of the arena
   std::string bind = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: the system chooses
   std::size_t max_per_address = net::EnetOptions{}.max_connections_per_address;
@@ -64,7 +62,8 @@ struct MatchSummary {
 class MatchHost {
  public:
   /// Null, with a complaint, when it cannot be set up.
-  [[nodiscard]] static std::unique_ptr<MatchHost> create(const MatchOptions& options);
+  [[nodiscard]] static std::unique_ptr<MatchHost> create(const Games& games,
+                                                         const MatchOptions& options);
   ~MatchHost();
 
   [[nodiscard]] std::uint16_t port() const;
@@ -79,6 +78,7 @@ class MatchHost {
   [[nodiscard]] MatchSummary finish();
 
   [[nodiscard]] const Simulation& simulation() const;
+  [[nodiscard]] const GameDef& game() const;
   [[nodiscard]] std::uint64_t ticks_closed() const;
 
   [[nodiscard]] MatchMetrics metrics() const;

@@ -15,6 +15,7 @@
 #include "tools/lockstone/match/servers.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/interrupt.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -114,7 +115,7 @@ void remove_brackets(std::string& address) {
   if (bracketed && ipv6) address = address.substr(1, address.size() - 2);
 }
 
-int serve(ServeOptions options) {
+int serve(const Games& games, ServeOptions options) {
   remove_brackets(options.match.bind);
   remove_brackets(options.match.metrics_bind);
   options.match.strict = options.policy == "strict";
@@ -127,7 +128,7 @@ int serve(ServeOptions options) {
   catch_interrupts();
   std::vector<std::unique_ptr<MatchHost>> hosts;
   for (unsigned i = 0; i < options.matches; ++i) {
-    hosts.push_back(MatchHost::create(options_of(options, i)));
+    hosts.push_back(MatchHost::create(games, options_of(options, i)));
     if (hosts.back() == nullptr) return k_unavailable;
     const net::HostPort where{options.match.bind, hosts.back()->port()};
     fmt::print("listening on {}\n", where.to_text());
@@ -157,10 +158,10 @@ void add_security_options(CLI::App& command, ServeOptions& options) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& app, int& exit_code) {
+void add_serve_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<ServeOptions>();
   CLI::App* command = app.add_subcommand("serve", "Host a match over UDP");
-  add_match_options(*command, options->match);
+  add_match_options(*command, tool.games, options->match);
   command
       ->add_option("--bind", options->match.bind,
                    "Numeric address; :: for all of IPv6 and IPv4, 0.0.0.0 for all of IPv4")
@@ -171,8 +172,6 @@ void add_serve_command(CLI::App& app, int& exit_code) {
       ->add_option("--max-connections-per-address", options->match.max_per_address,
                    "Players and spectators behind one router share an address; IPv6: a /64")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command->add_option("--scene", options->match.scene, "The scene to simulate, see `scenes`")
       ->capture_default_str();
   command->add_option("--record", options->match.record, "Write the log to this file");
   command->add_option("--resume", options->match.resume,
@@ -219,7 +218,7 @@ void add_serve_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   add_security_options(*command, *options);
-  command->callback([options, &exit_code] { exit_code = serve(*options); });
+  command->callback([options, &tool] { tool.exit_code = serve(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

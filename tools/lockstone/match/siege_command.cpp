@@ -10,6 +10,8 @@
 #include "tools/lockstone/support/console.h"
 #include "tools/relay/datagram_rate.h"
 #include "tools/relay/siege.h"
+#include "tools/tool/start_match.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -52,7 +54,7 @@ void print_report(const relay::SiegeReport& report) {
 int siege(const relay::SiegeOptions& options) {
   const auto report = relay::run_siege(options);
   if (!report) {
-    complain("no match: no socket, or no libsodium");
+    complain("no match: no socket, no libsodium, or the game refuses so many players");
     return k_unavailable;
   }
   print_report(*report);
@@ -75,7 +77,7 @@ int print_rates() {
 
 }  // namespace
 
-void add_siege_command(CLI::App& app, int& exit_code) {
+void add_siege_command(CLI::App& app, Tool& tool) {
   struct Options {
     relay::SiegeOptions siege;
     unsigned seconds = 20;
@@ -93,13 +95,18 @@ void add_siege_command(CLI::App& app, int& exit_code) {
   command->add_option("--seed", options->siege.seed, "Of the attackers")->capture_default_str();
   command->add_flag("--rate", options->rate,
                     "Measure instead how many datagrams of each kind one core gets through");
-  command->callback([options, &exit_code] {
+  command->callback([options, &tool] {
     if (options->rate) {
-      exit_code = print_rates();
+      tool.exit_code = print_rates();
       return;
     }
+    if (!has_matches(tool.games)) {
+      tool.exit_code = k_usage;
+      return;
+    }
+    options->siege.game = &tool.games.list().front();
     options->siege.duration_us = std::int64_t{options->seconds} * 1'000'000;
-    exit_code = siege(options->siege);
+    tool.exit_code = siege(options->siege);
   });
 }
 

@@ -2,43 +2,49 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tools/arena/config.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
-#include "tools/scenes/play.h"
 #include "tools/simnet/batch.h"
 #include "tools/simnet/toy_game.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
+
+// A game of integers alone, for trying out the session itself.
+constexpr const char* k_toy = "toy";
 
 struct SimnetOptions {
   simnet::BatchOptions batch;
   std::string faults = "all";
   std::string schedule;
-  std::string scene = "toy";
+  std::string scene;
   std::string control;
-  std::uint16_t bodies = 60;
+  std::uint32_t bodies = 60;
   bool json = false;
 };
 
-simnet::Game arena_game(const SimnetOptions& options, std::uint64_t seed) {
-  arena::ArenaConfig config;
-  config.seed = seed;
-  config.players = static_cast<std::uint8_t>(options.batch.clients);
-  config.loose_bodies = options.bodies;
-  const auto bytes = config.encode();
-  return {{bytes.begin(), bytes.end()}, scenes::make_simulation, scenes::make_simulation};
+// Every client plays the game that has this scene. A match that it refuses fails.
+simnet::Game scene_game(const Games& games, const SimnetOptions& options, std::uint64_t seed) {
+  const GameDef* game = games.of_scene(options.scene);
+  Result<std::vector<std::byte>> config =
+      game->configure({.scene = options.scene == game->name ? "" : options.scene,
+                       .seed = seed,
+                       .players = static_cast<std::uint8_t>(options.batch.clients),
+                       .bodies = options.bodies});
+  if (!config) return {{}, game->make, game->make};
+  return {std::move(config).value(), game->make, game->make};
 }
 
-simnet::GameMaker game_maker(const SimnetOptions& options) {
-  return [&options](std::uint64_t seed, std::optional<simnet::Control>& control) {
-    if (options.scene == "arena") return arena_game(options, seed);
+simnet::GameMaker game_maker(const Games& games, const SimnetOptions& options) {
+  return [&games, &options](std::uint64_t seed, std::optional<simnet::Control>& control) {
+    if (options.scene != k_toy) return scene_game(games, options, seed);
     const simnet::Defect defect = options.control == "flip"      ? simnet::Defect::flipped_bit
                                   : options.control == "unsaved" ? simnet::Defect::unsaved
                                                                  : simnet::Defect::none;
@@ -46,11 +52,26 @@ simnet::GameMaker game_maker(const SimnetOptions& options) {
   };
 }
 
+// True when the game can make such matches; else a complaint.
+bool check_game(const Games& games, const SimnetOptions& options) {
+  if (options.scene == k_toy) return true;
+  const GameDef* game = games.of_scene(options.scene);
+  if (game == nullptr || !game->configure) {
+    complain(fmt::format("no game here makes matches of the scene {}", options.scene));
+    return false;
+  }
+  const simnet::Game made = scene_game(games, options, options.batch.first_seed);
+  const auto simulation = made.factory(made.config);
+  if (simulation && simulation.value()->info().player_count == options.batch.clients) return true;
+  complain(fmt::format("the game '{}' refuses {} players", game->name, options.batch.clients));
+  return false;
+}
+
 std::string repeat_command(const SimnetOptions& options, const simnet::BatchFailure& failure) {
   std::string line =
-      fmt::format("lockstone simnet --first-seed {} --seeds 1 --clients {} --ticks {}",
+      fmt::format("{} simnet --first-seed {} --seeds 1 --clients {} --ticks {}", program_name(),
                   failure.seed, options.batch.clients, options.batch.ticks);
-  if (options.scene != "toy") {
+  if (options.scene != k_toy) {
     line += fmt::format(" --scene {} --bodies {}", options.scene, options.bodies);
   }
   if (!options.control.empty()) line += " --control " + options.control;
@@ -107,7 +128,8 @@ void print_text(const SimnetOptions& options, const simnet::BatchTotals& totals,
   if (totals.failures.empty()) fmt::print("all as it must be\n");
 }
 
-int simulate(SimnetOptions options) {
+int simulate(const Games& games, SimnetOptions options) {
+  if (!check_game(games, options)) return k_usage;
   const std::optional<simnet::FaultMask> faults = simnet::parse_faults(options.faults);
   if (!faults) {
     complain("unknown kind of fault in " + options.faults);
@@ -124,7 +146,7 @@ int simulate(SimnetOptions options) {
   Progress bar;
   const Stopwatch watch;
   const simnet::BatchTotals totals =
-      run_batch(options.batch, game_maker(options),
+      run_batch(options.batch, game_maker(games, options),
                 [&](std::uint64_t done) { bar.show("matches", done, options.batch.seeds); });
   bar.clear();
   if (options.json) {
@@ -137,7 +159,7 @@ int simulate(SimnetOptions options) {
 
 }  // namespace
 
-void add_simnet_command(CLI::App& app, int& exit_code) {
+void add_simnet_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<SimnetOptions>();
   CLI::App* command =
       app.add_subcommand("simnet", "Play matches over a simulated network full of faults");
@@ -156,11 +178,11 @@ void add_simnet_command(CLI::App& app, int& exit_code) {
   command->add_option("--threads", batch.threads, "Matches at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--scene", options->scene, "toy: integers of a few lines; or the arena")
-      ->check(CLI::IsMember({"toy", "arena"}))
-      ->capture_default_str();
-  command->add_option("--bodies", options->bodies, "Loose bodies of the arena")
-      ->check(CLI::Range(0, 600))
+  command
+      ->add_option("--scene", options->scene,
+                   "toy: integers of a few lines; or a game or scene that this tool knows")
+      ->default_str(tool.simnet_scene.empty() ? "the first game" : tool.simnet_scene);
+  command->add_option("--bodies", options->bodies, "Loose bodies, in games that take such a number")
       ->capture_default_str();
   command
       ->add_option(
@@ -187,7 +209,13 @@ void add_simnet_command(CLI::App& app, int& exit_code) {
       "--no-shrink", [options] { options->batch.shrink = false; },
       "Print failing schedules as they are");
   command->add_flag("--json", options->json, "Print the result as JSON");
-  command->callback([options, &exit_code] { exit_code = simulate(*options); });
+  command->callback([options, &tool] {
+    if (options->scene.empty()) {
+      options->scene =
+          tool.simnet_scene.empty() ? tool.games.list().front().name : tool.simnet_scene;
+    }
+    tool.exit_code = simulate(tool.games, *options);
+  });
 }
 
 }  // namespace lockstone::tool

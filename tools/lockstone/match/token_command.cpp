@@ -11,6 +11,7 @@
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/match/servers.h"
 #include "tools/lockstone/support/console.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -97,7 +98,7 @@ int show(const ShowOptions& options) {
   return opens ? k_ok : k_different;
 }
 
-void add_issue_command(CLI::App& parent, int& exit_code) {
+void add_issue_command(CLI::App& parent, Tool& tool) {
   auto options = std::make_shared<IssueOptions>();
   CLI::App* command = parent.add_subcommand("issue", "Make a token for one seat of one match");
   command->add_option("--key", options->key, "File with the backend's key")->required();
@@ -114,24 +115,24 @@ void add_issue_command(CLI::App& parent, int& exit_code) {
                       "Like 1.2.3.4:7777, [2001:db8::1]:7777 or game.example:7777, a name with all "
                       "addresses that it has now; up to 8 addresses. None: any server");
   command->add_option("--out", options->out, "Write it to this file, not to the terminal");
-  command->callback([options, &exit_code] { exit_code = issue(*options); });
+  command->callback([options, &tool] { tool.exit_code = issue(*options); });
 }
 
 }  // namespace
 
-void add_token_command(CLI::App& app, int& exit_code) {
+void add_token_command(CLI::App& app, Tool& tool) {
   CLI::App* command = app.add_subcommand("token", "Keys and connect tokens of encrypted matches");
   command->require_subcommand(1);
   auto path = std::make_shared<std::string>();
   CLI::App* key = command->add_subcommand("key", "Make a backend's key");
   key->add_option("file", *path, "Gets the key; servers need it too")->required();
-  key->callback([path, &exit_code] { exit_code = make_backend_key(*path); });
-  add_issue_command(*command, exit_code);
+  key->callback([path, &tool] { tool.exit_code = make_backend_key(*path); });
+  add_issue_command(*command, tool);
   auto options = std::make_shared<ShowOptions>();
   CLI::App* show_command = command->add_subcommand("show", "Print the rights that a token grants");
   show_command->add_option("token", options->token, "File with a token")->required();
   show_command->add_option("--key", options->key, "Check its seal with the backend's key");
-  show_command->callback([options, &exit_code] { exit_code = show(*options); });
+  show_command->callback([options, &tool] { tool.exit_code = show(*options); });
 }
 
 }  // namespace lockstone::tool

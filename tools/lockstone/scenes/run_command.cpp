@@ -13,13 +13,14 @@
 #include <lockstone/thread_pool.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/canonical_fields.h"
+#include "tools/lockstone/logs/sync_test.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/lockstone/support/options.h"
 #include "tools/lockstone/support/output_file.h"
 #include "tools/render/svg.h"
 #include "tools/scenes/play.h"
+#include "tools/tool/tool_command.h"
 
 namespace lockstone::tool {
 namespace {
@@ -44,76 +45,6 @@ struct RunOptions {
 struct ChainEntry {
   std::uint64_t tick;
   std::uint64_t hash;
-};
-
-// A second copy of the scene that each tick starts from nothing but the canonical bytes of the
-// first: its next step shows whether the bytes are the whole state. The first one goes through its
-// own native snapshot, and drops its derived data.
-class Twin {
- public:
-  Twin(scenes::ScenePlay& first, std::unique_ptr<scenes::ScenePlay> second, std::string forget)
-      : first_(first),
-        second_(std::move(second)),
-        forget_(std::move(forget)),
-        bytes_(first.simulation().snapshot_bytes_max(SnapshotKind::canonical)),
-        other_bytes_(bytes_.size()),
-        native_(first.simulation().snapshot_bytes_max(SnapshotKind::native)) {}
-
-  /// Steps both; empty, or a line that says how they differ.
-  [[nodiscard]] std::string step() {
-    Simulation& first = first_.simulation();
-    const std::span<std::byte> saved = save(first_, bytes_);
-    if (!forget_.empty()) forget(saved);
-    Status status = second_->simulation().load(SnapshotKind::canonical, saved);
-    if (status != Status::ok) return fmt::format("load: {}", to_string(status));
-    const std::string lost = loss();
-    second_->step();
-    const std::size_t native = first.save(SnapshotKind::native, native_);
-    status = first.load(SnapshotKind::native, std::span(native_).first(native));
-    if (status != Status::ok) return fmt::format("load of a native copy: {}", to_string(status));
-    first_.drop_derived();
-    first_.step();
-    const ByteView here = save(first_, bytes_), there = save(*second_, other_bytes_);
-    const bool same = std::equal(here.begin(), here.end(), there.begin(), there.end());
-    if (same && first.hash() == second_->simulation().hash()) return lost;
-    return first.describe(here, there).to_line();
-  }
-
-  /// How often the field that is to be forgotten was there and not zero.
-  [[nodiscard]] std::uint64_t forgotten() const { return forgotten_; }
-
- private:
-  // The part of the first's state that the second lacks, for fields that no tick reads.
-  [[nodiscard]] std::string loss() {
-    const Simulation& first = first_.simulation();
-    if (first.hash() == second_->simulation().hash()) return {};
-    return first.describe(save(first_, bytes_), save(*second_, other_bytes_)).to_line();
-  }
-
-  // As a `save` would that leaves the field out: the negative control.
-  void forget(std::span<std::byte> saved) {
-    const std::span<std::byte> world = world_part(first_.simulation(), saved);
-    for (const FieldPlace& place : fields_of_world(world)) {
-      if (place.store + ('.' + place.field) != forget_) continue;
-      const std::span<std::byte> field = world.subspan(place.offset, place.bytes);
-      for (std::byte& byte : field)
-        forgotten_ += std::exchange(byte, std::byte{0}) != std::byte{0} ? 1U : 0U;
-    }
-    reseal(world);
-  }
-
-  [[nodiscard]] static std::span<std::byte> save(scenes::ScenePlay& play,
-                                                 std::span<std::byte> bytes) {
-    return bytes.first(play.simulation().save(SnapshotKind::canonical, bytes));
-  }
-
-  scenes::ScenePlay& first_;
-  std::unique_ptr<scenes::ScenePlay> second_;
-  std::string forget_;
-  std::vector<std::byte> bytes_;
-  std::vector<std::byte> other_bytes_;
-  std::vector<std::byte> native_;
-  std::uint64_t forgotten_ = 0;
 };
 
 render::Picture picture_of(const RunOptions& options, scenes::ScenePlay& play) {
@@ -152,13 +83,12 @@ void print_text(const std::vector<ChainEntry>& chain, std::uint64_t final_hash) 
 /// A run of one scene.
 class Run {
  public:
-  Run(const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
+  Run(const Games& games, const RunOptions& options, std::unique_ptr<scenes::ScenePlay> play)
       : options_(options), play_(std::move(play)), pool_(options.threads) {
     if (options.threads > 1) play_->set_task_runner(&pool_, TaskPieces::worthwhile);
     if (!options.heavy && options.forget.empty()) return;
-    twin_.emplace(*play_,
-                  scenes::make_play(options.scene, options.seed, options.broad_phase).value(),
-                  options.forget);
+    Match copy = games.start({.scene = options.scene, .seed = options.seed}).value();
+    twin_.emplace(*copy.game, play_->simulation(), std::move(copy.simulation), options.forget);
   }
 
   int operator()() {
@@ -195,7 +125,7 @@ class Run {
       play_->step();
       return true;
     }
-    const std::string difference = twin_->step();
+    const std::string difference = twin_->step(play_->next_inputs());
     if (difference.empty()) return true;
     progress_.clear();
     complain(fmt::format("{}, tick {}: a saved and loaded copy went another way: {}",
@@ -224,13 +154,13 @@ class Run {
   const RunOptions& options_;
   std::unique_ptr<scenes::ScenePlay> play_;
   ThreadPool pool_;
-  std::optional<Twin> twin_;
+  std::optional<SyncTest> twin_;
   std::vector<ChainEntry> chain_;
   std::vector<std::string> frames_;
   Progress progress_;
 };
 
-int run(RunOptions options) {
+int run(const Games& games, RunOptions options) {
   if (!may_write({options.svg, options.force})) return k_unavailable;
   Result<std::unique_ptr<scenes::ScenePlay>> play =
       scenes::make_play(options.scene, options.seed, options.broad_phase);
@@ -238,12 +168,12 @@ int run(RunOptions options) {
     complain(fmt::format("unknown scene {}; `lockstone scenes` lists them", options.scene));
     return k_usage;
   }
-  return Run(options, std::move(play).value())();
+  return Run(games, options, std::move(play).value())();
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& exit_code) {
+void add_run_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and print its hashes");
   command->add_option("--scene", options->scene, "Name, see `scenes`")->required();
@@ -273,7 +203,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
                     "Each tick, also step a copy loaded from the saved state, and compare");
   command->add_option("--forget", options->forget,
                       "As --heavy, as if `save` left out this field (body.spin.x): it must differ");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &tool] { tool.exit_code = run(tool.games, *options); });
 }
 
 }  // namespace lockstone::tool

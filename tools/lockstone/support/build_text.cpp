@@ -20,8 +20,8 @@ std::string processor() {
 
 }  // namespace
 
-std::string build_text() {
-  std::string text = "lockstone " LOCKSTONE_VERSION ", " __VERSION__ ", " + processor();
+std::string build_text(const std::string& program) {
+  const std::string text = program + ", " __VERSION__ ", " + processor();
   return text.substr(0, k_most_characters);
 }
 

@@ -5,7 +5,7 @@
 
 namespace lockstone::tool {
 
-/// `lockstone 0.1.0, 12.2.0, AMD EPYC 9R14`.
-[[nodiscard]] std::string build_text();
+/// `arena 0.1, 12.2.0, AMD EPYC 9R14`, for `program` "arena 0.1".
+[[nodiscard]] std::string build_text(const std::string& program);
 
 }  // namespace lockstone::tool

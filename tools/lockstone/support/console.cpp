@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,8 +15,21 @@ std::string hash_text(std::uint64_t hash) {
   return fmt::format("{:016x}", hash);
 }
 
+static std::string& program_name_text() {
+  static std::string name = "lockstone";
+  return name;
+}
+
+void set_program_name(std::string name) {
+  program_name_text() = std::move(name);
+}
+
+const std::string& program_name() {
+  return program_name_text();
+}
+
 void complain(const std::string& line) {
-  fmt::print(stderr, "lockstone: {}\n", line);
+  fmt::print(stderr, "{}: {}\n", program_name(), line);
 }
 
 // Opening a FIFO would wait for its other end.

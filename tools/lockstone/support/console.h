@@ -11,6 +11,11 @@ namespace lockstone::tool {
 /// Sixteen lower-case hexadecimal digits.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
+/// The name that begins each complaint; "lockstone" until it is set, before the first thread
+/// starts.
+void set_program_name(std::string name);
+[[nodiscard]] const std::string& program_name();
+
 /// A line on the standard error stream.
 void complain(const std::string& line);
 

@@ -39,6 +39,6 @@ struct CutReport {
 /// has no tick `begin`; the status of the damage where there is damage before `end`. After an error
 /// `sink` may hold the beginning of a log, which is of no use.
 [[nodiscard]] CutReport cut(Source& source, const SimulationFactory& factory, std::uint64_t begin,
-                            std::uint64_t end, Sink& sink);
+                            std::uint64_t end, Sink& sink, bool compress = true);
 
 }  // namespace lockstone::replay
