@@ -52,13 +52,20 @@ void join_any(SceneMaker& m, int a, int b) {
   }
 }
 
+struct Jumble {
+  int most_bodies = 12;
+  bool is_grounded = true;
+  bool is_joined = true;
+  double seconds = 2;
+};
+
 // Bodies on a grid, some joined to neighbours or to the world, all thrown.
-void fill_jumble(SceneMaker& m) {
-  const int n = m.count(1, 12), side = m.random.count(1, 3);
-  const double joined = m.random.chance(0.2) ? 0 : m.random.between(0.2, 1);
+void fill(SceneMaker& m, const Jumble& jumble) {
+  const int n = m.count(1, jumble.most_bodies), side = m.random.count(1, 3);
+  const double joined = !jumble.is_joined || m.random.chance(0.2) ? 0 : m.random.between(0.2, 1);
   const double speed = m.random.between(0, 10), spin = m.random.between(0, 20);
   const double bounce = m.random.chance(0.2) ? m.random.between(0, 1) : 0;
-  m.ground();
+  if (jumble.is_grounded) m.ground();
   std::vector<int> bodies;
   for (int i = 0; i < n; ++i) {
     const Triple at{2 * k_cell * (i % side), k_cell * (1 + 2 * (i / (side * side))),
@@ -69,6 +76,7 @@ void fill_jumble(SceneMaker& m) {
     m.body(body).velocity = speed * way;
     m.body(body).angular_velocity = spin * axis;
     m.body(body).restitution = bounce;
+    m.body(body).collides = jumble.is_grounded;
     bodies.push_back(body);
   }
   const auto join = [&](int i, int back) {
@@ -83,14 +91,32 @@ void fill_jumble(SceneMaker& m) {
                bodies[static_cast<std::size_t>(i)]);
   }
   m.set_friction(m.random.between(0, 1));
-  m.judge(Judge::gain, 0.05, 2);
+  if (!jumble.is_grounded) m.scene.gravity = 0;
+  m.judge(Judge::gain, 0.05, jumble.seconds);
+}
+
+void fill_jumble(SceneMaker& m) {
+  fill(m, {});
+}
+// The same in short, for many seeds.
+void fill_fling(SceneMaker& m) {
+  fill(m, {.most_bodies = 5, .is_grounded = false, .seconds = 0.5});
+}
+void fill_toss(SceneMaker& m) {
+  fill(m, {.most_bodies = 5, .seconds = 0.75});
+}
+void fill_spill(SceneMaker& m) {
+  fill(m, {.most_bodies = 8, .is_joined = false, .seconds = 0.75});
 }
 
 }  // namespace
 
 void add_jumble_families(std::vector<Family>& all) {
   all.insert(all.end(),
-             {{"jumble", "1-12 bodies of any size, joined any way, thrown: energy", fill_jumble}});
+             {{"jumble", "1-12 bodies of any size, joined any way, thrown: energy", fill_jumble},
+              {"fling", "1-5 such bodies in free space, for half a second", fill_fling},
+              {"toss", "1-5 such bodies over the ground, briefly", fill_toss},
+              {"spill", "1-8 such bodies without joints over the ground, briefly", fill_spill}});
 }
 
 }  // namespace lockstone::bench
