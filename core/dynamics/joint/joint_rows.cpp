@@ -5,6 +5,7 @@
 
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/joint/turn_springs.h"
 #include "core/dynamics/state/time_step.h"
 #include "core/math/product_sum.h"
 #include "core/math/roots.h"
@@ -164,7 +165,7 @@ class RowFiller {
       if (settings.lower == settings.upper) return push(row, axis, RowKind::lock, above);
       add_limit(axis, row, above, value_of(axis, settings.upper) - value);
     }
-    if (!settings.is_driven()) return;
+    if (!settings.is_driven() || acts_together(place_.joint, springs_, axis)) return;
     JointRow drive = row;
     drive.speed = speed_of(axis, settings.speed);
     const std::int64_t error = value - (soft ? 0 : value_of(axis, settings.target));
@@ -251,15 +252,36 @@ class RowFiller {
     return place_.joint.mode(axis) == AxisMode::locked && !place_.joint.axes[axis].is_spring();
   }
 
+  // Whether an angular axis can have a row besides that of a spring that acts with others.
+  [[nodiscard]] bool turns_alone(std::size_t axis) const {
+    const bool sprung = acts_together(place_.joint, springs_, axis);
+    return is_wanted(axis) && !(sprung && place_.joint.mode(axis) != AxisMode::limited);
+  }
+
   void fill_angular() {
-    if (is_wanted(3)) add_twist();
+    if (parts_ == RowParts::all) add_springs_together();
+    if (turns_alone(3)) add_twist();
     const bool cone = place_.joint.is(JointKind::ball) && place_.joint.mode(4) == AxisMode::limited;
     if (cone && parts_ == RowParts::all && !is_far(4)) add_cone();
     const auto swings = [&](std::size_t axis) {
-      return is_wanted(axis) && (!cone || place_.joint.axes[axis].is_driven() || is_rigid(axis));
+      return turns_alone(axis) && (!cone || place_.joint.axes[axis].is_driven() || is_rigid(axis));
     };
     if (swings(4)) add_swing(4, negated(raw_of(frame_a_.z)), !cone);
     if (swings(5)) add_swing(5, raw_of(frame_a_.y), !cone);
+  }
+
+  void add_springs_together() {
+    const JointRecord& joint = place_.joint;
+    springs_ = spring_turn(joint);
+    if (springs_ == SpringTurn::apart) return;
+    const SpringTurnRows turn =
+        spring_turn_rows(joint, springs_, place_.a.orientation, place_.b.orientation);
+    for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
+      if (!acts_together(joint, springs_, axis)) continue;
+      JointRow row = angular_row(turn.axes[axis - 3]);
+      row.speed = speed_of(axis, joint.axes[axis].speed);
+      push(row, axis, RowKind::drive, arc(turn.errors[axis - 3]));
+    }
   }
 
   // The twist's rate is ω·(xA + xB) / (1 + xA·xB).
@@ -383,6 +405,7 @@ class RowFiller {
   const JointPlace& place_;
   const RowParts parts_;
   JointRows& out_;
+  SpringTurn springs_ = SpringTurn::apart;
   Mat3 frame_a_{}, frame_b_{};
   Vec3<Position> arm_a_{}, arm_b_{}, gap_{};
 };

@@ -59,9 +59,9 @@ struct JointAxis {
   AxisMode mode = AxisMode::free;
   Value lower{};  ///< limits, lower ≤ upper: for angles within ±π
   Value upper{};
-  Value target{};                                  ///< of the spring
-  Speed speed{};                                   ///< of the motor
-  Number hertz{};                                  ///< 0 … 1000
+  Value target{};  ///< of the spring; of springs about several axes: a rotation vector
+  Speed speed{};   ///< of the motor
+  Number hertz{};  ///< 0 … 1000
   Number damping_ratio = Number::from_integer(1);  ///< 0 … 100
   Effort max_effort{};                             ///< ≥ 0, N or N·m
 

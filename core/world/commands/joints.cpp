@@ -5,6 +5,7 @@
 #include "core/collision/narrow_phase/placed_shape.h"
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_rows.h"
+#include "core/dynamics/joint/turn_springs.h"
 #include "core/dynamics/state/limits.h"
 #include "core/math/divide.h"
 #include "core/math/roots.h"
@@ -94,6 +95,28 @@ JointRecord make_joint(const JointDef& from) {
   joint.break_torque = from.break_torque;
   joint.user_data = from.user_data;
   return joint;
+}
+
+// A force or torque as a vector; at the type's limit along all axes it is, rotated, longer than
+// along one.
+template <class T>
+Vec3<Position> as_vector(const Vec3<T>& v) {
+  constexpr std::int64_t k_most = std::int64_t{1} << 61;
+  const auto within = [=](T x) {
+    return Position::from_raw(x.raw > k_most ? k_most : x.raw < -k_most ? -k_most : x.raw);
+  };
+  return {within(v.x), within(v.y), within(v.z)};
+}
+
+// The torque of springs that act together, given by their rows, in the axes of the world.
+Vec3<Position> sum_of_rows(const SpringTurnRows& rows, const Vec3<Position>& efforts) {
+  Vec3<Position> sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      sum[j].raw += product_rounded(efforts[static_cast<int>(i)].raw,
+                                    rows.axes[i][static_cast<std::size_t>(j)], 30);
+  }
+  return as_vector(sum);
 }
 
 }  // namespace
@@ -378,25 +401,29 @@ JointView World::Impl::view(const JointRecord& joint) const {
   if (joint.is(JointKind::distance)) view.offset = {saturated<Length>(length_of(gap)), {}, {}};
   const BlockFloat inverse_mass = add(a.inverse_mass_value(), b.inverse_mass_value());
   const int exponent = angular_exponent(a, b);
+  const SpringTurn turn = spring_turn(joint);
+  Vec3<Torque> springs;  // of those that act together, along their rows
   for (int i = 0; i < 3; ++i) {
-    const auto impulse = [&](int axis) {
-      const JointAxisRecord& record = joint.axes[static_cast<std::size_t>(axis)];
-      return std::int64_t{record.impulse.raw} + record.drive_impulse.raw;
-    };
     const std::int32_t rate = time_step.substep_rate();
-    view.force[i].raw = effort_of(impulse(i), rate, inverse_mass, 0);
-    view.torque[i].raw = effort_of(impulse(i + 3), rate, inverse_mass, exponent);
+    const auto effort = [&](std::int64_t impulse, int scale) {
+      return effort_of(impulse, rate, inverse_mass, scale);
+    };
+    const auto axis = static_cast<std::size_t>(i);
+    const JointAxisRecord &linear = joint.axes[axis], &angular = joint.axes[axis + 3];
+    const bool together = acts_together(joint, turn, axis + 3);
+    const std::int64_t alone = together ? 0 : angular.drive_impulse.raw;
+    view.force[i].raw = effort(std::int64_t{linear.impulse.raw} + linear.drive_impulse.raw, 0);
+    view.torque[i].raw = effort(angular.impulse.raw + alone, exponent);
+    if (together) springs[i].raw = effort(angular.drive_impulse.raw, exponent);
+  }
+  if (turn != SpringTurn::apart) {
+    const SpringTurnRows rows = spring_turn_rows(joint, turn, a.orientation, b.orientation);
+    const Vec3<Position> torque = rotate_inverse(frame_a, sum_of_rows(rows, as_vector(springs)));
+    for (int i = 0; i < 3; ++i)
+      view.torque[i].raw += torque[i].raw;
   }
   if (has_world_axes(joint)) {
-    // A force at the type's limit along two axes is, rotated, longer than that along one.
-    const auto within = [](Force f) {
-      constexpr std::int64_t k_most = std::int64_t{1} << 62;
-      return Position::from_raw(std::clamp(f.raw, -k_most, k_most));
-    };
-    const auto raws = [&](const Vec3<Force>& f) {
-      return Vec3<Position>{within(f.x), within(f.y), within(f.z)};
-    };
-    const Vec3<Position> along = rotate_inverse(frame_a, raws(view.force));
+    const Vec3<Position> along = rotate_inverse(frame_a, as_vector(view.force));
     view.force = {Force::from_raw(along.x.raw), Force::from_raw(along.y.raw),
                   Force::from_raw(along.z.raw)};
   }

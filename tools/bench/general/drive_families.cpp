@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tools/bench/general/maker.h"
+#include "tools/bench/general/vectors.h"
 
 namespace lockstone::bench {
 namespace {
@@ -58,6 +59,33 @@ void fill_hinge_spring(SceneMaker& m) {
   m.judge(Judge::angle, 0.02, 10);
 }
 
+// A spring about all axes turns a body from anywhere to anywhere, against the world or against a
+// body that is free. Some begin with a spin, but no free pair: it would keep its angular momentum.
+void fill_turn_spring(SceneMaker& m) {
+  const double r = m.random.log_between(0.1, 0.4);
+  const auto side = [&] { return r * m.random.log_between(0.6, 1); };
+  const bool held = m.random.chance(0.5);
+  const int a = held ? m.anchor({0, 0, 0}) : m.box({side(), side(), side()}, {0, 0, 0});
+  const int form = m.random.count(0, 2);
+  const int b = form == 0   ? m.ball(r, {0, 0, 0})
+                : form == 1 ? m.capsule(0.5 * r, side(), {0, 0, 0})
+                            : m.box({side(), side(), side()}, {0, 0, 0});
+  const Triple at = m.random.chance(0.5) ? Triple{} : m.jitter(0.1 * r);
+  GeneralJoint& spring = m.join(Link::ball, a, b, at, m.direction());
+  const Triple axis = m.direction();
+  spring.turn = m.random.between(0, std::acos(-1.0)) * axis;
+  spring.hertz = m.random.log_between(2, 8);
+  spring.damping = m.random.between(0.5, 1.5);
+  const Turn frame = m.any_turn();
+  m.turn(b, frame);
+  m.body(b).position = at - turned(frame, spring.anchor_b);
+  if (held && m.random.chance(0.7))
+    m.body(b).angular_velocity = m.random.between(0, 20) * m.direction();
+  free_of_contacts(m);
+  m.scene.gravity = 0;
+  m.judge(Judge::turn, 0.02, 10);
+}
+
 // A body on an undamped spring: the amplitude that remains after ten seconds.
 void fill_spring(SceneMaker& m) {
   const double hertz = m.random.log_between(0.3, 10), rest = m.random.between(1, 2);
@@ -106,6 +134,7 @@ void add_drive_families(std::vector<Family>& all) {
               {"motor-arm", "a motor turns a loaded arm", fill_motor_arm},
               {"coupled-wheels", "a motor turns 2-5 wheels by two rods", fill_coupled_wheels},
               {"hinge-spring", "a spring turns a hinge to within 3 rad", fill_hinge_spring},
+              {"turn-spring", "a spring turns a ball joint from any pose to any", fill_turn_spring},
               {"spring", "undamped, 0.3-10 Hz: amplitude lost in 10 s", fill_spring}});
 }
 

@@ -117,6 +117,12 @@ JointDef joint_of(const GeneralJoint& joint, BodyHandle a, BodyHandle b) {
   def.frame_b = {fixed<Length>(joint.anchor_b), fixed(joint.frame_b)};
   if (joint.link == Link::hinge) drive(def.angular[0], joint, Angle{});
   if (joint.link == Link::slider) drive(def.linear[0], joint, Length{});
+  if (joint.link == Link::ball && joint.hertz > 0) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      drive(def.angular[i], joint, Angle{});
+      def.angular[i].target = fixed<Angle>(joint.turn[i]);
+    }
+  }
   if (joint.link != Link::rod) return def;
   GeneralJoint rod = joint;
   if (rod.hertz == 0 && !rod.limited) {

@@ -43,6 +43,7 @@ void settle(GeneralScene& scene) {
     for (double* x : {&joint.lower, &joint.upper, &joint.speed, &joint.effort, &joint.target,
                       &joint.hertz, &joint.damping})
       *x = settled(*x);
+    settle(joint.turn);
   }
   for (GeneralMove& move : scene.moves) {
     settle(move.velocity);
@@ -128,7 +129,7 @@ std::vector<std::uint8_t> bytes_of(const GeneralScene& scene) {
   }
   for (const GeneralJoint& j : scene.joints)
     out.all(j.link, j.a, j.b, j.anchor_a, j.anchor_b, j.frame_a, j.frame_b, j.limited, j.lower,
-            j.upper, j.speed, j.effort, j.target, j.hertz, j.damping);
+            j.upper, j.speed, j.effort, j.target, j.hertz, j.damping, j.turn);
   for (const GeneralMove& m : scene.moves)
     out.all(m.tick, m.body, m.velocity, m.angular_velocity);
   return std::move(out.bytes);

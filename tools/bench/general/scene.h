@@ -59,6 +59,7 @@ struct GeneralJoint {
   double target = 0;  ///< of the spring; a rod's length without one
   double hertz = 0;   ///< of the two bodies alone; 0: no spring
   double damping = 0;
+  Triple turn{};  ///< target of a ball's spring: a rotation vector of frame b against frame a
 };
 
 /// Sets a body's velocities before the tick that begins at a time.
@@ -76,6 +77,7 @@ enum class Judge {
   gap,           ///< m, the widest gap of a joint
   rate,          ///< of a hinge's motor, off its speed after the first second, relative
   angle,         ///< rad, of a hinge's spring off its target at the end, rest included
+  turn,          ///< rad, of a ball's spring off its target at the end, rest included
   amplitude,     ///< of a spring, lost at the end, relative
   energy,        ///< lost at the end, relative to the beginning
   gain,          ///< regained, relative to the beginning

@@ -51,6 +51,15 @@ inline Turn turn_from_x(const Triple& to) {
   const double w = 1 + to[0], length = std::sqrt(dot(axis, axis) + w * w);
   return {axis[0] / length, axis[1] / length, axis[2] / length, w / length};
 }
+/// A rotation vector as a turn.
+inline Turn turn_by(const Triple& v) {
+  return norm(v) > 0 ? turn_about(v, norm(v)) : Turn{0, 0, 0, 1};
+}
+/// The angle between two orientations, 0 … π.
+inline double angle_between(const Turn& a, const Turn& b) {
+  const Turn q = inverse(a) * b;
+  return 2 * std::atan2(norm(Triple{q[0], q[1], q[2]}), std::abs(q[3]));
+}
 /// Of b against a about x, in (−π, π].
 inline double twist(const Turn& a, const Turn& b) {
   const Turn q = inverse(a) * b;

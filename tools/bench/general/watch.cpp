@@ -173,6 +173,18 @@ class Watch {
     return worst;
   }
 
+  // Of all balls with springs.
+  [[nodiscard]] double spring_turn() const {
+    double worst = 0;
+    for (const GeneralJoint& joint : scene_.joints) {
+      if (joint.link != Link::ball || joint.hertz == 0) continue;
+      const Turn target = at(joint.a).orientation * joint.frame_a * turn_by(joint.turn);
+      raise(worst, angle_between(target, at(joint.b).orientation * joint.frame_b) +
+                       norm(at(joint.b).angular_velocity - at(joint.a).angular_velocity));
+    }
+    return worst;
+  }
+
   [[nodiscard]] double error() const {
     switch (scene_.judge) {
       case Judge::displacement:
@@ -183,6 +195,8 @@ class Watch {
         return off_;
       case Judge::angle:
         return spring_angle();
+      case Judge::turn:
+        return spring_turn();
       case Judge::amplitude:
         return std::abs(1 - off_ / scene_.expected);
       case Judge::energy:

@@ -155,6 +155,10 @@ void add_joint(b3WorldId world, const GeneralJoint& joint, b3BodyId a, b3BodyId 
   }
   b3SphericalJointDef def = b3DefaultSphericalJointDef();
   def.base = base_of(def.base, joint, a, b);
+  def.enableSpring = joint.hertz > 0;
+  def.hertz = static_cast<float>(joint.hertz);
+  def.dampingRatio = static_cast<float>(joint.damping);
+  def.targetRotation = quat(turn_by(joint.turn));
   b3CreateSphericalJoint(world, &def);
 }
 

@@ -295,6 +295,10 @@ class JoltGeneral final : public GeneralEngine {
 }  // namespace
 
 std::unique_ptr<GeneralEngine> make_jolt_general(const GeneralScene& scene, int substeps) {
+  const auto has_spring = [](const GeneralJoint& joint) {
+    return joint.link == Link::ball && joint.hertz > 0;
+  };
+  if (std::ranges::any_of(scene.joints, has_spring)) return nullptr;  // its points have none
   start_library();
   return std::make_unique<JoltGeneral>(scene, substeps);
 }
