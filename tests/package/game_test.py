@@ -1,9 +1,9 @@
 """The example game, built against the installed package: its own tool, and `lockstone --game`.
 
-usage: game_test.py ROLLING LOCKSTONE LIBRARY BAD_FOLDER network|none C_LIBRARY|none
+usage: game_test.py ROLLING LOCKSTONE LIBRARY BAD_FOLDER network|none C_LIBRARY|none C_TOOL|none
 
-ROLLING and LIBRARY are the game's tool and shared library; BAD_FOLDER holds libraries to refuse; C_LIBRARY is the
-game in C.
+ROLLING and LIBRARY are the game's tool and shared library; BAD_FOLDER holds libraries to refuse; C_LIBRARY and
+C_TOOL are those of the game in C.
 """
 
 import json
@@ -15,7 +15,7 @@ import sys
 import tempfile
 import unittest
 
-ROLLING = LOCKSTONE = LIBRARY = BAD = NETWORK = IN_C = ""
+ROLLING = LOCKSTONE = LIBRARY = BAD = NETWORK = IN_C = TOOL_IN_C = ""
 OK, DIFFERENT, CORRUPT, INCOMPATIBLE, USAGE, UNAVAILABLE = 0, 1, 2, 3, 64, 69
 
 
@@ -246,14 +246,16 @@ class Matches(Case):
     def test_of_a_game_in_c_are_played_with_equal_hashes(self):
         if IN_C == "none":
             self.skipTest("this build has no C library")
-        pushers = [LOCKSTONE, "--game", IN_C]
-        log = self.play(pushers, (pushers, pushers))
-        self.assertIn("same; 240 ticks verified", self.expect(OK, pushers, "verify", "--strict", log).stdout)
+        pushers, tool = [LOCKSTONE, "--game", IN_C], [TOOL_IN_C]
+        log = self.play(tool, (pushers, tool))
+        for command in (pushers, tool):
+            done = self.expect(OK, command, "verify", "--strict", log)
+            self.assertIn("same; 240 ticks verified", done.stdout)
+            self.expect(OK, command, "bisect", log, log)
         self.assertIn("game 'pushers' 0.1", self.expect(INCOMPATIBLE, own(), "verify", log).stdout)
-        self.expect(OK, pushers, "bisect", log, log)
-        self.expect(OK, pushers, "sync-test", "--ticks", 60)
+        self.expect(OK, tool, "sync-test", "--ticks", 60)
         self.expect(OK, pushers, "flips", "--count", 20, "--ticks", 30)
-        self.expect(OK, pushers, "simnet", "--seeds", 1, "--ticks", 300, "--clients", 3)
+        self.expect(OK, tool, "simnet", "--seeds", 1, "--ticks", 300, "--clients", 3)
 
     def test_survive_bad_networks(self):
         for command in (own(), loaded()):
@@ -262,5 +264,5 @@ class Matches(Case):
 
 
 if __name__ == "__main__":
-    ROLLING, LOCKSTONE, LIBRARY, BAD, NETWORK, IN_C = sys.argv[1:7]
+    ROLLING, LOCKSTONE, LIBRARY, BAD, NETWORK, IN_C, TOOL_IN_C = sys.argv[1:8]
     unittest.main(argv=sys.argv[:1])

@@ -15,11 +15,13 @@ endfunction()
 
 build(${source_dir}/tools/examples/rolling ${scratch_dir}/rolling)
 build(${CMAKE_CURRENT_LIST_DIR}/game ${scratch_dir}/bad_games)
-set(game_in_c none)
+set(library_in_c none)
+set(tool_in_c none)
 if(with_c)
   build(${source_dir}/tools/examples/pushers ${scratch_dir}/pushers)
-  set(game_in_c ${scratch_dir}/pushers/libpushers.so)
+  set(library_in_c ${scratch_dir}/pushers/libpushers_game.so)
+  set(tool_in_c ${scratch_dir}/pushers/pushers)
 endif()
 run(${python} -B ${CMAKE_CURRENT_LIST_DIR}/game_test.py
   ${scratch_dir}/rolling/rolling ${prefix}/bin/lockstone
-  ${scratch_dir}/rolling/librolling_game.so ${scratch_dir}/bad_games ${network} ${game_in_c})
+  ${scratch_dir}/rolling/librolling_game.so ${scratch_dir}/bad_games ${network} ${library_in_c} ${tool_in_c})

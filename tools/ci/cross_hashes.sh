@@ -61,7 +61,7 @@ build() {
     -DLOCKSTONE_WITH_ASSET_IMPORT=OFF -DLOCKSTONE_WITH_ENET=OFF -DLOCKSTONE_WITH_SODIUM=OFF \
     -DLOCKSTONE_WITH_C_LIBRARY=OFF -DLOCKSTONE_INSTALL=ON \
     -DCMAKE_INSTALL_PREFIX="$folder/prefix" >/dev/null
-  cmake --build "$folder/lockstone" --parallel "$jobs"
+  cmake --build "$folder/lockstone" --parallel "$jobs" --target lockstone_tool
   cmake --install "$folder/lockstone" >/dev/null
   cmake -S "$source_dir" -B "$folder/game" -G Ninja "${options[@]}" -DCMAKE_BUILD_TYPE=Release \
     -Dlockstone_DIR="$folder/prefix/lib/cmake/lockstone" >/dev/null
@@ -81,7 +81,7 @@ hash_match() {
     --out "$out/$1.json" --states "$out/$1.states" "${extra[@]}"
 }
 
-require_packages demo cross
+(require_packages demo cross) || true  # a package that cannot be had costs its target
 mkdir -p "$out"
 for target in "${targets[@]}"; do
   [[ $target == native || -f tools/cmake/toolchains/$target.cmake ]] || die "unknown target $target"

@@ -128,3 +128,12 @@ int tool_main(int argc, char** argv, const SimulationFactory& make) {
 }
 
 }  // namespace lockstone
+
+int lockstone_tool_main(int argc, char** argv, const lockstone_game_table* table) {
+  using namespace lockstone;
+  std::string why;
+  const Result<GameDef> game = tool::game_of_table(table, why);
+  if (game) return tool_main(argc, argv, game.value());
+  tool::complain(why);
+  return tool::k_incompatible;
+}

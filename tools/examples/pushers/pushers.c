@@ -1,5 +1,5 @@
 /* A game in C: every player pushes a ball over a plane. It uses liblockstone_c for the physics, and gives
- * the tools its functions: `lockstone --game libpushers.so serve`, `join`, `verify`, `bisect`, … */
+ * the tools its functions: `lockstone --game libpushers_game.so serve`, `join`, `verify`, `bisect`, … */
 #include <stdlib.h>
 #include <string.h>
 

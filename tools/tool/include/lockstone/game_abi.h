@@ -143,6 +143,10 @@ typedef struct lockstone_game_table {
 /* The one symbol of the library. */
 LOCKSTONE_GAME_EXPORT const lockstone_game_table* lockstone_game(void);
 
+/* In lockstone::tool, for a program that is the tool of this one game: runs the command that the
+ * arguments name, and returns the exit code. See lockstone::tool_main. */
+int lockstone_tool_main(int argc, char** argv, const lockstone_game_table* table);
+
 #ifdef __cplusplus
 }
 #endif
