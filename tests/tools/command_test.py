@@ -92,6 +92,27 @@ class Run(Case):
                 text = path.read_text()
                 self.assertTrue(text.startswith("<svg") and text.endswith("</svg>\n"))
 
+    def test_draws_all_moments_with_one_camera(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "picture.svg"
+            self.expect(OK, "run", "--scene", "bounce", "--ticks", 60, "--svg", path, "--frames", 3)
+            moments = path.read_text().split("<svg x=")[1:]
+            boxes = [moment.count("<polygon points=") for moment in moments]
+            ground = {re.search(r"<polygon points='([^']+)'", moment)[1] for moment in moments}
+            self.assertEqual(len(moments), 3)
+            self.assertEqual(len(ground), 1, "the ground stands still")
+            self.assertGreater(min(boxes), 0)
+
+    def test_writes_a_page_with_a_picture_of_each_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "scenes.md"
+            self.expect(OK, "scenes", "--page", page)
+            names = re.findall(r"^## (\w+)$", page.read_text(), re.MULTILINE)
+            self.assertGreater(len(names), 20)
+            for name in names:
+                self.assertTrue((pathlib.Path(folder) / "scenes" / f"{name}.svg").exists(), name)
+            self.expect(UNAVAILABLE, "scenes", "--page", page)
+
     def test_refuses_wrong_usage(self):
         self.expect(USAGE, "run", "--scene", "nothing", "--ticks", 10)
         self.expect(USAGE, "run", "--scene", "stack")

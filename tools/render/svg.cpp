@@ -180,21 +180,56 @@ Frame frame_of_those(const std::vector<Item>& items, const Camera& camera, const
   return frame.value_or(Frame{-1, 1, -1, 1});
 }
 
+// Those near the middle of the moving bodies: a few that fly far away should not make all the
+// others small.
+std::vector<bool> find_central(const std::vector<Item>& items) {
+  constexpr double k_far = 3;
+  std::vector<Vec> centers;
+  for (const Item& item : items) {
+    if (item.moves) centers.push_back(item.solid.center);
+  }
+  if (centers.empty()) return std::vector<bool>(items.size(), true);
+  const auto quantile = [](std::vector<double> values, std::size_t percent) {
+    const std::size_t index = (values.size() - 1) * percent / 100;
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index),
+                     values.end());
+    return values[index];
+  };
+  const auto median = [&](double Vec::*axis) {
+    std::vector<double> values;
+    for (const Vec& center : centers)
+      values.push_back(center.*axis);
+    return quantile(values, 50);
+  };
+  const Vec middle{median(&Vec::x), median(&Vec::y), median(&Vec::z)};
+  std::vector<double> distances;
+  for (const Vec& center : centers)
+    distances.push_back(length(center - middle));
+  const double bound = k_far * (1 + quantile(distances, 80));
+  std::vector<bool> central;
+  for (const Item& item : items)
+    central.push_back(length(item.solid.center - middle) < bound);
+  return central;
+}
+
 // The picture should show moving bodies, unless they are falling out of the world, and scenery that
 // is not much wider than these: of a vast floor a part is enough.
 Frame frame_all(const std::vector<Item>& items, const Camera& camera) {
-  constexpr double k_fallen = 0.5, k_vast = 2.5, k_border = 1.5;
+  constexpr double k_fallen = 0.5, k_vast = 1.7, k_small = 7, k_border = 1.0;
+  const std::vector<bool> central = find_central(items);
   double floor = 0;
   for (const Item& item : items) {
     if (!item.moves) floor = std::min(floor, item.solid.center.y);
   }
   const auto moves = [&](const Item& item) {
-    return item.moves && (floor == 0 || item.solid.center.y > floor - k_fallen);
+    const bool near = central[static_cast<std::size_t>(&item - items.data())];
+    return item.moves && near && (floor == 0 || item.solid.center.y > floor - k_fallen);
   };
   Frame frame = frame_of_those(items, camera, moves);
   frame = {frame.left - k_border, frame.right + k_border, frame.low - k_border,
            frame.high + k_border};
-  const double vast = k_vast * std::max(frame.right - frame.left, frame.high - frame.low);
+  const double vast =
+      k_vast * std::max({k_small, frame.right - frame.left, frame.high - frame.low});
   frame.include(frame_of_those(items, camera, [&](const Item& item) {
     const Frame own = frame_of(item.solid, camera);
     if (item.solid.kind == ShapeKind::half_space) return false;
@@ -246,33 +281,54 @@ std::string open_svg(int width, int height) {
       width, height);
 }
 
+// A band at the lower edge, so that it can be read before any background.
+std::string caption(const Picture& picture) {
+  constexpr int k_band = 26;
+  if (picture.caption.empty()) return {};
+  return fmt::format(
+      "<rect y='{}' width='{}' height='{}' fill='#fff' opacity='.8'/>\n"
+      "<text x='10' y='{}' font-size='14' fill='#203040' xml:space='preserve'>{}</text>\n",
+      picture.height - k_band, picture.width, k_band, picture.height - 8, picture.caption);
+}
+
+Camera make_camera() {
+  return {Vec{}, k_yaw, k_pitch};
+}
+
 }  // namespace
 
-std::string draw(const World& world, const Picture& picture) {
+Frame framing(const World& world, const Picture& picture) {
+  return frame_all(collect_items(world, picture.style), make_camera());
+}
+
+std::string draw(const World& world, const Picture& picture, const Frame& frame) {
   std::vector<Item> items = collect_items(world, picture.style);
   cast_shadows(world, items);
-  const Vec target = items.empty() ? Vec{} : items.front().solid.center;
-  const Camera camera(target, k_yaw, k_pitch);
-  Canvas canvas = make_canvas(camera, frame_all(items, camera), picture);
+  const Camera camera = make_camera();
+  Canvas canvas = make_canvas(camera, frame, picture);
   canvas.out = open_svg(picture.width, picture.height);
   canvas.out += "<rect width='100%' height='100%' fill='url(#sky)'/>\n";
   draw_items(canvas, items);
   draw_labels(canvas, items);
   if (picture.overlay)
     canvas.out += overlay(world, [&](const Vec& at) { return canvas.point(at); });
-  canvas.out += fmt::format(
-      "<text x='16' y='{}' font-size='18' fill='#203040' xml:space='preserve'>{}</text>\n</svg>\n",
-      picture.height - 16, picture.caption);
+  canvas.out += caption(picture) + "</svg>\n";
   return std::move(canvas.out);
 }
 
+std::string draw(const World& world, const Picture& picture) {
+  return draw(world, picture, framing(world, picture));
+}
+
 std::string strip(const std::vector<std::string>& pictures, const Picture& picture, int columns) {
+  constexpr int k_gap = 4;
   const int count = static_cast<int>(pictures.size());
   const int rows = (count + columns - 1) / columns;
-  std::string out = open_svg(picture.width * std::min(columns, count), picture.height * rows);
+  const int wide = picture.width + k_gap, high = picture.height + k_gap;
+  std::string out = open_svg(wide * std::min(columns, count) - k_gap, high * rows - k_gap);
   for (int i = 0; i < count; ++i) {
-    out += fmt::format("<svg x='{}' y='{}' width='{}' height='{}'>\n", i % columns * picture.width,
-                       i / columns * picture.height, picture.width, picture.height);
+    out += fmt::format("<svg x='{}' y='{}' width='{}' height='{}'>\n", i % columns * wide,
+                       i / columns * high, picture.width, picture.height);
     out += pictures[static_cast<std::size_t>(i)] + "</svg>\n";
   }
   return out + "</svg>\n";

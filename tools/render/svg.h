@@ -33,7 +33,13 @@ struct Picture {
   bool overlay = false;  ///< bounds, centres of mass, contacts and joints too
 };
 
-/// One picture of the world as it stands, framed on the moving bodies.
+/// The part of the picture plane that shows the moving bodies and the scenery near them, in metres.
+[[nodiscard]] Frame framing(const World& world, const Picture& picture);
+
+/// One picture of the world as it stands. Pictures with one frame have one camera.
+[[nodiscard]] std::string draw(const World& world, const Picture& picture, const Frame& frame);
+
+/// The same, framed on the moving bodies.
 [[nodiscard]] std::string draw(const World& world, const Picture& picture);
 
 /// Several pictures (each from `draw`, of one size) in rows beneath each other, as one.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <lockstone/assert.h>
 #include <lockstone/thread_pool.h>
 
 #include "tools/lockstone/commands.h"
@@ -113,9 +114,9 @@ class Run {
       chain_.push_back({tick, play_->simulation().hash()});
     }
     const auto frames = static_cast<std::uint64_t>(options_.frames);
-    const std::uint64_t due = (frames_.size() + 1) * options_.ticks / frames;
+    const std::uint64_t due = (moments_.size() + 1) * options_.ticks / frames;
     if (!options_.svg.empty() && tick == due) {
-      frames_.push_back(render::draw(play_->world(), picture_of(options_, *play_)));
+      keep_moment();
     }
     return true;
   }
@@ -142,13 +143,38 @@ class Run {
     return false;
   }
 
-  [[nodiscard]] bool write_picture() const {
+  void keep_moment() {
+    const Simulation& simulation = play_->simulation();
+    std::vector<std::byte> bytes(simulation.snapshot_bytes_max(SnapshotKind::canonical));
+    bytes.resize(simulation.save(SnapshotKind::canonical, bytes));
+    moments_.push_back(std::move(bytes));
+  }
+
+  // One frame for all moments, so that the camera stands still.
+  [[nodiscard]] std::vector<std::string> draw_moments() {
+    std::optional<render::Frame> frame;
+    for (const std::vector<std::byte>& moment : moments_) {
+      LKS_CHECK(play_->simulation().load(SnapshotKind::canonical, moment) == Status::ok);
+      const render::Frame own = render::framing(play_->world(), picture_of(options_, *play_));
+      if (!frame) frame = own;
+      frame->include(own);
+    }
+    std::vector<std::string> pictures;
+    for (const std::vector<std::byte>& moment : moments_) {
+      LKS_CHECK(play_->simulation().load(SnapshotKind::canonical, moment) == Status::ok);
+      pictures.push_back(render::draw(play_->world(), picture_of(options_, *play_), *frame));
+    }
+    return pictures;
+  }
+
+  [[nodiscard]] bool write_picture() {
     if (options_.svg.empty()) return true;
-    if (frames_.size() == 1)
-      return write_text_file({options_.svg, options_.force}, frames_.front());
-    const int columns = frames_.size() == 4 ? 2 : 3;
+    const std::vector<std::string> pictures = draw_moments();
+    const int columns = pictures.size() == 4 ? 2 : std::min<int>(3, options_.frames);
     return write_text_file({options_.svg, options_.force},
-                           render::strip(frames_, picture_of(options_, *play_), columns));
+                           pictures.size() == 1
+                               ? pictures.front()
+                               : render::strip(pictures, picture_of(options_, *play_), columns));
   }
 
   const RunOptions& options_;
@@ -156,7 +182,7 @@ class Run {
   ThreadPool pool_;
   std::optional<SyncTest> twin_;
   std::vector<ChainEntry> chain_;
-  std::vector<std::string> frames_;
+  std::vector<std::vector<std::byte>> moments_;  // canonical states to be drawn at the end
   Progress progress_;
 };
 
@@ -189,7 +215,9 @@ void add_run_command(CLI::App& app, Tool& tool) {
   add_threads_option(*command, options->threads);
   CLI::Option* svg = command->add_option("--svg", options->svg, "Draw the end into this file");
   add_force_option(*command, options->force);
-  command->add_option("--frames", options->frames, "Draw this many moments instead of one")
+  command
+      ->add_option("--frames", options->frames,
+                   "Draw this many moments, evenly spaced, with one camera")
       ->check(CLI::Range(1, 60))
       ->needs(svg);
   command

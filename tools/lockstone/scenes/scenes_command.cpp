@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/scenes/scenes_page.h"
 #include "tools/lockstone/support/json_text.h"
+#include "tools/lockstone/support/output_file.h"
 #include "tools/scenes/play.h"
 
 namespace lockstone::tool {
@@ -33,12 +35,24 @@ void print_table(const std::vector<scenes::SceneSummary>& list) {
 }  // namespace
 
 void add_scenes_command(CLI::App& app, int& exit_code) {
-  auto json = std::make_shared<bool>(false);
+  struct Options {
+    bool json = false;
+    bool force = false;
+    std::string page;
+  };
+  auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes");
-  command->add_flag("--json", *json, "Print JSON");
-  command->callback([json, &exit_code] {
+  command->add_flag("--json", options->json, "Print JSON");
+  command->add_option("--page", options->page,
+                      "Write a page with a picture of each scene instead: PAGE.md, PAGE/NAME.svg");
+  add_force_option(*command, options->force);
+  command->callback([options, &exit_code] {
+    if (!options->page.empty()) {
+      exit_code = write_scenes_page(options->page, options->force) ? k_ok : k_unavailable;
+      return;
+    }
     const std::vector<scenes::SceneSummary> list = scenes::list_scenes();
-    *json ? print_json(list) : print_table(list);
+    options->json ? print_json(list) : print_table(list);
     exit_code = k_ok;
   });
 }
