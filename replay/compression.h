@@ -14,7 +14,7 @@
 
 namespace lockstone::replay {
 
-/// Whether so many stored bytes may stand for so many raw ones.
+/// Whether this many stored bytes may stand for this many raw ones.
 [[nodiscard]] inline bool within_ratio(std::size_t stored_bytes, std::size_t raw_bytes) {
   const std::size_t rest = raw_bytes % k_max_compression_ratio == 0 ? 0 : 1;
   return raw_bytes / k_max_compression_ratio + rest <= stored_bytes;

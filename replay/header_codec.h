@@ -50,11 +50,11 @@ struct ChunkFrame {
 /// The four bytes that a frame begins with, little-endian: a7 'L' 'K' 'C'.
 inline constexpr std::uint32_t k_chunk_sync = 0x434b4ca7;
 
-/// Put the checksum of all before it at the end of a file header, of a frame; and answer it.
+/// Put the checksum of all before it at the end of a file header, of a frame; and return it.
 std::uint64_t seal_file_header(std::span<std::byte> header);
 std::uint64_t seal_chunk_frame(std::span<std::byte, k_chunk_header_bytes> frame);
 
-/// Writes the frame and answers its checksum. `frame.checksum` is not read.
+/// Writes the frame and returns its checksum. `frame.checksum` is not read.
 std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
                                  std::span<std::byte, k_chunk_header_bytes> out);
 

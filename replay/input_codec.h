@@ -38,7 +38,7 @@ class InputEncoder {
   /// Appends a tick; each entry has `input_bytes` bytes. Never allocates.
   void add(std::span<const PlayerInput> inputs);
 
-  /// Ends the chunk and answers its payload's bytes.
+  /// Ends the chunk and returns its payload's size.
   [[nodiscard]] std::size_t finish();
 
  private:

@@ -71,7 +71,7 @@ std::vector<std::string> VerifyReport::not_proved(SignatureState signature) cons
   if (signature == SignatureState::none) {
     lines.emplace_back(
         "not proved: that the match was played with these inputs. The log is not signed, and "
-        "whoever changes a log can compute its hashes again");
+        "anybody who changes a log can compute its hashes again");
   } else if (signature != SignatureState::good) {
     lines.emplace_back("not proved: who signed the log, and that it is whole");
   }

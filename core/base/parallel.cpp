@@ -44,7 +44,7 @@ void Parallel::share(std::span<const Loop> loops) {
   LKS_CHECK(done_ == all);
 }
 
-// Whoever runs alone does all of it. A worker that comes late joins the present loop.
+// A worker that runs alone does all of it. A worker that comes late joins the present loop.
 void Parallel::work(std::uint32_t worker) {
   std::uint64_t end = 0;
   for (std::size_t loop = 0; loop < loops_.size(); ++loop) {

@@ -60,9 +60,10 @@ class Parallel {
   using Call = void (*)(void* context, std::size_t loop, std::uint32_t first, std::uint32_t end,
                         std::uint32_t worker);
 
-  // Each worker has a part of every loop, the same one each time, lest memory wander between
-  // processors; who is done helps the others. A cursor is the last loop whose part was begun and
-  // the next grain of it: a worker that comes late from another loop cannot take anything.
+  // Each worker has a part of every loop, the same one each time, so that memory does not wander
+  // between processors; a worker that is done helps the others. A cursor is the last loop whose
+  // part was begun and the next grain of it: a worker that comes late from another loop cannot take
+  // anything.
   struct alignas(64) Cursor {
     std::atomic<std::uint64_t> value{0};
   };

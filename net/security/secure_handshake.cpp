@@ -10,7 +10,7 @@
 namespace lockstone::net {
 namespace {
 
-// A player whose line breaks calls again after 0.25 s, and each time after twice as long.
+// A player whose connection breaks calls again after 0.25 s, and each time after twice as long.
 constexpr std::uint32_t k_entries_per_second = 1;
 constexpr std::uint32_t k_entry_burst = 10;
 
@@ -69,7 +69,7 @@ bool SecureTransport::Impl::on_hello(Link& link, ByteView packet, TransportEvent
   return challenge(link, hello, grant, packet, event);
 }
 
-// A token has one place before its proof, whoever shows it and from wherever.
+// A token has one place before its proof, independent of its sender and address.
 void SecureTransport::Impl::end_older_handshake(const SealedGrant& grant) {
   for (Link& link : links) {
     const bool same = link.stage == Stage::proving && link.identity.player == grant.grant.player &&
@@ -175,7 +175,7 @@ bool SecureTransport::Impl::on_confirm(Link& link, ByteView packet, TransportEve
                       link.opener.check_proof(packet.subspan(1));
   if (!proven) return refuse(link, RefuseReason::token_refused, event);
   if (!may_enter(link.identity)) {
-    // The line ends without a reason: an honest player calls again, after a longer pause.
+    // The connection ends without a reason: an honest player calls again, after a longer pause.
     ++counters.handshakes_limited;
     static_cast<void>(close(link, RefuseReason::none, event));
     return false;

@@ -49,7 +49,7 @@ struct SecureTransport::Impl {
   void release(Link& link);
   [[nodiscard]] Link* find(ConnectionId connection);
 
-  // secure_handshake.cpp: each answers whether there is an event to tell.
+  // secure_handshake.cpp: each returns whether there is an event to tell.
   [[nodiscard]] bool accept(ConnectionId connection, TransportEvent& event);
   [[nodiscard]] bool greet(Link& link, TransportEvent& event);
   [[nodiscard]] bool on_hello(Link& link, ByteView packet, TransportEvent& event);

@@ -42,7 +42,7 @@ bool Client::Impl::reconnect(ConnectionId connection) {
   entry_received = 0;
   dump_size = 0;
   active_tick = k_never;
-  records.clear();  // a server that was started anew may close other ticks
+  records.clear();  // a server that was started again may close other ticks
   received_end = 0;
   return true;
 }
@@ -104,7 +104,7 @@ void Client::Impl::take_snapshot(const Snapshot& last_piece) {
   ++stats.states_loaded;
   received_end = last_piece.ticks;
   records.clear();
-  // The match went back: a server that was started anew has lost the last ticks.
+  // The match went back: a server that was started again has lost the last ticks.
   if (last_piece.ticks < stepped) {
     sampled = 0;
     inputs_acked = 0;

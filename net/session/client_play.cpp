@@ -236,7 +236,7 @@ bool Client::Impl::on_dump_request(ByteView packet) {
   return true;
 }
 
-// The canonical form of the state that was kept after so many ticks; 0: not kept.
+// The canonical form of the state that was kept after this many ticks; 0: not kept.
 std::size_t Client::Impl::dump_kept_state(std::uint64_t ticks) {
   const ByteView kept = states.find(ticks);
   if (kept.empty() || dump.empty()) return 0;

@@ -41,7 +41,7 @@ class HashJudge {
     return players_[slot].reported.next_tick();
   }
 
-  /// `slot` reports anew, from `tick` on, whatever it reported before. Nobody waits for it yet.
+  /// `slot` reports again, from `tick` on, whatever it reported before. Nobody waits for it yet.
   void restart(std::size_t slot, std::uint64_t tick);
 
   /// Before anything else: the match goes on after `ticks` of them, above 0; the last hash is

@@ -16,7 +16,7 @@ namespace lockstone::net {
 
 /// A part whose hashes differ. `reference` is a slot, or k_no_slot for the server.
 struct PartMismatch {
-  std::uint64_t ticks = 0;  ///< the state after so many ticks
+  std::uint64_t ticks = 0;  ///< the state after this many ticks
   std::uint8_t slot = 0;
   std::uint8_t reference = k_no_slot;
   Verdict verdict = Verdict::undecided;

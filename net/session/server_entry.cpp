@@ -1,8 +1,8 @@
 // Entering a match that runs: late players, those who come back, those whose state was wrong.
 //
-// Whoever enters gets the canonical snapshot of an agreed state, then the ticks since. A server
-// that simulates takes it from itself, a relay from a donor. When the newcomer has caught up, the
-// tick from which on it plays is announced. Nobody else waits.
+// A player that enters gets the canonical snapshot of an agreed state, then the ticks since. A
+// server that simulates takes it from itself, a relay from a donor. When the newcomer has caught
+// up, the tick from which on it plays is announced. Nobody else waits.
 #include <algorithm>
 
 #include "net/session/server_impl.h"

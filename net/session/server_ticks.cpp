@@ -156,7 +156,7 @@ void Server::Impl::drop_waited_for() {
   waiting = 0;
   for (Seat& place : seats) {
     if (place.link == nullptr || ((mask >> place.link->slot) & 1) == 0) continue;
-    // A state that is still being sent is no fault of whoever gets it.
+    // A state that is still being sent is no fault of its receiver.
     if (place.loading && place.snapshot_sent < entry_bytes(place).size()) continue;
     drop(*place.link, LeaveReason::timed_out);
   }
@@ -189,7 +189,7 @@ void Server::Impl::drop_laggards() {
   }
 }
 
-// Whoever takes ticks owes the hashes of the states after them: without these nobody could be
+// A player that takes ticks owes the hashes of the states after them: without these nobody could be
 // judged, and in a relay nobody else either.
 void Server::Impl::drop_secretive() {
   for (std::uint8_t slot = 0; slot < seats.size(); ++slot) {
@@ -300,7 +300,7 @@ bool Server::Impl::ticks_due(const Seat& place) const {
   return place.last_sent_closed != closed || since_us >= tick_us;
 }
 
-// Sends ticks from `first_tick` on, as many as one datagram holds; answers the first not sent.
+// Sends ticks from `first_tick` on, as many as one datagram holds; returns the first not sent.
 std::uint64_t Server::Impl::send_ticks(const Follower& follower, std::uint64_t first_tick,
                                        Channel channel, Ticks& message) {
   const std::uint64_t all = end_for(follower);

@@ -37,8 +37,8 @@ inline constexpr std::uint32_t k_timeout_doublings = 32;
 inline constexpr std::int64_t k_half_open_us = 2'000'000;
 // A stranger that was sent away need not confirm that it heard why.
 inline constexpr std::int64_t k_farewell_us = 2'000'000;
-// ENet ends a round of receiving after so many datagrams, and at each that is empty or longer than
-// its buffer.
+// ENet ends a round of receiving after this many datagrams, and at each that is empty or longer
+// than its buffer.
 inline constexpr unsigned k_enet_datagrams_a_round = 256;
 inline constexpr unsigned k_max_cut_rounds_a_poll = 64;
 

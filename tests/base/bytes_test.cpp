@@ -17,7 +17,7 @@ TEST(ByteWriter, WritesLittleEndian) {
     EXPECT_EQ(std::to_integer<std::size_t>(buffer[i]), i + 1);
 }
 
-TEST(ByteWriter, RefusesWhatDoesNotFitAndStaysFailed) {
+TEST(ByteWriter, RefusesBytesThatDoNotFitAndStaysFailed) {
   std::array<std::byte, 3> buffer{};
   ByteWriter writer(buffer);
   writer.put<std::uint32_t>(1);
@@ -27,7 +27,7 @@ TEST(ByteWriter, RefusesWhatDoesNotFitAndStaysFailed) {
   EXPECT_EQ(writer.size(), 0U);
 }
 
-TEST(ByteReader, GivesBackWhatWasWritten) {
+TEST(ByteReader, ReturnsTheWrittenValues) {
   std::array<std::byte, 32> buffer{};
   ByteWriter writer(buffer);
   writer.put<std::int64_t>(-5);

@@ -1,4 +1,4 @@
-// Loops on workers: each item once, loops in order, whoever runs them.
+// Loops on workers: each item once, loops in order, on any worker.
 #include "core/base/parallel.h"
 
 #include <atomic>

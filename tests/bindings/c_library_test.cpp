@@ -106,7 +106,7 @@ TEST(CLibrary, WholeNumbersConvertAsRatiosOfTheCore) {
   EXPECT_EQ(lks_angle_mdeg(90'000), Angle(90_deg).raw);
 }
 
-TEST(CLibrary, AStructureOfAnOlderHeaderKeepsDefaultsInWhatItLacks) {
+TEST(CLibrary, AStructureOfAnOlderHeaderHasDefaultsForNewFields) {
   const Grown defaults{sizeof(Grown), 1, 2};
   Grown caller{8, 7, 99};
   const Grown taken = c::take(&caller, defaults, "grown");

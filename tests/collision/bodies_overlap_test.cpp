@@ -25,7 +25,7 @@ PlacedShape placed_near(Dice& dice, const Shape& shape, const Asset* asset, doub
 }
 
 // Balls of every size about hulls and primitives: inside, across their surfaces and beside them.
-TEST(BodiesOverlap, SaysOfBallsWhatTheirContactsSay) {
+TEST(BodiesOverlap, AgreesWithTheContactsOfBalls) {
   Dice dice;
   PartContacts contacts;
   int overlapping = 0, apart = 0;

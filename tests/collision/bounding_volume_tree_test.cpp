@@ -34,7 +34,7 @@ TEST(BoundingVolumeTree, FindsNothingWhenEmpty) {
   EXPECT_TRUE(bodies_in(tree, Bounds{}).empty());
 }
 
-TEST(BoundingVolumeTree, FindsWhatAFullSearchFindsWhileLeavesComeAndGo) {
+TEST(BoundingVolumeTree, FindsAsMuchAsAFullSearchWhileLeavesComeAndGo) {
   test::Random random;
   constexpr std::uint32_t k_count = 300;
   BoundingVolumeTree tree(k_count);
@@ -72,7 +72,7 @@ TEST(BoundingVolumeTree, StaysFlatWhenLeavesComeInSortedOrder) {
   EXPECT_LE(tree.height(), 30);
 }
 
-TEST(BoundingVolumeTree, BuiltAtOnceIsFlatAndFindsWhatAFullSearchFinds) {
+TEST(BoundingVolumeTree, BuiltAtOnceIsFlatAndFindsAsMuchAsAFullSearch) {
   test::Random random;
   constexpr std::uint32_t k_count = 500;
   BoundingVolumeTree tree(k_count);
@@ -95,7 +95,7 @@ TEST(BoundingVolumeTree, BuiltAtOnceIsFlatAndFindsWhatAFullSearchFinds) {
   }
 }
 
-TEST(BoundingVolumeTree, SkipsWhatItsLayersRuleOut) {
+TEST(BoundingVolumeTree, SkipsLeavesThatItsLayersRuleOut) {
   constexpr Layers k_one{.categories = 1, .masks = 1};
   constexpr Layers k_two{.categories = 2, .masks = 2};
   BoundingVolumeTree tree(100);

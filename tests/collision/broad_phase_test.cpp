@@ -206,7 +206,7 @@ TEST_P(BothBroadPhases, KeepTheFirstOfManyPairsWhateverTheOrderOfComing) {
   EXPECT_TRUE(tight.overflowed());
 }
 
-TEST_P(BothBroadPhases, ForgetWithoutChangingWhatTheyFind) {
+TEST_P(BothBroadPhases, ForgetWithoutChangingResults) {
   test::Random random;
   constexpr std::uint32_t k_count = 60;
   Model model(k_count);
@@ -223,7 +223,7 @@ TEST_P(BothBroadPhases, ForgetWithoutChangingWhatTheyFind) {
   }
 }
 
-TEST_P(BothBroadPhases, SearchOnlyForWhatLeftItsFatBox) {
+TEST_P(BothBroadPhases, SearchOnlyForBodiesThatLeftTheirFatBox) {
   BroadPhase broad_phase(GetParam(), 100, 1000);
   Bounds box;
   box.upper = {BoundsCoordinate::from_integer(1), BoundsCoordinate::from_integer(1),
@@ -276,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, BothBroadPhases,
                            return kind.param == BroadPhaseKind::tree ? "Tree" : "SweepAndPrune";
                          });
 
-TEST(Layers, NeverRuleOutWhatCollides) {
+TEST(Layers, NeverRuleOutBodiesThatCollide) {
   test::Random random;
   int ruled_out = 0;
   for (int round = 0; round < 20000; ++round) {

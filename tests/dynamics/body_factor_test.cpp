@@ -148,7 +148,7 @@ TEST(BodyFactor, OfAnIslandDoesNotDependOnOthers) {
   EXPECT_EQ(first.sides, second.sides);
 }
 
-TEST(BodyFactor, RefusesWhatIsTooLarge) {
+TEST(BodyFactor, RefusesIslandsThatAreTooLarge) {
   constexpr std::uint32_t k_clique = 60;  // 60² + 59² + … products
   BodyFactor factor(2 * BodyFactor::k_most_bodies, 2048);
   BodyFactor::Plan plan;

@@ -68,7 +68,7 @@ TEST(ConstraintGraph, RanksEachColorInTheOrderOfAdding) {
     EXPECT_EQ(graph.count(c), next[c]);
 }
 
-TEST(ConstraintGraph, ForgetsWhatWasBefore) {
+TEST(ConstraintGraph, ForgetsEarlierConstraints) {
   const std::vector<Constraint> constraints = random_constraints(50, 300);
   const ConstraintGraph fresh = color(constraints, 50);
   ConstraintGraph used = color(random_constraints(50, 300), 50);
@@ -81,7 +81,7 @@ TEST(ConstraintGraph, ForgetsWhatWasBefore) {
     EXPECT_TRUE(used.places()[i] == fresh.places()[i]);
 }
 
-TEST(ConstraintGraph, SharesWhatNothingMoves) {
+TEST(ConstraintGraph, SharesBodiesThatNothingMoves) {
   ConstraintGraph graph(100, 200);
   add_bodies(graph, 100);
   for (std::uint32_t body = 1; body <= 99; ++body) {

@@ -162,7 +162,7 @@ TEST(FreeRotation, StaysDefinedAtTheEndsOfItsRange) {
 }
 
 // Spheres and cubes turn about one axis only, capsules are tops, boxes of three lengths are not.
-TEST(FreeRotation, CostsWhatTheShapeNeeds) {
+TEST(FreeRotation, CostsOnlyTheTurnsThatTheShapeNeeds) {
   const auto turns = [](const Shape& shape) {
     World world = test::make_world({.body_capacity = 2, .gravity = {}});
     BodyDef def;

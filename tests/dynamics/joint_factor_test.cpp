@@ -62,7 +62,7 @@ TEST(JointFactor, OfAChainFillsNothingIn) {
     EXPECT_EQ(chain.factor.columns(0, 20)[k].block_count, k < 19 ? 1U : 0U);
 }
 
-TEST(JointFactor, SolvesWhatItWasGiven) {
+TEST(JointFactor, SolvesItsSystem) {
   test::Random random(test::run_seed());
   for (int round = 0; round < 50; ++round) {
     Chain chain(8);

@@ -68,7 +68,7 @@ TEST(IslandLoad, IsAHeapBeyondItsBudgetOfBearingContacts) {
   EXPECT_FALSE(load.is_heap());
 }
 
-TEST(IslandLoad, NeedsFirstLoadsWhereManyAreLoadedAndAQuarterIsNew) {
+TEST(IslandLoad, NeedsAnInitialWarmStartWhereManyAreOverloadedAndAQuarterIsNew) {
   IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200};
   EXPECT_TRUE(load.needs_first_loads());
   load.fresh = 249;

@@ -97,7 +97,7 @@ TEST_P(FuzzTest, SurvivesItsCorpus) {
     run_both(GetParam(), bytes);
 }
 
-TEST(FuzzCorpus, IsThereForWhatStrangersSend) {
+TEST(FuzzCorpus, IsThereForAllBytesThatStrangersSend) {
   for (const char* name : {"enet", "log", "secure", "token", "wire"})
     EXPECT_FALSE(read_corpus(name).empty()) << name;
 }

@@ -83,7 +83,7 @@ TEST(BoxClip, PartsAreTheNearestAndOdd) {
   }
 }
 
-TEST(BoxClip, WhatIsCutOffAndWhatIsLeftAreTheWhole) {
+TEST(BoxClip, ThePartsOfACutMakeUpTheWhole) {
   Dice dice;
   for (int i = 0; i < 5000; ++i) {
     const ClipPolygon polygon = quadrilateral(dice, 1);

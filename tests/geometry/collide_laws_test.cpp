@@ -55,7 +55,7 @@ TEST(Collide, FindsTheDistanceOfShapesApart) {
   });
 }
 
-TEST(Collide, TouchesWhatOverlapsAndIsHardlyDeeperThanTheLeastOverlap) {
+TEST(Collide, FindsOverlapsHardlyDeeperThanTheLeastOverlap) {
   for_random_scenes(k_scenes, [](Dice&, const Scene& scene) {
     const Real truth = signed_distance(scene.placed_a(), scene.placed_b());
     if (truth > -tolerance(scene)) return;

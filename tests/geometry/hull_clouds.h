@@ -21,7 +21,7 @@ inline Cloud in_cube(Dice& dice, int count, double half) {
   return cloud;
 }
 
-/// Whether no point lies within so many steps of a plane through three others.
+/// Whether no point lies within this many steps of a plane through three others.
 inline bool is_in_general_position(const Cloud& cloud, Real steps) {
   const std::size_t count = cloud.size();
   const auto is_near = [&](std::size_t i, std::size_t j, std::size_t k) {

@@ -249,7 +249,7 @@ TEST_F(OneSided, PushesToTheFrontHoweverDeepUpToTheCentre) {
   }
 }
 
-TEST_F(OneSided, IgnoresWhatHasItsCentreBehind) {
+TEST_F(OneSided, IgnoresBodiesWithTheirCentreBehind) {
   for (const Body& body : bodies_)
     for (const double height : {-0.6, -0.45, -0.2, -0.2 - 1e-6}) {
       EXPECT_EQ(collide(ground_, body.posed(), metres(0, height, 0), metres(0.05)).count, 0);

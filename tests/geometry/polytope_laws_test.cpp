@@ -34,7 +34,7 @@ TEST(CollidePolytope, FindsTheDistanceOfShapesApart) {
   });
 }
 
-TEST(CollidePolytope, TouchesWhatOverlapsAndIsHardlyDeeperThanTheLeastOverlap) {
+TEST(CollidePolytope, FindsOverlapsHardlyDeeperThanTheLeastOverlap) {
   for_random_polytope_scenes(k_polytope_scenes, [](Dice&, const PolytopeScene& scene) {
     const Real truth = signed_distance(scene.real_a(), scene.real_b());
     if (truth > -tolerance(scene)) return;

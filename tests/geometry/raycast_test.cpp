@@ -130,7 +130,7 @@ Placed grown(Placed shape, Real by) {
   return shape;
 }
 
-TEST(CastRay, HitsWhatTheReferenceHitsOutsideTwoMicrometres) {
+TEST(CastRay, AgreesWithTheReferenceOutsideTwoMicrometres) {
   for_random_rays(
       [](const Shape& shape, const Mat3& rotation, const Placed& placed, const Ray& ray) {
         const bool hit = cast_ray(shape, rotation, ray.origin, ray.translation).hit;

@@ -118,7 +118,7 @@ TEST(ShapeCast, GrazesWithoutEnd) {
   }
 }
 
-TEST(ShapeCast, LeavesWhatItSlidesAlong) {
+TEST(ShapeCast, LeavesASurfaceThatItSlidesAlong) {
   Convex floor = convex(Shape::box(metres(10), metres(1), metres(10)));
   Convex box = convex(Shape::box(metres(1), metres(1), metres(1)));
   const Vec3<Length> resting{{}, Length::from_raw(metres(2).raw + 1), {}};

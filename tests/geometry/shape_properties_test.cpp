@@ -83,7 +83,7 @@ TEST(MassOf, IsTheCorrectlyRoundedClosedForm) {
   });
 }
 
-TEST(MassOf, SaturatesWhatIsTooHeavy) {
+TEST(MassOf, SaturatesMassesThatAreTooLarge) {
   const Shape huge = Shape::box(k_max_shape_size, k_max_shape_size, k_max_shape_size);
   EXPECT_EQ(mass_of(huge, Density::max()), Mass::max());
   EXPECT_EQ(mass_of(Shape::capsule(k_max_shape_size, k_max_shape_size), Density::max()),

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> query(const StaticTree& tree, const std::vector<Local
   return found;
 }
 
-TEST(StaticTree, FindsWhatATestOfEveryBoxFindsInAscendingOrder) {
+TEST(StaticTree, FindsAsMuchAsATestOfEveryBoxInAscendingOrder) {
   Dice dice;
   for (const int count : {1, 2, 4, 5, 100, 1000}) {
     const auto given = random_boxes(dice, count);

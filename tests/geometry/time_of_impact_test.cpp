@@ -144,7 +144,7 @@ TEST(TimeOfImpact, StopsBulletsBeforeThinWalls) {
   }
 }
 
-TEST(TimeOfImpact, StopsSpinningRodsBeforeWhatTheySweep) {
+TEST(TimeOfImpact, StopsSpinningRodsBeforeBodiesInTheirPath) {
   Dice dice;
   for (int i = 0; i < 300; ++i) {
     Mover rod;
@@ -211,7 +211,7 @@ TEST(TimeOfImpact, AnswersTheLastSafeTimeWhenIterationsRunOut) {
   expect_lawful(rod, post, found, 100);
 }
 
-TEST(TimeOfImpact, SaysWhatOverlapsAtTheStart) {
+TEST(TimeOfImpact, ReturnsZeroForOverlapsAtTheStart) {
   Mover a;
   a.shape = convex(Shape::box(metres(1), metres(1), metres(1)));
   Mover b = a;

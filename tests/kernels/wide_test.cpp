@@ -112,7 +112,7 @@ TEST(ScalarLanes, PackAndSplitOperands) {
 }
 
 #if defined(LOCKSTONE_WITH_HIGHWAY)
-TEST(WideLanes, ComputeWhatTheirScalarTwinsDo) {
+TEST(WideLanes, ComputeTheSameAsTheirScalarTwins) {
   EXPECT_EQ(test::check_operations(run_seed()), "");
 }
 

@@ -1,6 +1,7 @@
 """Plain English in comments, pages, help texts and messages. The law counts, for each folder,
 
-  what     noun clauses with "what" ("What rests is skipped", "pays for what it uses")
+  what     noun clauses with "what" ("What rests is skipped", "pays for what it uses"), and names of
+           tests with "What" ("KeepsWhatItHolds")
   answers  "Answers" where a comment in code means "Returns"
   words    private words that the field has a better term for
 
@@ -39,7 +40,9 @@ ALLOWED = pathlib.Path(__file__).with_name("plain_english_allowed.json")
 
 _WHAT = re.compile(r"(?<![\w.$>`\"'#{-])what(?![\w(=`\"'}-])", re.IGNORECASE)
 _QUESTION = re.compile(r"[^.?!;\0]*\?")
-_ANSWERS = re.compile(r"\bAnswers\b|[;,:]\s+answers\s+(?:whether|if|how|which|true|false|null|zero|ok|the\s+number)\b")
+_TEST_NAME = re.compile(r"^TEST(?:_[FP])?\(\s*\w+,\s*\w*What(?!ever)\w*", re.MULTILINE)
+_ANSWERS = re.compile(r"\bAnswers\b|[;,:]\s+answers\s+(?:whether|if|how|which|the|true|false|null|zero|ok|io_error)\b"
+                      r"|\b(?:and|it|each\s+call|each)\s+answers\s+(?:whether|how|true|false|null|ok|that|its|the\s+new)\b")
 _CODE = "\0"  # stands for code between two pieces of prose, so that no phrase reaches over it
 _MARKERS = re.compile(r"///?<?|/\*\*?<?|\*/|^[ \t]*\*", re.MULTILINE)
 _SPAN = re.compile(r"`[^`\n]*`")
@@ -161,6 +164,9 @@ def find(tree, words):
         for position, kind, advice in findings_in(prose, words, file.suffix == ".md"):
             line = prose.count("\n", 0, position) + 1
             found.append((folder_of(path), kind, f"{path}:{line}: {kind}: {advice}: {lines[line - 1].strip()}"))
+        for match in _TEST_NAME.finditer(text if file.suffix == ".cpp" else ""):
+            line = text.count("\n", 0, match.start()) + 1
+            found.append((folder_of(path), "what", f"{path}:{line}: what: name the subject: {match[0]}"))
     return found
 
 
@@ -219,6 +225,8 @@ def control():
         expect_only(found(name, text), f"{name}:{2 if 'cpp' in text else 1}: what: ")
     expect_only(found("core/a.h", "/// Answers whether.\n/// Checks it;\n/// answers how many.\nint a; // answers a ping\n"),
                 "core/a.h:1: answers", "core/a.h:2: answers")
+    expect_only(found("tests/a.cpp", "TEST(A, KeepsWhatItHolds) {\n}\nTEST(A, HoldsWhateverHappens) {\n}\n"), "tests/a.cpp:1: what: ")
+    expect_only(found("net/a.h", "// Writes it; answers the size.\n"), "net/a.h:1: answers")
     expect_only(found("core/a.h", "// Heap\n// loads\n// are handed down.\n"), "core/a.h:1: words: Heap loads",
                 "core/a.h:3: words: handed down -> propagate")
     for name, text in {"net/a.cpp": 'auto what = result.what;  // What is next?\nput("what", e.what());  // `what` and what to do\n'

@@ -75,7 +75,7 @@ TEST(Desync, IsFoundInFastMatchesToo) {
 }
 
 // Where 64 bits meet by chance, 128 a part do not: the next check finds it, and names the part.
-TEST(Desync, PartsShowWhatTheHashIsBlindTo) {
+TEST(Desync, PartsShowDifferencesThatTheHashMisses) {
   for (const std::uint8_t prediction : {std::uint8_t{0}, std::uint8_t{4}}) {
     MatchOptions options = match_with_flip(3, 60, 1, {100, "body", "spin", 5, 9});
     options.authoritative = false;

@@ -44,7 +44,7 @@ Bytes fragment(std::uint16_t first, std::uint32_t number, std::uint32_t total) {
   return bytes;
 }
 
-TEST(CommandFilter, PassesWhatEnetSendsForASession) {
+TEST(CommandFilter, PassesCommandsThatEnetSendsForASession) {
   const std::vector<Bytes> usual{
       command(0x01, 0, 5, {{5, 2}, {100, 2}}),
       command(0x01, 0xff, 5, {{5, 2}, {100, 2}}),
@@ -72,7 +72,7 @@ TEST(CommandFilter, PassesWhatEnetSendsForASession) {
   }
 }
 
-TEST(CommandFilter, RefusesWhatNoSessionSends) {
+TEST(CommandFilter, RefusesCommandsThatNoSessionSends) {
   const std::vector<Bytes> unusual{
       reliable(1, 0),                                     // nothing in it
       command(0x86, 1, 1, {{1, 2}, {0, 1}}),              // another channel
@@ -181,7 +181,7 @@ struct Store {
   }
 };
 
-TEST(CommandFilter, BoundsWhatAnyRunOfHostileCommandsStores) {
+TEST(CommandFilter, BoundsTheMemoryOfAnyRunOfHostileCommands) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
     CommandFilter filter;

@@ -62,7 +62,7 @@ TEST(EnetDatagram, TheChecksumFindsEveryChangedBitAndAnotherKey) {
 }
 
 // The open checksum is part of the wire format: it must not change.
-TEST(EnetDatagram, TheOpenChecksumStaysWhatItIs) {
+TEST(EnetDatagram, TheOpenChecksumStaysTheSame) {
   const Word sum = LinkChecksum(std::nullopt).of(connect_datagram(std::byte{7}));
   EXPECT_EQ(ByteReader(sum).get<std::uint32_t>(), 0x85f5c1d8U);
 }
@@ -91,7 +91,7 @@ TEST(ConnectMemory, KnowsWhoAskedFirst) {
   EXPECT_TRUE(memory.admit(a, there));
 }
 
-TEST(FloodWatch, CallsAFloodWhatGoesOnForSeconds) {
+TEST(FloodWatch, CallsAnExcessThatLastsForSecondsAFlood) {
   FloodWatch honest(100, 0), flood(100, 0);
   bool flooded = false;
   for (std::int64_t now_us = 0; now_us < 60'000'000; now_us += 20'000) {

@@ -42,7 +42,7 @@ TEST(Match, OfTwoPlaysThroughOnAPerfectNetwork) {
   EXPECT_TRUE(match.server_log.final_hash.has_value());
 }
 
-TEST(Match, CarriesWhatThePlayersPressedUnchanged) {
+TEST(Match, CarriesTheInputsOfPlayersUnchanged) {
   Match match(match_of(2, 120, 11));
   ASSERT_TRUE(match.run(30 * k_second_us));
   for (std::uint64_t tick = 4; tick < 120; ++tick) {

@@ -34,7 +34,7 @@ Outcome open(PacketOpener& opener, Channel channel, const Bytes& packet, Bytes* 
   return outcome;
 }
 
-TEST(PacketSeal, OpensWhatWasSealed) {
+TEST(PacketSeal, OpensSealedPackets) {
   PacketSealer sealer(key_of(1));
   PacketOpener opener(key_of(1));
   Random random(3);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t k_ticks = 900;
 
-/// The toy after so many of a server's closed ticks.
+/// The toy after this many of a server's closed ticks.
 void step_to(ToySimulation& toy, const Seen& seen, std::size_t ticks, std::size_t input_bytes) {
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     std::vector<PlayerInput> inputs;
@@ -150,8 +150,8 @@ TEST(Reconnect, IsOfNoUseForWhoWasSentAway) {
   EXPECT_FALSE(match.players[0].client->may_reconnect());
 }
 
-// The simulation stands ahead of the last closed tick when the line is lost.
-TEST(Reconnect, ClientThatPredictsGoesOnFromWhatWasClosed) {
+// The simulation stands ahead of the last closed tick when the connection is lost.
+TEST(Reconnect, ClientThatPredictsGoesOnFromClosedTicks) {
   MatchOptions options = match_of(2, k_ticks, 332);
   options.client.prediction_ticks = 8;
   Match match(options);

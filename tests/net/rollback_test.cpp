@@ -121,7 +121,7 @@ ClientFailure failure_of_sync_test(bool forgets) {
   return client->failure();
 }
 
-TEST(Rollback, SyncTestFindsWhatASnapshotForgets) {
+TEST(Rollback, SyncTestFindsAFieldThatASnapshotForgets) {
   EXPECT_EQ(failure_of_sync_test(true), ClientFailure::not_deterministic);
   EXPECT_EQ(failure_of_sync_test(false), ClientFailure::none);
 }

@@ -377,7 +377,7 @@ TEST(SecureTransport, InsecureAndSecureRefuseEachOtherWithTheReason) {
   EXPECT_EQ(Mixed(false, false).state, ClientState::lobby);
 }
 
-TEST(SecureTransport, SessionsMustSayWhatTheyStandOn) {
+TEST(SecureTransport, SessionsMustSayWhetherTheyAreInsecure) {
   Pair pair;
   const auto secure = serve_securely(pair.server_end, pair.random);
   lockstone::toy::ToyConfig toy;

@@ -19,7 +19,7 @@ ConnectToken sample_token() {
   return issue_token(backend_key(), grant, random).value();
 }
 
-TEST(Token, OpensToWhatWasGranted) {
+TEST(Token, OpensToItsGrant) {
   const ConnectToken token = sample_token();
   SealedGrant opened;
   ASSERT_EQ(open_sealed(backend_key(), shown(token), opened), Status::ok);
@@ -40,7 +40,7 @@ TEST(Token, SurvivesBytesAndText) {
 }
 
 // The bytes of docs/reference/wire-format.md: a change of them is a new version.
-TEST(Token, BytesStayWhatTheyAre) {
+TEST(Token, BytesStayTheSame) {
   std::array<std::byte, k_token_bytes> bytes{};
   encode_token(sample_token(), bytes);
   EXPECT_EQ(hash64(bytes), 0x64656b44681f1abaULL);
@@ -149,7 +149,7 @@ TEST(ServerAddress, WritesIpv6InOneForm) {
   EXPECT_EQ(rewritten("[::ffff:10.0.0.1]:7"), "10.0.0.1:7");  // the same server
 }
 
-TEST(ServerAddress, RefusesWhatIsNoIpv6Address) {
+TEST(ServerAddress, RefusesTextThatIsNoIpv6Address) {
   for (const char* text : {"::1:7",
                            "[::1]",
                            "[::1]:",

@@ -182,7 +182,7 @@ DatagramSource source_at(const char* text, std::uint16_t port = 7) {
   return {.address = ipv4 ? map_ipv4(*ipv4) : *ipv6_from_text(text), .port = port};
 }
 
-TEST(RefusalLimit, OneAddressDoesNotUseUpWhatOthersHear) {
+TEST(RefusalLimit, OneAddressDoesNotUseUpTheRefusalsOfOthers) {
   RefusalLimit limit;
   unsigned taken = 0;
   for (int i = 0; i < 1000; ++i)

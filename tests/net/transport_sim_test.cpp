@@ -50,7 +50,7 @@ TEST(SimTransport, DeliversInOrderAfterTheDelayWithoutFaults) {
   }
 }
 
-TEST(SimTransport, LosesAboutWhatItIsTold) {
+TEST(SimTransport, LosesAboutTheShareOfPacketsThatItIsTold) {
   LinkFaults faults;
   faults.loss_ppm = 300'000;
   const std::size_t got = arrivals(2, faults, Channel::unreliable, 10'000).size();
@@ -121,7 +121,7 @@ TEST(SimTransport, OneFaultDoesNotDisturbTheDrawsOfAnother) {
     EXPECT_EQ(plain[i].number, delayed[i].number);
 }
 
-TEST(SimTransport, DisconnectArrivesAfterWhatWasSent) {
+TEST(SimTransport, DisconnectArrivesAfterEarlierPackets) {
   SimNetwork network(1);
   SimTransport& a = network.add_endpoint();
   SimTransport& b = network.add_endpoint();

@@ -162,7 +162,7 @@ TEST(Wire, RefusesTrailingBytes) {
   }
 }
 
-TEST(Wire, WhatDecodesAfterCorruptionIsInRange) {
+TEST(Wire, DecodedValuesAreInRangeAfterCorruption) {
   constexpr std::uint64_t k_seed = 20260721;
   Random random(k_seed);
   for (const Sample& message : samples()) {

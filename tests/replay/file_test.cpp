@@ -67,7 +67,7 @@ TEST(File, HoldsTheSameBytesAsMemory) {
   EXPECT_EQ(verify(*source.value(), toy_factory()).outcome, VerifyOutcome::same);
 }
 
-TEST(File, WhatIsNotThereOrNotAFileIsATypedError) {
+TEST(File, AMissingFileAndADirectoryAreTypedErrors) {
   EXPECT_EQ(FileSource::open(::testing::TempDir() + "/lockstone/none.lks").status(),
             Status::not_found);
   EXPECT_EQ(FileSource::open(::testing::TempDir()).status(), Status::io_error);

@@ -41,7 +41,7 @@ TEST(Repair, ClosesALogCutAtAnyByte) {
   }
 }
 
-TEST(Repair, KeepsWhatStandsBeforeDamage) {
+TEST(Repair, KeepsEverythingBeforeDamage) {
   Bytes log = record({.ticks = 40});
   const auto chunks = chunks_of(log);
   log[chunks[find_chunk(chunks, ChunkType::hash, 3)].offset + 60] ^= std::byte{1};
@@ -60,7 +60,7 @@ TEST(Repair, LeavesAWholeLogAsItIs) {
   EXPECT_TRUE(report.was_whole);
 }
 
-TEST(Repair, RefusesWhatIsNoLog) {
+TEST(Repair, RefusesBytesThatAreNoLog) {
   RepairReport report;
   EXPECT_TRUE(repaired(Bytes(500), report).empty());
   EXPECT_NE(report.status, Status::ok);

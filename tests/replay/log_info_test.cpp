@@ -45,7 +45,7 @@ TEST(LogInfo, SumsUpAWholeLog) {
   EXPECT_EQ(inputs, 180U);
 }
 
-TEST(LogInfo, SumsUpWhatIsWholeOfADamagedLog) {
+TEST(LogInfo, SumsUpTheWholePartsOfADamagedLog) {
   Bytes log = record({.ticks = 20});
   log.resize(log.size() - 1);
   MemorySource torn(log);

@@ -67,7 +67,7 @@ TEST(Index, ThinsOutInALongMatch) {
     EXPECT_EQ(index.places()[i].tick, i * step);
 }
 
-TEST(Index, RefusesWhatIsNoIndex) {
+TEST(Index, RefusesBytesThatAreNoIndex) {
   const std::vector<KeyframePlace> places{{8, 500}, {16, 900}};
   Bytes payload(40);
   ByteWriter writer(payload);

@@ -72,7 +72,7 @@ struct ChunkPlace {
 /// Rewrites sequence numbers, the chain and all checksums from the payloads as they are now.
 void relink(Bytes& log);
 
-/// Writes one chunk's frame anew with a right checksum; the chunks after it are left as they are.
+/// Writes one chunk's frame again with a right checksum; the chunks after it are left as they are.
 void set_frame(Bytes& log, const ChunkPlace& place, const replay::ChunkFrame& frame);
 
 /// Records a log again through the Recorder, with inputs altered by `alter` and all else as it was:

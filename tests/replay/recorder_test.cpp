@@ -11,7 +11,7 @@ namespace {
 
 using namespace replay;
 
-// Takes so many bytes and then behaves like a full disk: the last write is cut short.
+// Takes this many bytes and then behaves like a full disk: the last write is cut short.
 class FullDisk final : public Sink {
  public:
   explicit FullDisk(std::size_t capacity) : capacity_(capacity) {}
@@ -150,7 +150,7 @@ TEST(Recorder, HandsOnInputsAndHashesAtLeastOnceASecond) {
   EXPECT_FALSE(report.torn_tail);
 }
 
-TEST(Recorder, DestroyedUnfinishedItWritesWhatIsPendingAndNoEnd) {
+TEST(Recorder, DestroyedUnfinishedItWritesPendingTicksAndNoEnd) {
   MemorySink sink;
   const ToyMatch match{.ticks = 13, .finishes = false};
   ASSERT_EQ(record(match, sink), Status::ok);
@@ -160,7 +160,7 @@ TEST(Recorder, DestroyedUnfinishedItWritesWhatIsPendingAndNoEnd) {
   EXPECT_FALSE(report.complete);
 }
 
-TEST(Recorder, RefusesWhatIsNotTheNextTick) {
+TEST(Recorder, RefusesATickThatIsNotTheNext) {
   Fixture fixture;
   const auto inputs = fixture.inputs.at(0);
   EXPECT_EQ(fixture.recorder.record_tick(0, inputs, 1), Status::invalid_argument);

@@ -25,7 +25,7 @@ void reseal(Bytes& file) {
   ByteWriter(all.last(8)).put(hash64(all.first(all.size() - 8)));
 }
 
-TEST(SnapshotFile, GivesBackWhatItHolds) {
+TEST(SnapshotFile, ReturnsItsSnapshot) {
   for (const Bytes& bytes : {canonical(), Bytes{}, Bytes(1U << 20)}) {
     const Bytes file = pack_snapshot(bytes);
     const auto back = unpack_snapshot(file);

@@ -21,7 +21,7 @@ TEST(Utf8, TakesTheFirstAndLastCharacterOfEachLength) {
   }
 }
 
-TEST(Utf8, RefusesControlsSurrogatesAndWhatIsTooLong) {
+TEST(Utf8, RefusesControlsSurrogatesAndOverlongForms) {
   for (const std::string_view text :
        {"\x1f", "\x7f", "\x80", "\xbf", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80",
         "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xc3(", "\xe2\x82("}) {

@@ -90,7 +90,7 @@ TEST(ArenaRules, ACarriedCrateIsThrownIntoTheGoalForAPoint) {
   EXPECT_EQ(tag_of(solo.world(), crate).owner, 0);
 }
 
-TEST(ArenaRules, APushMovesWhatIsInFront) {
+TEST(ArenaRules, APushMovesTheBodyInFront) {
   Solo solo(k_with_crate);
   solo.play(60, {});
   const BodyHandle crate = solo.simulation.arena().level.loose[0];

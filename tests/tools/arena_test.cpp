@@ -40,7 +40,7 @@ TEST(ArenaConfig, ComesBackFromItsBytes) {
   EXPECT_EQ(decoded.value(), config);
 }
 
-TEST(ArenaConfig, RefusesWhatIsNotOne) {
+TEST(ArenaConfig, RefusesBytesThatAreNoConfiguration) {
   auto bytes = ArenaConfig{}.encode();
   EXPECT_EQ(ArenaConfig::decode(ByteView(bytes).first(17)).status(), Status::truncated);
   bytes[4] = std::byte{9};

@@ -27,7 +27,7 @@ std::optional<Length> length_of(std::string_view text, std::string_view scale = 
   return scaled_length(*value, *factor);
 }
 
-TEST(ScientificDecimal, ReadsWhatModellersWrite) {
+TEST(ScientificDecimal, ReadsTheNotationsOfModellers) {
   for (const char* text : {"1.5", "+1.5", "1.50", "15e-1", ".15e1", "0.015E+2", "0001.5000"})
     EXPECT_EQ(length_of(text), 1.5_m) << text;
   EXPECT_EQ(length_of("-3."), -3_m);

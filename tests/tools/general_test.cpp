@@ -74,7 +74,7 @@ TEST(GeneralRun, EndsInTheSameStateOnAnyNumberOfThreads) {
 }
 
 // A body that flies off is a great figure, not one that is none.
-TEST(GeneralRun, HasFiniteFiguresEvenOfWhatFliesApart) {
+TEST(GeneralRun, HasFiniteFiguresEvenOfScenesThatFlyApart) {
   for (const std::string_view name : {"span", "door", "fast-paddle", "tiles-roll"}) {
     const GeneralFigures figures = play(name, 1);
     for (const double figure : {figures.error, figures.gap, figures.gain, figures.speed})

@@ -143,7 +143,7 @@ std::vector<std::string> names() {
   return result;
 }
 
-// LOCKSTONE_LOCALITY_TICKS=2000 plays all pairs for so many ticks: about an hour.
+// LOCKSTONE_LOCALITY_TICKS=2000 plays all pairs for this many ticks: about an hour.
 std::uint32_t all_pairs_ticks() {
   const char* ticks = std::getenv("LOCKSTONE_LOCALITY_TICKS");
   return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::stoul(ticks));

@@ -71,7 +71,7 @@ TEST(QueryReference, NoticesBodiesThatAreElsewhere) {
   }
 }
 
-TEST(QueryReference, RefusesWhatItDoesNotKnow) {
+TEST(QueryReference, RefusesUnknownShapes) {
   const QueryRow box{"box", QueryKind::overlap, {}, Shape::box(1_m, 1_m, 1_m), {Transform{}}, {}};
   std::array<QueryAnswer, 1> answers{};
   const QueryScene plain = make_query_scene(QueryWorld::primitives, 16, 1);

@@ -63,7 +63,7 @@ Solid box_at(double x, double y, double z, double half) {
   return solid;
 }
 
-TEST(Render, PaintsTheGroundBeforeWhatStandsOnItAndAfterWhatFellBelow) {
+TEST(Render, PaintsTheGroundBeforeBodiesOnItAndAfterBodiesBelowIt) {
   Solid ground = box_at(0, -1, 0, 1);
   ground.size = {20, 1, 20};
   const std::vector<Solid> solids{box_at(-15, 0.5, -15, 0.5), ground, box_at(15, 0.5, 15, 0.5),
@@ -77,7 +77,7 @@ TEST(Render, PaintsTheGroundBeforeWhatStandsOnItAndAfterWhatFellBelow) {
   EXPECT_LT(turn(3), turn(1));
 }
 
-TEST(Render, PaintsATriangleBeforeWhatLiesOnItAndAfterWhatIsBelow) {
+TEST(Render, PaintsATriangleBeforeBodiesOnItAndAfterBodiesBelowIt) {
   Solid triangle;
   triangle.kind = ShapeKind::mesh;
   triangle.facets = {{{0, 1, 0}, {{-5, 0, -5}, {0, 0, 5}, {5, 0, -5}}}};

@@ -137,7 +137,7 @@ TEST(Scenes, TheCharacterStandsAndTheCapsuleFalls) {
   EXPECT_LT(place(*play, 2).y, Position::from_ratio(45, 100));
 }
 
-TEST(Scenes, TheZonesCountWhatCrossesThem) {
+TEST(Scenes, TheZonesCountCrossingBodies) {
   const auto play = make_play("trigger", k_seed).value();
   for (int tick = 0; tick < 240; ++tick)
     play->step();
@@ -145,7 +145,7 @@ TEST(Scenes, TheZonesCountWhatCrossesThem) {
   const std::uint64_t first = world.body(world.body_at(1)).user_data;
   const std::uint64_t last = world.body(world.body_at(3)).user_data;
   EXPECT_EQ(first & 0xffffffff, 5U);         // all entered the first zone
-  EXPECT_EQ(last & 0xffffffff, last >> 32);  // whoever got to the last one left it
+  EXPECT_EQ(last & 0xffffffff, last >> 32);  // a ball that reached the last one left it
   EXPECT_GE(last & 0xffffffff, 2U);
 }
 

@@ -1,4 +1,4 @@
-// Every scene comes out the same whoever runs it.
+// Every scene has the same result on any number of workers.
 #include <memory>
 #include <string>
 #include <vector>

@@ -22,7 +22,7 @@ std::string difference(const World& a, const World& b) {
       .to_line();
 }
 
-// One world goes on as it is; a second is loaded anew from the first's canonical bytes now and
+// One world goes on as it is; a second is loaded again from the first's canonical bytes now and
 // then, a third goes elsewhere for some ticks and comes back by native bytes.
 class Trio {
  public:

@@ -121,7 +121,7 @@ TEST(Bounce, PassesAlongARowOfBallsToTheLast) {
   }
 }
 
-TEST(Bounce, LeavesWhatTouchesAndDoesNotMeetWithoutASolver) {
+TEST(Bounce, LeavesTouchingBodiesThatDoNotMeetWithoutASolver) {
   World world = weightless();
   for (int i = 0; i < 5; ++i)
     elastic_ball(world, Position(0.5_m) * i, 0_m, 1_mps);
@@ -133,7 +133,7 @@ TEST(Bounce, LeavesWhatTouchesAndDoesNotMeetWithoutASolver) {
   }
 }
 
-TEST(Bounce, LeavesWhatOverlapsToTheSolver) {
+TEST(Bounce, LeavesOverlappingBodiesToTheSolver) {
   World world = weightless();
   for (int i = 0; i < 2; ++i)
     elastic_ball(world, Position(0.4999_m) * i, 0_m, {});

@@ -96,7 +96,7 @@ TEST(Character, ClimbsAGentleSlopeAndNotASteepOne) {
   }
 }
 
-TEST(Character, IsPushedOutOfWhatItStandsIn) {
+TEST(Character, IsPushedOutOfOverlaps) {
   Walk walk;
   walk.add_box({{}, 1_m, {}}, {0.5_m, 0.5_m, 0.5_m});
   walk.position = {0.6_m, 1.2_m, {}};
@@ -108,7 +108,7 @@ TEST(Character, IsPushedOutOfWhatItStandsIn) {
       0U);
 }
 
-TEST(Character, PushesWhatIsInItsWay) {
+TEST(Character, PushesBodiesInItsWay) {
   Walk walk;
   BodyDef crate = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), 2_m, 0.5_m, {});
   crate.material.density = Density::from_integer(20);

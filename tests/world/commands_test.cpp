@@ -126,7 +126,7 @@ TEST(ApplyImpulse, IsBoundedByTheSpeedLimit) {
             500.001 * 500.001);
 }
 
-TEST(Impulse, IsRefusedForWhatCannotBePushed) {
+TEST(Impulse, IsRefusedForBodiesThatCannotBePushed) {
   World world = test::make_world();
   const BodyHandle ground = test::add_ground(world);
   EXPECT_EQ(world.apply(ApplyImpulse{ground, {}}), Status::invalid_argument);

@@ -173,7 +173,7 @@ TEST(Continuous, OnlyBulletsAreStoppedByDynamicBodies) {
   }
 }
 
-TEST(Continuous, WhatIsSlowOrRollsIsNotFollowed) {
+TEST(Continuous, SlowAndRollingBodiesAreNotSwept) {
   World world = test::make_world();
   test::add_ground(world);
   BodyDef def = test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), {}, 0.5_m, {});
@@ -294,7 +294,7 @@ std::uint32_t impacts_of_limbs_from(Position height) {
 }
 
 // A limb alone stopped 11 cm and more before its joint, which then threw both up at 18 m/s.
-TEST(Continuous, WhatHangsTogetherStopsTogether) {
+TEST(Continuous, JoinedBodiesStopTogether) {
   std::uint32_t impacts = 0;
   for (int i = 0; i < 20; ++i)
     impacts += impacts_of_limbs_from(Position::from_ratio(200 + 3 * i, 100));

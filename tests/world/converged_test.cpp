@@ -113,7 +113,7 @@ class Ring {
 
   void hang() { join(JointDef::of(JointKind::ball, add_hook(world_, at(radius_)), boxes_[0])); }
 
-  // Turns the ring, and squeezes it.
+  // Turns the ring, and compresses it.
   void spin(double rate) {
     for (const BodyHandle box : boxes_) {
       const auto [x, y, z] = world_.position(box);

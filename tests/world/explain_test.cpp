@@ -269,7 +269,7 @@ TEST(ExplainCommand, SaysWhyExactlyWhereApplyRefuses) {
   }
 }
 
-TEST(ExplainCommand, NamesWhatTurnsADistantMoveOfAKinematicBodyDown) {
+TEST(ExplainCommand, NamesTheFieldThatRefusesADistantKinematicMove) {
   Pair pair;
   const BodyHandle lift = test::add(pair.world, {.motion = MotionType::kinematic});
   EXPECT_FALSE(pair.world.explain(MoveKinematic{lift, {1_m, {}, {}}, {}}));

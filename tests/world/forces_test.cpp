@@ -140,7 +140,7 @@ TEST(AxisLocks, HoldInFreeFlight) {
   EXPECT_NEAR(to_double(w.y), 3, 1e-6);
 }
 
-// A heap in a plane: nothing leaves it, nothing turns out of it, bit for bit.
+// A pile in a plane: nothing leaves it, nothing turns out of it, bit for bit.
 TEST(AxisLocks, KeepAHeapInItsPlane) {
   World world = test::make_world();
   test::add_ground(world);

@@ -103,7 +103,7 @@ TEST(Fronts, HoldFlakesThatFall) {
   }
 }
 
-TEST(Fronts, LetThroughWhatComesFromBehind) {
+TEST(Fronts, LetThroughBodiesFromBehind) {
   World world = world_on({}, sheet(4_m));
   BodyDef def = test::dynamic_body(Shape::box(0.3_m, 0.001_m, 0.3_m), {}, -0.1_m, {});
   def.velocity.y = 3_mps;
@@ -134,7 +134,7 @@ TEST(Fronts, HoldEachThinPieceOfACompound) {
   }
 }
 
-TEST(Fronts, PushOutWhatBeginsBarelyBeforeThem) {
+TEST(Fronts, PushOutBodiesThatBeginBarelyBeforeThem) {
   World world = world_on({}, sheet(4_m));
   BodyDef def = test::dynamic_body(Shape::box(0.3_m, 0.001_m, 0.3_m), {}, 0.0000005_m, {});
   const BodyHandle plate = test::add(world, def);

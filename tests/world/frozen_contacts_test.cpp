@@ -40,7 +40,7 @@ void expect_equal(const FrozenContacts& contacts, const Model& model) {
   ASSERT_EQ(contacts.hash(), hash);
 }
 
-TEST(FrozenContacts, HoldsWhatAMapHolds) {
+TEST(FrozenContacts, HoldsTheEntriesOfAMap) {
   test::Random random;
   FrozenContacts contacts(k_bodies, 512);
   Model model;

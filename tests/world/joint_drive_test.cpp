@@ -138,7 +138,7 @@ TEST(JointDrives, AnUndampedSpringKeepsItsAmplitudeAndItsFrequency) {
   }
 }
 
-TEST(JointDrives, ASpringBeyondWhatTheSubstepResolvesComesToRest) {
+TEST(JointDrives, ASpringStifferThanTheSubstepResolvesComesToRest) {
   Swinger stiff(60_r, {}, 0.25_m);
   test::step(stiff.world, 60);
   EXPECT_NEAR(stiff.stretch(), 0, 1e-3);

@@ -95,7 +95,7 @@ TEST(Joints, APendulumThatIsDrivenLimitedOrTiedTwiceIsSolved) {
   EXPECT_FALSE(locked.flies());
 }
 
-TEST(Joints, APendulumHitsWhatIsInItsWay) {
+TEST(Joints, APendulumHitsABodyInItsWay) {
   Pendulum swings;
   BodyDef wall;
   wall.motion = MotionType::static_body;
@@ -111,7 +111,7 @@ TEST(Joints, APendulumHitsWhatIsInItsWay) {
   EXPECT_TRUE(touched);
 }
 
-TEST(Joints, APendulumTellsWhatItsJointBears) {
+TEST(Joints, APendulumReturnsTheForceOfItsJoint) {
   for (const bool is_first : {false, true}) {
     World world = test::make_world();
     const BodyHandle ceiling = add_fixed(world);
@@ -264,7 +264,7 @@ TEST(Joints, RopesAboutAPostStayTogether) {
           << links << " links, " << load << " : 1";
 }
 
-TEST(Joints, FastBodiesPassWhatTheyAreJoinedTo) {
+TEST(Joints, FastBodiesPassBodiesThatTheyAreJoinedTo) {
   World world = test::make_world();
   BodyDef base;
   base.motion = MotionType::static_body;

@@ -54,7 +54,7 @@ TEST(JointStore, DestroyingABodyDestroysItsJoints) {
   EXPECT_EQ(p.world.joint_count(), 0U);
 }
 
-TEST(JointStore, RefusesWhatNoJointCanBe) {
+TEST(JointStore, RefusesImpossibleJoints) {
   HungBall p;
   const BodyHandle other = test::add(p.world, HungBall::fixed());
   const auto refused = [&](auto&& change, Status status = Status::invalid_argument) {

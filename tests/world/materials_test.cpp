@@ -89,7 +89,7 @@ TEST(RollingResistance, HoldsABallOnASlopeBelowItsCoefficient) {
   EXPECT_GT(crept(0.08_r), 0.1);
 }
 
-TEST(SurfaceMotion, ABeltCarriesWhatLiesOnIt) {
+TEST(SurfaceMotion, ABeltCarriesBodiesOnIt) {
   World world = test::make_world();
   BodyDef belt;
   belt.motion = MotionType::static_body;
@@ -119,7 +119,7 @@ TEST(SurfaceMotion, IsNotForDynamicBodies) {
   EXPECT_EQ(world.create_body(def).status(), Status::invalid_argument);
 }
 
-TEST(SurfaceMotion, ATurntableTurnsWhatStandsAtItsCentre) {
+TEST(SurfaceMotion, ATurntableTurnsABodyAtItsCentre) {
   World world = test::make_world();
   BodyDef table;
   table.motion = MotionType::static_body;

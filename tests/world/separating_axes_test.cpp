@@ -102,7 +102,7 @@ struct Outcome {
   std::uint64_t parted = 0;  // of these, by last tick's axis
 };
 
-// The world's derived data is dropped every so many ticks; 0: never.
+// The world's derived data is dropped every this many ticks; 0: never.
 Outcome run_crowd(int drop_every) {
   World world = crowd();
   world.set_clock(test::counting_clock, ProfileDetail::pairs);

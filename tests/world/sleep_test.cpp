@@ -46,7 +46,7 @@ TEST(Sleep, TakesAWholeIslandInOneTickAndTellsByEvents) {
 // Where an island is not solved to convergence, and the boxes settle on each other little by
 // little, the lower boxes sink under the weight before their contacts' impulses have grown, and
 // come up again. A plate that may move makes one island of the stacks.
-TEST(Sleep, WaitsForWhatIsPushedOut) {
+TEST(Sleep, WaitsForBodiesThatArePushedOut) {
   World world = test::make_world({.body_capacity = 256, .converged_contacts = 0});
   test::add_ground(world);
   test::add(world, test::dynamic_body(Shape::box(32_m, 0.5_m, 1_m), {}, 0.5_m, {}));
@@ -127,7 +127,7 @@ TEST(Sleep, WakesWithoutAJolt) {
   }
 }
 
-TEST(Sleep, WhatTremblesRestsAndWhatCreepsDoesNot) {
+TEST(Sleep, TremblingBodiesRestAndCreepingOnesDoNot) {
   WorldDef def{.body_capacity = 8};
   def.gravity = {};
   World world = test::make_world(def);
@@ -166,7 +166,7 @@ TEST(Sleep, IsHeldOffByOneBodyOfTheIslandThatMayNot) {
 }
 
 // Two bodies that a joint ties sleep and wake as one.
-TEST(Sleep, IsSharedByWhatAJointTies) {
+TEST(Sleep, IsSharedByBodiesThatAJointConnects) {
   WorldDef def{.body_capacity = 8};
   def.gravity = {};
   World world = test::make_world(def);

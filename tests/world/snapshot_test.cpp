@@ -203,7 +203,7 @@ TEST(CanonicalSnapshot, RefusesAnotherConfiguration) {
 }
 
 TEST(CanonicalSnapshot, WithARightChecksumButImpossibleValuesIsRefused) {
-  // Overwrites every byte in turn with 0xff and checksums anew; an accepted state must be
+  // Overwrites every byte in turn with 0xff and checksums again; an accepted state must be
   // steppable.
   World world = test::make_world();
   test::add_ground(world);

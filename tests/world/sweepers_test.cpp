@@ -105,7 +105,7 @@ Passages passages(World& world, int ticks) {
   return seen;
 }
 
-TEST_F(Sweepers, ATriggerSeesOnceWhatPassesAtAnySpeed) {
+TEST_F(Sweepers, ATriggerSeesAPassingBodyOnceAtAnySpeed) {
   for (int run = 0; run < test::share_of(1500); ++run) {
     World world = make_world();
     BodyDef gate;
@@ -130,7 +130,7 @@ TEST_F(Sweepers, ATriggerSeesOnceWhatPassesAtAnySpeed) {
   }
 }
 
-TEST_F(Sweepers, ATurningTriggerSeesWhatItSweepsOver) {
+TEST_F(Sweepers, ATurningTriggerSeesBodiesThatItSweepsOver) {
   for (int run = 0; run < test::share_of(300); ++run) {
     World world = make_world();
     BodyDef blade;
@@ -170,7 +170,7 @@ TEST_F(Sweepers, ABounceBehindATriggerIsSeenInTheSameTick) {
   EXPECT_EQ(seen.exits, 1);
 }
 
-TEST_F(Sweepers, ATriggerDoesNotSeeWhatIsStoppedBeforeIt) {
+TEST_F(Sweepers, ATriggerDoesNotSeeABodyThatIsStoppedBeforeIt) {
   World world = make_world();
   BodyDef wall;
   wall.motion = MotionType::static_body;
@@ -186,7 +186,7 @@ TEST_F(Sweepers, ATriggerDoesNotSeeWhatIsStoppedBeforeIt) {
   EXPECT_EQ(passages(world, 10).enters, 0);
 }
 
-TEST_F(Sweepers, AFastKinematicWallTakesAlongWhatItHits) {
+TEST_F(Sweepers, AFastKinematicWallTakesAlongBodiesThatItHits) {
   for (int run = 0; run < test::share_of(600); ++run) {
     World world = make_world();
     BodyDef wall;

@@ -25,7 +25,7 @@ AssetPtr make_pair_of_boxes() {
   return Compound::build(children).compound;
 }
 
-// A heap of plain and compound bodies, far more than there is room for contacts.
+// A pile of plain and compound bodies, far more than there is room for contacts.
 World make_crowd(std::uint32_t pair_capacity, std::uint32_t contact_capacity) {
   const AssetPtr compound = make_pair_of_boxes();
   auto assets = std::make_shared<const AssetSet>(std::vector<AssetPtr>{compound});

@@ -136,7 +136,7 @@ void expect_one_passage(const TriggerCounts& counts, const std::string& who) {
 constexpr std::array k_moving{MotionType::kinematic, MotionType::dynamic};
 constexpr std::array k_all{MotionType::static_body, MotionType::kinematic, MotionType::dynamic};
 
-TEST_F(Triggers, OfEveryBoundedShapeSeeWhatPassesOnce) {
+TEST_F(Triggers, OfEveryBoundedShapeSeeAPassingBodyOnce) {
   for (const Named& zone : bounded_) {
     for (const MotionType zone_motion : k_all) {
       for (const MotionType motion : k_moving) {

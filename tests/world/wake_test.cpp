@@ -218,7 +218,7 @@ std::vector<LampCause> lamp_causes() {
   };
 }
 
-TEST(Wake, ReachesWhatHangsOnAJoint) {
+TEST(Wake, ReachesJoinedBodies) {
   for (const LampCause& cause : lamp_causes()) {
     SCOPED_TRACE(cause.word);
     Lamp scene(cause.bracket);
@@ -231,7 +231,7 @@ TEST(Wake, ReachesWhatHangsOnAJoint) {
   }
 }
 
-TEST(Wake, IsNotCausedByWhatChangesNothing) {
+TEST(Wake, IsNotCausedByCommandsThatChangeNothing) {
   Sleepers scene;
   const std::vector<BodyHandle> far = add_stack(scene.world, 20_m, 1);
   apply(scene, SetUserData{scene.stack[0], 7});

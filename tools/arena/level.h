@@ -18,7 +18,7 @@ namespace lockstone::arena {
 /// The playing field spans ± this in x and z.
 inline constexpr std::int32_t k_field_half_mm = 20'000;
 
-/// The ferry's way along z: it turns back every so many ticks.
+/// The ferry's way along z: it turns back every this many ticks.
 inline constexpr std::uint64_t k_ferry_leg_ticks = 240;
 
 }  // namespace lockstone::arena

@@ -69,7 +69,7 @@ void jump(Arena& arena, PlayerRecord& player) {
   player.jump_wait = k_jump_wait_ticks;
 }
 
-// Whoever touches a loose body last gets the points for it.
+// The player that touches a loose body last gets the points for it.
 void claim(Arena& arena, BodyHandle body, std::size_t slot) {
   Tag tag = tag_of(arena.world, body);
   const auto owner = static_cast<std::uint8_t>(slot + 1);

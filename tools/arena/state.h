@@ -32,7 +32,7 @@ inline constexpr std::size_t k_max_shots = k_max_players * k_shots_per_player;
   X(std::uint8_t, jump_wait)       /* ticks until it may jump again */ \
   X(std::uint8_t, push_wait) \
   X(std::uint8_t, shot_wait) \
-  X(std::uint8_t, rival)           /* slot + 1 of who pushed it last, or 0 */ \
+  X(std::uint8_t, rival)           /* slot + 1 of the player that pushed it last, or 0 */ \
   X(std::uint16_t, rival_ticks)    /* until that is forgotten */ \
   X(std::uint16_t, respawn_ticks)  /* until a fallen player returns, 0: it plays */ \
   X(std::uint16_t, hill_ticks)     /* on the hill since the last point for it */

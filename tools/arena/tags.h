@@ -1,4 +1,4 @@
-// The game's tag in a body's user data: its kind, its number and who touched it last.
+// The game's tag in a body's user data: its kind, its number and the player that touched it last.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ struct SceneFuzzReport {
 /// Asserts and sanitizers see the rest. The same report whatever the number of threads.
 [[nodiscard]] SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options);
 
-/// The scene that this thread is running: for whoever is told that it stopped the program.
+/// The scene that this thread is running: for a handler that reports a stopped program.
 [[nodiscard]] std::uint64_t scene_at_hand();
 
 }  // namespace lockstone::fuzz

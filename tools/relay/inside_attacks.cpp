@@ -43,7 +43,7 @@ std::vector<std::byte> packets(unsigned first, unsigned step) {
   return bytes;
 }
 
-// Connections that are made anew when they end.
+// Connections that are made again when they end.
 class Connections : public Attack {
  public:
   Connections(const char* name, const TrialMatch& match, std::size_t count)

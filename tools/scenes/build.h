@@ -51,7 +51,7 @@ void add_ragdoll(World& world, const Vec3<Position>& at, std::uint64_t user_data
 [[nodiscard]] Quat random_orientation(Random& random);
 
 // The scenes, by topic.
-extern const Scene k_stack, k_pyramid, k_wall, k_far, k_pile;            // heaps.cpp
+extern const Scene k_stack, k_pyramid, k_wall, k_far, k_pile;            // piles.cpp
 extern const Scene k_rolling, k_capsule, k_bounce, k_friction, k_spin;   // motions.cpp
 extern const Scene k_kinematic, k_trigger, k_spawn;                      // driven.cpp
 extern const Scene k_commands;                                           // all_commands.cpp

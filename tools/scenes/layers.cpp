@@ -1,4 +1,4 @@
-// Filters and triggers: who meets whom, and who is only seen.
+// Filters and triggers: which bodies meet, and which are only seen.
 #include <array>
 #include <vector>
 

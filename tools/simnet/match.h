@@ -50,7 +50,7 @@ struct MatchMode {
   net::Pacing pacing = net::Pacing::real_time;
   bool authoritative = true;
   std::uint8_t input_delay_ticks = 4;
-  std::size_t late_clients = 0;  ///< so many come when the match runs
+  std::size_t late_clients = 0;  ///< this many come when the match runs
   std::uint32_t late_ms = 0;
   std::size_t spectators = 0;
   std::uint32_t spectator_delay_ticks = 0;

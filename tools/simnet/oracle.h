@@ -16,7 +16,7 @@ namespace lockstone::simnet {
 /// is the truth about states. The first violation stays.
 class Oracle {
  public:
-  /// `reference` stands at tick 0. Every so many ticks it is saved and loaded, so that whatever a
+  /// `reference` stands at tick 0. Every this many ticks it is saved and loaded, so that whatever a
   /// snapshot forgets shows.
   Oracle(std::unique_ptr<Simulation> reference, std::uint64_t expected_ticks);
 

@@ -23,7 +23,7 @@ enum class FaultKind : std::uint8_t {
   cut_sending,  ///< the server does not hear the client
   cut_hearing,  ///< the client does not hear the server
   pause,        ///< the client's process stands still
-  kill,         ///< the client's process dies, and starts anew when the time is over
+  kill,         ///< the client's process dies, and starts again when the time is over
   skew,         ///< amount: the client's clock is off by amount - 500 ppm
   disk_full,    ///< the recorder's disk takes no more; client is 0
 };

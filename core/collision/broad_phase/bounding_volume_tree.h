@@ -20,7 +20,7 @@ class BoundingVolumeTree {
 
   void clear();
 
-  /// Adds a leaf; answers the node that stands for it until `remove`.
+  /// Adds a leaf; returns the node that stands for it until `remove`.
   std::uint32_t insert(const Bounds& bounds, const Layers& layers, std::uint32_t body);
   void remove(std::uint32_t leaf);
 

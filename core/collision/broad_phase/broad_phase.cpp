@@ -6,7 +6,7 @@
 namespace lockstone {
 namespace {
 
-// How far a body may go before its fat box is put anew: an eighth of its length on every side, but
+// How far a body may go before its fat box is put again: an eighth of its length on every side, but
 // no more than an eighth of a metre, and ahead as far as it goes in the next ticks at its present
 // speed, but no farther than half its length: so closely packed bodies get few candidates that
 // never touch.

@@ -2,7 +2,7 @@
 //
 // The pair set is a function of the tight bounds and the traits of the bodies alone. All else is
 // derived: each body has a fat box around its bounds; the pairs whose fat boxes overlap are kept as
-// candidates, and only a body that left its fat box is searched for anew (the move buffer of
+// candidates, and only a body that left its fat box is searched for again (the move buffer of
 // E. Catto, Box2D and Box3D). When no body does, a tick costs one test for each candidate, and
 // nothing at all when no bounds changed.
 #pragma once
@@ -39,7 +39,7 @@ class BroadPhase {
   void remove(std::uint32_t body);
 
   /// Sets the bounds of a body that is present, as `set` with the same traits does, if nothing else
-  /// has to change for that; otherwise does nothing and answers false. Calls for different bodies
+  /// has to change for that; otherwise does nothing and returns false. Calls for different bodies
   /// may go on at the same time; `note_change` must follow if any of the bounds were new.
   [[nodiscard]] bool follow(std::uint32_t body, const Bounds& bounds);
   void note_change() { changed_ = true; }
@@ -71,7 +71,7 @@ class BroadPhase {
   void traverse_immovable(Test&& test, Visit&& visit) const {
     traverse_some(k_every_category, false, test, visit);
   }
-  /// Counts of the last `find_pairs`, for tests and measurements: bodies searched for anew, and
+  /// Counts of the last `find_pairs`, for tests and measurements: bodies searched for again, and
   /// whether the candidates had no room, so that everything was searched.
   struct Effort {
     std::uint32_t searched = 0;

@@ -19,7 +19,7 @@ class PairList {
     overflowed_ = false;
   }
 
-  /// For pairs that come in order. False when the list is full: whatever follows is left out.
+  /// For pairs that come in order. False when the list is full: later pairs are left out.
   bool append(const Pair& pair) {
     if (pairs_.size() == capacity_) {
       overflowed_ = true;

@@ -5,7 +5,7 @@
 namespace lockstone {
 namespace {
 
-// How often the axis is looked at anew.
+// How often the axis is looked at again.
 constexpr std::uint32_t k_axis_period = 64;
 
 std::int64_t middle(BoundsCoordinate low, BoundsCoordinate high) {
@@ -105,7 +105,7 @@ void SweepAndPrune::sort(std::vector<Entry>& list) {
 }
 
 // The axis along which the moving bodies are spread farthest, by the mean distance from the mean:
-// along it the fewest boxes overlap. Another axis must be better by half, lest two take turns.
+// along it the fewest boxes overlap. Another axis must be better by half, or two would take turns.
 int SweepAndPrune::widest_axis() const {
   const std::vector<Entry>& list = lists_[1];
   const auto count = static_cast<std::int64_t>(std::max<std::size_t>(list.size(), 1));

@@ -4,7 +4,7 @@
 // rigid bodies", 1992, and J. Cohen, M. Lin, D. Manocha, M. Ponamgi, "I-COLLIDE", 1995; lower ends
 // alone, in one array, after P. Terdiman, "Box pruning revisited", 2017. Three axes with a list of
 // endpoints each would find single changes in less time, but pay for every two endpoints that pass
-// each other on any axis, whether the boxes come close or not, and cannot be made anew in one go.
+// each other on any axis, whether the boxes come close or not, and cannot be made again in one go.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class SweepAndPrune {
                std::span<const std::uint8_t> is_touched);
 
   /// Calls `emit(a, b)` once, in no promised order, for every two bodies of which one is touched
-  /// and one moves and whose fat boxes overlap. Stops when it answers false, and answers that.
+  /// and one moves and whose fat boxes overlap. Stops when it returns false, and returns that.
   template <class Emit>
   bool search(std::span<const std::uint32_t>, std::span<const Proxy>,
               std::span<const std::uint8_t> is_touched, Emit&& emit) {

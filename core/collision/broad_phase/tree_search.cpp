@@ -5,8 +5,8 @@
 namespace lockstone {
 namespace {
 
-// A tree is built anew when more than this part of its leaves changes at once, or as many as it has
-// were put in one by one: in closely packed scenes each insertion makes it worse.
+// A tree is built again when more than this part of its leaves changes at once, or as many as it
+// has were put in one by one: in closely packed scenes each insertion makes it worse.
 constexpr std::uint32_t k_rebuilt_part = 4;
 constexpr std::uint32_t k_least_rebuilt = 8;
 

@@ -31,8 +31,8 @@ class TreeSearch {
   void refresh(std::span<const Proxy> proxies);
 
   /// Calls `emit(a, b)` once, in no promised order, for every two bodies of which one is touched
-  /// and one moves, whose fat boxes overlap and whose layers may collide. Stops when it answers
-  /// false, and answers that.
+  /// and one moves, whose fat boxes overlap and whose layers may collide. Stops when it returns
+  /// false, and returns that.
   template <class Emit>
   bool search(std::span<const std::uint32_t> touched, std::span<const Proxy> proxies,
               std::span<const std::uint8_t> is_touched, Emit&& emit) const {

@@ -52,7 +52,7 @@ struct TriangleScratch {
   geometry::MeshManifolds manifolds;
 };
 
-/// All contacts between two placed shapes; `out` is filled anew. Each pair of convex parts gives a
+/// All contacts between two placed shapes; `out` is filled again. Each pair of convex parts gives a
 /// manifold, as `collide` finds it; the triangles of a mesh or height field give one for each plane
 /// and surface, whose key stands for the part. Of half-spaces, meshes and height fields only B may
 /// be one. `scratch` may be null when B has no triangles.

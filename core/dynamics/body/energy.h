@@ -14,7 +14,7 @@
 
 namespace lockstone {
 
-/// Shares have so many fraction bits.
+/// Shares have this many fraction bits.
 inline constexpr int k_share_bits = 30;
 
 /// u·v + s·t of velocities, and of a spin with a surface velocity: m²/s², Q32. Twice the kinetic

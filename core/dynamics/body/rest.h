@@ -1,7 +1,7 @@
 // When a body counts as resting.
 //
 // A body rests as long as no point of it is farther than a given distance from where it was when it
-// began to rest. A body that goes farther begins anew at its present pose. So a body that trembles
+// began to rest. A body that goes farther begins again at its present pose. So a body that trembles
 // about one place rests, however fast; one that creeps or swings does not, however slow it is at
 // the moment; and a single rounding decides nothing.
 #pragma once
@@ -29,8 +29,8 @@ struct RestRules {
   return rules.ticks != 0 && body.is_dynamic() && body.may_sleep() && !body.is_asleep();
 }
 
-/// Begins the rest anew at the present pose. Clears the noted pose of a body that is not watched. A
-/// pushed body begins when the tick ends its pushes.
+/// Begins the rest again at the present pose. Clears the noted pose of a body that is not watched.
+/// A pushed body begins when the tick ends its pushes.
 void begin_rest(BodyRecord& body, const RestRules& rules);
 
 /// Clears the velocities that forces gave a body in this tick, and begins its rest.

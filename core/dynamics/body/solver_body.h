@@ -19,7 +19,7 @@ struct alignas(64) SolverBody {
   std::uint8_t held = 0;  // bit i: axis i of moving is locked
   bool is_plain = true;   // nothing is held, and it turns alike about all axes
   bool is_alone = false;  // touches one body that no impulse moves, and nothing else
-  bool rests = false;     // of a heap, and hardly moves when the tick begins
+  bool rests = false;     // of a pile, and hardly moves when the tick begins
   alignas(64) std::array<std::int64_t, 3> gain{};  // of velocity in a substep, by gravity and
                                                    // forces; Q32
   std::array<std::int64_t, 3> spin_gain{};         // of spin, by torques

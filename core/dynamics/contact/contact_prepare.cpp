@@ -40,14 +40,14 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
-// In a pinched island, points that overlap by more than this are squeezed; at twice this overlap, a
+// In a pinched island, points that overlap by more than this are pinched; at twice this overlap, a
 // row keeps no more than half of its impulse from one iteration to the next.
 constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
 constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
 
 // The share of its impulse that a soft row keeps in a pinched island. Between two bodies that close
 // in without end, a heavily damped spring pushes without limit, until the body between them slips
-// out and is thrown away. A squeezed contact gives way instead.
+// out and is thrown away. A pinched contact gives way instead.
 std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)

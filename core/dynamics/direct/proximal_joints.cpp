@@ -1,6 +1,6 @@
 // The joints among an island's contacts. Locks are rows that may pull, limits are rows that push;
-// both are read anew in each phase, where the joint solver has them. Their impulses go to the joint
-// solver, which repeats those of locks in the next substep, and a phase finds their changes.
+// both are read again in each phase, where the joint solver has them. Their impulses go to the
+// joint solver, which repeats those of locks in the next substep, and a phase finds their changes.
 // Springs and motors act in between, one by one; then the joint solver closes the openings that
 // second-order terms leave.
 

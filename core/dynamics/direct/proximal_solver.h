@@ -33,7 +33,7 @@ struct JointAccess {
 
 class ProximalSolver {
  public:
-  /// Room for so many bodies, contacts with joints, and joints of islands, whose bodies are among
+  /// Room for this many bodies, contacts with joints, and joints of islands, whose bodies are among
   /// the first `rows` of the solver. No function but this allocates.
   [[gnu::cold]] ProximalSolver(std::size_t rows, std::size_t body_capacity,
                                std::size_t contact_capacity, std::size_t joint_capacity);

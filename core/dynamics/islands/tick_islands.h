@@ -28,7 +28,7 @@ class SharedCount {
 
 /// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
-  /// With more loaded contacts an island starts warm: it would settle for long otherwise.
+  /// With more overloaded contacts an island starts warm: it would settle for long otherwise.
   static constexpr std::uint32_t k_most_loaded = 8;
   /// With more that bear several times a weight it is rebalanced: it would bend without.
   static constexpr std::uint32_t k_most_bearing = 128;
@@ -50,7 +50,7 @@ struct IslandLoad {
 
   [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
-  /// Many contacts are loaded, and a good part of all are new and have no impulses yet.
+  /// Many contacts are overloaded, and a good part of all are new and have no impulses yet.
   [[nodiscard]] bool needs_first_loads() const {
     if (is_converged) return false;
     return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
@@ -61,7 +61,8 @@ struct IslandLoad {
 /// "Worst-case analysis of set union algorithms", 1984).
 class TickIslands {
  public:
-  /// Room for so many numbers, of which so many are dynamic bodies. No function but this allocates.
+  /// Room for this many numbers, of which this many are dynamic bodies. No function but this
+  /// allocates.
   TickIslands(std::size_t row_capacity, std::size_t body_capacity);
 
   /// Leaves body 0 alone.

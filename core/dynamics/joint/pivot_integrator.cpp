@@ -18,14 +18,14 @@ namespace {
 // A joint that is open by more is closed by the solver.
 constexpr std::int64_t k_most_gap = std::int64_t{1} << (Position::frac_bits - 16);
 
-// A substep is taken in pieces of at most half a radian of the swing, in so many at most.
+// A substep is taken in pieces of at most half a radian of the swing, in this many at most.
 constexpr std::int32_t k_most_swing_pieces = 32;
 
 // Bits of the mantissa of a pull, so that products below fit in 63 bits.
 constexpr int k_pull_bits = 29;
 constexpr std::int64_t k_torque_bound = std::int64_t{1} << 31;
 
-// Inverse moments, and a torque divided by a moment, have so many fraction bits.
+// Inverse moments, and a torque divided by a moment, have this many fraction bits.
 constexpr int k_inverse_moment_bits = 18;
 constexpr int k_turning_bits = 26;
 constexpr std::int64_t k_turning_bound = std::int64_t{1} << 30;
@@ -195,7 +195,7 @@ class Swing {
     from_pivot_ = turned_back(to_matrix(inertia.axes), from_pivot_);
   }
 
-  // By `pieces` of 1 / rate each, with a constant torque besides, as spin in each; answers the
+  // By `pieces` of 1 / rate each, with a constant torque besides, as spin in each; returns the
   // turns about an axis that it took.
   std::uint32_t run(std::int32_t rate, std::int32_t pieces, const Vec3<Velocity>& torque) {
     const FreeRotor rotor(moments_, arm_.exponent, {2 * rate, Unit::from_integer(1)});

@@ -182,7 +182,7 @@ std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64
 
 // Returns whether all locks hold afterwards. Each step leaves about the same part of an opening:
 // once the next step would leave less than rounding does, the check after it is skipped. Where
-// bodies are pulled hard, every step is taken, lest swings that the substep hardly resolves grow
+// bodies are pulled hard, every step is taken, or swings that the substep hardly resolves grow
 // unseen.
 bool JointSolver::close(const JointRun& run, Group& group) {
   const bool pulled = is_pulled(group);

@@ -11,7 +11,7 @@ namespace {
 // Of solves for velocities.
 constexpr int k_velocity_solves = 2;
 
-// Of sweeps over drives and limits before positions move.
+// Of iterations over drives and limits before positions move.
 constexpr int k_sweeps = 2;
 
 // Locks that open more slowly stand still, m/s, Q50: a step of Velocity, 0.23 nm/s.
@@ -175,7 +175,7 @@ void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end)
 }
 
 void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
-  bool exact = false;  // and locked as the last sweep left it
+  bool exact = false;  // and locked as the last iteration left it
   const bool motors = !has_solved_loops(groups_of(cluster)[0]);
   for (int i = 0; i < k_sweeps; ++i) {
     bool pushed = false;

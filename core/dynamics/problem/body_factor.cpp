@@ -19,7 +19,7 @@ constexpr std::int64_t k_least_factor_pivot = std::int64_t{1} << 34;
 constexpr std::uint32_t k_eliminated = 0xffffffff;
 
 // Room in the pools, for each pair of bodies that share a block, and besides: elimination fills
-// blocks in, in heaps about as many as there are.
+// blocks in, in piles about as many as there are.
 constexpr std::size_t k_blocks_a_pair = 3, k_more_blocks = 256;
 constexpr std::size_t k_targets_a_pair = 16, k_more_targets = 4096;
 

@@ -30,7 +30,7 @@ class BodyFactor {
   /// No island has more bodies.
   static constexpr std::uint32_t k_most_bodies = 256;
 
-  /// No island costs more than so many products of blocks.
+  /// No island costs more than this many products of blocks.
   static constexpr std::uint32_t k_most_products = 20000;
 
   /// The matrix's least eigenvalue is 2^-k_least_bits at least.
@@ -45,7 +45,7 @@ class BodyFactor {
     std::uint32_t first_target = 0;
   };
 
-  /// Room for islands of so many bodies and pairs in all. No function but this allocates.
+  /// Room for islands of this many bodies and pairs in all. No function but this allocates.
   [[gnu::cold]] BodyFactor(std::size_t body_capacity, std::size_t pair_capacity);
 
   void clear();

@@ -17,7 +17,7 @@ constexpr std::int32_t k_weight = 1 << 30;
 constexpr int k_first_bits = 27, k_fewer_bits = 4, k_least_bits = 7;
 constexpr int k_finest_bits = 44;
 
-// Of a group: sums of the factor have room for the rows of so many.
+// Of a group: sums of the factor have room for the rows of this many.
 constexpr std::uint32_t k_most_joints = 512;
 
 void add_along(BodyVector& u, const RowSide& j, std::int64_t x) {

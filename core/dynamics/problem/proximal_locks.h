@@ -23,7 +23,7 @@ namespace lockstone {
 
 class ProximalLocks {
  public:
-  /// Room for so many bodies and joints. No function but this allocates.
+  /// Room for this many bodies and joints. No function but this allocates.
   [[gnu::cold]] ProximalLocks(std::size_t body_capacity, std::size_t joint_capacity);
 
   void clear();

@@ -1,4 +1,4 @@
-// Who stands on whom, by the contacts that touch.
+// The bodies that each body stands on, by the contacts that touch.
 #pragma once
 
 #include <cstdint>

@@ -129,7 +129,7 @@ static_assert(visited_bytes<JointRecord>() == sizeof(JointRecord), "a field is m
   return a.scale_exponent > b.scale_exponent ? a.scale_exponent : b.scale_exponent;
 }
 
-/// A live joint and the bodies it holds, for whoever needs no more.
+/// A live joint and the bodies it holds, for callers that need no more.
 struct JointLink {
   std::uint32_t joint = 0;
   std::uint32_t body_a = 0;

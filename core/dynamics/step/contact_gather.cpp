@@ -1,4 +1,4 @@
-// Which bodies and contacts a tick's solver takes up: their numbers, colours and lanes.
+// Which bodies and contacts a tick's solver gathers: their numbers, colours and lanes.
 
 #include <algorithm>
 #include <cstdlib>
@@ -27,8 +27,8 @@ std::int64_t heap_push(const Vec3<Acceleration>& gravity, const TimeStep& step) 
 
 }  // namespace
 
-// A body enters the solver with its first constraint. A body that no impulse moves enters anew with
-// every constraint, since constraints that are solved side by side write to all their bodies.
+// A body enters the solver with its first constraint. A body that no impulse moves enters again
+// with every constraint, since constraints that are solved side by side write to all their bodies.
 std::uint32_t ContactSolver::take_up(Side side) {
   if (side.motion() == MotionType::static_body) return k_immovable | immovables_++;
   const std::uint32_t body = side.body(), known = solver_index_[body];

@@ -58,10 +58,10 @@ class ContactSolver {
                               std::size_t converged_contacts);
   [[gnu::cold]] ~ContactSolver();
 
-  /// For so many workers.
+  /// For this many workers.
   void make_room(std::uint32_t workers);
 
-  /// Takes up the touched bodies and makes the constraints, in the order of the records.
+  /// Gathers the touched bodies and makes the constraints, in the order of the records.
   void prepare(const ContactScene& scene, Parallel& parallel);
 
   /// All substeps.
@@ -80,7 +80,7 @@ class ContactSolver {
   [[nodiscard]] const SolverBody* find(std::uint32_t body) const;
 
   /// Writes a touched body's substeps back: position, orientation, velocity and spin.
-  /// `rotation` is the matrix of its orientation; answers as `fly`.
+  /// `rotation` is the matrix of its orientation; returns the same as `fly`.
   std::uint32_t move(const SolverBody& solved, const Mat3& rotation, BodyRecord& body);
 
   /// Once all have moved: bounces that would give an island energy give less.

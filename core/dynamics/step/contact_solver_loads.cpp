@@ -10,7 +10,7 @@ namespace lockstone {
 
 namespace {
 
-// Contacts that carry so many halves of a body's weight are loaded.
+// A contact is overloaded when it carries this many halves of a body's weight.
 constexpr std::int64_t k_loaded_halves = 5;
 
 std::int64_t impulse_of(const ContactRecord& record) {
@@ -48,8 +48,8 @@ bool ContactSolver::is_loaded(const ContactScene& scene, const Entry& entry,
   return is_at_rest(rows_[index]);
 }
 
-// Where many contacts are loaded, and a good part of all is new, bodies were just put on each
-// other: the impulses that they stand on are not known yet. Heaps find theirs anew from time to
+// Where many contacts are overloaded, and a good part of all is new, bodies were just put on each
+// other: the impulses that they stand on are not known yet. Stacks find theirs again from time to
 // time.
 void ContactSolver::find_first_loads(const ContactScene& scene, Parallel& parallel) {
   first_loads_.clear();

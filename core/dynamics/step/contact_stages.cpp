@@ -34,7 +34,7 @@ lanes::SweepRules swayed(lanes::SweepRules rules, std::uint32_t substep) {
   return rules;
 }
 
-// Nets converge slowly: sweeps before positions move, and after.
+// Nets converge slowly: iterations before positions move, and after.
 constexpr int k_net_sweeps = 2;
 
 }  // namespace

@@ -54,7 +54,7 @@ class StaticTree {
   }
 
   /// Calls visit(first, count, limit) for leaves that the window (RayWindow, NearWindow) may meet
-  /// within `limit`, the nearer of two siblings first; each call answers the new limit, at most the
+  /// within `limit`, the nearer of two siblings first; each call returns the new limit, at most the
   /// old.
   template <class Window, class Visit>
   void nearest_first(const Window& window, std::int64_t limit, Visit&& visit) const {

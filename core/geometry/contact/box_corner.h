@@ -1,4 +1,4 @@
-// Single contacts of two boxes: edge against edge, and a vertex against whatever is nearest.
+// Single contacts of two boxes: edge against edge, and a vertex against the nearest feature.
 #pragma once
 
 #include "core/geometry/contact/box_pair.h"

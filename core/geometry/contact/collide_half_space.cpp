@@ -1,4 +1,4 @@
-// Half-space against whatever is solid and bounded.
+// Half-space against every bounded solid.
 #include <algorithm>
 #include <array>
 

@@ -31,7 +31,7 @@ namespace lockstone::geometry {
                                      const Vec3<Length>& offset);
 
 /// A is preferred as the owner of the reference face. With `flip` the manifold is that of B and A,
-/// flipped. `out` is filled anew.
+/// flipped. `out` is filled again.
 void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                    Length margin, bool flip, Manifold& out);
 

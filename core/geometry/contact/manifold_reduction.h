@@ -35,7 +35,7 @@ struct FaceVertex {
 /// More than any polygon has.
 inline constexpr std::size_t k_most_reduced = 272;
 
-/// Brings at most four vertices to the front, ascending by feature, each once, and answers how
+/// Brings at most four vertices to the front, ascending by feature, each once, and returns how
 /// many: the one farthest in a fixed direction, the one farthest from it, the one that spans the
 /// largest triangle with both, and the one that adds most area to that. Each later candidate must
 /// be better by a sixteenth, so that equals do not alternate. A vertex more than k_deeper deeper

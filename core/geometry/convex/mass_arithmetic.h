@@ -56,7 +56,8 @@ constexpr BlockFloat volume_with_factor(UInt128 volume, std::uint64_t factor, in
                    64 - zeros - factor_bits - 3 * Length::frac_bits);
 }
 
-/// A moment with 30 fraction bits; at least one step, lest a needle's about its own axis vanish.
+/// A moment with 30 fraction bits; at least one step, or a needle's about its own axis would
+/// vanish.
 constexpr Unit moment_of(std::uint64_t x) {
   return Unit::from_raw(static_cast<std::int32_t>(std::max(x, std::uint64_t{1})));
 }

@@ -72,8 +72,8 @@ struct ShapeTraits {
   void (*make_core)(const PosedShape& shape, ConvexCore& core);
   /// See `collide_half_space`.
   Manifold (*below_plane)(const PlaneMeeting& plane);
-  /// See `lockstone::cast_ray`; null of spheres, capsules and boxes, lest programs without queries
-  /// link theirs.
+  /// See `lockstone::cast_ray`; null of spheres, capsules and boxes, so that programs without
+  /// queries do not link theirs.
   ShapeRayHit (*cast_ray)(const Shape& shape, const Mat3& rotation, const Vec3<Length>& origin,
                           const Vec3<Length>& translation) = nullptr;
 };

@@ -31,7 +31,7 @@ struct Solid {
   Length inner_radius{};   ///< of the largest sphere about it that the solid holds; 0 when outside
 };
 
-/// A principal moment within its range: at least one step, lest a needle's about its own axis
+/// A principal moment within its range: at least one step, or a needle's about its own axis
 /// vanish.
 [[nodiscard]] constexpr Moment to_moment(std::int64_t x) {
   return Moment::from_raw(std::clamp<std::int64_t>(x, 1, std::int64_t{1} << k_tensor_bits));

@@ -5,7 +5,7 @@
 // its edge or vertex may have a normal that no shape could feel there. A contact counts as it is
 // when its normal is the face's, or when no other triangle rises above the plane that the normal
 // and the contact's edge or vertex span: the normal then lies in the Voronoi region of that feature
-// in the surface. Otherwise it is a ghost. A ghost within 60° of the face normal is measured anew
+// in the surface. Otherwise it is a ghost. A ghost within 60° of the face normal is measured again
 // along that normal, and kept where the shape's point lies over the face; all others are dropped,
 // because a neighbour that rises there is nearer and has a contact of its own. If ghosts are all
 // there is and they overlap, the deepest stays as it is, so that nothing falls through. Sources of

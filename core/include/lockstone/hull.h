@@ -27,10 +27,10 @@ inline constexpr Length k_max_hull_radius = Length::from_integer(1024);
 
 struct HullOptions {
   /// How far a point may lie outside a face and yet be dropped, and a vertex below a face that it
-  /// is merged into. Zero: 2^-13 … 2^-12 of the greatest extent. Whatever is asked for, at least 2
+  /// is merged into. Zero: 2^-13 … 2^-12 of the greatest extent. In any case at least 2
   /// µm and at most 1/16 of the thickness.
   Length tolerance{};
-  /// 4 … 128. Points are taken in, farthest from the hull of the others first, until so many are
+  /// 4 … 128. Points are taken in, farthest from the hull of the others first, until this many are
   /// vertices or none lies outside; the rest is cut off.
   int max_vertices = 64;
 };

@@ -15,7 +15,7 @@ namespace lockstone {
 inline constexpr Length k_max_cast = Length::from_integer(512);
 
 /// Which bodies a query sees: those whose category is in `mask`, except `ignore`, for which
-/// `accept` (when given) answers true.
+/// `accept` (when given) returns true.
 struct QueryFilter {
   std::uint32_t mask = 0xffffffff;
   BodyHandle ignore{};

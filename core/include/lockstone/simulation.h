@@ -108,7 +108,7 @@ class Simulation {
   /// An upper bound on the bytes that `save` writes, constant over the match.
   [[nodiscard]] virtual std::size_t snapshot_bytes_max(SnapshotKind kind) const = 0;
 
-  /// Writes the whole state; answers the bytes written. `out` has snapshot_bytes_max(kind) bytes.
+  /// Writes the whole state; returns the number of bytes. `out` has snapshot_bytes_max(kind) bytes.
   [[nodiscard]] virtual std::size_t save(SnapshotKind kind, std::span<std::byte> out) const = 0;
 
   /// Replaces the whole state. On any status but ok the old state is untouched.

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t k_max_workers = 64;
 /// How small the pieces are that a world makes.
 enum class TaskPieces : std::uint8_t {
   worthwhile,  ///< a microsecond of work or more; little work is not shared at all
-  smallest,    ///< for tests: whatever can be shared is
+  smallest,    ///< for tests: everything that can be shared is
 };
 [[nodiscard]] std::string_view to_string(TaskPieces pieces);
 

@@ -88,8 +88,7 @@ struct StateHash {
   std::uint64_t bodies = 0;
   std::uint64_t contacts = 0;
   std::uint64_t joints = 0;
-  std::uint32_t hashed =
-      0;  ///< records that were hashed for this answer: says nothing of the state
+  std::uint32_t hashed = 0;  ///< records that were hashed in this call: no part of the state
 };
 
 /// The same with 128 bits: of all records at once, on demand.
@@ -295,7 +294,7 @@ class World {
   /// nothing. Not from two threads at once.
   [[nodiscard]] StateHash hash() const;
 
-  /// Hashes everything anew.
+  /// Hashes everything again.
   [[nodiscard]] StateHash128 hash128() const;
 
   /// The hashes of a store's records in the order of the state, as many as `out` holds; returns how
@@ -306,7 +305,7 @@ class World {
   /// Upper bound on `save`, constant over the world's life.
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const;
 
-  /// Writes the state; answers the bytes written, 0 when `out` is too small.
+  /// Writes the state; returns the number of bytes, 0 when `out` is too small.
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const;
 
   /// Replaces the state. Canonical bytes may come from anywhere: they are checked in full before

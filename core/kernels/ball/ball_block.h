@@ -70,21 +70,21 @@ struct BallKernels {
   void (*begin)(BallBlock* blocks, std::size_t count, const BodyPlace* places,
                 const SourceBody* inertias, RowBody* warm, std::int32_t substep_rate);
 
-  /// A sweep that closes openings.
+  /// An iteration that closes openings.
   void (*lift)(RowBody* bodies, BallBlock* blocks, std::size_t count);
 
-  /// Computes the rows anew after bodies have moved. Takes the lift back, and keeps seven eighths
+  /// Computes the rows again after bodies have moved. Takes the lift back, and keeps seven eighths
   /// of the impulses as the warm start of the next substep. `before` gains the velocities that the
   /// old impulses gave along the old arms, less those that the kept ones give along the new arms: a
   /// substep starts with twice the velocities less `before`. Then as `relax`.
   void (*follow)(RowBody* bodies, RowBody* before, BallBlock* blocks, std::size_t count,
                  const BodyPlace* places, const SourceBody* inertias, std::int32_t substep_rate);
 
-  /// A sweep that keeps openings as they are.
+  /// An iteration that keeps openings as they are.
   void (*relax)(RowBody* bodies, BallBlock* blocks, std::size_t count);
 };
 
-/// Those of the target in force, or of narrower vectors that hold so many balls at once.
+/// Those of the target in force, or of narrower vectors that hold this many balls at once.
 [[nodiscard]] const BallKernels& ball_kernels(std::size_t balls);
 
 /// The scalar twins, which define the results.

@@ -235,7 +235,7 @@ HWY_INLINE HWY_ATTR Vector next_impulse(const BallBlock& block, std::size_t lane
   return {clamp(next.x, least, most), clamp(next.y, least, most), clamp(next.z, least, most)};
 }
 
-/// One step of either sweep: `total` are the impulses that it adds to.
+/// One step of either iteration: `total` are the impulses that it adds to.
 HWY_INLINE HWY_ATTR void solve_lanes(const BallBlock& block, std::size_t lane, const Vector& bias,
                                      BallPair& bodies, BlockWord (&total)[2]) {
   const Lanes share = load(&block.share[lane]);

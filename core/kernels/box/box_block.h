@@ -8,7 +8,7 @@
 
 namespace lockstone::lanes {
 
-/// So many pairs have the widest lanes.
+/// This many pairs have the widest lanes.
 inline constexpr std::size_t k_box_pairs = 8;
 
 /// A pair of boxes. Sizes, offset and margin are lengths below 16 m, together too.

@@ -17,7 +17,7 @@ namespace lockstone::lanes {
 namespace HWY_NAMESPACE {
 
 /// Prefetches the next block, some cache lines at a time, while the present one is solved. Hardware
-/// does not look a whole block ahead, and cannot wait for so many lines at once. Results do not
+/// does not look a whole block ahead, and cannot wait for this many lines at once. Results do not
 /// depend on it.
 class Ahead {
  public:
@@ -44,7 +44,7 @@ HWY_INLINE HWY_ATTR void ask_for_bodies(const std::int64_t* words, const Manifol
   }
 }
 
-/// So many lines make `stages` of all that lie in `bytes`, with as many vectors as a block has.
+/// This many lines make `stages` of all that lie in `bytes`, with as many vectors as a block has.
 constexpr std::size_t lines_of(std::size_t bytes, std::size_t stages) {
   const std::size_t parts = stages * (k_block_lanes / k_lanes);
   return (bytes / 64 + parts - 1) / parts;

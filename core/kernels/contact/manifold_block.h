@@ -177,7 +177,7 @@ struct alignas(64) RowTravel {
   friend bool operator==(const RowTravel&, const RowTravel&) = default;
 };
 
-/// Constants of a sweep.
+/// Constants of an iteration.
 struct SweepRules {
   std::int32_t substep_rate = 240;  // 1/s
   std::int32_t push_out = 0;        // overlap goes at most this fast, m/s, Q20
@@ -200,11 +200,11 @@ struct ManifoldKernels {
   void (*prepare)(const ManifoldSources& sources, const SourceBody* inertias, const RowBody* bodies,
                   RowBody* warm, ManifoldBlock& block, ManifoldApproach& approach);
 
-  /// A sweep that pushes overlap out, by soft rows: normals only, at the separations that the last
-  /// `relax` saw.
+  /// An iteration that pushes overlap out, by soft rows: normals only, at the separations that the
+  /// last `relax` saw.
   void (*solve)(RowBody* bodies, ManifoldBlock* blocks, std::size_t count, const SweepRules& rules);
 
-  /// A sweep without bias, with friction. Separations are brought up to date first.
+  /// An iteration without bias, with friction. Separations are brought up to date first.
   void (*relax)(RowBody* bodies, const RowTravel* travel, ManifoldBlock* blocks, std::size_t count,
                 const SweepRules& rules);
 
@@ -214,8 +214,8 @@ struct ManifoldKernels {
                  const BlockWord& restitution, std::int32_t threshold);
 };
 
-/// Those of the target in force, or of narrower vectors that hold so many manifolds at once: where
-/// there are few, these take less time.
+/// Those of the target in force, or of narrower vectors that hold this many manifolds at once:
+/// where there are few, these take less time.
 [[nodiscard]] const ManifoldKernels& manifold_kernels(std::size_t manifolds);
 
 /// The scalar twins, which define the results.

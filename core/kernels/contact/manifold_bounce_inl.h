@@ -1,4 +1,4 @@
-// Restitution, the last sweep of manifold_block.h, for the target at hand.
+// Restitution, the last iteration of manifold_block.h, for the target at hand.
 #if defined(LKS_WIDE_MANIFOLD_BOUNCE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_MANIFOLD_BOUNCE_INL_H
 #undef LKS_WIDE_MANIFOLD_BOUNCE_INL_H

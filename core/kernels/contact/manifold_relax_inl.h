@@ -1,4 +1,4 @@
-// The sweep of manifold_block.h with friction, for the target at hand.
+// The iteration of manifold_block.h with friction, for the target at hand.
 #if defined(LKS_WIDE_MANIFOLD_RELAX_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_MANIFOLD_RELAX_INL_H
 #undef LKS_WIDE_MANIFOLD_RELAX_INL_H

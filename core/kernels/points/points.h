@@ -8,7 +8,7 @@
 
 namespace lockstone::lanes {
 
-/// The number of points is a multiple of this: so many words have the widest lanes.
+/// The number of points is a multiple of this: this many words have the widest lanes.
 inline constexpr std::size_t k_point_step = 8;
 
 /// Points or directions by coordinates.
@@ -31,7 +31,7 @@ struct Farthest {
 /// The point p with the greatest p · n, the first of equals. There is at least one. Sums wrap.
 [[nodiscard]] Farthest farthest_point(const PointColumns& points, const Direction32& n);
 
-/// heights[i] = n_i · p − offsets[i]; answers the greatest, the first of equals. Sums wrap.
+/// heights[i] = n_i · p − offsets[i]; returns the greatest, the first of equals. Sums wrap.
 Farthest heights_above(const PointColumns& normals, const std::int64_t* offsets,
                        const Direction32& p, std::int64_t* heights);
 

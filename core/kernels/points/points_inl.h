@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 static_assert(k_point_step % k_lanes == 0);
 
-/// So many coordinates, each in a word of its own.
+/// This many coordinates, each in a word of its own.
 HWY_INLINE HWY_ATTR Lanes load_operands(const std::int32_t* from) {
   return hn::PromoteTo(k_words, hn::LoadU(hn::Rebind<std::int32_t, Words>(), from));
 }

@@ -20,7 +20,7 @@ inline constexpr std::size_t k_most_rows = 7, k_body_words = 6;
 /// Quantities of a phase lie within ±this.
 inline constexpr std::int64_t k_most_unit = (std::int64_t{1} << 30) - 1;
 
-/// Residuals have so many bits after the units' point: they are exact.
+/// Residuals have this many bits after the units' point: they are exact.
 inline constexpr int k_residual_point = 30;
 
 /// A matrix weight is 2^-k_weight_point / γ.

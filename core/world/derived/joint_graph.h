@@ -57,7 +57,7 @@ class JointGraph {
   [[nodiscard]] bool is_awake_list_current() const { return is_awake_list_current_; }
   void forget_awake_list() { is_awake_list_current_ = false; }
 
-  /// Lists the joints with an awake body anew, if anything changed. `is_awake(body)`.
+  /// Lists the joints with an awake body again, if anything changed. `is_awake(body)`.
   template <class IsAwake>
   void list_awake(IsAwake&& is_awake) {
     if (is_awake_list_current_) return;

@@ -117,7 +117,7 @@ void ContinuousCollision::run(StepReport& report) {
   if (world_.passes.overflowed()) report.status = Status::capacity_exhausted;
 }
 
-// Anew when an impact changes how a body turns before its own way is looked at.
+// Again when an impact changes how a body turns before its own way is looked at.
 void ContinuousCollision::note_far_mover(std::uint32_t body) {
   const bool is_followed = world_.bodies[body].is_dynamic() && !world_.bodies[body].is_trigger();
   far_movers_[body] = !went_far(body) ? 0 : is_followed ? k_far_mover : k_sweeper;
@@ -276,7 +276,7 @@ Sweep ContinuousCollision::motion_in_tick(std::uint32_t body) const {
 }
 
 // Moves a body for the rest of a tick at the velocities at hand, which already hold the whole
-// tick's gravity; answers the way.
+// tick's gravity; returns the way.
 Sweep ContinuousCollision::go_on(BodyRecord& record, Unit left) const {
   const Mat3 rotation = to_matrix(record.orientation);
   Sweep motion{pose_of(record), {}, {}};

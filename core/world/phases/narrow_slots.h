@@ -114,7 +114,7 @@ class NarrowSlots {
     scratch.taken += count;
     if (scratch.end - scratch.next < count) {
       const std::uint32_t size = std::max(block_, count);
-      // Nobody asks on once it is known that there is no more, lest the number wrap.
+      // Nobody asks on once it is known that there is no more, so that the number does not wrap.
       if (out_of_slots_.load(std::memory_order_relaxed)) return k_none;
       scratch.next = used_.fetch_add(size, std::memory_order_relaxed);
       scratch.end = scratch.next + size;

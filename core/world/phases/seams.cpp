@@ -219,7 +219,7 @@ void World::Impl::SeamSearch::move_slot(std::uint32_t from, std::uint32_t to) {
   world.surfaces[to] = world.surfaces[from];
 }
 
-// The pairs of a body follow one another; whoever has the first of them does all.
+// The pairs of a body follow one another; the worker with the first of them does all.
 void World::Impl::remove_seams() {
   if (!narrow.has_seams()) return;
   const auto pair_count = static_cast<std::uint32_t>(pairs.size());

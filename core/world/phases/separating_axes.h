@@ -47,7 +47,7 @@ class SeparatingAxes {
 
   void forget() { now_.clear(); }
 
-  /// A tick with so many pairs. Each must be noted.
+  /// A tick with this many pairs. Each must be noted.
   void begin(std::size_t pairs) {
     std::swap(before_, now_);
     now_.resize(pairs);

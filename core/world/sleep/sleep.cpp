@@ -118,7 +118,7 @@ void World::Impl::wake_joined() {
   wake_listed();
 }
 
-// Those with an awake body: found anew when one slept, woke, came or went.
+// Those with an awake body: found again when one slept, woke, came or went.
 void World::Impl::find_active_joints() {
   joint_graph.list_awake([&](std::uint32_t body) { return awake.has(body); });
 }

@@ -20,7 +20,7 @@ struct MassReference {
   Long33 second{};
 };
 
-/// Of the convex hull of points, which is built anew from exact predicates.
+/// Of the convex hull of points, which is built again from exact predicates.
 [[nodiscard]] MassReference mass_of_hull(std::span<const Vec3<Length>> points);
 
 /// In closed form.

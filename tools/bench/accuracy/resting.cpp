@@ -1,4 +1,4 @@
-// Rows 19, 20, 32 and 34: stacks, mass ratios, heaps and overhangs; row 38: far away.
+// Rows 19, 20, 32 and 34: stacks, mass ratios, piles and overhangs; row 38: far away.
 #include <algorithm>
 #include <array>
 

@@ -31,7 +31,7 @@ struct Chart {
 
 [[nodiscard]] std::string svg_of(const Chart& chart);
 
-/// All on one sheet, in so many columns.
+/// All on one sheet, in this many columns.
 [[nodiscard]] std::string svg_sheet(std::span<const Chart> charts, int columns);
 
 }  // namespace lockstone::bench

@@ -1,4 +1,4 @@
-// Heaps, which must come to rest and sleep.
+// Piles, which must come to rest and sleep.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -99,7 +99,7 @@ void fill_balls(SceneMaker& m) {
   heap(m, 15);
 }
 
-// Boxes in a heap.
+// Boxes in a pile.
 void fill_crates(SceneMaker& m) {
   const int n = m.count(10, 150), side = m.random.count(2, 5);
   m.ground();
@@ -165,8 +165,8 @@ void add_rest_families(std::vector<Family>& all) {
   all.insert(all.end(), {{"funnel", "20-200 random hulls through a funnel into a pit", fill_funnel},
                          {"gravel", "10-150 random hulls on a floor", fill_gravel},
                          {"balls", "40-250 balls in a box", fill_balls},
-                         {"crates", "10-150 boxes in a heap", fill_crates},
-                         {"ragdolls", "1-12 ragdolls in a heap", fill_ragdolls},
+                         {"crates", "10-150 boxes in a pile", fill_crates},
+                         {"ragdolls", "1-12 ragdolls in a pile", fill_ragdolls},
                          {"hull-pyramid", "2-12 rows of prisms", fill_hull_pyramid}});
 }
 

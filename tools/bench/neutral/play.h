@@ -18,7 +18,7 @@ struct Played {
   std::vector<double> cpu_seconds;  ///< of each repeat, a simulated second
   std::uint64_t hash = 0;
   std::string note;
-  std::vector<std::vector<BodyState>> samples;  ///< every so many ticks, of all watched bodies
+  std::vector<std::vector<BodyState>> samples;  ///< every this many ticks, of all watched bodies
 
   [[nodiscard]] double median_seconds() const;
 };

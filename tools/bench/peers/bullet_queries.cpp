@@ -1,7 +1,7 @@
 // The query scene in Bullet: a collision world with the same shapes at the same places.
 //
 // Rays are cast as the manual shows, by result callbacks with default flags; the broad phase is the
-// dynamic tree, built anew from the top before anything is asked. Overlaps go through contactTest.
+// dynamic tree, built again from the top before anything is asked. Overlaps go through contactTest.
 
 #include <set>
 #include <string>

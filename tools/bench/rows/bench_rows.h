@@ -15,7 +15,7 @@ struct RowBenchOptions {
   std::uint64_t seed = 1;
 };
 
-/// One competitor. Times are ns per contact and sweep.
+/// One competitor. Times are ns per contact and iteration.
 struct RowBenchResult {
   std::string name;
   std::vector<double> times;

@@ -148,7 +148,7 @@ void measure_absent_features(Skips& skips) {
   (void)world.hash();
   for (int tick = 0; tick < 60; ++tick) {
     const StepReport report = world.step();
-    // Every joint of an awake body is hashed anew.
+    // Every joint of an awake body is hashed again.
     joints += std::max(std::int64_t{world.hash().hashed} - report.moving_bodies - report.pairs - 1,
                        std::int64_t{0});
     sum.continuous_bodies += report.continuous_bodies;
@@ -343,7 +343,7 @@ void measure_memory(Skips& skips) {
               (bytes_of(some) - bytes_of(none)) / some.converged_contacts, 8192);
 }
 
-// Loading makes trees and lists of contacts anew.
+// Loading makes trees and lists of contacts again.
 void measure_snapshot_time(Skips& skips) {
   if (!skips.options().times) return;
   for (const bool sleeping : {false, true}) {

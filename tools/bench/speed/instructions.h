@@ -20,7 +20,7 @@ struct InstructionCount {
 /// Whether callgrind is there.
 [[nodiscard]] bool can_count_instructions();
 
-/// Runs this program anew under callgrind: some forty times slower than without. Nothing when that
+/// Runs this program again under callgrind: some forty times slower than without. Nothing when that
 /// fails.
 [[nodiscard]] std::optional<InstructionCount> count_instructions(std::string_view scene,
                                                                  std::uint32_t ticks);

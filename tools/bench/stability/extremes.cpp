@@ -11,7 +11,7 @@ namespace {
 
 using namespace literals;
 
-// Needles and plates whose moments differ by up to 10,000 : 1 fall into a heap.
+// Needles and plates whose moments differ by up to 10,000 : 1 fall into a pile.
 StabilityResult slender(double seconds) {
   SceneRun scene(k_usual_setting, contact_world());
   scene.add(ground());
@@ -89,7 +89,7 @@ StabilityResult edge(double seconds) {
 }
 
 constexpr StabilityRow k_rows[] = {
-    {"slender", "needles and plates fall into a heap", 600, slender},
+    {"slender", "needles and plates fall into a pile", 600, slender},
     {"spin", "a box spins at the limit of speed", 600, spin},
     {"edge", "balls are thrown out of the world", 600, edge},
 };

@@ -195,7 +195,7 @@ void add_front_options(CLI::App& command, FrontOptions& options) {
       ->delimiter(',')
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command.add_option("--repeats", options.repeats, "A time is the median of so many")
+  command.add_option("--repeats", options.repeats, "A time is the median of this many")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 16");

@@ -1,5 +1,5 @@
 // The cost of rolling back: bytes of a native snapshot, times to save and load, ticks simulated
-// anew.
+// again.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -37,7 +37,7 @@ struct Figures {
   double load_us = 0;
   double resimulate_us = 0;
   std::size_t tick_delta_bytes = 0;  // one tick after the base, and
-  std::size_t delta_bytes = 0;       // as many as are simulated anew
+  std::size_t delta_bytes = 0;       // as many as are simulated again
   double save_delta_us = 0;
   double load_delta_us = 0;
   std::uint64_t hash = 0;
@@ -64,7 +64,8 @@ std::vector<Goal> goals_of(const RollbackOptions& options, const Figures& f) {
   if (options.bodies != k_goal_bodies) return goals;
   goals.push_back({"save", f.save_us, 100, "us"});
   goals.push_back({"load", f.load_us, 100, "us"});
-  if (options.ticks == k_goal_ticks) goals.push_back({"ticks anew", f.resimulate_us, 16'000, "us"});
+  if (options.ticks == k_goal_ticks)
+    goals.push_back({"ticks again", f.resimulate_us, 16'000, "us"});
   return goals;
 }
 
@@ -132,7 +133,7 @@ void measure_bytes(World& world, Figures& figures) {
   figures.contact_bytes = figures.contacts == 0 ? 0 : rest / static_cast<double>(figures.contacts);
 }
 
-// Goes back to the snapshot and simulates anew, over and over.
+// Goes back to the snapshot and simulates again, over and over.
 void measure_returns(World& world, const RollbackOptions& options, ByteView snapshot,
                      Figures& figures) {
   std::vector<std::byte> scratch(world.snapshot_bytes_max(SnapshotKind::native));
@@ -155,7 +156,7 @@ void measure_returns(World& world, const RollbackOptions& options, ByteView snap
   figures.resimulate_us = median(steps);
 }
 
-// The world stands where the ticks simulated anew have led; the delta's base is where they began.
+// The world stands where the ticks simulated again have led; the delta's base is where they began.
 void measure_deltas(World& world, const RollbackOptions& options, ByteView base, Figures& figures) {
   std::vector<std::byte> delta(world.delta_bytes_max());
   std::vector<double> saves, loads;
@@ -224,7 +225,7 @@ void print(const RollbackOptions& options, const Figures& f) {
              f.bytes, f.body_bytes, f.contact_bytes, f.header_bytes);
   fmt::print("save         {:>9.1f} us\n", f.save_us);
   fmt::print("load         {:>9.1f} us\n", f.load_us);
-  fmt::print("{} ticks anew {:>9.1f} us\n", options.ticks, f.resimulate_us);
+  fmt::print("{} ticks again {:>9.1f} us\n", options.ticks, f.resimulate_us);
   fmt::print("delta        {:>9} bytes after one tick, {} after {}\n", f.tick_delta_bytes,
              f.delta_bytes, options.ticks);
   fmt::print("save delta   {:>9.1f} us\n", f.save_delta_us);
@@ -240,7 +241,7 @@ int run(const RollbackOptions& options) {
   const Figures figures = measure(options);
   print(options, figures);
   if (figures.repeated) return k_ok;
-  complain("a tick simulated anew came to another hash");
+  complain("a tick simulated again came to another hash");
   return k_different;
 }
 
@@ -248,7 +249,8 @@ int run(const RollbackOptions& options) {
 
 void add_bench_rollback_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<RollbackOptions>();
-  CLI::App* command = bench.add_subcommand("rollback", "Native snapshots and ticks simulated anew");
+  CLI::App* command =
+      bench.add_subcommand("rollback", "Native snapshots and ticks simulated again");
   command->add_option("--bodies", options->bodies, "Boxes in a pit")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000));

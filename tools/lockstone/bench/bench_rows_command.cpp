@@ -12,7 +12,7 @@ namespace {
 
 void print(const bench::RowBench& rows) {
   const double reference = rows.results.front().quantile(0.5);
-  fmt::print("{} contacts of four points, ns per contact and sweep\n", rows.contacts);
+  fmt::print("{} contacts of four points, ns per contact and iteration\n", rows.contacts);
   fmt::print("{:<20} {:>8} {:>8} {:>8} {:>7}  final hash\n", "", "median", "p99", "least", "ratio");
   for (const bench::RowBenchResult& result : rows.results) {
     fmt::print("{:<20} {:>8.2f} {:>8.2f} {:>8.2f} {:>7.2f}  {}\n", result.name,

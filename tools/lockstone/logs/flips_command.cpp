@@ -192,7 +192,7 @@ void add_flips_command(CLI::App& app, Tool& tool) {
   CLI::App* command = app.add_subcommand(
       "flips", "Flip random bits of the state: each must be found at its tick and named");
   add_start_options(*command, tool.games, options->start);
-  command->add_option("--ticks", options->ticks, "Flip within so many ticks")
+  command->add_option("--ticks", options->ticks, "Flip within this many ticks")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--count", options->count, "Flips")->capture_default_str();

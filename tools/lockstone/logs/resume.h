@@ -16,7 +16,7 @@
 
 namespace lockstone::tool {
 
-/// The state after the last tick whose hash is in the log, and who played then.
+/// The state after the last tick whose hash is in the log, and the players at that tick.
 struct ResumedMatch {
   Match match;
   replay::LogHeader header;

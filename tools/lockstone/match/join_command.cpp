@@ -269,7 +269,7 @@ std::unique_ptr<Caller> call(Targets& targets, const std::optional<net::ConnectT
   return caller;
 }
 
-/// Plays to the end. A lost connection is made anew, for a while; until it is in, by the next
+/// Plays to the end. A lost connection is made again, for a while; until it is in, by the next
 /// target.
 class Play {
  public:
@@ -451,7 +451,7 @@ void add_join_command(CLI::App& app, Tool& tool) {
       ->check(CLI::Range(0, 15));
   command
       ->add_option("--reconnect", options->reconnect,
-                   "Call again for so many seconds when the connection is lost; 0: never")
+                   "Call again for this many seconds when the connection is lost; 0: never")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--insecure", options->insecure,

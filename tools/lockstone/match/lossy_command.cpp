@@ -175,7 +175,7 @@ void add_lossy_command(CLI::App& app, Tool& tool) {
   command->add_option("--seconds", options->seconds, "How long; default: until interrupted");
   add_fault_options(*command, *options);
   CLI::Option* match =
-      command->add_option("--match", options->match, "Play for so many seconds, and measure")
+      command->add_option("--match", options->match, "Play for this many seconds, and measure")
           ->check(CLI::Range(1.0, 3600.0));
   command->add_option("--players", options->players, "Of that match")
       ->check(CLI::Range(1U, 16U))
@@ -183,7 +183,7 @@ void add_lossy_command(CLI::App& app, Tool& tool) {
   command->add_option("--input-delay", options->input_delay, "Of that match, ticks")
       ->check(CLI::Range(0, 60))
       ->capture_default_str();
-  command->add_option("--pause", options->pause, "Stop its last player for so many seconds");
+  command->add_option("--pause", options->pause, "Stop its last player for this many seconds");
   match->excludes(to);
   command->callback([options, &tool] {
     if (options->match <= 0 && options->to == 0) {

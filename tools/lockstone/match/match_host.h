@@ -35,7 +35,7 @@ struct MatchOptions {
   net::ServerList addresses;  ///< the addresses of this server that tokens may name; none: no check
   std::string record;         ///< empty: no log
   std::string resume;         ///< the log of a killed server, whose match goes on; empty: none
-  unsigned start_players = 0;  ///< the match begins with so many; 0: with all
+  unsigned start_players = 0;  ///< the match begins with this many; 0: with all
   std::uint16_t spectators = 0;
   unsigned spectator_delay_s = 0;
   net::DesyncPolicy desync_policy = net::DesyncPolicy::resync;

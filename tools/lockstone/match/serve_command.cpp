@@ -185,15 +185,16 @@ void add_serve_command(CLI::App& app, Tool& tool) {
       ->capture_default_str();
   command
       ->add_option("--start-players", options->match.start_players,
-                   "Begin with so many; others may come later. 0: with all")
+                   "Begin with this many players; others may come later. 0: with all")
       ->check(CLI::Range(0, 16))
       ->capture_default_str();
   command
       ->add_option("--drop-after", options->match.drop_after_s,
-                   "Drop a player that is silent for so many seconds")
+                   "Drop a player that is silent for this many seconds")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
-  command->add_option("--spectators", options->match.spectators, "So many may watch")
+  command
+      ->add_option("--spectators", options->match.spectators, "Spectators that may watch at once")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_option("--spectator-delay", options->match.spectator_delay_s, "Seconds")
@@ -212,9 +213,9 @@ void add_serve_command(CLI::App& app, Tool& tool) {
                       "Answer /metrics and /stats.json over HTTP");
   command
       ->add_option("--metrics-bind", options->match.metrics_bind,
-                   "Numeric address for that; whoever reaches it may read")
+                   "Numeric address for that; anybody who reaches it may read")
       ->capture_default_str();
-  command->add_option("--matches", options->matches, "Host so many, on ports that follow")
+  command->add_option("--matches", options->matches, "Host this many matches, on ports that follow")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   add_security_options(*command, *options);

@@ -132,8 +132,9 @@ class Client {
   /// events of the transport: a client needs one of its own.
   void update(std::int64_t now_us);
 
-  /// Whether it may help to call again: the line was lost, the server was silent, or the handshake
-  /// took too long. Not after a refusal for good, nor when the server sent this player away.
+  /// Whether it may help to call again: the connection was lost, the server was silent, or the
+  /// handshake took too long. Not after a refusal for good, nor when the server sent this player
+  /// away.
   [[nodiscard]] bool may_reconnect() const;
 
   /// After a failure of the connection, or a handshake that took too long: goes on over a new one,

@@ -52,7 +52,7 @@ class SystemRandom final : public RandomSource {
   void fill(std::span<std::byte> out) override;
 };
 
-/// False in a build without libsodium: tokens, encryption and link keys then answer `incompatible`.
+/// False in a build without libsodium: tokens, encryption and link keys then return `incompatible`.
 [[nodiscard]] bool security_available();
 
 [[nodiscard]] Key make_key(RandomSource& random);

@@ -80,10 +80,11 @@ struct ServerConfig {
       1024;  ///< closed ticks kept for laggards; power of two, 256 … 65536
   std::uint32_t snapshot_ticks = 64;      ///< canonical snapshots kept, one a tick; 0 … 4096
   std::size_t max_dump_bytes = 16 << 20;  ///< of a client's snapshot, where no simulation says
-  /// Ticks run without a player in its seat, and whoever comes later may take it.
+  /// Ticks run without a player in its seat, and a player who comes later may take it.
   bool late_join = true;
-  std::uint8_t start_players = 0;  ///< the match begins with so many; 0: with all
-  /// Makes the keys that open a seat again. Use random bits: who guesses a key gets the seat.
+  std::uint8_t start_players = 0;  ///< the match begins with this many; 0: with all
+  /// Makes the keys that open a seat again. Use random bits: anybody who guesses a key gets the
+  /// seat.
   std::uint64_t rejoin_seed = 0;
   std::uint16_t max_spectators = 0;           ///< 0 … 256
   std::uint32_t spectator_delay_ticks = 0;    ///< how old the newest tick is that they see

@@ -40,7 +40,7 @@ struct EnetOptions {
   std::size_t max_strangers_per_address = 4;  ///< of these, before `trust`
   std::size_t max_waiting_bytes = 1 << 20;    ///< received but not yet polled, per connection
   /// Without an answer to any reliable packet a connection ends. Well above the session's drop
-  /// time: on a bad line ENet may send only three times in 5 s, and all three may be lost.
+  /// time: on a bad connection ENet may send only three times in 5 s, and all three may be lost.
   std::uint32_t timeout_ms = 20000;
   std::optional<LinkKey> link_key = std::nullopt;  ///< none: open to everybody
   /// make_match_tag of the match: a client of another match is told so. 0: it hears nothing.

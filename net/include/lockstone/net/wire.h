@@ -1,7 +1,7 @@
 // The messages of a session, byte for byte as in docs/reference/wire-format.md.
 //
-// `encode` writes one message into the caller's buffer and answers its size, 0 if it does not fit.
-// `decode` checks every byte before it answers ok: types, lengths, ranges, nothing left over. On
+// `encode` writes one message into the caller's buffer and returns its size, 0 if it does not fit.
+// `decode` checks every byte before it returns ok: types, lengths, ranges, nothing left over. On
 // any other status the message's content is unspecified and must not be used. Neither allocates.
 #pragma once
 
@@ -87,7 +87,7 @@ struct Hello {
   bool insecure = false;                  ///< asks for a session without encryption
   std::uint8_t wanted_slot = k_any_slot;  ///< 0 … k_max_players - 1, k_spectator_slot, k_any_slot
   std::uint64_t rejoin_key = 0;           ///< from an earlier Welcome; 0: never was here
-  std::uint64_t ticks_stepped = 0;        ///< the state after so many ticks is still here
+  std::uint64_t ticks_stepped = 0;        ///< the state after this many ticks is still here
   std::uint64_t state_hash = 0;           ///< its hash; 0 after 0 ticks
   NameText name;
   BuildText build;  ///< of the game, and the processor: for reports
@@ -219,7 +219,7 @@ struct Finish {
 
 /// Server: a piece of a canonical snapshot, to begin from.
 struct Snapshot {
-  std::uint64_t ticks = 0;  ///< the state after so many ticks
+  std::uint64_t ticks = 0;  ///< the state after this many ticks
   std::uint64_t hash = 0;   ///< its expected hash
   std::uint32_t total_bytes = 0;
   std::uint32_t offset_bytes = 0;
@@ -252,7 +252,7 @@ struct Paused {
 
 /// Client: hashes of its state's parts, every k_parts_interval_ticks.
 struct Parts {
-  std::uint64_t ticks = 0;  ///< of the state after so many ticks, a multiple of the interval
+  std::uint64_t ticks = 0;  ///< of the state after this many ticks, a multiple of the interval
   std::uint8_t count = 0;   ///< 1 … k_max_state_parts
   std::array<Hash128, k_max_state_parts> hashes{};
 };

@@ -25,7 +25,7 @@ inline constexpr std::size_t k_max_text_bytes = 256;         ///< an event's tex
 inline constexpr std::size_t k_max_chunk_ticks = 1024;       ///< and never more than one second
 inline constexpr std::size_t k_max_scene_bytes = 16U << 20;  ///< the game's configuration
 inline constexpr std::size_t k_max_keyframe_bytes = 64U << 20;  ///< one canonical snapshot
-/// A compressed payload is at most so many times as long as its stored bytes, so that a reader
+/// A compressed payload is at most this many times as long as its stored bytes, so that a reader
 /// needs memory and time in proportion to the file.
 inline constexpr std::size_t k_max_compression_ratio = 32;
 inline constexpr std::uint64_t k_max_start_tick = std::uint64_t{1} << 62;

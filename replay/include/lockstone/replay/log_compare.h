@@ -35,7 +35,7 @@ struct LogComparison {
   std::vector<FieldMismatch> header;  ///< `log` is the first, `here` the second
   bool same_config = true;
   std::uint64_t first_tick = 0;  ///< the ticks that both hold: first_tick …
-  std::uint64_t ticks = 0;       ///< … so many
+  std::uint64_t ticks = 0;       ///< … this many
   std::optional<InputDifference> input;
   std::optional<HashDifference> hash;
   std::uint64_t end_here = 0;  ///< the tick behind the last

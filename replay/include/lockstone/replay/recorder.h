@@ -51,8 +51,8 @@ struct RecorderOptions {
 ///
 /// Ticks leave for the sink together with their hashes, whole chunks at a time, so a killed process
 /// leaves a log that verifies up to its last whole chunk. On an interrupt, call finish() from the
-/// main loop (not from a signal handler). After an io_error the recorder stays failed and answers
-/// io_error to everything: the part written before remains a good log.
+/// main loop (not from a signal handler). After an io_error the recorder stays failed and returns
+/// io_error from every call: the part written before remains a good log.
 class Recorder {
  public:
   /// `sink` must outlive the recorder.

@@ -23,7 +23,7 @@ class Sink {
 };
 
 /// A file of the operating system. Nothing is buffered in the process: a killed recorder loses
-/// nothing that append() answered ok for. (A power cut may: the file is not synced to the disk.)
+/// nothing that append() returned ok for. (A power cut may: the file is not synced to the disk.)
 class FileSink final : public Sink {
  public:
   /// Creates `path`; with `replace`, empties the file that is there. io_error when the system

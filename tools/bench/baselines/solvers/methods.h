@@ -44,7 +44,7 @@ class SoftSteps {
   std::vector<std::pair<std::size_t, std::size_t>> groups_;  // first row and count, of joints
 };
 
-// One proximal problem, solved to convergence: Gauss-Seidel sweeps find the active set, direct
+// One proximal problem, solved to convergence: Gauss-Seidel iterations find the active set, direct
 // steps with an exact line search on the dual solve for it.
 class Proximal {
  public:

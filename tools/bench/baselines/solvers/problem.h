@@ -53,7 +53,7 @@ std::vector<Problem> make_islands(const System& system);
 void append_joint_rows(const System& system, int joint, double h, std::vector<Row>& rows);
 
 void make_rows(const System& system, double h, Problem& problem);
-// Masses and all rows' coefficients at the present inertias; joints' rows anew.
+// Masses and all rows' coefficients at the present inertias; joints' rows again.
 void refresh(const System& system, double h, Problem& problem);
 void normalise(const System& system, Problem& problem);
 // The rows alone, by the roots at hand.

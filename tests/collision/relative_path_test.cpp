@@ -1,3 +1,5 @@
+#include "core/collision/continuous/relative_path.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +8,6 @@
 #include <lockstone/literals.h>
 #include <lockstone/testing/floating.h>
 
-#include "core/collision/continuous/relative_path.h"
 #include "core/geometry/distance/time_of_impact.h"
 #include "tests/support/random.h"
 
@@ -47,7 +48,7 @@ double seen_way(const Sweep& a, const Sweep& b, const Vec3<Length>& point) {
   return way;
 }
 
-TEST(RelativeWay, IsNoShorterThanThatOfAnyPoint) {
+TEST(RelativePath, IsNoShorterThanThatOfAnyPoint) {
   test::Random random;
   double closest = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -65,7 +66,7 @@ TEST(RelativeWay, IsNoShorterThanThatOfAnyPoint) {
   EXPECT_GT(closest, 0.95);  // and not by much, where the point is the one that goes farthest
 }
 
-TEST(RelativeWay, OfWhatIsCarriedRoundIsNothing) {
+TEST(RelativePath, IsZeroForAPointThatIsCarriedRound) {
   Sweep drum;
   drum.rotation.z.raw = (std::int64_t{1} << 32) / 137;
   Sweep cube = drum;
@@ -75,7 +76,7 @@ TEST(RelativeWay, OfWhatIsCarriedRoundIsNothing) {
   EXPECT_GT(relative_way(cube, Sweep{}, 0.3_m), 0.1_m);
 }
 
-TEST(RelativeWay, IsWithoutBoundWhereTheOtherTurnsFar) {
+TEST(RelativePath, IsWithoutBoundWhereTheOtherTurnsFar) {
   Sweep top;
   top.rotation.y.raw = std::int64_t{1} << 31;
   EXPECT_EQ(relative_way(Sweep{}, top, 1_m), Position::max());

@@ -47,7 +47,7 @@ BodyHandle add_moving(World& world, const Shape& shape, Position z, Velocity spe
 }
 
 // Half a millimetre at the top; by iterations alone it has grown by 2 mm after five seconds.
-TEST(HeapLoads, KeepAWallFromBendingOn) {
+TEST(StackRebalance, KeepsAWallFromBendingOn) {
   World world = heap_world();
   test::add_ground(world);
   const std::vector<BodyHandle> bricks = add_wall(world, 40, Position::from_ratio(1, 3'200'000));
@@ -62,7 +62,7 @@ TEST(HeapLoads, KeepAWallFromBendingOn) {
 }
 
 // Rigid contacts alone keep it rattling at 0.14 m/s.
-TEST(HeapLoads, LetABlockOfBoxesComeToRest) {
+TEST(StackRebalance, LetsABlockOfBoxesComeToRest) {
   World world = heap_world();
   test::add_ground(world);
   test::Random random(22);
@@ -82,7 +82,7 @@ TEST(HeapLoads, LetABlockOfBoxesComeToRest) {
   }
 }
 
-TEST(HeapLoads, BrakeNothingThatRollsOrSlides) {
+TEST(StackRebalance, BrakesNothingThatRollsOrSlides) {
   World world = heap_world();
   test::add_ground(world);
   add_wall(world, 22);
@@ -98,7 +98,7 @@ TEST(HeapLoads, BrakeNothingThatRollsOrSlides) {
     EXPECT_NEAR(metres_per_second(world.velocity(body).x), 2e-3, 4e-6);
 }
 
-TEST(HeapLoads, BrakeNoWallThatIsCarried) {
+TEST(StackRebalance, BrakesNoWallThatIsCarried) {
   World world = heap_world();
   BodyDef platform;
   platform.motion = MotionType::kinematic;
@@ -144,7 +144,7 @@ TEST(MotionBalance, FindsImpulsesThatChangeAMotion) {
 }
 
 // A row along x alone stops motion along x, and leaves the rest.
-TEST(MotionBalance, LeavesOutWhatNoRowChanges) {
+TEST(MotionBalance, LeavesOutMotionThatNoRowChanges) {
   MotionBalance all;
   const Motion6 column{1 << 26, 0, 0, 0, 0, 0};
   all.add(column);

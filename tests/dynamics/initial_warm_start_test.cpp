@@ -47,7 +47,7 @@ double fastest(const World& world, const std::vector<BodyHandle>& bodies) {
 }
 
 // By iterations alone it is off by up to 22 mm after a second.
-TEST(FirstLoads, HoldAWallFromItsFirstTick) {
+TEST(InitialWarmStart, HoldsAWallFromItsFirstTick) {
   World world = test::make_world();
   test::add_ground(world);
   const std::vector<BodyHandle> bricks = add_wall(world, 22, nullptr);
@@ -63,7 +63,7 @@ TEST(FirstLoads, HoldAWallFromItsFirstTick) {
   }
 }
 
-TEST(FirstLoads, HoldWallsOfUnlikeBricks) {
+TEST(InitialWarmStart, HoldsWallsOfUnlikeBricks) {
   test::Random random;
   for (int i = 0; i < 4; ++i) {
     World world = test::make_world();
@@ -75,7 +75,7 @@ TEST(FirstLoads, HoldWallsOfUnlikeBricks) {
 }
 
 // Nothing is under it: it falls as one.
-TEST(FirstLoads, HoldNothingInTheAir) {
+TEST(InitialWarmStart, HoldsNothingInTheAir) {
   World world = test::make_world();
   const std::vector<BodyHandle> bricks = add_wall(world, 16, nullptr);
   test::step(world, 60);
@@ -85,7 +85,7 @@ TEST(FirstLoads, HoldNothingInTheAir) {
 
 // A brick that tips over its supports pushes them harder than its weight, and so on from row to
 // row.
-TEST(FirstLoads, ThrowNothingOffAWallThatLeans) {
+TEST(InitialWarmStart, ThrowsNothingOffAWallThatLeans) {
   World world = test::make_world();
   test::add_ground(world);
   const std::vector<BodyHandle> bricks = add_wall(world, 22, nullptr, Position::from_ratio(2, 5));
@@ -95,7 +95,7 @@ TEST(FirstLoads, ThrowNothingOffAWallThatLeans) {
   }
 }
 
-TEST(ContactPoints, ThatAreNewShareWhatVanishedOnesCarried) {
+TEST(ContactPoints, ThatAreNewShareTheImpulsesOfVanishedOnes) {
   Manifold manifold;
   manifold.count = 4;
   for (std::uint32_t i = 0; i < 4; ++i)

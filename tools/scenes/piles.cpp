@@ -1,4 +1,4 @@
-// Scenes at rest and heaps that come to rest.
+// Scenes at rest and piles that come to rest.
 #include "tools/scenes/build.h"
 
 namespace lockstone::scenes {

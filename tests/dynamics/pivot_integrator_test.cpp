@@ -1,4 +1,6 @@
 // A pendulum, a body that hangs on one point: its invariants, and its accuracy.
+#include "core/dynamics/joint/pivot_integrator.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -9,7 +11,6 @@
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/tick_gain.h"
 #include "core/dynamics/joint/joint_geometry.h"
-#include "core/dynamics/joint/pivot_integrator.h"
 #include "tests/support/random.h"
 
 namespace lockstone {
@@ -85,7 +86,7 @@ double distance(const Vec3<Position>& a, const Vec3<Position>& b) {
   return std::hypot(to_double(a.x - b.x), to_double(a.y - b.y), to_double(a.z - b.z));
 }
 
-TEST(Swing, KeepsEnergyAndMomentumAboutTheVertical) {
+TEST(PivotIntegrator, KeepsEnergyAndMomentumAboutTheVertical) {
   test::Random random;
   for (int i = 0; i < 20; ++i) {
     Hung top = random_hung(random);
@@ -101,7 +102,7 @@ TEST(Swing, KeepsEnergyAndMomentumAboutTheVertical) {
   }
 }
 
-TEST(Swing, StaysOnItsPivot) {
+TEST(PivotIntegrator, StaysOnItsPivot) {
   test::Random random;
   Hung top = random_hung(random);
   for (int tick = 0; tick < 300; ++tick) {
@@ -120,7 +121,7 @@ Vec3<Position> place_after(int seconds, int substeps) {
   return pendulum.body.position;
 }
 
-TEST(Swing, IsOfFourthOrder) {
+TEST(PivotIntegrator, IsOfFourthOrder) {
   const Vec3<Position> exact = place_after(4, 16);
   const double coarse = distance(place_after(4, 1), exact),
                fine = distance(place_after(4, 2), exact);
@@ -128,7 +129,7 @@ TEST(Swing, IsOfFourthOrder) {
   EXPECT_LT(fine, coarse / 10);
 }
 
-TEST(Swing, TakesForcesForGravity) {
+TEST(PivotIntegrator, TakesForcesForGravity) {
   Hung pulled = hung({0.2_r, 0.3_r, 0.25_r}, {-1_m, {}, {}});
   Hung falling = pulled;
   pulled.gravity = {};
@@ -143,7 +144,7 @@ TEST(Swing, TakesForcesForGravity) {
   EXPECT_LT(distance(pulled.body.position, falling.body.position), 1e-6);
 }
 
-TEST(Swing, GivesWhatTheJointBears) {
+TEST(PivotIntegrator, ReturnsTheForceOfTheJoint) {
   Hung still = hung({0.2_r, 0.3_r, 0.25_r}, {{}, 1_m, {}});
   const SwingStep step = still.go();
   EXPECT_EQ(still.body.position, (Vec3<Position>{{}, -1_m, {}}));
@@ -151,7 +152,7 @@ TEST(Swing, GivesWhatTheJointBears) {
   EXPECT_NEAR(to_double(step.impulse.x), 0, 1e-9);
 }
 
-TEST(Swing, LeavesAloneWhatItCannotDo) {
+TEST(PivotIntegrator, LeavesOtherBodiesToTheSolver) {
   const Hung good = hung({0.2_r, 0.3_r, 0.25_r}, {-1_m, {}, {}});
   EXPECT_TRUE(good.can());
   Hung open = good;

@@ -1,11 +1,12 @@
 // Contacts of bodies that hardly move: how far they may drift, and how separations follow.
 
+#include "core/dynamics/contact/recycling_pose.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/contact/recycling_pose.h"
 #include "tests/geometry/scene.h"
 
 namespace lockstone {
@@ -48,7 +49,7 @@ void move(Dice& dice, double way, double angle, BodyRecord& body) {
                  w * qz + x * qy - y * qx + z * qw, w * qw - x * qx - y * qy - z * qz);
 }
 
-TEST(ContactPose, IsNearWithinAHair) {
+TEST(RecyclingPose, IsNearWithinTheFinestDistance) {
   Dice dice;
   for (int round = 0; round < 2000; ++round) {
     const BodyRecord still = random_box(dice);
@@ -69,7 +70,7 @@ TEST(ContactPose, IsNearWithinAHair) {
 }
 
 // Large stacks, which are rebalanced, follow more closely.
-TEST(ContactPose, IsNearWithinAsMuchAsAsked) {
+TEST(RecyclingPose, IsNearWithinAsMuchAsAsked) {
   Dice dice;
   for (const int drift : {k_fine_drift, k_coarse_drift}) {
     const double most = std::ldexp(1.0, drift);
@@ -82,7 +83,7 @@ TEST(ContactPose, IsNearWithinAsMuchAsAsked) {
 }
 
 // Of a small body the hair is a part of its size: angles stay small.
-TEST(ContactPose, IsNearWithinAPartOfASmallBody) {
+TEST(RecyclingPose, IsNearWithinAPartOfASmallBody) {
   Dice dice;
   for (int exponent = -10; exponent < 10; ++exponent) {
     BodyRecord body = random_box(dice);
@@ -103,7 +104,7 @@ TEST(ContactPose, IsNearWithinAPartOfASmallBody) {
 // Boxes that stand on each other, leaning by a hundredth or less: the same points, found where the
 // bodies are now, are as far apart as those that followed. A corner that an edge cuts off moves
 // along the face, which counts times the faces' lean.
-TEST(ContactPose, SeparationsFollow) {
+TEST(RecyclingPose, SeparationsFollow) {
   Dice dice;
   int met = 0;
   for (int round = 0; round < 20000; ++round) {
