@@ -16,7 +16,7 @@ enum class Frame : std::uint8_t {
   body = 1,   ///< the frame of the body's shape
 };
 [[nodiscard]] std::string_view to_string(Frame frame);
-
+/// Makes a body: see `World::create_body`.
 struct CreateBody {
   BodyDef def{};
 };
@@ -27,70 +27,70 @@ struct DestroyBody {
 /// Moves a body at once; its contacts end. Orientation is normalised.
 struct Teleport {
   BodyHandle body{};
-  Vec3<Position> position{};
-  Quat orientation{};
+  Vec3<Position> position{};  ///< m, within ±2^20: of the shape's frame
+  Quat orientation{};         ///< of the shape's frame; any length but 0
 };
-
+/// Sets the velocity of the centre of mass: at most 500 m/s.
 struct SetVelocity {
   BodyHandle body{};
-  Vec3<Velocity> velocity{};
+  Vec3<Velocity> velocity{};  ///< m/s
 };
 struct SetAngularVelocity {
   BodyHandle body{};
-  Vec3<AngularVelocity> angular_velocity{};
+  Vec3<AngularVelocity> angular_velocity{};  ///< rad/s
 };
 
 /// At the centre of mass. Impulses leave velocity, and angular momentum over mass and size, within
 /// ±500 m/s an axis: they are clamped there.
 struct ApplyImpulse {
   BodyHandle body{};
-  Vec3<Impulse> impulse{};
-  Frame frame{};
+  Vec3<Impulse> impulse{};  ///< N·s
+  Frame frame{};            ///< of the vectors
 };
 
 /// At a point within twice the body's radius of its centre of mass.
 struct ApplyImpulseAt {
   BodyHandle body{};
-  Vec3<Impulse> impulse{};
-  Vec3<Length> point{};
-  Frame frame{};
+  Vec3<Impulse> impulse{};  ///< N·s
+  Vec3<Length> point{};     ///< m
+  Frame frame{};            ///< of the vectors
 };
-
+/// Changes the angular momentum at once; clamped as by `ApplyImpulse`.
 struct ApplyAngularImpulse {
   BodyHandle body{};
-  Vec3<AngularImpulse> impulse{};
-  Frame frame{};
+  Vec3<AngularImpulse> impulse{};  ///< N·m·s
+  Frame frame{};                   ///< of the vectors
 };
 
 /// At the centre of mass. A force works evenly over the coming tick and is then gone, a torque too;
 /// those of a tick add up, each axis to at most ±1000 m/s.
 struct ApplyForce {
   BodyHandle body{};
-  Vec3<Force> force{};
-  Frame frame{};
+  Vec3<Force> force{};  ///< N
+  Frame frame{};        ///< of the vectors
 };
 
 /// At a point as that of an impulse. Both turn with the body in the tick no more than the world
 /// does.
 struct ApplyForceAt {
   BodyHandle body{};
-  Vec3<Force> force{};
-  Vec3<Length> point{};
-  Frame frame{};
+  Vec3<Force> force{};   ///< N
+  Vec3<Length> point{};  ///< m
+  Frame frame{};         ///< of the vectors
 };
-
+/// Works evenly over the coming tick and is then gone, as `ApplyForce`.
 struct ApplyTorque {
   BodyHandle body{};
-  Vec3<Torque> torque{};
-  Frame frame{};
+  Vec3<Torque> torque{};  ///< N·m
+  Frame frame{};          ///< of the vectors
 };
 
 /// Gives a kinematic body the velocities that take it to a pose in one tick. It keeps them until it
 /// is told otherwise. invalid_argument where they exceed the speed limit.
 struct MoveKinematic {
   BodyHandle body{};
-  Vec3<Position> position{};
-  Quat orientation{};
+  Vec3<Position> position{};  ///< m, within ±2^20: of the shape's frame
+  Quat orientation{};         ///< of the shape's frame; any length but 0
 };
 
 /// Of the body itself; parts of assets keep theirs.
@@ -106,12 +106,12 @@ struct SetSurfaceMotion {
 };
 struct SetGravityScale {
   BodyHandle body{};
-  Number scale{};
+  Number scale{};  ///< factor of gravity, −100 … 100
 };
 struct SetDamping {
   BodyHandle body{};
-  Rate linear{};
-  Rate angular{};
+  Rate linear{};   ///< 1/s, ≥ 0
+  Rate angular{};  ///< 1/s, ≥ 0
 };
 
 /// Stops the body along and about the axes that are locked. Contacts keep their impulses. Refused
@@ -150,7 +150,7 @@ struct SetAllowSleep {
   BodyHandle body{};
   bool allow = true;
 };
-
+/// Makes a joint: see `World::create_joint`.
 struct CreateJoint {
   JointDef def{};
 };
@@ -161,17 +161,17 @@ struct DestroyJoint {
 /// New settings for one axis, limits and drive alike: axis 0 … 2.
 struct SetLinearAxis {
   JointHandle joint{};
-  std::uint8_t axis = 0;
+  std::uint8_t axis = 0;  ///< 0 … 2: x, y, z of frame a
   LinearAxis settings{};
 };
 struct SetAngularAxis {
   JointHandle joint{};
-  std::uint8_t axis = 0;
+  std::uint8_t axis = 0;  ///< 0 … 2: x, y, z of frame a
   AngularAxis settings{};
 };
-
+/// Of the world, from the next step on. A change wakes every body.
 struct SetGravity {
-  Vec3<Acceleration> gravity{};
+  Vec3<Acceleration> gravity{};  ///< m/s²
 };
 
 // clang-format off
