@@ -25,7 +25,7 @@ void add_start_options(CLI::App& command, const Games& games, StartOptions& opti
 /// Nothing, with a complaint, when no game knows the scene, or refuses the configuration.
 [[nodiscard]] std::optional<Match> start_match(const Games& games, const StartOptions& options);
 
-/// True, or a complaint that the first game cannot make a match of so many players by itself.
+/// True, or a complaint that the first game cannot make a match of this many players by itself.
 [[nodiscard]] bool has_matches(const Games& games);
 
 }  // namespace lockstone::tool

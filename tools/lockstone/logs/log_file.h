@@ -36,7 +36,7 @@ struct GameLog {
   int exit_code = k_ok;         ///< then
 };
 
-/// A log whose header cannot be read gets the first game: whoever reads on finds the damage.
+/// A log whose header cannot be read gets the first game: a reader of the rest finds the damage.
 [[nodiscard]] GameLog find_game_log(const Games& games, const std::string& path);
 
 /// The same, with a complaint when there is no source.

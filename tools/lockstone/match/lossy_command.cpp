@@ -126,7 +126,7 @@ int play_match(const Games& games, const LossyOptions& options) {
   trial.faults = faults_of(options);
   const auto match = relay::TrialMatch::create(trial);
   if (match == nullptr) {
-    complain("no match: no socket, no libsodium, or the game refuses so many players");
+    complain("no match: no socket, no libsodium, or the game refuses this many players");
     return k_unavailable;
   }
   using namespace std::chrono_literals;

@@ -54,7 +54,7 @@ void print_report(const relay::SiegeReport& report) {
 int siege(const relay::SiegeOptions& options) {
   const auto report = relay::run_siege(options);
   if (!report) {
-    complain("no match: no socket, no libsodium, or the game refuses so many players");
+    complain("no match: no socket, no libsodium, or the game refuses this many players");
     return k_unavailable;
   }
   print_report(*report);
