@@ -141,6 +141,7 @@ class Hashes(Case):
         self.assertEqual((report["tick"], report["store"], report["state_at"]), (200, "body", 256))
         table = self.expect(DIFFERENT, own(), "compare-hashes", first, third, "--markdown").stdout
         self.assertIn("| odd |", table)
+        self.assertRegex(table, r"tick 200, part bodies \(state at 256\), body \d+, \S+: .* in A, .* in B \(state at 256\)")
 
     def test_of_other_matches_are_not_compared(self):
         files = [self.hash(own(), self.record(own(), f"{seed}.lks", "--seed", seed), f"m{seed}")

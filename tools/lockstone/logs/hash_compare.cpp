@@ -112,15 +112,23 @@ void find_field(const LogHashes& here, const LogHashes& there, std::uint64_t aft
   note("no state after this tick was kept by both");
 }
 
+// "body 17, velocity.y: 0x… in A, 0x… in B".
+std::string in_groups(const StateDifference& difference) {
+  constexpr std::string_view k_here = " here, ", k_there = " there";
+  std::string line = difference.to_line();
+  if (line.ends_with(k_there)) line.replace(line.size() - k_there.size(), k_there.size(), " in B");
+  const std::size_t here = line.rfind(k_here);
+  if (here != std::string::npos) line.replace(here, k_here.size(), " in A, ");
+  return line;
+}
+
 }  // namespace
 
 std::string HashComparison::to_line() const {
   if (same()) return fmt::format("all equal, {} ticks", ticks);
   std::string line = fmt::format("tick {}", first_tick);
-  if (!part.empty()) line += fmt::format(", part {} (of the state at {})", part, part_tick);
-  if (field) {
-    line += fmt::format(", {} (of the state at {}; here A, there B)", field->to_line(), field_tick);
-  }
+  if (!part.empty()) line += fmt::format(", part {} (state at {})", part, part_tick);
+  if (field) line += fmt::format(", {} (state at {})", in_groups(*field), field_tick);
   return line;
 }
 

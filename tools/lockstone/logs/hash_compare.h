@@ -30,7 +30,8 @@ struct HashComparison {
   std::string note;                      ///< why part or field are not known
 
   [[nodiscard]] bool same() const { return groups.size() == 1; }
-  /// `tick 241, part bodies: body 17, velocity.y: 0x… in A, 0x… in B`, or "all equal".
+  /// `tick 241, part bodies (state at 256), body 17, velocity.y: 0x… in A, 0x… in B (state at
+  /// 256)`, or "all equal, 600 ticks".
   [[nodiscard]] std::string to_line() const;
 };
 
