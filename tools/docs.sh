@@ -6,7 +6,7 @@
 #   --open   show it in the browser afterwards
 #   --help   print this
 #
-# A broken link, a page that the site does not list and a warning of Doxygen are errors. Missing Debian
+# The navigation follows docs/index.md. A broken link and a warning of Doxygen are errors. Missing Debian
 # packages are installed first (as root or through sudo).
 
 # shellcheck source=lib.sh source-path=SCRIPTDIR
@@ -33,9 +33,9 @@ if [[ -s $warnings ]]; then
 fi
 
 say "pages"
-python3 -B tools/docs/pages.py . build/docs/pages
+python3 -B tools/docs/pages.py . build/docs
 cp -r build/docs/doxygen/html build/docs/pages/api
-mkdocs build --strict --quiet --clean --config-file tools/docs/mkdocs.yml
+mkdocs build --strict --quiet --clean --config-file build/docs/mkdocs.yml
 
 echo "build/site/index.html: $(find build/site -name '*.html' | wc -l) pages"
 if "$open"; then xdg-open build/site/index.html; fi

@@ -1,4 +1,6 @@
-"""Copies docs/ for MkDocs. Links that leave docs/ become plain text; those to the README lead to the index.
+"""Copies docs/ for MkDocs, with its configuration: TARGET/pages and TARGET/mkdocs.yml. Links that leave
+docs/ become plain text; those to the README lead to the index. The navigation follows docs/index.md:
+its headings, and below each the pages that it links.
 
 usage: pages.py ROOT TARGET
 """
@@ -41,9 +43,21 @@ def rewritten(page, text, names):
     return LINK.sub(link, text)
 
 
+def navigation(index):
+    """The `nav` of mkdocs.yml."""
+    lines = ["nav:", "  - Home: index.md"]
+    for section in re.split(r"^## ", index, flags=re.MULTILINE)[1:]:
+        title, _, text = section.partition("\n")
+        pages = [(match[1], match[2]) for match in LINK.finditer(text) if match[2].endswith(".md")]
+        lines += [f"  - {title}:", *(f'      - "{words}": {page}' for words, page in pages)]
+        if title == "Reference":
+            lines.append("      - API: api.md")
+    return "\n".join(lines) + "\n"
+
+
 def main():
-    root, target = map(pathlib.Path, sys.argv[1:3])
-    docs = root / "docs"
+    root, folder = map(pathlib.Path, sys.argv[1:3])
+    docs, target = root / "docs", folder / "pages"
     names = {path.relative_to(docs).as_posix() for path in docs.rglob("*") if path.is_file()}
     shutil.rmtree(target, ignore_errors=True)
     shutil.copytree(docs, target)
@@ -51,6 +65,9 @@ def main():
         page = path.relative_to(target).as_posix()
         path.write_text(rewritten(page, path.read_text(encoding="utf-8"), names), encoding="utf-8")
     (target / "api.md").write_text(API, encoding="utf-8")
+    configuration = (root / "tools/docs/mkdocs.yml").read_text(encoding="utf-8")
+    index = (docs / "index.md").read_text(encoding="utf-8")
+    (folder / "mkdocs.yml").write_text(configuration + navigation(index), encoding="utf-8")
 
 
 main()
