@@ -412,6 +412,31 @@ class Logs(Case):
         report = self.verify(INCOMPATIBLE, "foreign.lks")
         self.assertEqual([mismatch["field"] for mismatch in report["mismatches"]], ["config hash"])
 
+    def test_one_of_an_unknown_game_is_refused_by_name(self):
+        line = "this log is of game 'sumo' 1.2; this tool knows arena, scenes; use --game"
+        done = self.expect(INCOMPATIBLE, "verify", self.folder / "sumo.lks", self.folder / "good.lks")
+        self.assertIn(f"sumo.lks: incompatible: {line}", done.stdout)
+        self.assertIn("good.lks: same", done.stdout)
+        self.assertIn(line, self.expect(INCOMPATIBLE, "trace", self.folder / "sumo.lks").stderr)
+
+    def test_a_game_that_is_not_there_is_refused(self):
+        done = self.expect(UNAVAILABLE, "--game", self.folder / "none.so", "verify", self.folder / "good.lks")
+        self.assertIn("none.so", done.stderr)
+
+    def test_hashes_of_a_log_are_those_of_its_ticks(self):
+        log = self.folder / "good.lks"
+        files = []
+        for name in ("one", "other"):
+            files.append(self.folder / f"{name}.json")
+            self.expect(OK, "hash", "--log", log, "--json", "--name", name, "--out", files[-1], "--force")
+        chain = json.loads(files[0].read_text())["chain"]
+        trace = json.loads(self.expect(OK, "trace", log).stdout)
+        self.assertEqual(chain, [[tick + 1, hash] for tick, hash in enumerate(trace["hashes"])])
+        self.assertIn("all equal, 700 ticks", self.expect(OK, "compare-hashes", *files).stdout)
+        scenes = self.folder / "scenes.json"
+        scenes.write_text(json.dumps({"scenes": {"stack": ["0"]}}))
+        self.expect(INCOMPATIBLE, "compare-hashes", files[0], scenes)
+
     def test_one_without_an_end_is_good_unless_strict(self):
         self.assertFalse(self.verify(OK, "open.lks")["complete"])
         self.verify(CORRUPT, "open.lks", "--strict")

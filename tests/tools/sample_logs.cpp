@@ -3,6 +3,7 @@
 //   altered.lks   the same with one other input bit, checksums right: it must diverge
 //   foreign.lks   of another configuration hash
 //   open.lks      without an end, as after a kill
+//   sumo.lks      of a game that the command does not know
 #include <array>
 #include <cstdio>
 #include <string>
@@ -24,6 +25,7 @@ struct Sample {
   bool altered = false;
   bool foreign = false;
   bool open = false;
+  bool unknown = false;
 };
 
 using Bytes = std::array<std::array<std::byte, arena::k_input_bytes>, 2>;
@@ -50,8 +52,12 @@ bool write_log(const std::string& folder, const Sample& sample) {
       *sink.value(), {.keyframe_bytes_max = game.snapshot_bytes_max(SnapshotKind::canonical)});
   SimulationInfo info = game.info();
   if (sample.foreign) info.config_hash ^= 1;
-  if (recorder.begin(info, k_config.encode(),
-                     {.match_id = 1, .build = "sample_logs", .game = "arena"}) != Status::ok) {
+  replay::MatchMetadata match{.match_id = 1, .build = "sample_logs", .game = "arena"};
+  if (sample.unknown) {
+    match.game = "sumo";
+    match.game_version = "1.2";
+  }
+  if (recorder.begin(info, k_config.encode(), match) != Status::ok) {
     return false;
   }
   while (game.tick() < k_ticks) {
@@ -67,7 +73,8 @@ int main(int argc, char** argv) {
   const Sample samples[] = {{.name = "good.lks"},
                             {.name = "altered.lks", .altered = true},
                             {.name = "foreign.lks", .foreign = true},
-                            {.name = "open.lks", .open = true}};
+                            {.name = "open.lks", .open = true},
+                            {.name = "sumo.lks", .unknown = true}};
   for (const Sample& sample : samples) {
     if (write_log(argv[1], sample)) continue;
     std::fprintf(stderr, "cannot write %s\n", sample.name);
