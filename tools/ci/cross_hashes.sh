@@ -13,6 +13,7 @@
 # build/match-hashes: TARGET.json and TARGET.states, and the table. Exits 1 when a hash differs. Missing
 # Debian packages are installed first (as root or through sudo). LOCKSTONE_JOBS bounds the parallel jobs.
 
+here=$PWD  # lib.sh goes to the root
 # shellcheck source=../lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/../lib.sh"
 
@@ -24,9 +25,9 @@ targets=()
 while (($#)); do
   case $1 in
     --help) usage; exit ;;
-    --source) source_dir=$(realpath "$2"); shift ;;
+    --source) source_dir=$(cd "$here" && realpath "$2"); shift ;;
     --tool) tool=$2; shift ;;
-    --log) log=$(realpath "$2"); shift ;;
+    --log) log=$(cd "$here" && realpath "$2"); shift ;;
     --flip) flip=$2; shift ;;
     -*) usage >&2; exit 2 ;;
     *) targets+=("$1") ;;
