@@ -68,6 +68,9 @@ class SceneMaker {
   int cap_;
 };
 
+/// A trunk, a head and four limbs of two parts each.
+void add_ragdoll(SceneMaker& maker, const Triple& at);
+
 /// The families of each kind.
 void add_loop_families(std::vector<Family>& all);
 void add_drive_families(std::vector<Family>& all);

@@ -112,30 +112,11 @@ void fill_crates(SceneMaker& m) {
   heap(m, 15);
 }
 
-// A trunk, a head and four limbs of two parts each.
-void ragdoll(SceneMaker& m, const Triple& at) {
-  const int trunk = m.box({0.2, 0.3, 0.12}, at);
-  const int head = m.ball(0.13, at + Triple{0, 0.45, 0});
-  m.join(Link::ball, trunk, head, at + Triple{0, 0.31, 0});
-  for (const double side : {-1.0, 1.0}) {
-    for (const double low : {0.0, 1.0}) {
-      const Triple top = at + Triple{side * (low > 0 ? 0.12 : 0.28), low > 0 ? -0.35 : 0.25, 0};
-      const int upper = m.capsule(0.06, 0.1, top + Triple{0, -0.16, 0});
-      const int lower = m.capsule(0.05, 0.1, top + Triple{0, -0.45, 0});
-      m.join(Link::ball, trunk, upper, top);
-      GeneralJoint& knee = m.join(Link::hinge, upper, lower, top + Triple{0, -0.3, 0}, {1, 0, 0});
-      knee.limited = true;
-      knee.lower = 0;
-      knee.upper = 2.4;
-    }
-  }
-}
-
 void fill_ragdolls(SceneMaker& m) {
   const int n = m.count(1, 12);
   m.ground();
   for (int i = 0; i < n; ++i)
-    ragdoll(m, Triple{0.7 * (i % 2), 1.3 + 1.5 * (i / 2), 0} + m.jitter(0.2));
+    add_ragdoll(m, Triple{0.7 * (i % 2), 1.3 + 1.5 * (i / 2), 0} + m.jitter(0.2));
   m.set_friction(0.6);
   heap(m, 15);
 }
@@ -160,6 +141,24 @@ void fill_hull_pyramid(SceneMaker& m) {
 }
 
 }  // namespace
+
+void add_ragdoll(SceneMaker& m, const Triple& at) {
+  const int trunk = m.box({0.2, 0.3, 0.12}, at);
+  const int head = m.ball(0.13, at + Triple{0, 0.45, 0});
+  m.join(Link::ball, trunk, head, at + Triple{0, 0.31, 0});
+  for (const double side : {-1.0, 1.0}) {
+    for (const double low : {0.0, 1.0}) {
+      const Triple top = at + Triple{side * (low > 0 ? 0.12 : 0.28), low > 0 ? -0.35 : 0.25, 0};
+      const int upper = m.capsule(0.06, 0.1, top + Triple{0, -0.16, 0});
+      const int lower = m.capsule(0.05, 0.1, top + Triple{0, -0.45, 0});
+      m.join(Link::ball, trunk, upper, top);
+      GeneralJoint& knee = m.join(Link::hinge, upper, lower, top + Triple{0, -0.3, 0}, {1, 0, 0});
+      knee.limited = true;
+      knee.lower = 0;
+      knee.upper = 2.4;
+    }
+  }
+}
 
 void add_rest_families(std::vector<Family>& all) {
   all.insert(all.end(), {{"funnel", "20-200 random hulls through a funnel into a pit", fill_funnel},

@@ -102,9 +102,11 @@ const std::vector<Family>& families() {
 }
 
 const Family* find_family(std::string_view name) {
-  const auto found =
-      std::ranges::find_if(families(), [&](const Family& family) { return family.name == name; });
-  return found == families().end() ? nullptr : &*found;
+  for (const std::vector<Family>* all : {&families(), &single_islands()}) {
+    const auto found = std::ranges::find(*all, name, &Family::name);
+    if (found != all->end()) return &*found;
+  }
+  return nullptr;
 }
 
 GeneralScene make_scene(const Family& family, std::uint64_t seed, int cap) {

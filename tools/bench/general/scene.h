@@ -118,6 +118,10 @@ struct Family {
 
 /// In the order of the table.
 [[nodiscard]] const std::vector<Family>& families();
+/// One island each, with fixed numbers, whose price a tick is told by itself.
+[[nodiscard]] const std::vector<Family>& single_islands();
+
+/// Among both.
 [[nodiscard]] const Family* find_family(std::string_view name);
 
 inline constexpr int k_no_cap = 1 << 20;

@@ -24,7 +24,7 @@ struct BenchGeneralOptions {
   int threads = 1;
   int substeps = 4;
   int cap = bench::k_no_cap;
-  bool alone = false, json = false, list = false, shrink = false;
+  bool alone = false, json = false, list = false, shrink = false, islands = false;
 };
 
 std::vector<bench::GeneralMaker> engines_of(const BenchGeneralOptions& options) {
@@ -72,11 +72,9 @@ int shrink(const BenchGeneralOptions& options, const Seed& seed) {
   return k_different;
 }
 
-int replay(const BenchGeneralOptions& options) {
-  const Seed seed = seed_of(options.replay);
-  if (options.shrink) return shrink(options, seed);
-  const bench::GeneralScene scene = bench::make_scene(*seed.family, seed.seed, options.cap);
-  fmt::print("{}: {} bodies, {} joints, {} ticks, bound {:.3g}\n", options.replay,
+// Returns whether ours fails.
+bool play_scene(const BenchGeneralOptions& options, const bench::GeneralScene& scene) {
+  fmt::print("{}:{}: {} bodies, {} joints, {} ticks, bound {:.3g}\n", scene.family, scene.seed,
              scene.bodies.size(), scene.joints.size(), scene.ticks, scene.bound);
   bool failed = false;
   for (const bench::GeneralMaker& engine : engines_of(options)) {
@@ -89,6 +87,21 @@ int replay(const BenchGeneralOptions& options) {
         engine.name, f->error, f->gap, f->gain, f->speed, f->rest, f->asleep, f->tick_micros,
         hash_text(f->hash), f->failed ? "FAILED" : "as expected");
   }
+  return failed;
+}
+
+int play_islands(const BenchGeneralOptions& options) {
+  bool failed = false;
+  for (const bench::Family& island : bench::single_islands())
+    failed = play_scene(options, bench::make_scene(island, options.first_seed)) || failed;
+  return failed ? k_different : k_ok;
+}
+
+int replay(const BenchGeneralOptions& options) {
+  const Seed seed = seed_of(options.replay);
+  if (options.shrink) return shrink(options, seed);
+  const bench::GeneralScene scene = bench::make_scene(*seed.family, seed.seed, options.cap);
+  const bool failed = play_scene(options, scene);
   if (!options.svg.empty() &&
       !write_text_file({options.svg, options.force},
                        bench::draw_general(bench::lockstone_general(), scene, options.substeps)))
@@ -148,6 +161,7 @@ int run(const BenchGeneralOptions& options) {
     list_families();
     return k_ok;
   }
+  if (options.islands) return play_islands(options);
   return options.replay.empty() ? measure(options) : replay(options);
 }
 
@@ -192,6 +206,7 @@ void add_bench_general_command(CLI::App& bench, int& exit_code) {
   command->add_option("--peers", options->peers, "Names; all in this build when left out")
       ->delimiter(',');
   command->add_flag("--alone", options->alone, "Without peers");
+  command->add_flag("--islands", options->islands, "Play single islands with fixed numbers");
   command->add_flag("--list", options->list, "Names of families");
   command->add_flag("--json", options->json, "Print every seed's figures as JSON");
   command->add_option("--plot", options->plot, "Also draw a chart a family into a folder");
