@@ -140,9 +140,7 @@ class ProximalSolver {
   void find_carried_speeds(const ContactRun& run, const Island& island);
   void see_joints(const ContactRun& run, const JointAccess& joints, Island& island,
                   bool pushes_out);
-  void see_joint(const JointAccess& access, const Island& island, IslandJoint& joint,
-                 Problem& problem, bool pushes_out);
-  static void set_lock(const ProximalLock& lock, std::size_t lane, Problem& problem);
+  void see_inertia(const ContactRun& run, const Island& island);
   void give_joints(const JointAccess& access, const Island& island);
   void give(const ContactRun& run, Island& island);
   void follow(Island& island);

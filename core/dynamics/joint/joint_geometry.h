@@ -19,10 +19,13 @@ namespace lockstone {
   return {row(cx.x, cy.x, cz.x), row(cx.y, cy.y, cz.y), row(cx.z, cy.z, cz.z)};
 }
 
-/// The frame of a joint on a body, in world axes.
+/// The frame of a joint on a body, in world axes; `frame` is in the body's.
+[[nodiscard]] inline Mat3 frame_of(const Mat3& rotation, const Mat3& frame) {
+  if (frame == Mat3{}) return rotation;
+  return multiply(rotation, frame);
+}
 [[nodiscard]] inline Mat3 frame_of(const Mat3& rotation, const Quat& orientation) {
-  if (orientation == Quat{}) return rotation;
-  return multiply(rotation, to_matrix(orientation));
+  return frame_of(rotation, to_matrix(orientation));
 }
 
 /// The twist of frame b against frame a, as below.

@@ -7,6 +7,7 @@
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
+#include "core/kernels/contact/contact_rows.h"
 #include "core/math/product_sum.h"
 
 namespace lockstone {
@@ -25,6 +26,14 @@ inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
 
 /// The same as the way in a second, m, Q32.
 inline constexpr std::int64_t k_close_way = std::int64_t{8} << 32;
+
+/// Whether both bodies move alike; std::array's comparison calls memcmp.
+[[nodiscard]] inline bool is_alike(const lanes::RowBody& a, const lanes::RowBody& b) {
+  std::int64_t differs = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    differs |= (a.velocity[i] ^ b.velocity[i]) | (a.spin[i] ^ b.spin[i]);
+  return differs == 0;
+}
 
 /// |x| + |y| + |z|, Q20
 [[nodiscard]] constexpr std::int64_t size_of(const Vec3<Length>& v) {

@@ -5,6 +5,7 @@
 
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/joint/joint_vectors.h"
 #include "core/dynamics/joint/turn_springs.h"
 #include "core/dynamics/state/time_step.h"
 #include "core/math/product_sum.h"
@@ -28,46 +29,14 @@ std::int64_t shifted(std::int64_t x, int shift) {
   return std::clamp(x, -(k_bound >> -shift), k_bound >> -shift) * (std::int64_t{1} << -shift);
 }
 
-// (arm / 2^exponent) × n, Q30, from an arm in Q32.
-RawVec3 lever(const Vec3<Position>& arm, const RawVec3& n, int exponent) {
-  const auto part = [&](Position p, std::int64_t y, Position q, std::int64_t z) {
-    ProductSum sum;
-    sum.add(p.raw, y);
-    sum.subtract(q.raw, z);
-    return sum.rounded(32 + exponent);
-  };
-  return {part(arm.y, n[2], arm.z, n[1]), part(arm.z, n[0], arm.x, n[2]),
-          part(arm.x, n[1], arm.y, n[0])};
-}
-
-// The dot product of unit vectors, Q30.
-std::int64_t cosine(const Vec3<Unit>& a, const Vec3<Unit>& b) {
-  return raw::round_shift(dot(a, b).raw, 30);
-}
-
-RawVec3 cross_raw(const RawVec3& a, const RawVec3& b) {
-  const auto part = [](std::int64_t p, std::int64_t y, std::int64_t q, std::int64_t z) {
-    ProductSum sum;
-    sum.add(p, y);
-    sum.subtract(q, z);
-    return sum.rounded(30);
-  };
-  return {part(a[1], b[2], a[2], b[1]), part(a[2], b[0], a[0], b[2]), part(a[0], b[1], a[1], b[0])};
-}
-
-RawVec3 divided(const RawVec3& v, std::int64_t divisor_q30) {
-  const auto part = [&](std::int64_t x) {
-    return raw::round_divide(std::clamp(x, -4 * k_one, 4 * k_one) * k_one, divisor_q30);
-  };
-  return {part(v[0]), part(v[1]), part(v[2])};
-}
-
 class RowFiller {
  public:
-  RowFiller(const JointPlace& place, RowParts parts, JointRows& out)
-      : place_(place), parts_(parts), out_(out) {
-    out_.locks = out_.count = 0;
-    out_.is_point = false;
+  // Fills one of both.
+  RowFiller(const JointPlace& place, RowParts parts, JointRows* out, LockErrors* errors)
+      : place_(place), parts_(parts), out_(out), errors_(errors) {
+    if (out == nullptr) return;
+    out->locks = out->count = 0;
+    out->is_point = false;
   }
 
   void fill() {
@@ -102,8 +71,8 @@ class RowFiller {
 
  private:
   void set_frames() {
-    frame_a_ = frame_of(place_.a.rotation, place_.joint.orientation_a);
-    frame_b_ = frame_of(place_.b.rotation, place_.joint.orientation_b);
+    frame_a_ = frame_of(place_.a.rotation, place_.frames.a);
+    frame_b_ = frame_of(place_.b.rotation, place_.frames.b);
   }
 
   [[nodiscard]] bool is_far(std::size_t axis) const { return (place_.far >> axis & 1) != 0; }
@@ -139,35 +108,47 @@ class RowFiller {
     return row;
   }
 
-  void push(JointRow row, std::size_t axis, RowKind kind, std::int64_t error) {
+  // `make` returns the row's Jacobians, which errors alone do not need.
+  template <class Make>
+  void push(const Make& make, std::size_t axis, RowKind kind, std::int64_t error) {
     if (kind != RowKind::lock && parts_ != RowParts::all) return;
+    if (errors_ != nullptr) {
+      errors_->errors[errors_->count++] = error;
+      return;
+    }
+    JointRow row = make();
     row.axis = static_cast<std::uint8_t>(axis);
     row.kind = kind;
     row.error = error;
-    LKS_ASSERT(out_.count < out_.rows.size());
-    const auto begin = out_.rows.begin();
-    out_.rows[out_.count++] = row;
+    LKS_ASSERT(out_->count < out_->rows.size());
+    const auto begin = out_->rows.begin();
+    out_->rows[out_->count++] = row;
     if (kind != RowKind::lock) return;
-    std::rotate(begin + static_cast<std::ptrdiff_t>(out_.locks),
-                begin + static_cast<std::ptrdiff_t>(out_.count) - 1,
-                begin + static_cast<std::ptrdiff_t>(out_.count));
-    ++out_.locks;
+    if (out_->locks + 1 < out_->count)
+      std::rotate(begin + static_cast<std::ptrdiff_t>(out_->locks),
+                  begin + static_cast<std::ptrdiff_t>(out_->count) - 1,
+                  begin + static_cast<std::ptrdiff_t>(out_->count));
+    ++out_->locks;
   }
 
   // The rows of one axis, where it stands at `value` (m, Q32).
-  void add_axis(std::size_t axis, const JointRow& row, std::int64_t value, bool limits = true) {
+  template <class Make>
+  void add_axis(std::size_t axis, const Make& make, std::int64_t value, bool limits = true) {
     const JointAxisRecord& settings = place_.joint.axes[axis];
     const AxisMode mode = place_.joint.mode(axis);
     const bool soft = mode == AxisMode::locked && settings.is_spring();
-    if (mode == AxisMode::locked && !soft) return push(row, axis, RowKind::lock, value);
+    if (mode == AxisMode::locked && !soft) return push(make, axis, RowKind::lock, value);
     if (mode == AxisMode::limited && limits && !is_far(axis)) {
       const std::int64_t above = value - value_of(axis, settings.lower);
-      if (settings.lower == settings.upper) return push(row, axis, RowKind::lock, above);
-      add_limit(axis, row, above, value_of(axis, settings.upper) - value);
+      if (settings.lower == settings.upper) return push(make, axis, RowKind::lock, above);
+      add_limit(axis, make, above, value_of(axis, settings.upper) - value);
     }
     if (!settings.is_driven() || acts_together(place_.joint, springs_, axis)) return;
-    JointRow drive = row;
-    drive.speed = speed_of(axis, settings.speed);
+    const auto drive = [&] {
+      JointRow row = make();
+      row.speed = speed_of(axis, settings.speed);
+      return row;
+    };
     const std::int64_t error = value - (soft ? 0 : value_of(axis, settings.target));
     push(drive, axis, RowKind::drive, axis == 3 && mode == AxisMode::free ? nearer(error) : error);
   }
@@ -178,12 +159,16 @@ class RowFiller {
     return error > half ? error - whole : error < -half ? error + whole : error;
   }
 
-  void add_limit(std::size_t axis, const JointRow& row, std::int64_t above, std::int64_t below) {
-    if (above <= below) return push(row, axis, RowKind::limit, above);
-    JointRow opposite = row;
-    opposite.linear_a = negated(row.linear_a), opposite.linear_b = negated(row.linear_b);
-    opposite.angular_a = negated(row.angular_a), opposite.angular_b = negated(row.angular_b);
-    opposite.flipped = true;
+  template <class Make>
+  void add_limit(std::size_t axis, const Make& make, std::int64_t above, std::int64_t below) {
+    if (above <= below) return push(make, axis, RowKind::limit, above);
+    const auto opposite = [&] {
+      JointRow row = make();
+      row.linear_a = negated(row.linear_a), row.linear_b = negated(row.linear_b);
+      row.angular_a = negated(row.angular_a), row.angular_b = negated(row.angular_b);
+      row.flipped = true;
+      return row;
+    };
     push(opposite, axis, RowKind::limit, below);
   }
 
@@ -204,15 +189,19 @@ class RowFiller {
 
   // Three locks along the axes of the world.
   void lock_anchors() {
+    if (errors_ != nullptr) {
+      for (int i = 0; i < 3; ++i)
+        errors_->errors[errors_->count++] = bounded(gap_[i].raw, k_product_bound);
+      return;
+    }
     const RawVec3 lever_a = scaled_arm(arm_a_, place_.scale_a);
     const RawVec3 lever_b = scaled_arm(arm_b_, place_.scale_b);
     for (std::size_t i = 0; i < 3; ++i) {
-      JointRow& row = out_.rows[i];
+      JointRow& row = out_->rows[i];
       row.axis = static_cast<std::uint8_t>(i);
       row.kind = RowKind::lock;
       row.flipped = false;
       row.error = bounded(gap_[static_cast<int>(i)].raw, k_product_bound);
-      if (parts_ == RowParts::lock_errors) continue;
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
       row.linear_a = row.linear_b = {};
       row.linear_a[i] = -k_one;
@@ -221,14 +210,8 @@ class RowFiller {
       row.angular_a[j] = -lever_a[k], row.angular_a[k] = lever_a[j];
       row.angular_b[j] = lever_b[k], row.angular_b[k] = -lever_b[j];
     }
-    out_.locks = out_.count = 3;
-    out_.is_point = true;
-  }
-
-  // An arm in Q32, as lever(arm, n, exponent) has it for axes of the world.
-  [[nodiscard]] static RawVec3 scaled_arm(const Vec3<Position>& arm, int exponent) {
-    const auto part = [&](Position p) { return raw::scale_binary(p.raw, -2 - exponent); };
-    return {part(arm.x), part(arm.y), part(arm.z)};
+    out_->locks = out_->count = 3;
+    out_->is_point = true;
   }
 
   void fill_linear() {
@@ -237,15 +220,9 @@ class RowFiller {
       const auto axis = static_cast<std::size_t>(i);
       if (!is_wanted(axis)) continue;
       const RawVec3 n = raw_of(frame_a_.column(i));
-      add_axis(axis, linear_row(n, arm_a), along(gap_, n));
+      add_axis(
+          axis, [&] { return linear_row(n, arm_a); }, along(gap_, n));
     }
-  }
-
-  [[nodiscard]] static std::int64_t along(const Vec3<Position>& v, const RawVec3& n) {
-    ProductSum sum;
-    for (int i = 0; i < 3; ++i)
-      sum.add(v[i].raw, n[static_cast<std::size_t>(i)]);
-    return sum.rounded(30);
   }
 
   [[nodiscard]] bool is_rigid(std::size_t axis) const {
@@ -278,9 +255,12 @@ class RowFiller {
         spring_turn_rows(joint, springs_, place_.a.orientation, place_.b.orientation);
     for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
       if (!acts_together(joint, springs_, axis)) continue;
-      JointRow row = angular_row(turn.axes[axis - 3]);
-      row.speed = speed_of(axis, joint.axes[axis].speed);
-      push(row, axis, RowKind::drive, arc(turn.errors[axis - 3]));
+      const auto drive = [&] {
+        JointRow row = angular_row(turn.axes[axis - 3]);
+        row.speed = speed_of(axis, joint.axes[axis].speed);
+        return row;
+      };
+      push(drive, axis, RowKind::drive, arc(turn.errors[axis - 3]));
     }
   }
 
@@ -288,11 +268,12 @@ class RowFiller {
   void add_twist() {
     const std::int64_t base = k_one + cosine(frame_a_.x, frame_b_.x);
     if (base < k_one / 64) return;  // swung back to front: the twist means nothing
-    RawVec3 sum;
-    for (int i = 0; i < 3; ++i) {
-      sum[static_cast<std::size_t>(i)] = std::int64_t{frame_a_.x[i].raw} + frame_b_.x[i].raw;
-    }
-    const JointRow row = angular_row(divided(sum, base));
+    const auto row = [&] {
+      RawVec3 sum;
+      for (int i = 0; i < 3; ++i)
+        sum[static_cast<std::size_t>(i)] = std::int64_t{frame_a_.x[i].raw} + frame_b_.x[i].raw;
+      return angular_row(divided(sum, base));
+    };
     if (is_rigid(3)) {
       const std::int64_t sine = cosine(frame_a_.z, frame_b_.y) - cosine(frame_a_.y, frame_b_.z);
       return add_axis(3, row, arc(sine * 2));  // half of it, from Q30 to Q32
@@ -306,16 +287,21 @@ class RowFiller {
     const RawVec3 x = raw_of(frame_b_.x);
     const std::int64_t b =
         along({Position::from_raw(x[0]), Position::from_raw(x[1]), Position::from_raw(x[2])}, t);
-    if (is_rigid(axis)) return add_axis(axis, angular_row(cross_raw(x, t)), arc(b * 4));
+    if (is_rigid(axis))
+      return add_axis(
+          axis, [&] { return angular_row(cross_raw(x, t)); }, arc(b * 4));
     const std::int64_t a = cosine(frame_a_.x, frame_b_.x);
     const std::int64_t square = raw::round_shift(a * a, 30) + raw::round_shift(b * b, 30);
     if (square < k_one / 64) return;
-    const RawVec3 xa = raw_of(frame_a_.x);
-    RawVec3 u;
-    for (std::size_t i = 0; i < 3; ++i)
-      u[i] = raw::round_shift(a * t[i], 30) - raw::round_shift(b * xa[i], 30);
+    const auto row = [&] {
+      const RawVec3 xa = raw_of(frame_a_.x);
+      RawVec3 u;
+      for (std::size_t i = 0; i < 3; ++i)
+        u[i] = raw::round_shift(a * t[i], 30) - raw::round_shift(b * xa[i], 30);
+      return angular_row(divided(cross_raw(x, u), square));
+    };
     const std::int64_t angle = std::int64_t{atan2_raw(b, a).raw} << 5;
-    add_axis(axis, angular_row(divided(cross_raw(x, u), square)), arc(angle), limits);
+    add_axis(axis, row, arc(angle), limits);
   }
 
   void add_cone() {
@@ -326,8 +312,11 @@ class RowFiller {
                                << 5;
     const std::int64_t left = (std::int64_t{place_.joint.axes[4].upper} << 5) - angle;
     if (d.length < std::uint64_t{1} << 16 && a > 0) return;  // no direction, and far from the limit
-    JointRow row = angular_row(negated(raw_of(d.unit)));
-    row.flipped = true;
+    const auto row = [&] {
+      JointRow flipped = angular_row(negated(raw_of(d.unit)));
+      flipped.flipped = true;
+      return flipped;
+    };
     push(row, 4, RowKind::limit, arc(left));
   }
 
@@ -335,7 +324,7 @@ class RowFiller {
     if (!is_wanted(0)) return;
     const Direction d = direction(gap_);
     if (d.length == 0) return;
-    const JointRow row = linear_row(raw_of(d.unit), arm_a_);
+    const auto row = [&] { return linear_row(raw_of(d.unit), arm_a_); };
     const std::int64_t length =
         std::min(static_cast<std::int64_t>(d.length), std::int64_t{1} << 44);
     if (place_.joint.mode(0) == AxisMode::locked && !place_.joint.axes[0].is_spring()) {
@@ -361,7 +350,7 @@ class RowFiller {
     };
     const std::int64_t out = bounded(a.length) + product_rounded(bounded(b.length), ratio, 30) -
                              (std::int64_t{place_.joint.total_length.raw} << 12);
-    push(row, 0, RowKind::lock, out);
+    push([&] { return row; }, 0, RowKind::lock, out);
   }
 
   // Rows of ratios beyond 1 are read per 2^shift, so that Jacobians keep their range.
@@ -387,7 +376,7 @@ class RowFiller {
     JointRow row;
     row.angular_a = negated(angular_row(x).angular_a);
     row.angular_b = angular_row(geared(raw_of(frame_b_.x), shift)).angular_b;
-    push(row, 0, RowKind::lock, 0);
+    push([&] { return row; }, 0, RowKind::lock, 0);
   }
 
   void fill_rack() {
@@ -399,12 +388,13 @@ class RowFiller {
     row.angular_a = negated(angular_row(x).angular_a);
     row.linear_b = geared(raw_of(frame_b_.x), shift - place_.exponent);
     row.angular_b = lever(arm_b_, row.linear_b, place_.scale_b);
-    push(row, 0, RowKind::lock, 0);
+    push([&] { return row; }, 0, RowKind::lock, 0);
   }
 
   const JointPlace& place_;
   const RowParts parts_;
-  JointRows& out_;
+  JointRows* const out_;
+  LockErrors* const errors_;
   SpringTurn springs_ = SpringTurn::apart;
   Mat3 frame_a_{}, frame_b_{};
   Vec3<Position> arm_a_{}, arm_b_{}, gap_{};
@@ -472,8 +462,14 @@ RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
   return {row(m.xx, m.xy, m.xz), row(m.xy, m.yy, m.yz), row(m.xz, m.yz, m.zz)};
 }
 
+LockErrors lock_errors(const JointPlace& place) {
+  LockErrors errors;
+  RowFiller(place, RowParts::locks, nullptr, &errors).fill();
+  return errors;
+}
+
 void fill_rows(const JointPlace& place, RowParts parts, JointRows& out) {
-  RowFiller(place, parts, out).fill();
+  RowFiller(place, parts, &out, nullptr).fill();
 }
 
 }  // namespace lockstone

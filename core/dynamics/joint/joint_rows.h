@@ -48,9 +48,15 @@ struct JointRows {
   bool is_point = false;  // the first three lock the axes of the world
 };
 
+/// The frames of a joint on its bodies, each in its body's frame.
+struct JointFrames {
+  Mat3 a{}, b{};
+};
+
 /// The inputs from which a joint's rows are found.
 struct JointPlace {
   const JointRecord& joint;
+  const JointFrames& frames;
   const JointPose& a;
   const JointPose& b;
   int scale_a;  // exponents of the bodies
@@ -60,11 +66,18 @@ struct JointPlace {
   bool holds_a_point = false;  // as below
 };
 
-/// The parts of a joint's rows to compute; `lock_errors` leaves Jacobians alone.
-enum class RowParts : std::uint8_t { all, locks, lock_errors };
+/// The parts of a joint's rows to compute.
+enum class RowParts : std::uint8_t { all, locks };
 
 /// Jacobians and errors; responses are left alone.
 void fill_rows(const JointPlace& place, RowParts parts, JointRows& out);
+
+/// The errors of the locks alone, in the order of their rows.
+struct LockErrors {
+  std::array<std::int64_t, k_joint_axes> errors;
+  std::size_t count = 0;
+};
+[[nodiscard]] LockErrors lock_errors(const JointPlace& place);
 
 /// The most rows that it can have.
 [[nodiscard]] std::size_t most_rows(const JointRecord& joint);

@@ -31,14 +31,6 @@ BodyRecord with_inertia(const BodyRecord& record, std::int64_t least) {
   return heavier;
 }
 
-// Whether both go alike; std::array's comparison calls memcmp.
-bool goes_as(const lanes::RowBody& a, const lanes::RowBody& b) {
-  std::int64_t differs = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    differs |= (a.velocity[i] ^ b.velocity[i]) | (a.spin[i] ^ b.spin[i]);
-  return differs == 0;
-}
-
 }  // namespace
 
 // `jump`: change of the body's velocity by joints at the lever (m, Q20), m/s, Q30.
@@ -194,8 +186,9 @@ void JointSolver::end(const JointRun& run) {
 
 // Where the body will be after the substep, with the velocity that it has now. Without contacts
 // gravity acts half before and half after, unless the drift itself lies half before and half after.
+// It turns by its inertia half a substep on, as it was first seen there in this substep.
 JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
-  body.inertia_ahead = body.inverse_inertia;
+  if (!body.has_looked) body.inertia_ahead = body.inverse_inertia;
   JointPose after = body.pose;
   if (body.solver == 0) return after;
   const lanes::RowBody& row = run.rows[body.solver];
@@ -219,8 +212,10 @@ JointPose JointSolver::pose_after(const JointRun& run, Body& body) const {
     return integrate(body.pose.orientation, {angle(w[0]), angle(w[1]), angle(w[2])});
   };
   if (body.pushed && !body.record->has_spherical_inertia()) {
-    const Quat half = turned(body.inverse_inertia, body.rate.doubled());
-    body.inertia_ahead = inverse_inertia_of(body, to_matrix(half));
+    if (!body.has_looked) {
+      const Quat half = turned(body.inverse_inertia, body.rate.doubled());
+      body.inertia_ahead = inverse_inertia_of(body, to_matrix(half));
+    }
     after.orientation = turned(body.inertia_ahead, body.rate);
   } else {
     after.orientation = turned(body.inverse_inertia, body.rate);
@@ -249,7 +244,7 @@ void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) 
 void JointSolver::move(const JointRun& run, std::uint32_t index) {
   Body& body = bodies_[index];
   const lanes::RowBody& row = run.rows[body.solver];
-  const bool is_known = body.has_looked && goes_as(row, body.looked);
+  const bool is_known = body.has_looked && is_alike(row, body.looked);
   body.pose = is_known ? after_[index] : pose_after(run, body);
   body.has_looked = false;
   if (body.in_net) {

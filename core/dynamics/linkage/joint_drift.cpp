@@ -59,7 +59,7 @@ void JointSolver::drift(JointRun run, Cluster& cluster) {
     joint.locks = joint.carried = {};
   Group& group = groups_of(cluster)[0];
   save(run, group);
-  if (!close(run, group)) {
+  if (close(run, group, false) > k_closed) {
     restore(run, group);
     return stay(cluster);
   }

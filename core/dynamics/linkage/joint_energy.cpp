@@ -28,24 +28,27 @@ Velocity to_velocity(std::int64_t x) {
   return Velocity::from_raw(raw::round_shift(bounded(x, k_row_bound), 18));
 }
 
-}  // namespace
-
-// Velocity and surface velocity of a row.
-JointSolver::Motion JointSolver::motion_of(const Body& body, const lanes::RowBody& row) {
-  Motion motion;
-  Vec3<Velocity> spin;
-  for (int i = 0; i < 3; ++i) {
-    motion.velocity[i] = to_velocity(row.velocity[static_cast<std::size_t>(i)]);
-    spin[i] = to_velocity(row.spin[static_cast<std::size_t>(i)]);
-  }
-  motion.surface = surface_velocity(body.inverse_inertia, spin);
-  return motion;
+std::int64_t product_of(const JointMotion& a, const JointMotion& b) {
+  return energy_product(a.velocity, b.velocity, a.spin, b.surface);
 }
 
-// By the body's own inertia: it may be taken to be heavier to turn.
-std::int64_t JointSolver::product_of(const Body& body, const Motion& a, const Motion& b) {
-  const Vec3<Velocity> spin = spin_of(*body.record, body.pose.rotation, a.surface);
-  return energy_product(a.velocity, b.velocity, spin, b.surface);
+std::int64_t turning_of(const JointMotion& motion) {
+  return energy_product({}, {}, motion.spin, motion.surface);
+}
+
+}  // namespace
+
+// Of a row. A body may be taken to be heavier to turn.
+JointMotion JointSolver::motion_of(const Body& body, const lanes::RowBody& row) {
+  JointMotion motion;
+  for (int i = 0; i < 3; ++i) {
+    motion.velocity[i] = to_velocity(row.velocity[static_cast<std::size_t>(i)]);
+    motion.spin[i] = to_velocity(row.spin[static_cast<std::size_t>(i)]);
+  }
+  motion.surface = surface_velocity(body.inverse_inertia, motion.spin);
+  if (body.least_inertia != 0)
+    motion.spin = spin_of(*body.record, body.pose.rotation, motion.surface);
+  return motion;
 }
 
 Vec3<Velocity> JointSolver::own_spin(std::uint32_t index, const Vec3<Velocity>& spin,
@@ -63,8 +66,7 @@ std::int64_t JointSolver::sum_over(const Cluster& cluster, const Each& each) con
   for (const std::uint32_t index : bodies_of(cluster)) {
     const Body& body = bodies_[index];
     if (!body.pushed) continue;
-    const BlockFloat mass = quotient(cluster.unit, body.record->inverse_mass_value());
-    sum = raw::saturating_add(sum, scale_saturating(each(body), mass, 0));
+    sum = raw::saturating_add(sum, scale_saturating(each(body), body.mass, 0));
   }
   return sum;
 }
@@ -97,23 +99,29 @@ void JointSolver::open_account(Cluster& cluster) {
     const bool is_heavier = ratio(inverse, cluster.unit) < Unit::from_raw(1 << 29);
     if (cluster.unit == BlockFloat{} || is_heavier) cluster.unit = inverse;
   }
+  for (const std::uint32_t index : bodies_of(cluster)) {
+    Body& body = bodies_[index];
+    if (body.pushed) body.mass = quotient(cluster.unit, body.record->inverse_mass_value());
+  }
+  cluster.knows_energy = false;
 }
 
 // At the beginning of a substep.
 void JointSolver::begin_account(const JointRun& run, Cluster& cluster) {
   if (!cluster.is_passive) return;
-  const std::int64_t energy = sum_over(cluster, [&](const Body& body) {
-    const Motion motion = motion_of(body, run.before[body.solver]);
-    return product_of(body, motion, motion);
-  });
-  cluster.gained = raw::saturating_add(cluster.gained, -energy);
   for (const std::uint32_t index : bodies_of(cluster)) {
     Body& body = bodies_[index];
     if (!body.pushed) continue;
     body.start = run.before[body.solver];
     body.start_position = body.pose.position;
-    body.start_turning = turning_energy(body, body.start);
+    body.start_turning = turning_of(motion_of(body, body.start));
   }
+  if (!cluster.knows_energy)
+    cluster.energy = sum_over(cluster, [&](const Body& body) {
+      const JointMotion motion = motion_of(body, body.start);
+      return product_of(motion, motion);
+    });
+  cluster.gained = raw::saturating_add(cluster.gained, -cluster.energy);
 }
 
 // The bodies' velocities go from `from` towards the present ones, by a share.
@@ -149,11 +157,6 @@ void JointSolver::limit_warm_start(const JointRun& run, const Cluster& cluster) 
       impulse = product_rounded(impulse, share, k_share_bits);
 }
 
-std::int64_t JointSolver::turning_energy(const Body& body, const lanes::RowBody& row) {
-  const Vec3<Velocity> surface = motion_of(body, row).surface;
-  return product_of(body, {{}, surface}, {{}, surface});
-}
-
 // The velocities without positional correction: the substep's first ones, with the gain of gravity
 // and forces, such that locks and limits do not open where the bodies are now.
 void JointSolver::project_start(const JointRun& run, const Cluster& cluster) {
@@ -164,7 +167,8 @@ void JointSolver::project_start(const JointRun& run, const Cluster& cluster) {
     body.saved_row = row;
     const SolverBody& solver = run.bodies[body.solver];
     // A body whose spin stays while it turns far may turn with more energy than before.
-    const std::int32_t kept = root_of_share(body.start_turning, turning_energy(body, body.start));
+    const std::int32_t kept =
+        root_of_share(body.start_turning, turning_of(motion_of(body, body.start)));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       row.velocity[axis] = bounded(body.start.velocity[axis], k_row_bound) +
                            solver.gain[axis] * (std::int64_t{1} << 18);
@@ -188,25 +192,34 @@ void JointSolver::project_start(const JointRun& run, const Cluster& cluster) {
 // of the way from there to the present ones changes it, s²·square + s·linear.
 JointSolver::Energies JointSolver::energies_between(const JointRun& run, const Cluster& cluster,
                                                     const lanes::RowBody Body::*from) const {
-  const auto begin = [&](const Body& body) { return motion_of(body, body.*from); };
-  const auto way = [&](const Body& body) {
-    const Motion now = motion_of(body, run.rows[body.solver]), first = begin(body);
-    return Motion{now.velocity - first.velocity, now.surface - first.surface};
-  };
-  const auto sum = [&](const auto& a, const auto& b) {
-    return sum_over(cluster, [&](const Body& body) { return product_of(body, a(body), b(body)); });
-  };
-  const std::int64_t linear = sum(begin, way);
-  return {sum(begin, begin), raw::saturating_add(linear, linear), sum(way, way)};
+  Energies sums;
+  for (const std::uint32_t index : bodies_of(cluster)) {
+    const Body& body = bodies_[index];
+    if (!body.pushed) continue;
+    const JointMotion first = motion_of(body, body.*from),
+                      now = motion_of(body, run.rows[body.solver]);
+    const JointMotion way{now.velocity - first.velocity, now.surface - first.surface,
+                          now.spin - first.spin};
+    const auto add = [&](std::int64_t& sum, const JointMotion& a, const JointMotion& b) {
+      sum = raw::saturating_add(sum, scale_saturating(product_of(a, b), body.mass, 0));
+    };
+    add(sums.first, first, first);
+    add(sums.linear, first, way);
+    add(sums.square, way, way);
+  }
+  sums.linear = raw::saturating_add(sums.linear, sums.linear);
+  return sums;
 }
 
 // After a substep: the cluster returns its gain of the tick, if that is more than it may keep.
 void JointSolver::settle_account(const JointRun& run, Cluster& cluster) {
   if (!cluster.is_passive) return;
-  const std::int64_t energy = sum_over(cluster, [&](const Body& body) {
-    const Motion motion = motion_of(body, run.rows[body.solver]);
-    return product_of(body, motion, motion);
+  cluster.energy = sum_over(cluster, [&](const Body& body) {
+    const JointMotion motion = motion_of(body, run.rows[body.solver]);
+    return product_of(motion, motion);
   });
+  cluster.knows_energy = true;
+  const std::int64_t energy = cluster.energy;
   const std::int64_t work = sum_over(cluster, [&](const Body& body) {
     ProductSum twice;  // by half a substep's rate
     for (int i = 0; i < 3; ++i)
@@ -219,6 +232,7 @@ void JointSolver::settle_account(const JointRun& run, Cluster& cluster) {
       groups_of(cluster), [&](const Group& group) { return group.is_rough || is_stiff(group); });
   const int shift = is_rough ? k_rough_gain_shift : k_free_gain_shift;
   if (cluster.gained <= (energy >> shift) + k_least_gain) return;
+  cluster.knows_energy = false;
   energy_limits_.fetch_add(1, std::memory_order_relaxed);
   begin_pushes(run, cluster);
   project_start(run, cluster);
@@ -228,7 +242,10 @@ void JointSolver::settle_account(const JointRun& run, Cluster& cluster) {
   const std::int64_t allowed = raw::saturating_add(energy, -cluster.gained);
   if (between.first > allowed) {
     go_part(run, cluster, &Body::saved_row, 0);
-    scale(run, cluster, root_of_share(allowed, between.first));
+    // Rest fits all locks, so a share of any velocities that fit does.
+    for (const std::uint32_t index : bodies_of(cluster))
+      bodies_[index].saved_row = {};
+    go_part(run, cluster, &Body::saved_row, root_of_share(allowed, between.first));
   } else {
     go_part(run, cluster, &Body::saved_row,
             greatest_share(between.square, between.linear,
@@ -236,13 +253,6 @@ void JointSolver::settle_account(const JointRun& run, Cluster& cluster) {
   }
   cluster.gained = 0;
   end_pushes(run, cluster);
-}
-
-// Rest fits all locks, so a share of any velocities that fit does.
-void JointSolver::scale(const JointRun& run, const Cluster& cluster, std::int32_t share) {
-  for (const std::uint32_t index : bodies_of(cluster))
-    bodies_[index].saved_row = {};
-  go_part(run, cluster, &Body::saved_row, share);
 }
 
 }  // namespace lockstone

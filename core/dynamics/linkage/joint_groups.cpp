@@ -216,6 +216,7 @@ void JointSolver::make_joint(Link& link) {
   if (rows_.size() < row_count_ + rows) rows_.resize(row_count_ + rows);
   joint.rows.rows = std::span(rows_).subspan(row_count_, rows);
   row_count_ += rows;
+  joint.frames = {to_matrix(link.record->orientation_a), to_matrix(link.record->orientation_b)};
   joint.a = link.a;
   joint.b = link.b;
   const BodyRecord& a = *bodies_[link.a].record;

@@ -72,10 +72,76 @@ std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const 
   return sum.rounded(30);
 }
 
+// A digit for each row: its axis, and whether it is a lock, a limit or a drive.
+std::uint64_t row_list(const JointRows& rows) {
+  std::uint64_t list = 1;
+  for (const JointRow& row : rows.rows.first(rows.count))
+    list = list << 5 | static_cast<std::uint64_t>(row.kind) << 3 | row.axis;
+  return list;
+}
+
+// The Jacobians of one side of a row.
+struct SideA {
+  static const RawVec3& linear(const JointRow& row) { return row.linear_a; }
+  static const RawVec3& angular(const JointRow& row) { return row.angular_a; }
+};
+struct SideB {
+  static const RawVec3& linear(const JointRow& row) { return row.linear_b; }
+  static const RawVec3& angular(const JointRow& row) { return row.angular_b; }
+};
+
+using Jumps = JointSolver::RowImpulses;
+
+struct RowRange {
+  std::size_t first, end;
+};
+
+// Jumps of the rows of a joint that locks the axes of the world: of the first three, row i is along
+// axis i, and its lever is across; others turn the bodies alone.
+template <class Side>
+void add_point(Side side, std::span<const JointRow> rows, const Jumps& jumps, std::size_t end,
+               RawVec3& velocity, RawVec3& spin) {
+  const RawVec3 &x = side.angular(rows[0]), &y = side.angular(rows[1]), &z = side.angular(rows[2]);
+  ProductSum about_x, about_y, about_z;
+  about_x.add(y[0], jumps[1]), about_x.add(z[0], jumps[2]);
+  about_y.add(z[1], jumps[2]), about_y.add(x[1], jumps[0]);
+  about_z.add(x[2], jumps[0]), about_z.add(y[2], jumps[1]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t along = side.linear(rows[i])[i];  // 1, −1 or held
+    velocity[i] = along == 0 ? 0 : along < 0 ? -jumps[i] : jumps[i];
+  }
+  for (std::size_t r = 3; r < end; ++r) {
+    if (jumps[r] == 0) continue;
+    const RawVec3& axis = side.angular(rows[r]);
+    about_x.add(axis[0], jumps[r]);
+    about_y.add(axis[1], jumps[r]);
+    about_z.add(axis[2], jumps[r]);
+  }
+  spin = {about_x.rounded(30), about_y.rounded(30), about_z.rounded(30)};
+}
+
+template <class Side>
+void add_rows(Side side, std::span<const JointRow> rows, const Jumps& jumps, const RowRange& range,
+              RawVec3& velocity, RawVec3& spin) {
+  std::array<ProductSum, 3> along, about;
+  for (std::size_t r = range.first; r < range.end; ++r) {
+    if (jumps[r] == 0) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (rows[r].axis < 3) along[axis].add(side.linear(rows[r])[axis], jumps[r]);
+      about[axis].add(side.angular(rows[r])[axis], jumps[r]);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    velocity[axis] = along[axis].rounded(30);
+    spin[axis] = about[axis].rounded(30);
+  }
+}
+
 }  // namespace
 
 JointPlace JointSolver::place_of(const Joint& joint, const JointPose& a, const JointPose& b) const {
   return {*joint.record,
+          joint.frames,
           a,
           b,
           bodies_[joint.a].scale,
@@ -100,8 +166,10 @@ void JointSolver::linearize(Joint& joint) const {
 void JointSolver::linearize(const Cluster& cluster) {
   for (Joint& joint : joints_of(cluster))
     linearize(joint);
-  for (Group& group : groups_of(cluster))
-    group.is_factored = false;
+  for (Group& group : groups_of(cluster)) {
+    group.is_fresh = false;
+    group.is_factored = group.is_factored && group.exact;
+  }
 }
 
 // Along an axis that is locked a body neither moves nor answers.
@@ -118,25 +186,35 @@ void JointSolver::respond(Joint& joint, std::size_t rows, bool ahead) const {
   const InverseInertia& inertia_b = ahead ? b.inertia_ahead : b.inverse_inertia;
   for (std::size_t i = 0; i < rows; ++i) {
     JointRow& row = joint.rows.rows[i];
-    Solved& solved = joint.solved[i];
     hold(a, row.linear_a);
     hold(b, row.linear_b);
     row.response_a = response_of(inertia_a, row.angular_a);
     row.response_b = response_of(inertia_b, row.angular_b);
+    if (row.kind == RowKind::lock) continue;  // solved by the factor
     std::int64_t response = 0;
-    int most = -1000;
     const auto add_side = [&](const Body& body, const Share& share, std::int64_t self) {
-      if (!body.pushed) return;
-      const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));
-      most = std::max(most, width + 1 + body.record->inverse_mass_exponent);
-      if (row.kind == RowKind::lock) return;
-      response += product_rounded(self, share.mantissa, share.shift);
+      if (body.pushed) response += product_rounded(self, share.mantissa, share.shift);
     };
     add_side(a, joint.share_a, self_response(row.linear_a, row.angular_a, row.response_a));
     add_side(b, joint.share_b, self_response(row.linear_b, row.angular_b, row.response_b));
-    solved.exponent = (most + 2) >> 1;
-    if (row.kind == RowKind::lock) continue;  // solved by the factor
+    Solved& solved = joint.solved[i];
     set_inverse(std::min(response, k_product_bound), solved.inverse, solved.shift);
+  }
+}
+
+// The powers of two that scale the locks in a factor.
+void JointSolver::scale_locks(Joint& joint) const {
+  for (std::size_t r = 0; r < joint.rows.locks; ++r) {
+    const JointRow& row = joint.rows.rows[r];
+    int most = -1000;
+    const auto add_side = [&](const Body& body, std::int64_t self) {
+      if (!body.pushed) return;
+      const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));
+      most = std::max(most, width + 1 + body.record->inverse_mass_exponent);
+    };
+    add_side(bodies_[joint.a], self_response(row.linear_a, row.angular_a, row.response_a));
+    add_side(bodies_[joint.b], self_response(row.linear_b, row.angular_b, row.response_b));
+    joint.scales[r] = (most + 2) >> 1;
   }
 }
 
@@ -162,7 +240,7 @@ void JointSolver::add_shared(const Joint& p, bool a_of_p, const Joint& q, bool a
   const std::size_t columns = q.rows.locks;
   const int excess = 30 - k_matrix_bits - shared.record->inverse_mass_exponent;
   const auto add = [&](std::size_t r, std::size_t s, const ProductSum& sum) {
-    const int shift = p.solved[r].exponent + q.solved[s].exponent + excess;
+    const int shift = p.scales[r] + q.scales[s] + excess;
     if (shift > 120) return;
     block[r * columns + s] += scaled_response(sum.rounded(30), *shared.record, shift);
   };
@@ -202,17 +280,36 @@ void JointSolver::factor_group(Group& group) {
   const std::span<const std::uint32_t> joints = joints_of(group);
   group.exponent = 1000;
   for (std::uint32_t k = 0; k < group.count; ++k) {
-    const Joint& joint = joints_[joints[k]];
+    Joint& joint = joints_[joints[k]];
     columns[k].count = static_cast<std::uint32_t>(joint.rows.locks);
+    scale_locks(joint);
     for (std::size_t r = 0; r < joint.rows.locks; ++r)
-      group.exponent = std::min(group.exponent, joint.solved[r].exponent);
+      group.exponent = std::min(group.exponent, joint.scales[r]);
   }
   factor_.fill_blocks(group.column, group.count,
                       [&](std::uint32_t j, std::uint32_t k, std::int64_t* block) {
                         fill_block(joints_[joints[j]], joints_[joints[k]], block);
                       });
   clamps_ += factor_.factor(group.column, group.count);
-  group.is_factored = true;
+}
+
+// Whether the group has a factor for the rows that it has now, as they were at some time.
+bool JointSolver::has_factor(const Group& group) const {
+  return group.is_factored && std::ranges::all_of(joints_of(group), [this](std::uint32_t index) {
+           return joints_[index].factored == row_list(joints_[index].rows);
+         });
+}
+
+void JointSolver::factor(const JointRun& run, Group& group, bool ahead) {
+  if (has_solved_loops(group)) {
+    (void)mark_left_out(run, group);
+    factor_loops(group, ahead);
+  } else {
+    factor_group(group);
+  }
+  for (const std::uint32_t index : joints_of(group))
+    joints_[index].factored = row_list(joints_[index].rows);
+  group.is_factored = group.is_fresh = true;
 }
 
 // The relative velocity that a row sees, Q50.
@@ -269,44 +366,20 @@ void JointSolver::end_pushes(const JointRun& run, std::span<const std::uint32_t>
 
 void JointSolver::push(const JointRun& run, const Joint& joint, std::size_t first, std::size_t end,
                        const RowImpulses& impulses) {
-  const auto push_side = [&](std::uint32_t index, const Share& share, auto linear, auto angular) {
+  const auto push_side = [&](std::uint32_t index, const Share& share, auto side) {
     if (share.mantissa == 0) return;
-    std::array<ProductSum, 3> velocity, spin;
-    RawVec3 jumps{}, v{}, w{};
-    const auto jump = [&](std::size_t r) {
-      return product_rounded(impulses[r], share.mantissa, share.shift);
-    };
-    std::size_t r = first;
-    if (joint.rows.is_point && first == 0 && end >= 3) {  // row i along axis i, its levers across
-      const auto& rows = joint.rows.rows;
-      jumps = {jump(0), jump(1), jump(2)};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        const std::int64_t along = (rows[i].*linear)[i];  // 1, −1 or held
-        v[i] = along == 0 ? 0 : along < 0 ? -jumps[i] : jumps[i];
-        spin[i].add((rows[j].*angular)[i], jumps[j]);
-        spin[i].add((rows[k].*angular)[i], jumps[k]);
-      }
-      r = 3;
-    }
-    for (; r < end; ++r) {
-      if (impulses[r] == 0) continue;
-      const JointRow& row = joint.rows.rows[r];
-      const std::int64_t each = jump(r);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (row.axis < 3) velocity[axis].add((row.*linear)[axis], each);
-        spin[axis].add((row.*angular)[axis], each);
-      }
-    }
-    const std::uint32_t solver = bodies_[index].solver;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!joint.rows.is_point) v[axis] = velocity[axis].rounded(30);
-      w[axis] = spin[axis].rounded(30);
-    }
-    add_velocity(run.rows[solver], v, w);
+    RowImpulses jumps;  // of the body's own velocity
+    for (std::size_t r = first; r < end; ++r)
+      jumps[r] = product_rounded(impulses[r], share.mantissa, share.shift);
+    RawVec3 velocity{}, spin;
+    if (joint.rows.is_point && first == 0 && end >= 3)
+      add_point(side, joint.rows.rows, jumps, end, velocity, spin);
+    else
+      add_rows(side, joint.rows.rows, jumps, {first, end}, velocity, spin);
+    add_velocity(run.rows[bodies_[index].solver], velocity, spin);
   };
-  push_side(joint.a, joint.share_a, &JointRow::linear_a, &JointRow::angular_a);
-  push_side(joint.b, joint.share_b, &JointRow::linear_b, &JointRow::angular_b);
+  push_side(joint.a, joint.share_a, SideA{});
+  push_side(joint.b, joint.share_b, SideB{});
 }
 
 }  // namespace lockstone

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <optional>
 
 #include "core/dynamics/joint/joint_numbers.h"
 #include "core/dynamics/linkage/joint_solver.h"
@@ -12,13 +11,24 @@
 namespace lockstone {
 namespace {
 
-// Of solves for positions in a substep.
+// Of solves for positions in a substep: as many in any case where the opening does not fall; of a
+// tree, or with directions after the substep; of loops, as long as locks are open by 1 mm, Q32.
 constexpr int k_position_solves = 3;
 constexpr int k_most_passes = 8;
 constexpr int k_most_solves = 12;
+constexpr std::int64_t k_nearly_closed = 1 << 22;
 
-// Locks that are open by less, m, Q32, are closed: 1 µm.
-constexpr std::int64_t k_closed = 1 << 12;
+// Of solves for velocities; and of those while a factor of earlier rows leaves more than 60 nm/s,
+// of loops 8 µm/s, Q50.
+constexpr int k_velocity_solves = 2, k_most_velocity_solves = 5;
+constexpr std::int64_t k_slow_tree = std::int64_t{1} << 26, k_slow_loop = std::int64_t{1} << 33;
+
+// Locks that open more slowly stand still, m/s, Q50: a step of Velocity, 0.23 nm/s.
+constexpr std::int64_t k_still = std::int64_t{1} << 18;
+
+// A factor of earlier rows serves while each solve leaves less than 2^-this of the error. Factors
+// of loops are dear; trees may swing wildly.
+constexpr int k_tree_fall_bits = 8, k_loop_fall_bits = 5;
 
 // Where they are left open by more than 2 mm, the method has failed.
 constexpr std::int64_t k_lost = 1 << 23;
@@ -48,16 +58,17 @@ std::int64_t times_mass(std::int64_t x, BlockFloat mass, int shift) {
 
 }  // namespace
 
-// Locks as they will be after the substep as it stands: Newton's step needs their directions there.
+// Locks as they will be after the substep as it stands; with `turn` also their directions there.
 void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
-    const std::uint32_t body = group_bodies_[group.first_body + i];
-    after_[body] = pose_after(run, bodies_[body]);
-    if (bodies_[body].solver == 0) continue;
-    bodies_[body].looked = run.rows[bodies_[body].solver];
-    bodies_[body].has_looked = true;
+    const std::uint32_t index = group_bodies_[group.first_body + i];
+    Body& body = bodies_[index];
+    const lanes::RowBody& row = run.rows[body.solver];
+    if (body.has_looked && is_alike(row, body.looked)) continue;
+    after_[index] = pose_after(run, body);
+    body.looked = row;
+    body.has_looked = body.solver != 0;
   }
-  std::optional<std::array<JointRow, k_max_joint_rows>> rows;  // where there is more than points
   for (const std::uint32_t index : joints_of(group)) {
     Joint& joint = joints_[index];
     const JointPlace place = place_of(joint, after_[joint.a], after_[joint.b]);
@@ -67,24 +78,20 @@ void JointSolver::look_ahead(const JointRun& run, Group& group, bool turn) {
         joint.rows.rows[r].error = gap[r];
       continue;
     }
-    if (!rows) rows.emplace();
-    JointRows ahead{*rows};
-    fill_rows(place, turn ? RowParts::locks : RowParts::lock_errors, ahead);
-    if (ahead.locks != joint.rows.locks) continue;
     if (!turn) {
-      for (std::size_t r = 0; r < joint.rows.locks; ++r)
-        joint.rows.rows[r].error = ahead.rows[r].error;
+      const LockErrors ahead = lock_errors(place);
+      for (std::size_t r = 0; r < ahead.count && ahead.count == joint.rows.locks; ++r)
+        joint.rows.rows[r].error = ahead.errors[r];
       continue;
     }
+    std::array<JointRow, k_joint_axes> rows;
+    JointRows ahead{rows};
+    fill_rows(place, RowParts::locks, ahead);
+    if (ahead.locks != joint.rows.locks) continue;
     std::copy_n(ahead.rows.begin(), ahead.locks, joint.rows.rows.begin());
     respond(joint, joint.rows.locks, true);
   }
-  if (!turn) return;
-  if (has_solved_loops(group)) {
-    (void)mark_left_out(run, group);
-    return factor_loops(group, true);
-  }
-  factor_group(group);
+  if (turn) group.is_fresh = false;
 }
 
 // Where the right-hand side of a joint's locks stands, by its place in the group.
@@ -145,20 +152,11 @@ void JointSolver::solve_positions(const JointRun& run, Group& group) {
 
 // Returns the widest opening that is left.
 std::int64_t JointSolver::find_positions(const JointRun& run, Group& group) {
-  if (has_solved_loops(group)) {
-    close_loops(run, group);
-  } else {
-    if (!is_stiff(group)) {
-      if (close(run, group)) return 0;
-      restore(run, group);
-    }
-    for (int i = 0; i < k_most_solves; ++i) {
-      const std::int64_t widest = approach(run, group, 0, true);
-      if (i + 1 >= k_position_solves && widest <= k_closed) return 0;
-    }
-  }
-  look_ahead(run, group, false);
-  return set_position_errors(group);
+  if (is_stiff(group)) return close(run, group, true);
+  const std::int64_t widest = close(run, group, false);
+  if (widest <= k_closed || has_solved_loops(group)) return widest;
+  restore(run, group);
+  return close(run, group, true);
 }
 
 // Where the method does not converge: velocities such that locks do not open, and close by a
@@ -166,40 +164,81 @@ std::int64_t JointSolver::find_positions(const JointRun& run, Group& group) {
 void JointSolver::hold_roughly(const JointRun& run, Group& group) {
   for (const std::uint32_t index : joints_of(group))
     linearize(joints_[index]);
-  group.is_factored = false;
+  group.is_factored = group.is_fresh = false;
   set_speed_errors(run, group, true);
   solve_locks(run, group, true);
 }
 
-// One step of the method, unless no opening is wider than `enough`. Returns the widest before it.
-std::int64_t JointSolver::approach(const JointRun& run, Group& group, std::int64_t enough,
-                                   bool turn) {
-  look_ahead(run, group, turn);
-  const std::int64_t widest = set_position_errors(group);
-  if (widest > enough) solve_locks(run, group, true);
-  return widest;
-}
-
-// Returns whether all locks hold afterwards. Each step leaves about the same part of an opening:
-// once the next step would leave less than rounding does, the check after it is skipped. Where
-// bodies are pulled hard, every step is taken, or swings that the substep hardly resolves grow
-// unseen.
-bool JointSolver::close(const JointRun& run, Group& group) {
-  const bool pulled = is_pulled(group);
-  const std::int64_t enough = pulled ? 0 : group.is_plain ? k_rounding : k_pushed_rounding;
-  const std::int64_t expected = pulled ? 0 : group.is_plain ? k_noise : k_pushed_rounding;
-  const int solves = pulled && !group.drifts ? k_position_solves : k_most_passes;
+// Newton's method with a factor that is kept while it converges: errors are those of the true
+// poses. Each step leaves about the same part of an opening, so once the next step would leave less
+// than rounding does, the check after it is skipped. With `turn` along the directions after the
+// substep. Returns the widest opening that is left.
+std::int64_t JointSolver::close(const JointRun& run, Group& group, bool turn) {
+  const bool loops = has_solved_loops(group);
+  const std::int64_t enough = group.is_plain ? k_rounding : k_pushed_rounding;
+  const std::int64_t expected = group.is_plain ? k_noise : k_pushed_rounding;
+  const int fall_bits = loops ? k_loop_fall_bits : k_tree_fall_bits;
+  const int most = turn && !loops ? k_most_solves : k_most_passes;
   std::int64_t before = 0;
-  for (int i = 0; i < solves; ++i) {
-    const std::int64_t widest = approach(run, group, enough, false);
-    if (widest <= enough) return true;
+  for (int i = 0; i < most; ++i) {
+    look_ahead(run, group, turn && i == 0);
+    const std::int64_t widest = set_position_errors(group);
+    const bool drives =
+        loops && !group.is_plain && (i == 0 || motor_error(run, group) > k_slow_loop);
+    if (widest <= enough && !drives) return 0;
+    if (i >= k_position_solves && loops && widest <= k_nearly_closed) return widest;
+    const bool slow = i > 0 && widest > before >> fall_bits;
+    const bool wide = turn && widest > (loops ? k_nearly_closed : k_closed);
+    const bool renews = slow && (wide || !group.is_fresh);
+    if (renews) {
+      if (turn) look_ahead(run, group, true);
+      factor(run, group, turn);
+      group.turns_fast = true;
+      set_position_errors(group);
+    }
+    solve_locks(run, group, true);
     const bool falls = 2 * widest <= before;
-    if (falls && widest <= k_far && widest * widest <= expected * before) return true;
-    if (i + 1 >= k_position_solves && !falls) break;
+    if (falls && !drives && widest <= k_far && widest * widest <= expected * before) return 0;
+    const bool may_give_up = i + 1 >= k_position_solves && !loops && !renews;
+    if (may_give_up && !falls && (!turn || widest <= k_closed)) break;
     before = widest;
   }
   look_ahead(run, group, false);
-  return set_position_errors(group) <= k_closed;
+  return set_position_errors(group);
+}
+
+// Locks and limits such that they do not open.
+void JointSolver::hold_speeds(const JointRun& run, const Cluster& cluster) {
+  for (int i = 0; i < k_most_velocity_solves; ++i) {
+    for (Joint& joint : joints_of(cluster))
+      if (i < k_velocity_solves) solve_limits(run, joint, false);
+    for (Group& group : groups_of(cluster))
+      hold_speed(run, group, i);
+  }
+}
+
+// The locks of a group: solve number i. A factor of earlier rows is kept while it converges.
+void JointSolver::hold_speed(const JointRun& run, Group& group, int i) {
+  if (i == 0) group.fresh_solves = 0;
+  const bool loops = has_solved_loops(group);
+  const std::int64_t slow = loops ? k_slow_loop : k_slow_tree;
+  if (i >= k_velocity_solves && (!group.exact || group.speed <= slow)) return;
+  if (group.fresh_solves >= k_velocity_solves) return;
+  const std::int64_t before = group.speed;
+  group.speed = set_speed_errors(run, group, false);
+  const bool is_driven = i == 0 && loops && !group.is_plain;
+  if (i > 0 && loops) group.speed = std::max(group.speed, motor_error(run, group));
+  const bool always = i < k_velocity_solves && (is_driven || (group.is_plain && is_pulled(group)));
+  const bool is_exact = i < k_velocity_solves && !(i > 0 && loops);
+  if (!always && group.speed <= (is_exact ? k_still : slow)) return;
+  const int fall_bits = loops ? k_loop_fall_bits : k_tree_fall_bits;
+  const bool is_slow = i == 0 ? group.turns_fast : group.speed > before >> fall_bits;
+  if (is_slow && !group.is_fresh && group.exact) {
+    factor(run, group, false);
+    group.turns_fast = true;
+  }
+  solve_locks(run, group, false);
+  if (group.is_fresh) ++group.fresh_solves;
 }
 
 bool JointSolver::is_stiff(const Group& group) const {
@@ -227,8 +266,9 @@ void JointSolver::save(const JointRun& run, const Group& group) {
 
 void JointSolver::restore(const JointRun& run, const Group& group) {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
-    const Body& body = bodies_[group_bodies_[group.first_body + i]];
+    Body& body = bodies_[group_bodies_[group.first_body + i]];
     run.rows[body.solver] = body.saved_row;
+    body.has_looked = false;
   }
   for (const std::uint32_t index : joints_of(group))
     joints_[index].locks = joints_[index].saved;
@@ -237,13 +277,13 @@ void JointSolver::restore(const JointRun& run, const Group& group) {
 // Solves for the errors that stand on the right-hand side, and pushes.
 void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions) {
   if (has_solved_loops(group)) return solve_loops(run, group, positions);
-  if (!group.is_factored) factor_group(group);
+  if (!has_factor(group)) factor(run, group, false);
   const std::span<JointFactor::Column> columns = factor_.columns(group.column, group.count);
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const Joint& joint = joints_[joints_of(group)[k]];
     for (std::uint32_t r = 0; r < joint.rows.locks; ++r) {
       std::int64_t& rhs = factor_.rhs(columns[k].first_row + r);
-      const int shift = 4 + joint.solved[r].exponent - group.exponent;
+      const int shift = 4 + joint.scales[r] - group.exponent;
       rhs = raw::round_shift(-rhs, std::min(shift, 62));
     }
   }
@@ -253,7 +293,7 @@ void JointSolver::solve_locks(const JointRun& run, Group& group, bool positions)
     Joint& joint = joints_[joints_of(group)[k]];
     RowImpulses impulses;
     for (std::uint32_t r = 0; r < joint.rows.locks; ++r) {
-      const int shift = 4 - joint.solved[r].exponent - group.exponent;
+      const int shift = 4 - joint.scales[r] - group.exponent;
       const std::int64_t solved = factor_.rhs(columns[k].first_row + r);
       impulses[r] = times_mass(solved, joint.inverse_mass, shift);
       const std::uint8_t axis = joint.rows.rows[r].axis;

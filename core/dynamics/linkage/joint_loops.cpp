@@ -1,16 +1,13 @@
 // Groups of joints with loops, as `ProximalLocks` solves them.
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/dynamics/joint/joint_numbers.h"
 #include "core/dynamics/linkage/joint_solver.h"
 
 namespace lockstone {
 namespace {
-
-// Of solves for positions in a substep, as long as locks are open by more than 1 mm, Q32.
-constexpr int k_least_loop_solves = 3, k_most_loop_solves = 8;
-constexpr std::int64_t k_nearly_closed = 1 << 22;
 
 // Of times in a solve that motors are found to push harder than they may.
 constexpr int k_most_holds = 3;
@@ -115,17 +112,6 @@ void JointSolver::factor_loops(Group& group, bool ahead) {
     loops_->set_rows(group.loops, k, joint.rows.rows.first(joint.rows.count), joint.left_out);
   }
   loops_->factor(group.loops);
-  group.is_factored = true;
-}
-
-// Velocities such that locks hold after the substep. Where links swing faster than the substep
-// resolves, by their directions after it.
-void JointSolver::close_loops(const JointRun& run, Group& group) {
-  const bool turn = is_stiff(group);
-  for (int i = 0; i < k_most_loop_solves; ++i) {
-    const std::int64_t widest = approach(run, group, 0, turn);
-    if (i + 1 >= k_least_loop_solves && widest <= k_nearly_closed) return;
-  }
 }
 
 std::int64_t& JointSolver::loop_impulse(Joint& joint, const JointRow& row, bool positions) {
@@ -147,6 +133,21 @@ void JointSolver::find_loop_errors(const JointRun& run, const Group& group, bool
       loops_->give(group.loops, k, r, loop_impulse(joint, row, positions));
     }
   }
+}
+
+// The greatest error of the speed of a motor that does not push as hard as it may, Q50.
+std::int64_t JointSolver::motor_error(const JointRun& run, const Group& group) const {
+  std::int64_t greatest = 0;
+  for (const std::uint32_t index : joints_of(group)) {
+    const Joint& joint = joints_[index];
+    for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
+      const JointRow& row = joint.rows.rows[r];
+      if (row.kind != RowKind::drive || (joint.left_out >> r & 1) != 0) continue;
+      greatest =
+          std::max(greatest, std::abs(speed(run, joint, row) - bounded(row.speed, k_row_bound)));
+    }
+  }
+  return greatest;
 }
 
 // Adds the present speeds of the rows to the errors (`sign` 1), or subtracts them (−1).
@@ -212,8 +213,7 @@ void JointSolver::push_loops(const JointRun& run, const Group& group, bool posit
 
 // Takes away the errors of locks and of motors, as far as one solve does.
 void JointSolver::solve_loops(const JointRun& run, Group& group, bool positions) {
-  const bool changes = mark_left_out(run, group);
-  if (changes || !group.is_factored) factor_loops(group, false);
+  if (mark_left_out(run, group) || !has_factor(group)) factor(run, group, false);
   find_loop_errors(run, group, positions);
   loops_->solve(group.loops);
   for (int i = 0; i < k_most_holds && hold_motors(run, group, positions); ++i) {

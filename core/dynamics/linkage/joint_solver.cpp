@@ -8,14 +8,8 @@
 namespace lockstone {
 namespace {
 
-// Of solves for velocities.
-constexpr int k_velocity_solves = 2;
-
 // Of iterations over drives and limits before positions move.
 constexpr int k_sweeps = 2;
-
-// Locks that open more slowly stand still, m/s, Q50: a step of Velocity, 0.23 nm/s.
-constexpr std::int64_t k_still = std::int64_t{1} << 18;
 
 }  // namespace
 
@@ -124,6 +118,8 @@ void JointSolver::begin(const JointRun& run) {
 void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     linearize(clusters_[i]);
+    for (Group& group : groups_of(clusters_[i]))
+      group.turns_fast = false;
     for (Joint& joint : joints_of(clusters_[i]))
       leave_out_far(run, joint);
     if (clusters_[i].free) drift(run, clusters_[i]);
@@ -191,7 +187,8 @@ void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
         solve_locks(run, group, true);
       } else if (pushed && i + 1 < k_sweeps && !is_stiff(group)) {
         exact = false;
-        approach(run, group, 0, false);
+        look_ahead(run, group, false);
+        if (set_position_errors(group) > 0) solve_locks(run, group, true);
       } else {
         solve_positions(run, group);
       }
@@ -219,20 +216,6 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
     solve_springs_later(run, joint);
   hold_speeds(run, cluster);
   end_pushes(run, cluster);
-}
-
-// Locks and limits such that they do not open.
-void JointSolver::hold_speeds(const JointRun& run, const Cluster& cluster) {
-  for (int i = 0; i < k_velocity_solves; ++i) {
-    for (Joint& joint : joints_of(cluster))
-      solve_limits(run, joint, false);
-    for (Group& group : groups_of(cluster)) {
-      const std::int64_t greatest = set_speed_errors(run, group, false);
-      const bool is_driven = has_solved_loops(group) && !group.is_plain;
-      if (greatest > k_still || is_driven || (group.is_plain && is_pulled(group)))
-        solve_locks(run, group, false);
-    }
-  }
 }
 
 void JointSolver::store(std::size_t added, JointRecord& record) const {
@@ -270,8 +253,8 @@ IslandJoint JointSolver::island_joint(std::uint32_t index) const {
   result.joint = index;
   result.a = number(joint.a);
   result.b = number(joint.b);
-  if (result.a != 0) result.share_a = ratio(inverse_a, inverse_b).raw;
-  if (result.b != 0) result.share_b = ratio(inverse_b, inverse_a).raw;
+  if (result.a != 0) result.part_a = part_of(ratio(inverse_a, inverse_b).raw);
+  if (result.b != 0) result.part_b = part_of(ratio(inverse_b, inverse_a).raw);
   result.inverse_mass = joint.inverse_mass;
   return result;
 }

@@ -42,6 +42,11 @@ struct JointRun {
   std::span<lanes::BodyPlace> places;
 };
 
+/// Velocity, surface velocity and spin of a body, by its own inertia.
+struct JointMotion {
+  Vec3<Velocity> velocity{}, surface{}, spin{};
+};
+
 class JointSolver {
  public:
   /// Groups with loops are solved directly only if `solves_loops`. No function but this allocates.
@@ -161,6 +166,7 @@ class JointSolver {
     lanes::RowBody start{};  // of the substep
     Vec3<Position> start_position{};
     std::int64_t start_turning = 0;  // twice the energy for each mass
+    BlockFloat mass{};               // as a part of that of its cluster's heaviest body
     lanes::RowBody looked{};         // its velocity on the way to its pose in `after_`
     bool has_looked = false;
     bool pushed = false;
@@ -189,11 +195,10 @@ class JointSolver {
     std::int64_t mantissa = 0;
     int shift = 1;
   };
-  // The data of a row besides its Jacobians.
+  // The data of a limit or drive besides its Jacobians.
   struct Solved {
     std::int64_t inverse = 0;  // of its response to itself: mantissa · 2^-shift
     int shift = 1;
-    int exponent = 0;  // power of two that scales it in a factor
   };
   // The impulse of a spring before positions move, or after it, with its damping a.
   struct SpringPart {
@@ -210,6 +215,7 @@ class JointSolver {
   struct Joint {
     const JointRecord* record = nullptr;
     JointRows rows;
+    JointFrames frames;
     std::array<Solved, k_max_joint_rows> solved{};
     std::array<Drive, k_joint_axes> drives{};
     std::array<std::int64_t, k_joint_axes> locks{};    // impulses by axis, Q50; limits too
@@ -229,6 +235,8 @@ class JointSolver {
     std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
     bool holds_a_point = false;  // and nothing else has rows in this tick
     std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
+    std::uint64_t factored = 0;  // rows that the factor has, as `row_list`
+    std::array<int, k_joint_axes> scales{};  // of its locks in the factor, exponents
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -240,11 +248,18 @@ class JointSolver {
     bool drifts = false;
     bool is_plain = false;  // neither limits nor drives
     bool is_factored = false;
-    bool is_rough = false;  // a step of this tick did not hold the joints
-    std::int64_t rate = 0;  // 1 / the time that its bodies drift for
-    int exponent = 0;       // least of its rows
+    bool is_fresh = false;    // and so for the rows at hand
+    bool turns_fast = false;  // in this tick a factor of earlier rows did not serve
+    bool is_rough = false;    // a step of this tick did not hold the joints
+    std::int64_t rate = 0;    // 1 / the time that its bodies drift for
+    int exponent = 0;         // least of its rows
+    std::int64_t speed = 0;   // of its locks, as hold_speed last found it, Q50
+    int fresh_solves = 0;     // of hold_speeds, with a factor of the rows at hand
     std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
   };
+  // Locks that are open by less, m, Q32, are closed: 1 µm.
+  static constexpr std::int64_t k_closed = 1 << 12;
+
   // Connected joints, by index: one group with a direct solve, or a group for each joint.
   struct Cluster {
     std::uint32_t first_joint = 0;
@@ -259,6 +274,8 @@ class JointSolver {
     bool is_passive = false;  // only gravity and forces give it energy
     BlockFloat unit{};        // inverse mass of its heaviest body
     std::int64_t gained = 0;  // besides, in this tick: twice the energy by that mass
+    std::int64_t energy = 0;  // as the last substep ended, if that is known
+    bool knows_energy = false;
   };
 
   std::uint32_t take_up(const Side& side);
@@ -275,11 +292,13 @@ class JointSolver {
   [[nodiscard]] bool is_pressed(const Group& group) const;
   [[nodiscard]] bool plan_loops(Group& group);
   void factor_loops(Group& group, bool ahead);
+  void factor(const JointRun& run, Group& group, bool ahead);
+  [[nodiscard]] bool has_factor(const Group& group) const;
   [[nodiscard]] std::uint32_t rows_left_out(const JointRun& run, const Joint& joint) const;
   void solve_loops(const JointRun& run, Group& group, bool positions);
-  void close_loops(const JointRun& run, Group& group);
   void forget_impulses(const Cluster& cluster);
   [[nodiscard]] bool mark_left_out(const JointRun& run, const Group& group);
+  [[nodiscard]] std::int64_t motor_error(const JointRun& run, const Group& group) const;
   [[nodiscard]] bool hold_motors(const JointRun& run, const Group& group, bool positions);
   void add_loop_speeds(const JointRun& run, const Group& group, int sign);
   [[nodiscard]] std::int64_t motor_impulse(const Group& group, std::uint32_t joint, std::size_t row,
@@ -318,6 +337,7 @@ class JointSolver {
   void linearize(const Cluster& cluster);
   static void hold(const Body& body, RawVec3& linear);
   void respond(Joint& joint, std::size_t rows, bool ahead) const;
+  void scale_locks(Joint& joint) const;
   void factor_group(Group& group);
   void fill_block(const Joint& p, const Joint& q, std::int64_t* block) const;
   void add_shared(const Joint& p, bool a_of_p, const Joint& q, bool a_of_q,
@@ -337,12 +357,8 @@ class JointSolver {
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);
   void hold_speeds(const JointRun& run, const Cluster& cluster);
-  // Velocity and surface velocity of a body.
-  struct Motion {
-    Vec3<Velocity> velocity{}, surface{};
-  };
-  [[nodiscard]] static Motion motion_of(const Body& body, const lanes::RowBody& row);
-  [[nodiscard]] static std::int64_t product_of(const Body& body, const Motion& a, const Motion& b);
+  void hold_speed(const JointRun& run, Group& group, int solve);
+  [[nodiscard]] static JointMotion motion_of(const Body& body, const lanes::RowBody& row);
   template <class Each>
   [[nodiscard]] std::int64_t sum_over(const Cluster& cluster, const Each& each) const;
   void open_account(Cluster& cluster);
@@ -355,9 +371,7 @@ class JointSolver {
                                           const lanes::RowBody Body::*from) const;
   void go_part(const JointRun& run, const Cluster& cluster, const lanes::RowBody Body::*from,
                std::int32_t share);
-  void scale(const JointRun& run, const Cluster& cluster, std::int32_t share);
   void limit_warm_start(const JointRun& run, const Cluster& cluster);
-  [[nodiscard]] static std::int64_t turning_energy(const Body& body, const lanes::RowBody& row);
   void project_start(const JointRun& run, const Cluster& cluster);
   void settle_account(const JointRun& run, Cluster& cluster);
   void leave_out_far(const JointRun& run, Joint& joint) const;
@@ -370,9 +384,8 @@ class JointSolver {
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, Group& group);
   [[nodiscard]] std::int64_t find_positions(const JointRun& run, Group& group);
+  [[nodiscard]] std::int64_t close(const JointRun& run, Group& group, bool turn);
   void hold_roughly(const JointRun& run, Group& group);
-  bool close(const JointRun& run, Group& group);
-  std::int64_t approach(const JointRun& run, Group& group, std::int64_t enough, bool turn);
   [[nodiscard]] bool is_stiff(const Group& group) const;
   [[nodiscard]] bool is_pulled(const Group& group) const;
   void save(const JointRun& run, const Group& group);

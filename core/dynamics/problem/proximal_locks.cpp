@@ -1,5 +1,6 @@
 #include "core/dynamics/problem/proximal_locks.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "core/dynamics/joint/joint_numbers.h"
@@ -10,7 +11,6 @@ namespace {
 // γ, of a row's response to itself: the factor's least eigenvalue, so that rows are its terms as
 // they are.
 constexpr int k_lock_give_bits = BodyFactor::k_least_bits;
-constexpr std::int32_t k_weight = 1 << 30;
 
 // Right-hand sides are below 2^27 units at first; where the solution does not fit in 31 bits, units
 // are coarser.
@@ -19,11 +19,6 @@ constexpr int k_finest_bits = 44;
 
 // Of a group: sums of the factor have room for the rows of this many.
 constexpr std::uint32_t k_most_joints = 512;
-
-void add_along(BodyVector& u, const RowSide& j, std::int64_t x) {
-  for (std::size_t i = 0; i < 6; ++i)
-    u[i] += raw::round_shift(j[i] * x, 30);
-}
 
 // Q30, of vectors that are within ±2^31: |row| ≤ 1, so the sum fits.
 std::int64_t row_dot(const RowSide& j, const BodyVector& u) {
@@ -68,8 +63,8 @@ void ProximalLocks::add_joint(const End& a, const End& b) {
   const BlockFloat inverse_a = a.body == End::k_unpushed ? BlockFloat{} : a.inverse_mass;
   const BlockFloat inverse_b = b.body == End::k_unpushed ? BlockFloat{} : b.inverse_mass;
   joint.inverse_mass = lockstone::add(a.inverse_mass, b.inverse_mass);
-  if (inverse_a.mantissa != 0) joint.share_a = ratio(inverse_a, b.inverse_mass).raw;
-  if (inverse_b.mantissa != 0) joint.share_b = ratio(inverse_b, a.inverse_mass).raw;
+  if (inverse_a.mantissa != 0) joint.part_a = part_of(ratio(inverse_a, b.inverse_mass).raw);
+  if (inverse_b.mantissa != 0) joint.part_b = part_of(ratio(inverse_b, a.inverse_mass).raw);
   if (a.body != End::k_unpushed && b.body != End::k_unpushed) pairs_.emplace_back(a.body, b.body);
   if (group.unit.mantissa == 0 || is_heavier(joint.inverse_mass, group.unit))
     group.unit = joint.inverse_mass;
@@ -98,13 +93,15 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
   const auto root_of = [&](std::uint32_t body) -> const InertiaRoot& {
     return body == End::k_unpushed ? k_none : roots_[group.plan.first_column + body];
   };
-  const ProximalJoint pair{root_of(joint.a), root_of(joint.b), joint.share_a, joint.share_b,
+  const ProximalJoint pair{root_of(joint.a), root_of(joint.b), joint.part_a, joint.part_b,
                            mass_scale(group.unit, joint.inverse_mass)};
   joint.count = static_cast<std::uint32_t>(rows.size());
   joint.used = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if ((left_out >> i & 1) == 0 && find_proximal_lock(rows[i], pair, joint.rows[i]))
-      joint.used |= 1U << i;
+    ProximalLock& lock = joint.rows[i];
+    if ((left_out >> i & 1) != 0 || !find_proximal_lock(rows[i], pair, lock)) continue;
+    joint.used |= 1U << i;
+    joint.own[i] = (lock.to_speed * lock.to_impulse).reciprocal();
   }
 }
 
@@ -112,16 +109,20 @@ void ProximalLocks::add_to_factor(const Group& group, const Joint& joint) {
   const bool has_a = joint.a != End::k_unpushed, has_b = joint.b != End::k_unpushed;
   const BodyFactor::Place place =
       has_a && has_b ? factor_.find(group.plan, joint.a, joint.b) : BodyFactor::Place{};
+  BodyFactor::Rows a, b;
+  const auto add = [&] {
+    if (has_a) factor_.add(factor_.diagonal(group.plan, joint.a), a, a);
+    if (has_b) factor_.add(factor_.diagonal(group.plan, joint.b), b, b);
+    if (has_a && has_b) factor_.add(place.block, place.a_is_row ? a : b, place.a_is_row ? b : a);
+    a.count = b.count = 0;
+  };
   for (std::size_t i = 0; i < joint.count; ++i) {
-    const ProximalLock& lock = joint.rows[i];
     if (!joint.uses(i)) continue;
-    if (has_a) factor_.add(factor_.diagonal(group.plan, joint.a), lock.a, lock.a, k_weight);
-    if (has_b) factor_.add(factor_.diagonal(group.plan, joint.b), lock.b, lock.b, k_weight);
-    if (!has_a || !has_b) continue;
-    const RowSide &row = place.a_is_row ? lock.a : lock.b,
-                  &column = place.a_is_row ? lock.b : lock.a;
-    factor_.add(place.block, row, column, k_weight);
+    a.rows[a.count++] = &joint.rows[i].a;
+    b.rows[b.count++] = &joint.rows[i].b;
+    if (a.count == BodyFactor::k_most_rows) add();
   }
+  add();
 }
 
 void ProximalLocks::factor(std::uint32_t index) {
@@ -135,22 +136,31 @@ void ProximalLocks::factor(std::uint32_t index) {
 void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t row,
                          std::int64_t impulse) {
   Joint& on = joints_[groups_[group].first_joint + joint];
-  const ProximalLock& lock = on.rows[row];
-  const RowScale own = (lock.to_speed * lock.to_impulse).reciprocal();  // its response to itself
-  on.errors[row] += bounded(own.times(impulse, k_lock_give_bits), k_row_bound);
+  if (impulse != 0 && on.uses(row))
+    on.errors[row] += bounded(on.own[row].times(impulse, k_lock_give_bits), k_row_bound);
 }
 
-// −Jᵀ·r/γ, times 2^-14.
-void ProximalLocks::add_changes(const Group& group, const Joint& joint, int bits) {
+// −Jᵀ·r/γ, times 2^-14. Errors are below 2^27 units, so sums of a joint's rows fit.
+void ProximalLocks::add_changes(const Group& group, Joint& joint, int bits) {
+  std::array<std::int64_t, 6> a{}, b{};
   for (std::size_t i = 0; i < joint.count; ++i) {
-    const ProximalLock& lock = joint.rows[i];
     if (!joint.uses(i)) continue;
-    const std::int64_t x = -lock.to_speed.times(joint.errors[i], 50 - bits);
-    if (joint.a != End::k_unpushed)
-      add_along(changes_[group.plan.first_column + joint.a], lock.a, x);
-    if (joint.b != End::k_unpushed)
-      add_along(changes_[group.plan.first_column + joint.b], lock.b, x);
+    const ProximalLock& lock = joint.rows[i];
+    const std::int64_t x = lock.to_speed.times(joint.errors[i], 50 - bits);
+    joint.in_units[i] = x;
+    for (std::size_t k = 0; k < 6; ++k) {
+      a[k] -= lock.a[k] * x;
+      b[k] -= lock.b[k] * x;
+    }
   }
+  const auto add = [&](std::uint32_t body, const std::array<std::int64_t, 6>& sums) {
+    if (body == End::k_unpushed) return;
+    BodyVector& change = changes_[group.plan.first_column + body];
+    for (std::size_t k = 0; k < 6; ++k)
+      change[k] += raw::round_shift(sums[k], 30);
+  };
+  add(joint.a, a);
+  add(joint.b, b);
 }
 
 bool ProximalLocks::try_solve(const Group& group, int bits) {
@@ -158,7 +168,7 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
       std::span(changes_).subspan(group.plan.first_column, group.plan.bodies);
   for (BodyVector& each : x)
     each = {};
-  for (const Joint& joint : joints_of(group))
+  for (Joint& joint : joints_of(group))
     add_changes(group, joint, bits);
   return factor_.solve(group.plan, x);
 }
@@ -169,7 +179,7 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) con
     ProximalLock& lock = joint.rows[i];
     lock.impulse = 0;
     if (!joint.uses(i)) continue;
-    std::int64_t left = lock.to_speed.times(joint.errors[i], 50 - bits) * k_one;
+    std::int64_t left = joint.in_units[i] * k_one;
     if (joint.a != End::k_unpushed)
       left += row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
     if (joint.b != End::k_unpushed)
@@ -179,14 +189,15 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) con
   }
 }
 
-// Fraction bits of the finest units in which every error is below 1.
+// Fraction bits of units in which every error is below 1, at most k_finest_bits.
 int ProximalLocks::coarsest_bits(const Group& group) {
-  std::uint64_t most = 0;
+  int most = 50 - k_finest_bits;
   for (const Joint& joint : joints_of(group))
     for (std::size_t i = 0; i < joint.count; ++i)
       if (joint.uses(i))
-        most |= magnitude(joint.rows[i].to_speed.times(joint.errors[i], 50 - k_finest_bits));
-  return k_finest_bits - static_cast<int>(std::bit_width(most));
+        most = std::max(most, static_cast<int>(std::bit_width(magnitude(joint.errors[i]))) + 31 -
+                                  joint.rows[i].to_speed.shift);
+  return 50 - most;
 }
 
 void ProximalLocks::solve(std::uint32_t index) {

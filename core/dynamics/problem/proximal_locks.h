@@ -71,12 +71,14 @@ class ProximalLocks {
  private:
   struct Joint {
     std::uint32_t a = End::k_unpushed, b = End::k_unpushed;
-    std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
-    BlockFloat inverse_mass{};              // of the pair
-    std::uint32_t count = 0;                // of rows
-    std::uint32_t used = 0;                 // a bit for each row that may get an impulse
+    std::int64_t part_a = 0, part_b = 0;  // roots of shares of the pair's inverse mass, Q30
+    BlockFloat inverse_mass{};            // of the pair
+    std::uint32_t count = 0;              // of rows
+    std::uint32_t used = 0;               // a bit for each row that may get an impulse
     std::array<ProximalLock, k_max_joint_rows> rows{};
+    std::array<RowScale, k_max_joint_rows> own{};  // response of a row to itself
     std::array<std::int64_t, k_max_joint_rows> errors{};
+    std::array<std::int64_t, k_max_joint_rows> in_units{};  // errors, of the solve at hand
 
     [[nodiscard]] bool uses(std::size_t row) const { return (used >> row & 1) != 0; }
   };
@@ -93,7 +95,7 @@ class ProximalLocks {
   void add_to_factor(const Group& group, const Joint& joint);
   [[nodiscard]] int coarsest_bits(const Group& group);
   [[nodiscard]] bool try_solve(const Group& group, int bits);
-  void add_changes(const Group& group, const Joint& joint, int bits);
+  void add_changes(const Group& group, Joint& joint, int bits);
   void set_impulses(const Group& group, Joint& joint, int bits) const;
 
   std::vector<Group> groups_;

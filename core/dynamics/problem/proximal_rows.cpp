@@ -28,6 +28,9 @@ std::int64_t root_of(std::int64_t square) {
   return static_cast<std::int64_t>(isqrt_rounded(static_cast<std::uint64_t>(square)));
 }
 
+// Jacobians with which a row's side is found in 64 bits: 3/2, Q30.
+constexpr std::uint64_t k_most_fast = std::uint64_t{3} << 29;
+
 // Both sides of a row, each times the root of its share in the pair's inverse mass, Q30.
 struct Sides {
   std::array<std::int64_t, 6> a{}, b{};
@@ -39,6 +42,21 @@ std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& an
                                         const InertiaRoot& root, std::int64_t part) {
   std::array<std::int64_t, 6> side{};
   if (part == 0) return side;
+  std::uint64_t most = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    most = std::max({most, magnitude(linear[i]), magnitude(angular[i])});
+  if (most <= k_most_fast) {  // entries of the root are below √2, so sums of three fit
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::int64_t sum = 0;
+      for (std::size_t k = i; k < 3; ++k)
+        sum += root.c[k][i] * angular[k];
+      const std::int64_t turn = raw::round_shift(sum, 30 - root.shift);
+      side[i] = raw::round_shift(linear[i] * part, 30);
+      side[3 + i] = magnitude(turn) >> 32 == 0 ? raw::round_shift(turn * part, 30)
+                                               : product_rounded(turn, part, 30);
+    }
+    return side;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     side[i] = product_rounded(linear[i], part, 30);
     ProductSum sum;
@@ -171,11 +189,14 @@ RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
   return RowScale::of(isqrt_rounded(ratio << 30), (shift + 30) / 2);
 }
 
+std::int64_t part_of(std::int64_t share) {
+  return root_of(share << 30);
+}
+
 bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
   constexpr std::int64_t k_least_length = k_whole_q30 >> 16;
-  const Sides sides{
-      scaled_side(row.linear_a, row.angular_a, joint.root_a, root_of(joint.share_a << 30)),
-      scaled_side(row.linear_b, row.angular_b, joint.root_b, root_of(joint.share_b << 30))};
+  const Sides sides{scaled_side(row.linear_a, row.angular_a, joint.root_a, joint.part_a),
+                    scaled_side(row.linear_b, row.angular_b, joint.root_b, joint.part_b)};
   const std::int64_t length = length_of(sides);
   if (length < k_least_length) return false;
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;

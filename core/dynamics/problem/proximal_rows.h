@@ -78,9 +78,12 @@ struct ProximalLock {
 /// Data that all rows of a joint share.
 struct ProximalJoint {
   const InertiaRoot &root_a, &root_b;
-  std::int64_t share_a = 0, share_b = 0;  // of the pair's inverse mass, Q30; 0: nothing pushes it
-  RowScale mass;                          // √(mass of the pair / m₀)
+  std::int64_t part_a = 0, part_b = 0;  // `part_of` the shares
+  RowScale mass;                        // √(mass of the pair / m₀)
 };
+
+/// The root of a body's share of a pair's inverse mass, Q30; 0 where nothing pushes it.
+[[nodiscard]] std::int64_t part_of(std::int64_t share);
 
 /// √(mass of the pair / m₀), from both inverse masses.
 [[nodiscard]] RowScale mass_scale(BlockFloat unit, BlockFloat inverse);
