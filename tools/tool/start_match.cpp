@@ -55,7 +55,8 @@ void add_start_options(CLI::App& command, const Games& games, StartOptions& opti
                      "Kind of match; default: the first of " + (names.empty() ? "none" : names));
   command.add_option("--config", options.config,
                      "File with the configuration bytes of the match, instead of --scene");
-  command.add_option("--seed", options.seed, "Of the level, and of chance in the rules")
+  command
+      .add_option("--seed", options.seed, "Seed of the level and of random choices in the rules")
       ->capture_default_str();
   command.add_option("--players", options.players, "Player slots; 0: the usual number")
       ->check(CLI::Range(0U, 16U))

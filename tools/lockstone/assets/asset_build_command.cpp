@@ -182,7 +182,8 @@ void add_asset_build_command(CLI::App& asset, int& exit_code) {
       ->add_option("--surface", options->surfaces,
                    "OBJ: NAME=FRICTION[,RESTITUTION] of a material; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--max-vertices", options->max_vertices, "Of a hull (default 64)")
+  command
+      ->add_option("--max-vertices", options->max_vertices, "Most vertices of a hull (default 64)")
       ->check(CLI::Range(4, k_max_hull_vertices));
   command->add_option("--weld", options->weld, "Mesh: metres within which vertices become one");
   command->add_option("--cell", options->cell, "PNG: metres between samples (default 1)");

@@ -134,9 +134,10 @@ void add_bench_accuracy_command(CLI::App& bench, int& exit_code) {
   command->add_option("--rows", options->rows, "Numbers of rows; all when left out")
       ->delimiter(',')
       ->check(CLI::IsMember(numbers));
-  command->add_option("--tries", options->measure.tries, "Of each row; 0: as many as it asks for");
-  command->add_option("--first", options->measure.first, "Try to begin with, to see one again");
-  command->add_option("--seed", options->measure.seed, "Of the tries")->capture_default_str();
+  command->add_option("--tries", options->measure.tries,
+                      "Tries of each row; 0: the row's own number");
+  command->add_option("--first", options->measure.first, "Number of the first try, to repeat one");
+  command->add_option("--seed", options->measure.seed, "Seed of the tries")->capture_default_str();
   command->add_option("--threads", options->measure.threads, "The result does not depend on them")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--sweep", options->measure.sweep,

@@ -198,8 +198,8 @@ void add_front_options(CLI::App& command, FrontOptions& options) {
   command.add_option("--repeats", options.repeats, "A time is the median of this many")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_flag("--quick", options.quick, "Small scenes, settings 1 to 16");
-  command.add_flag("--alone", options.alone, "Without the native peers");
+  command.add_flag("--quick", options.quick, "Run small scenes only, with settings 1 to 16");
+  command.add_flag("--alone", options.alone, "Leave out the native peers");
   command.add_option("--node", options.node, "Folder of run.mjs, for peers under Node");
   command.add_option("--wasm", options.wasm, "lockstone_scene_player, ours under Node");
 }

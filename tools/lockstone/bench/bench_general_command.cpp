@@ -173,8 +173,9 @@ std::string check_seed(const std::string& text) {
 }
 
 void add_replay_options(CLI::App& command, BenchGeneralOptions& options) {
-  CLI::Option* replay = command.add_option("--replay", options.replay, "FAMILY:SEED, alone")
-                            ->check(CLI::Validator(check_seed, "SEED"));
+  CLI::Option* replay =
+      command.add_option("--replay", options.replay, "Run one seed alone, given as FAMILY:SEED")
+          ->check(CLI::Validator(check_seed, "SEED"));
   command.add_option("--svg", options.svg, "Draw it through its time into a file")->needs(replay);
   command.add_flag("--shrink", options.shrink, "Find smaller counts that still fail")
       ->needs(replay);
@@ -193,19 +194,20 @@ void add_bench_general_command(CLI::App& bench, int& exit_code) {
   command->add_option("--family", options->families, "Names; all when left out")
       ->delimiter(',')
       ->check(CLI::Validator(check_family, "FAMILY"));
-  command->add_option("--seeds", options->seeds, "Of each family")
+  command->add_option("--seeds", options->seeds, "Number of seeds for each family")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  command->add_option("--first-seed", options->first_seed, "Of each family")->capture_default_str();
-  command->add_option("--threads", options->threads, "Seeds at once")
+  command->add_option("--first-seed", options->first_seed, "First seed of each family")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Seeds to run at the same time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--substeps", options->substeps, "Of each engine")
+  command->add_option("--substeps", options->substeps, "Substeps of each engine")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
   command->add_option("--peers", options->peers, "Names; all in this build when left out")
       ->delimiter(',');
-  command->add_flag("--alone", options->alone, "Without peers");
+  command->add_flag("--alone", options->alone, "Leave out the other engines");
   command->add_flag("--islands", options->islands, "Play single islands with fixed numbers");
   command->add_flag("--list", options->list, "Names of families");
   command->add_flag("--json", options->json, "Print every seed's figures as JSON");

@@ -131,13 +131,13 @@ void add_bench_queries_command(CLI::App& bench, int& exit_code) {
   command->add_option("--bodies", measure.bodies, "In the world")
       ->capture_default_str()
       ->check(CLI::Range(16, 100'000));
-  command->add_option("--queries", measure.queries, "Different questions in a row")
+  command->add_option("--queries", measure.queries, "Number of different queries in a row")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--repeats", measure.repeats, "Timed repeats of each row")
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000));
-  command->add_option("--seed", measure.seed, "Of bodies and questions")->capture_default_str();
+  command->add_option("--seed", measure.seed, "Seed of bodies and queries")->capture_default_str();
   add_broad_phase_option(*command, measure.broad_phase);
   command->add_flag("--cpu", options->cpu, "Count only the time that the thread itself ran");
   command->add_flag("--quick", options->quick, "1024 questions, 5 repeats");

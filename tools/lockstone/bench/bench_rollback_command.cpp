@@ -251,7 +251,7 @@ void add_bench_rollback_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<RollbackOptions>();
   CLI::App* command =
       bench.add_subcommand("rollback", "Native snapshots and ticks simulated again");
-  command->add_option("--bodies", options->bodies, "Boxes in a pit")
+  command->add_option("--bodies", options->bodies, "Number of boxes in a pit")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000));
   command->add_option("--ticks", options->ticks, "Ticks to go back")

@@ -36,7 +36,7 @@ void add_bench_rows_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<bench::RowBenchOptions>();
   CLI::App* command =
       bench.add_subcommand("rows", "Contact rows: integers on each target beside floating point");
-  command->add_option("--bodies", options->bodies, "Moving bodies")
+  command->add_option("--bodies", options->bodies, "Number of moving bodies")
       ->capture_default_str()
       ->check(CLI::Range(16, 1 << 20));
   command->add_option("--colours", options->colours, "Rounds of matching the bodies in pairs")
@@ -45,7 +45,7 @@ void add_bench_rows_command(CLI::App& bench, int& exit_code) {
   command->add_option("--repeats", options->repeats, "Timed repeats")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--seed", options->seed, "Of the contacts")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the contacts")->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

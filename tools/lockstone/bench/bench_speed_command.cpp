@@ -140,7 +140,7 @@ void add_bench_speed_command(CLI::App& bench, int& exit_code) {
   add_broad_phase_option(*command, options->broad_phase);
   command->add_flag("--cpu", options->cpu,
                     "Count only the time that the stepping thread itself ran");
-  command->add_flag("--quick", options->quick, "A fifth of the ticks, once");
+  command->add_flag("--quick", options->quick, "Run a fifth of the ticks, once");
   command->add_flag("--detail", options->detail, "Also a table of pairs by kinds of shape");
   command->add_flag("--list", *list, "Only name the scenes");
   command->add_flag("--json", options->json, "Print JSON");

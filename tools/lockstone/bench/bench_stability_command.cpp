@@ -100,7 +100,7 @@ void add_bench_stability_command(CLI::App& bench, int& exit_code) {
   command->add_option("--rows", options->rows, "Names; all when left out")
       ->check(CLI::Validator(check_row, "ROW"));
   command->add_option("--seconds", options->measure.seconds,
-                      "Of the worlds' time; as long as each row asks for when left out");
+                      "Length of each run in the world's time; default: the row's own");
   command->add_flag("--json", options->json, "Print JSON");
   command->add_option("--page", options->page,
                       "Also write the figures as a table, into a file *.md");

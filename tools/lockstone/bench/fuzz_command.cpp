@@ -150,14 +150,14 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "fuzz-pairs",
       "Random pairs of shapes: contacts, distances, depths, casts against each other");
-  command->add_option("--count", options->run.count, "Pairs")->capture_default_str();
-  command->add_option("--seed", options->run.seed, "Of the pairs")->capture_default_str();
+  command->add_option("--count", options->run.count, "Number of pairs")->capture_default_str();
+  command->add_option("--seed", options->run.seed, "Seed of the pairs")->capture_default_str();
   command->add_option("--first", options->run.first, "Index to begin with")->capture_default_str();
   command->add_option("--threads", options->run.threads, "The result does not depend on them")
       ->check(CLI::Range(1, 1024));
   command
       ->add_option("--kinds", options->kinds,
-                   "Of sphere, capsule, box, hull, triangle, half-space; all when left out")
+                   "Sphere, capsule, box, hull, triangle, half-space; default: all")
       ->delimiter(',')
       ->check(CLI::Validator(check_kind, "KIND"));
   command->add_option("--only", options->only, "Check this index alone and print its pair");

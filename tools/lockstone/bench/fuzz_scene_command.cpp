@@ -71,10 +71,10 @@ void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
   measure.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand(
       "fuzz-scene", "Random scenes, each run in two ways that must give the same states");
-  command->add_option("--count", measure.count, "Scenes")->capture_default_str();
-  command->add_option("--seed", measure.seed, "Of the scenes")->capture_default_str();
+  command->add_option("--count", measure.count, "Number of scenes")->capture_default_str();
+  command->add_option("--seed", measure.seed, "Seed of the scenes")->capture_default_str();
   command->add_option("--first", measure.first, "Index to begin with")->capture_default_str();
-  command->add_option("--ticks", measure.ticks, "Of each scene")->capture_default_str();
+  command->add_option("--ticks", measure.ticks, "Ticks of each scene")->capture_default_str();
   command->add_option("--threads", measure.threads, "The result does not depend on them")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", options->json, "Print JSON");

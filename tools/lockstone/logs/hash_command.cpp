@@ -200,8 +200,8 @@ void add_hash_command(CLI::App& app, Tool& tool) {
                            ->capture_default_str()
                            ->check(CLI::IsMember({"golden"}));
   CLI::Option* log =
-      command->add_option("--log", options->log, "Of the ticks of this log")->excludes(suite);
-  command->add_option("--name", options->name, "Of the machine, for the table");
+      command->add_option("--log", options->log, "Hash the ticks of this log")->excludes(suite);
+  command->add_option("--name", options->name, "Name of the machine, for the table");
   command->add_option("--out", options->out, "Write to this file");
   command
       ->add_option("--parts-every", options->parts_every,

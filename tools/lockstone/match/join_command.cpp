@@ -442,7 +442,8 @@ void add_join_command(CLI::App& app, Tool& tool) {
   command->add_option("--token", options->token, "File with a token of `token issue`");
   command->add_option("--bot-seed", options->bot_seed, "Seed of the choices that the bot makes")
       ->capture_default_str();
-  command->add_option("--name", options->name, "Shown to the server")->capture_default_str();
+  command->add_option("--name", options->name, "Name that the server shows for this player")
+      ->capture_default_str();
   command->add_flag("--spectate", options->spectate, "Only watch");
   command->add_option("--predict", options->predict, "Rollback: ticks to run ahead; 0: lockstep")
       ->check(CLI::Range(0, 15))

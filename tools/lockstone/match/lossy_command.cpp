@@ -149,17 +149,19 @@ int play_match(const Games& games, const LossyOptions& options) {
 
 void add_fault_options(CLI::App& command, LossyOptions& options) {
   const CLI::Range percent(0.0, 90.0);
-  command.add_option("--loss", options.loss, "Per cent of datagrams")->check(percent);
-  command.add_option("--burst", options.burst, "Mean length of runs of losses; 0: independent");
-  command.add_option("--duplicate", options.duplicate, "Per cent")->check(percent);
-  command.add_option("--reorder", options.reorder, "Per cent, held back by up to 40 ms")
+  command.add_option("--loss", options.loss, "Lose this percentage of datagrams")->check(percent);
+  command.add_option("--burst", options.burst,
+                     "Lose datagrams in runs of this mean length; 0: one by one");
+  command.add_option("--duplicate", options.duplicate, "Send this percentage twice")
       ->check(percent);
-  command.add_option("--flip", options.flip, "Per cent, with one bit flipped")->check(percent);
-  command.add_option("--truncate", options.truncate, "Per cent, cut short")->check(percent);
+  command.add_option("--reorder", options.reorder, "Hold this percentage back by up to 40 ms")
+      ->check(percent);
+  command.add_option("--flip", options.flip, "Flip a bit of this percentage")->check(percent);
+  command.add_option("--truncate", options.truncate, "Cut this percentage short")->check(percent);
   command.add_option("--delay", options.delay, "One way, ms")->check(CLI::Range(0.0, 10000.0));
   command.add_option("--jitter", options.jitter, "The delay varies by so much up and down, ms")
       ->check(CLI::Range(0.0, 10000.0));
-  command.add_option("--seed", options.seed, "Of all chance")->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of all random choices")->capture_default_str();
 }
 
 }  // namespace
@@ -172,15 +174,16 @@ void add_lossy_command(CLI::App& app, Tool& tool) {
   command->add_option("--port", options->port, "Where clients call; 0: the system chooses");
   command->add_option("--host", options->host, "The server's address")->capture_default_str();
   CLI::Option* to = command->add_option("--to", options->to, "The server's port");
-  command->add_option("--seconds", options->seconds, "How long; default: until interrupted");
+  command->add_option("--seconds", options->seconds,
+                      "Stop after this time; default: when interrupted");
   add_fault_options(*command, *options);
   CLI::Option* match =
       command->add_option("--match", options->match, "Play for this many seconds, and measure")
           ->check(CLI::Range(1.0, 3600.0));
-  command->add_option("--players", options->players, "Of that match")
+  command->add_option("--players", options->players, "Players of that match")
       ->check(CLI::Range(1U, 16U))
       ->capture_default_str();
-  command->add_option("--input-delay", options->input_delay, "Of that match, ticks")
+  command->add_option("--input-delay", options->input_delay, "Input delay of that match, in ticks")
       ->check(CLI::Range(0, 60))
       ->capture_default_str();
   command->add_option("--pause", options->pause, "Stop its last player for this many seconds");

@@ -86,13 +86,14 @@ void add_siege_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "siege", "Attack a match on this machine: forged, replayed, damaged, too many packets");
-  command->add_option("--seconds", options->seconds, "How long")
+  command->add_option("--seconds", options->seconds, "Length of the attack")
       ->check(CLI::Range(1U, 3600U))
       ->capture_default_str();
   command->add_option("--players", options->siege.honest, "Honest ones")
       ->check(CLI::Range(1U, 14U))
       ->capture_default_str();
-  command->add_option("--seed", options->siege.seed, "Of the attackers")->capture_default_str();
+  command->add_option("--seed", options->siege.seed, "Seed of the attackers' choices")
+      ->capture_default_str();
   command->add_flag("--rate", options->rate,
                     "Measure instead how many datagrams of each kind one core gets through");
   command->callback([options, &tool] {

@@ -164,18 +164,20 @@ void add_simnet_command(CLI::App& app, Tool& tool) {
   CLI::App* command =
       app.add_subcommand("simnet", "Play matches over a simulated network full of faults");
   simnet::BatchOptions& batch = options->batch;
-  command->add_option("--seeds", batch.seeds, "Matches, one a seed")->capture_default_str();
-  command->add_option("--first-seed", batch.first_seed, "The first match's")->capture_default_str();
+  command->add_option("--seeds", batch.seeds, "Number of matches, each with a seed of its own")
+      ->capture_default_str();
+  command->add_option("--first-seed", batch.first_seed, "Seed of the first match")
+      ->capture_default_str();
   command->add_option("--clients", batch.clients, "Players of each match")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  command->add_option("--ticks", batch.ticks, "Of each match")
+  command->add_option("--ticks", batch.ticks, "Ticks of each match")
       ->check(CLI::Range(60, 1'000'000))
       ->capture_default_str();
   command->add_option("--faults", options->faults, "all, none, or kinds: loss,burst,delay,kill …")
       ->capture_default_str();
-  command->add_option("--schedule", options->schedule, "These faults instead of drawn ones");
-  command->add_option("--threads", batch.threads, "Matches at a time")
+  command->add_option("--schedule", options->schedule, "Apply these faults instead of random ones");
+  command->add_option("--threads", batch.threads, "Matches to play at the same time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command
