@@ -1,3 +1,6 @@
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <lockstone/replay/log_info.h>
@@ -9,36 +12,65 @@ namespace {
 
 using namespace replay;
 
-TEST(LogInfo, SumsUpAWholeLog) {
-  const Bytes log = record({.ticks = 90, .keyframe_interval = 30, .chunk_ticks = 10});
-  MemorySource source(log);
-  const Result<LogInfo> result = read_log_info(source);
-  ASSERT_TRUE(result.ok());
-  const LogInfo& info = result.value();
-  EXPECT_EQ(info.ticks, 90U);
-  EXPECT_EQ(info.duration_milliseconds, 1500U);
-  EXPECT_EQ(info.keyframe_ticks, (std::vector<std::uint64_t>{30, 60, 90}));
-  EXPECT_EQ(info.event_count, 10U);
-  ASSERT_EQ(info.events.size(), 10U);
-  EXPECT_EQ(info.events[1].tick, 9U);
-  EXPECT_EQ(info.events[1].text, "player one");
-  EXPECT_TRUE(info.complete);
-  EXPECT_FALSE(info.torn_tail);
-  EXPECT_FALSE(info.damage.has_value());
-  EXPECT_EQ(info.end_reason, "match over");
-  EXPECT_EQ(info.header.match.build, "toy 1");
-  EXPECT_EQ(info.header.match.game, "toy");
-  EXPECT_EQ(info.header.match.game_version, "1.0");
-  std::uint64_t bytes = chunks_of(log)[0].offset;
-  for (const ChunkTypeTotals& totals : info.chunk_types)
+class LogInfoOfAWholeLog : public testing::Test {
+ protected:
+  void SetUp() override {
+    MemorySource source(log_);
+    Result<LogInfo> result = read_log_info(source);
+    ASSERT_TRUE(result.ok());
+    info_ = std::move(result).value();
+  }
+
+  const Bytes log_ = record({.ticks = 90, .keyframe_interval = 30, .chunk_ticks = 10});
+  LogInfo info_;
+};
+
+TEST_F(LogInfoOfAWholeLog, HasItsLength) {
+  EXPECT_EQ(info_.ticks, 90U);
+  EXPECT_EQ(info_.duration_milliseconds, 1500U);
+}
+
+TEST_F(LogInfoOfAWholeLog, SaysThatItIsComplete) {
+  EXPECT_TRUE(info_.complete);
+  EXPECT_FALSE(info_.torn_tail);
+  EXPECT_FALSE(info_.damage.has_value());
+  EXPECT_EQ(info_.end_reason, "match over");
+}
+
+TEST_F(LogInfoOfAWholeLog, NamesGameVersionAndBuild) {
+  EXPECT_EQ(info_.header.match.build, "toy 1");
+  EXPECT_EQ(info_.header.match.game, "toy");
+  EXPECT_EQ(info_.header.match.game_version, "1.0");
+}
+
+TEST_F(LogInfoOfAWholeLog, ListsKeyframes) {
+  EXPECT_EQ(info_.keyframe_ticks, (std::vector<std::uint64_t>{30, 60, 90}));
+}
+
+TEST_F(LogInfoOfAWholeLog, ListsEvents) {
+  EXPECT_EQ(info_.event_count, 10U);
+  ASSERT_EQ(info_.events.size(), 10U);
+  EXPECT_EQ(info_.events[1].tick, 9U);
+  EXPECT_EQ(info_.events[1].text, "player one");
+}
+
+TEST_F(LogInfoOfAWholeLog, CountsChunksOfEachType) {
+  ASSERT_EQ(info_.chunk_types.size(), 6U);
+  EXPECT_EQ(info_.chunk_types[1].type, ChunkType::input);
+  EXPECT_EQ(info_.chunk_types[1].chunks, 9U);
+}
+
+TEST_F(LogInfoOfAWholeLog, CountsEachByteOnce) {
+  std::uint64_t bytes = chunks_of(log_)[0].offset;
+  for (const ChunkTypeTotals& totals : info_.chunk_types)
     bytes += totals.stored_bytes;
-  EXPECT_EQ(bytes, log.size());
-  EXPECT_EQ(info.file_bytes, log.size());
-  ASSERT_EQ(info.chunk_types.size(), 6U);
-  EXPECT_EQ(info.chunk_types[1].type, ChunkType::input);
-  EXPECT_EQ(info.chunk_types[1].chunks, 9U);
+  EXPECT_EQ(bytes, log_.size());
+  EXPECT_EQ(info_.file_bytes, log_.size());
+}
+
+TEST_F(LogInfoOfAWholeLog, CountsEachInputOnce) {
   std::uint64_t inputs = 0;
-  for (const std::uint64_t count : info.inputs_by_origin) {
+  for (const std::uint64_t count : info_.inputs_by_origin) {
     EXPECT_GT(count, 0U);
     inputs += count;
   }

@@ -51,52 +51,107 @@ struct Fixture {
   }
 };
 
-TEST(Recorder, GivesBackTheInputsHashesKeyframesAndEventsOfAMatch) {
-  ToyMatch match{.ticks = 130};
-  match.config.player_count = 4;
-  match.config.input_bytes = 11;
-  const Bytes log = record(match);
-  MemorySource source(log);
-  LogReader reader(source);
-  ASSERT_EQ(reader.open(), Status::ok);
-  EXPECT_EQ(reader.header().match.match_id, 7U);
-  EXPECT_EQ(reader.header().match.build, "toy 1");
-  EXPECT_EQ(reader.header().info, ToySimulation(match.config).info());
-  ToySimulation game(match.config);
-  ToyInputs inputs(match.config);
-  std::size_t keyframes = 0;
-  std::size_t events = 0;
-  for (LogItem item = reader.next(); item != LogItem::finished; item = reader.next()) {
-    ASSERT_FALSE(is_last(item)) << reader.damage().what;
-    if (item == LogItem::scene) {
-      EXPECT_EQ(Bytes(reader.config().begin(), reader.config().end()), match.config.encode());
+/// A recorded match, and a reader at its beginning.
+class RecordedMatch : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(reader_.open(), Status::ok); }
+
+  /// Calls `visit` for each item of the log.
+  template <class Visit>
+  void read_all(const Visit& visit) {
+    for (LogItem item = reader_.next(); item != LogItem::finished; item = reader_.next()) {
+      ASSERT_FALSE(is_last(item)) << reader_.damage().what;
+      visit(item);
     }
-    if (item == LogItem::events) events += reader.events().size();
-    if (item == LogItem::keyframe) {
-      ++keyframes;
-      EXPECT_EQ(game.tick(), reader.chunk().first_tick);
-      Bytes snapshot(game.snapshot_bytes_max(SnapshotKind::canonical));
-      snapshot.resize(game.save(SnapshotKind::canonical, snapshot));
-      EXPECT_EQ(Bytes(reader.snapshot().begin(), reader.snapshot().end()), snapshot);
-    }
-    if (item != LogItem::hashes) continue;
-    for (std::size_t i = 0; i < reader.hashes().size(); ++i) {
-      const auto expected = inputs.at(game.tick());
-      const auto actual = reader.tick_inputs(i);
+  }
+
+  /// Steps a game of its own by each tick that was read.
+  void step_game() {
+    for (std::size_t i = 0; i < reader_.hashes().size(); ++i)
+      game_.step(inputs_.at(game_.tick()));
+  }
+
+  const ToyMatch match_ = [] {
+    ToyMatch match{.ticks = 130};
+    match.config.player_count = 4;
+    match.config.input_bytes = 11;
+    return match;
+  }();
+  const Bytes log_ = record(match_);
+  MemorySource source_{log_};
+  LogReader reader_{source_};
+  ToySimulation game_{match_.config};
+  ToyInputs inputs_{match_.config};
+};
+
+TEST_F(RecordedMatch, HasItsHeader) {
+  EXPECT_EQ(reader_.header().match.match_id, 7U);
+  EXPECT_EQ(reader_.header().match.build, "toy 1");
+  EXPECT_EQ(reader_.header().info, game_.info());
+}
+
+TEST_F(RecordedMatch, HasItsConfiguration) {
+  read_all([&](LogItem item) {
+    if (item != LogItem::scene) return;
+    EXPECT_EQ(Bytes(reader_.config().begin(), reader_.config().end()), match_.config.encode());
+  });
+}
+
+TEST_F(RecordedMatch, HasTheInputsOfEachTick) {
+  read_all([&](LogItem item) {
+    if (item != LogItem::hashes) return;
+    for (std::size_t i = 0; i < reader_.hashes().size(); ++i) {
+      const auto expected = inputs_.at(game_.tick() + i);
+      const auto actual = reader_.tick_inputs(i);
       ASSERT_EQ(actual.size(), expected.size());
       for (std::size_t slot = 0; slot < actual.size(); ++slot) {
         EXPECT_EQ(actual[slot].origin, expected[slot].origin);
         EXPECT_TRUE(std::ranges::equal(actual[slot].bytes, expected[slot].bytes));
       }
-      game.step(expected);
-      EXPECT_EQ(reader.hashes()[i], game.hash());
     }
-  }
-  EXPECT_TRUE(reader.complete());
-  EXPECT_EQ(reader.end().reason, "match over");
-  EXPECT_EQ(reader.end().final_tick, 130U);
+    step_game();
+  });
+  EXPECT_EQ(game_.tick(), 130U);
+}
+
+TEST_F(RecordedMatch, HasTheHashOfEachTick) {
+  read_all([&](LogItem item) {
+    if (item != LogItem::hashes) return;
+    for (const std::uint64_t hash : reader_.hashes()) {
+      game_.step(inputs_.at(game_.tick()));
+      EXPECT_EQ(hash, game_.hash());
+    }
+  });
+  EXPECT_EQ(game_.tick(), 130U);
+}
+
+TEST_F(RecordedMatch, HasTheStateAtEachKeyframe) {
+  std::size_t keyframes = 0;
+  read_all([&](LogItem item) {
+    if (item == LogItem::hashes) step_game();
+    if (item != LogItem::keyframe) return;
+    ++keyframes;
+    EXPECT_EQ(game_.tick(), reader_.chunk().first_tick);
+    Bytes snapshot(game_.snapshot_bytes_max(SnapshotKind::canonical));
+    snapshot.resize(game_.save(SnapshotKind::canonical, snapshot));
+    EXPECT_EQ(Bytes(reader_.snapshot().begin(), reader_.snapshot().end()), snapshot);
+  });
   EXPECT_EQ(keyframes, 130U / 8);
+}
+
+TEST_F(RecordedMatch, HasItsEvents) {
+  std::size_t events = 0;
+  read_all([&](LogItem item) {
+    if (item == LogItem::events) events += reader_.events().size();
+  });
   EXPECT_EQ(events, 15U);
+}
+
+TEST_F(RecordedMatch, HasItsEnd) {
+  read_all([](LogItem) {});
+  EXPECT_TRUE(reader_.complete());
+  EXPECT_EQ(reader_.end().reason, "match over");
+  EXPECT_EQ(reader_.end().final_tick, 130U);
 }
 
 TEST(Recorder, NeverAllocatesAfterBegin) {
