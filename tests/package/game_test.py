@@ -128,6 +128,20 @@ class Hashes(Case):
         self.assertEqual([entry["tick"] for entry in chain["parts"]], [64, 128, 192, 256, 300])
         self.assertEqual(set(chain["parts"][0]), {"tick", "jumps", "bodies", "contacts"})
 
+    def test_and_states_are_not_replaced_without_force(self):
+        log, states = self.record(own(), "a.lks"), self.folder / "x.states"
+        self.hash(own(), log, "x", "--states", states)
+        self.expect(UNAVAILABLE, own(), "hash", "--log", log, "--states", states)
+        self.expect(OK, own(), "hash", "--log", log, "--states", states, "--force")
+
+    def test_of_a_damaged_log_are_none(self):
+        log = self.record(own(), "a.lks")
+        log.write_bytes(log.read_bytes()[:-300])
+        bytes = bytearray(log.read_bytes())
+        bytes[len(bytes) * 3 // 4] ^= 1
+        log.write_bytes(bytes)
+        self.expect(CORRUPT, own(), "hash", "--log", log)
+
     def test_that_differ_are_grouped_and_located(self):
         log = self.record(own(), "a.lks")
         first = self.hash(own(), log, "x86", "--states", self.folder / "x86.states")

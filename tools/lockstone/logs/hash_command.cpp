@@ -98,8 +98,8 @@ class LogRun {
   LogRun(const HashOptions& options, replay::SeekResult& found)
       : options_(options), simulation_(*found.simulation), ticks_(*found.ticks) {}
 
-  /// False, with a complaint, when a state cannot be written or the log is damaged.
-  [[nodiscard]] bool run(ordered_json& json) {
+  /// Not k_ok, with a complaint, when a state cannot be written or the log is damaged.
+  [[nodiscard]] int run(ordered_json& json) {
     ordered_json chain = ordered_json::array();
     Progress progress;
     while (ticks_.next()) {
@@ -108,18 +108,18 @@ class LogRun {
       simulation_.step(ticks_.inputs());
       chain.push_back({simulation_.tick(), hash_text(simulation_.hash())});
       const bool due = options_.parts_every > 0 && simulation_.tick() % options_.parts_every == 0;
-      if (due && !keep()) return false;
+      if (due && !keep()) return k_unavailable;
     }
     progress.clear();
-    if (!keep()) return false;
+    if (!keep()) return k_unavailable;
     json["chain"] = std::move(chain);
     if (!parts_.empty()) json["parts"] = std::move(parts_);
     if (!options_.states.empty()) json["states"] = options_.states;
     json["match"] = json.value("match", "") + ' ' + hash_text(inputs_hash_);
     const replay::Damage& damage = ticks_.reader().damage();
-    if (damage.status == Status::ok) return true;
+    if (damage.status == Status::ok) return k_ok;
     complain(fmt::format("{}, byte {}: {}", options_.log, damage.offset, damage.what));
-    return false;
+    return k_corrupt;
   }
 
  private:
@@ -186,8 +186,8 @@ int hash_log(const Games& games, const HashOptions& options) {
   json["match"] = match_text(found.ticks->reader().header());
   const ByteView config = found.ticks->config();
   json["config"] = config.size() <= k_most_config_bytes ? hexadecimal_text(config) : "";
-  if (!LogRun(options, found).run(json)) return k_corrupt;
-  return emit(options, json);
+  const int code = LogRun(options, found).run(json);
+  return code == k_ok ? emit(options, json) : code;
 }
 
 }  // namespace
