@@ -9,6 +9,7 @@
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/block_float.h"
 #include "core/world/commands/command_checks.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -53,119 +54,32 @@ std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets) {
 }
 
 World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets)
-    : def(definition),
-      assets(std::move(known_assets)),
-      time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
-      rest_rules(
-          RestRules::of(definition.tick_rate, definition.sleep_ms, definition.sleep_distance)),
-      bodies(definition.body_capacity),
-      contact_store(definition.contact_capacity),
-      frozen(definition.body_capacity, definition.contact_capacity),
-      joints(definition.joint_capacity),
+    : WorldData(definition, std::move(known_assets)),
       names(definition.body_capacity),
-      awake(definition.body_capacity),
-      triggers(definition.body_capacity),
-      joint_graph(definition.body_capacity, definition.joint_capacity),
-      cache(definition.body_capacity),
-      broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
-      body_hashes(definition.body_capacity),
-      joint_hashes(definition.joint_capacity),
-      changed_sleep(definition.body_capacity),
+      sleep_flags(*this),
       islands(definition.body_capacity),
-      continuous(*this, definition),
-      passes(*this, continuous, definition.body_capacity),
-      bounces(*this, definition.body_capacity, definition.contact_capacity),
-      pendulums(*this, definition.body_capacity, definition.joint_capacity),
+      found(definition.contact_capacity),
+      waking(*this, sleep_flags, found),
+      joint_registry(*this, waking),
+      body_registry(*this, sleep_flags, waking, joint_registry, names),
+      narrow(*this, found),
+      moved(*this),
+      bounces(*this, found, moved, islands),
+      pendulums(*this, found),
       solver(time_step, definition.body_capacity, definition.contact_capacity,
-             definition.joint_capacity, definition.converged_contacts) {
-  header.gravity = definition.gravity;
-  events.reserve(std::size_t{2} * definition.contact_capacity +
-                 std::size_t{4} * definition.body_capacity);
-  to_wake.reserve(std::size_t{1 + k_max_impacts} * definition.body_capacity);
-  to_sleep.reserve(definition.body_capacity);
-  joint_events.reserve(definition.joint_capacity);
-  starts.resize(definition.body_capacity);
-  leaves_fat_box.resize(definition.body_capacity);
-  found_contacts.reserve(definition.pair_capacity);
-  separating_axes.reserve(definition.pair_capacity);
-  new_contacts.reserve(definition.contact_capacity);
-  event_ends.reserve(definition.contact_capacity / k_event_piece + 1);
-  slots.reserve(definition.contact_capacity);
-  old_slots.reserve(definition.contact_capacity);
-  make_scratch();
-  approach_speeds.reserve(definition.contact_capacity);
-  moved.reserve(definition.body_capacity);
-}
-
-void World::Impl::make_scratch() {
-  const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
-  narrow.prepare(def.contact_capacity, parallel.workers(),
-                 std::ranges::any_of(assets->all(), has_triangles));
+             definition.joint_capacity, definition.converged_contacts),
+      continuous(*this, moved, narrow, waking, passes),
+      passes(*this, found, continuous),
+      mover(*this, moved, solver, bounces, pendulums, continuous, sleep_flags.rest_rules()),
+      events(*this, found),
+      island_sleep(*this, sleep_flags, waking, islands, found),
+      trace(*this) {
   solver.make_room(parallel.workers());
-  const std::size_t most = narrow.capacity();
-  if (manifolds.size() >= most) return;
-  origins.resize(most);
-  manifolds.resize(most);
-  old_manifolds.resize(most);
-  inputs.resize(most);
-  old_inputs.resize(most);
-  found_separations.resize(most);
-  old_separations.resize(most);
-  surfaces.resize(most);
 }
 
-const BodyRecord* World::Impl::find(BodyHandle body) const {
-  if (body.is_null() || body.index >= header.body_limit) return nullptr;
-  const BodyRecord& record = bodies[body.index];
-  return record.exists() && record.generation == body.generation ? &record : nullptr;
-}
-
-BodyRecord* World::Impl::edit(BodyHandle body) {
-  if (find(body) == nullptr) return nullptr;
-  body_hashes.mark(body.index);
-  return &bodies[body.index];
-}
-
-std::uint32_t World::Impl::body_count() const {
-  const auto end = bodies.begin() + header.body_limit;
-  return static_cast<std::uint32_t>(
-      std::count_if(bodies.begin(), end, [](const BodyRecord& body) { return body.exists(); }));
-}
-
-void World::Impl::drop_derived() {
-  new_contacts.clear();
-  for_each_contact([&](const ContactRecord& contact) { new_contacts.push_back(contact); });
-  rebuild_derived();
-}
-
-// From bodies, and all contacts in new_contacts.
-void World::Impl::rebuild_derived() {
-  is_derived_stale = false;
-  broad_phase.clear();
-  body_hashes.clear();
-  joint_hashes.clear();
-  remembers_manifolds = false;
-  separating_axes.forget();
-  free_hint = 0;
-  awake.clear();
-  triggers.clear();
-  changed_sleep.clear();
-  asleep_count = 0;
-  for (std::uint32_t i = 0; i < header.body_limit; ++i) {
-    if (!bodies[i].exists()) continue;
-    cache.set_asset(i, assets->find(bodies[i].asset));
-    if (bodies[i].is_asleep()) ++asleep_count;
-    if (bodies[i].is_awake()) awake.insert(i);
-    if (bodies[i].has_changed_sleep()) changed_sleep.insert(i);
-    refresh(i);
-  }
-  adopt_contacts(new_contacts);
-  broad_phase.settle();
-  rebuild_joint_links();
-}
-
-PlacedShape World::Impl::placed(std::uint32_t body) const {
-  return cache.placed(body, bodies[body]);
+void World::Impl::make_room() {
+  narrow.make_room();
+  solver.make_room(parallel.workers());
 }
 
 World::World(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -192,14 +106,14 @@ StepReport World::step() {
   return impl_->step();
 }
 std::span<const ContactEvent> World::events() const {
-  return impl_->events;
+  return impl_->events.list();
 }
 void World::set_clock(ProfileClock now, ProfileDetail detail) {
   impl_->profiler.set_clock(now, detail);
 }
 void World::set_task_runner(TaskRunner* runner, TaskPieces pieces) {
   impl_->parallel.set_runner(runner, pieces);
-  impl_->make_scratch();
+  impl_->make_room();
 }
 const StepProfile& World::profile() const {
   return impl_->profiler.profile();
@@ -213,10 +127,6 @@ std::uint32_t World::body_count() const {
 std::uint32_t World::body_limit() const {
   return impl_->header.body_limit;
 }
-void World::drop_derived() {
-  impl_->drop_derived();
-}
-
 namespace {
 
 const BodyRecord* existing(const BodyRecord* record, BodyHandle body, const char* function) {
@@ -281,13 +191,6 @@ Vec3<Velocity> World::velocity(BodyHandle body) const {
   return record->velocity;
 }
 
-Mass mass_of(const BodyRecord& record) {
-  if (record.inverse_mass == 0) return {};
-  // 1 / (mantissa·2^e) in Q32 = (2^62 / mantissa) · 2^(−e − 30)
-  const std::int64_t quotient = raw::round_divide(std::int64_t{1} << 62, record.inverse_mass);
-  return Mass::from_raw(raw::scale_binary(quotient, -record.inverse_mass_exponent - 30));
-}
-
 Mass World::mass(BodyHandle body) const {
   const BodyRecord* record = existing(impl_->find(body), body, "World::mass");
   return mass_of(*record);
@@ -300,8 +203,8 @@ bool World::touching(BodyHandle a, BodyHandle b) const {
                       (contact.body_a == b.index && contact.body_b == a.index);
     return same && contact.is_touching();
   };
-  bool found = std::ranges::any_of(impl_->contacts(), is_theirs);
-  impl_->frozen.for_each_of(
+  bool found = std::ranges::any_of(impl_->contacts.active(), is_theirs);
+  impl_->contacts.frozen().for_each_of(
       a.index, [&](const ContactRecord& contact) { found = found || is_theirs(contact); });
   return found;
 }

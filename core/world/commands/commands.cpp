@@ -10,6 +10,8 @@
 #include "core/math/block_float.h"
 #include "core/math/rotation_log.h"
 #include "core/world/commands/command_checks.h"
+#include "core/world/commands/command_executor.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -99,26 +101,9 @@ Mass mass_of(const BodyDef& def, const Asset* asset) {
   return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
 }
 
-ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
-  const auto bounded = [](const Vec3<Unit>& inertia) {
-    return Vec3<Unit>{max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),
-                      max(inertia.z, k_min_inertia)};
-  };
-  if (is_primitive(shape.kind)) {
-    return {bounded(normalized_inertia(shape)), scale_exponent(shape), bounding_radius(shape)};
-  }
-  if (asset != nullptr && asset->solid() != nullptr) {
-    const geometry::Solid& solid = *asset->solid();
-    const Vec3<Unit> inertia{geometry::to_unit(solid.inertia.x), geometry::to_unit(solid.inertia.y),
-                             geometry::to_unit(solid.inertia.z)};
-    return {bounded(inertia), solid.scale_exponent, solid.radius};
-  }
-  return {bounded({}), k_largest_scale_exponent, {}};
-}
-
-Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
+Result<BodyHandle> BodyRegistry::create(const BodyDef& body_def) {
   if (!is_valid(body_def)) return Status::invalid_argument;
-  const Result<const Asset*> found = asset_of(body_def.shape, *assets);
+  const Result<const Asset*> found = asset_of(body_def.shape, *world_.assets);
   if (!found.ok()) return found.status();
   const Asset* asset = found.value();
   Vec3<Velocity> surface;
@@ -127,141 +112,165 @@ Result<BodyHandle> World::Impl::create_body(const BodyDef& body_def) {
                            properties_of(body_def.shape, asset).scale_exponent, surface)) {
     return Status::invalid_argument;
   }
-  std::uint32_t slot = free_hint;
-  while (slot < header.body_limit && !is_free(bodies[slot]))
+  std::uint32_t slot = free_hint_;
+  while (slot < world_.header.body_limit && !is_free(world_.bodies[slot]))
     ++slot;
-  if (slot == def.body_capacity) return Status::capacity_exhausted;
-  free_hint = slot + 1;
-  header.body_limit = std::max(header.body_limit, slot + 1);
+  if (slot == world_.def.body_capacity) return Status::capacity_exhausted;
+  free_hint_ = slot + 1;
+  world_.header.body_limit = std::max(world_.header.body_limit, slot + 1);
 
-  body_hashes.mark(slot);
-  BodyRecord& record = bodies[slot];
+  world_.hashes.bodies.mark(slot);
+  BodyRecord& record = world_.bodies[slot];
   record = make_record(body_def, asset, record.generation + 1);
-  cache.set_asset(slot, asset);
+  world_.cache.set_asset(slot, asset);
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
     hold_in_range(record.spin);
     hold_axes(record);
-    awake.insert(slot);
+    world_.awake.insert(slot);
   }
-  begin_rest(record, rest_rules);
-  refresh(slot);
-  disturb_around(slot);
-  names.forget(handle_of(slot));
-  return handle_of(slot);
+  begin_rest(record, flags_.rest_rules());
+  world_.refresh(slot);
+  waking_.disturb_around(slot);
+  names_.forget(world_.handle_of(slot));
+  return world_.handle_of(slot);
 }
 
-Status World::Impl::execute(const CreateBody& command) {
-  return create_body(command.def).status();
-}
-
-Status World::Impl::execute(const DestroyBody& command) {
-  const BodyRecord* record = edit(command.body);
+Status BodyRegistry::destroy(BodyHandle body) {
+  const BodyRecord* record = world_.edit(body);
   if (record == nullptr) return Status::stale_handle;
-  const std::uint32_t index = command.body.index;
-  disturb(index);
-  destroy_joints_of(index);
-  awake.erase(index);
-  changed_sleep.erase(index);
+  const std::uint32_t index = body.index;
+  waking_.disturb(index);
+  joints_.destroy_all_of(index);
+  flags_.forget(index);
   drop_contacts_of(index);
-  broad_phase.remove(index);
-  triggers.erase(index);
+  world_.broad_phase.remove(index);
+  world_.triggers.erase(index);
   BodyRecord empty;
   empty.generation = record->generation;
-  bodies[index] = empty;
-  free_hint = std::min(free_hint, index);
+  world_.bodies[index] = empty;
+  free_hint_ = std::min(free_hint_, index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const Teleport& command) {
-  BodyRecord* record = edit(command.body);
+void BodyRegistry::drop_contacts_of(std::uint32_t body) {
+  world_.contacts.drop_active_of(body);
+  world_.header.contact_count = world_.contacts.count();
+}
+
+Status CommandExecutor::execute(const CreateBody& command) {
+  return world_.body_registry.create(command.def).status();
+}
+
+Status CommandExecutor::execute(const DestroyBody& command) {
+  return world_.body_registry.destroy(command.body);
+}
+
+Status CommandExecutor::execute(const Teleport& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!is_within(command.position, k_world_limit) || !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
   const Transform pose =
-      body_pose(cache.asset(command.body.index), {command.position, command.orientation});
+      body_pose(world_.cache.asset(command.body.index), {command.position, command.orientation});
   if (!is_within(pose.position, k_world_limit)) return Status::invalid_argument;
-  disturb(command.body.index);
-  drop_contacts_of(command.body.index);
+  world_.waking.disturb(command.body.index);
+  world_.body_registry.drop_contacts_of(command.body.index);
   record->position = pose.position;
   record->orientation = pose.orientation;
   set_contact_pose(*record);
-  begin_rest(*record, rest_rules);
-  refresh(command.body.index);
-  disturb_around(command.body.index);
+  begin_rest(*record, world_.sleep_flags.rest_rules());
+  world_.refresh(command.body.index);
+  world_.waking.disturb_around(command.body.index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetVelocity& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetVelocity& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->moves() || !is_within(command.velocity, k_speed_limit)) {
     return Status::invalid_argument;
   }
-  wake(command.body.index);
+  world_.waking.wake(command.body.index);
   record->velocity = command.velocity;
   hold_axes(*record);
-  refresh(command.body.index);
+  world_.refresh(command.body.index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetAngularVelocity& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetAngularVelocity& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   Vec3<Velocity> surface;
   if (!record->moves() ||
       !to_surface_velocity(command.angular_velocity, record->scale_exponent, surface)) {
     return Status::invalid_argument;
   }
-  wake(command.body.index);
-  record->spin = spin_of(*record, cache.rotation(command.body.index), surface);
+  world_.waking.wake(command.body.index);
+  record->spin = spin_of(*record, world_.cache.rotation(command.body.index), surface);
   hold_in_range(record->spin);
-  refresh(command.body.index);
+  world_.refresh(command.body.index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetFilter& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetFilter& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
-  disturb(command.body.index);
+  world_.waking.disturb(command.body.index);
   record->category = command.filter.category;
   record->mask = command.filter.mask;
   record->group = command.filter.group;
-  refresh(command.body.index);
-  disturb_around(command.body.index);
+  world_.refresh(command.body.index);
+  world_.waking.disturb_around(command.body.index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetUserData& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetUserData& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   record->user_data = command.user_data;
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetGravity& command) {
+Status CommandExecutor::execute(const SetGravity& command) {
   if (!is_valid_gravity(command.gravity)) return Status::invalid_argument;
-  if (header.gravity != command.gravity) wake_all();
-  header.gravity = command.gravity;
+  if (world_.header.gravity != command.gravity) world_.waking.wake_all();
+  world_.header.gravity = command.gravity;
   return Status::ok;
 }
 
-// After `disturb`: none of them is frozen.
-void World::Impl::drop_contacts_of(std::uint32_t body) {
-  const std::span<ContactRecord> all(contact_store.data(), active_contacts);
-  const auto end = std::remove_if(all.begin(), all.end(), [&](const ContactRecord& contact) {
-    return contact.body_a == body || contact.body_b == body;
-  });
-  const auto count = static_cast<std::uint32_t>(end - all.begin());
-  remembers_manifolds = remembers_manifolds && count == active_contacts;
-  header.contact_count -= active_contacts - count;
-  active_contacts = count;
+Status CommandExecutor::execute(const WakeBody& command) {
+  const BodyRecord* record = world_.find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->moves()) return Status::invalid_argument;
+  world_.waking.wake(command.body.index);
+  return Status::ok;
+}
+
+Status CommandExecutor::execute(const SleepBody& command) {
+  const BodyRecord* record = world_.find(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->is_dynamic() || world_.sleep_flags.rest_rules().ticks == 0)
+    return Status::invalid_argument;
+  if (record->is_asleep()) return Status::ok;
+  return world_.island_sleep.put_to_sleep(command.body.index);
+}
+
+Status CommandExecutor::execute(const SetAllowSleep& command) {
+  BodyRecord* record = world_.edit(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!record->moves()) return Status::invalid_argument;
+  if (!command.allow) world_.waking.wake(command.body.index);
+  record->flags = static_cast<std::uint8_t>(command.allow ? record->flags & ~k_body_no_sleep
+                                                          : record->flags | k_body_no_sleep);
+  begin_rest(*record, world_.sleep_flags.rest_rules());
+  return Status::ok;
 }
 
 Result<BodyHandle> World::create_body(const BodyDef& def) {
-  return impl_->create_body(def);
+  return impl_->body_registry.create(def);
 }
 
 Status World::apply(const Command& command) {
@@ -270,7 +279,7 @@ Status World::apply(const Command& command) {
         if constexpr (std::is_same_v<std::decay_t<decltype(c)>, std::monostate>) {
           return Status::invalid_argument;
         } else {
-          return impl_->execute(c);
+          return CommandExecutor(*impl_).execute(c);
         }
       },
       command);

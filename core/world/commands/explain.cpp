@@ -13,6 +13,8 @@
 #include "core/world/commands/command_checks.h"
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/refusal_finder.h"
+#include "core/world/derived/quantities.h"
+#include "core/world/state/record_checks.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -259,7 +261,7 @@ Refusal World::explain(const JointDef& def) const {
                    joint);
   check_anchor(find, "frame_a.position", *a, def.frame_a, joint.anchor_a);
   check_anchor(find, "frame_b.position", *b, def.frame_b, joint.anchor_b);
-  find.require(!joint.is(JointKind::pulley) || find.done() || impl_->set_total_length(joint),
+  find.require(!joint.is(JointKind::pulley) || find.done() || set_total_length(*impl_, joint),
                "ground_a", to_decimal(def.ground_a) + " m",
                "where each rope, and both by the ratio, are 1000 m long at most");
   find.require(joint_count() < impl_->def.joint_capacity, "count", std::to_string(joint_count()),

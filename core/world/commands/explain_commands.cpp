@@ -8,8 +8,10 @@
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/rotation_log.h"
 #include "core/world/commands/command_checks.h"
+#include "core/world/commands/command_executor.h"
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/refusal_finder.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -94,7 +96,7 @@ class CommandExplainer {
     require_motion(*record, record->is_dynamic(), "dynamic");
     BodyRecord locked = *record;
     locked.locks = locks_of(c.locks);
-    find_.require(impl_.fits_joints(c.body.index, locked), "locks", "a body that turns",
+    find_.require(impl_.joint_registry.fits(c.body.index, locked), "locks", "a body that turns",
                   "such that every joint of the body is near enough to it");
   }
   void of(const SetSpeedLimit& c) {
@@ -110,10 +112,11 @@ class CommandExplainer {
     const BodyRecord* record = body(c.body);
     if (record == nullptr) return;
     require_motion(*record, record->is_dynamic(), "dynamic");
-    find_.require(impl_.rest_rules.ticks != 0, "body", "in a world whose sleep_ms is 0",
-                  "in a world where bodies sleep");
-    find_.require(find_.done() || record->is_asleep() || impl_.may_island_sleep(c.body.index),
-                  "body", "in an island with a body whose allow_sleep is false", "free to sleep");
+    find_.require(impl_.sleep_flags.rest_rules().ticks != 0, "body",
+                  "in a world whose sleep_ms is 0", "in a world where bodies sleep");
+    find_.require(
+        find_.done() || record->is_asleep() || impl_.island_sleep.may_island_sleep(c.body.index),
+        "body", "in an island with a body whose allow_sleep is false", "free to sleep");
   }
 
   void of(const SetLinearAxis& c) { axis(c); }
@@ -164,7 +167,7 @@ class CommandExplainer {
   void push_at(const Push& c) {
     if (!push(c.body, c.frame)) return;
     TickGain unused;
-    const bool near = impl_.gain_of(c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
+    const bool near = gain_of(impl_, c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
     const BodyRecord& record = *impl_.find(c.body);
     const Length radius = properties_of(record.shape(), impl_.cache.asset(c.body.index)).radius;
     find_.require(near, "point", to_decimal(c.point) + " m",
@@ -184,17 +187,6 @@ class CommandExplainer {
   World::Impl& impl_;
   RefusalFinder find_;
 };
-
-// Whether every body of the island may.
-bool World::Impl::may_island_sleep(std::uint32_t body) {
-  join_islands();
-  joint_graph.forget_awake_list();  // nothing was woken across joints: that is for the next step
-  const std::uint32_t island = islands.root(body);
-  return std::ranges::all_of(awake.list(), [&](std::uint32_t other) {
-    const BodyRecord& record = bodies[other];
-    return !record.is_dynamic() || islands.root(other) != island || record.may_sleep();
-  });
-}
 
 Refusal World::explain(const Command& command) const {
   CommandExplainer explainer(*this, *impl_, std::string(name_of(command)) + '.');

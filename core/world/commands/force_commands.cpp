@@ -7,6 +7,8 @@
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/block_float.h"
 #include "core/world/commands/command_checks.h"
+#include "core/world/commands/command_executor.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -75,16 +77,16 @@ Vec3<T> turned(const Mat3& rotation, const Vec3<T>& v) {
 
 // The gains of an impulse, without a point at the centre of mass; gains along locked axes are
 // removed.
-Status World::Impl::gain_of(BodyHandle body, const Push& push, TickGain& gain) const {
-  const BodyRecord* record = find(body);
+Status gain_of(const WorldData& world, BodyHandle body, const Push& push, TickGain& gain) {
+  const BodyRecord* record = world.find(body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic() || push.frame > Frame::body) return Status::invalid_argument;
-  const Asset* asset = cache.asset(body.index);
+  const Asset* asset = world.cache.asset(body.index);
   Vec3<Impulse> impulse = push.impulse;
   Vec3<AngularImpulse> turn = push.turn;
   Vec3<Length> point = push.point != nullptr ? *push.point : Vec3<Length>{};
   if (push.frame == Frame::body) {
-    const PlacedShape shape = placed(body.index);
+    const PlacedShape shape = world.placed(body.index);
     impulse = turned(shape.rotation, impulse);
     turn = turned(shape.rotation, turn);
     if (push.point != nullptr) {
@@ -105,53 +107,53 @@ Status World::Impl::gain_of(BodyHandle body, const Push& push, TickGain& gain) c
   return Status::ok;
 }
 
-Status World::Impl::push_now(BodyHandle body, const Push& push) {
+Status CommandExecutor::push_now(BodyHandle body, const Push& push) {
   TickGain gain;
-  if (const Status status = gain_of(body, push, gain); status != Status::ok) return status;
+  if (const Status status = gain_of(world_, body, push, gain); status != Status::ok) return status;
   if (gain.velocity == Vec3<Velocity>{} && gain.spin == Vec3<Velocity>{}) return Status::ok;
-  wake(body.index);
-  BodyRecord& record = *edit(body);
+  world_.waking.wake(body.index);
+  BodyRecord& record = *world_.edit(body);
   add_velocity(record.velocity, gain.velocity);
   add_velocity(record.spin, gain.spin);
   hold_in_range(record.velocity);
   hold_in_range(record.spin);
-  refresh(body.index);
+  world_.refresh(body.index);
   return Status::ok;
 }
 
-Status World::Impl::push_in_tick(BodyHandle body, const Push& push) {
+Status CommandExecutor::push_in_tick(BodyHandle body, const Push& push) {
   TickGain gain;
-  if (const Status status = gain_of(body, push, gain); status != Status::ok) return status;
+  if (const Status status = gain_of(world_, body, push, gain); status != Status::ok) return status;
   if (gain.velocity == Vec3<Velocity>{} && gain.spin == Vec3<Velocity>{}) return Status::ok;
-  wake(body.index);
-  add_gain(*edit(body), gain);
+  world_.waking.wake(body.index);
+  add_gain(*world_.edit(body), gain);
   return Status::ok;
 }
 
-Status World::Impl::execute(const ApplyImpulse& command) {
+Status CommandExecutor::execute(const ApplyImpulse& command) {
   return push_now(command.body, {command.impulse, {}, nullptr, command.frame});
 }
 
-Status World::Impl::execute(const ApplyImpulseAt& command) {
+Status CommandExecutor::execute(const ApplyImpulseAt& command) {
   return push_now(command.body, {command.impulse, {}, &command.point, command.frame});
 }
 
-Status World::Impl::execute(const ApplyAngularImpulse& command) {
+Status CommandExecutor::execute(const ApplyAngularImpulse& command) {
   return push_now(command.body, {{}, command.impulse, nullptr, command.frame});
 }
 
-Status World::Impl::execute(const ApplyForce& command) {
-  const auto impulse = over_a_tick<Impulse>(command.force, def.tick_rate);
+Status CommandExecutor::execute(const ApplyForce& command) {
+  const auto impulse = over_a_tick<Impulse>(command.force, world_.def.tick_rate);
   return push_in_tick(command.body, {impulse, {}, nullptr, command.frame});
 }
 
-Status World::Impl::execute(const ApplyForceAt& command) {
-  const auto impulse = over_a_tick<Impulse>(command.force, def.tick_rate);
+Status CommandExecutor::execute(const ApplyForceAt& command) {
+  const auto impulse = over_a_tick<Impulse>(command.force, world_.def.tick_rate);
   return push_in_tick(command.body, {impulse, {}, &command.point, command.frame});
 }
 
-Status World::Impl::execute(const ApplyTorque& command) {
-  const auto turn = over_a_tick<AngularImpulse>(command.torque, def.tick_rate);
+Status CommandExecutor::execute(const ApplyTorque& command) {
+  const auto turn = over_a_tick<AngularImpulse>(command.torque, world_.def.tick_rate);
   return push_in_tick(command.body, {{}, turn, nullptr, command.frame});
 }
 

@@ -10,7 +10,11 @@
 #include "core/math/divide.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
+#include "core/world/commands/command_executor.h"
 #include "core/world/commands/joint_checks.h"
+#include "core/world/commands/joint_registry.h"
+#include "core/world/derived/quantities.h"
+#include "core/world/state/record_checks.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -121,12 +125,6 @@ Vec3<Position> sum_of_rows(const SpringTurnRows& rows, const Vec3<Position>& eff
 
 }  // namespace
 
-std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inverse_mass,
-                       int exponent) {
-  const int shift = std::clamp(exponent - inverse_mass.exponent, -63, 63);
-  return divide_raw_saturating(impulse * rate, inverse_mass.mantissa, shift);
-}
-
 JointDef JointDef::of(JointKind kind, BodyHandle a, BodyHandle b) {
   JointDef def;
   def.kind = kind;
@@ -218,38 +216,43 @@ bool make_joint(const JointDef& from, const Asset* asset_a, const Asset* asset_b
          set_frame(from.frame_b, asset_b, joint.anchor_b, joint.orientation_b);
 }
 
-Result<JointHandle> World::Impl::create_joint(const JointDef& from) {
-  const BodyRecord* a = find(from.body_a);
-  const BodyRecord* b = find(from.body_b);
+JointRegistry::JointRegistry(WorldData& world, Waking& waking) : world_(world), waking_(waking) {
+  events_.reserve(world.def.joint_capacity);
+}
+
+Result<JointHandle> JointRegistry::create(const JointDef& from) {
+  const BodyRecord* a = world_.find(from.body_a);
+  const BodyRecord* b = world_.find(from.body_b);
   if (a == nullptr || b == nullptr) return Status::stale_handle;
   JointRecord joint;
-  const bool framed =
-      make_joint(from, cache.asset(from.body_a.index), cache.asset(from.body_b.index), joint);
+  const bool framed = make_joint(from, world_.cache.asset(from.body_a.index),
+                                 world_.cache.asset(from.body_b.index), joint);
   if (!framed || !joint.exists() || !holds_something(from) || validate(joint) != Status::ok ||
       !can_join(*a, *b) || !is_anchor(*a, joint.anchor_a) || !is_anchor(*b, joint.anchor_b)) {
     return Status::invalid_argument;
   }
-  if (joint.is(JointKind::pulley) && !set_total_length(joint)) return Status::invalid_argument;
-  std::uint32_t slot = joint_hint;
-  while (slot < header.joint_limit && !is_free(joints[slot]))
+  if (joint.is(JointKind::pulley) && !set_total_length(world_, joint))
+    return Status::invalid_argument;
+  std::uint32_t slot = free_hint_;
+  while (slot < world_.header.joint_limit && !is_free(world_.joints[slot]))
     ++slot;
-  if (slot == def.joint_capacity) return Status::capacity_exhausted;
-  joint_hint = slot + 1;
-  header.joint_limit = std::max(header.joint_limit, slot + 1);
-  joint.generation = joints[slot].generation + 1;
-  joints[slot] = joint;
-  joint_hashes.mark(slot);
-  link_joint(slot);
-  wake_ends(joint);
+  if (slot == world_.def.joint_capacity) return Status::capacity_exhausted;
+  free_hint_ = slot + 1;
+  world_.header.joint_limit = std::max(world_.header.joint_limit, slot + 1);
+  joint.generation = world_.joints[slot].generation + 1;
+  world_.joints[slot] = joint;
+  world_.hashes.joints.mark(slot);
+  world_.joint_graph.add({slot, joint.body_a, joint.body_b}, world_.exempt_pair(joint));
+  waking_.wake_ends(joint);
   return JointHandle{slot, joint.generation};
 }
 
 // At most 1000 m each and together.
-bool World::Impl::set_total_length(JointRecord& joint) const {
-  const Vec3<Position> end_a =
-      bodies[joint.body_a].position + arm_of(cache.rotation(joint.body_a), joint.anchor_a);
-  const Vec3<Position> end_b =
-      bodies[joint.body_b].position + arm_of(cache.rotation(joint.body_b), joint.anchor_b);
+bool set_total_length(const WorldData& world, JointRecord& joint) {
+  const Vec3<Position> end_a = world.bodies[joint.body_a].position +
+                               arm_of(world.cache.rotation(joint.body_a), joint.anchor_a);
+  const Vec3<Position> end_b = world.bodies[joint.body_b].position +
+                               arm_of(world.cache.rotation(joint.body_b), joint.anchor_b);
   const Position first = length_of(end_a - joint.ground_a);
   const Position second = length_of(end_b - joint.ground_b);
   constexpr Position k_most = Position::from_integer(1000);
@@ -260,141 +263,106 @@ bool World::Impl::set_total_length(JointRecord& joint) const {
   return true;
 }
 
-const JointRecord* World::Impl::find(JointHandle joint) const {
-  if (joint.is_null() || joint.index >= header.joint_limit) return nullptr;
-  const JointRecord& record = joints[joint.index];
-  return record.exists() && record.generation == joint.generation ? &record : nullptr;
-}
-
-JointRecord* World::Impl::edit(JointHandle joint) {
-  if (find(joint) == nullptr) return nullptr;
-  joint_hashes.mark(joint.index);
-  return &joints[joint.index];
-}
-
-bool World::Impl::fits_joints(std::uint32_t body, const BodyRecord& changed) const {
-  return std::ranges::all_of(joint_graph.links(), [&](const JointLink& link) {
-    const JointRecord& joint = joints[link.joint];
+bool JointRegistry::fits(std::uint32_t body, const BodyRecord& changed) const {
+  return std::ranges::all_of(world_.joint_graph.links(), [&](const JointLink& link) {
+    const JointRecord& joint = world_.joints[link.joint];
     return (link.body_a != body || is_anchor(changed, joint.anchor_a)) &&
            (link.body_b != body || is_anchor(changed, joint.anchor_b));
   });
 }
 
-void World::Impl::destroy_joint(std::uint32_t joint) {
-  wake_ends(joints[joint]);
-  unlink_joint(joint);
-  joint_hashes.mark(joint);
+void JointRegistry::destroy(std::uint32_t joint) {
+  waking_.wake_ends(world_.joints[joint]);
+  world_.joint_graph.remove(joint, world_.exempt_pair(world_.joints[joint]));
+  world_.hashes.joints.mark(joint);
   JointRecord empty;
-  empty.generation = joints[joint].generation;
-  joints[joint] = empty;
-  joint_hint = std::min(joint_hint, joint);
+  empty.generation = world_.joints[joint].generation;
+  world_.joints[joint] = empty;
+  free_hint_ = std::min(free_hint_, joint);
 }
 
-void World::Impl::destroy_joints_of(std::uint32_t body) {
-  for (std::size_t i = joint_graph.links().size(); i-- > 0;) {
-    const JointLink link = joint_graph.links()[i];
-    if (link.body_a == body || link.body_b == body) destroy_joint(link.joint);
+void JointRegistry::destroy_all_of(std::uint32_t body) {
+  for (std::size_t i = world_.joint_graph.links().size(); i-- > 0;) {
+    const JointLink link = world_.joint_graph.links()[i];
+    if (link.body_a == body || link.body_b == body) destroy(link.joint);
   }
 }
 
 // Joints that had to bear more than they do are destroyed, by index.
-void World::Impl::break_joints() {
-  joint_events.clear();
+void JointRegistry::break_overloaded() {
+  events_.clear();
   const auto exceeds = [](const auto& v, auto limit) {
     return limit.raw > 0 && norm(v.x.raw, v.y.raw, v.z.raw) > static_cast<std::uint64_t>(limit.raw);
   };
-  for (const JointLink& link : joint_graph.awake_links()) {
+  for (const JointLink& link : world_.joint_graph.awake_links()) {
     const std::uint32_t index = link.joint;
-    const JointRecord& joint = joints[index];
+    const JointRecord& joint = world_.joints[index];
     if (joint.break_force.raw == 0 && joint.break_torque.raw == 0) continue;
-    const JointView now = view(joint);
+    const JointView now = view_of(world_, joint);
     if (!exceeds(now.force, joint.break_force) && !exceeds(now.torque, joint.break_torque)) {
       continue;
     }
-    joint_events.push_back({{index, joint.generation}, now.body_a, now.body_b, joint.user_data});
+    events_.push_back({{index, joint.generation}, now.body_a, now.body_b, joint.user_data});
   }
-  for (const JointEvent& event : joint_events)
-    destroy_joint(event.joint.index);
+  for (const JointEvent& event : events_)
+    destroy(event.joint.index);
 }
 
-void World::Impl::link_joint(std::uint32_t index) {
-  const JointRecord& joint = joints[index];
-  joint_graph.add({index, joint.body_a, joint.body_b}, exempt_pair(joint));
+void JointRegistry::mark_awake() {
+  for (const JointLink& joint : world_.joint_graph.awake_links())
+    world_.hashes.joints.mark(joint.joint);
 }
 
-void World::Impl::unlink_joint(std::uint32_t index) {
-  joint_graph.remove(index, exempt_pair(joints[index]));
+void JointRegistry::rebuild() {
+  free_hint_ = 0;
+  world_.joint_graph.rebuild(std::span(world_.joints).first(world_.header.joint_limit),
+                             [&](const JointRecord& joint) { return world_.exempt_pair(joint); });
 }
 
-// The moving body first, or the lower index, as the broad phase gives them.
-Pair World::Impl::pair_of(std::uint32_t a, std::uint32_t b) const {
-  const bool a_moves = bodies[a].moves(), b_moves = bodies[b].moves();
-  const bool swap = a_moves == b_moves ? a > b : b_moves;
-  return swap ? Pair{b, a} : Pair{a, b};
+Status CommandExecutor::execute(const CreateJoint& command) {
+  return world_.joint_registry.create(command.def).status();
 }
 
-std::optional<Pair> World::Impl::exempt_pair(const JointRecord& joint) const {
-  if (joint.collides()) return {};
-  return pair_of(joint.body_a, joint.body_b);
-}
-
-bool World::Impl::are_joined(std::uint32_t a, std::uint32_t b) const {
-  return joint_graph.is_exempt(pair_of(a, b));
-}
-
-void World::Impl::rebuild_joint_links() {
-  joint_hint = 0;
-  joint_graph.rebuild(std::span(joints).first(header.joint_limit),
-                      [&](const JointRecord& joint) { return exempt_pair(joint); });
-}
-
-Status World::Impl::execute(const CreateJoint& command) {
-  return create_joint(command.def).status();
-}
-
-Status World::Impl::execute(const DestroyJoint& command) {
-  if (find(command.joint) == nullptr) return Status::stale_handle;
-  destroy_joint(command.joint.index);
+Status CommandExecutor::execute(const DestroyJoint& command) {
+  if (world_.find(command.joint) == nullptr) return Status::stale_handle;
+  world_.joint_registry.destroy(command.joint.index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetLinearAxis& command) {
-  JointRecord* joint = edit(command.joint);
+// `first`: of the three axes that the command may name.
+template <class SetAxis>
+Status CommandExecutor::set_axis_of(const SetAxis& command, std::size_t first) {
+  JointRecord* joint = world_.edit(command.joint);
   if (joint == nullptr) return Status::stale_handle;
   if (command.axis > 2) return Status::invalid_argument;
   JointRecord changed = *joint;
-  set_axis(changed, command.axis, command.settings);
+  set_axis(changed, first + command.axis, command.settings);
   if (validate(changed) != Status::ok) return Status::invalid_argument;
   if (*joint == changed) return Status::ok;
-  wake_ends(changed);
+  world_.waking.wake_ends(changed);
   *joint = changed;
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetAngularAxis& command) {
-  JointRecord* joint = edit(command.joint);
-  if (joint == nullptr) return Status::stale_handle;
-  if (command.axis > 2) return Status::invalid_argument;
-  JointRecord changed = *joint;
-  set_axis(changed, command.axis + std::size_t{3}, command.settings);
-  if (validate(changed) != Status::ok) return Status::invalid_argument;
-  if (*joint == changed) return Status::ok;
-  wake_ends(changed);
-  *joint = changed;
-  return Status::ok;
+Status CommandExecutor::execute(const SetLinearAxis& command) {
+  return set_axis_of(command, 0);
 }
 
-JointView World::Impl::view(const JointRecord& joint) const {
-  const BodyRecord& a = bodies[joint.body_a];
-  const BodyRecord& b = bodies[joint.body_b];
-  const Mat3& turn_a = cache.rotation(joint.body_a);
-  const Mat3& turn_b = cache.rotation(joint.body_b);
+Status CommandExecutor::execute(const SetAngularAxis& command) {
+  return set_axis_of(command, 3);
+}
+
+JointView view_of(const WorldData& world, const JointRecord& joint) {
+  const BodyRecord& a = world.bodies[joint.body_a];
+  const BodyRecord& b = world.bodies[joint.body_b];
+  const Mat3& turn_a = world.cache.rotation(joint.body_a);
+  const Mat3& turn_b = world.cache.rotation(joint.body_b);
   const Vec3<Position> gap =
       (b.position + arm_of(turn_b, joint.anchor_b)) - (a.position + arm_of(turn_a, joint.anchor_a));
   const Mat3 frame_a = frame_of(turn_a, joint.orientation_a);
   JointView view{.kind = static_cast<JointKind>(joint.kind),
-                 .body_a = handle_of(joint.body_a),
-                 .body_b = handle_of(joint.body_b),
+                 .body_a = world.handle_of(joint.body_a),
+                 .body_b = world.handle_of(joint.body_b),
                  .user_data = joint.user_data,
                  .offset = saturated<Length>(rotate_inverse(frame_a, gap)),
                  .angle = swing_twist(frame_a, frame_of(turn_b, joint.orientation_b))};
@@ -404,7 +372,7 @@ JointView World::Impl::view(const JointRecord& joint) const {
   const SpringTurn turn = spring_turn(joint);
   Vec3<Torque> springs;  // of those that act together, along their rows
   for (int i = 0; i < 3; ++i) {
-    const std::int32_t rate = time_step.substep_rate();
+    const std::int32_t rate = world.time_step.substep_rate();
     const auto effort = [&](std::int64_t impulse, int scale) {
       return effort_of(impulse, rate, inverse_mass, scale);
     };
@@ -431,10 +399,10 @@ JointView World::Impl::view(const JointRecord& joint) const {
 }
 
 Result<JointHandle> World::create_joint(const JointDef& def) {
-  return impl_->create_joint(def);
+  return impl_->joint_registry.create(def);
 }
 std::span<const JointEvent> World::joint_events() const {
-  return impl_->joint_events;
+  return impl_->joint_registry.events();
 }
 bool World::exists(JointHandle joint) const {
   return impl_->find(joint) != nullptr;
@@ -454,7 +422,7 @@ JointView World::joint(JointHandle joint) const {
   if (record == nullptr)
     misused("World::joint", joint.index, joint.generation,
             "names no joint (destroyed, or broken?); ask World::exists first");
-  return impl_->view(*record);
+  return view_of(*impl_, *record);
 }
 
 }  // namespace lockstone

@@ -5,6 +5,7 @@
 #include "core/dynamics/body/motion.h"
 #include "core/math/rotation_log.h"
 #include "core/world/commands/command_checks.h"
+#include "core/world/commands/command_executor.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -75,36 +76,36 @@ bool motion_to(const BodyRecord& body, const Transform& target, int tick_rate,
   return is_within(velocity, k_speed_limit) && is_within(spin, k_speed_limit);
 }
 
-Status World::Impl::execute(const SetMaterial& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetMaterial& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!geometry::is_valid(command.surface)) return Status::invalid_argument;
-  disturb(command.body.index);
+  world_.waking.disturb(command.body.index);
   record->set_surface(command.surface);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetSurfaceMotion& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetSurfaceMotion& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (record->is_dynamic() || !is_valid(command.motion.velocity, command.motion.turning))
     return Status::invalid_argument;
-  disturb(command.body.index);
-  set_surface_motion(*record, cache.asset(command.body.index), command.motion);
+  world_.waking.disturb(command.body.index);
+  set_surface_motion(*record, world_.cache.asset(command.body.index), command.motion);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetGravityScale& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetGravityScale& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!is_within(command.scale, k_gravity_scale_limit)) return Status::invalid_argument;
-  disturb(command.body.index);
+  world_.waking.disturb(command.body.index);
   record->gravity_scale = command.scale;
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetDamping& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetDamping& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (command.linear < Rate{} || command.angular < Rate{}) return Status::invalid_argument;
   record->linear_damping = command.linear;
@@ -112,47 +113,48 @@ Status World::Impl::execute(const SetDamping& command) {
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetAxisLocks& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetAxisLocks& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!record->is_dynamic()) return Status::invalid_argument;
   BodyRecord locked = *record;
   locked.locks = locks_of(command.locks);
-  if (!fits_joints(command.body.index, locked)) return Status::invalid_argument;
-  disturb(command.body.index);
-  const Vec3<Velocity> turning =
-      surface_velocity(inverse_inertia(*record, cache.rotation(command.body.index)), record->spin);
+  if (!world_.joint_registry.fits(command.body.index, locked)) return Status::invalid_argument;
+  world_.waking.disturb(command.body.index);
+  const Vec3<Velocity> turning = surface_velocity(
+      inverse_inertia(*record, world_.cache.rotation(command.body.index)), record->spin);
   record->locks = locked.locks;
-  record->spin = spin_of(*record, cache.rotation(command.body.index), turning);
+  record->spin = spin_of(*record, world_.cache.rotation(command.body.index), turning);
   hold_in_range(record->spin);
   hold_axes(*record);
-  refresh(command.body.index);
+  world_.refresh(command.body.index);
   return Status::ok;
 }
 
-Status World::Impl::execute(const SetSpeedLimit& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const SetSpeedLimit& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (!is_valid(command.limit)) return Status::invalid_argument;
   set_speed_limit(*record, command.limit);
   return Status::ok;
 }
 
-Status World::Impl::execute(const MoveKinematic& command) {
-  BodyRecord* record = edit(command.body);
+Status CommandExecutor::execute(const MoveKinematic& command) {
+  BodyRecord* record = world_.edit(command.body);
   if (record == nullptr) return Status::stale_handle;
   if (record->is_dynamic() || !record->moves() || !is_within(command.position, k_world_limit) ||
       !has_direction(command.orientation)) {
     return Status::invalid_argument;
   }
   const Transform target =
-      body_pose(cache.asset(command.body.index), {command.position, command.orientation});
+      body_pose(world_.cache.asset(command.body.index), {command.position, command.orientation});
   Vec3<Velocity> velocity, spin;
-  if (!motion_to(*record, target, def.tick_rate, velocity, spin)) return Status::invalid_argument;
-  wake(command.body.index);
+  if (!motion_to(*record, target, world_.def.tick_rate, velocity, spin))
+    return Status::invalid_argument;
+  world_.waking.wake(command.body.index);
   record->velocity = velocity;
   record->spin = record->rotates() ? spin : Vec3<Velocity>{};
-  refresh(command.body.index);
+  world_.refresh(command.body.index);
   return Status::ok;
 }
 

@@ -5,6 +5,8 @@
 #include <lockstone/debug_draw.h>
 
 #include "core/dynamics/joint/joint_geometry.h"
+#include "core/world/commands/joint_registry.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -47,10 +49,10 @@ class WorldDrawing {
 
 // Of all dynamic bodies there are, asleep ones too.
 void WorldDrawing::find_all_islands() {
-  world_.to_sleep.clear();  // not in use between the ticks
+  std::vector<std::uint32_t> bodies;
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i)
-    if (world_.bodies[i].exists() && world_.bodies[i].is_dynamic()) world_.to_sleep.push_back(i);
-  world_.islands.begin(world_.to_sleep);
+    if (world_.bodies[i].exists() && world_.bodies[i].is_dynamic()) bodies.push_back(i);
+  world_.islands.begin(bodies);
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
     if (world_.bodies[a].is_dynamic() && world_.bodies[b].is_dynamic()) world_.islands.join(a, b);
   };
@@ -59,7 +61,6 @@ void WorldDrawing::find_all_islands() {
   });
   for (const JointLink& joint : world_.joint_graph.links())
     tie(joint.body_a, joint.body_b);
-  world_.to_sleep.clear();
 }
 
 void WorldDrawing::draw_shapes(DebugDraw& out) {
@@ -132,13 +133,13 @@ DebugContact WorldDrawing::drawn_contact(const ContactRecord& record,
 }
 
 void WorldDrawing::draw_contacts(DebugDraw& out) {
-  PairScratch& scratch = world_.narrow.scratch(0);
+  PairScratch& scratch = world_.narrow.scratch();
   Pair collided;
   world_.for_each_contact([&](const ContactRecord& record) {
     if (record.is_trigger()) return;
     const Pair pair{record.body_a, record.body_b};
     if (pair != collided) {
-      collide_bodies(world_.placed(pair.a), world_.placed(pair.b), world_.margin_of(pair),
+      collide_bodies(world_.placed(pair.a), world_.placed(pair.b), world_.narrow.margin_of(pair),
                      scratch.triangles.get(), scratch.part_contacts);
     }
     collided = pair;
@@ -157,7 +158,7 @@ void WorldDrawing::draw_joints(DebugDraw& out) const {
     const Mat3& turn_b = world_.cache.rotation(joint.body_b);
     DebugJoint drawn{
         .joint = {link.joint, joint.generation},
-        .view = world_.view(joint),
+        .view = view_of(world_, joint),
         .place_a = world_.bodies[joint.body_a].position + arm_of(turn_a, joint.anchor_a),
         .place_b = world_.bodies[joint.body_b].position + arm_of(turn_b, joint.anchor_b),
         .frame_a = frame_of(turn_a, joint.orientation_a),

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 
-#include "core/world/world_impl.h"
+#include "core/dynamics/body/inertia.h"
+#include "core/world/derived/quantities.h"
 
 namespace lockstone {
 namespace {
@@ -43,11 +44,16 @@ bool is_nearer(const Manifold& manifold, Displacement separation) {
 
 }  // namespace
 
-Bounces::Bounces(World::Impl& world, std::uint32_t body_capacity, std::uint32_t contact_capacity)
-    : world_(world), has_bounced_(body_capacity), marks_(body_capacity) {
-  contacts_.reserve(contact_capacity);
-  groups_.reserve(contact_capacity);
-  bodies_.reserve(body_capacity);
+Bounces::Bounces(WorldData& world, TickContacts& found, MovedBodies& moved, Islands& islands)
+    : world_(world),
+      found_(found),
+      moved_(moved),
+      islands_(islands),
+      has_bounced_(world.def.body_capacity),
+      marks_(world.def.body_capacity) {
+  contacts_.reserve(world.def.contact_capacity);
+  groups_.reserve(world.def.contact_capacity);
+  bodies_.reserve(world.def.body_capacity);
 }
 
 void Bounces::find() {
@@ -56,14 +62,14 @@ void Bounces::find() {
   bodies_.clear();
   contacts_.clear();
   groups_.clear();
-  const auto elastic = [&](std::uint32_t slot) {
-    return world_.surfaces[slot].restitution > Coefficient{};
+  const auto elastic = [&](std::uint32_t id) {
+    return found_.surfaces[id].restitution > Coefficient{};
   };
-  if (!world_.narrow.has_elastic() || std::ranges::none_of(world_.slots, elastic)) return;
+  if (!found_.has_elastic || std::ranges::none_of(found_.manifold_ids, elastic)) return;
   join_groups();
-  for (std::size_t i = 0; i < world_.new_contacts.size(); ++i)
+  for (std::size_t i = 0; i < found_.records.size(); ++i)
     look_for(i);
-  for (std::size_t i = 0; i < world_.new_contacts.size(); ++i)
+  for (std::size_t i = 0; i < found_.records.size(); ++i)
     mark(i);
   std::ranges::sort(contacts_);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -79,22 +85,20 @@ bool Bounces::flies(std::uint32_t body) const {
 // Groups of bodies that touch. Held are those with a contact without restitution, with a joint, or
 // with a body that sleeps.
 void Bounces::join_groups() {
-  world_.islands.begin(world_.awake.list());
+  islands_.begin(world_.awake.list());
   for (const std::uint32_t body : world_.awake.list())
     marks_[body] = 0;
   const auto hold = [&](std::uint32_t body) {
-    if (flies(body)) world_.islands.hold(body);
+    if (flies(body)) islands_.hold(body);
   };
-  for (std::size_t i = 0; i < world_.new_contacts.size(); ++i) {
-    const ContactRecord& record = world_.new_contacts[i];
+  for (std::size_t i = 0; i < found_.records.size(); ++i) {
+    const ContactRecord& record = found_.records[i];
     if (record.is_trigger()) continue;
     const bool a = world_.bodies[record.body_a].is_dynamic(),
                b = world_.bodies[record.body_b].is_dynamic();
     const bool both_fly = flies(record.body_a) && flies(record.body_b);
-    if (both_fly) world_.islands.join(record.body_a, record.body_b);
-    if (is_elastic(world_.manifolds[world_.slots[i]], world_.surfaces[world_.slots[i]]) &&
-        (both_fly || a != b))
-      continue;
+    if (both_fly) islands_.join(record.body_a, record.body_b);
+    if (is_elastic(found_.manifold_of(i), found_.surface_of(i)) && (both_fly || a != b)) continue;
     hold(record.body_a);
     hold(record.body_b);
   }
@@ -102,8 +106,8 @@ void Bounces::join_groups() {
     hold(link.body_a);
     hold(link.body_b);
   }
-  (void)world_.islands.settle(world_.awake.list());
-  for (const ContactRecord& record : world_.new_contacts) {
+  (void)islands_.settle(world_.awake.list());
+  for (const ContactRecord& record : found_.records) {
     if (record.is_trigger() || !one_flies(record)) continue;
     std::uint8_t& marks = marks_[root_of(record)];
     if (marks < k_contact_count) ++marks;
@@ -116,28 +120,26 @@ bool Bounces::one_flies(const ContactRecord& record) const {
 
 // The least body of the group.
 std::uint32_t Bounces::root_of(const ContactRecord& record) {
-  return world_.islands.root(flies(record.body_a) ? record.body_a : record.body_b);
+  return islands_.root(flies(record.body_a) ? record.body_a : record.body_b);
 }
 
 BouncePair Bounces::pair_of(std::size_t contact) {
-  const ContactRecord& record = world_.new_contacts[contact];
-  const std::uint32_t slot = world_.slots[contact];
-  return {&world_.bodies[record.body_a], &world_.bodies[record.body_b], &world_.manifolds[slot],
-          &world_.surfaces[slot]};
+  const ContactRecord& record = found_.records[contact];
+  return {&world_.bodies[record.body_a], &world_.bodies[record.body_b],
+          &found_.manifold_of(contact), &found_.surface_of(contact)};
 }
 
 bool Bounces::may_bounce(const ContactRecord& record) {
   if (record.is_trigger() || !one_flies(record)) return false;
   const std::uint32_t root = root_of(record);
-  return !world_.islands.is_held(root) &&
-         (marks_[root] & k_contact_count) <= k_most_bounce_contacts;
+  return !islands_.is_held(root) && (marks_[root] & k_contact_count) <= k_most_bounce_contacts;
 }
 
 // A contact that will bounce marks its whole group; a contact that comes to rest leaves the group
 // to the solver. Where no bodies meet, nothing need be solved.
 void Bounces::look_for(std::size_t contact) {
-  const ContactRecord& record = world_.new_contacts[contact];
-  const Manifold& manifold = world_.manifolds[world_.slots[contact]];
+  const ContactRecord& record = found_.records[contact];
+  const Manifold& manifold = found_.manifold_of(contact);
   if (!may_bounce(record) || manifold.count == 0) return;
   const std::uint32_t root = root_of(record);
   const Meeting meeting =
@@ -145,7 +147,7 @@ void Bounces::look_for(std::size_t contact) {
   const bool rests = meeting.meets && meeting.speed <= k_least_bounce;
   if (rests || is_nearer(manifold, k_overlap) || turns_much(record.body_a) ||
       turns_much(record.body_b))
-    return world_.islands.hold(root);
+    return islands_.hold(root);
   if (meeting.meets)
     marks_[root] |= k_will_bounce;
   else if (is_nearer(manifold, k_resting_overlap))
@@ -166,7 +168,7 @@ bool Bounces::turns_much(std::uint32_t body) const {
 
 // The solver leaves it out, and its impulses are dropped.
 void Bounces::mark(std::size_t contact) {
-  ContactRecord& record = world_.new_contacts[contact];
+  ContactRecord& record = found_.records[contact];
   if (!may_bounce(record)) return;
   const std::uint8_t marks = marks_[root_of(record)];
   if ((marks & k_will_bounce) == 0 && (marks & k_leans) != 0) return;
@@ -176,13 +178,13 @@ void Bounces::mark(std::size_t contact) {
   fresh.part_a = record.part_a;
   fresh.part_b = record.part_b;
   record = fresh;
-  world_.surfaces[world_.slots[contact]].bounces = true;
+  found_.surface_of(contact).bounces = true;
   contacts_.push_back({root_of(record), static_cast<std::uint32_t>(contact)});
   for (const std::uint32_t body : {record.body_a, record.body_b}) {
     if (!world_.bodies[body].is_dynamic() || has_bounced_[body] != 0) continue;
     has_bounced_[body] = 1;
     bodies_.push_back(body);
-    world_.starts[body] = {world_.bodies[body].position, world_.bodies[body].orientation};
+    moved_.note_start(body);
   }
 }
 
@@ -206,11 +208,10 @@ void Bounces::run_group(std::uint32_t index) {
   group.run();
   for (std::size_t i = 0; i < group_contacts.size(); ++i) {
     const std::uint32_t contact = group_contacts[i].contact;
-    const bool touches =
-        is_nearer(world_.manifolds[world_.slots[contact]], Displacement::from_raw(1));
-    if (group.touched(i) || touches) world_.new_contacts[contact].flags = k_contact_touching;
+    const bool touches = is_nearer(found_.manifold_of(contact), Displacement::from_raw(1));
+    if (group.touched(i) || touches) found_.records[contact].flags = k_contact_touching;
     if (!group.touched(i)) continue;
-    world_.approach_speeds[contact] = SolverVelocity::from_raw(
+    found_.approach_speeds[contact] = SolverVelocity::from_raw(
         raw::saturate<std::int32_t>(raw::round_shift(group.approach(i).raw, 12)));
   }
 }

@@ -8,18 +8,20 @@
 #include <span>
 #include <vector>
 
-#include <lockstone/world.h>
-
 #include "core/dynamics/impact/impact_island.h"
+#include "core/dynamics/islands/islands.h"
 #include "core/dynamics/state/contact_record.h"
+#include "core/world/phases/moved_bodies.h"
 #include "core/world/phases/step_records.h"
+#include "core/world/phases/tick_contacts.h"
+#include "core/world/world_data.h"
 
 namespace lockstone {
 
 class Bounces {
  public:
-  /// No function but this allocates. `world` outlives this.
-  Bounces(World::Impl& world, std::uint32_t body_capacity, std::uint32_t contact_capacity);
+  /// No function but this allocates. All outlive this; `islands` is scratch that others may share.
+  Bounces(WorldData& world, TickContacts& found, MovedBodies& moved, Islands& islands);
 
   /// Finds the groups among the contacts of this tick, and takes their contacts from the solver.
   void find();
@@ -42,7 +44,10 @@ class Bounces {
   void mark(std::size_t contact);
   void run_group(std::uint32_t index);
 
-  World::Impl& world_;
+  WorldData& world_;
+  TickContacts& found_;
+  MovedBodies& moved_;
+  Islands& islands_;
   std::vector<BouncingContact> contacts_;       // by group, a group by its least body
   std::vector<std::uint32_t> groups_, bodies_;  // a group is the index of its first contact
   std::vector<std::uint8_t> has_bounced_;       // by body

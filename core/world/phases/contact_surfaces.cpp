@@ -1,7 +1,8 @@
-// The combined surface of a contact's two sides.
+#include "core/world/phases/contact_surfaces.h"
 
-#include "core/geometry/convex/shape_properties.h"
-#include "core/world/world_impl.h"
+#include <algorithm>
+
+#include "core/dynamics/state/surface.h"
 
 namespace lockstone {
 namespace {
@@ -84,14 +85,39 @@ bool is_round(const BodyRecord& body) {
   return kind == ShapeKind::sphere || kind == ShapeKind::capsule;
 }
 
+Length rolling_radius(const WorldData& world, const Pair& pair) {
+  const bool round_a = is_round(world.bodies[pair.a]), round_b = is_round(world.bodies[pair.b]);
+  const bool use_a = round_a || (!round_b && world.bodies[pair.a].is_dynamic());
+  const bool use_b = round_b || (!round_a && world.bodies[pair.b].is_dynamic());
+  const Length a = world.cache.inner_radius(pair.a), b = world.cache.inner_radius(pair.b);
+  if (use_a && use_b) return min(a, b);
+  return use_a ? a : b;
+}
+
+// v + ω × r of a surface that moves in place.
+void add_drive(const WorldData& world, std::uint32_t body, const Vec3<Length>& arm,
+               std::int32_t sign, const Vec3<Unit>& normal, ContactSurface& surface) {
+  const BodyRecord& record = world.bodies[body];
+  const Vec3<SolverVelocity> along = rotate(world.cache.rotation(body), record.surface_velocity());
+  const Vec3<Rate> turning = rotate(world.cache.rotation(body), record.surface_turning());
+  std::int64_t speed[3];
+  for (int i = 0; i < 3; ++i) {
+    speed[i] = along[i].raw + speed_around(turning, arm, i);
+    surface.drive[i].raw = raw::saturate<std::int32_t>(surface.drive[i].raw + sign * speed[i]);
+  }
+  const std::int64_t about = raw::round_shift(dot(turning, normal).raw, Unit::frac_bits);
+  surface.twist_drive.raw = raw::saturate<std::int32_t>(surface.twist_drive.raw + sign * about);
+  follow_arc(about, speed, normal, world.def, sign, surface);
+}
+
 }  // namespace
 
 // A part's own surface, or the body's. Written in place: copying the whole struct right after its
 // fields were written would wait for all these stores.
-void World::Impl::find_surface(const Pair& pair, const Surface* surface_a, const Surface* surface_b,
-                               const Manifold& manifold, ContactSurface& both) const {
-  const BodyRecord& body_a = bodies[pair.a];
-  const BodyRecord& body_b = bodies[pair.b];
+void find_surface(const WorldData& world, const Pair& pair, const Surface* surface_a,
+                  const Surface* surface_b, const Manifold& manifold, ContactSurface& both) {
+  const BodyRecord& body_a = world.bodies[pair.a];
+  const BodyRecord& body_b = world.bodies[pair.b];
   const Surface a = surface_a != nullptr ? *surface_a : body_a.surface();
   const Surface b = surface_b != nullptr ? *surface_b : body_b.surface();
   both = {};
@@ -100,43 +126,18 @@ void World::Impl::find_surface(const Pair& pair, const Surface* surface_a, const
   both.tag_a = a.tag;
   both.tag_b = b.tag;
   if (const Coefficient rolling = combined_rolling(a, b); rolling > Coefficient{})
-    both.rolling_arm = rounded<Length>(rolling_radius(pair) * rolling);
+    both.rolling_arm = rounded<Length>(rolling_radius(world, pair) * rolling);
   if (manifold.count == 0) return;
   const auto add_side = [&](std::uint32_t index, const BodyRecord& body,
                             Vec3<Length> ManifoldPoint::*anchor, std::int32_t sign) {
     const bool turns = !body.is_dynamic() && body.spin != Vec3<Velocity>{};
     if (!turns && !body.has_surface_motion()) return;
     const Vec3<Length> arm = centre_of(manifold, anchor);
-    if (body.has_surface_motion()) add_drive(index, arm, sign, manifold.normal, both);
-    if (turns) add_arc(body, arm, sign, manifold.normal, def, both);
+    if (body.has_surface_motion()) add_drive(world, index, arm, sign, manifold.normal, both);
+    if (turns) add_arc(body, arm, sign, manifold.normal, world.def, both);
   };
   add_side(pair.a, body_a, &ManifoldPoint::anchor_a, -1);
   add_side(pair.b, body_b, &ManifoldPoint::anchor_b, 1);
-}
-
-Length World::Impl::rolling_radius(const Pair& pair) const {
-  const bool round_a = is_round(bodies[pair.a]), round_b = is_round(bodies[pair.b]);
-  const bool use_a = round_a || (!round_b && bodies[pair.a].is_dynamic());
-  const bool use_b = round_b || (!round_a && bodies[pair.b].is_dynamic());
-  const Length a = cache.inner_radius(pair.a), b = cache.inner_radius(pair.b);
-  if (use_a && use_b) return min(a, b);
-  return use_a ? a : b;
-}
-
-// v + ω × r of a surface that moves in place.
-void World::Impl::add_drive(std::uint32_t body, const Vec3<Length>& arm, std::int32_t sign,
-                            const Vec3<Unit>& normal, ContactSurface& surface) const {
-  const BodyRecord& record = bodies[body];
-  const Vec3<SolverVelocity> along = rotate(cache.rotation(body), record.surface_velocity());
-  const Vec3<Rate> turning = rotate(cache.rotation(body), record.surface_turning());
-  std::int64_t speed[3];
-  for (int i = 0; i < 3; ++i) {
-    speed[i] = along[i].raw + speed_around(turning, arm, i);
-    surface.drive[i].raw = raw::saturate<std::int32_t>(surface.drive[i].raw + sign * speed[i]);
-  }
-  const std::int64_t about = raw::round_shift(dot(turning, normal).raw, Unit::frac_bits);
-  surface.twist_drive.raw = raw::saturate<std::int32_t>(surface.twist_drive.raw + sign * about);
-  follow_arc(about, speed, normal, def, sign, surface);
 }
 
 }  // namespace lockstone

@@ -11,7 +11,10 @@
 #include "core/dynamics/body/motion.h"
 #include "core/dynamics/impact/impact_response.h"
 #include "core/math/roots.h"
-#include "core/world/world_impl.h"
+#include "core/world/derived/quantities.h"
+#include "core/world/phases/contact_surfaces.h"
+#include "core/world/phases/fronts.h"
+#include "core/world/phases/passes.h"
 
 namespace lockstone {
 namespace {
@@ -92,29 +95,36 @@ bool may_turn_by_half(const BodyRecord& body, const Mat3& rotation, const TimeSt
 
 }  // namespace
 
-ContinuousCollision::ContinuousCollision(World::Impl& world, const WorldDef& def)
-    : world_(world), far_movers_(def.body_capacity) {
-  joined_movers_.reserve(def.joint_capacity == 0 ? 0 : def.body_capacity);
-  sweepers_.reserve(def.body_capacity);
-  struck_.reserve(def.body_capacity);
-  impacts_.reserve(def.body_capacity);
+ContinuousCollision::ContinuousCollision(WorldData& world, MovedBodies& moved, NarrowPhase& narrow,
+                                         Waking& waking, TriggerPasses& passes)
+    : world_(world),
+      moved_(moved),
+      narrow_(narrow),
+      waking_(waking),
+      passes_(passes),
+      far_movers_(world.def.body_capacity) {
+  const std::uint32_t capacity = world.def.body_capacity;
+  joined_movers_.reserve(world.def.joint_capacity == 0 ? 0 : capacity);
+  sweepers_.reserve(capacity);
+  struck_.reserve(capacity);
+  impacts_.reserve(capacity);
 }
 
 void ContinuousCollision::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::continuous);
   impacts_.clear();
-  world_.passes.begin();
+  passes_.begin();
   list_sweepers();
-  for (const std::uint32_t body : world_.moved) {
+  for (const std::uint32_t body : moved_.bodies()) {
     if ((far_movers_[body] & (k_far_mover | k_swept_over)) == 0) continue;
     ++report.continuous_bodies;
     follow(body, report);
   }
   if (world_.triggers.count() != 0)
     for (const Sweeper& each : sweepers_)
-      world_.passes.note(each.body, motion_in_tick(each.body), {}, k_whole_tick);
-  world_.hold_before_fronts();
-  if (world_.passes.overflowed()) report.status = Status::capacity_exhausted;
+      passes_.note(each.body, motion_in_tick(each.body), {}, k_whole_tick);
+  if (narrow_.knows_triangles()) hold_before_fronts(world_, moved_);
+  if (passes_.overflowed()) report.status = Status::capacity_exhausted;
 }
 
 // Again when an impact changes how a body turns before its own way is looked at.
@@ -124,7 +134,7 @@ void ContinuousCollision::note_far_mover(std::uint32_t body) {
 }
 
 bool ContinuousCollision::went_far(std::uint32_t body) const {
-  return goes_far(body, world_.starts[body], world_.bodies[body]);
+  return goes_far(body, moved_.start(body), world_.bodies[body]);
 }
 
 // Farther than half its thickness: a shorter motion cannot take it through anything.
@@ -157,11 +167,11 @@ bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
 // takes it along from the first time on: a straight way ends behind a blade that turns.
 void ContinuousCollision::follow(std::uint32_t body, StepReport& report) {
   BodyRecord& record = world_.bodies[body];
-  const Transform& start = world_.starts[body];
+  const Transform& start = moved_.start(body);
   bool is_free = true;
   visit_obstacles(body, {start, record.position - start.position, {}},
                   [&](std::uint32_t) { is_free = false; });
-  if (is_free) return world_.passes.note(body, motion_in_tick(body), {}, k_whole_tick);
+  if (is_free) return passes_.note(body, motion_in_tick(body), {}, k_whole_tick);
   if (!world_.joint_graph.neighbours(body).empty()) return follow_joined(body, report);
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = world_.cache.rotation(body);
@@ -171,7 +181,7 @@ void ContinuousCollision::follow(std::uint32_t body, StepReport& report) {
   std::uint32_t met = body;
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
-    world_.passes.note(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
+    passes_.note(body, motion, done, next.impact.hit ? next.impact.fraction : k_whole_tick);
     if (!next.impact.hit && i > 0 && carries(met)) push_out(body, met);
     if (!next.impact.hit) return;
     ++report.impacts;
@@ -201,7 +211,7 @@ void ContinuousCollision::follow(std::uint32_t body, StepReport& report) {
 void ContinuousCollision::push_out(std::uint32_t body, std::uint32_t sweeper) {
   BodyRecord& record = world_.bodies[body];
   const BodyRecord& other = world_.bodies[sweeper];
-  PairScratch& scratch = world_.narrow.scratch(0);
+  PairScratch& scratch = narrow_.scratch();
   collide_bodies(place(record.shape(), world_.cache.asset(body), record.position,
                        to_matrix(record.orientation)),
                  place(other.shape(), world_.cache.asset(sweeper), other.position,
@@ -228,7 +238,7 @@ void ContinuousCollision::push_out(std::uint32_t body, std::uint32_t sweeper) {
 // impact to the others.
 void ContinuousCollision::follow_joined(std::uint32_t body, StepReport& report) {
   if (!find_impact(body, motion_in_tick(body), {}).impact.hit)
-    return world_.passes.note(body, motion_in_tick(body), {}, k_whole_tick);
+    return passes_.note(body, motion_in_tick(body), {}, k_whole_tick);
   list_joined(body);
   NextImpact first;
   std::uint32_t body_of_first = body;
@@ -244,7 +254,7 @@ void ContinuousCollision::follow_joined(std::uint32_t body, StepReport& report) 
   for (const std::uint32_t each : joined_movers_) {
     const Sweep motion = motion_in_tick(each);
     const Transform pose = pose_at(motion, first.impact.fraction);
-    world_.passes.note(each, motion, {}, first.impact.fraction);
+    passes_.note(each, motion, {}, first.impact.fraction);
     stop_at(world_.bodies[each], pose, world_.cache.rotation(each));
     far_movers_[each] = 0;
   }
@@ -269,7 +279,7 @@ void ContinuousCollision::list_joined(std::uint32_t body) {
 
 Sweep ContinuousCollision::motion_in_tick(std::uint32_t body) const {
   const BodyRecord& record = world_.bodies[body];
-  const Transform& start = world_.starts[body];
+  const Transform& start = moved_.start(body);
   return {start, record.position - start.position,
           turn_since(start.orientation, world_.cache.rotation(body), record, world_.time_step,
                      k_whole_tick)};
@@ -295,12 +305,6 @@ Sweep ContinuousCollision::motion_of(std::uint32_t body, Unit done) const {
   const BodyRecord& record = world_.bodies[body];
   if (!record.is_awake()) return {pose_of(record), {}, {}};
   return rest_of(motion_in_tick(body), done);
-}
-
-bool World::Impl::is_obstacle(std::uint32_t body, std::uint32_t other) const {
-  const BodyRecord& obstacle = bodies[other];
-  return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
-         !are_joined(body, other);
 }
 
 // The obstacles at which a body may stop on its path.
@@ -354,7 +358,7 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   const std::uint32_t other = next.body;
   BodyRecord& a = world_.bodies[body];
   BodyRecord& b = world_.bodies[other];
-  PairScratch& scratch = world_.narrow.scratch(0);
+  PairScratch& scratch = narrow_.scratch();
   const Sweep other_motion = motion_of(other, done);
   const Mat3 rotation_a = to_matrix(a.orientation),
              rotation_b = to_matrix(other_motion.start.orientation);
@@ -371,8 +375,8 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
-    world_.find_surface({body, other}, contact.surface_a, contact.surface_b, contact.manifold,
-                        surface);
+    find_surface(world_, {body, other}, contact.surface_a, contact.surface_b, contact.manifold,
+                 surface);
     tag_a = surface.tag_a;
     tag_b = surface.tag_b;
     approach =
@@ -387,13 +391,13 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   a.velocity += to_come;
   (void)limit_speed(a, inertia_a, world_.def.speed_limit);
   if (b.is_dynamic()) (void)limit_speed(b, inertia_b, world_.def.speed_limit);
-  world_.body_hashes.mark(other);
+  world_.hashes.bodies.mark(other);
   if (b.is_dynamic()) {
     const auto swept_over = static_cast<std::uint8_t>(far_movers_[other] & k_swept_over);
     note_far_mover(other);
     far_movers_[other] |= swept_over;
   }
-  if (b.is_dynamic() && b.is_asleep()) world_.to_wake.push_back(other);
+  if (b.is_dynamic() && b.is_asleep()) waking_.note_hit(other);
   if (impacts_.size() < world_.def.body_capacity) {
     impacts_.push_back(
         {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});

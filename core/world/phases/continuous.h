@@ -12,8 +12,17 @@
 #include "core/collision/broad_phase/bounds.h"
 #include "core/collision/continuous/first_impact.h"
 #include "core/dynamics/state/body_record.h"
+#include "core/world/phases/moved_bodies.h"
+#include "core/world/phases/narrow_phase.h"
+#include "core/world/sleep/waking.h"
+#include "core/world/world_data.h"
 
 namespace lockstone {
+
+class TriggerPasses;
+
+/// A ball in a corner meets three walls; a body with this many impacts in a tick stays where it is.
+inline constexpr int k_max_impacts = 4;
 
 /// Marks of a body that moved in this tick.
 enum FarMover : std::uint8_t {
@@ -37,8 +46,9 @@ struct Sweeper {
 
 class ContinuousCollision {
  public:
-  /// No function but this allocates. `world` outlives this.
-  ContinuousCollision(World::Impl& world, const WorldDef& def);
+  /// No function but this allocates. All outlive this.
+  ContinuousCollision(WorldData& world, MovedBodies& moved, NarrowPhase& narrow, Waking& waking,
+                      TriggerPasses& passes);
 
   /// Marks a body that moved far, after its move. Again when an impact changes its turning before
   /// its own way is examined.
@@ -76,7 +86,11 @@ class ContinuousCollision {
   void push_out(std::uint32_t body, std::uint32_t sweeper);
   void carry_joined(std::uint32_t body, const Sweep& by);
 
-  World::Impl& world_;
+  WorldData& world_;
+  MovedBodies& moved_;
+  NarrowPhase& narrow_;
+  Waking& waking_;
+  TriggerPasses& passes_;
   std::vector<std::uint8_t> far_movers_;      // FarMover, by body that moved
   std::vector<std::uint32_t> joined_movers_;  // bodies that stop together
   std::vector<Sweeper> sweepers_;             // of this tick, by body

@@ -1,9 +1,7 @@
-// Keeps the centre of a thin body on the front side of one-sided triangles, so that they still meet
-// it.
+#include "core/world/phases/fronts.h"
 
 #include "core/collision/continuous/face_clamp.h"
 #include "core/dynamics/body/motion.h"
-#include "core/world/world_impl.h"
 
 namespace lockstone {
 namespace {
@@ -19,7 +17,7 @@ PlacedShape moved_by(PlacedShape placed, const Vec3<Position>& way) {
 
 // The first front that the body has passed on its way from `start`. Rotations are still those of
 // the tick's beginning.
-FrontPush find_front(const World::Impl& world, std::uint32_t body, const Vec3<Position>& start) {
+FrontPush find_front(const WorldData& world, std::uint32_t body, const Vec3<Position>& start) {
   const BodyRecord& record = world.bodies[body];
   const Asset* asset = world.cache.asset(body);
   const Bounds way = bounds_of_way(start, record.position, bounding_radius(record.shape(), asset));
@@ -45,26 +43,27 @@ FrontPush find_front(const World::Impl& world, std::uint32_t body, const Vec3<Po
   return first;
 }
 
-}  // namespace
-
-void World::Impl::hold_before_fronts() {
-  if (narrow.scratch(0).triangles == nullptr) return;
-  parallel.for_each(each_moved(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
-    for (std::uint32_t i = first; i < end; ++i) {
-      if (cache.inner_radius(moved[i]) <= k_thin_radius) hold_before_fronts(moved[i]);
-    }
-  });
-}
-
-void World::Impl::hold_before_fronts(std::uint32_t body) {
-  BodyRecord& record = bodies[body];
+void hold_before_fronts(WorldData& world, std::uint32_t body, const Vec3<Position>& start) {
+  BodyRecord& record = world.bodies[body];
   if (!record.is_dynamic() || record.is_trigger()) return;
   for (int i = 1; i <= k_most_fronts; ++i) {
-    const FrontPush front = find_front(*this, body, starts[body].position);
+    const FrontPush front = find_front(world, body, start);
     if (!front.found) return;
     record.position += i < k_most_fronts ? front.by : front.back;
     (void)limit_position(record);
   }
+}
+
+}  // namespace
+
+void hold_before_fronts(WorldData& world, const MovedBodies& moved) {
+  world.parallel.for_each(
+      moved.pieces(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
+        for (const std::uint32_t body : moved.bodies().subspan(first, end - first)) {
+          if (world.cache.inner_radius(body) <= k_thin_radius)
+            hold_before_fronts(world, body, moved.start(body).position);
+        }
+      });
 }
 
 }  // namespace lockstone

@@ -8,7 +8,7 @@
 
 #include "core/collision/continuous/first_impact.h"
 #include "core/collision/continuous/relative_path.h"
-#include "core/world/world_impl.h"
+#include "core/world/phases/continuous.h"
 
 namespace lockstone {
 namespace {
@@ -24,10 +24,10 @@ Sweep first_part(const Sweep& motion, Unit fraction) {
 
 }  // namespace
 
-TriggerPasses::TriggerPasses(World::Impl& world, ContinuousCollision& continuous,
-                             std::uint32_t body_capacity)
-    : world_(world), continuous_(continuous) {
-  passes_.reserve(body_capacity);
+TriggerPasses::TriggerPasses(WorldData& world, const TickContacts& found,
+                             const ContinuousCollision& continuous)
+    : world_(world), found_(found), continuous_(continuous) {
+  passes_.reserve(world.def.body_capacity);
 }
 
 void TriggerPasses::begin() {
@@ -80,7 +80,7 @@ void TriggerPasses::note_pair(const Pair& pair, const Sweep& a, const Sweep& b) 
   const auto bodies_of = [](const ContactRecord& record) {
     return Pair{record.body_a, record.body_b};
   };
-  if (std::ranges::binary_search(world_.new_contacts, key, {}, bodies_of)) return;
+  if (std::ranges::binary_search(found_.records, key, {}, bodies_of)) return;
   const Shape shape_a = world_.bodies[pair.a].shape(), shape_b = world_.bodies[pair.b].shape();
   if (!touch_on_way({shape_a, world_.cache.asset(pair.a), a},
                     {shape_b, world_.cache.asset(pair.b), b}))
@@ -92,23 +92,22 @@ void TriggerPasses::note_pair(const Pair& pair, const Sweep& a, const Sweep& b) 
 }
 
 // An entry and an exit for each pair that is apart again, in the order of the pairs.
-void TriggerPasses::add_events() {
+void TriggerPasses::add_events(std::vector<ContactEvent>& events) {
   std::ranges::sort(passes_);
   passes_.erase(std::unique(passes_.begin(), passes_.end()), passes_.end());
   std::erase_if(passes_, [&](const Pair& pair) {
     return bodies_overlap(world_.placed(pair.a), world_.placed(pair.b));
   });
-  std::size_t from = world_.events.size();
+  std::size_t from = events.size();
   std::size_t to = from + 2 * passes_.size();
-  world_.events.resize(to);
+  events.resize(to);
   for (std::size_t i = passes_.size(); i-- > 0;) {
     const Pair& pair = passes_[i];
-    while (from > 0 &&
-           pair < Pair{world_.events[from - 1].a.index, world_.events[from - 1].b.index})
-      world_.events[--to] = world_.events[--from];
+    while (from > 0 && pair < Pair{events[from - 1].a.index, events[from - 1].b.index})
+      events[--to] = events[--from];
     for (const EventKind kind : {EventKind::trigger_exit, EventKind::trigger_enter})
-      world_.events[--to] = {kind, world_.handle_of(pair.a),  world_.handle_of(pair.b),
-                             {},   world_.bodies[pair.a].tag, world_.bodies[pair.b].tag};
+      events[--to] = {kind, world_.handle_of(pair.a),  world_.handle_of(pair.b),
+                      {},   world_.bodies[pair.a].tag, world_.bodies[pair.b].tag};
   }
 }
 

@@ -3,17 +3,21 @@
 
 #include "core/world/phases/pendulums.h"
 
+#include <algorithm>
+
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_rows.h"
 #include "core/dynamics/joint/pivot_integrator.h"
-#include "core/world/world_impl.h"
 
 namespace lockstone {
 
-Pendulums::Pendulums(World::Impl& world, std::uint32_t body_capacity, std::uint32_t joint_capacity)
-    : world_(world), place_of_(body_capacity), touches_(body_capacity) {
-  pendulums_.reserve(std::min(body_capacity, joint_capacity));
-  solved_joints_.reserve(joint_capacity);
+Pendulums::Pendulums(WorldData& world, const TickContacts& found)
+    : world_(world),
+      found_(found),
+      place_of_(world.def.body_capacity),
+      touches_(world.def.body_capacity) {
+  pendulums_.reserve(std::min(world.def.body_capacity, world.def.joint_capacity));
+  solved_joints_.reserve(world.def.joint_capacity);
 }
 
 void Pendulums::find() {
@@ -28,7 +32,7 @@ void Pendulums::find() {
   // Only marks of bodies that may swing are read.
   for (const Pendulum& swing : pendulums_)
     touches_[swing.body] = 0;
-  for (const ContactRecord& record : world_.new_contacts) {
+  for (const ContactRecord& record : found_.records) {
     if (!record.is_trigger()) touches_[record.body_a] = touches_[record.body_b] = 1;
   }
   std::erase_if(pendulums_, [&](const Pendulum& swing) { return touches_[swing.body] != 0; });

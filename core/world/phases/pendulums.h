@@ -2,22 +2,21 @@
 // integrator moves them (pivot_integrator.h); the solver leaves out their joints.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <lockstone/world.h>
-
 #include "core/dynamics/joint/pivot_integrator.h"
 #include "core/dynamics/state/joint_record.h"
+#include "core/world/phases/tick_contacts.h"
+#include "core/world/world_data.h"
 
 namespace lockstone {
 
 class Pendulums {
  public:
-  /// No function but this allocates. `world` outlives this.
-  Pendulums(World::Impl& world, std::uint32_t body_capacity, std::uint32_t joint_capacity);
+  /// No function but this allocates. Both outlive this.
+  Pendulums(WorldData& world, const TickContacts& found);
 
   /// Finds the pendulums of this tick, after its contacts.
   void find();
@@ -37,7 +36,8 @@ class Pendulums {
   void look_for(const JointLink& link);
   [[nodiscard]] SwingPivot pivot_of(const Pendulum& swing) const;
 
-  World::Impl& world_;
+  WorldData& world_;
+  const TickContacts& found_;
   std::vector<Pendulum> pendulums_;
   std::vector<std::uint32_t> place_of_;   // by body: in `pendulums_`, + 1
   std::vector<std::uint8_t> touches_;     // by body

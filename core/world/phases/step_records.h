@@ -21,10 +21,6 @@ struct Push {
   Frame frame{};
 };
 
-struct MoveCounts {
-  std::uint32_t free_bodies = 0, axis_turns = 0, saturations = 0;
-};
-
 /// A contact that bounces within the tick; a group of them is named by its least body.
 struct BouncingContact {
   std::uint32_t root = 0;

@@ -7,7 +7,6 @@
 #include "core/collision/continuous/first_impact.h"
 #include "core/dynamics/body/motion.h"
 #include "core/world/phases/continuous.h"
-#include "core/world/world_impl.h"
 
 namespace lockstone {
 
@@ -26,7 +25,7 @@ Bounds ContinuousCollision::bounds_on_way(std::uint32_t body, const Sweep& motio
 // sweepers are looked for in the list and not there.
 void ContinuousCollision::list_sweepers() {
   sweepers_.clear();
-  for (const std::uint32_t body : world_.moved)
+  for (const std::uint32_t body : moved_.bodies())
     if ((far_movers_[body] & k_sweeper) != 0)
       sweepers_.push_back({body, bounds_on_way(body, motion_in_tick(body))});
   for (const Sweeper& each : sweepers_) {
@@ -50,7 +49,7 @@ void ContinuousCollision::wake_struck() {
     if (!record.is_dynamic() && !record.is_trigger()) find_struck(body);
   }
   for (const std::uint32_t body : struck_)
-    world_.list_to_wake(body);
+    waking_.list(body);
 }
 
 void ContinuousCollision::find_struck(std::uint32_t sweeper) {

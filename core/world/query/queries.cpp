@@ -44,8 +44,8 @@ bool is_nearer(const Hit& a, const Hit& b) {
 
 // A ray on its way through a world: calls `found(hit)` for each body that it meets within the
 // fraction that `limit` still allows.
-template <class World, class Found>
-void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, const Unit& limit,
+template <class Found>
+void walk_ray(const WorldData& world, const Ray& ray, const QueryFilter& filter, const Unit& limit,
               Found&& found) {
   if (!is_in_reach(ray.translation))
     misused("World::cast_ray…: the translation is above k_max_cast, 512 m, along an axis");
@@ -67,13 +67,27 @@ void walk_ray(const World& world, const Ray& ray, const QueryFilter& filter, con
   world.broad_phase.traverse(filter.mask, test, visit);
 }
 
+// A convex shape to ask with. One that is not, or that names an unknown asset, is a programmer's
+// error.
+PlacedShape placed_query(const WorldData& world, const Shape& shape, const Transform& pose) {
+  if (validate(shape) != Status::ok)
+    misused("a query of World: a size of the shape is out of range; ask validate(shape) first");
+  const Asset* asset = is_asset(shape.kind) ? world.assets->find(shape.asset) : nullptr;
+  const bool convex =
+      is_primitive(shape.kind) || (asset != nullptr && asset->polytope() != nullptr);
+  if (!convex)
+    misused(
+        "a query of World: the shape must be a sphere, capsule, box, or a hull of World::assets()");
+  return {shape, asset, pose.position, to_matrix(normalized(pose.orientation)), pose.position};
+}
+
 // The same for a convex shape on its way.
-template <class World, class Found>
-void walk_shape(const World& world, const ShapeCast& cast, const QueryFilter& filter,
+template <class Found>
+void walk_shape(const WorldData& world, const ShapeCast& cast, const QueryFilter& filter,
                 const Unit& limit, Found&& found) {
   if (!is_in_reach(cast.translation))
     misused("World::cast_shape…: the translation is above k_max_cast, 512 m, along an axis");
-  const PlacedShape shape = world.placed_query(cast.shape, cast.start);
+  const PlacedShape shape = placed_query(world, cast.shape, cast.start);
   const WorldBox box = world_box(shape);
   Vec3<Length> reach;
   for (int i = 0; i < 3; ++i) {
@@ -192,8 +206,8 @@ void World::cast_shapes(std::span<const ShapeCast> casts, std::span<ShapeHit> ou
 
 std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,
                                  std::span<BodyHandle> out, const QueryFilter& filter) const {
-  const Impl& world = *impl_;
-  const PlacedShape probe = world.placed_query(shape, pose);
+  const WorldData& world = *impl_;
+  const PlacedShape probe = placed_query(world, shape, pose);
   const Bounds reach = bounds_of(world_box(probe));
   std::size_t count = 0;
   const auto test = [&](const Bounds& bounds) { return overlap(reach, bounds); };
@@ -210,8 +224,8 @@ std::size_t World::overlap_shape(const Shape& shape, const Transform& pose,
 
 std::size_t World::contacts_of_shape(const Shape& shape, const Transform& pose, Length margin,
                                      std::span<ShapeContact> out, const QueryFilter& filter) const {
-  const Impl& world = *impl_;
-  const PlacedShape probe = world.placed_query(shape, pose);
+  const WorldData& world = *impl_;
+  const PlacedShape probe = placed_query(world, shape, pose);
   WorldBox box = world_box(probe);
   for (int i = 0; i < 3; ++i) {
     box.lower[i] -= rounded<Position>(margin);
@@ -255,7 +269,7 @@ ClosestHit World::closest_point(const Vec3<Position>& point, Length reach,
                                 const QueryFilter& filter) const {
   if (reach < Length{} || reach > k_max_cast)
     misused("World::closest_point: `reach` must be 0 … k_max_cast, 512 m");
-  const Impl& world = *impl_;
+  const WorldData& world = *impl_;
   ClosestHit best;
   best.distance = reach;
   const auto around = [&](Length r) {
@@ -278,18 +292,6 @@ ClosestHit World::closest_point(const Vec3<Position>& point, Length reach,
   world.broad_phase.traverse(filter.mask, test, visit);
   if (best.body.is_null()) best.distance = {};
   return best;
-}
-
-PlacedShape World::Impl::placed_query(const Shape& shape, const Transform& pose) const {
-  if (validate(shape) != Status::ok)
-    misused("a query of World: a size of the shape is out of range; ask validate(shape) first");
-  const Asset* asset = is_asset(shape.kind) ? assets->find(shape.asset) : nullptr;
-  const bool convex =
-      is_primitive(shape.kind) || (asset != nullptr && asset->polytope() != nullptr);
-  if (!convex)
-    misused(
-        "a query of World: the shape must be a sphere, capsule, box, or a hull of World::assets()");
-  return {shape, asset, pose.position, to_matrix(normalized(pose.orientation)), pose.position};
 }
 
 }  // namespace lockstone

@@ -1,11 +1,9 @@
-// Loading. Derived data is kept where the data it follows from did not change: a rollback finds
-// most bodies near where it left them.
-
 #include <algorithm>
 #include <cstring>
 
 #include "core/world/state/delta.h"
 #include "core/world/state/snapshot_format.h"
+#include "core/world/state/state_loader.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -37,107 +35,83 @@ bool same_link(const JointRecord& a, const JointRecord& b) {
   return a.kind == b.kind && a.flags == b.flags && a.body_a == b.body_a && a.body_b == b.body_b;
 }
 
+bool is_awake_pair(const WorldData& world, const ContactRecord& contact) {
+  return world.awake.has(contact.body_a) || world.awake.has(contact.body_b);
+}
+
 }  // namespace
 
-Status World::load(SnapshotKind kind, ByteView bytes) {
-  return kind == SnapshotKind::native ? impl_->load_native(bytes) : impl_->load_canonical(bytes);
-}
-
-Status World::load_delta(ByteView base, ByteView delta) {
-  Result<DeltaState<WorldStores>> state = DeltaState<WorldStores>::open(base, delta, impl_->def);
-  if (!state.ok()) return state.status();
-  impl_->take(state.value().header, state.value());
-  return Status::ok;
-}
-
-Status World::Impl::load_native(ByteView bytes) {
-  const Result<NativeState<WorldStores>> state = NativeState<WorldStores>::open(bytes, def);
-  if (!state.ok()) return state.status();
-  take(state.value().header, state.value());
-  return Status::ok;
-}
-
-Status World::Impl::load_canonical(ByteView bytes) {
-  const Result<SnapshotView> view = SnapshotView::open(bytes, def, *assets);
-  if (!view.ok()) return view.status();
-  if (const Status status = view.value().check(); status != Status::ok) return status;
-  const CanonicalState state{view.value()};
-  take(view.value().header, state);
-  return Status::ok;
-}
-
-// Each store's records are read once, in order.
 template <class State>
-void World::Impl::take(const WorldHeader& loaded, State&& state) {
-  forget_events();
-  remembers_manifolds = false;
+void StateLoader::load(const WorldHeader& loaded, State&& state) {
+  world_.forget_events();
+  world_.contacts.forget_manifolds();
   const bool same_bodies = take_bodies(loaded.body_limit, state);
   const bool same_links = take_joints(loaded.joint_limit, state);
-  header = loaded;
-  new_contacts.resize(header.contact_count);
-  for (std::uint32_t i = 0; i < header.contact_count; ++i)
-    state.template read<ContactStore>(i, new_contacts[i]);
-  if (is_derived_stale) return rebuild_derived();
+  world_.header = loaded;
+  world_.found.records.resize(world_.header.contact_count);
+  for (std::uint32_t i = 0; i < world_.header.contact_count; ++i)
+    state.template read<ContactStore>(i, world_.found.records[i]);
+  if (world_.is_derived_stale) return rebuild_from(world_.found.records);
   take_contacts();
-  refresh_moved();
-  broad_phase.settle();
-  joint_graph.forget_awake_list();
-  if (!same_bodies || !same_links) rebuild_joint_links();
+  world_.refresh_moved();
+  world_.broad_phase.settle();
+  world_.joint_graph.forget_awake_list();
+  if (!same_bodies || !same_links) world_.joint_registry.rebuild();
 }
 
 // Returns whether every changed body keeps its make (`same_make`), so that only the data of its
 // pose is derived again. `moved` lists these bodies.
 template <class State>
-bool World::Impl::take_bodies(std::uint32_t limit, State& state) {
-  const std::uint32_t old_limit = std::min(header.body_limit, def.body_capacity);
-  moved.clear();
-  free_hint = 0;
-  asleep_count = 0;
+bool StateLoader::take_bodies(std::uint32_t limit, State& state) {
+  const std::uint32_t old_limit = std::min(world_.header.body_limit, world_.def.body_capacity);
+  world_.moved.clear();
+  world_.body_registry.rebuild();
+  std::uint32_t asleep = 0;
   bool same = true;
   BodyRecord record;
   for (std::uint32_t i = 0; i < limit; ++i) {
     state.template read<BodyStore>(i, record);
-    if (record.is_asleep()) ++asleep_count;
-    if (!same_bytes(bodies[i], record)) same &= take_body(i, record);
+    if (record.is_asleep()) ++asleep;
+    if (!same_bytes(world_.bodies[i], record)) same &= take_body(i, record);
   }
   for (std::uint32_t i = limit; i < old_limit; ++i)
     same &= take_body(i, {});
-  if (limit < old_limit) body_hashes.clear();
+  if (limit < old_limit) world_.hashes.bodies.clear();
+  world_.sleep_flags.set_asleep_count(asleep);
   return same;
 }
 
-bool World::Impl::take_body(std::uint32_t body, const BodyRecord& record) {
-  const bool same = record.exists() && same_make(bodies[body], record);
-  bodies[body] = record;
-  body_hashes.mark(body);
-  if (is_derived_stale) return same;
-  if (changed_sleep.has(body) != record.has_changed_sleep()) changed_sleep.flip(body);
+bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
+  const bool same = record.exists() && same_make(world_.bodies[body], record);
+  world_.bodies[body] = record;
+  world_.hashes.bodies.mark(body);
+  if (world_.is_derived_stale) return same;
+  world_.sleep_flags.note_loaded(body);
   if (same) {
-    cache.refresh_contact_rotation(body, record);
-    moved.push_back(body);
+    world_.cache.refresh_contact_rotation(body, record);
+    world_.moved.add(body);
     return true;
   }
-  if (awake.has(body) != record.is_awake()) awake.flip(body);
   if (record.exists()) {
-    cache.set_asset(body, assets->find(record.asset));
-    refresh(body);
+    world_.cache.set_asset(body, world_.assets->find(record.asset));
+    world_.refresh(body);
   } else {
-    broad_phase.remove(body);
-    triggers.erase(body);
+    world_.broad_phase.remove(body);
+    world_.triggers.erase(body);
   }
   return false;
 }
 
 template <class State>
-bool World::Impl::take_joints(std::uint32_t limit, State& state) {
-  const std::uint32_t old_limit = std::min(header.joint_limit, def.joint_capacity);
+bool StateLoader::take_joints(std::uint32_t limit, State& state) {
+  const std::uint32_t old_limit = std::min(world_.header.joint_limit, world_.def.joint_capacity);
   bool same = true;
   JointRecord record;
   const auto take_joint = [&](std::uint32_t joint) {
-    if (same_bytes(joints[joint], record)) return;
-    same &= same_link(joints[joint], record);
-    joints[joint] = record;
-    joint_hashes.mark(joint);
+    if (same_bytes(world_.joints[joint], record)) return;
+    same &= same_link(world_.joints[joint], record);
+    world_.joints[joint] = record;
+    world_.hashes.joints.mark(joint);
   };
   for (std::uint32_t i = 0; i < limit; ++i) {
     state.template read<JointStore>(i, record);
@@ -146,35 +120,30 @@ bool World::Impl::take_joints(std::uint32_t limit, State& state) {
   record = {};
   for (std::uint32_t i = limit; i < old_limit; ++i)
     take_joint(i);
-  if (limit < old_limit) joint_hashes.clear();
+  if (limit < old_limit) world_.hashes.joints.clear();
   return same;
 }
 
-// From new_contacts. Those of sleeping bodies are mostly unchanged.
-void World::Impl::take_contacts() {
-  if (asleep_count != 0 && are_frozen(new_contacts)) {
-    active_contacts = 0;
-    for (const ContactRecord& contact : new_contacts)
-      if (is_awake_pair(contact)) contact_store[active_contacts++] = contact;
-    return;
-  }
-  if (asleep_count != 0 || frozen.count() != 0) return adopt_contacts(new_contacts);
-  std::copy(new_contacts.begin(), new_contacts.end(), contact_store.begin());
-  active_contacts = header.contact_count;
-}
-
-bool World::Impl::is_awake_pair(const ContactRecord& contact) const {
-  return awake.has(contact.body_a) || awake.has(contact.body_b);
+// From the records that the tick's contacts hold. Those of sleeping bodies are mostly unchanged.
+void StateLoader::take_contacts() {
+  const std::span<const ContactRecord> all = world_.found.records;
+  const auto is_awake = [&](std::uint32_t body) { return world_.awake.has(body); };
+  const bool any_asleep = world_.sleep_flags.asleep_count() != 0;
+  const bool all_frozen_stay = any_asleep ? are_frozen(all) : world_.contacts.frozen().count() == 0;
+  if (all_frozen_stay)
+    world_.contacts.adopt_active(all, is_awake);
+  else
+    world_.contacts.adopt(all, is_awake);
 }
 
 // Whether those of bodies of which none is awake are the frozen ones.
-bool World::Impl::are_frozen(std::span<const ContactRecord> all) const {
+bool StateLoader::are_frozen(std::span<const ContactRecord> all) const {
   bool same = true;
   const auto skip = [&] {
-    while (!all.empty() && is_awake_pair(all.front()))
+    while (!all.empty() && is_awake_pair(world_, all.front()))
       all = all.subspan(1);
   };
-  frozen.for_each(def.body_capacity, [&](const ContactRecord& record) {
+  world_.contacts.frozen().for_each(world_.def.body_capacity, [&](const ContactRecord& record) {
     if (!same) return;
     skip();
     same = !all.empty() && same_bytes(all.front(), record);
@@ -182,6 +151,69 @@ bool World::Impl::are_frozen(std::span<const ContactRecord> all) const {
   });
   skip();
   return same && all.empty();
+}
+
+// Manifolds, separating axes and hints of the last tick are forgotten as well.
+void StateLoader::rebuild() {
+  std::vector<ContactRecord>& all = world_.found.records;
+  all.clear();
+  world_.for_each_contact([&](const ContactRecord& contact) { all.push_back(contact); });
+  rebuild_from(all);
+}
+
+void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
+  world_.is_derived_stale = false;
+  world_.broad_phase.clear();
+  world_.hashes.bodies.clear();
+  world_.hashes.joints.clear();
+  world_.contacts.forget_manifolds();
+  world_.narrow.forget();
+  world_.body_registry.rebuild();
+  world_.triggers.clear();
+  world_.sleep_flags.rebuild();
+  for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
+    if (!world_.bodies[i].exists()) continue;
+    world_.cache.set_asset(i, world_.assets->find(world_.bodies[i].asset));
+    world_.refresh(i);
+  }
+  world_.contacts.adopt(contacts, [&](std::uint32_t body) { return world_.awake.has(body); });
+  world_.broad_phase.settle();
+  world_.joint_registry.rebuild();
+}
+
+namespace {
+
+Status load_native(World::Impl& world, ByteView bytes) {
+  const Result<NativeState<WorldStores>> state = NativeState<WorldStores>::open(bytes, world.def);
+  if (!state.ok()) return state.status();
+  StateLoader(world).load(state.value().header, state.value());
+  return Status::ok;
+}
+
+Status load_canonical(World::Impl& world, ByteView bytes) {
+  const Result<SnapshotView> view = SnapshotView::open(bytes, world.def, *world.assets);
+  if (!view.ok()) return view.status();
+  if (const Status status = view.value().check(); status != Status::ok) return status;
+  const CanonicalState state{view.value()};
+  StateLoader(world).load(view.value().header, state);
+  return Status::ok;
+}
+
+}  // namespace
+
+Status World::load(SnapshotKind kind, ByteView bytes) {
+  return kind == SnapshotKind::native ? load_native(*impl_, bytes) : load_canonical(*impl_, bytes);
+}
+
+Status World::load_delta(ByteView base, ByteView delta) {
+  Result<DeltaState<WorldStores>> state = DeltaState<WorldStores>::open(base, delta, impl_->def);
+  if (!state.ok()) return state.status();
+  StateLoader(*impl_).load(state.value().header, state.value());
+  return Status::ok;
+}
+
+void World::drop_derived() {
+  StateLoader(*impl_).rebuild();
 }
 
 }  // namespace lockstone

@@ -12,6 +12,22 @@
 
 namespace lockstone {
 
+namespace {
+
+std::size_t save_canonical(const WorldData& world, std::span<std::byte> out) {
+  ByteWriter writer(out);
+  writer.put(k_snapshot_magic);
+  writer.put(k_snapshot_version);
+  writer.put<std::uint16_t>(0);
+  writer.put(config_hash(world.def, world.assets->hash()));
+  write_canonical<WorldStores>(world, writer);
+  if (!writer.ok()) return 0;
+  writer.put(hash64(writer.written()));
+  return writer.ok() ? writer.size() : 0;
+}
+
+}  // namespace
+
 std::size_t World::snapshot_bytes_max(SnapshotKind kind) const {
   const std::size_t frame = kind == SnapshotKind::native ? 0 : k_snapshot_frame_bytes;
   return frame + sizeof(WorldHeader) + WorldStores::record_bytes_max(impl_->def);
@@ -19,19 +35,7 @@ std::size_t World::snapshot_bytes_max(SnapshotKind kind) const {
 
 std::size_t World::save(SnapshotKind kind, std::span<std::byte> out) const {
   return kind == SnapshotKind::native ? write_native<WorldStores>(*impl_, out)
-                                      : impl_->save_canonical(out);
-}
-
-std::size_t World::Impl::save_canonical(std::span<std::byte> out) const {
-  ByteWriter writer(out);
-  writer.put(k_snapshot_magic);
-  writer.put(k_snapshot_version);
-  writer.put<std::uint16_t>(0);
-  writer.put(config_hash(def, assets->hash()));
-  write_canonical<WorldStores>(*this, writer);
-  if (!writer.ok()) return 0;
-  writer.put(hash64(writer.written()));
-  return writer.ok() ? writer.size() : 0;
+                                      : save_canonical(*impl_, out);
 }
 
 std::size_t World::delta_bytes_max() const {

@@ -6,6 +6,8 @@
 #include "core/dynamics/body/tick_gain.h"
 #include "core/dynamics/state/limits.h"
 #include "core/geometry/convex/shape_properties.h"
+#include "core/world/derived/quantities.h"
+#include "core/world/state/record_checks.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/snapshot_format.h"
 #include "core/world/world_impl.h"

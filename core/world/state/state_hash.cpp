@@ -40,11 +40,12 @@ StateHash World::hash() const {
   Impl& world = *impl_;
   StateHash hash;
   hash.header = hash_record(world.header, 0);
-  world.visit(BodyStore{}, [&](auto bodies) { hash.bodies = world.body_hashes.sum(bodies); });
-  hash.contacts = world.frozen.hash() + hash_contacts(world.contacts());
-  world.visit(JointStore{}, [&](auto joints) { hash.joints = world.joint_hashes.sum(joints); });
-  hash.hashed =
-      1 + world.body_hashes.hashed() + world.active_contacts + world.joint_hashes.hashed();
+  world.visit(BodyStore{}, [&](auto bodies) { hash.bodies = world.hashes.bodies.sum(bodies); });
+  hash.contacts = world.contacts.frozen().hash() + hash_contacts(world.contacts.active());
+  world.visit(JointStore{}, [&](auto joints) { hash.joints = world.hashes.joints.sum(joints); });
+  hash.hashed = 1 + world.hashes.bodies.hashed() +
+                static_cast<std::uint32_t>(world.contacts.active().size()) +
+                world.hashes.joints.hashed();
   std::array<std::byte, 32> parts{};
   ByteWriter writer(parts);
   writer.put(hash.header);

@@ -10,6 +10,7 @@
 #include <lockstone/assert.h>
 
 #include "core/world/commands/command_checks.h"
+#include "core/world/state/record_checks.h"
 #include "core/world/state/stores.h"
 #include "core/world/world_impl.h"
 
@@ -79,7 +80,7 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     if (world_.awake.has(i) != (body.exists() && body.is_awake()))
       return {"the list of awake bodies", i};
     awake_count += world_.awake.has(i) ? 1U : 0U;
-    if (world_.changed_sleep.has(i) != body.has_changed_sleep())
+    if (world_.sleep_flags.has_changed(i) != body.has_changed_sleep())
       return {"the list of changed sleep", i};
     if (world_.broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
@@ -94,7 +95,8 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     if (world_.cache.drift(i) != drift_of(body)) return {"the drift of a body", i};
   }
   if (awake_count != world_.awake.count()) return {"the number of awake bodies", awake_count};
-  if (sleepers != world_.asleep_count) return {"the number of sleeping bodies", sleepers};
+  if (sleepers != world_.sleep_flags.asleep_count())
+    return {"the number of sleeping bodies", sleepers};
   return {};
 }
 
@@ -103,16 +105,16 @@ WorldFault StateValidator::fault_of_derived_contacts() const {
   const auto is_active = [&](const ContactRecord& record) {
     return world_.awake.has(record.body_a) || world_.awake.has(record.body_b);
   };
-  if (!std::ranges::all_of(world_.contacts(), is_active)) return {"an active contact of sleepers"};
+  if (!std::ranges::all_of(world_.contacts.active(), is_active))
+    return {"an active contact of sleepers"};
   WorldFault fault;
-  world_.frozen.for_each(world_.header.body_limit, [&](const ContactRecord& record) {
+  world_.contacts.frozen().for_each(world_.header.body_limit, [&](const ContactRecord& record) {
     if (is_active(record)) fault = {"a sleeping contact of a body that is awake", record.body_a};
     const WorldFault own = fault_of_contacts({&record, 1});
     if (own) fault = own;
   });
   if (fault) return fault;
-  if (world_.header.contact_count != world_.active_contacts + world_.frozen.count())
-    return {"the number of contacts"};
+  if (world_.header.contact_count != world_.contacts.count()) return {"the number of contacts"};
   return {};
 }
 
@@ -150,10 +152,10 @@ WorldFault StateValidator::fault_of_hashes() {
   };
   WorldFault fault;
   world_.visit(BodyStore{}, [&](auto records) {
-    if (world_.body_hashes.sum(records) != sum_of(BodyStore{})) fault = {"the hash of bodies"};
+    if (world_.hashes.bodies.sum(records) != sum_of(BodyStore{})) fault = {"the hash of bodies"};
   });
   world_.visit(JointStore{}, [&](auto records) {
-    if (world_.joint_hashes.sum(records) != sum_of(JointStore{})) fault = {"the hash of joints"};
+    if (world_.hashes.joints.sum(records) != sum_of(JointStore{})) fault = {"the hash of joints"};
   });
   return fault;
 }
@@ -170,9 +172,8 @@ WorldFault StateValidator::fault_of_pairs() const {
 }
 
 WorldFault StateValidator::fault_of_manifolds() const {
-  for (std::uint32_t i = 0; i < world_.slots.size(); ++i)
-    if (world_.slots[i] != NarrowSlots::k_none && !is_valid(world_.manifolds[world_.slots[i]]))
-      return {"a manifold", i};
+  for (std::uint32_t i = 0; i < world_.found.manifold_ids.size(); ++i)
+    if (!is_valid(world_.found.manifold_of(i))) return {"a manifold", i};
   return {};
 }
 
@@ -181,7 +182,7 @@ WorldFault StateValidator::find_fault() {
       !is_valid_gravity(world_.header.gravity))
     return {"the header"};
   for (const WorldFault& fault :
-       {fault_of_bodies(), fault_of_contacts(world_.contacts()), fault_of_joints()})
+       {fault_of_bodies(), fault_of_contacts(world_.contacts.active()), fault_of_joints()})
     if (fault) return fault;
   for (const WorldFault& fault :
        {fault_of_derived_bodies(), fault_of_derived_contacts(), fault_of_derived_joints()})
@@ -197,20 +198,20 @@ WorldFault StateValidator::find_fault_after(StepStage stage) {
       return fault_of_pairs();
     case StepStage::collide:
       if (const WorldFault fault = fault_of_manifolds()) return fault;
-      return fault_of_contacts(world_.new_contacts);
+      return fault_of_contacts(world_.found.records);
     case StepStage::prepare:
     case StepStage::solve:
       return {};
     case StepStage::store:
       if (const WorldFault fault = fault_of_joints()) return fault;
-      return fault_of_contacts(world_.new_contacts);
+      return fault_of_contacts(world_.found.records);
     case StepStage::move:
     case StepStage::continuous:
       return fault_of_bodies();
     case StepStage::refresh:
       return fault_of_derived_bodies();
     case StepStage::events:
-      return fault_of_contacts(world_.contacts());
+      return fault_of_contacts(world_.contacts.active());
     default:
       return find_fault();
   }
@@ -230,8 +231,7 @@ WorldFault World::find_fault() const {
 }
 
 void World::set_validation(bool each_stage) {
-  impl_->validates = each_stage;
-  impl_->set_stage_hook();
+  impl_->trace.validate(each_stage);
 }
 
 }  // namespace lockstone

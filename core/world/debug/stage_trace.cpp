@@ -1,6 +1,8 @@
 // A hash of the data after each stage of a step: pairs, manifolds, the solver's bodies, then
 // the state itself.
 
+#include "core/world/debug/stage_trace.h"
+
 #include <array>
 
 #include <lockstone/hash.h>
@@ -52,32 +54,32 @@ void add_manifold(const Manifold& manifold, Digest& digest) {
 
 }  // namespace
 
-std::uint64_t World::Impl::digest_of(StepStage stage) const {
+std::uint64_t StageTrace::digest_of(StepStage stage) const {
   Digest digest;
   const auto add_all = [&](auto store) {
     for_each_record<decltype(store)>(
-        *this, [&](std::uint32_t, const auto& record) { digest.add_record(record); });
+        world_, [&](std::uint32_t, const auto& record) { digest.add_record(record); });
   };
   const auto add_contacts = [&] {
-    for (const ContactRecord& contact : new_contacts)
+    for (const ContactRecord& contact : world_.found.records)
       digest.add_record(contact);
   };
   switch (stage) {
     case StepStage::find_pairs:
-      for (const Pair& pair : pairs)
+      for (const Pair& pair : world_.pairs)
         digest.add(pair.a, pair.b);
       break;
     case StepStage::collide:
     case StepStage::prepare:
-      for (const std::uint32_t slot : slots)
-        add_manifold(manifolds[slot], digest);
+      for (const std::uint32_t id : world_.found.manifold_ids)
+        add_manifold(world_.found.manifolds[id], digest);
       add_contacts();
       break;
     case StepStage::solve:
-      for (std::uint32_t body = 0; body < header.body_limit; ++body) {
-        const SolverBody* solved = awake.has(body) ? solver.find(body) : nullptr;
+      for (std::uint32_t body = 0; body < world_.header.body_limit; ++body) {
+        const SolverBody* solved = world_.awake.has(body) ? world_.solver.find(body) : nullptr;
         if (solved == nullptr) continue;
-        for (const Vec3<Velocity>& speed : solver.speeds(*solved))
+        for (const Vec3<Velocity>& speed : world_.solver.speeds(*solved))
           digest.add(speed);
       }
       break;
@@ -89,7 +91,7 @@ std::uint64_t World::Impl::digest_of(StepStage stage) const {
       add_all(BodyStore{});
       add_all(JointStore{});
       if (stage < StepStage::events) break;
-      for (const ContactEvent& event : events)
+      for (const ContactEvent& event : world_.events.list())
         digest.add(static_cast<std::uint8_t>(event.kind), event.a.index, event.b.index,
                    event.approach_speed.raw);
       break;
@@ -97,25 +99,40 @@ std::uint64_t World::Impl::digest_of(StepStage stage) const {
   return digest.value();
 }
 
+void StageTrace::begin_step() {
+  if (takes_digests_) digests_.before = digest_of(StepStage::move);
+}
+
+void StageTrace::after(StepStage stage) {
+  if (takes_digests_) digests_.after[static_cast<std::size_t>(stage)] = digest_of(stage);
+  if (validates_) StateValidator(world_).check_after(stage);
+}
+
 // Without anything to do after stages there is no hook.
-void World::Impl::set_stage_hook() {
+void StageTrace::set_hook() {
   const auto hook = [](void* context, StepStage stage) {
-    auto& world = *static_cast<Impl*>(context);
-    if (world.traces_stages)
-      world.stage_digests.after[static_cast<std::size_t>(stage)] = world.digest_of(stage);
-    if (world.validates) StateValidator(world).check_after(stage);
+    static_cast<StageTrace*>(context)->after(stage);
   };
-  profiler.set_hook(traces_stages || validates ? +hook : nullptr, this);
+  world_.profiler.set_hook(takes_digests_ || validates_ ? +hook : nullptr, this);
+}
+
+void StageTrace::take_digests(bool on) {
+  takes_digests_ = on;
+  digests_ = {};
+  set_hook();
+}
+
+void StageTrace::validate(bool on) {
+  validates_ = on;
+  set_hook();
 }
 
 void World::trace_stages(bool on) {
-  impl_->traces_stages = on;
-  impl_->stage_digests = {};
-  impl_->set_stage_hook();
+  impl_->trace.take_digests(on);
 }
 
 const StageDigests& World::stage_digests() const {
-  return impl_->stage_digests;
+  return impl_->trace.digests();
 }
 
 }  // namespace lockstone

@@ -1,0 +1,54 @@
+// Creates, breaks and destroys joints, and keeps the joint graph in step with their records.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <lockstone/event.h>
+#include <lockstone/joint.h>
+#include <lockstone/status.h>
+
+#include "core/dynamics/state/joint_record.h"
+#include "core/world/sleep/waking.h"
+#include "core/world/world_data.h"
+
+namespace lockstone {
+
+class JointRegistry {
+ public:
+  /// No function but this allocates. Both outlive this.
+  JointRegistry(WorldData& world, Waking& waking);
+
+  Result<JointHandle> create(const JointDef& def);
+  void destroy(std::uint32_t joint);
+  void destroy_all_of(std::uint32_t body);
+  /// Destroys the joints whose load exceeds their limits, by index, and notes an event for each.
+  void break_overloaded();
+  /// The joints of awake bodies may have changed in a step.
+  void mark_awake();
+
+  /// Whether the joints of a body may sit where they do once it becomes `changed`.
+  [[nodiscard]] bool fits(std::uint32_t body, const BodyRecord& changed) const;
+
+  /// Derives the graph from the records.
+  void rebuild();
+
+  /// Joints that broke in the last step.
+  [[nodiscard]] const std::vector<JointEvent>& events() const { return events_; }
+  void clear_events() { events_.clear(); }
+
+ private:
+  WorldData& world_;
+  Waking& waking_;
+  std::uint32_t free_hint_ = 0;  // no index below this is free
+  std::vector<JointEvent> events_;
+};
+
+/// A joint as a game sees it, with the forces of the last step.
+[[nodiscard]] JointView view_of(const WorldData& world, const JointRecord& joint);
+
+/// Sets the length of a pulley's rope from where its bodies are; false if it is too long: at most
+/// 1000 m each and together.
+[[nodiscard]] bool set_total_length(const WorldData& world, JointRecord& joint);
+
+}  // namespace lockstone

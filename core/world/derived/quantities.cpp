@@ -1,0 +1,43 @@
+#include "core/world/derived/quantities.h"
+
+#include <algorithm>
+
+#include "core/dynamics/body/inertia.h"
+#include "core/dynamics/state/limits.h"
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/convex/solid.h"
+#include "core/math/divide.h"
+
+namespace lockstone {
+
+Mass mass_of(const BodyRecord& record) {
+  if (record.inverse_mass == 0) return {};
+  // 1 / (mantissa·2^e) in Q32 = (2^62 / mantissa) · 2^(−e − 30)
+  const std::int64_t quotient = raw::round_divide(std::int64_t{1} << 62, record.inverse_mass);
+  return Mass::from_raw(raw::scale_binary(quotient, -record.inverse_mass_exponent - 30));
+}
+
+std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inverse_mass,
+                       int exponent) {
+  const int shift = std::clamp(exponent - inverse_mass.exponent, -63, 63);
+  return divide_raw_saturating(impulse * rate, inverse_mass.mantissa, shift);
+}
+
+ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
+  const auto bounded = [](const Vec3<Unit>& inertia) {
+    return Vec3<Unit>{max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),
+                      max(inertia.z, k_min_inertia)};
+  };
+  if (is_primitive(shape.kind)) {
+    return {bounded(normalized_inertia(shape)), scale_exponent(shape), bounding_radius(shape)};
+  }
+  if (asset != nullptr && asset->solid() != nullptr) {
+    const geometry::Solid& solid = *asset->solid();
+    const Vec3<Unit> inertia{geometry::to_unit(solid.inertia.x), geometry::to_unit(solid.inertia.y),
+                             geometry::to_unit(solid.inertia.z)};
+    return {bounded(inertia), solid.scale_exponent, solid.radius};
+  }
+  return {bounded({}), k_largest_scale_exponent, {}};
+}
+
+}  // namespace lockstone

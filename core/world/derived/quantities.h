@@ -1,0 +1,37 @@
+// Physical quantities that follow from records and shapes.
+#pragma once
+
+#include <cstdint>
+
+#include <lockstone/asset.h>
+#include <lockstone/shape.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
+
+#include "core/dynamics/state/body_record.h"
+#include "core/math/block_float.h"
+
+namespace lockstone {
+
+/// Kilograms; 0 of a body that nothing pushes.
+[[nodiscard]] Mass mass_of(const BodyRecord& record);
+
+/// An impulse λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
+[[nodiscard]] std::int64_t effort_of(std::int64_t impulse, std::int32_t rate,
+                                     BlockFloat inverse_mass, int exponent);
+
+/// |x| + |y| + |z|, at least the length, raw.
+template <class T>
+[[nodiscard]] constexpr std::int64_t sum_of_magnitudes(const Vec3<T>& v) {
+  return abs(v.x).raw + abs(v.y).raw + abs(v.z).raw;
+}
+
+/// Properties that follow from a body's shape alone.
+struct ShapeProperties {
+  Vec3<Unit> inertia{};  // principal moments / (mass · s²), at least k_min_inertia
+  int scale_exponent = 0;
+  Length radius{};
+};
+[[nodiscard]] ShapeProperties properties_of(const Shape& shape, const Asset* asset);
+
+}  // namespace lockstone

@@ -1,0 +1,50 @@
+// Wakes bodies, and all bodies that contacts and joints connect to them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/dynamics/state/joint_record.h"
+#include "core/world/phases/tick_contacts.h"
+#include "core/world/sleep/sleep_flags.h"
+#include "core/world/world_data.h"
+
+namespace lockstone {
+
+/// Bodies are listed first; `wake_listed` then spreads over their contacts and joints. Between the
+/// stages of a tick the list is empty, but for bodies that `note_hit` names.
+class Waking {
+ public:
+  /// No function but this allocates. All outlive this. The records of `found` serve as scratch:
+  /// wake only where the contacts of a tick are not in use.
+  Waking(WorldData& world, SleepFlags& flags, TickContacts& found);
+
+  /// Wakes the body, which sleeps or not, and everything connected to it.
+  void wake(std::uint32_t body);
+  void wake_ends(const JointRecord& joint);
+  void wake_all();
+  /// Wakes each body that a joint connects to an awake one.
+  void wake_joined();
+
+  /// The body changes: it wakes, and so do the bodies in contact with it or joined to it.
+  void disturb(std::uint32_t body);
+  /// The body is new at its place: the bodies that sleep there wake.
+  void disturb_around(std::uint32_t body);
+
+  /// Wakes the body at once; the next `wake_listed` wakes the bodies connected to it.
+  void list(std::uint32_t body);
+  /// For a sleeping body that was hit during a step: it wakes by the next `wake_listed`.
+  void note_hit(std::uint32_t body) { to_wake_.push_back(body); }
+  /// Returns whether any body was listed.
+  bool wake_listed();
+
+ private:
+  void spread_from(std::uint32_t body);
+
+  WorldData& world_;
+  SleepFlags& flags_;
+  std::vector<ContactRecord>& thawed_;
+  std::vector<std::uint32_t> to_wake_;
+};
+
+}  // namespace lockstone
