@@ -4,7 +4,9 @@
 
 #include <lockstone/assert.h>
 #include <lockstone/hash.h>
+#include <lockstone/simulation_fields.h>
 
+#include "replay/field_codec.h"
 #include "replay/index_codec.h"
 #include "replay/input_codec.h"
 #include "replay/log_digest.h"
@@ -26,6 +28,31 @@ constexpr std::size_t k_frame_checksum_offset = k_chunk_header_bytes - k_checksu
 
 // The longest INPUT payload; tests relate it to InputEncoder::bytes_max.
 constexpr std::size_t k_max_input_payload_bytes = 2U << 20;
+
+// The integers of the header behind its simulation's, in the order of the file.
+template <class Match, class Visit>
+void visit_integers(Match& match, Visit visit) {
+  visit(match.match_id);
+  visit(match.seed);
+  visit(match.start_tick);
+}
+
+// The fields of a chunk's frame behind the sync word and before its checksum, in the order of the
+// file.
+template <class Frame, class Visit>
+void visit_frame(Frame& frame, Visit visit) {
+  visit(frame.header.type);
+  visit(frame.header.version);
+  visit(frame.header.codec);
+  visit(frame.header.flags);
+  visit(frame.header.sequence);
+  visit(frame.header.count);
+  visit(frame.header.first_tick);
+  visit(frame.header.raw_bytes);
+  visit(frame.header.stored_bytes);
+  visit(frame.previous);
+  visit(frame.payload_checksum);
+}
 
 // The texts of the header, in the order of the file, with their limits.
 template <class Match, class Visit>
@@ -115,17 +142,9 @@ std::uint64_t encode_file_header(const LogHeader& header, std::span<std::byte> o
     writer.put(byte);
   writer.put(k_format_version);
   writer.put(static_cast<std::uint16_t>(total_bytes));
-  writer.put(header.info.abi);
-  writer.put(header.info.config_hash);
-  writer.put(header.info.scene_hash);
-  writer.put(header.info.canary);
-  writer.put(header.info.tick_rate);
-  writer.put(header.info.player_count);
-  writer.put(header.info.input_bytes);
+  visit_fields(header.info, put_with(writer));
   writer.put(std::uint32_t{0});
-  writer.put(header.match.match_id);
-  writer.put(header.match.seed);
-  writer.put(header.match.start_tick);
+  visit_integers(header.match, put_with(writer));
   visit_texts(header.match,
               [&](const std::string& text, std::size_t limit) { put_text(writer, text, limit); });
   LKS_CHECK(writer.ok() && writer.size() == total_bytes - k_checksum_bytes);
@@ -159,17 +178,9 @@ DecodeFault decode_file_header(ByteView bytes, LogHeader& header, std::uint64_t&
             "of another format version than this build reads; record it again"};
   }
   (void)reader.get<std::uint16_t>();
-  header.info.abi = reader.get<std::uint32_t>();
-  header.info.config_hash = reader.get<std::uint64_t>();
-  header.info.scene_hash = reader.get<std::uint64_t>();
-  header.info.canary = reader.get<std::uint64_t>();
-  header.info.tick_rate = reader.get<std::uint16_t>();
-  header.info.player_count = reader.get<std::uint8_t>();
-  header.info.input_bytes = reader.get<std::uint8_t>();
+  visit_fields(header.info, get_with(reader));
   if (reader.get<std::uint32_t>() != 0) return malformed(44, "reserved bytes are not 0");
-  header.match.match_id = reader.get<std::uint64_t>();
-  header.match.seed = reader.get<std::uint64_t>();
-  header.match.start_tick = reader.get<std::uint64_t>();
+  visit_integers(header.match, get_with(reader));
   DecodeFault fault;
   visit_texts(header.match, [&](std::string& text, std::size_t limit) {
     if (fault.ok()) fault = get_text(reader, text, limit);
@@ -185,20 +196,9 @@ std::uint64_t payload_checksum(ByteView stored) {
 
 std::uint64_t encode_chunk_frame(const ChunkFrame& frame,
                                  std::span<std::byte, k_chunk_header_bytes> out) {
-  const ChunkHeader& header = frame.header;
   ByteWriter writer(out);
   writer.put(k_chunk_sync);
-  writer.put(header.type);
-  writer.put(header.version);
-  writer.put(header.codec);
-  writer.put(header.flags);
-  writer.put(header.sequence);
-  writer.put(header.count);
-  writer.put(header.first_tick);
-  writer.put(header.raw_bytes);
-  writer.put(header.stored_bytes);
-  writer.put(frame.previous);
-  writer.put(frame.payload_checksum);
+  visit_frame(frame, put_with(writer));
   LKS_CHECK(writer.ok() && writer.size() == k_frame_checksum_offset);
   return seal_chunk_frame(out);
 }
@@ -209,18 +209,8 @@ DecodeFault decode_chunk_frame(std::span<const std::byte, k_chunk_header_bytes> 
   if (reader.get<std::uint32_t>() != k_chunk_sync) {
     return {Status::checksum_mismatch, 0, "no chunk begins here"};
   }
-  ChunkHeader& header = frame.header;
-  header.type = static_cast<ChunkType>(reader.get<std::uint8_t>());
-  header.version = reader.get<std::uint8_t>();
-  header.codec = static_cast<Codec>(reader.get<std::uint8_t>());
-  header.flags = reader.get<std::uint8_t>();
-  header.sequence = reader.get<std::uint32_t>();
-  header.count = reader.get<std::uint32_t>();
-  header.first_tick = reader.get<std::uint64_t>();
-  header.raw_bytes = reader.get<std::uint32_t>();
-  header.stored_bytes = reader.get<std::uint32_t>();
-  frame.previous = reader.get<std::uint64_t>();
-  frame.payload_checksum = reader.get<std::uint64_t>();
+  const ChunkHeader& header = frame.header;
+  visit_frame(frame, get_with(reader));
   frame.checksum = reader.get<std::uint64_t>();
   if (hash64(bytes.first(k_frame_checksum_offset), k_frame_seed) != frame.checksum) {
     return {Status::checksum_mismatch, 0, "wrong checksum"};

@@ -2,10 +2,22 @@
 
 #include <algorithm>
 
+#include "replay/field_codec.h"
 #include "replay/utf8.h"
 
 namespace lockstone::replay {
 namespace {
+
+// The integers of an end, in the order of the file.
+template <class End, class Visit>
+void visit_end(End& end, Visit visit) {
+  visit(end.final_tick);
+  visit(end.final_hash);
+  visit(end.ticks);
+  visit(end.events);
+  visit(end.keyframes);
+  visit(end.kind);
+}
 
 DecodeFault get_text(ByteReader& reader, std::string& text) {
   const std::size_t start = reader.position();
@@ -70,24 +82,14 @@ DecodeFault decode_events(ByteView payload, std::uint32_t count, std::size_t pla
 }
 
 void encode_end(ByteWriter& writer, const LogEnd& end, std::string_view reason) {
-  writer.put(end.final_tick);
-  writer.put(end.final_hash);
-  writer.put(end.ticks);
-  writer.put(end.events);
-  writer.put(end.keyframes);
-  writer.put(end.kind);
+  visit_end(end, put_with(writer));
   writer.put_bytes(end.transcript);
   put_text(writer, reason);
 }
 
 DecodeFault decode_end(ByteView payload, LogEnd& end) {
   ByteReader reader(payload);
-  end.final_tick = reader.get<std::uint64_t>();
-  end.final_hash = reader.get<std::uint64_t>();
-  end.ticks = reader.get<std::uint64_t>();
-  end.events = reader.get<std::uint64_t>();
-  end.keyframes = reader.get<std::uint32_t>();
-  end.kind = static_cast<EndKind>(reader.get<std::uint8_t>());
+  visit_end(end, get_with(reader));
   const ByteView transcript = reader.get_bytes(end.transcript.size());
   std::copy(transcript.begin(), transcript.end(), end.transcript.begin());
   if (reader.ok() && end.kind > EndKind::repaired) return malformed(36, "unknown kind of end");

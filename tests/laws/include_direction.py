@@ -35,11 +35,11 @@ PUBLIC_MODULES = {
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "joint.h"],
-    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "simulation.h", "snapshot.h", "world.h"],
+    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"
-SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "bytes", "status", "hash", "assert")}
+SEAM = {f"core/include/lockstone/{name}.h" for name in ("simulation", "simulation_fields", "bytes", "status", "hash", "assert")}
 
 # Libraries of others: who may include them.
 THIRD_PARTY = {
