@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 BoundingVolumeTree::BoundingVolumeTree(std::uint32_t leaf_capacity) {
@@ -23,11 +25,13 @@ std::uint32_t BoundingVolumeTree::allocate() {
   LKS_CHECK(free_ != k_null);
   const std::uint32_t node = free_;
   free_ = nodes_[node].parent;
+  LKS_ASSERT(nodes_[node].height == -1);
   nodes_[node] = Node{};
   return node;
 }
 
 void BoundingVolumeTree::release(std::uint32_t node) {
+  LKS_ASSERT(nodes_[node].height >= 0);
   nodes_[node].parent = free_;
   nodes_[node].height = -1;
   free_ = node;
@@ -44,6 +48,7 @@ std::uint32_t BoundingVolumeTree::insert(const Bounds& bounds, const Layers& lay
     return leaf;
   }
   const std::uint32_t sibling = best_sibling(bounds);
+  LKS_ASSERT(sibling != leaf);
   const std::uint32_t parent = allocate();
   const std::uint32_t grandparent = nodes_[sibling].parent;
   nodes_[parent].parent = grandparent;
@@ -76,6 +81,7 @@ void BoundingVolumeTree::build(std::span<Item> items) {
 // Halves by the median along the axis where the middles lie farthest apart.
 std::uint32_t BoundingVolumeTree::build_below(std::span<Item> items) {
   if (items.size() == 1) return items.front().leaf;
+  LKS_ASSERT(items.size() >= 2);
   Bounds spread{items.front().middle, items.front().middle};
   for (const Item& item : items)
     spread = united(spread, {item.middle, item.middle});
@@ -87,6 +93,7 @@ std::uint32_t BoundingVolumeTree::build_below(std::span<Item> items) {
     if (length(i) > length(axis)) axis = i;
   }
   const std::size_t half = items.size() / 2;
+  LKS_ASSERT(half > 0 && half < items.size());
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                    [axis](const Item& a, const Item& b) {
                      return std::pair(a.middle[axis], a.leaf) < std::pair(b.middle[axis], b.leaf);
@@ -103,6 +110,7 @@ std::uint32_t BoundingVolumeTree::build_below(std::span<Item> items) {
 }
 
 void BoundingVolumeTree::remove(std::uint32_t leaf) {
+  LKS_ASSERT(leaf < nodes_.size() && nodes_[leaf].is_leaf() && nodes_[leaf].height == 0);
   const std::uint32_t parent = nodes_[leaf].parent;
   release(leaf);
   if (parent == k_null) {
@@ -120,6 +128,7 @@ void BoundingVolumeTree::remove(std::uint32_t leaf) {
 
 // Greedy descent: stop where pairing with this node costs less than going on below it.
 std::uint32_t BoundingVolumeTree::best_sibling(const Bounds& bounds) const {
+  LKS_ASSERT(root_ != k_null);
   std::uint32_t node = root_;
   while (!nodes_[node].is_leaf()) {
     const std::int64_t area = surface_cost(nodes_[node].bounds);
@@ -144,10 +153,12 @@ void BoundingVolumeTree::replace_child(std::uint32_t parent, std::uint32_t old_c
     return;
   }
   Node& node = nodes_[parent];
+  LKS_ASSERT(node.child[0] == old_child || node.child[1] == old_child);
   node.child[node.child[0] == old_child ? 0 : 1] = new_child;
 }
 
 void BoundingVolumeTree::refit_upward(std::uint32_t node) {
+  LKS_ASSERT(node != k_null && !nodes_[node].is_leaf());
   for (; node != k_null; node = nodes_[node].parent) {
     balance(node);
     refit(node);
@@ -155,6 +166,7 @@ void BoundingVolumeTree::refit_upward(std::uint32_t node) {
 }
 
 void BoundingVolumeTree::refit(std::uint32_t index) {
+  LKS_ASSERT(!nodes_[index].is_leaf());
   Node& node = nodes_[index];
   const Node& a = nodes_[node.child[0]];
   const Node& b = nodes_[node.child[1]];
@@ -171,6 +183,7 @@ void BoundingVolumeTree::balance(std::uint32_t index) {
   if (difference >= -1 && difference <= 1) return;
   const int high = difference > 0 ? 1 : 0;
   const Node& tall = nodes_[node.child[high]];
+  LKS_ASSERT(!tall.is_leaf());
   const int grandchild = nodes_[tall.child[1]].height > nodes_[tall.child[0]].height ? 1 : 0;
   swap_nodes(index, high, grandchild);
 }
@@ -181,6 +194,7 @@ void BoundingVolumeTree::swap_nodes(std::uint32_t index, int high, int grandchil
   const std::uint32_t tall = node.child[high];
   const std::uint32_t low = node.child[1 - high];
   const std::uint32_t lift = nodes_[tall].child[grandchild];
+  LKS_ASSERT(nodes_[lift].parent == tall && nodes_[low].parent == index);
   node.child[1 - high] = lift;
   nodes_[lift].parent = index;
   nodes_[tall].child[grandchild] = low;

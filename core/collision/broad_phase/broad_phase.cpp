@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 namespace {
 
@@ -35,12 +37,14 @@ BoundsCoordinate margin_of(const Bounds& bounds) {
   std::int64_t longest = 0;
   for (int i = 0; i < 3; ++i)
     longest = std::max(longest, length(bounds.lower[i], bounds.upper[i]));
+  LKS_ASSERT(longest >= 0);
   const std::int64_t margin = std::min<std::int64_t>(longest >> k_margin_shift, k_most_margin.raw);
   return BoundsCoordinate::from_raw(static_cast<std::int32_t>(margin));
 }
 
 Bounds fattened(const Bounds& before, const Bounds& now) {
   Bounds fat = inflated(now, margin_of(now));
+  LKS_ASSERT(contains(fat, now));
   for (int i = 0; i < 3; ++i) {
     const std::int64_t limit = length(now.lower[i], now.upper[i]) / 2;
     const std::int64_t ahead = k_ticks_ahead * length(before.lower[i], now.lower[i]);
@@ -56,6 +60,7 @@ bool is_too_fat(const Bounds& fat, const Bounds& before, const Bounds& now) {
   const std::int64_t margin = margin_of(now).raw;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t step = length(before.lower[i], now.lower[i]);
+    LKS_ASSERT(fat.lower[i] <= now.lower[i] && fat.upper[i] >= now.upper[i]);
     const std::int64_t spare =
         length(fat.lower[i], fat.upper[i]) - length(now.lower[i], now.upper[i]);
     too_fat |= spare > 4 * margin + 2 * k_ticks_ahead * (step < 0 ? -step : step);
@@ -99,6 +104,7 @@ void BroadPhase::clear() {
 }
 
 bool BroadPhase::follow(std::uint32_t body, const Bounds& bounds) {
+  LKS_ASSERT(has(body));
   const Bounds& fat = proxies_[body].fat;
   if (bounds_[body] == bounds) return true;
   if (!contains(fat, bounds) || is_too_fat(fat, bounds_[body], bounds)) return false;
@@ -107,6 +113,7 @@ bool BroadPhase::follow(std::uint32_t body, const Bounds& bounds) {
 }
 
 void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits& traits) {
+  LKS_ASSERT(body < proxies_.size());
   Proxy& proxy = proxies_[body];
   if (proxy.present && proxy.traits == traits) {
     if (bounds_[body] == bounds) return;
@@ -140,6 +147,7 @@ void BroadPhase::touch(std::uint32_t body) {
   changed_ = true;
   if (is_touched_[body] != 0) return;
   is_touched_[body] = 1;
+  LKS_ASSERT(body < body_limit_);
   touched_.push_back(body);
 }
 
@@ -219,6 +227,7 @@ bool BroadPhase::update_candidates() {
 
 void BroadPhase::refine_candidates() {
   candidates_.for_each([&](std::uint32_t body, std::span<const std::uint32_t> partners) {
+    LKS_ASSERT(has(body));
     const Bounds bounds = bounds_[body];
     for (const std::uint32_t partner : partners) {
       if (overlap(bounds, bounds_[partner]) && !pairs_.append({body, partner})) return;
@@ -229,6 +238,7 @@ void BroadPhase::refine_candidates() {
 // The same: pairs are counted by row, and then written to where those of the rows before end.
 void BroadPhase::refine_candidates(Parallel& parallel) {
   const Loop rows{candidates_.row_count(), k_row_grain};
+  LKS_ASSERT(rows.count <= body_limit_);
   refined_.resize(rows.count);
   const auto for_each_pair = [&](std::uint32_t row, auto&& visit) {
     const std::uint32_t body = candidates_.body(row);
@@ -260,6 +270,7 @@ void BroadPhase::refine_candidates(Parallel& parallel) {
 
 void BroadPhase::search_all() {
   effort_.searched_all = true;
+  LKS_ASSERT(pairs_.pairs().empty());
   touch_all();
   (void)search([&](const Pair& pair) {
     if (overlap(bounds_[pair.a], bounds_[pair.b])) pairs_.offer(pair);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 CandidatePairs::CandidatePairs(std::uint32_t body_capacity, std::size_t capacity)
@@ -23,6 +25,7 @@ void CandidatePairs::clear() {
 }
 
 bool CandidatePairs::add(const Pair& pair) {
+  LKS_ASSERT(pair.a != pair.b && pair.a < first_note_.size());
   if (notes_.size() == capacity_) return false;
   if (first_note_[pair.a] == k_null) noted_.push_back(pair.a);
   notes_.push_back({pair.b, first_note_[pair.a]});
@@ -42,6 +45,7 @@ bool CandidatePairs::merge(std::span<const std::uint8_t> is_touched) {
     const std::uint32_t of_note = note < noted_.size() ? noted_[note] : k_null;
     const std::uint32_t body = std::min(of_row, of_note);
     const std::size_t size = next_partners_.size();
+    LKS_ASSERT(body != k_null);
     if (body == of_row) {
       if (is_touched[body] == 0) keep(begin, rows_[old].end, is_touched);
       begin = rows_[old++].end;
@@ -68,12 +72,14 @@ bool CandidatePairs::merge(std::span<const std::uint8_t> is_touched) {
 
 void CandidatePairs::keep(std::size_t begin, std::size_t end,
                           std::span<const std::uint8_t> is_touched) {
+  LKS_ASSERT(begin <= end && end <= partners_.size());
   for (std::size_t i = begin; i < end && next_partners_.size() < capacity_; ++i) {
     if (is_touched[partners_[i]] == 0) next_partners_.push_back(partners_[i]);
   }
 }
 
 void CandidatePairs::take_notes(std::uint32_t body) {
+  LKS_ASSERT(first_note_[body] != k_null);
   for (std::uint32_t i = first_note_[body]; i != k_null && next_partners_.size() < capacity_;
        i = notes_[i].next) {
     next_partners_.push_back(notes_[i].partner);

@@ -1,5 +1,7 @@
 #include "core/collision/broad_phase/segment_probe.h"
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/numeric/q50.h"
 
 namespace lockstone {
@@ -31,6 +33,7 @@ SegmentProbe::SegmentProbe(const Vec3<Position>& origin, const Vec3<Length>& tra
 }
 
 void SegmentProbe::shorten(Unit fraction) {
+  LKS_ASSERT(fraction >= Unit{} && fraction <= Unit::from_integer(1));
   const auto part = [&](Length x) { return rounded<Length>(x * fraction); };
   set({part(translation_.x), part(translation_.y), part(translation_.z)});
 }
@@ -44,6 +47,8 @@ void SegmentProbe::set(const Vec3<Length>& translation) {
     swept_.upper[i] = round_up(max(start, end) + reach);
     middle_[i] = to_bounds(start) + to_bounds(end);
     way_[i] = to_bounds(rounded<Position>(translation[i]));
+    LKS_ASSERT(swept_.lower[i] <= swept_.upper[i]);
+    LKS_ASSERT(std::abs(way_[i]) <= std::int64_t{1} << 20);  // which `meets` relies on
   }
 }
 
@@ -57,6 +62,7 @@ bool SegmentProbe::meets(const Bounds& bounds) const {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
     offset[i] = middle_[i] - (low + high);                // twice the distance of the middles
     extent[i] = (high - low) + 2 * (half_[i] + k_slack);  // twice the half extent
+    LKS_ASSERT(extent[i] > 0 && std::abs(offset[i]) <= std::int64_t{1} << 33);
   }
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1, k = 3 - i - j;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 namespace {
 
@@ -67,6 +69,7 @@ void SweepAndPrune::update(std::vector<Entry>& list, Listed kind, std::span<cons
   std::size_t kept = 0;
   for (const Entry& entry : list) {
     const std::uint32_t body = entry.body;
+    LKS_ASSERT(listed_[body] == kind);
     if (is_touched[body] == 0) {
       list[kept++] = entry;
     } else if (belongs(proxies[body], kind)) {
@@ -80,6 +83,7 @@ void SweepAndPrune::update(std::vector<Entry>& list, Listed kind, std::span<cons
 
 SweepAndPrune::Entry SweepAndPrune::entry_of(std::uint32_t body, const Proxy& proxy) const {
   const Bounds& box = proxy.fat;
+  LKS_ASSERT(proxy.present && body < listed_.size());
   const int y = (axis_ + 1) % 3, z = (axis_ + 2) % 3;
   return {{{box.lower[axis_], box.lower[y], box.lower[z]},
            {box.upper[axis_], box.upper[y], box.upper[z]}},
@@ -119,6 +123,7 @@ int SweepAndPrune::widest_axis() const {
       distance += off < 0 ? -off : off;
     }
     spread[i] = distance / count;
+    LKS_ASSERT(spread[i] >= 0);
   }
   int widest = 0;  // counted from the present axis
   for (int i = 1; i < 3; ++i) {
@@ -128,6 +133,7 @@ int SweepAndPrune::widest_axis() const {
 }
 
 void SweepAndPrune::turn(int axis, std::span<const Proxy> proxies) {
+  LKS_ASSERT(axis >= 0 && axis < 3);
   axis_ = axis;
   for (std::vector<Entry>& list : lists_) {
     for (Entry& entry : list)
@@ -137,6 +143,7 @@ void SweepAndPrune::turn(int axis, std::span<const Proxy> proxies) {
 }
 
 void SweepAndPrune::split(std::span<const std::uint8_t> is_touched) {
+  LKS_ASSERT(std::is_sorted(lists_[1].begin(), lists_[1].end()));
   touched_.clear();
   untouched_.clear();
   touched_standing_.clear();

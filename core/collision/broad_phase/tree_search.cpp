@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 namespace {
 
@@ -23,6 +25,7 @@ void TreeSearch::clear() {
 }
 
 void TreeSearch::put(std::uint32_t body) {
+  LKS_ASSERT(body < places_.size());
   Place& place = places_[body];
   place.waits = true;
   if (place.listed) return;
@@ -31,6 +34,7 @@ void TreeSearch::put(std::uint32_t body) {
 }
 
 void TreeSearch::remove(std::uint32_t body) {
+  LKS_ASSERT(body < places_.size());
   Place& place = places_[body];
   place.waits = false;
   remove_leaf(place);
@@ -38,12 +42,14 @@ void TreeSearch::remove(std::uint32_t body) {
 
 void TreeSearch::remove_leaf(Place& place) {
   if (place.leaf == k_null) return;
+  LKS_ASSERT(leaves_[place.is_dynamic ? 1 : 0] > 0);
   trees_[place.is_dynamic ? 1 : 0].remove(place.leaf);
   --leaves_[place.is_dynamic ? 1 : 0];
   place.leaf = k_null;
 }
 
 void TreeSearch::insert(std::uint32_t body, const Proxy& proxy) {
+  LKS_ASSERT(proxy.present);
   Place& place = places_[body];
   remove_leaf(place);
   place.is_dynamic = proxy.traits.is_dynamic;
@@ -66,6 +72,7 @@ void TreeSearch::refresh(std::span<const Proxy> proxies) {
   for (const std::uint32_t body : waiting_) {
     Place& place = places_[body];
     place.listed = false;
+    LKS_ASSERT(!place.waits || proxies[body].present);
     if (!place.waits) continue;
     place.waits = false;
     const bool is_dynamic = proxies[body].traits.is_dynamic;
@@ -81,6 +88,7 @@ void TreeSearch::refresh(std::span<const Proxy> proxies) {
 }
 
 void TreeSearch::rebuild(bool dynamic, std::span<const Proxy> proxies) {
+  LKS_ASSERT(waiting_.empty());
   const std::size_t index = dynamic ? 1 : 0;
   BoundingVolumeTree& tree = trees_[index];
   tree.clear();

@@ -1,5 +1,7 @@
 #include "core/collision/continuous/face_clamp.h"
 
+#include <lockstone/assert.h>
+
 #include "core/collision/continuous/shrunk_core.h"
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/geometry/mesh_contact/mesh_kernels.h"
@@ -42,6 +44,7 @@ class ThinPieces final : public PieceVisitor {
  private:
   [[nodiscard]] Vec3<Position> push_of(const FrontCrossing& crossing) const {
     const geometry::Fine way = geometry::fine(k_front_gap) - crossing.height;
+    LKS_ASSERT(crossing.found);
     const geometry::RawVec push = geometry::along(crossing.normal, way);
     constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
     const auto lane = [](geometry::Fine x) {
@@ -58,6 +61,7 @@ class ThinPieces final : public PieceVisitor {
 }  // namespace
 
 FrontPush find_front_push(const PlacedWay& a, const PlacedShape& mesh) {
+  LKS_ASSERT(mesh.asset != nullptr && mesh.asset->mesh_kernels() != nullptr);
   ThinPieces pieces(a, mesh);
   visit_pieces(a.start, oriented_box(a.start), {}, pieces);
   return pieces.best();

@@ -1,5 +1,7 @@
 #include "core/collision/continuous/first_impact.h"
 
+#include <lockstone/assert.h>
+
 #include "core/collision/continuous/shrunk_core.h"
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/math/roots.h"
@@ -45,12 +47,14 @@ struct PieceSweep {
 TimeOfImpactLimits limits_for(Length inner_radius) {
   constexpr Length k_least = Length::from_raw(8);
   const Length gap = max(min(k_impact_gap, inner_radius / 16), k_least);
+  LKS_ASSERT(inner_radius >= Length{});
   return {gap, max(gap / 4, k_least / 4), 64};
 }
 
 // A half-space as a box under A that nothing can get round within one interval.
 Piece as_box(const Piece& half_space, const Vec3<Position>& above) {
   constexpr Length k_half = k_max_shape_size;
+  LKS_ASSERT(half_space.shape.kind == ShapeKind::half_space);
   Piece box = half_space;
   box.shape = Shape::box(k_half, k_half, k_half);
   Vec3<Position> local = rotate_inverse(half_space.rotation, above - half_space.origin);
@@ -69,6 +73,7 @@ Position turned_way(const MovingShape& a, const MovingShape& b, Position radius_
     reach += abs(a.motion.translation[i]) + abs(b.motion.translation[i]);
   }
   const Position across = rounded<Position>(bounding_radius(b.shape, b.asset)) * 2;
+  LKS_ASSERT(angle >= Position{} && reach >= Position{});
   if (angle >= Position::from_integer(1)) return across;
   const auto angle_q30 = static_cast<std::int32_t>((angle.raw >> 2) + 1);
   return min(across, Position::from_raw(raw::multiply_shift(reach.raw, angle_q30, 30) + 1));
@@ -88,6 +93,7 @@ OrientedBox way_of(const MovingShape& a, const MovingShape& b) {
   const Position radius = rounded<Position>(bounding_radius(a.shape, a.asset));
   const bool b_turns = b.motion.rotation != RotationVector{};
   const Position turned = b_turns ? turned_way(a, b, radius) : Position{};
+  LKS_ASSERT(radius >= Position{} && turned >= Position{});
   OrientedBox box;
   for (int i = 0; i < 3; ++i) {
     const Position half_way = Position::from_raw(a.motion.translation[i].raw / 2);
@@ -151,6 +157,7 @@ class PiecesOfB final : public PieceVisitor {
     const Unit deep = half > Unit{} ? half : time_at(k_last_depth, b);
     if (deep == k_never) return {};
     if (deep == Unit{}) return cross(b);
+    LKS_ASSERT(deep > Unit{} && deep <= Unit::from_integer(1));
     for (const int depth : {0, 1, 2}) {
       const Unit time = time_at(depth, b);
       if (time != k_never && time > Unit{}) return {time, {}};
@@ -188,6 +195,7 @@ class PiecesOfB final : public PieceVisitor {
   }
 
   [[nodiscard]] TimeOfImpact find(int depth, const SweptShape& b, Unit share) const {
+    LKS_ASSERT(depth >= 0 && depth <= k_last_depth);
     const ErodedShape core(a_, inner_radius_ / 8 * depth, share);
     const SweptShape a{core.shape, sweep_a_.sweep, core.polytope_or_null(), sweep_a_.origin};
     return time_of_impact(a, b, limits_);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/numeric/wide_vectors.h"
 #include "core/math/roots.h"
 
@@ -40,12 +42,14 @@ Metres norm_of(const RawVec& v) {
 }  // namespace
 
 Position relative_way(const Sweep& a, const Sweep& b, Length radius) {
+  LKS_ASSERT(radius >= Length{});
   const RawVec turn_a = raws(a.rotation), turn_b = raws(b.rotation);
   RawVec drift = raws(a.translation) - raws(b.translation);
   Metres bend = 0;
   if (turn_b != RawVec{}) {
     if (!is_small(turn_b)) return Position::max();
     const Metres angle = norm_of(turn_b);  // below 1 rad
+    LKS_ASSERT(angle < Metres{1} << geometry::k_metre_bits);
     bend = times(norm_of(drift), angle / 4) * 2 + k_way_rounding;
     drift = drift - cross(turn_b, raws(a.start.position - b.start.position));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/convex/shape_properties.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/math/roots.h"
@@ -25,6 +27,7 @@ Length inner_radius_of(const Piece& piece) {
 }
 
 ErodedShape::ErodedShape(const Piece& piece, Length depth, Unit share) : shape(piece.shape) {
+  LKS_ASSERT(depth >= Length{} && share > Unit{} && share <= Unit::from_integer(1));
   if (piece.polytope != nullptr) {
     erode_vertices(*piece.polytope, depth);
   } else {
@@ -45,6 +48,7 @@ void ErodedShape::shorten(Unit share) {
 }
 
 void ErodedShape::erode_vertices(const geometry::Polytope& full, Length depth) {
+  LKS_ASSERT(full.vertices.size() <= vertices_.size());
   std::array<geometry::RawVec, geometry::k_max_polytope_vertices> normals{};
   for (const geometry::HalfEdge& edge : full.edges) {
     const Vec3<Unit>& n = full.faces[edge.face].normal;

@@ -1,5 +1,7 @@
 #include "core/collision/narrow_phase/collide_bodies.h"
 
+#include <lockstone/assert.h>
+
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/dispatch/collide.h"
@@ -20,6 +22,7 @@ struct BodyPair {
 // From the origins of pieces to the centres of mass. Touching points stay one point for both.
 void shift_anchors(const BodyPair& pair, const Vec3<Position>& origin_a,
                    const Vec3<Position>& origin_b, Manifold& manifold) {
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   const Vec3<Length> shift_a = saturated<Length>(origin_a - pair.a.centre);
   const Vec3<Length> shift_b = saturated<Length>(origin_b - pair.b.centre);
   if (shift_a == Vec3<Length>{} && shift_b == Vec3<Length>{}) return;
@@ -32,6 +35,7 @@ void shift_anchors(const BodyPair& pair, const Vec3<Position>& origin_a,
 }
 
 Manifold collide_pieces(const BodyPair& pair, const Piece& a, const Piece& b) {
+  LKS_ASSERT(pair.margin >= Length{});
   return collide(a.posed(), b.posed(), saturated<Length>(b.origin - a.origin), pair.margin);
 }
 
@@ -43,6 +47,7 @@ bool holds_inside(const Piece& a, const Piece& b) {
   if (a.shape.kind != ShapeKind::sphere || a.shape.size.x <= k_inside_slack) return false;
   if (b.polytope != nullptr && b.polytope->one_sided) return false;
   const std::int64_t reach = (a.shape.size.x - k_inside_slack).raw;
+  LKS_ASSERT(reach > 0);
   const Vec3<Length> gap = saturated<Length>(middle_of(b) - a.origin);
   std::uint64_t square = 0;
   for (int i = 0; i < 3; ++i) {
@@ -71,6 +76,7 @@ PosedShape posed(const PlacedShape& single) {
 
 // Two shapes without parts: the common case, without copies of them. `out` is empty.
 void add_singles(const BodyPair& pair, PartContacts& out) {
+  LKS_ASSERT(out.count == 0 && is_single(pair.a) && is_single(pair.b));
   const Vec3<Length> offset = saturated<Length>(pair.b.origin - pair.a.origin);
   PartContact& contact = out.contacts.front();
   contact.part_a = contact.part_b = 0;
@@ -88,6 +94,7 @@ void add_singles(const BodyPair& pair, PartContacts& out) {
 void add_triangles(const BodyPair& pair, const Piece& a, TriangleScratch& scratch,
                    PartContacts& out) {
   const Piece mesh = {pair.b.shape, nullptr, pair.b.origin, pair.b.rotation, 0, nullptr, {}};
+  LKS_ASSERT(pair.b.asset != nullptr);
   const PosedShape shape = a.posed();
   const Vec3<Length> offset = saturated<Length>(a.origin - mesh.origin);
   pair.b.asset->mesh_kernels()->collide(*pair.b.asset, {mesh.rotation, shape, offset, pair.margin},
@@ -167,6 +174,7 @@ void collide_near(const BodyPair& pair, TriangleScratch* scratch, PartContacts& 
 void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
                     TriangleScratch* scratch, PartContacts& out) {
   out.clear();
+  LKS_ASSERT(margin >= Length{});
   if (b.shape.kind != ShapeKind::half_space) return collide_near({a, b, margin}, scratch, out);
   const PlacedShape near_b = met_near(b, a.centre);
   collide_near({a, near_b, margin}, scratch, out);

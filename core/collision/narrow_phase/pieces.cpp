@@ -1,5 +1,7 @@
 #include "core/collision/narrow_phase/pieces.h"
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/convex/shape_properties.h"
 
 namespace lockstone {
@@ -11,6 +13,7 @@ OrientedBox box_of(const geometry::LocalBounds& bounds, const Vec3<Position>& or
   Vec3<Position> middle;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
+    LKS_ASSERT(low <= high);
     middle[i] = Position::from_raw((low + high) << 11);
     box.half_extents[i].raw = raw::saturate<std::int32_t>((high - low + 1) >> 1);
   }
@@ -50,6 +53,7 @@ geometry::LocalBounds local_region(const PlacedShape& placed, const OrientedBox&
   geometry::LocalBounds bounds;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t reach = std::int64_t{half[i].raw} + margin.raw + k_frame_error.raw;
+    LKS_ASSERT(reach > 0);
     bounds.lower[i].raw = raw::saturate<std::int32_t>(centre[i].raw - reach);
     bounds.upper[i].raw = raw::saturate<std::int32_t>(centre[i].raw + reach);
   }
@@ -70,6 +74,7 @@ Piece piece_of(const PlacedShape& placed, const geometry::Part& part) {
 }
 
 Piece single_piece(const PlacedShape& placed) {
+  LKS_ASSERT(is_single(placed));
   const geometry::Polytope* polytope = placed.asset == nullptr ? nullptr : placed.asset->polytope();
   return {placed.shape, polytope, placed.origin, placed.rotation, 0, nullptr, {}};
 }
@@ -114,6 +119,7 @@ OrientedBox oriented_box(const PlacedShape& placed) {
 void visit_pieces(const PlacedShape& placed, const OrientedBox& region, Length margin,
                   PieceVisitor& visitor) {
   if (is_single(placed)) return visitor.visit(single_piece(placed));
+  LKS_ASSERT(placed.asset != nullptr && margin >= Length{});
   Placer placer(placed, visitor);
   placed.asset->visit_parts(local_region(placed, region, margin), placer);
 }

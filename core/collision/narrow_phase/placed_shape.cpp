@@ -1,5 +1,7 @@
 #include "core/collision/narrow_phase/placed_shape.h"
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/convex/parts.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_properties.h"
@@ -17,6 +19,7 @@ constexpr Position k_everywhere = Position::from_integer((1 << 21) - 1);
 
 // A half-space with an upright normal ends at its plane; a tilted one is everywhere.
 WorldBox half_space_box(const PlacedShape& placed) {
+  LKS_ASSERT(placed.shape.kind == ShapeKind::half_space);
   WorldBox box{{-k_everywhere, -k_everywhere, -k_everywhere},
                {k_everywhere, k_everywhere, k_everywhere}};
   if (placed.rotation.y == Mat3{}.y) box.upper.y = placed.origin.y;
@@ -35,6 +38,7 @@ WorldBox turned_box(const PlacedShape& placed, const geometry::LocalBounds& loca
                           (local.upper.y - local.lower.y + Length::from_raw(1)) / 2,
                           (local.upper.z - local.lower.z + Length::from_raw(1)) / 2};
   const Vec3<Position> at = placed.origin + rotate(placed.rotation, centre);
+  LKS_ASSERT(half.x >= Length{} && half.y >= Length{} && half.z >= Length{});
   const Vec3<Position> reach =
       rounded<Position>(world_half_extents({ShapeKind::box, half, {}}, placed.rotation));
   return {at - reach, at + reach};
@@ -49,6 +53,7 @@ WorldBox vertex_box(const PlacedShape& placed, const geometry::Polytope& polytop
     const Vec3<Unit> axis{placed.rotation.x[i], placed.rotation.y[i], placed.rotation.z[i]};
     const geometry::Fine above = geometry::support_of(polytope, axis).height;
     const geometry::Fine below = geometry::support_of(polytope, -axis).height;
+    LKS_ASSERT(above + below >= 0);
     box.lower[i] = placed.origin[i] - Position::from_raw(below >> k_bits) - k_rounding;
     box.upper[i] = placed.origin[i] + Position::from_raw(above >> k_bits) + k_rounding;
   }

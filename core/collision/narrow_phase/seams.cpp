@@ -1,5 +1,7 @@
 #include "core/collision/narrow_phase/seams.h"
 
+#include <lockstone/assert.h>
+
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_traits.h"

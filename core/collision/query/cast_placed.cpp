@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/distance/gjk.h"
 #include "core/geometry/distance/shape_cast.h"
 #include "core/math/int128.h"
@@ -53,6 +55,7 @@ ShapeCastHit cast_at_half_space(const PosedShape& plane, const PosedShape& shape
   hit.hit = start.overlapping || closes;
   if (start.overlapping || !closes) return hit;
   const UInt128 numerator = UInt128{0, static_cast<std::uint64_t>(gap)} << 48;
+  LKS_ASSERT(gap >= 0 && way > 0);
   const std::uint64_t quotient = divide(numerator, static_cast<std::uint64_t>(way)).quotient;
   hit.fraction.raw = static_cast<std::int32_t>(std::min(quotient, std::uint64_t{1} << 30));
   return hit;
@@ -143,6 +146,7 @@ struct LocalBox {
 
 LocalBox local_box(const PlacedShape& placed, const PlacedShape& shape) {
   const geometry::LocalBounds bounds = local_region(placed, oriented_box(shape), k_frame_margin);
+  LKS_ASSERT(placed.asset != nullptr);
   LocalBox box;
   for (int i = 0; i < 3; ++i) {
     const std::int64_t low = bounds.lower[i].raw, high = bounds.upper[i].raw;
@@ -157,6 +161,7 @@ LocalBox local_box(const PlacedShape& placed, const PlacedShape& shape) {
 PlacedShapeHit cast_shape(const PlacedShape& placed, const PlacedShape& convex,
                           const Vec3<Length>& translation, Unit limit) {
   CastPieces pieces(placed, convex, translation, limit);
+  LKS_ASSERT(is_single(convex) && limit >= Unit{});
   if (is_single(placed)) {
     pieces.visit(single_piece(brought_near(placed, convex.origin)));
     return pieces.best();
@@ -168,6 +173,7 @@ PlacedShapeHit cast_shape(const PlacedShape& placed, const PlacedShape& convex,
 }
 
 PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& point, Length reach) {
+  LKS_ASSERT(reach >= Length{});
   NearestPiece nearest(placed, point, reach);
   if (is_single(placed)) {
     nearest.visit(single_piece(brought_near(placed, point)));
@@ -180,6 +186,7 @@ PlacedClosest closest_point(const PlacedShape& placed, const Vec3<Position>& poi
 PlacedRayHit cast_ray(const PlacedShape& placed, const Vec3<Position>& origin,
                       const Vec3<Length>& translation, Unit limit) {
   RayPieces pieces(placed, origin, translation, limit);
+  LKS_ASSERT(limit >= Unit{});
   if (is_single(placed)) {
     pieces.visit(single_piece(brought_near(placed, origin)));
     return pieces.best();
