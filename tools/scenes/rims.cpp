@@ -1,4 +1,4 @@
-// Scenes of cylinders.
+// Scenes of cylinders and cones.
 #include "tools/scenes/build.h"
 
 namespace lockstone::scenes {
@@ -49,6 +49,30 @@ void build_drums(World& world, std::uint64_t seed) {
   }
 }
 
+// Cones on their base, on a drum, on their side, on their tip, and in a heap.
+void build_cones(World& world, std::uint64_t seed) {
+  add_ground(world, 20_m);
+  add(world, loose(Shape::cone(1_m, 0.4_m), {-3_m, 0.25_m, {}}));
+  add(world, loose(Shape::cylinder(0.3_m, 0.5_m), {-1.5_m, 0.3_m, {}}));
+  add(world, loose(Shape::cone(0.8_m, 0.3_m), {-1.5_m, 0.8_m, {}}));
+  // On its side, pushed: it rolls in a circle about its apex.
+  BodyDef roller = loose(Shape::cone(1_m, 0.4_m), {1.5_m, 0.3_m, {}});
+  roller.orientation = from_axis_angle(k_z_axis, 1.951302703_rad);  // 90° and its half angle
+  roller.angular_velocity = {-4_rps, 1_rps, {}};
+  add(world, roller);
+  BodyDef top = loose(Shape::cone(0.6_m, 0.4_m), {3.5_m, 0.46_m, {}});
+  top.orientation = from_axis_angle(k_x_axis, 3.1_rad);
+  add(world, top);
+  Random random(mix(seed));
+  for (int i = 0; i < 10; ++i) {
+    BodyDef def = loose(Shape::cone(0.5_m, 0.25_m),
+                        {millimetres(random.between(-300, 300)), millimetres(800 + 500 * i),
+                         millimetres(3500 + random.between(-300, 300))});
+    def.orientation = random_orientation(random);
+    add(world, def);
+  }
+}
+
 // Coins: one spins on its rim and settles, one rolls, one falls flat, one is tilted.
 void build_coins(World& world, std::uint64_t) {
   add_ground(world, 10_m);
@@ -76,6 +100,8 @@ const Scene k_rollers = {"rollers", "cylinders of three lengths roll straight do
                          small_world, build_rollers};
 const Scene k_drums = {"drums", "a stack of drums, a pyramid of pipes, a heap of cylinders", 240,
                        small_world, build_drums};
+const Scene k_cones = {"cones", "cones on their base, rolling in a circle, on their tip", 240,
+                       small_world, build_cones};
 const Scene k_coins = {"coins", "a coin that spins and settles, one that rolls, two that fall", 360,
                        small_world, build_coins};
 

@@ -5,7 +5,9 @@
 
 // Kinds after those with a number of their own, in the order of their numbers. Each has a row
 // k_<kind>, which is linked only by programs that name the kind's function in `Shape`.
-#define LKS_LATER_SHAPES(X) X(cylinder)
+#define LKS_LATER_SHAPES(X) \
+  X(cylinder)               \
+  X(cone)
 
 // The address of a row that is not linked is null. Where the linker has no such symbols, every row
 // is linked.

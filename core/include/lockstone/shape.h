@@ -1,4 +1,4 @@
-// Shapes: plain values. Sphere, capsule, box, cylinder and half-space are complete in
+// Shapes: plain values. Sphere, capsule, box, cylinder, cone and half-space are complete in
 // themselves; the others name an asset.
 #pragma once
 
@@ -21,8 +21,9 @@ enum class ShapeKind : std::uint8_t {
   height_field = 6,  ///< a terrain (asset); never on a dynamic body
   compound = 7,      ///< several convex shapes (asset)
   cylinder = 8,
+  cone = 9,
 };
-inline constexpr ShapeKind k_last_shape_kind = ShapeKind::cylinder;
+inline constexpr ShapeKind k_last_shape_kind = ShapeKind::cone;
 [[nodiscard]] std::string_view to_string(ShapeKind kind);
 
 /// Whether shapes of this kind name an asset.
@@ -52,8 +53,10 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 ///   capsule: x = radius, y = half the length of the core segment, which lies on the body's y axis
 ///   box:     half extents along the body's axes
 ///   cylinder: x = radius, y = half the height, along the body's y axis
+///   cone:    x = radius of the base, y = height, along the body's y axis: the apex is up
 ///   others:  zero; a half-space lies below the plane y = 0 of its body
-/// All but assets have their centre of mass at the body's origin; an asset keeps its own frame.
+/// All but assets have their centre of mass at the body's origin (a cone's base is a quarter of its
+/// height below it); an asset keeps its own frame.
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
   Vec3<Length> size{};
@@ -74,6 +77,7 @@ struct Shape {
   // A program links the code of these kinds when it names the function; one that does not refuses
   // them, in commands and snapshots too.
   [[nodiscard]] static Shape cylinder(Length half_height, Length radius);
+  [[nodiscard]] static Shape cone(Length height, Length radius);
 
   [[nodiscard]] static constexpr Shape half_space() { return {ShapeKind::half_space, {}, {}}; }
 };

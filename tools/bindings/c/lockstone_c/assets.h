@@ -17,7 +17,8 @@ enum {
   LKS_MESH = 5,
   LKS_HEIGHT_FIELD = 6,
   LKS_COMPOUND = 7,
-  LKS_CYLINDER = 8
+  LKS_CYLINDER = 8,
+  LKS_CONE = 9
 };
 
 /* The size means, by kind: sphere: x = radius; capsule: x = radius, y = half the length of the core
@@ -51,6 +52,9 @@ static inline lks_shape lks_box(lks_length half_x, lks_length half_y, lks_length
 }
 static inline lks_shape lks_cylinder(lks_length half_height, lks_length radius) {
   return lks_shape_of(LKS_CYLINDER, radius, half_height, 0, 0);
+}
+static inline lks_shape lks_cone(lks_length height, lks_length radius) {
+  return lks_shape_of(LKS_CONE, radius, height, 0, 0);
 }
 static inline lks_shape lks_half_space(void) {
   return lks_shape_of(LKS_HALF_SPACE, 0, 0, 0, 0);
