@@ -23,7 +23,7 @@ void build_rollers(World& world, std::uint64_t) {
   }
 }
 
-// Drums on one another, a pyramid of lying pipes, and a heap of both that falls.
+// Drums on one another, a pyramid of lying pipes, and a pile of both that falls.
 void build_drums(World& world, std::uint64_t seed) {
   add_ground(world, 20_m);
   for (int i = 0; i < 6; ++i)
@@ -49,7 +49,7 @@ void build_drums(World& world, std::uint64_t seed) {
   }
 }
 
-// Cones on their base, on a drum, on their side, on their tip, and in a heap.
+// Cones on their base, on a drum, on their side, on their tip, and in a pile.
 void build_cones(World& world, std::uint64_t seed) {
   add_ground(world, 20_m);
   add(world, loose(Shape::cone(1_m, 0.4_m), {-3_m, 0.25_m, {}}));
@@ -98,7 +98,7 @@ void build_coins(World& world, std::uint64_t) {
 
 const Scene k_rollers = {"rollers", "cylinders of three lengths roll straight down a slope", 240,
                          small_world, build_rollers};
-const Scene k_drums = {"drums", "a stack of drums, a pyramid of pipes, a heap of cylinders", 240,
+const Scene k_drums = {"drums", "a stack of drums, a pyramid of pipes, a pile of cylinders", 240,
                        small_world, build_drums};
 const Scene k_cones = {"cones", "cones on their base, rolling in a circle, on their tip", 240,
                        small_world, build_cones};

@@ -30,7 +30,7 @@ struct ContactFeature {
 };
 
 /// The feature of a convex shape along the unit vector n, which points out of it. Of a one-sided
-/// polytope, its front. `out` is filled anew.
+/// polytope, its front. `out` is overwritten.
 void find_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out);
 
 /// How far a convex shape reaches from its centre along a unit vector.
