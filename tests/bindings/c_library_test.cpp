@@ -53,6 +53,8 @@ TEST(CLibrary, EnumeratorsHaveTheNumbersOfTheCore) {
   same(LKS_MESH, ShapeKind::mesh);
   same(LKS_HEIGHT_FIELD, ShapeKind::height_field);
   same(LKS_COMPOUND, ShapeKind::compound);
+  same(LKS_CYLINDER, ShapeKind::cylinder);
+  same(LKS_CONE, ShapeKind::cone);
   same(LKS_STATIC, MotionType::static_body);
   same(LKS_KINEMATIC, MotionType::kinematic);
   same(LKS_DYNAMIC, MotionType::dynamic);

@@ -62,7 +62,7 @@ TEST(ExplainBody, NamesEachFieldThatCreateBodyRefuses) {
   const std::vector<Wrong<D>> all{
       {"body.motion", [](D& d) { d.motion = static_cast<MotionType>(0); }},
       {"body.motion", [](D& d) { d.shape = Shape::half_space(); }},
-      {"body.shape.kind", [](D& d) { d.shape.kind = static_cast<ShapeKind>(8); }},
+      {"body.shape.kind", [](D& d) { d.shape.kind = static_cast<ShapeKind>(10); }},
       {"body.shape.radius", [](D& d) { d.shape = Shape::sphere({}); }},
       {"body.shape.size.y", [](D& d) { d.shape.size.y = 1_m; }},
       {"body.shape.half_height", [](D& d) { d.shape = Shape::capsule(513_m, 1_m); }},

@@ -82,7 +82,7 @@ BodyDef CommandDice::body_def() {
   def.motion =
       goes_wild() ? static_cast<MotionType>(random_.below(256)) : k_motions[random_.below(4)];
   def.shape = chance(2) ? Shape::box(0.3_m, 0.3_m, 0.3_m) : Shape::capsule(0.3_m, 0.2_m);
-  if (goes_wild()) def.shape = {static_cast<ShapeKind>(random_.below(9)), vector(Length(1_m)), {}};
+  if (goes_wild()) def.shape = {static_cast<ShapeKind>(random_.below(11)), vector(Length(1_m)), {}};
   def.position = vector(Position(3_m));
   def.position.y.raw = raw::saturating_add(def.position.y.raw, Position(2_m).raw);
   def.orientation = turn();

@@ -8,6 +8,7 @@
 #include <lockstone/literals.h>
 
 #include "core/geometry/convex/parts.h"
+#include "tools/render/convex_facets.h"
 
 namespace lockstone::render {
 namespace {
@@ -76,6 +77,8 @@ class Pieces final : public geometry::PartVisitor {
     item.solid.axes = place.axes;
     item.solid.size = to_vec(shape.size);
     item.solid.color = tinted(item.solid.color, surface);
+    const auto inner = polytope == nullptr ? hull_within(shape) : nullptr;
+    if (inner != nullptr) polytope = inner->polytope();
     if (polytope != nullptr) {
       const bool flat = geometry::is_flat(*polytope);
       item.solid.facets = facets_of(*polytope, place, flat ? 1 : polytope->faces.size());

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/geometry/contact/collide_pairs.h"
+#include "core/geometry/contact/contact_feature.h"
 #include "core/geometry/contact/manifold_reduction.h"
 #include "core/geometry/contact/plane_meeting.h"
 #include "core/geometry/convex/polytope.h"
@@ -133,6 +134,17 @@ Manifold below_capsule(const PlaneMeeting& plane) {
 
 Manifold below_box(const PlaneMeeting& plane) {
   return below_face(plane, box_face);
+}
+
+Manifold below_points(const PlaneMeeting& plane, const ContactFeature& feature) {
+  const auto add_points = [&feature](const PlaneMeeting& at, const Vec3<Unit>& u,
+                                     const Vec3<Unit>& v, LowPolygon& polygon) {
+    for (int i = 0; i < feature.count; ++i) {
+      const FeaturePoint& point = feature.points[static_cast<std::size_t>(i)];
+      polygon.add(at, u, v, point.at, point.id);
+    }
+  };
+  return below_face(plane, add_points);
 }
 
 Manifold collide_half_space(const PosedShape& half_space, const PosedShape& b,

@@ -6,6 +6,8 @@
 
 namespace lockstone::geometry {
 
+struct ContactFeature;
+
 /// A plane through A's centre, and the shape B that may reach below it.
 struct PlaneMeeting {
   Vec3<Unit> normal;
@@ -19,5 +21,6 @@ struct PlaneMeeting {
 [[nodiscard]] Manifold below_sphere(const PlaneMeeting& plane);
 [[nodiscard]] Manifold below_capsule(const PlaneMeeting& plane);
 [[nodiscard]] Manifold below_box(const PlaneMeeting& plane);
+[[nodiscard]] Manifold below_points(const PlaneMeeting& plane, const ContactFeature& feature);
 
 }  // namespace lockstone::geometry

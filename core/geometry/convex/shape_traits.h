@@ -26,6 +26,7 @@ struct ShapeRayHit;
 
 namespace geometry {
 
+struct ContactFeature;
 struct ConvexCore;
 struct PlaneMeeting;
 
@@ -76,6 +77,14 @@ struct ShapeTraits {
   /// queries do not link theirs.
   ShapeRayHit (*cast_ray)(const Shape& shape, const Mat3& rotation, const Vec3<Length>& origin,
                           const Vec3<Length>& translation) = nullptr;
+
+  /// See `lockstone::collide`; null of spheres, capsules and boxes, which have a function a pair.
+  Manifold (*collide)(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                      Length margin) = nullptr;
+  /// See `geometry::find_feature`; null of the same three.
+  void (*find_feature)(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) = nullptr;
+  /// The capsule that has the same side; null of shapes without one.
+  Shape (*with_round_ends)(const Sizes& size) = nullptr;
 };
 
 /// The row of a kind, null of assets, half-spaces, and unknown kinds.

@@ -4,6 +4,7 @@
 
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/convex/polytope.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/geometry/distance/contact_point.h"
 
@@ -17,6 +18,13 @@ int dominant_sign(const Vec3<Length>& offset) {
     if (abs(offset[axis]) > abs(offset[dominant])) dominant = axis;
   }
   return geometry::sign_of(offset[dominant].raw);
+}
+
+/// The order of kinds: spheres, capsules, boxes, other primitives, hulls, half-spaces.
+int place_of(ShapeKind kind) {
+  constexpr int k_after_all = static_cast<int>(k_last_shape_kind) + 1;
+  if (kind == ShapeKind::hull) return k_after_all;
+  return kind == ShapeKind::half_space ? k_after_all + 1 : static_cast<int>(kind);
 }
 
 /// Of one kind, the greater comes first: one-sided ones, then by asset, then by sizes.
@@ -35,7 +43,7 @@ auto entries_of(const Mat3& m) {
 /// order of the arguments runs the same computation, and a shape that rests on another keeps its
 /// role while it wobbles. Spheres stay as they are: they have no roles.
 bool belongs_first(const PosedShape& b, const PosedShape& a, const Vec3<Length>& offset) {
-  if (a.shape.kind != b.shape.kind) return b.shape.kind > a.shape.kind;
+  if (a.shape.kind != b.shape.kind) return place_of(b.shape.kind) > place_of(a.shape.kind);
   if (a.shape.kind == ShapeKind::sphere) return false;
   const auto rank_a = rank(a);
   const auto rank_b = rank(b);
@@ -61,7 +69,7 @@ Manifold collide_ordered(const PosedShape& a, const PosedShape& b, const Vec3<Le
   if (a.shape.kind <= ShapeKind::box) return collide_primitives(a, b, offset, margin);
   if (a.shape.kind == ShapeKind::half_space)
     return geometry::collide_half_space(a, b, offset, margin);
-  LKS_ASSERT(a.shape.kind == ShapeKind::hull && a.polytope != nullptr);
+  if (a.polytope == nullptr) return geometry::traits_of(a.shape).collide(a, b, offset, margin);
   return a.polytope->kernels->collide(a, b, offset, margin);
 }
 

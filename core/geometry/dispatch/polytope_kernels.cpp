@@ -1,6 +1,7 @@
 #include "core/geometry/dispatch/polytope_kernels.h"
 
 #include "core/geometry/contact/polytope_collide.h"
+#include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/query/ray_polytope.h"
 
 namespace lockstone::geometry {
@@ -10,6 +11,8 @@ Manifold collide_polytope(const PosedShape& a, const PosedShape& b, const Vec3<L
                           Length margin) {
   if (b.shape.kind == ShapeKind::sphere) return collide_polytope_sphere(a, b, offset, margin);
   if (b.shape.kind == ShapeKind::capsule) return collide_polytope_capsule(a, b, offset, margin);
+  if (b.polytope == nullptr && b.shape.kind != ShapeKind::box)
+    return traits_of(b.shape).collide(a, b, offset, margin);
   return collide_polytopes(a, b, offset, margin);
 }
 

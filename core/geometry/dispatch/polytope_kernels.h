@@ -8,7 +8,7 @@
 namespace lockstone::geometry {
 
 struct PolytopeKernels {
-  /// As `lockstone::collide`; `a` is a polytope, `b` a sphere, capsule, box or polytope.
+  /// As `lockstone::collide`; `a` is a polytope, `b` a primitive or polytope.
   Manifold (*collide)(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                       Length margin);
   /// As `lockstone::cast_ray`.

@@ -46,14 +46,14 @@ void list_vertices(const Polytope& polytope, const Mat3& rotation, ConvexCore& c
 
 /// The core's vertex greatest along a direction, dot(x, y, z) being its exact product with it.
 template <class Dot>
-std::uint8_t greatest_vertex(const LatticeCore& core, Dot dot) {
+std::uint16_t greatest_vertex(const LatticeCore& core, Dot dot) {
   if (core.vertex_count == 0) {
     unsigned bits = 0;
     for (int i = 0; i < core.generator_count; ++i) {
       const RawVec& g = core.generators[at(i)];
       if (!is_negative(dot(g.x, g.y, g.z))) bits |= 1U << i;
     }
-    return static_cast<std::uint8_t>(bits);
+    return static_cast<std::uint16_t>(bits);
   }
   std::size_t best = 0;
   auto greatest = dot(core.x[0], core.y[0], core.z[0]);
@@ -64,10 +64,11 @@ std::uint8_t greatest_vertex(const LatticeCore& core, Dot dot) {
       best = i;
     }
   }
-  return static_cast<std::uint8_t>(best);
+  return static_cast<std::uint16_t>(best);
 }
 
-RawVec lattice_point(const LatticeCore& core, std::uint8_t index) {
+RawVec lattice_point(const LatticeCore& core, std::uint16_t index) {
+  if (core.rims != nullptr) return shifted(rim_point(*core.rims, index), core.shift);
   if (core.vertex_count != 0) return {core.x[index], core.y[index], core.z[index]};
   RawVec sum;
   for (int i = 0; i < core.generator_count; ++i) {
@@ -77,13 +78,18 @@ RawVec lattice_point(const LatticeCore& core, std::uint8_t index) {
   return sum;
 }
 
-DifferenceVertex difference_vertex(const LatticePair& pair, std::uint8_t a, std::uint8_t b) {
+DifferenceVertex difference_vertex(const LatticePair& pair, std::uint16_t a, std::uint16_t b) {
   return {lattice_point(pair.b, b) + pair.offset - lattice_point(pair.a, a), a, b};
 }
 
 auto product_with(const RawVec& d) {
   return
       [d](std::int64_t x, std::int64_t y, std::int64_t z) { return d.x * x + d.y * y + d.z * z; };
+}
+
+std::uint16_t greatest_vertex_along(const LatticeCore& core, const RawVec& direction) {
+  if (core.rims != nullptr) return farthest_rim_vertex(*core.rims, direction);
+  return greatest_vertex(core, product_with(direction));
 }
 
 auto wide_product_with(const RawVec& d) {
@@ -93,7 +99,8 @@ auto wide_product_with(const RawVec& d) {
 /// The vertex greatest along a direction of any length. Of listed vertices, those are compared
 /// exactly that the direction's leading 31 bits put close to the greatest: the cut bits are worth
 /// less than 1 in each component, so a product errs by less than |x| + |y| + |z| < 2^32.
-std::uint8_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& direction) {
+std::uint16_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& direction) {
+  if (core.rims != nullptr) return farthest_rim_vertex(*core.rims, direction);
   if (core.vertex_count == 0) return greatest_vertex(core, wide_product_with(direction));
   const RawVec leading = truncated(direction, 31);
   const auto product = product_with(leading);
@@ -113,12 +120,14 @@ std::uint8_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& dire
     most = value;
     best = i;
   }
-  return static_cast<std::uint8_t>(best);
+  return static_cast<std::uint16_t>(best);
 }
 
 void to_lattice(const ConvexCore& core, int shift, LatticeCore& lattice) {
   lattice.generator_count = core.generator_count;
   lattice.vertex_count = core.vertex_count;
+  lattice.rims = core.rims.count != 0 ? &core.rims : nullptr;
+  lattice.shift = shift;
   for (std::size_t i = 0; i < at(core.generator_count); ++i)
     lattice.generators[i] = shifted(core.generators[i], shift);
   for (std::size_t i = 0; i < at(core.vertex_count); ++i) {
@@ -133,6 +142,7 @@ void to_lattice(const ConvexCore& core, int shift, LatticeCore& lattice) {
 void make_core(const PosedShape& shape, ConvexCore& core) {
   core.generator_count = 0;
   core.vertex_count = 0;
+  core.rims.count = 0;
   core.radius = {};
   core.reference = {};
   core.extent = {};
@@ -150,6 +160,7 @@ void add_generator(ConvexCore& core, const RawVec& generator) {
 }
 
 RawVec vertex_of(const ConvexCore& core, int index) {
+  if (core.rims.count != 0) return rim_point(core.rims, index);
   if (core.vertex_count != 0) {
     return core.reference + RawVec{core.x[at(index)], core.y[at(index)], core.z[at(index)]};
   }
@@ -159,6 +170,19 @@ RawVec vertex_of(const ConvexCore& core, int index) {
     sum = (index >> i & 1) != 0 ? sum + g : sum - g;
   }
   return sum;
+}
+
+int farthest_vertex(const ConvexCore& core, const RawVec& direction) {
+  if (core.rims.count != 0) return farthest_rim_vertex(core.rims, direction);
+  int best = 0;
+  Int128 greatest = wide_dot(direction, vertex_of(core, 0));
+  for (int i = 1; i < vertex_count(core); ++i) {
+    const Int128 product = wide_dot(direction, vertex_of(core, i));
+    if (product <= greatest) continue;
+    greatest = product;
+    best = i;
+  }
+  return best;
 }
 
 RawVec reference_offset(const ConvexCore& a, const ConvexCore& b, const RawVec& offset) {
@@ -189,8 +213,8 @@ void set_offset(const RawVec& offset, LatticePair& pair) {
 }
 
 DifferenceVertex least_along(const LatticePair& pair, const RawVec& direction) {
-  return difference_vertex(pair, greatest_vertex(pair.a, product_with(direction)),
-                           greatest_vertex(pair.b, product_with(-direction)));
+  return difference_vertex(pair, greatest_vertex_along(pair.a, direction),
+                           greatest_vertex_along(pair.b, -direction));
 }
 
 DifferenceVertex greatest_along(const LatticePair& pair, const RawVec& direction) {

@@ -11,17 +11,20 @@
 
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/distance/manifold.h"
+#include "core/geometry/distance/rims.h"
 #include "core/geometry/numeric/q50.h"
 
 namespace lockstone::geometry {
 
 /// The vertices of a core in world axes, about `reference`, exact in fine lanes. Without listed
 /// vertices they are the sums ±g₀ ±g₁ ±g₂ of the generators: none for a sphere, one for a capsule,
-/// three for a box. Bit i of such a vertex' index is set where gᵢ is added.
+/// three for a box. Bit i of such a vertex' index is set where gᵢ is added. Rims stand for all
+/// vertices, and for themselves on the lattice; their reference is the shape's centre.
 struct ConvexCore {
   int generator_count = 0;
   int vertex_count = 0;  ///< listed; of polytopes only
   Length radius{};
+  Rims rims{};
   RawVec reference{};  ///< from the shape's centre
   RawVec extent{};     ///< greatest |coordinate| about the reference, by axis
   std::array<RawVec, 3> generators{};
@@ -37,7 +40,7 @@ void make_core(const PosedShape& shape, ConvexCore& core);
 /// Adds ±generator to every vertex; none are listed.
 void add_generator(ConvexCore& core, const RawVec& generator);
 
-/// How many indices of vertices there are.
+/// How many indices of vertices there are in a core without rims.
 [[nodiscard]] constexpr int vertex_count(const ConvexCore& core) {
   return core.vertex_count != 0 ? core.vertex_count : 1 << core.generator_count;
 }
@@ -45,10 +48,15 @@ void add_generator(ConvexCore& core, const RawVec& generator);
 /// Where a vertex is, from the shape's centre.
 [[nodiscard]] RawVec vertex_of(const ConvexCore& core, int index);
 
+/// The vertex that reaches farthest along a direction, whose components are below 2^62.
+[[nodiscard]] int farthest_vertex(const ConvexCore& core, const RawVec& direction);
+
 /// A core in lattice steps, about its reference.
 struct LatticeCore {
   int generator_count = 0;
   int vertex_count = 0;
+  const Rims* rims = nullptr;  ///< the core's own, if it has any
+  int shift = 0;
   std::array<RawVec, 3> generators{};
   std::array<std::int32_t, k_max_polytope_vertices> x;
   std::array<std::int32_t, k_max_polytope_vertices> y;
@@ -67,8 +75,8 @@ struct LatticePair {
 /// A vertex of the difference B − A.
 struct DifferenceVertex {
   RawVec point{};  ///< lattice
-  std::uint8_t a = 0;
-  std::uint8_t b = 0;
+  std::uint16_t a = 0;
+  std::uint16_t b = 0;
 };
 
 /// The fine offset from a's reference to b's, `offset` being that of the shapes' centres.
@@ -78,7 +86,8 @@ struct DifferenceVertex {
 /// The step that fits the pair: see `LatticePair`. Every |component| of B − A is below 2^12 m.
 [[nodiscard]] int lattice_shift(const ConvexCore& a, const ConvexCore& b, const RawVec& offset);
 
-/// Brings the cores to the lattice of 2^shift; the offset is that of the references.
+/// Brings the cores, which must stay where they are, to the lattice of 2^shift; the offset is that
+/// of the references.
 void to_lattice(const ConvexCore& a, const ConvexCore& b, int shift, LatticePair& pair);
 void set_offset(const RawVec& offset, LatticePair& pair);
 

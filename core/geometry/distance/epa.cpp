@@ -96,15 +96,22 @@ CoreOverlap core_overlap(const GapQuery& query) {
   const auto gap_of = [&](const ExpandingFace& face) {
     return way_out(refine(query.fine_pair(), lattice, polytope.simplex_of(face), Side::before));
   };
+  // Around a rim the search ends when the hull is that near to its planes: the room is for others.
+  constexpr std::int64_t k_rim_steps_left = 256;
+  const bool round = query.a().rims.count != 0 || query.b().rims.count != 0;
+  const auto is_seen = [&](const RawVec& point, const ExpandingFace& face) {
+    return round ? polytope.sees_from_afar(point, face, k_rim_steps_left)
+                 : polytope.sees(point, face);
+  };
   // A vertex is added in each turn, and is_full ends the loop at the latest.
   for (;;) {
     const ExpandingFace& nearest = polytope.nearest();
     DifferenceVertex vertex = greatest_along(lattice, nearest.normal);
-    if (!polytope.sees(vertex.point, nearest)) {
+    if (!is_seen(vertex.point, nearest)) {
       const ExpandingFace& held = polytope.foot_face(nearest);
       if (&held == &nearest) return {gap_of(nearest), true};
       vertex = greatest_along(lattice, held.normal);
-      if (!polytope.sees(vertex.point, held)) return {gap_of(held), true};
+      if (!is_seen(vertex.point, held)) return {gap_of(held), true};
       if (polytope.is_full()) return {gap_of(nearest), true};
     }
     if (polytope.is_full()) return overlap_without_room(query, polytope.simplex_of(nearest));

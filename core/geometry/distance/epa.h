@@ -34,7 +34,8 @@ struct CoreOverlap {
 
 /// Of cores that `query` found to overlap: the nearest face of the hull of B − A on the lattice.
 /// Every step adds a vertex of that hull; after 124 of them the nearest plane that supports it so
-/// far stands, which separates, if not by the least way.
+/// far stands, which separates, if not by the least way. Of cores with rims, a plane within 256
+/// steps of the hull counts as supporting it.
 [[nodiscard]] CoreOverlap core_overlap(const GapQuery& query);
 
 }  // namespace geometry

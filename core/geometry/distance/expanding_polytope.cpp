@@ -53,6 +53,13 @@ bool ExpandingPolytope::sees(const RawVec& from, const ExpandingFace& face) cons
   return is_positive(wide_dot(face.normal, from - point(face.vertices[0])));
 }
 
+bool ExpandingPolytope::sees_from_afar(const RawVec& from, const ExpandingFace& face,
+                                       std::int64_t steps) const {
+  const Int128 height = wide_dot(face.normal, from - point(face.vertices[0]));
+  const std::uint64_t length = norm(face.normal.x, face.normal.y, face.normal.z);
+  return is_positive(height - multiply_wide(static_cast<std::int64_t>(length), steps));
+}
+
 void ExpandingPolytope::add_face(std::uint8_t a, std::uint8_t b, std::uint8_t c) {
   LKS_ASSERT(face_count_ < k_max_expanding_faces);
   ExpandingFace& face = faces_[static_cast<std::size_t>(face_count_++)];

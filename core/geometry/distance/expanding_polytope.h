@@ -34,6 +34,10 @@ class ExpandingPolytope {
   /// Whether `point` is strictly outside the plane of `face`, exact.
   [[nodiscard]] bool sees(const RawVec& point, const ExpandingFace& face) const;
 
+  /// Whether it is farther outside than `steps` of the lattice.
+  [[nodiscard]] bool sees_from_afar(const RawVec& point, const ExpandingFace& face,
+                                    std::int64_t steps) const;
+
   [[nodiscard]] bool is_full() const { return vertex_count_ == k_max_expanding_vertices; }
 
   /// Adds a vertex that sees a face. Not when full.

@@ -128,17 +128,22 @@ Candidate nearest_of(const FinePair& pair, const Simplex& all, Bounds& bounds) {
 }
 
 struct Extreme {
-  std::uint8_t vertex = 0;
+  std::uint16_t vertex = 0;
   Int128 product{};
 };
 
 /// The vertex greatest along a direction whose lanes fit 61 bits, about the core's reference.
 Extreme greatest_along(const ConvexCore& core, const RawVec& direction) {
   Extreme best;
+  if (core.rims.count != 0) {
+    best.vertex = farthest_rim_vertex(core.rims, direction);
+    best.product = wide_dot(direction, vertex_of(core, best.vertex));
+    return best;
+  }
   const int count = vertex_count(core);
   for (int i = 0; i < count; ++i) {
     const Int128 product = wide_dot(direction, vertex_of(core, i));
-    if (i == 0 || product > best.product) best = {static_cast<std::uint8_t>(i), product};
+    if (i == 0 || product > best.product) best = {static_cast<std::uint16_t>(i), product};
   }
   return best;
 }

@@ -10,8 +10,8 @@ namespace lockstone {
 /// `geometry::ConvexCore`; equal entries stand for one vertex.
 struct ClosestFeature {
   int count = 0;  ///< 0 … 3
-  std::array<std::uint8_t, 3> a{};
-  std::array<std::uint8_t, 3> b{};
+  std::array<std::uint16_t, 3> a{};
+  std::array<std::uint16_t, 3> b{};
 
   friend constexpr bool operator==(const ClosestFeature&, const ClosestFeature&) = default;
 };
@@ -29,7 +29,7 @@ struct ClosestPoints {
   ClosestFeature feature{};
 };
 
-/// Distance of spheres, capsules, boxes, hulls and triangles; one of the two may be a half-space.
+/// Distance of primitives, hulls and triangles; one of the two may be a half-space.
 /// `offset` = centre of B − centre of A in world axes; every component of a point of B less a point
 /// of A is below 2^12 m. Error ≤ 2 µm: the plane along the normal, as it is rounded, separates by
 /// no less. Points are rounded to lengths.
@@ -72,6 +72,8 @@ class GapQuery {
     make_core(a, a_);
     make_core(b, b_);
   }
+  GapQuery(const GapQuery&) = delete;  // the lattice refers to the cores
+  GapQuery& operator=(const GapQuery&) = delete;
 
   /// GJK with the centre of B at `offset`, fine, from that of A, begun where the last query ended.
   /// False when the cores overlap.

@@ -11,13 +11,20 @@ HalfSpaceGap half_space_gap(const PosedShape& half_space, const PosedShape& shap
   HalfSpaceGap gap;
   gap.normal = unit_axis(half_space.rotation.y);
   RawVec deepest;
-  for (int i = 0; i < vertex_count(core); ++i) {
+  const int count = core.rims.count != 0 ? 0 : vertex_count(core);  // rims: see below
+  for (int i = 0; i < count; ++i) {
     const RawVec vertex = vertex_of(core, i);
     const Fine height = dot(vertex + offset, gap.normal);
     if (i != 0 && height >= gap.distance) continue;
     gap.distance = height;
-    gap.vertex = static_cast<std::uint8_t>(i);
+    gap.vertex = static_cast<std::uint16_t>(i);
     deepest = vertex;
+  }
+  if (core.rims.count != 0) {
+    const Vec3<Unit>& n = gap.normal;
+    gap.vertex = farthest_rim_vertex(core.rims, {-n.x.raw, -n.y.raw, -n.z.raw});
+    deepest = vertex_of(core, gap.vertex);
+    gap.distance = dot(deepest + offset, n);
   }
   gap.distance -= fine(core.radius);
   gap.on_shape = deepest - along(gap.normal, core.radius);

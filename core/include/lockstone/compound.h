@@ -19,7 +19,7 @@ inline constexpr int k_max_compound_children = 256;
 
 /// One of the shapes. Where children overlap, the shared volume counts twice in the mass.
 struct CompoundChild {
-  Shape shape = Shape::sphere(Length::from_ratio(1, 2));  ///< sphere, capsule, box or hull
+  Shape shape = Shape::sphere(Length::from_ratio(1, 2));  ///< primitive or hull
   AssetPtr asset{};                          ///< the hull that `shape` names; null for the others
   Vec3<Length> position{};                   ///< of the shape's frame in the compound's
   Quat orientation{};                        ///< is normalised

@@ -81,7 +81,7 @@ struct PairProfile {
 
 /// Sums over all steps since the clock was set.
 struct StepProfile {
-  static constexpr std::size_t k_kinds = 8;
+  static constexpr std::size_t k_kinds = static_cast<std::size_t>(k_last_shape_kind) + 1;
 
   std::uint64_t steps = 0;
   std::array<std::uint64_t, k_step_stages> stage_ticks{};

@@ -41,7 +41,7 @@ struct RayHit {
   std::uint32_t part = 0;  ///< of its asset: triangle, cell or child
 };
 
-/// A convex shape (sphere, capsule, box or hull) on its way. The orientation stays.
+/// A convex shape (a primitive or a hull) on its way. The orientation stays.
 struct ShapeCast {
   Shape shape{};
   Transform start{};

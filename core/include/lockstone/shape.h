@@ -1,5 +1,5 @@
-// Shapes: plain values. Sphere, capsule, box and half-space are complete in themselves; the others
-// name an asset.
+// Shapes: plain values. Sphere, capsule, box, cylinder, cone and half-space are complete in
+// themselves; the others name an asset.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,20 @@ enum class ShapeKind : std::uint8_t {
   mesh = 5,          ///< triangles (asset); never on a dynamic body
   height_field = 6,  ///< a terrain (asset); never on a dynamic body
   compound = 7,      ///< several convex shapes (asset)
+  cylinder = 8,
+  cone = 9,
 };
+inline constexpr ShapeKind k_last_shape_kind = ShapeKind::cone;
 [[nodiscard]] std::string_view to_string(ShapeKind kind);
 
 /// Whether shapes of this kind name an asset.
 [[nodiscard]] constexpr bool is_asset(ShapeKind kind) {
-  return kind == ShapeKind::hull || kind > ShapeKind::half_space;
+  return kind == ShapeKind::hull || (kind > ShapeKind::half_space && kind <= ShapeKind::compound);
 }
 
-/// Whether this is one of the three that are complete in themselves, solid and bounded.
+/// Whether shapes of this kind are complete in themselves, solid and bounded.
 [[nodiscard]] constexpr bool is_primitive(ShapeKind kind) {
-  return kind <= ShapeKind::box;
+  return kind <= ShapeKind::box || kind > ShapeKind::compound;
 }
 
 /// Names an asset by its content: the hash of its canonical bytes. 0: no asset.
@@ -49,8 +52,11 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 ///   sphere:  x = radius
 ///   capsule: x = radius, y = half the length of the core segment, which lies on the body's y axis
 ///   box:     half extents along the body's axes
+///   cylinder: x = radius, y = half the height, along the body's y axis
+///   cone:    x = radius of the base, y = height, along the body's y axis: the apex is up
 ///   others:  zero; a half-space lies below the plane y = 0 of its body
-/// Sphere, capsule and box are centred on the body's origin; an asset keeps its own frame.
+/// All but assets have their centre of mass at the body's origin (a cone's base is a quarter of its
+/// height below it); an asset keeps its own frame.
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
   Vec3<Length> size{};
@@ -67,11 +73,21 @@ struct Shape {
   [[nodiscard]] static constexpr Shape box(Length half_x, Length half_y, Length half_z) {
     return {ShapeKind::box, {half_x, half_y, half_z}, {}};
   }
+
+  // A program links the code of these kinds when it names the function; one that does not refuses
+  // them, in commands and snapshots too.
+  [[nodiscard]] static Shape cylinder(Length half_height, Length radius);
+  [[nodiscard]] static Shape cone(Length height, Length radius);
+
   [[nodiscard]] static constexpr Shape half_space() { return {ShapeKind::half_space, {}, {}}; }
 };
 
+/// Links every kind: for programs that load shapes that others made. Returns true.
+bool link_all_shapes();
+
 /// ok, or invalid_argument when a dimension lies outside [k_min_shape_size, k_max_shape_size], or
-/// an asset is named where none belongs or missing where one does.
+/// an asset is named where none belongs or missing where one does, or the program does not link the
+/// kind.
 [[nodiscard]] Status validate(const Shape& shape);
 
 }  // namespace lockstone

@@ -41,7 +41,7 @@ void check_sizes(RefusalFinder& find, const Shape& shape) {
 }
 
 void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
-  find.known("shape.kind", shape.kind, ShapeKind::sphere, ShapeKind::compound);
+  find.known("shape.kind", shape.kind, ShapeKind::sphere, k_last_shape_kind);
   if (find.done()) return;
   const std::string kind(to_string(shape.kind));
   const std::string id = hexadecimal(shape.asset.value);

@@ -19,11 +19,6 @@ std::string_view to_string(MotionType motion) {
   constexpr std::array<std::string_view, 3> k_names{"static", "kinematic", "dynamic"};
   return name_of(k_names, motion, 1);
 }
-std::string_view to_string(ShapeKind kind) {
-  constexpr std::array<std::string_view, 8> k_names{
-      "sphere", "capsule", "box", "hull", "half-space", "mesh", "height field", "compound"};
-  return name_of(k_names, kind);
-}
 std::string_view to_string(CombineRule rule) {
   constexpr std::array<std::string_view, 6> k_names{"standard", "average",  "geometric mean",
                                                     "minimum",  "multiply", "maximum"};

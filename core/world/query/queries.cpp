@@ -76,8 +76,7 @@ PlacedShape placed_query(const WorldData& world, const Shape& shape, const Trans
   const bool convex =
       is_primitive(shape.kind) || (asset != nullptr && asset->polytope() != nullptr);
   if (!convex)
-    misused(
-        "a query of World: the shape must be a sphere, capsule, box, or a hull of World::assets()");
+    misused("a query of World: the shape must be a primitive, or a hull of World::assets()");
   return {shape, asset, pose.position, to_matrix(normalized(pose.orientation)), pose.position};
 }
 

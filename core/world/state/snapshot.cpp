@@ -58,8 +58,6 @@ bool has_valid_notes(const BodyRecord& record) {
          is_within(gain.spin, k_most_gain);
 }
 
-constexpr auto k_last_shape_kind = static_cast<std::uint8_t>(ShapeKind::compound);
-
 // The asset exists, and a body without a mass distribution does not move.
 bool has_known_shape(const BodyRecord& record, const Asset* asset) {
   const ShapeKind kind = record.shape().kind;
@@ -119,8 +117,8 @@ bool has_unit_norm(const Quat& q) {
 Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (!is_generation(record.generation) || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
-  const bool known =
-      record.shape_kind <= k_last_shape_kind && (record.flags & ~k_all_body_flags) == 0;
+  const bool known = record.shape_kind <= static_cast<std::uint8_t>(k_last_shape_kind) &&
+                     (record.flags & ~k_all_body_flags) == 0;
   if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
   const Asset* asset = assets.find(record.asset);
   if (!has_known_shape(record, asset)) return Status::malformed;

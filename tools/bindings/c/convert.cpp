@@ -10,7 +10,8 @@ CombineRule rule_of(std::uint32_t rule, std::string_view field) {
 }  // namespace
 
 Shape shape_of(const lks_shape& shape, std::string_view field) {
-  return {enumerator(shape.kind, ShapeKind::sphere, ShapeKind::compound, field),
+  [[maybe_unused]] static const bool linked = link_all_shapes();
+  return {enumerator(shape.kind, ShapeKind::sphere, k_last_shape_kind, field),
           vec<Length>(shape.size),
           {shape.asset}};
 }

@@ -7,8 +7,12 @@
 namespace lockstone::tool {
 namespace {
 
-constexpr std::string_view k_kinds[StepProfile::k_kinds] = {
-    "sphere", "capsule", "box", "hull", "half-space", "mesh", "height-field", "compound"};
+/// As `to_string`, in one word.
+std::string kind_name(std::size_t kind) {
+  std::string name(to_string(static_cast<ShapeKind>(kind)));
+  std::ranges::replace(name, ' ', '-');
+  return name;
+}
 
 }  // namespace
 
@@ -24,7 +28,8 @@ std::vector<PairRow> pair_rows(const StepProfile& profile) {
   for (std::size_t a = 0; a < StepProfile::k_kinds; ++a) {
     for (std::size_t b = a; b < StepProfile::k_kinds; ++b) {
       const PairProfile& pairs = profile.pair_kinds[a][b];
-      if (pairs.pairs != 0) rows.push_back({fmt::format("{}-{}", k_kinds[a], k_kinds[b]), &pairs});
+      if (pairs.pairs != 0)
+        rows.push_back({fmt::format("{}-{}", kind_name(a), kind_name(b)), &pairs});
     }
   }
   return rows;

@@ -16,11 +16,15 @@ enum {
   LKS_HALF_SPACE = 4, /* all below the plane y = 0 of its body; of static bodies only */
   LKS_MESH = 5,
   LKS_HEIGHT_FIELD = 6,
-  LKS_COMPOUND = 7
+  LKS_COMPOUND = 7,
+  LKS_CYLINDER = 8,
+  LKS_CONE = 9
 };
 
 /* The size means, by kind: sphere: x = radius; capsule: x = radius, y = half the length of the core
- * segment, along y; box: half extents; others: zero. Sizes are 0.98 mm … 512 m. */
+ * segment, along y; box: half extents; cylinder: x = radius, y = half the height, along y; cone: x
+ * = radius of the base, y = height, along y, the origin a quarter of it above the base; others:
+ * zero. Sizes are 0.98 mm … 512 m. */
 typedef struct lks_shape {
   uint32_t kind;
   lks_length3 size;
@@ -45,6 +49,12 @@ static inline lks_shape lks_capsule(lks_length half_height, lks_length radius) {
 }
 static inline lks_shape lks_box(lks_length half_x, lks_length half_y, lks_length half_z) {
   return lks_shape_of(LKS_BOX, half_x, half_y, half_z, 0);
+}
+static inline lks_shape lks_cylinder(lks_length half_height, lks_length radius) {
+  return lks_shape_of(LKS_CYLINDER, radius, half_height, 0, 0);
+}
+static inline lks_shape lks_cone(lks_length height, lks_length radius) {
+  return lks_shape_of(LKS_CONE, radius, height, 0, 0);
 }
 static inline lks_shape lks_half_space(void) {
   return lks_shape_of(LKS_HALF_SPACE, 0, 0, 0, 0);

@@ -7,7 +7,7 @@ from typing import List
 
 from ._library import LockstoneError, lib
 from .logs import CORRUPT, DIVERGED, INCOMPATIBLE, SAME, Verdict, verify_log
-from .shapes import Assets, box, capsule, half_space, sphere
+from .shapes import Assets, box, capsule, cone, cylinder, half_space, sphere
 from .units import Raw
 from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,
                     HINGE, IMPACT, KINEMATIC, MOTOR, PULLEY, RACK, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,

@@ -31,6 +31,16 @@ def box(half_x: Quantity, half_y: Quantity, half_z: Quantity) -> Shape:
     return Shape(2, lengths((half_x, half_y, half_z)), 0)
 
 
+def cylinder(half_height: Quantity, radius: Quantity) -> Shape:
+    """Along y."""
+    return Shape(8, I32x3(_length(radius), _length(half_height), 0), 0)
+
+
+def cone(height: Quantity, radius: Quantity) -> Shape:
+    """Along y, the apex up; its base is a quarter of the height below the centre of mass."""
+    return Shape(9, I32x3(_length(radius), _length(height), 0), 0)
+
+
 def half_space() -> Shape:
     """All below the plane y = 0 of its body, which must be static."""
     return Shape(4, I32x3(0, 0, 0), 0)

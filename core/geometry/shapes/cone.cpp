@@ -1,0 +1,261 @@
+// Cones: size.x is the radius of the base, size.y the height, along y. The centre of mass is the
+// origin: the base is at y = −h/4, the apex at 3h/4.
+#include <algorithm>
+#include <bit>
+
+#include "core/geometry/contact/collide_convex.h"
+#include "core/geometry/convex/mass_arithmetic.h"
+#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/shapes/rim_shape.h"
+#include "core/geometry/shapes/shape_table.h"
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace geometry {
+namespace {
+
+/// r² h, 60 fraction bits; times π/3 the volume.
+UInt128 cone_product(const Sizes& size) {
+  return multiply_wide(square(raw_of(size.x)), raw_of(size.y));
+}
+
+constexpr std::uint64_t k_third_pi = 2414673152692374281U;  // 61 fraction bits
+
+Fine cone_base_height(const Sizes& size) {
+  return -fine(size.y) / 4;
+}
+
+Fine cone_apex_height(const Sizes& size) {
+  return fine(size.y) - fine(size.y) / 4;
+}
+
+Disc cone_base(const Sizes& size) {
+  return {cone_base_height(size), size.x};
+}
+
+/// The side's outward normal in the plane of x and y: (h, r) / √(h² + r²).
+struct SideNormal {
+  Unit out;
+  Unit up;
+};
+
+SideNormal cone_side(const Sizes& size) {
+  const Vec3<Unit> n = direction_of(size.y.raw, size.x.raw, 0);
+  return {n.x, n.y};
+}
+
+/// max(3h/4, √(r² + h²/16)).
+Length cone_bounding_radius(const Sizes& size) {
+  const std::uint64_t quarter = (raw_of(size.y) + 3) / 4;
+  return max(Length::from_raw(static_cast<std::int32_t>(raw_of(size.y) - raw_of(size.y) / 4)),
+             root_up(square(raw_of(size.x)) + square(quarter)));
+}
+
+/// min(h/4, 3/4 · h r / √(h² + r²)), rounded down.
+Length cone_inner_radius(const Sizes& size) {
+  const std::int64_t side = (3 * (cone_side(size).out * size.x).raw / 4) >> Unit::frac_bits;
+  return max(
+      min(size.y / 4, Length::from_raw(static_cast<std::int32_t>(side)) - Length::from_raw(1)),
+      Length::from_raw(1));
+}
+
+Fine cone_reach(const Sizes& size, const Vec3<Unit>& n) {
+  const Fine apex = scaled(cone_apex_height(size), n.y.raw);
+  const Fine rim = scaled(cone_base_height(size), n.y.raw) + rim_reach(size.x, n.x, n.z);
+  return std::max(apex, rim);
+}
+
+Sizes cone_extents(const Sizes& size, const Mat3& rotation) {
+  Sizes result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3<Unit> n{rotation.x[axis], rotation.y[axis], rotation.z[axis]};
+    const Fine reach = std::max(cone_reach(size, n), cone_reach(size, -n));
+    result[axis] = rounded_up(reach + size.x.raw + 2);  // the rounding of root and products
+  }
+  return result;
+}
+
+Mass cone_mass(const Sizes& size, Density density) {
+  return mass_with_factor(cone_product(size), density, k_third_pi, 61);
+}
+
+BlockFloat cone_volume(const Sizes& size) {
+  return volume_with_factor(cone_product(size), k_third_pi, 61);
+}
+
+/// About the axis 3r²/10, across it 3r²/20 + 3h²/80.
+Vec3<Unit> cone_inertia(const ScaledSizes& size) {
+  const std::uint64_t rr = square(size[0]), hh = square(size[1]);
+  const UInt128 weighed = multiply_wide(12, rr) + multiply_wide(3, hh);
+  const Unit across = moment_of(round_divide(weighed, std::uint64_t{80} << 30));
+  return {across, moment_share(3 * rr, 10), across};
+}
+
+bool cone_holds(const Sizes& size, const Vec3<Length>& point, Length slack) {
+  const Fine height = fine(point.y);
+  if (height < cone_base_height(size) - fine(slack)) return false;
+  const SideNormal side = cone_side(size);
+  const Fine beyond = (distance_from_axis(point) * side.out).raw +
+                      scaled(height - cone_apex_height(size), side.up.raw);
+  return beyond <= fine(slack);
+}
+
+/// Whether n looks more along the base's normal than along the side's.
+bool shows_base(const Sizes& size, const Vec3<Unit>& n) {
+  const SideNormal side = cone_side(size);
+  const Fine flat = rim_reach(Length::from_raw(1), n.x, n.z);  // 30 fraction bits
+  const std::int64_t along_side = flat * side.out.raw + std::int64_t{n.y.raw} * side.up.raw;
+  return -(std::int64_t{n.y.raw} << Unit::frac_bits) > along_side;
+}
+
+Vec3<Unit> cone_face_along(const Sizes& size, const Vec3<Unit>& axis) {
+  if (shows_base(size, axis)) return -Mat3{}.y;
+  const SideNormal side = cone_side(size);
+  const Vec3<Unit> flat = direction_of(axis.x.raw, 0, axis.z.raw);
+  return {rounded<Unit>(flat.x * side.out), side.up, rounded<Unit>(flat.z * side.out)};
+}
+
+void cone_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  const Sizes& size = shape.shape.size;
+  if (shows_base(size, rotate_inverse(shape.rotation, n)))
+    return add_disc(shape, cone_base(size), -1, n, 0, out);
+  out.add(deepest_of(shape, cone_base(size), n), k_disc_deepest);
+  out.add(rotate(shape.rotation, RawVec{0, cone_apex_height(size), 0}), k_second_disc);
+}
+
+/// A smaller cone of the same form about the same centre of mass.
+Sizes cone_scaled(const Sizes& size, Unit share) {
+  return {rounded<Length>(size.x * share), rounded<Length>(size.y * share), {}};
+}
+
+Sizes cone_eroded(const Sizes& size, Length depth) {
+  const Length inner = cone_inner_radius(size);
+  const Length left = inner - min(depth, inner);
+  return cone_scaled(size, Unit::from_raw(static_cast<std::int32_t>(
+                               (std::int64_t{left.raw} << Unit::frac_bits) / inner.raw)));
+}
+
+void cone_core(const PosedShape& shape, ConvexCore& core) {
+  const Sizes& size = shape.shape.size;
+  const RawVec base = along(shape.rotation.y, cone_base_height(size));
+  const RawVec apex = along(shape.rotation.y, cone_apex_height(size));
+  core.rims = {2, shape.rotation.x, shape.rotation.z, {base, apex}, {size.x, Length{}}};
+  for (int k = 0; k < 3; ++k)
+    core.extent[k] = std::max(magnitude_of(base[k]) + fine(size.x), magnitude_of(apex[k]));
+}
+
+// Rays --------------------------------------------------------------------------------------------
+
+/// With p = up · (apex − y) and q = out · (x, z), the cone is |q| ≤ p.
+struct ConeRay {
+  RawVec start;  ///< q.x, p, q.z
+  RawVec way;
+};
+
+/// Brings the lanes within 2^30 and returns the shift.
+int cut_lanes(RawVec& v) {
+  const std::int64_t most =
+      std::max({magnitude_of(v.x), magnitude_of(v.y), magnitude_of(v.z), std::int64_t{1}});
+  const int shift =
+      std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most))) - 30);
+  v = shifted(v, shift);
+  return shift;
+}
+
+/// q · q − p · p.
+std::int64_t cone_form(const RawVec& v, const RawVec& w) {
+  return v.x * w.x + v.z * w.z - v.y * w.y;
+}
+
+/// numerator · 2^shift / denominator with 60 fraction bits; a miss outside [0, 1].
+RimHit cone_fraction(std::int64_t numerator, std::int64_t denominator, int shift) {
+  if (denominator < 0) {
+    numerator = -numerator;
+    denominator = -denominator;
+  }
+  if (numerator < 0 || denominator == 0) return {};
+  const UInt128 whole = UInt128{0, static_cast<std::uint64_t>(denominator)} << 60;
+  UInt128 part = UInt128{0, static_cast<std::uint64_t>(numerator)} << 60;
+  if (shift > countl_zero(part)) return {};
+  part = shift >= 0 ? part << shift : part >> -shift;
+  if (part > whole) return {};
+  return {true,
+          static_cast<std::int64_t>(round_divide(part, static_cast<std::uint64_t>(denominator))),
+          {}};
+}
+
+/// a f² + 2 b f + c = 0 has the roots k / a and c / k, k = −b ∓ √(b² − ac), without cancellation.
+RimHit meet_side(const Shape& cone, const AxisRay& ray) {
+  const SideNormal side = cone_side(cone.size);
+  const Fine apex = cone_apex_height(cone.size);
+  const auto turned = [&side](Fine x, Fine z, Fine down) {
+    return RawVec{scaled(x, side.out.raw), scaled(down, side.up.raw), scaled(z, side.out.raw)};
+  };
+  RawVec o = turned(ray.start.x, ray.start.z, apex - ray.start.y);
+  RawVec w = turned(ray.way.x, ray.way.z, -ray.way.y);
+  const int shift = cut_lanes(o) - cut_lanes(w);
+  const std::int64_t a = cone_form(w, w), b = cone_form(o, w), c = cone_form(o, o);
+  const Int128 discriminant = multiply_wide(b, b) - multiply_wide(a, c);
+  if (discriminant.negative()) return {};
+  const auto root = static_cast<std::int64_t>(isqrt128(discriminant.bits()));
+  const std::int64_t k = b > 0 ? -b - root : -b + root;
+  RimHit best;
+  for (RimHit hit : {cone_fraction(k, a, shift), cone_fraction(c, k, shift)}) {
+    if (!hit.hit) continue;
+    constexpr Fine k_seam = Fine{1} << (k_fine_bits - 30);
+    const RawVec at = ray_point(ray, hit.fraction);
+    const bool enters = at.y <= apex && at.y >= cone_base_height(cone.size) - k_seam;
+    const Vec3<Unit> flat = direction_of(at.x, 0, at.z);
+    hit.outward = {scaled(flat.x.raw, side.out.raw), side.up.raw, scaled(flat.z.raw, side.out.raw)};
+    if (enters) take_earlier(best, hit);
+  }
+  return best;
+}
+
+ShapeRayHit cone_ray(const Shape& shape, const Mat3& rotation, const Vec3<Length>& origin,
+                     const Vec3<Length>& translation) {
+  const AxisRay ray{to_local(rotation, origin), to_local(rotation, translation)};
+  const SideNormal side = cone_side(shape.size);
+  const auto distance = static_cast<Fine>(norm(ray.start.x, 0, ray.start.z));
+  const Fine beyond = scaled(distance, side.out.raw) +
+                      scaled(ray.start.y - cone_apex_height(shape.size), side.up.raw);
+  if (beyond <= 0 && ray.start.y >= cone_base_height(shape.size)) return {true, {}, {}};
+  RimHit best = meet_side(shape, ray);
+  take_earlier(best, meet_disc(ray, cone_base(shape.size), -1));
+  return ray_hit(best, rotation);
+}
+
+}  // namespace
+
+const ShapeTraits k_cone{
+    .size_names = {"radius", "height", ""},
+    .size_count = 2,
+    .has_core_radius = false,
+    .bounding_radius = cone_bounding_radius,
+    .inner_radius = cone_inner_radius,
+    .half_extents = cone_extents,
+    .mass = cone_mass,
+    .volume = cone_volume,
+    .inertia = cone_inertia,
+    .reach = cone_reach,
+    .holds = cone_holds,
+    .face_along = cone_face_along,
+    .vertex_at = no_vertex_at,
+    .vertices = no_vertices,
+    .eroded = cone_eroded,
+    .shortened = cone_scaled,
+    .make_core = cone_core,
+    .below_plane = below_feature,
+    .cast_ray = cone_ray,
+    .collide = collide_convex,
+    .find_feature = cone_feature,
+    .with_round_ends = nullptr,
+};
+
+}  // namespace geometry
+
+Shape Shape::cone(Length height, Length radius) {
+  return {ShapeKind::cone, {radius, height, {}}, {}};
+}
+
+}  // namespace lockstone
