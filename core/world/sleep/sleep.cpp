@@ -186,6 +186,7 @@ void World::Impl::rest_bodies(StepReport& report) {
     report.islands = islands.settle(awake.list());
     for (const std::uint32_t body : awake.list())
       if (bodies[body].is_dynamic() && !islands.is_held(body)) to_sleep.push_back(body);
+    slow_bodies_down();
   }
   for (const std::uint32_t body : to_sleep)
     set_asleep(body);
@@ -206,6 +207,18 @@ bool World::Impl::watch_bodies() {
     }
   }
   return ready;
+}
+
+// Brakes bodies without joints that keep others awake.
+void World::Impl::slow_bodies_down() {
+  const Velocity brake = rest_rules.brake(def.tick_rate);
+  for (const std::uint32_t body : awake.list()) {
+    BodyRecord& record = bodies[body];
+    if (!is_watched(record, rest_rules) || record.rest_ticks >= rest_rules.ticks) continue;
+    if (!islands.rests_in_part(body) || !joint_graph.neighbours(body).empty()) continue;
+    slow_down(record, cache.rotation(body), brake);
+    refresh_bounds(body);
+  }
 }
 
 // Bodies that overlap deeply are still being pushed out, too slowly for the rest test to see: they
@@ -231,15 +244,19 @@ void World::Impl::join_islands() {
   find_active_joints();
   const std::span<const std::uint32_t> all = awake.list();
   islands.begin(all);
-  for (const std::uint32_t body : all)
-    if (bodies[body].rest_ticks < rest_rules.ticks) islands.hold(body);
+  for (const std::uint32_t body : all) {
+    if (bodies[body].rest_ticks < rest_rules.ticks)
+      islands.hold(body);
+    else if (bodies[body].is_dynamic())
+      islands.note_rest(body);
+  }
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
     if (!awake.has(a) || !awake.has(b)) return;
     const bool a_dynamic = bodies[a].is_dynamic();
     if (a_dynamic && bodies[b].is_dynamic())
       islands.join(a, b);
     else
-      islands.hold(a_dynamic ? a : b);
+      islands.drive(a_dynamic ? a : b);
   };
   for (const ContactRecord& contact : contacts())
     if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
