@@ -302,7 +302,6 @@ struct World::Impl {
   [[nodiscard]] Length margin_of(const Pair& pair) const;
   [[nodiscard]] bool meet(const Pair& pair);
   void rest_bodies(StepReport& report);
-  void slow_bodies_down();
   [[nodiscard]] bool watch_bodies();
   void join_islands();
   void hold_overlapping();

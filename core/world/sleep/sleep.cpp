@@ -175,7 +175,8 @@ bool World::Impl::wake_met() {
 }
 
 // Dynamic bodies of one island fall asleep together, once all of them rest. Bodies that a kinematic
-// body moves or is about to move stay awake; a kinematic body that stands sleeps by itself.
+// body moves or is about to move stay awake; a kinematic body that stands sleeps by itself. Bodies
+// without joints that keep others awake are braked.
 void World::Impl::rest_bodies(StepReport& report) {
   const StageTimer timer(profiler, StepStage::sleep);
   wake_listed();  // bodies that were hit during the step
@@ -184,9 +185,18 @@ void World::Impl::rest_bodies(StepReport& report) {
     join_islands();
     hold_overlapping();
     report.islands = islands.settle(awake.list());
-    for (const std::uint32_t body : awake.list())
-      if (bodies[body].is_dynamic() && !islands.is_held(body)) to_sleep.push_back(body);
-    slow_bodies_down();
+    const Velocity brake = rest_rules.brake(def.tick_rate);
+    for (const std::uint32_t body : awake.list()) {
+      BodyRecord& record = bodies[body];
+      if (!record.is_dynamic()) continue;
+      if (!islands.is_held(body)) to_sleep.push_back(body);
+      const bool is_unrested =
+          is_watched(record, rest_rules) && record.rest_ticks < rest_rules.ticks;
+      if (!is_unrested || !islands.rests_in_part(body) || !joint_graph.neighbours(body).empty())
+        continue;
+      slow_down(record, cache.rotation(body), brake);
+      refresh_bounds(body);
+    }
   }
   for (const std::uint32_t body : to_sleep)
     set_asleep(body);
@@ -207,18 +217,6 @@ bool World::Impl::watch_bodies() {
     }
   }
   return ready;
-}
-
-// Brakes bodies without joints that keep others awake.
-void World::Impl::slow_bodies_down() {
-  const Velocity brake = rest_rules.brake(def.tick_rate);
-  for (const std::uint32_t body : awake.list()) {
-    BodyRecord& record = bodies[body];
-    if (!is_watched(record, rest_rules) || record.rest_ticks >= rest_rules.ticks) continue;
-    if (!islands.rests_in_part(body) || !joint_graph.neighbours(body).empty()) continue;
-    slow_down(record, cache.rotation(body), brake);
-    refresh_bounds(body);
-  }
 }
 
 // Bodies that overlap deeply are still being pushed out, too slowly for the rest test to see: they
