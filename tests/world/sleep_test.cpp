@@ -37,7 +37,7 @@ BodyHandle add_rolling_ball(World& world, Position surface) {
   return test::add(world, ball);
 }
 
-TEST(Sleep, BrakesWhatRollsSlowlyOnABodyThatRests) {
+TEST(Sleep, BrakesABallThatRollsOnABodyThatRests) {
   World world = test::make_world();
   test::add_ground(world);
   const BodyHandle table =
@@ -49,7 +49,7 @@ TEST(Sleep, BrakesWhatRollsSlowlyOnABodyThatRests) {
   EXPECT_LT(world.position(ball).x, 0.25_m);
 }
 
-TEST(Sleep, BrakesNothingThatRollsByItself) {
+TEST(Sleep, LeavesABallThatRollsByItself) {
   World world = test::make_world();
   test::add_ground(world);
   const BodyHandle ball = add_rolling_ball(world, {});
