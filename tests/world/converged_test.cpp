@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/world/joint_fixture.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -64,10 +65,6 @@ TEST(Converged, ALightBoxCarriesThousandsOfTimesItsWeight) {
 template <class Value>
 double number(Value x) {
   return std::ldexp(static_cast<double>(x.raw), -Value::frac_bits);
-}
-
-double gap(const JointView& joint) {
-  return std::hypot(number(joint.offset.x), number(joint.offset.y), number(joint.offset.z));
 }
 
 // A hinge about z, of bodies that are turned about nothing else.

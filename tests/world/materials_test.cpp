@@ -133,21 +133,21 @@ TEST(SurfaceMotion, ATurntableTurnsABodyAtItsCentre) {
   EXPECT_NEAR(to_double(world.body(box).angular_velocity.y), 2, 1e-3);
 }
 
-// Two whole turns of 1 rad/s at 1 m: the tangent of each tick alone would lead outwards by 0.1 m.
-void expect_to_ride_at_its_radius(bool is_kinematic) {
+// For 4π s at 1 m: at 1 rad/s the tangent of each tick alone would lead outwards by 0.1 m.
+void expect_to_ride_at_its_radius(bool is_kinematic, int rate) {
   World world = test::make_world();
   BodyDef table;
   table.motion = is_kinematic ? MotionType::kinematic : MotionType::static_body;
   table.shape = Shape::box(5_m, 0.5_m, 5_m);
   table.position = {{}, -0.5_m, {}};
   if (is_kinematic)
-    table.angular_velocity.y = 1_rps;
+    table.angular_velocity.y = AngularVelocity::from_integer(rate);
   else
-    table.surface_motion.turning.y = 1_rps;
+    table.surface_motion.turning.y = Rate::from_integer(rate);
   test::add(world, table);
   BodyDef box = test::dynamic_body(Shape::box(0.25_m, 0.25_m, 0.25_m), 1_m, 0.25_m, 0_m);
-  box.velocity = {{}, {}, -1_mps};
-  box.angular_velocity = {{}, 1_rps, {}};
+  box.velocity.z = Velocity::from_integer(-rate);
+  box.angular_velocity.y = AngularVelocity::from_integer(rate);
   const BodyHandle rider = test::add(world, box);
   for (int i = 0; i < 754; ++i) {
     test::step(world, 1);
@@ -157,11 +157,18 @@ void expect_to_ride_at_its_radius(bool is_kinematic) {
 }
 
 TEST(SurfaceMotion, ATurntableCarriesAlongACircle) {
-  expect_to_ride_at_its_radius(false);
+  expect_to_ride_at_its_radius(false, 1);
 }
 
 TEST(SurfaceMotion, AKinematicTableCarriesAlongACircle) {
-  expect_to_ride_at_its_radius(true);
+  expect_to_ride_at_its_radius(true, 1);
+}
+
+// 4 m/s² of the 4.9 that friction holds: a substep's friction holds the turn of one substep, but
+// not that of a tick.
+TEST(SurfaceMotion, ATurntableCarriesNearTheLimitOfFriction) {
+  expect_to_ride_at_its_radius(false, 2);
+  expect_to_ride_at_its_radius(true, 2);
 }
 
 TEST(SurfaceMotion, TurnsAboutTheOriginOfAnAssetsFrame) {

@@ -29,6 +29,47 @@ TEST(Sleep, ComesAfterTheTimeOfRestAndNotBefore) {
   EXPECT_LE(ticks, 35);
 }
 
+// A ball of 0.25 m that rolls along x on a surface at this height.
+BodyHandle add_rolling_ball(World& world, Position surface) {
+  BodyDef ball = test::dynamic_body(Shape::sphere(0.25_m), {}, surface + 0.25_m, {});
+  ball.velocity.x = Velocity::from_ratio(1, 10);
+  ball.angular_velocity.z = AngularVelocity::from_ratio(-4, 10);
+  return test::add(world, ball);
+}
+
+TEST(Sleep, BrakesABallThatRollsOnABodyThatRests) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle table =
+      test::add(world, test::dynamic_body(Shape::box(2_m, 0.5_m, 2_m), {}, 0.5_m, {}));
+  const BodyHandle ball = add_rolling_ball(world, 1_m);
+  test::step(world, 300);
+  EXPECT_TRUE(asleep(world, table));
+  EXPECT_TRUE(asleep(world, ball));
+  EXPECT_LT(world.position(ball).x, 0.25_m);
+}
+
+TEST(Sleep, LeavesABallThatRollsByItself) {
+  World world = test::make_world();
+  test::add_ground(world);
+  const BodyHandle ball = add_rolling_ball(world, {});
+  test::step(world, 300);
+  EXPECT_FALSE(asleep(world, ball));
+  EXPECT_GT(world.position(ball).x, Position::from_ratio(499, 1000));
+}
+
+// Nothing holds a ball on a point against turning about it.
+TEST(Sleep, BrakesABallThatSpinsInItsPlaceOnABodyThatRests) {
+  World world = test::make_world();
+  test::add_ground(world);
+  test::add(world, test::dynamic_body(Shape::box(2_m, 0.5_m, 2_m), {}, 0.5_m, {}));
+  BodyDef ball = test::dynamic_body(Shape::sphere(0.1_m), {}, 1.1_m, {});
+  ball.angular_velocity.y = 2_rps;
+  const BodyHandle top = test::add(world, ball);
+  test::step(world, 360);
+  EXPECT_TRUE(asleep(world, top));
+}
+
 TEST(Sleep, TakesAWholeIslandInOneTickAndTellsByEvents) {
   World world = test::make_world();
   test::add_ground(world);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/dynamics/body/energy.h"
+#include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/pose_distance.h"
 
 namespace lockstone {
@@ -38,6 +40,12 @@ RestRules RestRules::of(std::uint32_t tick_rate, std::uint32_t milliseconds, Len
   return {ticks, distance};
 }
 
+Velocity RestRules::brake(std::uint32_t tick_rate) const {
+  if (ticks == 0) return {};
+  const std::int64_t two_distances = std::int64_t{distance.raw} << (33 - Length::frac_bits);
+  return Velocity::from_raw(two_distances * tick_rate / (std::int64_t{ticks} * ticks));
+}
+
 void begin_rest(BodyRecord& body, const RestRules& rules) {
   body.rest_ticks = 0;
   if (!body.is_dynamic() || body.is_pushed()) return;
@@ -60,6 +68,19 @@ bool count_rest(BodyRecord& body, const RestRules& rules) {
     ++body.rest_ticks;
   }
   return body.rest_ticks >= rules.ticks;
+}
+
+void slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake) {
+  constexpr std::int64_t k_fast = std::int64_t{1} << 28;  // 1/16 m²/s², Q32
+  const Vec3<Velocity> surface = surface_velocity(inverse_inertia(body, rotation), body.spin);
+  const std::int64_t square = energy_product(body.velocity, body.velocity, body.spin, surface);
+  if (square >= k_fast) return;
+  const auto speed = static_cast<std::int64_t>(isqrt(static_cast<std::uint64_t>(square) << 32));
+  const std::int32_t kept = share_of(speed - brake.raw, speed);
+  for (int i = 0; i < 3; ++i) {
+    body.velocity[i].raw = raw::multiply_shift(body.velocity[i].raw, kept, k_share_bits);
+    body.spin[i].raw = raw::multiply_shift(body.spin[i].raw, kept, k_share_bits);
+  }
 }
 
 }  // namespace lockstone

@@ -4,6 +4,9 @@
 // began to rest. A body that goes farther begins again at its present pose. So a body that trembles
 // about one place rests, however fast; one that creeps or swings does not, however slow it is at
 // the moment; and a single rounding decides nothing.
+//
+// Nothing stops a ball that creeps, rolls or spins in a pocket of a pile. So a slow body that keeps
+// others awake which rest is braked, as weakly as a slope that would not hold it from resting.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +22,10 @@ struct RestRules {
 
   /// So long a body must rest that is still pushed out of another.
   [[nodiscard]] std::uint32_t long_ticks() const { return 8 * ticks; }
+
+  /// A body at rest that gains more than this in each tick does not stay at rest: 2·distance /
+  /// ticks² a tick.
+  [[nodiscard]] Velocity brake(std::uint32_t tick_rate) const;
 
   [[nodiscard]] static RestRules of(std::uint32_t tick_rate, std::uint32_t milliseconds,
                                     Length distance);
@@ -38,5 +45,8 @@ void end_pushes(BodyRecord& body, const RestRules& rules);
 
 /// Counts a tick of a watched body. Returns whether it is ready to sleep.
 bool count_rest(BodyRecord& body, const RestRules& rules);
+
+/// Takes so much off the body's speed, turning included; does nothing above 1/4 m/s.
+void slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake);
 
 }  // namespace lockstone

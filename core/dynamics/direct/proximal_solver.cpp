@@ -165,7 +165,8 @@ BlockFloat ProximalSolver::find_unit(const ContactRun& run, const Island& island
   return unit;
 }
 
-void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t weight) {
+void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t weight,
+                           int substeps) {
   Island& island = islands_[index];
   island.unit = find_unit(run, island);
   const std::span<InertiaRoot> roots =
@@ -186,7 +187,7 @@ void ProximalSolver::begin(const ContactRun& run, std::uint32_t index, std::int6
     lanes::proximal_kernels().couple(problem);
     begin_rows(prepared, weight, contact, problem);
     measure(run, prepared, contact, problem);
-    set_drives(run, contact, problem);
+    set_drives(run, substeps, contact, problem);
   }
   if (island.joints != 0) find_carried_speeds(run, island);
 }
@@ -203,73 +204,6 @@ void ProximalSolver::begin_rows(const PreparedRows& prepared, std::int64_t weigh
     problem.least_change[i] = row.to_speed.times(k_least_contact_change, 50 - k_row_unit_bits);
     if (i < contact.points)
       row.weight_leak = scale.times(raw::round_divide(weight << 29, prepared.own[i]), k_down);
-  }
-}
-
-// Moving surfaces add to the speeds of friction.
-void ProximalSolver::set_drives(const ContactRun& run, const ProximalContact& contact,
-                                Problem& problem) {
-  const ManifoldBlock& block = run.blocks[contact.block()];
-  const std::size_t lane = contact.lane();
-  if (block.is_plain(lane)) return;
-  const std::int64_t drives[] = {low_word(block.drive[lane]) * (std::int64_t{1} << 30),
-                                 high_word(block.drive[lane]) * (std::int64_t{1} << 30),
-                                 low_word(block.turn[lane]) * contact.radius};
-  for (std::size_t i = contact.points; i < contact.rows; ++i) {
-    problem.bias[i] =
-        contact.all[i].to_speed.times(drives[i - contact.points], 50 - k_row_unit_bits);
-  }
-}
-
-// Velocity and spin of A and B, Q50.
-struct ProximalSolver::Motion {
-  RawVec3 along{}, spin_a{}, spin_b{};
-};
-
-std::int64_t ProximalSolver::speed_along(const RawVec3* linear, const RawVec3& response_a,
-                                         const RawVec3& response_b, const Motion& motion) {
-  ProductSum sum;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (linear != nullptr) sum.add((*linear)[k], motion.along[k]);
-    sum.add(response_b[k], motion.spin_b[k]);
-    sum.subtract(response_a[k], motion.spin_a[k]);
-  }
-  return sum.rounded(30);
-}
-
-// Speeds of all rows as the tick begins, and once gravity and forces have acted.
-void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared,
-                             const ProximalContact& contact, Problem& problem) {
-  Motion start, gained;
-  const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
-                            RawVec3& gained_spin, std::int64_t sign) {
-    const RowBody& row = run.rows[index];
-    for (std::size_t k = 0; k < 3; ++k) {
-      start.along[k] += sign * row.velocity[k];
-      spin[k] = row.spin[k];
-      if (body == 0) continue;
-      const SolverBody& constants = run.bodies[body];
-      gained.along[k] += sign * constants.gain[k] * k_to_row;
-      gained_spin[k] = constants.spin_gain[k] * k_to_row;
-    }
-  };
-  add_side(contact.row_a, contact.a, start.spin_a, gained.spin_a, -1);
-  add_side(contact.row_b, contact.b, start.spin_b, gained.spin_b, 1);
-  const RawVec3* linear[k_contact_rows] = {};
-  std::fill_n(linear, contact.points, &contact.normal);
-  if (contact.rows > contact.points) {
-    linear[contact.points] = &contact.tangent;
-    linear[contact.points + 1] = &contact.binormal;
-  }
-  for (std::size_t i = 0; i < contact.rows; ++i) {
-    const ProximalRow& row = contact.all[i];
-    const auto read = [&](const Motion& motion) {
-      const std::int64_t speed =
-          speed_along(linear[i], prepared.response_a[i], prepared.response_b[i], motion);
-      return within_row(row.to_speed.times(speed, 50 - k_row_unit_bits));
-    };
-    problem.moved[i] = read(start);
-    problem.moving[i] = within_row(problem.moved[i] + read(gained));
   }
 }
 
@@ -292,6 +226,8 @@ void ProximalSolver::begin_substep(Island& island) {
       row.leak = std::min(held / k_leak_part, row.weight_leak);
       problem.held_centre[i] -= row.leak;
     }
+    for (std::size_t i = 0; i < 2 && !island.is_first && contact.rows > contact.points; ++i)
+      problem.bias[contact.points + i] += contact.bias_gain[i];
   }
   island.warms = island.is_first;
   island.is_first = false;

@@ -57,7 +57,7 @@ class ProximalSolver {
 
   /// Once blocks are prepared: takes contacts over from the iterations. `weight` is gravity's gain
   /// in a substep, m/s, Q32.
-  void begin(const ContactRun& run, std::uint32_t island, std::int64_t weight);
+  void begin(const ContactRun& run, std::uint32_t island, std::int64_t weight, int substeps);
 
   /// One phase. With `pushes_out` overlap goes.
   void solve(const ContactRun& run, const JointAccess& joints, std::uint32_t island,
@@ -108,7 +108,8 @@ class ProximalSolver {
   [[nodiscard]] BlockFloat find_unit(const ContactRun& run, const Island& island);
   static void begin_rows(const PreparedRows& prepared, std::int64_t weight,
                          ProximalContact& contact, Problem& problem);
-  static void set_drives(const ContactRun& run, const ProximalContact& contact, Problem& problem);
+  static void set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
+                         Problem& problem);
   [[nodiscard]] static std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
                                                 const RawVec3& response_b, const Motion& motion);
   static void measure(const ContactRun& run, const PreparedRows& prepared,

@@ -14,13 +14,13 @@ namespace lockstone {
 class Islands {
  public:
   /// No function but this allocates.
-  explicit Islands(std::uint32_t body_capacity) : parents_(body_capacity), held_(body_capacity) {}
+  explicit Islands(std::uint32_t body_capacity) : parents_(body_capacity), marks_(body_capacity) {}
 
   /// Each of these bodies an island of its own. All other functions take only these.
   void begin(std::span<const std::uint32_t> bodies) {
     for (const std::uint32_t body : bodies) {
       parents_[body] = body;
-      held_[body] = 0;
+      marks_[body] = 0;
     }
   }
 
@@ -39,24 +39,37 @@ class Islands {
   }
 
   /// The island of this body stays awake.
-  void hold(std::uint32_t body) { held_[body] = 1; }
+  void hold(std::uint32_t body) { marks_[body] |= k_held; }
 
-  /// To be called after the last join and the last hold, before `is_held`. Returns the number of
-  /// islands.
+  /// The same, because a body that nothing pushes moves it.
+  void drive(std::uint32_t body) { marks_[body] |= k_held | k_driven; }
+
+  /// A body of this island rests.
+  void note_rest(std::uint32_t body) { marks_[body] |= k_rests; }
+
+  /// To be called after the last join and the last mark, before they are asked for. Returns the
+  /// number of islands.
   std::uint32_t settle(std::span<const std::uint32_t> bodies) {
     std::uint32_t islands = 0;
     for (const std::uint32_t body : bodies) {
       const std::uint32_t island = root(body);
       islands += island == body ? 1U : 0U;
-      if (held_[body] != 0) held_[island] = 1;
+      marks_[island] |= marks_[body];
     }
     return islands;
   }
-  [[nodiscard]] bool is_held(std::uint32_t body) { return held_[root(body)] != 0; }
+  [[nodiscard]] bool is_held(std::uint32_t body) { return (marks_[root(body)] & k_held) != 0; }
+
+  /// Whether some bodies of the island rest and others keep it awake by themselves.
+  [[nodiscard]] bool rests_in_part(std::uint32_t body) {
+    return marks_[root(body)] == (k_held | k_rests);
+  }
 
  private:
+  static constexpr std::uint8_t k_held = 1, k_driven = 2, k_rests = 4;
+
   std::vector<std::uint32_t> parents_;  // by body
-  std::vector<std::uint8_t> held_;      // by body; after `settle` by root
+  std::vector<std::uint8_t> marks_;     // by body; after `settle` by root
 };
 
 }  // namespace lockstone

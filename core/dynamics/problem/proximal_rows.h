@@ -49,6 +49,8 @@ struct ProximalContact : ContactPair {
   std::uint32_t rows = 0;  // points and 2 or 3 of friction
   std::array<ProximalRow, k_contact_rows> all{};
   std::int64_t radius = 0;  // of the twist, ρ/ℓ, Q30
+  RawVec3 arc{};            // gain of the surfaces' drive from substep to substep, m/s, Q20
+  std::array<std::int64_t, 2> bias_gain{};  // the same of the tangents' biases
   RawVec3 normal{}, tangent{}, binormal{};
   std::array<std::int64_t, lanes::k_block_points> x{}, y{};  // offsets, Q30
   // Words of the block that make its iterations idle, as they were.

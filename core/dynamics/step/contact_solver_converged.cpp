@@ -195,6 +195,8 @@ void ContactSolver::list_island(std::uint32_t island) {
 void ContactSolver::begin_converged(const ContactScene& scene) {
   if (proximal_ == nullptr) return;
   for (ProximalContact& contact : proximal_->contacts()) {
+    const Vec3<SolverVelocity>& arc = scene.surfaces[entries_[contact.slot].slot].arc;
+    contact.arc = {arc.x.raw, arc.y.raw, arc.z.raw};
     contact.slot = slot_of(contact.slot);
     contact.row_a = row_of(contact.row_a);
     contact.row_b = row_of(contact.row_b);
@@ -205,7 +207,7 @@ void ContactSolver::begin_converged(const ContactScene& scene) {
     before_[body] = {};
   const std::int64_t weight = weight_of(scene.gravity, step_);
   for (std::uint32_t i = 0; i < proximal_->count(); ++i)
-    proximal_->begin(contact_run(), i, weight);
+    proximal_->begin(contact_run(), i, weight, step_.substeps);
 }
 
 void ContactSolver::run_converged(StageKind kind, std::size_t first, std::size_t end) {

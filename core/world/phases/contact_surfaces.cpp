@@ -29,8 +29,9 @@ std::int64_t cross(const Vec3<Unit>& n, const std::int64_t (&x)[3], int i) {
 // circle, but its velocity u at the tick's beginning is along the tangent: without this, friction
 // would let bodies on a turntable drift outwards by θ²/2 of the radius a tick. Adds n × u·(1 − cos
 // θ)/θ − u·(1 − sin θ/θ), both fractions by Padé approximants that err by less than 2^-7 of
-// themselves up to one radian. `about` is the rate of turning, 1/s, Q20; `speed` is u, m/s, Q20, of
-// which no more counts than a drive holds.
+// themselves up to one radian. From substep to substep the drive gains n × u·θ/substeps: the mean
+// alone would ask friction for the whole tick's turn in the first substep. `about` is the rate of
+// turning, 1/s, Q20; `speed` is u, m/s, Q20, of which no more counts than a drive holds.
 void follow_arc(std::int64_t about, const std::int64_t (&speed)[3], const Vec3<Unit>& normal,
                 const WorldDef& def, std::int32_t sign, ContactSurface& surface) {
   constexpr std::int64_t k_one = 1 << 24, k_most = 8 * k_one;
@@ -39,6 +40,7 @@ void follow_arc(std::int64_t about, const std::int64_t (&speed)[3], const Vec3<U
   const std::int64_t square = raw::round_shift(angle * angle, 24);
   const std::int64_t at_once = raw::round_divide(angle * k_one, 2 * k_one + square / 6);
   const std::int64_t inwards = at_once + raw::round_divide(at_once, std::int64_t{def.substeps});
+  const std::int64_t in_substep = raw::round_divide(2 * at_once, std::int64_t{def.substeps});
   const std::int64_t behind = raw::round_divide(square * k_one, 6 * k_one + square * 3 / 10);
   const std::int64_t along[] = {raw::saturate<std::int32_t>(speed[0]),
                                 raw::saturate<std::int32_t>(speed[1]),
@@ -50,9 +52,11 @@ void follow_arc(std::int64_t about, const std::int64_t (&speed)[3], const Vec3<U
   for (int i = 0; i < 3; ++i) {
     const std::int64_t across =
         along[i] - raw::round_shift(normal[i].raw * along_normal, Unit::frac_bits);
-    const std::int64_t bent =
-        raw::round_shift(cross(normal, along, i) * inwards - across * behind, 24);
+    const std::int64_t towards = cross(normal, along, i);
+    const std::int64_t bent = raw::round_shift(towards * inwards - across * behind, 24);
+    const std::int64_t gain = raw::round_shift(towards * in_substep, 24);
     surface.drive[i].raw = raw::saturate<std::int32_t>(surface.drive[i].raw + sign * bent);
+    surface.arc[i].raw = raw::saturate<std::int32_t>(surface.arc[i].raw + sign * gain);
   }
 }
 

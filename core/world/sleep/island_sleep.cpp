@@ -29,7 +29,8 @@ IslandSleep::IslandSleep(WorldData& world, SleepFlags& flags, Waking& waking, Is
   to_sleep_.reserve(world.def.body_capacity);
 }
 
-// Bodies that a kinematic body moves or is about to move stay awake.
+// Bodies that a kinematic body moves or is about to move stay awake. Bodies without joints that
+// keep others awake are braked.
 void IslandSleep::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::sleep);
   waking_.wake_listed();  // bodies that were hit during the step
@@ -40,11 +41,26 @@ void IslandSleep::run(StepReport& report) {
     report.islands = islands_.settle(world_.awake.list());
     for (const std::uint32_t body : world_.awake.list())
       if (world_.bodies[body].is_dynamic() && !islands_.is_held(body)) to_sleep_.push_back(body);
+    brake_unrested();
   }
   for (const std::uint32_t body : to_sleep_)
     flags_.set_asleep(body);
   if (!to_sleep_.empty()) freeze_contacts();
   report.asleep_bodies = flags_.asleep_count();
+}
+
+void IslandSleep::brake_unrested() {
+  const RestRules& rules = flags_.rest_rules();
+  const Velocity brake = rules.brake(world_.def.tick_rate);
+  for (const std::uint32_t body : world_.awake.list()) {
+    BodyRecord& record = world_.bodies[body];
+    const bool is_unrested =
+        record.is_dynamic() && is_watched(record, rules) && record.rest_ticks < rules.ticks;
+    if (!is_unrested || !islands_.rests_in_part(body)) continue;
+    if (!world_.joint_graph.neighbours(body).empty()) continue;
+    slow_down(record, world_.cache.rotation(body), brake);
+    world_.refresh_bounds(body);
+  }
 }
 
 // Returns whether some dynamic body is ready to sleep.
@@ -86,15 +102,19 @@ void IslandSleep::join_islands() {
   world_.list_awake_joints();
   const std::span<const std::uint32_t> all = world_.awake.list();
   islands_.begin(all);
-  for (const std::uint32_t body : all)
-    if (world_.bodies[body].rest_ticks < flags_.rest_rules().ticks) islands_.hold(body);
+  for (const std::uint32_t body : all) {
+    if (world_.bodies[body].rest_ticks < flags_.rest_rules().ticks)
+      islands_.hold(body);
+    else if (world_.bodies[body].is_dynamic())
+      islands_.note_rest(body);
+  }
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
     if (!world_.awake.has(a) || !world_.awake.has(b)) return;
     const bool a_dynamic = world_.bodies[a].is_dynamic();
     if (a_dynamic && world_.bodies[b].is_dynamic())
       islands_.join(a, b);
     else
-      islands_.hold(a_dynamic ? a : b);
+      islands_.drive(a_dynamic ? a : b);
   };
   for (const ContactRecord& contact : world_.contacts.active())
     if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);

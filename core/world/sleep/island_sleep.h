@@ -38,6 +38,7 @@ class IslandSleep {
   [[nodiscard]] bool watch_bodies();
   void join_islands();
   void hold_overlapping();
+  void brake_unrested();
   std::uint32_t island_for_command(std::uint32_t body);
 
   WorldData& world_;
