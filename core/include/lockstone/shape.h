@@ -35,7 +35,7 @@ enum class ShapeKind : std::uint8_t {
 
 /// Names an asset by its content: the hash of its canonical bytes. 0: no asset.
 struct AssetId {
-  std::uint64_t value = 0;
+  std::uint64_t value = 0;  ///< 64 bits of XXH3; 0: none
 
   friend constexpr auto operator<=>(AssetId, AssetId) = default;
   [[nodiscard]] constexpr bool is_null() const { return value == 0; }
@@ -52,9 +52,9 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 ///   others:  zero; a half-space lies below the plane y = 0 of its body
 /// Sphere, capsule and box are centred on the body's origin; an asset keeps its own frame.
 struct Shape {
-  ShapeKind kind = ShapeKind::sphere;
-  Vec3<Length> size{};
-  AssetId asset{};
+  ShapeKind kind = ShapeKind::sphere;  ///< says how to read the others
+  Vec3<Length> size{};                 ///< m, within the bounds above
+  AssetId asset{};                     ///< of a hull, mesh, height field, compound
 
   friend constexpr bool operator==(const Shape&, const Shape&) = default;
 
