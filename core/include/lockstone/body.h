@@ -24,7 +24,7 @@ inline constexpr std::size_t k_max_body_name = 28;  ///< bytes: World::set_name
 
 /// Names a body. A handle whose body was destroyed never names another one. Default: no body.
 struct BodyHandle {
-  std::uint32_t index = 0;
+  std::uint32_t index = 0;       ///< in the store of bodies
   std::uint32_t generation = 0;  ///< 0 only in the null handle
 
   friend constexpr auto operator<=>(const BodyHandle&, const BodyHandle&) = default;
@@ -40,8 +40,8 @@ enum class MotionType : std::uint8_t {
 
 /// World axes that a dynamic body does not move along, or does not turn about, whatever pushes it.
 struct AxisLocks {
-  bool move_x = false, move_y = false, move_z = false;
-  bool turn_x = false, turn_y = false, turn_z = false;
+  bool move_x = false, move_y = false, move_z = false;  ///< along the axis
+  bool turn_x = false, turn_y = false, turn_z = false;  ///< about the axis
 
   friend constexpr bool operator==(const AxisLocks&, const AxisLocks&) = default;
 };
@@ -55,22 +55,22 @@ struct SpeedLimit {
 /// A body to be made. Position and orientation place the frame of its shape; velocities are those
 /// of the centre of mass, which of sphere, capsule and box is the same point.
 struct BodyDef {
-  MotionType motion = MotionType::dynamic;
+  MotionType motion = MotionType::dynamic;  ///< fixed for the body's life
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));
-  Vec3<Position> position{};  ///< within ±2^20 m, and the centre of mass too
-  Quat orientation{};         ///< is normalised
-  Vec3<Velocity> velocity{};  ///< at most 500 m/s
-  Vec3<AngularVelocity> angular_velocity{};
-  Material material{};
-  SurfaceMotion surface_motion{};  ///< of static and kinematic bodies
-  CollisionFilter filter{};
-  Number gravity_scale = Number::from_integer(1);
-  Rate linear_damping{};  ///< ≥ 0; v' = −c·v; exact in flight
-  Rate angular_damping{};
-  bool is_trigger = false;      ///< reports overlaps, pushes nothing
-  bool fixed_rotation = false;  ///< never rotates: a character, say
-  AxisLocks locks{};            ///< of a dynamic body
-  SpeedLimit speed_limit{};
+  Vec3<Position> position{};                       ///< within ±2^20 m, and the centre of mass too
+  Quat orientation{};                              ///< is normalised
+  Vec3<Velocity> velocity{};                       ///< at most 500 m/s
+  Vec3<AngularVelocity> angular_velocity{};        ///< rad/s; the surface at most 500 m/s
+  Material material{};                             ///< density, friction, …
+  SurfaceMotion surface_motion{};                  ///< of static and kinematic bodies
+  CollisionFilter filter{};                        ///< which bodies it meets
+  Number gravity_scale = Number::from_integer(1);  ///< −100 … 100
+  Rate linear_damping{};                           ///< ≥ 0; v' = −c·v; exact in flight
+  Rate angular_damping{};                          ///< as linear_damping
+  bool is_trigger = false;                         ///< reports overlaps, pushes nothing
+  bool fixed_rotation = false;                     ///< never rotates: a character, say
+  AxisLocks locks{};                               ///< of a dynamic body
+  SpeedLimit speed_limit{};                        ///< at the end of each tick
   bool is_bullet = false;       ///< never passes through dynamic bodies either, at a price
   bool allow_sleep = true;      ///< may fall asleep; says nothing of a static body
   std::uint64_t user_data = 0;  ///< the game's own; part of the state
@@ -78,21 +78,21 @@ struct BodyDef {
 
 /// A body as it stands. A copy: it does not change with the world.
 struct BodyView {
-  MotionType motion{};
-  Shape shape{};
-  Vec3<Position> position{};  ///< of the shape's frame
-  Quat orientation{};
-  Vec3<Position> centre_of_mass{};
+  MotionType motion{};                       ///< as in BodyDef
+  Shape shape{};                             ///< as in BodyDef
+  Vec3<Position> position{};                 ///< of the shape's frame
+  Quat orientation{};                        ///< of the shape's frame, a unit
+  Vec3<Position> centre_of_mass{};           ///< m
   Vec3<Velocity> velocity{};                 ///< of the centre of mass
   Vec3<AngularVelocity> angular_velocity{};  ///< rad/s, error ≤ 1e-8 relative
-  CollisionFilter filter{};
-  Surface surface{};
-  AxisLocks locks{};
-  bool is_trigger = false;
-  bool is_bullet = false;
-  bool is_asleep = false;
-  bool allow_sleep = true;
-  std::uint64_t user_data = 0;
+  CollisionFilter filter{};                  ///< as in BodyDef
+  Surface surface{};                         ///< of the body itself
+  AxisLocks locks{};                         ///< as in BodyDef
+  bool is_trigger = false;                   ///< as in BodyDef
+  bool is_bullet = false;                    ///< as in BodyDef
+  bool is_asleep = false;                    ///< skipped until it wakes
+  bool allow_sleep = true;                   ///< as in BodyDef
+  std::uint64_t user_data = 0;               ///< as in BodyDef
 };
 
 }  // namespace lockstone

@@ -18,7 +18,7 @@ namespace lockstone {
 
 /// Names a joint. A handle whose joint was destroyed never names another one. Default: no joint.
 struct JointHandle {
-  std::uint32_t index = 0;
+  std::uint32_t index = 0;       ///< in the store of joints
   std::uint32_t generation = 0;  ///< 0 only in the null handle
 
   friend constexpr auto operator<=>(const JointHandle&, const JointHandle&) = default;
@@ -56,9 +56,9 @@ enum class AxisMode : std::uint8_t {
 /// substep rate act as that.
 template <class Value, class Speed, class Effort>
 struct JointAxis {
-  AxisMode mode = AxisMode::free;
-  Value lower{};  ///< limits, lower ≤ upper: for angles within ±π
-  Value upper{};
+  AxisMode mode = AxisMode::free;  ///< locked, free or limited
+  Value lower{};                   ///< limits, lower ≤ upper: for angles within ±π
+  Value upper{};                   ///< as `lower`: m or rad
   Value target{};  ///< of the spring; of springs about several axes: a rotation vector
   Speed speed{};   ///< of the motor
   Number hertz{};  ///< 0 … 1000
@@ -73,8 +73,8 @@ using AngularAxis = JointAxis<Angle, Rate, Torque>;
 /// Where a joint sits on a body: in the frame of its shape. Within k_max_anchor_ratio; the
 /// orientation is normalised.
 struct JointFrame {
-  Vec3<Length> position{};
-  Quat orientation{};
+  Vec3<Length> position{};  ///< m, in the frame of the shape
+  Quat orientation{};       ///< any length but 0
 };
 
 /// Anchors are at most this many times the body's radius (rounded up to a power of two) from its
@@ -88,20 +88,20 @@ inline constexpr int k_max_anchor_ratio = 64;
 /// of that axis about y and z of frame A. The swing of a ball joint is a cone about x: its half
 /// angle is angular[1].upper, when that is limited.
 struct JointDef {
-  JointKind kind = JointKind::ball;
-  BodyHandle body_a{};
-  BodyHandle body_b{};
-  JointFrame frame_a{};
-  JointFrame frame_b{};
-  std::array<LinearAxis, 3> linear{};
-  std::array<AngularAxis, 3> angular{};
-  Vec3<Position> ground_a{};  ///< pulley: the fixed points
-  Vec3<Position> ground_b{};
+  JointKind kind = JointKind::ball;        ///< fixed for the joint's life
+  BodyHandle body_a{};                     ///< must exist
+  BodyHandle body_b{};                     ///< must exist; not body_a
+  JointFrame frame_a{};                    ///< on body_a
+  JointFrame frame_b{};                    ///< on body_b
+  std::array<LinearAxis, 3> linear{};      ///< along x, y, z of frame a
+  std::array<AngularAxis, 3> angular{};    ///< twist, tilts about y and z
+  Vec3<Position> ground_a{};               ///< pulley: the fixed points
+  Vec3<Position> ground_b{};               ///< of body_b's side
   Number ratio = Number::from_integer(1);  ///< pulley, gear: ±1000; rack: rad of a for each m of b
   Force break_force{};                     ///< the joint is destroyed beyond it; 0: never
-  Torque break_torque{};
-  bool collide = false;  ///< whether the two bodies may touch
-  std::uint64_t user_data = 0;
+  Torque break_torque{};                   ///< N·m, as break_force
+  bool collide = false;                    ///< whether the two bodies may touch
+  std::uint64_t user_data = 0;             ///< the game's own; part of the state
 
   /// A joint of a kind with its axes locked and free as the kind says, and no drives. Begin with
   /// it: a ball, hinge, slider, weld or wheel whose axes are all free holds nothing and is refused.
@@ -110,22 +110,22 @@ struct JointDef {
 
 /// A joint as it stands after the last step.
 struct JointView {
-  JointKind kind{};
-  BodyHandle body_a{};
-  BodyHandle body_b{};
-  std::uint64_t user_data = 0;
-  Vec3<Length> offset{};  ///< of frame B against frame A, along the axes of frame A
-  Vec3<Angle> angle{};    ///< twist and swing, in (−π, π]
-  Vec3<Force> force{};    ///< on body b in the last substep, along the joint's axes
-  Vec3<Torque> torque{};
+  JointKind kind{};             ///< as in JointDef
+  BodyHandle body_a{};          ///< as in JointDef
+  BodyHandle body_b{};          ///< as in JointDef
+  std::uint64_t user_data = 0;  ///< as in JointDef
+  Vec3<Length> offset{};        ///< of frame B against frame A, along the axes of frame A
+  Vec3<Angle> angle{};          ///< twist and swing, in (−π, π]
+  Vec3<Force> force{};          ///< on body b in the last substep, along the joint's axes
+  Vec3<Torque> torque{};        ///< N·m, as `force`
 };
 
 /// A joint gave way: it is no more.
 struct JointEvent {
-  JointHandle joint{};
-  BodyHandle a{};
-  BodyHandle b{};
-  std::uint64_t user_data = 0;
+  JointHandle joint{};          ///< names no joint any more
+  BodyHandle a{};               ///< its body_a
+  BodyHandle b{};               ///< its body_b
+  std::uint64_t user_data = 0;  ///< the joint's
 };
 
 }  // namespace lockstone

@@ -31,9 +31,9 @@ struct Surface {
   /// that of the largest sphere inside the body.
   Coefficient rolling_resistance{};
 
-  CombineRule friction_rule{};
-  CombineRule restitution_rule{};
-  CombineRule rolling_rule{};
+  CombineRule friction_rule{};     ///< with the other surface
+  CombineRule restitution_rule{};  ///< with the other surface
+  CombineRule rolling_rule{};      ///< with the other surface
   std::uint32_t tag = 0;  ///< the game's own: which sound, say. Found in events and queries
 
   friend constexpr bool operator==(const Surface&, const Surface&) = default;
@@ -42,13 +42,13 @@ struct Surface {
 /// Surface and substance.
 struct Material {
   Coefficient friction = Coefficient::from_ratio(1, 2);  ///< as in Surface
-  Coefficient restitution{};
-  Density density = Density::from_integer(1000);  ///< > 0
-  Coefficient rolling_resistance{};
-  CombineRule friction_rule{};
-  CombineRule restitution_rule{};
-  CombineRule rolling_rule{};
-  std::uint32_t tag = 0;
+  Coefficient restitution{};                             ///< as in Surface
+  Density density = Density::from_integer(1000);         ///< > 0
+  Coefficient rolling_resistance{};                      ///< as in Surface
+  CombineRule friction_rule{};                           ///< as in Surface
+  CombineRule restitution_rule{};                        ///< as in Surface
+  CombineRule rolling_rule{};                            ///< as in Surface
+  std::uint32_t tag = 0;                                 ///< as in Surface
 
   [[nodiscard]] constexpr Surface surface() const {
     return {friction,     restitution, rolling_resistance, friction_rule, restitution_rule,

@@ -38,7 +38,7 @@ inline constexpr ShapeKind k_last_shape_kind = ShapeKind::cone;
 
 /// Names an asset by its content: the hash of its canonical bytes. 0: no asset.
 struct AssetId {
-  std::uint64_t value = 0;
+  std::uint64_t value = 0;  ///< 64 bits of XXH3; 0: none
 
   friend constexpr auto operator<=>(AssetId, AssetId) = default;
   [[nodiscard]] constexpr bool is_null() const { return value == 0; }
@@ -58,9 +58,9 @@ inline constexpr Length k_max_shape_size = Length::from_integer(512);
 /// All but assets have their centre of mass at the body's origin (a cone's base is a quarter of its
 /// height below it); an asset keeps its own frame.
 struct Shape {
-  ShapeKind kind = ShapeKind::sphere;
-  Vec3<Length> size{};
-  AssetId asset{};
+  ShapeKind kind = ShapeKind::sphere;  ///< says how to read the others
+  Vec3<Length> size{};                 ///< m, within the bounds above
+  AssetId asset{};                     ///< of a hull, mesh, height field, compound
 
   friend constexpr bool operator==(const Shape&, const Shape&) = default;
 

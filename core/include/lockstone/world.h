@@ -49,7 +49,7 @@ struct WorldDef {
   std::uint16_t sleep_ms = 500;  ///< rest before a body sleeps, to 60,000; 0: none ever does
   Length sleep_distance = Length::from_ratio(1, 200);  ///< a body at rest moves less, 1 mm … 1 m
   BroadPhaseKind broad_phase{};  ///< changes no result, so peers may differ in it
-  Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};
+  Vec3<Acceleration> gravity = {{}, Acceleration::from_ratio(-981, 100), {}};  ///< m/s²
   Velocity speed_limit = k_speed_limit;  ///< of every body, 1 … 500 m/s
 
   friend bool operator==(const WorldDef&, const WorldDef&) = default;
@@ -61,15 +61,15 @@ struct WorldDef {
 
 /// Counters of one step. They cost nothing and are the same on every peer.
 struct StepReport {
-  Status status = Status::ok;  ///< capacity_exhausted: pairs were left out, alike everywhere
-  std::uint32_t moving_bodies = 0;
+  Status status = Status::ok;       ///< capacity_exhausted: pairs were left out, alike everywhere
+  std::uint32_t moving_bodies = 0;  ///< awake, dynamic or kinematic
   std::uint32_t asleep_bodies = 0;  ///< at the end of the step; kinematic ones that stand included
   std::uint32_t islands = 0;      ///< that were looked at, because a body of one was ready to sleep
   std::uint32_t free_bodies = 0;  ///< took the exact ballistic path, no solver
   std::uint32_t axis_turns = 0;   ///< about a principal axis: none of spheres, one of tops
   std::uint32_t pairs = 0;        ///< pairs with overlapping bounds, of which one is awake
   std::uint32_t contacts = 0;     ///< pairs with contact points, triggers excluded
-  std::uint32_t contact_points = 0;
+  std::uint32_t contact_points = 0;     ///< of these contacts
   std::uint32_t colors = 0;             ///< of the constraint graph
   std::uint32_t overflow_contacts = 0;  ///< found no colour, were solved one by one
   std::uint32_t continuous_bodies = 0;  ///< moved far enough to be followed along their way
@@ -83,21 +83,21 @@ struct StepReport {
 
 /// Hashes of one state; `total` covers the others.
 struct StateHash {
-  std::uint64_t total = 0;
-  std::uint64_t header = 0;
-  std::uint64_t bodies = 0;
-  std::uint64_t contacts = 0;
-  std::uint64_t joints = 0;
-  std::uint32_t hashed = 0;  ///< records that were hashed in this call: no part of the state
+  std::uint64_t total = 0;     ///< of the whole state
+  std::uint64_t header = 0;    ///< of tick, gravity and counts
+  std::uint64_t bodies = 0;    ///< of all body records
+  std::uint64_t contacts = 0;  ///< of all contact records
+  std::uint64_t joints = 0;    ///< of all joint records
+  std::uint32_t hashed = 0;    ///< records that were hashed in this call: no part of the state
 };
 
 /// The same with 128 bits: of all records at once, on demand.
 struct StateHash128 {
-  Hash128 total;
-  Hash128 header;
-  Hash128 bodies;
-  Hash128 contacts;
-  Hash128 joints;
+  Hash128 total;     ///< of the whole state
+  Hash128 header;    ///< of tick, gravity and counts
+  Hash128 bodies;    ///< of all body records
+  Hash128 contacts;  ///< of all contact records
+  Hash128 joints;    ///< of all joint records
 
   friend bool operator==(const StateHash128&, const StateHash128&) = default;
 };
