@@ -55,6 +55,15 @@ TEST(GeneralScenes, ShrinkByTheirCap) {
   EXPECT_LT(make_scene(wall, 1, 3).bodies.size(), make_scene(wall, 1).bodies.size());
 }
 
+// Levers of many radii between masses of 1000 : 1, thrown on the ground: the joints come apart, and
+// closing them must lift nothing.
+TEST(GeneralRun, GainsNoEnergyWhereJointsCannotHold) {
+  for (const std::uint64_t seed : {83, 243, 255, 266, 278})
+    EXPECT_LT(play("toss", seed).gain, 0.05) << seed;
+  for (const std::uint64_t seed : {138, 188, 207})
+    EXPECT_LT(play("jumble", seed).gain, 0.05) << seed;
+}
+
 TEST(GeneralRun, EndsInTheSameStateOnAnyNumberOfThreads) {
   GeneralOptions options;
   for (const std::string_view name : {"pendulum", "cairn", "clatter", "trigger"})

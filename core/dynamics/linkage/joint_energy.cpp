@@ -24,6 +24,10 @@ constexpr int k_free_gain_shift = 6, k_rough_gain_shift = 10;
 // Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.
 constexpr std::int64_t k_least_gain = 43;
 
+// To close locks, positions may move with so much more energy than bodies have, twice by the
+// heaviest body's mass: (0.5 m/s)², Q32.
+constexpr std::int64_t k_closing_energy = std::int64_t{1} << 30;
+
 Velocity to_velocity(std::int64_t x) {
   return Velocity::from_raw(raw::round_shift(bounded(x, k_row_bound), 18));
 }
@@ -209,6 +213,28 @@ JointSolver::Energies JointSolver::energies_between(const JointRun& run, const C
   }
   sums.linear = raw::saturating_add(sums.linear, sums.linear);
   return sums;
+}
+
+// Whether the velocities that are about to move positions have much more energy than those before,
+// which `saved_row` has.
+bool JointSolver::closes_too_fast(const JointRun& run, const Cluster& cluster) const {
+  const Energies between = energies_between(run, cluster, &Body::saved_row);
+  return raw::saturating_add(between.square, between.linear) >
+         between.first / 16 + k_closing_energy;
+}
+
+// The same velocities: as much of their difference to those before as that energy allows.
+void JointSolver::limit_closing(const JointRun& run, const Cluster& cluster) {
+  const Energies between = energies_between(run, cluster, &Body::saved_row);
+  if (raw::saturating_add(between.square, between.linear) <= k_closing_energy) return;
+  const std::int32_t share = greatest_share(between.square, between.linear, k_closing_energy);
+  go_part(run, cluster, &Body::saved_row, share);
+  for (Joint& joint : joints_of(cluster)) {
+    for (std::size_t i = 0; i < k_joint_axes; ++i) {
+      const std::int64_t closing = bounded(joint.locks[i] - joint.saved[i], k_product_bound);
+      joint.locks[i] = joint.saved[i] + product_rounded(closing, share, k_share_bits);
+    }
+  }
 }
 
 // After a substep: the cluster returns its gain of the tick, if that is more than it may keep.

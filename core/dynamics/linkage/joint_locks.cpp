@@ -141,13 +141,25 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
 
 // Velocities such that locks hold after the substep: impulses along the directions that locks have
 // now, as RATTLE wants them, while that converges. Where links swing fast it does not, and Newton's
-// method with the directions after the substep takes its place.
-void JointSolver::solve_positions(const JointRun& run, Group& group) {
+// method with the directions after the substep takes its place. Where locks were open already, the
+// result counts only if it takes no more energy to close them than it may.
+void JointSolver::solve_positions(const JointRun& run, const Cluster& cluster, Group& group) {
   save(run, group);
-  if (find_positions(run, group) <= k_lost) return;
+  const bool was_open = is_open(group);
+  const bool holds = find_positions(run, group) <= k_lost;
+  if (holds && !(was_open && closes_too_fast(run, cluster))) return;
   restore(run, group);
-  hold_roughly(run, group);
+  hold_roughly(run, cluster, group);
   group.is_rough = true;
+}
+
+// Whether a lock is open by more than a good step leaves.
+bool JointSolver::is_open(const Group& group) const {
+  return std::ranges::any_of(joints_of(group), [this](std::uint32_t index) {
+    const JointRows& rows = joints_[index].rows;
+    return std::ranges::any_of(rows.rows.first(rows.locks),
+                               [](const JointRow& row) { return std::abs(row.error) > k_lost; });
+  });
 }
 
 // Returns the widest opening that is left.
@@ -159,14 +171,19 @@ std::int64_t JointSolver::find_positions(const JointRun& run, Group& group) {
   return close(run, group, true);
 }
 
-// Where the method does not converge: velocities such that locks do not open, and close by a
-// quarter of their openings. A projection, which gives no energy but for that.
-void JointSolver::hold_roughly(const JointRun& run, Group& group) {
+// Where the method does not converge: velocities such that locks do not open, which is a projection
+// and gives no energy, and then close by a quarter of their openings, as far as the energy of that
+// is small.
+void JointSolver::hold_roughly(const JointRun& run, const Cluster& cluster, Group& group) {
   for (const std::uint32_t index : joints_of(group))
     linearize(joints_[index]);
   group.is_factored = group.is_fresh = false;
+  set_speed_errors(run, group, false);
+  solve_locks(run, group, true);
+  save(run, group);
   set_speed_errors(run, group, true);
   solve_locks(run, group, true);
+  limit_closing(run, cluster);
 }
 
 // Newton's method with a factor that is kept while it converges: errors are those of the true

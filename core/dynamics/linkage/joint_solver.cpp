@@ -190,7 +190,7 @@ void JointSolver::solve(const JointRun& run, const Cluster& cluster) {
         look_ahead(run, group, false);
         if (set_position_errors(group) > 0) solve_locks(run, group, true);
       } else {
-        solve_positions(run, group);
+        solve_positions(run, cluster, group);
       }
     }
   }

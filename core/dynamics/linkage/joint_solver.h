@@ -382,10 +382,13 @@ class JointSolver {
                                             std::size_t row, bool later) const;
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
-  void solve_positions(const JointRun& run, Group& group);
+  void solve_positions(const JointRun& run, const Cluster& cluster, Group& group);
+  [[nodiscard]] bool is_open(const Group& group) const;
   [[nodiscard]] std::int64_t find_positions(const JointRun& run, Group& group);
   [[nodiscard]] std::int64_t close(const JointRun& run, Group& group, bool turn);
-  void hold_roughly(const JointRun& run, Group& group);
+  void hold_roughly(const JointRun& run, const Cluster& cluster, Group& group);
+  [[nodiscard]] bool closes_too_fast(const JointRun& run, const Cluster& cluster) const;
+  void limit_closing(const JointRun& run, const Cluster& cluster);
   [[nodiscard]] bool is_stiff(const Group& group) const;
   [[nodiscard]] bool is_pulled(const Group& group) const;
   void save(const JointRun& run, const Group& group);

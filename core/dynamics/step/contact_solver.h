@@ -134,6 +134,7 @@ class ContactSolver {
     relax_net,
     relax,
     relax_islands,
+    limit_moves,
     limit_energies,
     end_islands,
     keep_speeds,
@@ -218,8 +219,11 @@ class ContactSolver {
   struct IslandEnergy {
     BlockFloat unit{};        // its inverse mass; zero: the island is not watched
     std::int64_t gained = 0;  // in this tick, besides the work of gravity and forces
+    std::int64_t first = 0;   // at the substep's beginning
     std::int64_t now = 0;
-    std::int32_t share = 0;  // of velocities that is left, Q30
+    std::int64_t change = 0;       // in the substep, besides that work
+    std::int64_t moving_gain = 0;  // the most of it before positions move
+    std::int32_t share = 0;        // of velocities that is left, Q30
   };
 
   std::uint32_t take_up(Side side);
@@ -331,6 +335,10 @@ class ContactSolver {
   template <class Visit>
   void for_watched(const Visit& visit);
   void note_energies();
+  void sum_energies();
+  void take_energy(IslandEnergy& energy, std::int64_t excess);
+  void scale_islands();
+  void limit_moves();
   void limit_energies();
   void keep_speeds(std::size_t first, std::size_t end);
   void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);

@@ -127,6 +127,7 @@ void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   for (int i = 0; i < k_net_sweeps; ++i)
     add_net_loops(StageKind::lift_net);
   add_loop({StageKind::solve_joints}, clusters, k_cluster_grain);
+  add_loop({StageKind::limit_moves}, watches, 1, true);
   add_loop({StageKind::positions}, bodies, k_body_grain);
   add_loop({StageKind::move_joined}, joints_->body_count(), k_joined_grain);
   add_loop({StageKind::relax_joints}, clusters, k_cluster_grain);
@@ -162,6 +163,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return integrate_velocities(stage.substep == 0, first, end);
     case StageKind::note_energies:
       return note_energies();
+    case StageKind::limit_moves:
+      return limit_moves();
     case StageKind::limit_energies:
       return limit_energies();
     case StageKind::warm_joints:

@@ -1,7 +1,8 @@
 // Contacts and joints of an island may work against each other: joints that hold bodies where they
 // overlap, or links that turn faster than the substep resolves while something presses them. So the
-// energy of such an island is checked after each substep. Its gain in a tick, besides the work of
-// gravity and forces and beyond a small part, is taken away from all of its bodies alike.
+// energy of such an island is checked in each substep. Its gain in a tick, besides the work of
+// gravity and forces and beyond a small part, is taken away from all of its bodies alike; and
+// positions do not move with velocities of much more energy than those before them.
 
 #include <algorithm>
 
@@ -17,6 +18,11 @@ constexpr int k_free_gain_shift = 6;
 
 // And so much besides, twice by the heaviest body's mass: (5 cm/s)², Q32.
 constexpr std::int64_t k_least_gain = (std::int64_t{1} << 32) / 400;
+
+// Positions may move with velocities of so much more energy than the substep began with: 2^-4 of
+// it, and, twice for each mass, (0.5 m/s)², Q32, to close joints and overlap.
+constexpr int k_moving_gain_shift = 4;
+constexpr std::int64_t k_moving_gain = std::int64_t{1} << 30;
 
 Vec3<Velocity> read(const std::array<std::int64_t, 3>& v) {
   const auto part = [](std::int64_t x) {
@@ -75,16 +81,20 @@ void ContactSolver::for_watched(const Visit& visit) {
 // At the beginning of a substep.
 void ContactSolver::note_energies() {
   for (IslandEnergy& energy : energies_)
-    energy.now = 0;
+    energy.first = 0;
   for_watched([&](std::uint32_t i, IslandEnergy& energy, BlockFloat mass) {
     starts_[i] = read(rows_[i].velocity);
-    const std::int64_t own = scale_saturating(row_energy(i), mass, 0);
-    energy.gained = raw::saturating_add(energy.gained, -own);
+    energy.first = raw::saturating_add(energy.first, scale_saturating(row_energy(i), mass, 0));
   });
 }
 
-// At its end.
-void ContactSolver::limit_energies() {
+// As it is now, and its change in the substep besides the work of gravity and forces.
+void ContactSolver::sum_energies() {
+  for (IslandEnergy& energy : energies_) {
+    energy.now = 0;
+    energy.change = -energy.first;
+    energy.moving_gain = energy.first >> k_moving_gain_shift;
+  }
   for_watched([&](std::uint32_t i, IslandEnergy& energy, BlockFloat mass) {
     ProductSum work;  // twice
     const Vec3<Velocity> end = read(rows_[i].velocity);
@@ -92,17 +102,21 @@ void ContactSolver::limit_energies() {
       work.add(bodies_[i].gain[static_cast<std::size_t>(axis)],
                starts_[i][axis].raw + end[axis].raw);
     const std::int64_t own = row_energy(i);
+    const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
     energy.now = raw::saturating_add(energy.now, scale_saturating(own, mass, 0));
-    const std::int64_t gained = raw::saturating_add(own, -work.rounded(32));
-    energy.gained = raw::saturating_add(energy.gained, scale_saturating(gained, mass, 0));
+    energy.change = raw::saturating_add(energy.change, scale_saturating(change, mass, 0));
+    energy.moving_gain =
+        raw::saturating_add(energy.moving_gain, scale_saturating(k_moving_gain, mass, 0));
   });
-  for (IslandEnergy& energy : energies_) {
-    energy.share = 1 << k_share_bits;
-    if (energy.gained <= (energy.now >> k_free_gain_shift) + k_least_gain) continue;
-    energy.share = root_of_share(raw::saturating_add(energy.now, -energy.gained), energy.now);
-    energy.gained = 0;
-    ++energy_limits_;
-  }
+}
+
+// Takes an excess of energy away from all bodies of an island alike.
+void ContactSolver::take_energy(IslandEnergy& energy, std::int64_t excess) {
+  energy.share = root_of_share(raw::saturating_add(energy.now, -excess), energy.now);
+  ++energy_limits_;
+}
+
+void ContactSolver::scale_islands() {
   for_watched([&](std::uint32_t i, const IslandEnergy& energy, BlockFloat) {
     if (energy.share == 1 << k_share_bits) return;
     const auto scale = [&](std::int64_t& now, std::int64_t& before) {
@@ -116,6 +130,29 @@ void ContactSolver::limit_energies() {
       scale(rows_[i].spin[axis], before_[i].spin[axis]);
     }
   });
+}
+
+// Before positions move: a body that goes too far in a substep may be lifted, or leave its joints.
+void ContactSolver::limit_moves() {
+  sum_energies();
+  for (IslandEnergy& energy : energies_) {
+    energy.share = 1 << k_share_bits;
+    if (energy.change > energy.moving_gain) take_energy(energy, energy.change);
+  }
+  scale_islands();
+}
+
+// At the end of a substep.
+void ContactSolver::limit_energies() {
+  sum_energies();
+  for (IslandEnergy& energy : energies_) {
+    energy.gained = raw::saturating_add(energy.gained, energy.change);
+    energy.share = 1 << k_share_bits;
+    if (energy.gained <= (energy.now >> k_free_gain_shift) + k_least_gain) continue;
+    take_energy(energy, energy.gained);
+    energy.gained = 0;
+  }
+  scale_islands();
 }
 
 }  // namespace lockstone
