@@ -58,9 +58,9 @@ TEST(GeneralScenes, ShrinkByTheirCap) {
 // Levers of many radii between masses of 1000 : 1, thrown on the ground: the joints come apart, and
 // closing them must lift nothing.
 TEST(GeneralRun, GainsNoEnergyWhereJointsCannotHold) {
-  for (const std::uint64_t seed : {83, 243, 255, 266, 278})
+  for (const std::uint64_t seed : {83U, 243U, 255U, 266U, 278U})
     EXPECT_LT(play("toss", seed).gain, 0.05) << seed;
-  for (const std::uint64_t seed : {138, 188, 207})
+  for (const std::uint64_t seed : {138U, 188U, 207U})
     EXPECT_LT(play("jumble", seed).gain, 0.05) << seed;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace literals;
 
-using test::metres;
+using test::gap, test::metres;
 
 double distance(const Vec3<Position>& a, const Vec3<Position>& b) {
   return std::hypot(metres(a.x - b.x), metres(a.y - b.y), metres(a.z - b.z));
