@@ -73,7 +73,7 @@ struct WorldData {
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
   /// Whether a body's path may end at another, as far as filters and joints decide.
   [[nodiscard]] bool is_obstacle(std::uint32_t body, std::uint32_t other) const;
-  /// Lists the joints with an awake body anew, if any slept, woke, came or went.
+  /// Lists the joints with an awake body again, if any slept, woke, came or went.
   void list_awake_joints() {
     joint_graph.list_awake([&](std::uint32_t body) { return awake.has(body); });
   }

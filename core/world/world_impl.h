@@ -36,7 +36,7 @@ struct World::Impl : WorldData {
   StepReport step();
   /// Makes room for as many workers as `parallel` has.
   void make_room();
-  /// Derives the data of the moved bodies' poses anew.
+  /// Derives the data of the moved bodies' poses again.
   void refresh_moved();
   void forget_events() {
     events.list().clear();

@@ -21,7 +21,9 @@ OrientedBox box_of(const geometry::LocalBounds& bounds, const Vec3<Position>& or
   return box;
 }
 
+// A half-space is tested by its plane: its box is not read.
 Vec3<Length> primitive_extents(const Shape& shape) {
+  if (!is_primitive(shape.kind)) return {};
   return world_half_extents(shape, Mat3{});
 }
 

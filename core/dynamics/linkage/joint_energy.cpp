@@ -278,7 +278,7 @@ void JointSolver::settle_account(const JointRun& run, Cluster& cluster) {
                            raw::saturating_add(allowed, -between.first)));
   }
   cluster.gained = 0;
-  end_pushes(run, cluster);
+  end_pushes(run, bodies_of(cluster));
 }
 
 }  // namespace lockstone

@@ -56,6 +56,12 @@ std::int64_t times_mass(std::int64_t x, BlockFloat mass, int shift) {
   return bounded(scale_saturating(x, mass, shift), k_row_bound);
 }
 
+// Whether a lock is open by more than a good step leaves.
+bool is_open(const JointRows& rows) {
+  return std::ranges::any_of(rows.rows.first(rows.locks),
+                             [](const JointRow& row) { return std::abs(row.error) > k_lost; });
+}
+
 }  // namespace
 
 // Locks as they will be after the substep as it stands; with `turn` also their directions there.
@@ -145,21 +151,13 @@ std::int64_t JointSolver::set_speed_errors(const JointRun& run, const Group& gro
 // result counts only if it takes no more energy to close them than it may.
 void JointSolver::solve_positions(const JointRun& run, const Cluster& cluster, Group& group) {
   save(run, group);
-  const bool was_open = is_open(group);
+  const bool was_open = std::ranges::any_of(
+      joints_of(group), [this](std::uint32_t index) { return is_open(joints_[index].rows); });
   const bool holds = find_positions(run, group) <= k_lost;
   if (holds && !(was_open && closes_too_fast(run, cluster))) return;
   restore(run, group);
   hold_roughly(run, cluster, group);
   group.is_rough = true;
-}
-
-// Whether a lock is open by more than a good step leaves.
-bool JointSolver::is_open(const Group& group) const {
-  return std::ranges::any_of(joints_of(group), [this](std::uint32_t index) {
-    const JointRows& rows = joints_[index].rows;
-    return std::ranges::any_of(rows.rows.first(rows.locks),
-                               [](const JointRow& row) { return std::abs(row.error) > k_lost; });
-  });
 }
 
 // Returns the widest opening that is left.
@@ -245,7 +243,10 @@ void JointSolver::hold_speed(const JointRun& run, Group& group, int i) {
   group.speed = set_speed_errors(run, group, false);
   const bool is_driven = i == 0 && loops && !group.is_plain;
   if (i > 0 && loops) group.speed = std::max(group.speed, motor_error(run, group));
-  const bool always = i < k_velocity_solves && (is_driven || (group.is_plain && is_pulled(group)));
+  const auto bodies = std::span(group_bodies_).subspan(group.first_body, group.body_count);
+  const auto is_pulled = [this](std::uint32_t body) { return bodies_[body].pulled; };
+  const bool always = i < k_velocity_solves &&
+                      (is_driven || (group.is_plain && std::ranges::any_of(bodies, is_pulled)));
   const bool is_exact = i < k_velocity_solves && !(i > 0 && loops);
   if (!always && group.speed <= (is_exact ? k_still : slow)) return;
   const int fall_bits = loops ? k_loop_fall_bits : k_tree_fall_bits;
@@ -261,13 +262,6 @@ void JointSolver::hold_speed(const JointRun& run, Group& group, int i) {
 bool JointSolver::is_stiff(const Group& group) const {
   for (std::uint32_t i = 0; i < group.body_count; ++i) {
     if (bodies_[group_bodies_[group.first_body + i]].least_inertia > 0) return true;
-  }
-  return false;
-}
-
-bool JointSolver::is_pulled(const Group& group) const {
-  for (std::uint32_t i = 0; i < group.body_count; ++i) {
-    if (bodies_[group_bodies_[group.first_body + i]].pulled) return true;
   }
   return false;
 }

@@ -138,7 +138,7 @@ void JointSolver::warm_start(const JointRun& run, std::size_t first, std::size_t
     for (Joint& joint : joints_of(cluster))
       warm_start(run, joint);
     limit_warm_start(run, cluster);
-    end_pushes(run, cluster);
+    end_pushes(run, bodies_of(cluster));
   }
 }
 
@@ -166,7 +166,7 @@ void JointSolver::solve(const JointRun& run, std::size_t first, std::size_t end)
   for (std::size_t i = first; i < end; ++i) {
     begin_pushes(run, clusters_[i]);
     solve(run, clusters_[i]);
-    end_pushes(run, clusters_[i]);
+    end_pushes(run, bodies_of(clusters_[i]));
   }
 }
 
@@ -215,7 +215,7 @@ void JointSolver::relax(const JointRun& run, const Cluster& cluster) {
   for (Joint& joint : joints_of(cluster))
     solve_springs_later(run, joint);
   hold_speeds(run, cluster);
-  end_pushes(run, cluster);
+  end_pushes(run, bodies_of(cluster));
 }
 
 void JointSolver::store(std::size_t added, JointRecord& record) const {

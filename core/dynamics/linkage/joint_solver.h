@@ -350,9 +350,6 @@ class JointSolver {
   [[nodiscard]] JointPose pose_after(const JointRun& run, Body& body) const;
   void begin_pushes(const JointRun& run, const Cluster& cluster);
   void end_pushes(const JointRun& run, std::span<const std::uint32_t> bodies);
-  void end_pushes(const JointRun& run, const Cluster& cluster) {
-    end_pushes(run, bodies_of(cluster));
-  }
   void warm_start(const JointRun& run, Joint& joint);
   void solve(const JointRun& run, const Cluster& cluster);
   void relax(const JointRun& run, const Cluster& cluster);
@@ -383,14 +380,12 @@ class JointSolver {
   bool solve_limits(const JointRun& run, Joint& joint, bool positions);
   void solve_locks(const JointRun& run, Group& group, bool positions);
   void solve_positions(const JointRun& run, const Cluster& cluster, Group& group);
-  [[nodiscard]] bool is_open(const Group& group) const;
   [[nodiscard]] std::int64_t find_positions(const JointRun& run, Group& group);
   [[nodiscard]] std::int64_t close(const JointRun& run, Group& group, bool turn);
   void hold_roughly(const JointRun& run, const Cluster& cluster, Group& group);
   [[nodiscard]] bool closes_too_fast(const JointRun& run, const Cluster& cluster) const;
   void limit_closing(const JointRun& run, const Cluster& cluster);
   [[nodiscard]] bool is_stiff(const Group& group) const;
-  [[nodiscard]] bool is_pulled(const Group& group) const;
   void save(const JointRun& run, const Group& group);
   void restore(const JointRun& run, const Group& group);
   void look_ahead(const JointRun& run, Group& group, bool turn);

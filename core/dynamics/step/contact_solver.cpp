@@ -168,10 +168,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   axes_.reserve(most_rows);
   gained_.reserve(most_rows);
   gains_.reserve(body_capacity + 1);
-  if (joint_capacity != 0) {
-    energies_.reserve(body_capacity + 1);
-    starts_.reserve(body_capacity + 1);
-  }
+  if (joint_capacity != 0) energy_limit_.reserve(body_capacity);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
   sides_.reserve(contact_capacity);
   entries_.reserve(contact_capacity);

@@ -27,6 +27,7 @@
 #include "core/dynamics/state/contact_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/time_step.h"
+#include "core/dynamics/step/energy_limit.h"
 #include "core/geometry/distance/manifold.h"
 #include "core/kernels/contact/manifold_block.h"
 
@@ -215,17 +216,6 @@ class ContactSolver {
     std::int32_t share = 0;   // of bounces that is left, Q30
   };
 
-  // Of an island, twice energies by its heaviest body's mass.
-  struct IslandEnergy {
-    BlockFloat unit{};        // its inverse mass; zero: the island is not watched
-    std::int64_t gained = 0;  // in this tick, besides the work of gravity and forces
-    std::int64_t first = 0;   // at the substep's beginning
-    std::int64_t now = 0;
-    std::int64_t change = 0;       // in the substep, besides that work
-    std::int64_t moving_gain = 0;  // the most of it before positions move
-    std::int32_t share = 0;        // of velocities that is left, Q30
-  };
-
   std::uint32_t take_up(Side side);
   std::uint32_t number_of(Side side) {
     const std::uint32_t known = side.is_dynamic() ? solver_index_[side.body()] : 0;
@@ -330,16 +320,7 @@ class ContactSolver {
   void answer(std::uint32_t index);
   void run_impacts();
   void find_fed_islands(const ContactScene& scene);
-  void watch_energies();
-  [[nodiscard]] std::int64_t row_energy(std::uint32_t index) const;
-  template <class Visit>
-  void for_watched(const Visit& visit);
-  void note_energies();
-  void sum_energies();
-  void take_energy(IslandEnergy& energy, std::int64_t excess);
-  void scale_islands();
-  void limit_moves();
-  void limit_energies();
+  [[nodiscard]] EnergyLimit::Bodies energy_bodies();
   void keep_speeds(std::size_t first, std::size_t end);
   void note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start);
   [[nodiscard]] Bounce bounce_of(std::size_t index, const BodyRecord& body) const;
@@ -379,10 +360,7 @@ class ContactSolver {
   std::vector<PushAxis> axes_;
   std::vector<std::int64_t> gained_;  // twice the energy that no force accounts for, of each mass
   std::vector<IslandGain> gains_;
-  std::vector<IslandEnergy> energies_;
-  std::vector<Vec3<Velocity>> starts_;  // velocities at the beginning of the substep, if watched
-  bool watches_energy_ = false;
-  std::uint32_t energy_limits_ = 0;
+  EnergyLimit energy_limit_;
   std::vector<lanes::BodyPlace> places_;  // of the bodies in nets of joints
 
   std::unique_ptr<JointSolver> joints_;

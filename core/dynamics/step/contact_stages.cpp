@@ -65,7 +65,7 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
                     });
   find_impacts(scene);
   if (bounces_ || joints_->has_own()) find_fed_islands(scene);
-  watch_energies();
+  energy_limit_.begin(energy_bodies());
   begin_converged(scene);
   find_first_loads(scene, parallel);
 }
@@ -111,12 +111,20 @@ void ContactSolver::add_net_loops(StageKind kind) {
   }
 }
 
+EnergyLimit::Bodies ContactSolver::energy_bodies() {
+  return {members_, bodies_, rows_, before_, islands_, *joints_};
+}
+
+std::uint32_t ContactSolver::energy_limits() const {
+  return energy_limit_.count() + joints_->energy_limits();
+}
+
 // Velocities, contacts that push overlap out, joints such that they hold afterwards; positions;
 // joints and contacts such that they stay.
 void ContactSolver::add_loops_of_substep(std::uint8_t substep) {
   const std::uint32_t clusters = joints_->cluster_count();
   const auto bodies = static_cast<std::uint32_t>(members_.size());
-  const std::uint32_t watches = watches_energy_ ? 1 : 0;
+  const std::uint32_t watches = energy_limit_.watches() ? 1 : 0;
   add_loop({StageKind::note_energies}, watches, 1, true);
   add_loop({StageKind::velocities, 0, substep}, bodies, k_body_grain);
   add_loop({StageKind::warm_joints}, clusters, k_cluster_grain);
@@ -162,11 +170,11 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
     case StageKind::velocities:
       return integrate_velocities(stage.substep == 0, first, end);
     case StageKind::note_energies:
-      return note_energies();
+      return energy_limit_.note(energy_bodies());
     case StageKind::limit_moves:
-      return limit_moves();
+      return energy_limit_.limit_moves(energy_bodies());
     case StageKind::limit_energies:
-      return limit_energies();
+      return energy_limit_.limit_gains(energy_bodies());
     case StageKind::warm_joints:
       return joints_->warm_start(joint_run(), first, end);
     case StageKind::impacts:

@@ -1,14 +1,9 @@
-// Contacts and joints of an island may work against each other: joints that hold bodies where they
-// overlap, or links that turn faster than the substep resolves while something presses them. So the
-// energy of such an island is checked in each substep. Its gain in a tick, besides the work of
-// gravity and forces and beyond a small part, is taken away from all of its bodies alike; and
-// positions do not move with velocities of much more energy than those before them.
+#include "core/dynamics/step/energy_limit.h"
 
 #include <algorithm>
 
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/linkage/joint_solver.h"
-#include "core/dynamics/step/contact_solver.h"
 
 namespace lockstone {
 namespace {
@@ -37,122 +32,120 @@ std::int64_t bounded_row(std::int64_t x) {
   return std::clamp(x, -k_bound, k_bound);
 }
 
+// Twice the kinetic energy for each mass.
+std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
+  const Vec3<Velocity> velocity = read(all.rows[i].velocity), spin = read(all.rows[i].spin);
+  const Vec3<Velocity> surface = surface_velocity(all.bodies[i].inverse_inertia, spin);
+  return energy_product(velocity, velocity, all.joints.own_spin(all.members[i], spin, surface),
+                        surface);
+}
+
 }  // namespace
 
-// At the beginning of a tick.
-void ContactSolver::watch_energies() {
-  watches_energy_ = false;
-  energy_limits_ = 0;
-  if (!joints_->has_own()) return;
-  starts_.resize(members_.size());
-  energies_.assign(islands_.count(), {});
-  for (std::uint32_t i = 1; i < members_.size(); ++i) {
-    const IslandLoad& load = islands_.load(islands_.of(i));
-    if (islands_.of(i) == 0 || !load.has_joints || load.contacts == 0 || load.is_fed) continue;
-    IslandEnergy& energy = energies_[islands_.of(i)];
-    const BlockFloat inverse = bodies_[i].inverse_mass;
+void EnergyLimit::reserve(std::size_t body_capacity) {
+  islands_.reserve(body_capacity + 1);
+  starts_.reserve(body_capacity + 1);
+}
+
+void EnergyLimit::begin(const Bodies& all) {
+  watches_ = false;
+  count_ = 0;
+  if (!all.joints.has_own()) return;
+  starts_.resize(all.members.size());
+  islands_.assign(all.islands.count(), {});
+  for (std::uint32_t i = 1; i < all.members.size(); ++i) {
+    const IslandLoad& load = all.islands.load(all.islands.of(i));
+    if (all.islands.of(i) == 0 || !load.has_joints || load.contacts == 0 || load.is_fed) continue;
+    Island& island = islands_[all.islands.of(i)];
+    const BlockFloat inverse = all.bodies[i].inverse_mass;
     if (inverse.mantissa == 0) continue;
-    const bool is_heavier = ratio(inverse, energy.unit) < Unit::from_raw(1 << 29);
-    if (energy.unit == BlockFloat{} || is_heavier) energy.unit = inverse;
-    watches_energy_ = true;
+    const bool is_heavier = ratio(inverse, island.unit) < Unit::from_raw(1 << 29);
+    if (island.unit == BlockFloat{} || is_heavier) island.unit = inverse;
+    watches_ = true;
   }
-}
-
-std::uint32_t ContactSolver::energy_limits() const {
-  return energy_limits_ + joints_->energy_limits();
-}
-
-// Twice the kinetic energy for each mass.
-std::int64_t ContactSolver::row_energy(std::uint32_t i) const {
-  const Vec3<Velocity> velocity = read(rows_[i].velocity), spin = read(rows_[i].spin);
-  const Vec3<Velocity> surface = surface_velocity(bodies_[i].inverse_inertia, spin);
-  return energy_product(velocity, velocity, joints_->own_spin(members_[i], spin, surface), surface);
 }
 
 template <class Visit>
-void ContactSolver::for_watched(const Visit& visit) {
-  for (std::uint32_t i = 1; i < members_.size(); ++i) {
-    IslandEnergy& energy = energies_[islands_.of(i)];
-    if (energy.unit != BlockFloat{} && bodies_[i].is_pushed())
-      visit(i, energy, quotient(energy.unit, bodies_[i].inverse_mass));
+void EnergyLimit::for_watched(const Bodies& all, const Visit& visit) {
+  for (std::uint32_t i = 1; i < all.members.size(); ++i) {
+    Island& island = islands_[all.islands.of(i)];
+    if (island.unit != BlockFloat{} && all.bodies[i].is_pushed())
+      visit(i, island, quotient(island.unit, all.bodies[i].inverse_mass));
   }
 }
 
-// At the beginning of a substep.
-void ContactSolver::note_energies() {
-  for (IslandEnergy& energy : energies_)
-    energy.first = 0;
-  for_watched([&](std::uint32_t i, IslandEnergy& energy, BlockFloat mass) {
-    starts_[i] = read(rows_[i].velocity);
-    energy.first = raw::saturating_add(energy.first, scale_saturating(row_energy(i), mass, 0));
+void EnergyLimit::note(const Bodies& all) {
+  for (Island& island : islands_)
+    island.first = 0;
+  for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
+    starts_[i] = read(all.rows[i].velocity);
+    island.first = raw::saturating_add(island.first, scale_saturating(row_energy(all, i), mass, 0));
   });
 }
 
 // As it is now, and its change in the substep besides the work of gravity and forces.
-void ContactSolver::sum_energies() {
-  for (IslandEnergy& energy : energies_) {
-    energy.now = 0;
-    energy.change = -energy.first;
-    energy.moving_gain = energy.first >> k_moving_gain_shift;
+void EnergyLimit::sum(const Bodies& all) {
+  for (Island& island : islands_) {
+    island.now = 0;
+    island.change = -island.first;
+    island.moving_gain = island.first >> k_moving_gain_shift;
   }
-  for_watched([&](std::uint32_t i, IslandEnergy& energy, BlockFloat mass) {
+  for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
     ProductSum work;  // twice
-    const Vec3<Velocity> end = read(rows_[i].velocity);
+    const Vec3<Velocity> end = read(all.rows[i].velocity);
     for (int axis = 0; axis < 3; ++axis)
-      work.add(bodies_[i].gain[static_cast<std::size_t>(axis)],
+      work.add(all.bodies[i].gain[static_cast<std::size_t>(axis)],
                starts_[i][axis].raw + end[axis].raw);
-    const std::int64_t own = row_energy(i);
+    const std::int64_t own = row_energy(all, i);
     const std::int64_t change = raw::saturating_add(own, -work.rounded(32));
-    energy.now = raw::saturating_add(energy.now, scale_saturating(own, mass, 0));
-    energy.change = raw::saturating_add(energy.change, scale_saturating(change, mass, 0));
-    energy.moving_gain =
-        raw::saturating_add(energy.moving_gain, scale_saturating(k_moving_gain, mass, 0));
+    island.now = raw::saturating_add(island.now, scale_saturating(own, mass, 0));
+    island.change = raw::saturating_add(island.change, scale_saturating(change, mass, 0));
+    island.moving_gain =
+        raw::saturating_add(island.moving_gain, scale_saturating(k_moving_gain, mass, 0));
   });
 }
 
 // Takes an excess of energy away from all bodies of an island alike.
-void ContactSolver::take_energy(IslandEnergy& energy, std::int64_t excess) {
-  energy.share = root_of_share(raw::saturating_add(energy.now, -excess), energy.now);
-  ++energy_limits_;
+void EnergyLimit::take(Island& island, std::int64_t excess) {
+  island.share = root_of_share(raw::saturating_add(island.now, -excess), island.now);
+  ++count_;
 }
 
-void ContactSolver::scale_islands() {
-  for_watched([&](std::uint32_t i, const IslandEnergy& energy, BlockFloat) {
-    if (energy.share == 1 << k_share_bits) return;
-    const auto scale = [&](std::int64_t& now, std::int64_t& before) {
+void EnergyLimit::scale(const Bodies& all) {
+  for_watched(all, [&](std::uint32_t i, const Island& island, BlockFloat) {
+    if (island.share == 1 << k_share_bits) return;
+    const auto shrink = [&](std::int64_t& now, std::int64_t& before) {
       const std::int64_t change =
-          product_rounded(bounded_row(now), energy.share, k_share_bits) - bounded_row(now);
+          product_rounded(bounded_row(now), island.share, k_share_bits) - bounded_row(now);
       now = bounded_row(now) + change;
       before = bounded_row(before) + change;
     };
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      scale(rows_[i].velocity[axis], before_[i].velocity[axis]);
-      scale(rows_[i].spin[axis], before_[i].spin[axis]);
+      shrink(all.rows[i].velocity[axis], all.before[i].velocity[axis]);
+      shrink(all.rows[i].spin[axis], all.before[i].spin[axis]);
     }
   });
 }
 
-// Before positions move: a body that goes too far in a substep may be lifted, or leave its joints.
-void ContactSolver::limit_moves() {
-  sum_energies();
-  for (IslandEnergy& energy : energies_) {
-    energy.share = 1 << k_share_bits;
-    if (energy.change > energy.moving_gain) take_energy(energy, energy.change);
+void EnergyLimit::limit_moves(const Bodies& all) {
+  sum(all);
+  for (Island& island : islands_) {
+    island.share = 1 << k_share_bits;
+    if (island.change > island.moving_gain) take(island, island.change);
   }
-  scale_islands();
+  scale(all);
 }
 
-// At the end of a substep.
-void ContactSolver::limit_energies() {
-  sum_energies();
-  for (IslandEnergy& energy : energies_) {
-    energy.gained = raw::saturating_add(energy.gained, energy.change);
-    energy.share = 1 << k_share_bits;
-    if (energy.gained <= (energy.now >> k_free_gain_shift) + k_least_gain) continue;
-    take_energy(energy, energy.gained);
-    energy.gained = 0;
+void EnergyLimit::limit_gains(const Bodies& all) {
+  sum(all);
+  for (Island& island : islands_) {
+    island.gained = raw::saturating_add(island.gained, island.change);
+    island.share = 1 << k_share_bits;
+    if (island.gained <= (island.now >> k_free_gain_shift) + k_least_gain) continue;
+    take(island, island.gained);
+    island.gained = 0;
   }
-  scale_islands();
+  scale(all);
 }
 
 }  // namespace lockstone

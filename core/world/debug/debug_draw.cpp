@@ -49,10 +49,9 @@ class WorldDrawing {
 
 // Of all dynamic bodies there are, asleep ones too.
 void WorldDrawing::find_all_islands() {
-  std::vector<std::uint32_t> bodies;
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i)
-    if (world_.bodies[i].exists() && world_.bodies[i].is_dynamic()) bodies.push_back(i);
-  world_.islands.begin(bodies);
+    if (world_.bodies[i].exists() && world_.bodies[i].is_dynamic())
+      world_.islands.begin(std::span(&i, 1));
   const auto tie = [&](std::uint32_t a, std::uint32_t b) {
     if (world_.bodies[a].is_dynamic() && world_.bodies[b].is_dynamic()) world_.islands.join(a, b);
   };

@@ -34,7 +34,7 @@ class MovedBodies {
     starts_[body] = {world_.bodies[body].position, world_.bodies[body].orientation};
   }
 
-  /// Derives rotations, bounds and places in the broad phase of the listed bodies anew.
+  /// Derives rotations, bounds and places in the broad phase of the listed bodies again.
   void refresh();
 
  private:

@@ -62,7 +62,7 @@ class ContactLists {
 
   /// Writes new active contacts from place `first` on; `replace` makes them the list.
   void write(std::uint32_t first, std::span<const ContactRecord> records) {
-    std::ranges::copy(records, store_.begin() + first);
+    std::copy(records.begin(), records.end(), store_.begin() + first);
   }
   /// The first `ids.size()` written contacts become the active ones. Swaps their ids in.
   void replace(std::vector<std::uint32_t>& ids);
@@ -98,9 +98,13 @@ class ContactLists {
   template <class IsAwake>
   void adopt(std::span<const ContactRecord> all, IsAwake&& is_awake) {
     frozen_.clear();
+    adopt_all_active(all);
+    freeze(is_awake);
+  }
+  /// Makes all of them active: those of a state in which nothing sleeps.
+  void adopt_all_active(std::span<const ContactRecord> all) {
     write(0, all);
     active_ = static_cast<std::uint32_t>(all.size());
-    freeze(is_awake);
   }
   /// Replaces the active list by those of `all` that have an awake body; the others are the frozen
   /// ones already.

@@ -129,8 +129,9 @@ void StateLoader::take_contacts() {
   const std::span<const ContactRecord> all = world_.found.records;
   const auto is_awake = [&](std::uint32_t body) { return world_.awake.has(body); };
   const bool any_asleep = world_.sleep_flags.asleep_count() != 0;
-  const bool all_frozen_stay = any_asleep ? are_frozen(all) : world_.contacts.frozen().count() == 0;
-  if (all_frozen_stay)
+  if (!any_asleep && world_.contacts.frozen().count() == 0)
+    world_.contacts.adopt_all_active(all);
+  else if (any_asleep && are_frozen(all))
     world_.contacts.adopt_active(all, is_awake);
   else
     world_.contacts.adopt(all, is_awake);

@@ -22,7 +22,7 @@ class StateLoader {
   template <class State>
   void load(const WorldHeader& header, State&& state);
 
-  /// Derives everything from the records anew, and forgets all notes of the last tick.
+  /// Derives everything from the records again, and forgets all notes of the last tick.
   void rebuild();
 
  private:
