@@ -45,7 +45,7 @@ bool has_turned(const IslandJoint& joint, const ProximalBlock& problem,
                 std::span<const JointRow> rows) {
   if (joint.row_count != rows.size()) return true;
   for (std::size_t lane = 0; lane < problem.rows; ++lane) {
-    const JointRow &now = rows[joint.rows[lane]], &then = joint.read[lane];
+    const JointDirections &now = rows[joint.rows[lane]], &then = joint.read[lane];
     if (now.kind != then.kind || now.axis != then.axis || now.flipped != then.flipped) return true;
     std::uint64_t turned = 0;
     const auto compare = [&](const RawVec3& x, const RawVec3& y) {

@@ -25,14 +25,18 @@ struct JointPose {
 
 enum class RowKind : std::uint8_t { lock, limit, drive };
 
-struct JointRow {
-  RawVec3 linear_a{}, linear_b{};      // Q30, signs included
-  RawVec3 angular_a{}, angular_b{};    // of surface velocity
-  RawVec3 response_a{}, response_b{};  // M·angular: of spin
-  std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit the way left
+/// The Jacobian of a row for both bodies, with its kind and axis.
+struct JointDirections {
+  RawVec3 linear_a{}, linear_b{};    // Q30, signs included
+  RawVec3 angular_a{}, angular_b{};  // of surface velocity
   RowKind kind = RowKind::lock;
   std::uint8_t axis = 0;
   bool flipped = false;  // the upper limit: impulses count against the axis
+};
+
+struct JointRow : JointDirections {
+  RawVec3 response_a{}, response_b{};  // M·angular: of spin
+  std::int64_t error = 0;              // m, Q32: of a lock its opening, of a limit the way left
 
   // A drive's.
   std::int64_t speed = 0;  // Q50

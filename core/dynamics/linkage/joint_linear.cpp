@@ -206,7 +206,7 @@ void JointSolver::respond(Joint& joint, std::size_t rows, bool ahead) const {
 void JointSolver::scale_locks(Joint& joint) const {
   for (std::size_t r = 0; r < joint.rows.locks; ++r) {
     const JointRow& row = joint.rows.rows[r];
-    int most = -1000;
+    int most = -250;  // below all: a byte holds half of it
     const auto add_side = [&](const Body& body, std::int64_t self) {
       if (!body.pushed) return;
       const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(self)));
@@ -214,7 +214,7 @@ void JointSolver::scale_locks(Joint& joint) const {
     };
     add_side(bodies_[joint.a], self_response(row.linear_a, row.angular_a, row.response_a));
     add_side(bodies_[joint.b], self_response(row.linear_b, row.angular_b, row.response_b));
-    joint.scales[r] = (most + 2) >> 1;
+    joint.scales[r] = static_cast<std::int8_t>((most + 2) >> 1);
   }
 }
 
@@ -284,7 +284,7 @@ void JointSolver::factor_group(Group& group) {
     columns[k].count = static_cast<std::uint32_t>(joint.rows.locks);
     scale_locks(joint);
     for (std::size_t r = 0; r < joint.rows.locks; ++r)
-      group.exponent = std::min(group.exponent, joint.scales[r]);
+      group.exponent = std::min<int>(group.exponent, joint.scales[r]);
   }
   factor_.fill_blocks(group.column, group.count,
                       [&](std::uint32_t j, std::uint32_t k, std::int64_t* block) {

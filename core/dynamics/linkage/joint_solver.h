@@ -229,14 +229,14 @@ class JointSolver {
                                                             // the substep, m, Q32
     std::uint32_t a = 0, b = 0;                             // bodies of this solver
     Share share_a, share_b;
-    BlockFloat inverse_mass{};  // of the pair
-    int exponent = 0;
+    BlockFloat inverse_mass{};              // of the pair
     std::int64_t lever_a = 0, lever_b = 0;  // to the anchors, m, Q20: sums of their components
+    std::uint64_t factored = 0;             // rows that the factor has, as `row_list`
+    int exponent = 0;
+    std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
+    std::array<std::int8_t, k_joint_axes> scales{};  // of its locks in the factor, exponents
     std::uint8_t far = 0;        // axes whose limits have no rows in this tick, a bit each
     bool holds_a_point = false;  // and nothing else has rows in this tick
-    std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
-    std::uint64_t factored = 0;  // rows that the factor has, as `row_list`
-    std::array<int, k_joint_axes> scales{};  // of its locks in the factor, exponents
   };
   struct Group {
     std::uint32_t first = 0;  // in order_ and in group_bodies_, and its column in the factor
@@ -251,11 +251,11 @@ class JointSolver {
     bool is_fresh = false;    // and so for the rows at hand
     bool turns_fast = false;  // in this tick a factor of earlier rows did not serve
     bool is_rough = false;    // a step of this tick did not hold the joints
-    std::int64_t rate = 0;    // 1 / the time that its bodies drift for
     int exponent = 0;         // least of its rows
-    std::int64_t speed = 0;   // of its locks, as hold_speed last found it, Q50
     int fresh_solves = 0;     // of hold_speeds, with a factor of the rows at hand
     std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
+    std::int64_t rate = 0;                             // 1 / the time that its bodies drift for
+    std::int64_t speed = 0;  // of its locks, as hold_speed last found it, Q50
   };
   // Locks that are open by less, m, Q32, are closed: 1 µm.
   static constexpr std::int64_t k_closed = 1 << 12;
@@ -272,10 +272,10 @@ class JointSolver {
     bool free = false;
     bool is_driven = false;   // by springs or motors
     bool is_passive = false;  // only gravity and forces give it energy
+    bool knows_energy = false;
     BlockFloat unit{};        // inverse mass of its heaviest body
     std::int64_t gained = 0;  // besides, in this tick: twice the energy by that mass
     std::int64_t energy = 0;  // as the last substep ended, if that is known
-    bool knows_energy = false;
   };
 
   std::uint32_t take_up(const Side& side);

@@ -15,8 +15,8 @@ struct IslandJoint {
   BlockFloat inverse_mass{};            // of the pair
   std::array<std::uint8_t, k_contact_rows> rows{};  // of the joint, by lane
   std::array<RowScale, k_contact_rows> to_speed{}, to_impulse{};
-  std::size_t row_count = 0;                    // of the joint, as its rows were last read
-  std::array<JointRow, k_contact_rows> read{};  // those rows, by lane
+  std::size_t row_count = 0;                           // of the joint, as its rows were last read
+  std::array<JointDirections, k_contact_rows> read{};  // of those rows, by lane
 };
 
 }  // namespace lockstone

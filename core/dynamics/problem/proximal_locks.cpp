@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "core/dynamics/joint/joint_numbers.h"
 
@@ -145,9 +146,9 @@ void ProximalLocks::add_changes(const Group& group, Joint& joint, int bits) {
   std::array<std::int64_t, 6> a{}, b{};
   for (std::size_t i = 0; i < joint.count; ++i) {
     if (!joint.uses(i)) continue;
-    const ProximalLock& lock = joint.rows[i];
+    ProximalLock& lock = joint.rows[i];
     const std::int64_t x = lock.to_speed.times(joint.errors[i], 50 - bits);
-    joint.in_units[i] = x;
+    lock.impulse = x;  // the error, for set_impulses
     for (std::size_t k = 0; k < 6; ++k) {
       a[k] -= lock.a[k] * x;
       b[k] -= lock.b[k] * x;
@@ -177,9 +178,9 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
 void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) const {
   for (std::size_t i = 0; i < joint.count; ++i) {
     ProximalLock& lock = joint.rows[i];
-    lock.impulse = 0;
+    const std::int64_t error = std::exchange(lock.impulse, 0);
     if (!joint.uses(i)) continue;
-    std::int64_t left = joint.in_units[i] * k_one;
+    std::int64_t left = error * k_one;
     if (joint.a != End::k_unpushed)
       left += row_dot(lock.a, changes_[group.plan.first_column + joint.a]);
     if (joint.b != End::k_unpushed)

@@ -78,7 +78,6 @@ class ProximalLocks {
     std::array<ProximalLock, k_max_joint_rows> rows{};
     std::array<RowScale, k_max_joint_rows> own{};  // response of a row to itself
     std::array<std::int64_t, k_max_joint_rows> errors{};
-    std::array<std::int64_t, k_max_joint_rows> in_units{};  // errors, of the solve at hand
 
     [[nodiscard]] bool uses(std::size_t row) const { return (used >> row & 1) != 0; }
   };

@@ -156,17 +156,20 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       net_(step.substep_rate(), joint_capacity == 0 ? 0 : body_capacity, joint_capacity),
       supports_(body_capacity + contact_capacity + joint_capacity, contact_capacity),
       first_loads_(contact_capacity),
-      islands_(body_capacity + contact_capacity + joint_capacity + 1, body_capacity) {
-  const std::size_t most_rows = body_capacity + contact_capacity + joint_capacity + 1;
-  members_.reserve(most_rows);
+      islands_(body_capacity + contact_capacity + 1, body_capacity) {
+  // A moving body has one number, or, if no impulse moves it, one in each contact. Bodies that
+  // stand still have rows without numbers, in contacts and in joints of nets.
+  const std::size_t most_numbers = body_capacity + contact_capacity + 1;
+  const std::size_t most_rows = most_numbers + joint_capacity;
+  members_.reserve(most_numbers);
   moving_holds_.reserve(contact_capacity);
-  bodies_.reserve(most_rows);
+  bodies_.reserve(most_numbers);
   rows_.reserve(most_rows);
   inertias_.reserve(most_rows);
   before_.reserve(most_rows);
   travel_.reserve(most_rows);
-  axes_.reserve(most_rows);
-  gained_.reserve(most_rows);
+  axes_.reserve(most_numbers);
+  gained_.reserve(most_numbers);
   gains_.reserve(body_capacity + 1);
   if (joint_capacity != 0) energy_limit_.reserve(body_capacity);
   places_.reserve(joint_capacity == 0 ? 0 : most_rows);
@@ -181,7 +184,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
   restitution_.reserve(most);
   slots_.reserve(most * k_block_lanes);
   kept_.reserve(most * k_block_lanes);
-  reserve_islands(most_rows, body_capacity, contact_capacity, joint_capacity,
+  reserve_islands(most_numbers, body_capacity, contact_capacity, joint_capacity,
                   std::min(converged_contacts, contact_capacity));
   loops_.reserve((static_cast<std::size_t>(step.substeps) + 1) * k_most_substep_loops);
   stages_.reserve(loops_.capacity());
