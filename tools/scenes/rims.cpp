@@ -102,7 +102,7 @@ const Scene k_drums = {"drums", "a stack of drums, a pyramid of pipes, a pile of
                        small_world, build_drums};
 const Scene k_cones = {"cones", "cones on their base, rolling in a circle, on their tip", 240,
                        small_world, build_cones};
-const Scene k_coins = {"coins", "a coin that spins and settles, one that rolls, two that fall", 360,
+const Scene k_coins = {"coins", "a coin that spins and settles, one that rolls, two that fall", 300,
                        small_world, build_coins};
 
 }  // namespace lockstone::scenes

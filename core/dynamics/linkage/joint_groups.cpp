@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/joint/joint_numbers.h"
 #include "core/dynamics/linkage/joint_solver.h"
 
@@ -229,8 +231,11 @@ void JointSolver::make_joint(Link& link) {
     if (part.mantissa == 0) return {};
     const int distance = joint.inverse_mass.exponent - part.exponent;
     if (distance > 60) return {};
-    return {raw::round_divide(std::int64_t{part.mantissa} << 31, joint.inverse_mass.mantissa),
-            31 + distance};
+    // Below 2^32: both mantissas lie in [2^30, 2^31).
+    const std::int64_t mantissa =
+        raw::round_divide(std::int64_t{part.mantissa} << 31, joint.inverse_mass.mantissa);
+    LKS_ASSERT(mantissa >> 32 == 0);
+    return {static_cast<std::uint32_t>(mantissa), 31 + distance};
   };
   joint.share_a = share(a.inverse_mass_value());
   joint.share_b = share(b.inverse_mass_value());

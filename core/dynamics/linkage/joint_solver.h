@@ -192,7 +192,7 @@ class JointSolver {
   };
   // A part of an inverse mass as mantissa · 2^-shift.
   struct Share {
-    std::int64_t mantissa = 0;
+    std::uint32_t mantissa = 0;
     int shift = 1;
   };
   // The data of a limit or drive besides its Jacobians.
