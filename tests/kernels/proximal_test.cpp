@@ -241,8 +241,10 @@ TEST(ProximalKernels, PassesNeverRaiseTheDualObjectiveBeyondRounding) {
 }
 
 // Soft rows, so that passes alone get there: rows that push have no residual, and others open;
-// locks have none. Half of the rows of every second problem are locks.
+// locks have none. Half of the rows of every second problem are locks. Rounding lets rows that push
+// each other change by 2 units for ever, so a change of fewer than 4 counts as none.
 TEST(ProximalKernels, PassesEndWhereTheConditionsOfTheLeastHold) {
+  constexpr int k_cycle = 4, k_left = 8;
   Random random;
   int pulling = 0;
   for (int round = 0; round < 300; ++round) {
@@ -258,7 +260,7 @@ TEST(ProximalKernels, PassesEndWhereTheConditionsOfTheLeastHold) {
       for (std::size_t r = 0; r < block.rows; ++r) {
         block.give[r] = k_whole_row >> random.between(0, 1);
         block.own_part[r] = (k_whole_row << 30) / (k_whole_row + block.give[r]);
-        block.tolerance[r] = 2;
+        block.tolerance[r] = k_cycle;
       }
       k_kernels.couple(block);
     }
@@ -271,9 +273,9 @@ TEST(ProximalKernels, PassesEndWhereTheConditionsOfTheLeastHold) {
     for (const ProximalBlock& block : island.blocks) {
       for (std::size_t r = 0; r < block.rows; ++r) {
         const double left = std::ldexp(static_cast<double>(block.residual[r]), -30);
-        EXPECT_GE(left, -8) << round;
+        EXPECT_GE(left, -k_left) << round;
         const bool is_lock = r >= block.points;
-        EXPECT_TRUE((!is_lock && block.impulse[r] == 0) || left <= 8) << round << ": " << left;
+        EXPECT_TRUE((!is_lock && block.impulse[r] == 0) || left <= k_left) << round << ": " << left;
         pulling += is_lock && block.impulse[r] < 0 ? 1 : 0;
       }
     }
