@@ -30,6 +30,8 @@ class GeneralEngine {
   [[nodiscard]] virtual bool asleep(int body) const = 0;
   /// Whether any trigger saw the body in the last step.
   [[nodiscard]] virtual bool entered(int body) const = 0;
+  /// Pairs with contact points in the last step; 0 where an engine does not count them.
+  [[nodiscard]] virtual std::uint32_t contacts() const { return 0; }
   /// Of the whole state; 0 where an engine has none.
   [[nodiscard]] virtual std::uint64_t hash() const { return 0; }
   /// SVG; empty where an engine draws nothing.

@@ -143,7 +143,8 @@ class LockstoneGeneral final : public GeneralEngine {
       (void)world_.create_joint(joint_of(joint, body(joint.a), body(joint.b))).value();
   }
 
-  void step() override { (void)world_.step(); }
+  void step() override { contacts_ = world_.step().contacts; }
+  [[nodiscard]] std::uint32_t contacts() const override { return contacts_; }
   void set_motion(int index, const Triple& velocity, const Triple& angular_velocity) override {
     (void)world_.apply(SetVelocity{body(index), fixed<Velocity>(velocity)});
     (void)world_.apply(SetAngularVelocity{body(index), fixed<AngularVelocity>(angular_velocity)});
@@ -176,6 +177,7 @@ class LockstoneGeneral final : public GeneralEngine {
   }
 
   World world_;
+  std::uint32_t contacts_ = 0;
   std::vector<BodyHandle> bodies_;
 };
 

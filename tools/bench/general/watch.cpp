@@ -244,14 +244,17 @@ std::optional<GeneralFigures> play_general(const GeneralMaker& maker, const Gene
   if (engine == nullptr) return std::nullopt;
   Watch watch(scene, *engine);
   std::uint64_t taken = 0;
+  std::uint32_t contacts = 0;
   for (int tick = 0; tick < scene.ticks; ++tick) {
     move(*engine, scene, tick);
     const std::uint64_t begin = thread_nanoseconds();
     engine->step();
     taken += thread_nanoseconds() - begin;
     watch.after(tick);
+    contacts = std::max(contacts, engine->contacts());
   }
   GeneralFigures figures = watch.figures();
+  figures.contacts = contacts;
   figures.tick_micros = static_cast<double>(taken) * 1e-3 / scene.ticks;
   figures.hash = engine->hash();
   return figures;

@@ -19,6 +19,7 @@ struct GeneralFigures {
   double rest = 0;         ///< s, until nothing moved any more; beyond the end when something does
   double asleep = 0;       ///< share of dynamic bodies at the end
   double tick_micros = 0;  ///< processor time, mean
+  std::uint32_t contacts = 0;  ///< the most at any time; 0 where the engine does not count them
   std::uint64_t hash = 0;
   bool failed = false;  ///< the expected event of the scene did not happen
 };

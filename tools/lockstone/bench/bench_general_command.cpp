@@ -17,7 +17,7 @@ namespace {
 struct BenchGeneralOptions {
   std::vector<std::string> families;
   std::vector<std::string> peers;
-  std::string replay, svg, plot, page;
+  std::string replay, svg, plot, page, contacts;
   bool force = false;
   std::uint64_t first_seed = 1;
   int seeds = 20;
@@ -148,6 +148,8 @@ int measure(const BenchGeneralOptions& options) {
   }
   bool written = options.page.empty() || write_text_file({options.page, options.force},
                                                          general_page(runs, command_of(options)));
+  if (!options.contacts.empty())
+    written = write_text_file({options.contacts, options.force}, contacts_sheet(runs)) && written;
   if (!options.plot.empty()) written = plot_general(runs, {options.plot, options.force}) && written;
   if (!written) return k_unavailable;
   const bool failed = std::ranges::any_of(runs, [](const bench::FamilyRun& family) {
@@ -212,6 +214,8 @@ void add_bench_general_command(CLI::App& bench, int& exit_code) {
   command->add_flag("--list", options->list, "Names of families");
   command->add_flag("--json", options->json, "Print every seed's figures as JSON");
   command->add_option("--plot", options->plot, "Also draw a chart a family into a folder");
+  command->add_option("--contacts", options->contacts,
+                      "Also draw the worst error over the number of contacts into a file *.svg");
   command->add_option("--page", options->page, "Also write the table into a file *.md");
   add_replay_options(*command, *options);
   add_force_option(*command, options->force);

@@ -1,6 +1,8 @@
 #include "tools/lockstone/bench/bench_general_print.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -20,11 +22,13 @@ using bench::FamilyRun;
 using bench::GeneralFigures;
 
 constexpr double k_p99 = 0.99, k_median = 0.5;
+constexpr double k_least_drawn = 1e-6;  // an axis in logarithms has no 0
 
 std::string_view unit_of(bench::Judge judge) {
-  constexpr std::string_view k_units[] = {"m moved", "m gap",  "speed off", "rad off", "swing lost",
-                                          "lost",    "gained", "missed",    "unseen",  "m fallen",
-                                          "m up",    "slowed", "awake"};
+  constexpr auto k_units = std::to_array<std::string_view>(
+      {"m moved", "m gap", "speed off", "rad off", "rad off", "swing lost", "lost", "gained",
+       "missed", "unseen", "m fallen", "m up", "slowed", "awake"});
+  static_assert(k_units.size() == static_cast<std::size_t>(bench::Judge::awake) + 1);
   return k_units[static_cast<std::size_t>(judge)];
 }
 
@@ -48,9 +52,11 @@ std::string row_of(const FamilyRun& run, std::string_view line) {
 }
 
 nlohmann::ordered_json json_of(const GeneralFigures& f, std::uint64_t seed) {
-  return {{"seed", seed},       {"error", f.error},         {"gap", f.gap},
-          {"gain", f.gain},     {"speed", f.speed},         {"rest_s", f.rest},
-          {"asleep", f.asleep}, {"tick_us", f.tick_micros}, {"hash", hash_text(f.hash)},
+  return {{"seed", seed},           {"error", f.error},
+          {"gap", f.gap},           {"gain", f.gain},
+          {"speed", f.speed},       {"rest_s", f.rest},
+          {"asleep", f.asleep},     {"tick_us", f.tick_micros},
+          {"contacts", f.contacts}, {"hash", hash_text(f.hash)},
           {"failed", f.failed}};
 }
 
@@ -58,11 +64,27 @@ nlohmann::ordered_json json_of(const GeneralFigures& f, std::uint64_t seed) {
 bench::ChartLine line_of(const FamilyRun& run, int colour) {
   std::vector<double> errors;
   for (const auto& seed : run.figures)
-    if (seed.has_value()) errors.push_back(std::max(seed->error, 1e-6));
+    if (seed.has_value()) errors.push_back(std::max(seed->error, k_least_drawn));
   std::ranges::sort(errors);
   bench::ChartLine line{run.engine, colour, false, colour == 0, {}};
   for (std::size_t i = 0; i < errors.size(); ++i)
     line.points.push_back({static_cast<double>(i + 1), errors[i], ""});
+  return line;
+}
+
+// The worst error of an engine in each half octave of contacts. Seeds are told apart by the
+// contacts that `counted`, our run of the same seeds, had.
+bench::ChartLine by_contacts(const FamilyRun& run, const FamilyRun& counted, int colour) {
+  std::map<int, double> worst;
+  for (std::size_t i = 0; i < run.figures.size(); ++i) {
+    if (!run.figures[i].has_value() || !counted.figures[i].has_value()) continue;
+    if (counted.figures[i]->contacts == 0) continue;
+    const auto bin = static_cast<int>(std::lround(2 * std::log2(counted.figures[i]->contacts)));
+    worst[bin] = std::max({worst[bin], run.figures[i]->error, k_least_drawn});
+  }
+  bench::ChartLine line{run.engine, colour, false, colour == 0, {}};
+  for (const auto& [bin, error] : worst)
+    line.points.push_back({std::exp2(0.5 * bin), error, ""});
   return line;
 }
 
@@ -136,6 +158,26 @@ bool plot_general(std::span<const FamilyRun> runs, const Output& folder) {
                               bench::svg_of(chart)) &&
               written;
   return written;
+}
+
+std::string contacts_sheet(std::span<const FamilyRun> runs) {
+  std::vector<bench::Chart> charts;
+  const FamilyRun* counted = nullptr;
+  for (const FamilyRun& run : runs) {
+    if (counted == nullptr || counted->family != run.family) {
+      counted = &run;  // ours comes first in each family
+      const bench::GeneralScene scene = bench::make_scene(*run.family, 1);
+      bench::Chart& chart = charts.emplace_back();
+      chart.title = run.family->name;
+      chart.x_label = "contacts";
+      chart.y_label = fmt::format("{}, the worst", unit_of(scene.judge));
+      chart.goal = scene.bound;
+    }
+    bench::Chart& chart = charts.back();
+    chart.lines.push_back(by_contacts(run, *counted, static_cast<int>(chart.lines.size())));
+  }
+  constexpr int k_columns = 2;
+  return bench::svg_sheet(charts, k_columns);
 }
 
 void print_general_json(std::span<const FamilyRun> runs, std::uint64_t first_seed) {

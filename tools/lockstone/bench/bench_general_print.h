@@ -24,6 +24,10 @@ namespace lockstone::tool {
 /// refuses.
 [[nodiscard]] bool plot_general(std::span<const bench::FamilyRun> runs, const Output& folder);
 
+/// The worst error of each engine over the number of contacts of its scenes, a chart a family, as
+/// one SVG.
+[[nodiscard]] std::string contacts_sheet(std::span<const bench::FamilyRun> runs);
+
 void print_general_json(std::span<const bench::FamilyRun> runs, std::uint64_t first_seed);
 
 }  // namespace lockstone::tool
