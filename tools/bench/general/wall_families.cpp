@@ -126,12 +126,16 @@ void fill_dome(SceneMaker& m) {
 
 // A row that falls one by one: all do.
 void fill_dominoes(SceneMaker& m) {
+  constexpr double k_thin = 0.05, k_turning = 2.5;
   const int n = m.count(4, 60);
   const double high = m.random.between(0.3, 0.6), pitch = high * m.random.between(0.5, 1.1);
   m.ground();
   for (int i = 0; i < n; ++i) {
-    const int stone = m.box({0.05, high, 0.2}, {i * pitch, high, 0});
-    if (i == 0) m.body(stone).angular_velocity = {0, 0, -2.5};
+    const int stone = m.box({k_thin, high, 0.2}, {i * pitch, high, 0});
+    if (i == 0) {  // turns about its far lower edge: 0.8 rad/s tip the lowest stone
+      m.body(stone).angular_velocity = {0, 0, -k_turning};
+      m.body(stone).velocity = {k_turning * high, k_turning * k_thin, 0};
+    }
     m.watch(stone);
   }
   m.scene.expected = 0.3 * high;  // how far a fallen one's centre has moved
