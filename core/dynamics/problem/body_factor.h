@@ -31,7 +31,7 @@ class BodyFactor {
   static constexpr std::uint32_t k_most_bodies = 256;
 
   /// No island costs more than this many products of blocks.
-  static constexpr std::uint32_t k_most_products = 20000;
+  static constexpr std::uint32_t k_most_products = 40000;
 
   /// The matrix's least eigenvalue is 2^-k_least_bits at least.
   static constexpr int k_least_bits = 14;
