@@ -100,8 +100,7 @@ void fill_balls(SceneMaker& m) {
 }
 
 // Boxes in a pile.
-void fill_crates(SceneMaker& m) {
-  const int n = m.count(10, 150), side = m.random.count(2, 5);
+void crate_pile(SceneMaker& m, int n, int side) {
   m.ground();
   for (int i = 0; i < n; ++i) {
     const Triple at = place(m, i, 0.9, side);
@@ -110,6 +109,17 @@ void fill_crates(SceneMaker& m) {
     m.turn(m.box(half, at), m.any_turn());
   }
   heap(m, 15);
+}
+
+void fill_crates(SceneMaker& m) {
+  const int n = m.count(10, 150);
+  crate_pile(m, n, m.random.count(2, 5));
+}
+
+// Through 256 bodies, where our solver changes its method.
+void fill_big_pile(SceneMaker& m) {
+  const int n = m.count(220, 320);
+  crate_pile(m, n, m.random.count(5, 7));
 }
 
 void fill_ragdolls(SceneMaker& m) {
@@ -165,6 +175,7 @@ void add_rest_families(std::vector<Family>& all) {
                          {"gravel", "10-150 random hulls on a floor", fill_gravel},
                          {"balls", "40-250 balls in a box", fill_balls},
                          {"crates", "10-150 boxes in a pile", fill_crates},
+                         {"big-pile", "220-320 boxes in a pile", fill_big_pile},
                          {"ragdolls", "1-12 ragdolls in a pile", fill_ragdolls},
                          {"hull-pyramid", "2-12 rows of prisms", fill_hull_pyramid}});
 }

@@ -11,8 +11,7 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-void fill_wall(SceneMaker& m) {
-  const int wide = m.count(2, 12), high = m.count(3, 16);
+void brick_wall(SceneMaker& m, int wide, int high) {
   const double off = m.random.between(0, 1e-3);
   m.ground();
   for (int row = 0; row < high; ++row) {
@@ -27,6 +26,17 @@ void fill_wall(SceneMaker& m) {
   m.set_friction(m.random.between(0.4, 0.8));
   m.scene.must_rest = true;
   m.judge(Judge::displacement, 0.01, 15);
+}
+
+void fill_wall(SceneMaker& m) {
+  const int wide = m.count(2, 12);
+  brick_wall(m, wide, m.count(3, 16));
+}
+
+// Through 256 bodies and 1,024 contacts, where our solver changes its method.
+void fill_long_wall(SceneMaker& m) {
+  const int wide = m.count(12, 24);
+  brick_wall(m, wide, m.count(10, 18));
 }
 
 void fill_round_tower(SceneMaker& m) {
@@ -63,8 +73,7 @@ void fill_jenga(SceneMaker& m) {
   m.judge(Judge::displacement, 0.01, 15);
 }
 
-void fill_pyramid(SceneMaker& m) {
-  const int rows = m.count(3, 16);
+void box_pyramid(SceneMaker& m, int rows) {
   const double half = m.random.between(0.2, 0.5), gap = m.random.between(0, 0.15);
   m.ground();
   for (int row = 0; row < rows; ++row) {
@@ -73,6 +82,15 @@ void fill_pyramid(SceneMaker& m) {
   }
   m.scene.must_rest = true;
   m.judge(Judge::displacement, 0.02, 12);
+}
+
+void fill_pyramid(SceneMaker& m) {
+  box_pyramid(m, m.count(3, 16));
+}
+
+// Through 256 bodies.
+void fill_high_pyramid(SceneMaker& m) {
+  box_pyramid(m, m.count(19, 26));
 }
 
 // Eight points of a stone between two angles and two radii, about the middle of them.
@@ -146,9 +164,11 @@ void fill_dominoes(SceneMaker& m) {
 
 void add_wall_families(std::vector<Family>& all) {
   all.insert(all.end(), {{"wall", "brick walls 2-12 wide, 3-16 high", fill_wall},
+                         {"long-wall", "brick walls 12-24 wide, 10-18 high", fill_long_wall},
                          {"round-tower", "3-16 rings of 6-16 bricks", fill_round_tower},
                          {"jenga", "4-18 layers of three, some middles gone", fill_jenga},
                          {"pyramid", "3-16 rows of boxes, gaps of 0-15 %", fill_pyramid},
+                         {"high-pyramid", "19-26 rows, the same", fill_high_pyramid},
                          {"arch", "5-21 wedges between fixed ends", fill_arch},
                          {"dome", "3-10 corbelled rings of 8-16 bricks", fill_dome},
                          {"dominoes", "4-60 stones: all fall", fill_dominoes}});
