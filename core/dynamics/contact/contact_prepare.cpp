@@ -11,7 +11,7 @@
 namespace lockstone {
 namespace {
 
-using lanes::ManifoldSource;
+using lanes::PrepareInput;
 
 constexpr std::int64_t k_one_q30 = std::int64_t{1} << 30;
 
@@ -42,8 +42,8 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
 
 // In a pinched island, points that overlap by more than this are pinched; at twice this overlap, a
 // row keeps no more than half of its impulse from one iteration to the next.
-constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
-constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
+constexpr Displacement k_pinched = Displacement::from_ratio(3, 1000);
+constexpr std::int32_t k_kept_of_pinched = 1 << 29;
 
 // The share of its impulse that a soft row keeps in a pinched island. Between two bodies that close
 // in without end, a heavily damped spring pushes without limit, until the body between them slips
@@ -52,11 +52,11 @@ std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
     least = min(least, manifold.points[i].separation);
-  const std::int64_t beyond = -std::int64_t{least.raw} - k_squeezed.raw;
+  const std::int64_t beyond = -std::int64_t{least.raw} - k_pinched.raw;
   if (beyond <= 0) return keep;
-  const std::int64_t most = keep - std::min(keep, k_kept_of_squeezed);
-  const std::int64_t lost = most * std::min<std::int64_t>(beyond, k_squeezed.raw);
-  return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_squeezed.raw));
+  const std::int64_t most = keep - std::min(keep, k_kept_of_pinched);
+  const std::int64_t lost = most * std::min<std::int64_t>(beyond, k_pinched.raw);
+  return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_pinched.raw));
 }
 
 std::int32_t bounded_impulse(const ContactPointRecord& point) {
@@ -75,7 +75,7 @@ std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint3
 // Divides the impulses of points that are gone among the new ones: where boxes fall flush onto each
 // other, points change names from tick to tick, and contacts that forgot their impulses each time
 // would rattle.
-void hand_on(std::int64_t left, std::uint32_t fresh, ManifoldSource& out) {
+void hand_on(std::int64_t left, std::uint32_t fresh, PrepareInput& out) {
   const std::int64_t each =
       std::min<std::int64_t>(left / std::popcount(fresh), lanes::k_most_impulse);
   for (std::size_t i = 0; i < lanes::k_block_points; ++i)
@@ -84,7 +84,7 @@ void hand_on(std::int64_t left, std::uint32_t fresh, ManifoldSource& out) {
 
 // Warm starts each point with the impulse that the point of the same feature had at the end of the
 // last tick. Returns whether the record has all points already, in their places.
-bool fill_points(const ContactInput& in, ManifoldSource& out) {
+bool fill_points(const ContactInput& in, PrepareInput& out) {
   const auto count = static_cast<std::size_t>(in.manifold.count);
   bool kept = in.record.count == count;
   std::int64_t left = 0;
@@ -120,7 +120,7 @@ int scale_exponent_of(const SolverBody& a, const SolverBody& b) {
 }
 
 // Rolling is resisted by arm/ℓ of the normal impulse.
-void fill_rolling(const ContactInput& in, int scale_exponent, ManifoldSource& out) {
+void fill_rolling(const ContactInput& in, int scale_exponent, PrepareInput& out) {
   out.rolling = {};
   out.rolling_limit = 0;
   if (in.surface.rolling_arm == Length{}) return;
@@ -154,7 +154,7 @@ ContactSoftness ContactSoftness::of(const TimeStep& step) {
   return {make_softness(hertz, rate), make_softness(2 * hertz, rate)};
 }
 
-bool fill_source(const ContactInput& in, const ContactSoftness& softness, ManifoldSource& out) {
+bool fill_source(const ContactInput& in, const ContactSoftness& softness, PrepareInput& out) {
   const SolverBody& a = in.body_a;
   const SolverBody& b = in.body_b;
   const int pair_exponent = std::max(a.inverse_inertia.exponent, b.inverse_inertia.exponent);

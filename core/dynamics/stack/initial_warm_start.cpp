@@ -54,31 +54,31 @@ void add_scaled(const RawVec3& direction, std::int64_t by, bool is_taken,
 
 }  // namespace
 
-void FirstLoads::make_room(std::uint32_t workers) {
+void InitialWarmStart::make_room(std::uint32_t workers) {
   while (supports_.size() < workers)
     supports_.emplace_back().reserve(k_most_supports);
 }
 
-void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
-                      Parallel& parallel) {
+void InitialWarmStart::find(SupportGraph& order, const ContactRun& run, std::span<RowBody> warm,
+                            Parallel& parallel) {
   order.find(run,
              [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
-  loads_.assign(order.links().size(), k_no_load);
+  mean_impulses_.assign(order.links().size(), k_no_impulse);
   order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
     Supports& supports = supports_[worker];
     gather(order, run, body, supports);
     hold_up(run.bodies[body], warm[body], supports);
     for (const Support& support : supports) {
       RowPush to_a, to_b;
-      hand_down(run, support, to_a, to_b);
-      order.hand_down(support.link, support.is_b, to_a, to_b, warm[body]);
+      propagate(run, support, to_a, to_b);
+      order.propagate(support.link, support.is_b, to_a, to_b, warm[body]);
     }
   });
 }
 
 // All points of a support push alike as far as that suffices, since iterations keep a pressure in
 // the middle best. A body that tips over has no supports.
-void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
+void InitialWarmStart::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
   RowBody row = warm;
   for (std::size_t i = 0; i < 3; ++i) {
     row.velocity[i] += body.gain[i] * k_to_row;
@@ -99,7 +99,7 @@ void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& 
 
 // Whether a point opens faster than a part of the weight would close it, so that the body falls.
 // Its push, if propagated, would grow from body to body.
-bool FirstLoads::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
+bool InitialWarmStart::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
   const std::int64_t slow = (body.greatest_gain() >> k_tipping_shift) * k_to_row;
   return std::ranges::any_of(supports, [&](const Support& support) {
     for (std::size_t i = 0; i < support.contact.count; ++i)
@@ -109,8 +109,8 @@ bool FirstLoads::tips(const RowBody& row, const SolverBody& body, const Supports
   });
 }
 
-void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
-                        Supports& supports) {
+void InitialWarmStart::gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
+                              Supports& supports) {
   supports.clear();
   order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
     if (supports.size() == k_most_supports) return;
@@ -123,7 +123,7 @@ void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::u
   });
 }
 
-void FirstLoads::fill(const ContactRun& run, Support& support) {
+void InitialWarmStart::fill(const ContactRun& run, Support& support) {
   ContactRows& contact = support.contact;
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -153,7 +153,7 @@ void FirstLoads::fill(const ContactRun& run, Support& support) {
 }
 
 // Returns the magnitude of the change of each point's impulse, Q32.
-std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
+std::int64_t InitialWarmStart::push_together(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   if (contact.count == 0) return 0;
   const std::int64_t least =
@@ -169,7 +169,7 @@ std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
   return std::abs(each);
 }
 
-std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
+std::int64_t InitialWarmStart::push_points(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   std::int64_t most = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
@@ -187,8 +187,8 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
 
 // Gives the impulses to the block, rounded to its steps, and to both bodies. A new contact takes
 // them as its mean impulse.
-void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPush& to_a,
-                           RowPush& to_b) {
+void InitialWarmStart::propagate(const ContactRun& run, const Support& support, RowPush& to_a,
+                                 RowPush& to_b) {
   const ContactRows& contact = support.contact;
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -215,12 +215,13 @@ void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPus
   if (!support.is_new || contact.count == 0) return;
   const std::int64_t load = raw::round_divide(sum, contact.count);
   block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
-  loads_[support.link] = static_cast<std::int32_t>(load);
+  mean_impulses_[support.link] = static_cast<std::int32_t>(load);
 }
 
-void FirstLoads::store(const SupportOrder& order, std::span<ContactRecord> records) const {
-  for (std::size_t i = 0; i < loads_.size(); ++i)
-    if (loads_[i] != k_no_load) records[order.links()[i].record].load.raw = loads_[i];
+void InitialWarmStart::store(const SupportGraph& order, std::span<ContactRecord> records) const {
+  for (std::size_t i = 0; i < mean_impulses_.size(); ++i)
+    if (mean_impulses_[i] != k_no_impulse)
+      records[order.links()[i].record].load.raw = mean_impulses_[i];
 }
 
 }  // namespace lockstone
