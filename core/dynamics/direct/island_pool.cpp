@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/reserved.h"
+
 namespace lockstone {
 
 IslandPool::IslandPool(const Capacity& capacity)
@@ -86,7 +88,7 @@ bool IslandPool::add(std::span<const std::uint32_t> bodies,
   for (const IslandJoint& joint : joints)
     add_problem(island, joint.a, joint.b);
   const std::size_t vectors = velocities_.size() + bodies.size() + 1;
-  LKS_ASSERT(vectors <= velocities_.capacity());
+  LKS_ASSERT(is_reserved(velocities_, vectors));
   velocities_.resize(vectors);
   changes_.resize(vectors);
   gains_.resize(vectors);

@@ -1,5 +1,6 @@
 #include "core/dynamics/step/bounce_limit.h"
 
+#include "core/base/reserved.h"
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/body/motion.h"
 #include "core/math/product_sum.h"
@@ -28,7 +29,7 @@ BounceLimit::BounceLimit(const TimeStep& step, std::size_t body_capacity,
 }
 
 void BounceLimit::reserve() {
-  LKS_ASSERT(bodies_.count() <= gained_.capacity());
+  LKS_ASSERT(is_reserved(gained_, bodies_.count()));
   if (gained_.size() < bodies_.count()) gained_.resize(bodies_.count());
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/reserved.h"
+
 namespace lockstone {
 namespace {
 
@@ -47,7 +49,7 @@ void ConstraintLayout::build(const SolverBodies& bodies, const ContactList& cont
     ranges_[color] = {block_count_, blocks_for(graph_.count(color))};
     block_count_ += ranges_[color].count;
   }
-  LKS_ASSERT(lane_count() <= contacts_.capacity());
+  LKS_ASSERT(is_reserved(contacts_, lane_count()));
   if (contacts_.size() < lane_count()) contacts_.resize(lane_count());
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
     const std::size_t begin = ranges_[color].first, end = begin + ranges_[color].count;

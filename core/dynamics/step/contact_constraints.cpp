@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/step/contact_params.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -98,7 +99,7 @@ void ContactConstraints::lay_out(Parallel& parallel) {
   kernels_ = &lanes::manifold_kernels(layout_.graph().greatest_count());
   points_ = 0;
   has_restitution_ = false;
-  LKS_ASSERT(layout_.block_count() <= blocks_.capacity());
+  LKS_ASSERT(is_reserved(blocks_, layout_.block_count()));
   if (blocks_.size() >= layout_.block_count()) return;
   blocks_.resize(layout_.block_count());
   approaches_.resize(layout_.block_count());

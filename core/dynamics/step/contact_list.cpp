@@ -1,5 +1,7 @@
 #include "core/dynamics/step/contact_list.h"
 
+#include "core/base/reserved.h"
+
 namespace lockstone {
 namespace {
 
@@ -34,7 +36,7 @@ void ContactList::find_sides(const ContactScene& scene, std::int64_t bearing_imp
 // In the order of the records: bodies, colours and lanes follow from the state alone.
 void ContactList::gather(const ContactScene& scene, std::int64_t bearing_impulse,
                          SolverBodies& bodies, Parallel& parallel) {
-  LKS_ASSERT(scene.records.size() <= sides_.capacity());
+  LKS_ASSERT(is_reserved(sides_, scene.records.size()));
   sides_.resize(scene.records.size());
   parallel.for_each({static_cast<std::uint32_t>(sides_.size()), k_side_grain},
                     [&](std::size_t first, std::size_t end, std::uint32_t) {

@@ -1,5 +1,7 @@
 #include "core/dynamics/step/island_lists.h"
 
+#include "core/base/reserved.h"
+
 namespace lockstone {
 
 IslandLists::IslandLists(std::size_t body_capacity, std::size_t contact_capacity,
@@ -12,7 +14,7 @@ IslandLists::IslandLists(std::size_t body_capacity, std::size_t contact_capacity
 }
 
 void IslandLists::clear(Chains& chains, std::uint32_t islands, std::uint32_t items) {
-  LKS_ASSERT(islands <= chains.first.capacity() && items <= chains.next.capacity());
+  LKS_ASSERT(is_reserved(chains.first, islands) && is_reserved(chains.next, items));
   chains.first.assign(islands, 0);
   chains.next.assign(items, 0);
 }

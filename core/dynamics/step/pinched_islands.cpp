@@ -4,6 +4,8 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/reserved.h"
+
 namespace lockstone {
 
 PinchedIslands::PinchedIslands(std::size_t contact_capacity) {
@@ -11,7 +13,7 @@ PinchedIslands::PinchedIslands(std::size_t contact_capacity) {
 }
 
 void PinchedIslands::add_moving(const IslandHold& hold) {
-  LKS_ASSERT(hold.island != 0 && moving_.size() < moving_.capacity());
+  LKS_ASSERT(hold.island != 0 && is_reserved(moving_, moving_.size() + 1));
   moving_.push_back(hold);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/body/motion.h"
 
 namespace lockstone {
@@ -29,7 +30,7 @@ SolvedMotion::SolvedMotion(const TimeStep& step, std::size_t number_capacity,
 }
 
 void SolvedMotion::reserve() {
-  LKS_ASSERT(bodies_.count() <= axes_.capacity());
+  LKS_ASSERT(is_reserved(axes_, bodies_.count()));
   if (axes_.size() < bodies_.count()) axes_.resize(bodies_.count());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/motion.h"
 
@@ -64,7 +65,7 @@ void SolverBodies::clear() {
 BodyRef SolverBodies::add(BodySide side) {
   if (side.motion() == MotionType::static_body) return add_standing();
   const std::uint32_t number = count();
-  LKS_ASSERT(number < sides_.capacity());
+  LKS_ASSERT(is_reserved(sides_, std::size_t{number} + 1));
   if (number_of_[side.body()] == 0) number_of_[side.body()] = number;
   sides_.push_back(side);
   return BodyRef::numbered(number);
@@ -72,7 +73,7 @@ BodyRef SolverBodies::add(BodySide side) {
 
 // Rows only grow, within their capacity.
 void SolverBodies::reserve_rows() {
-  LKS_ASSERT(row_count() <= rows_.capacity());
+  LKS_ASSERT(is_reserved(rows_, row_count()));
   if (constants_.size() < count()) constants_.resize(count());
   if (rows_.size() >= row_count()) return;
   inertias_.resize(row_count());

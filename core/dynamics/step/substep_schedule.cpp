@@ -2,6 +2,8 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/reserved.h"
+
 namespace lockstone {
 namespace {
 
@@ -21,8 +23,9 @@ constexpr std::size_t k_most_substep_loops = 13 + 6 * (k_graph_colors + 1);
 }  // namespace
 
 SubstepSchedule::SubstepSchedule(int substeps) : substeps_(substeps) {
-  loops_.reserve((static_cast<std::size_t>(substeps) + 1) * k_most_substep_loops);
-  stages_.reserve(loops_.capacity());
+  const std::size_t most = (static_cast<std::size_t>(substeps) + 1) * k_most_substep_loops;
+  loops_.reserve(most);
+  stages_.reserve(most);
 }
 
 void SubstepSchedule::clear() {
@@ -82,7 +85,7 @@ void SubstepSchedule::plan_store(const TickWork& work) {
 
 void SubstepSchedule::add(Stage stage, std::uint32_t count, std::uint32_t grain) {
   if (count == 0) return;
-  LKS_ASSERT(loops_.size() < loops_.capacity());
+  LKS_ASSERT(is_reserved(loops_, loops_.size() + 1));
   loops_.push_back({count, grain});
   stages_.push_back(stage);
 }
