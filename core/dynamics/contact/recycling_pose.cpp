@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/pose_distance.h"
 #include "core/dynamics/body/raw_vec3.h"
 
@@ -39,6 +41,7 @@ Vec3<Position> contact_position(const BodyRecord& body) {
 }
 
 bool is_near_contact_pose(const BodyRecord& body, int drift) {
+  LKS_ASSERT(drift == k_fine_drift || drift == k_coarse_drift);
   const int exponent = std::min(drift, body.scale_exponent + drift);
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
@@ -81,6 +84,7 @@ PoseDelta drift_of(const BodyRecord& body) {
 }
 
 void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold) {
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   const Vec3<Unit>& n = manifold.normal;
   // n × turn, Q34: n · (turn × r) = r · (n × turn).
   const auto across = [&](const PoseDelta& drift) -> RawVec3 {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/direct/contact_speeds.h"
 #include "core/dynamics/problem/proximal_words.h"
@@ -95,6 +97,7 @@ void soften(std::int64_t overlap, const ProximalRow& row, std::size_t i, Problem
   constexpr std::int64_t k_most_give = k_whole >> 3;
   constexpr std::int64_t k_width = k_soft - k_hard;
   const std::int64_t beyond = std::clamp<std::int64_t>(overlap - k_hard, 0, k_width);
+  LKS_ASSERT(row.give > 0);
   const std::int64_t more = std::max<std::int64_t>(k_most_give - row.give, 0);
   set_give(row.give + raw::round_divide(more * beyond, k_width), i, problem);
   problem.held_centre[i] -= raw::round_divide(problem.held[i] / 2, k_width) * beyond;
@@ -224,6 +227,7 @@ void begin_substep(const IslandView& island) {
       problem.held_centre[i] = held;
       if (i >= contact.points) continue;
       ProximalRow& row = contact.all[i];
+      LKS_ASSERT(held >= 0 && row.weight_leak >= 0);
       row.leak = std::min(held / k_leak_part, row.weight_leak);
       problem.held_centre[i] -= row.leak;
     }
@@ -243,6 +247,7 @@ void return_leaks(const IslandView& island) {
 }
 
 void set_biases(const ContactRun& run, const IslandView& island, bool pushes_out) {
+  LKS_ASSERT(island.problems.size() == island.contacts.size() + island.joints.size());
   for (std::size_t c = 0; c < island.contacts.size(); ++c)
     set_bias(run, island.contacts[c], island.problems[c], pushes_out, !island.joints.empty());
 }
@@ -259,6 +264,7 @@ void loosen(const IslandView& island) {
           most, width(-(problem.moved[i] + problem.bias[i])) - width(problem.least_change[i]));
   }
   island.state.loose = std::max(most - k_loose_bits, 0);
+  LKS_ASSERT(island.state.loose < 63);
 }
 
 // Gains are summed first: a partial sum may leave the range of a velocity.
@@ -268,6 +274,7 @@ void give(const ContactRun& run, const IslandView& island) {
   for (std::size_t c = 0; c < island.contacts.size(); ++c) {
     Problem& problem = island.problems[c];
     RowWords moved{};
+    LKS_ASSERT(problem.a < gains.size() && problem.b < gains.size());
     if (gain_impulses(island.state.bits, island.contacts[c], problem, moved))
       push_bodies(run, island.contacts[c], moved, gains[problem.a], gains[problem.b]);
   }

@@ -1,5 +1,7 @@
 #include "core/dynamics/direct/contact_speeds.h"
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/problem/proximal_words.h"
 
@@ -30,6 +32,7 @@ std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
 
 void set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
                 lanes::ProximalBlock& problem) {
+  LKS_ASSERT(substeps >= 1 && contact.points <= contact.rows);
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   if (block.is_plain(lane)) return;

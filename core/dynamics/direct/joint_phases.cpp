@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/problem/proximal_words.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -40,6 +42,7 @@ BodyVector motion_of(const lanes::RowBody& row, const InertiaRoot& root, const R
 bool has_turned(const IslandJoint& joint, const ProximalBlock& problem,
                 std::span<const JointRow> rows) {
   if (joint.row_count != rows.size()) return true;
+  LKS_ASSERT(problem.rows <= k_contact_rows && joint.row_count <= k_max_joint_rows);
   for (std::size_t lane = 0; lane < problem.rows; ++lane) {
     const JointDirections &now = rows[joint.rows[lane]], &then = joint.read[lane];
     if (now.kind != then.kind || now.axis != then.axis || now.flipped != then.flipped) return true;
@@ -135,6 +138,7 @@ void find_motions(const ContactRun& run, const IslandView& island) {
 
 // The speed of a contact's row by the motion of the bodies that impulses move.
 std::int64_t speed_of(const IslandView& island, const Problem& problem, std::size_t row) {
+  LKS_ASSERT(row < problem.rows);
   const std::span<const BodyVector> motions = island.changes;
   const BodyVector &a = motions[problem.a], &b = motions[problem.b];
   ProductSum sum;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/problem/proximal_words.h"
 #include "core/kernels/proximal/proximal_friction.h"
 
@@ -42,6 +44,7 @@ std::int64_t dual_part(const ProductSum& slope, const ProductSum& curve) {
          (magnitude(slope.rounded(shift)) >= k_fits || curve.rounded(shift) >= k_fits))
     shift += 4;
   const std::int64_t down = -slope.rounded(shift), total = curve.rounded(shift);
+  LKS_ASSERT(magnitude(down) < static_cast<std::uint64_t>(k_fits) && total < k_fits);
   if (down <= 0 || total <= 0) return 0;
   if (down >= total) return k_whole;
   const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(total)));
@@ -130,6 +133,7 @@ void PhaseSolver::mark_active() {
 }
 
 void PhaseSolver::factor() {
+  LKS_ASSERT(island_.blocks.size() == island_.problems.size());
   factor_.reset(island_.plan);
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   const auto block = [this](std::uint32_t index) {
@@ -155,6 +159,7 @@ void PhaseSolver::find_residuals() {
 // Solves for velocities, with the right-hand side −Σ Jᵀ·r/γ of the active rows, times 2^-14.
 // Returns whether all fits.
 bool PhaseSolver::solve_for_changes() {
+  LKS_ASSERT(island_.state.is_factored && drop_ >= 1 && drop_ <= k_most_drop + k_more_drop);
   const std::span<BodyVector> sums = island_.changes;
   std::ranges::fill(sums, BodyVector{});
   const std::span<const Problem> problems = island_.problems;
@@ -166,6 +171,7 @@ bool PhaseSolver::solve_for_changes() {
 
 // Sums the changes of the bodies' velocities by the step to the next impulses.
 void PhaseSolver::sum_changes() {
+  LKS_ASSERT(island_.changes.size() == body_count() + 1);
   const std::span<BodyVector> sums = island_.changes;
   std::ranges::fill(sums, BodyVector{});
   const std::span<const Problem> problems = island_.problems;
@@ -194,6 +200,7 @@ std::int64_t PhaseSolver::search() const {
 
 // By a part of the step at hand, Q30.
 void PhaseSolver::go(std::int64_t part) {
+  LKS_ASSERT(part > 0 && part <= k_whole);
   const auto of_part = [part](std::int64_t x) {
     return part == k_whole ? x : raw::round_shift(x * part, 30);
   };
@@ -213,6 +220,7 @@ void PhaseSolver::go(std::int64_t part) {
 // the way where it is the solution of the phase. Returns whether it goes anywhere.
 bool PhaseSolver::direct_step() {
   if (!island_.state.is_factored) factor();
+  LKS_ASSERT(island_.state.is_factored);
   find_residuals();
   while (!solve_for_changes()) {
     drop_ += k_more_drop;

@@ -77,6 +77,7 @@ class TickIslands {
   }
 
   void join(std::uint32_t a, std::uint32_t b) {
+    LKS_ASSERT(a != 0 && b != 0 && a < parents_.size() && b < parents_.size());
     const std::uint32_t root_a = root(a), root_b = root(b);
     if (root_a < root_b) parents_[root_b] = root_a;
     if (root_b < root_a) parents_[root_a] = root_b;

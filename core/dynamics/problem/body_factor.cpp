@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
 #include <lockstone/fixed.h>
 
 #include "core/math/roots.h"
@@ -69,6 +70,7 @@ void BodyFactor::clear() {
 
 // The body of least degree, the first of equals: its neighbours become neighbours of each other.
 std::uint32_t BodyFactor::eliminate_next(std::uint32_t bodies) {
+  LKS_ASSERT(bodies >= 1 && bodies <= k_most_bodies);
   std::uint32_t best = 0;
   for (std::uint32_t i = 1; i < bodies; ++i)
     if (degrees_[i] < degrees_[best]) best = i;
@@ -105,6 +107,7 @@ std::size_t BodyFactor::find_order(const Plan& plan, std::size_t& blocks) {
 }
 
 void BodyFactor::add_columns(const Plan& plan) {
+  LKS_ASSERT(order_.size() == plan.bodies);
   std::uint32_t block = plan.first_block + plan.bodies;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     Column column;
@@ -125,6 +128,7 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
   for (std::uint32_t i = 0; i < bodies; ++i)
     neighbours_[i].reset();
   for (const auto& [a, b] : pairs) {
+    LKS_ASSERT(a != b && a < bodies && b < bodies);
     neighbours_[a].set(b);
     neighbours_[b].set(a);
   }
@@ -163,6 +167,7 @@ void BodyFactor::add_targets(const Plan& plan) {
 }
 
 BodyFactor::Place BodyFactor::find(const Plan& plan, std::uint32_t a, std::uint32_t b) const {
+  LKS_ASSERT(a != b && a < plan.bodies && b < plan.bodies);
   const std::uint32_t pa = places_[plan.first_column + a], pb = places_[plan.first_column + b];
   return {find_block(plan, std::max(pa, pb), std::min(pa, pb)), pa > pb};
 }
@@ -228,6 +233,7 @@ void BodyFactor::set_pivot(Column& column, std::size_t j, std::int64_t sum, Bloc
   const auto root = static_cast<std::int64_t>(isqrt_rounded(pivot));  // 2^17 … 2^30
   const int shift = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(root)));
   column.shifts[j] = shift;
+  LKS_ASSERT(root >= std::int64_t{1} << 15 && root < std::int64_t{1} << 31);
   const std::int64_t inverse = raw::round_divide(std::int64_t{1} << (k_entry_bits + shift), root);
   column.mantissas[j] = static_cast<std::int32_t>(std::min(inverse, k_most_word));
   block.words[j][j] = root;
@@ -259,6 +265,7 @@ void BodyFactor::factor(const Plan& plan) {
     factor_diagonal(column, diagonal);
     kernels.eliminate(blocks_.data(), column, diagonal, below_.data() + column.first, targets);
     targets += std::size_t{column.count} * (column.count + 1) / 2;
+    LKS_ASSERT(targets <= targets_.data() + targets_.size());
   }
 }
 
@@ -303,6 +310,7 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
 }
 
 bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
+  LKS_ASSERT(b.size() == plan.bodies);
   bool fits = true;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/contact/block_words.h"
 
@@ -124,6 +126,7 @@ void InitialWarmStart::gather(const SupportGraph& order, const ContactRun& run, 
 }
 
 void InitialWarmStart::fill(const ContactRun& run, Support& support) {
+  LKS_ASSERT(support.contact.a != 0 || support.contact.b != 0);
   ContactRows& contact = support.contact;
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -161,6 +164,7 @@ std::int64_t InitialWarmStart::push_together(Support& support, RowBody& body) {
   const std::int64_t all =
       stopping(speed_of(contact.normal, support.response, support.is_b, body), support.common);
   const std::int64_t each = std::max(raw::round_divide(all, contact.count), -least);
+  LKS_ASSERT(least >= 0);
   for (std::size_t i = 0; i < contact.count; ++i)
     support.impulse[i] += each;
   const std::int64_t by = product_rounded(each * contact.count, support.share, 30);
@@ -177,6 +181,7 @@ std::int64_t InitialWarmStart::push_points(Support& support, RowBody& body) {
         speed_of(contact.normal, support.response_of(i), support.is_b, body), support.own[i]);
     const std::int64_t change = std::max(asked, -support.impulse[i]);
     support.impulse[i] += change;
+    LKS_ASSERT(support.impulse[i] >= 0);
     const std::int64_t by = product_rounded(change, support.share, 30);
     add_scaled(contact.normal, by, !support.is_b, body.velocity);
     add_scaled(support.turn_of(i), by, !support.is_b, body.spin);
@@ -214,6 +219,7 @@ void InitialWarmStart::propagate(const ContactRun& run, const Support& support, 
   }
   if (!support.is_new || contact.count == 0) return;
   const std::int64_t load = raw::round_divide(sum, contact.count);
+  LKS_ASSERT(load >= 0 && load <= lanes::k_most_impulse);
   block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
   mean_impulses_[support.link] = static_cast<std::int32_t>(load);
 }

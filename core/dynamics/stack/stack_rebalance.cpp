@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/contact/block_words.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -118,6 +120,7 @@ void StackRebalance::gather(const SupportGraph& order, const ContactRun& run, st
     if (!is_swept(run.blocks[link.block()], link.lane())) return;
     Support& support = scratch.supports.emplace_back();
     support.pair = link;
+    LKS_ASSERT(link.a == body || link.b == body);
     support.link = number;
     support.has_friction_rows = grips(run.blocks[link.block()], link.lane());
     add_columns(run, support, link.b == body, scratch.columns);
@@ -205,6 +208,7 @@ void StackRebalance::push(const ContactRun& run, const Support& support, RowPush
     if (by == 0) continue;
     std::int64_t& word = block.points[i].impulse[lane];
     const std::int64_t now = low_word(word) + by;
+    LKS_ASSERT(now >= 0 && now <= lanes::k_most_impulse);
     word = std::max<std::int64_t>(high_word(word), now) * (std::int64_t{1} << 32) + now;
     push += by;
     about_t.add(high_word(block.points[i].offset[lane]), finer(by));

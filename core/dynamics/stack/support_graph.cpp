@@ -1,5 +1,8 @@
 #include "core/dynamics/stack/support_graph.h"
 
+#include <lockstone/assert.h>
+
+#include "core/base/reserved.h"
 #include "core/dynamics/contact/block_words.h"
 
 namespace lockstone {
@@ -39,6 +42,7 @@ std::uint32_t SupportGraph::lower_of(std::uint32_t link) const {
 
 void SupportGraph::find_uppers(const ContactRun& run) {
   by_body_.assign(std::span<const SupportLink>(links_), run.bodies.size());
+  LKS_ASSERT(is_reserved(upper_, links_.size()));
   upper_.assign(links_.size(), 0);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const SupportLink& link = links_[i];
@@ -73,6 +77,7 @@ void SupportGraph::find_order() {
       for (const std::uint32_t link : by_body_.at(order_[i])) {
         const std::uint32_t lower = upper_[link] == order_[i] ? lower_of(link) : 0;
         if (lower == 0) continue;
+        LKS_ASSERT(carried_[lower] != 0);
         --carried_[lower];
         add(lower);
       }

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 #include "core/base/parallel.h"
 #include "core/dynamics/contact/row_geometry.h"
 #include "core/dynamics/islands/body_links.h"
@@ -41,7 +43,11 @@ class SupportGraph {
   void clear() { links_.clear(); }
 
   /// In the order of the records.
-  void add(const SupportLink& link) { links_.push_back(link); }
+  void add(const SupportLink& link) {
+    LKS_ASSERT(link.a != link.b);
+    LKS_ASSERT(links_.empty() || links_.back().record < link.record);
+    links_.push_back(link);
+  }
 
   /// Finds which bodies stand, over others, on something immovable. `carries(link, upper)` tells
   /// whether a link may hold up its upper body.

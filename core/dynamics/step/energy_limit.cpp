@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/linkage/joint_solver.h"
 
@@ -75,6 +77,7 @@ void EnergyLimit::for_watched(const Bodies& all, const Visit& visit) {
 }
 
 void EnergyLimit::note(const Bodies& all) {
+  LKS_ASSERT(watches_);
   for (Island& island : islands_)
     island.first = 0;
   for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
@@ -108,6 +111,7 @@ void EnergyLimit::sum(const Bodies& all) {
 // Takes an excess of energy away from all bodies of an island alike.
 void EnergyLimit::take(Island& island, std::int64_t excess) {
   island.share = root_of_share(raw::saturating_add(island.now, -excess), island.now);
+  LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
   ++count_;
 }
 
