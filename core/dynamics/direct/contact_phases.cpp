@@ -146,44 +146,64 @@ bool gain_impulses(int bits, ProximalContact& contact, Problem& problem, RowWord
   return changes;
 }
 
-// Adds impulses to a contact's words in its block, and the change of motion that follows to the
-// gains of its bodies.
-void push_bodies(const ContactRun& run, const ProximalContact& contact, const RowWords& moved,
-                 PhaseGain& a, PhaseGain& b) {
+// Writes a contact's impulses of points to its block, as iterations have them.
+void write_points(const ContactRun& run, const ProximalContact& contact) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
-  std::int64_t push = 0;
-  ProductSum about_b, about_t;
   for (std::size_t i = 0; i < contact.points; ++i) {
     const std::int64_t seen = std::min<std::int64_t>(
         raw::round_shift(contact.all[i].total, k_row_more_bits), lanes::k_most_impulse);
+    LKS_ASSERT(seen >= 0);
     std::int64_t& word = block.points[i].impulse[lane];
     word = std::max<std::int64_t>(high_word(word), seen) * (std::int64_t{1} << 32) + seen;
+  }
+}
+
+// Adds the change of motion by impulses of a contact to the gains of its bodies.
+template <class Sum>
+void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, const RowWords& moved,
+                 PhaseGain& a, PhaseGain& b) {
+  const std::size_t lane = contact.lane();
+  const auto product = [](std::int64_t x, std::int64_t y) {
+    Sum sum;
+    sum.add(x, y);
+    return sum.rounded(30);
+  };
+  std::int64_t push = 0;
+  Sum about_b, about_t;
+  for (std::size_t i = 0; i < contact.points; ++i) {
     push += moved[i];
     about_b.subtract(contact.x[i], moved[i]);
     about_t.add(contact.y[i], moved[i]);
   }
   const std::int64_t* friction = &moved[contact.points];
-  const std::int64_t turn = product_rounded(friction[2], contact.radius, 30);
-  RawVec3 force = mixed(contact.tangent, friction[0], contact.binormal, friction[1]);
+  const std::int64_t turn = product(friction[2], contact.radius);
+  RawVec3 force = mixed<Sum>(contact.tangent, friction[0], contact.binormal, friction[1]);
   RawVec3 torque =
-      mixed(contact.tangent, about_t.rounded(30), contact.binormal, about_b.rounded(30));
-  const RawVec3 along = mixed(contact.normal, push, {}, 0),
-                about = mixed(contact.normal, turn, {}, 0);
+      mixed<Sum>(contact.tangent, about_t.rounded(30), contact.binormal, about_b.rounded(30));
   for (std::size_t i = 0; i < 3; ++i) {
-    force[i] += along[i];
-    torque[i] += about[i];
+    force[i] += product(contact.normal[i], push);
+    torque[i] += product(contact.normal[i], turn);
   }
   const std::int64_t turns = block.gain_turn[lane], share = low_word(block.share[lane]);
-  const RawVec3 spin_a = moment_of(low_words(block.gain_arm, lane), force, torque, low_word(turns));
+  const RawVec3 spin_a =
+      moment_of<Sum>(low_words(block.gain_arm, lane), force, torque, low_word(turns));
   const RawVec3 spin_b =
-      moment_of(high_words(block.gain_arm, lane), force, torque, high_word(turns));
+      moment_of<Sum>(high_words(block.gain_arm, lane), force, torque, high_word(turns));
   for (std::size_t i = 0; i < 3; ++i) {
-    a.velocity[i] -= product_rounded(force[i], k_whole - share, 30);
+    a.velocity[i] -= product(force[i], k_whole - share);
     a.spin[i] -= spin_a[i];
-    b.velocity[i] += product_rounded(force[i], share, 30);
+    b.velocity[i] += product(force[i], share);
     b.spin[i] += spin_b[i];
   }
+}
+
+// Whether all impulses are below 2^-7 m/s, as at rest: then all sums of products fit in 64 bits.
+bool are_small(const RowWords& moved) {
+  std::int64_t bits = 0;
+  for (const std::int64_t by : moved)
+    bits |= by ^ (by >> 63);
+  return bits >> (k_row_impulse_bits - 7) == 0;
 }
 
 }  // namespace
@@ -275,8 +295,14 @@ void give(const ContactRun& run, const IslandView& island) {
     Problem& problem = island.problems[c];
     RowWords moved{};
     LKS_ASSERT(problem.a < gains.size() && problem.b < gains.size());
-    if (gain_impulses(island.state.bits, island.contacts[c], problem, moved))
-      push_bodies(run, island.contacts[c], moved, gains[problem.a], gains[problem.b]);
+    ProximalContact& contact = island.contacts[c];
+    if (!gain_impulses(island.state.bits, contact, problem, moved)) continue;
+    write_points(run, contact);
+    const ManifoldBlock& block = run.blocks[contact.block()];
+    if (are_small(moved))
+      push_bodies<SmallProductSum>(block, contact, moved, gains[problem.a], gains[problem.b]);
+    else
+      push_bodies<ProductSum>(block, contact, moved, gains[problem.a], gains[problem.b]);
   }
   const auto add = [](std::int64_t& to, std::int64_t by) {
     constexpr std::int64_t k_most = k_motion_bound >> k_row_shift;

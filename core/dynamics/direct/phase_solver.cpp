@@ -198,22 +198,26 @@ std::int64_t PhaseSolver::search() const {
   return dual_part(slope, curve);
 }
 
-// By a part of the step at hand, Q30.
+// Goes a part of the step at hand, Q30. Lanes without a row have no impulses.
 void PhaseSolver::go(std::int64_t part) {
   LKS_ASSERT(part > 0 && part <= k_whole);
-  const auto of_part = [part](std::int64_t x) {
-    return part == k_whole ? x : raw::round_shift(x * part, 30);
-  };
-  for (Problem& problem : island_.problems)
-    for (std::size_t i = 0; i < problem.rows; ++i)
-      problem.impulse[i] += of_part(problem.next[i] - problem.impulse[i]);
-  Clamp clamp;
-  const std::span<const BodyVector> sums = island_.changes;
-  const std::span<BodyVector> velocities = island_.velocities;
-  for (std::size_t k = 0; k < body_count(); ++k)
-    for (std::size_t i = 0; i < lanes::k_body_words; ++i)
-      velocities[k][i] = clamp(velocities[k][i] + of_part(sums[k][i]));
-  fits_ = fits_ && !clamp.hit();
+  const auto of_part = [part](std::int64_t x) { return raw::round_shift(x * part, 30); };
+  const std::span<BodyVector> velocities = island_.velocities.first(body_count());
+  if (part == k_whole) {
+    for (Problem& problem : island_.problems)
+      problem.impulse = problem.next;
+    for (std::size_t k = 0; k < velocities.size(); ++k)
+      for (std::size_t i = 0; i < lanes::k_body_words; ++i)
+        velocities[k][i] += island_.changes[k][i];
+  } else {
+    for (Problem& problem : island_.problems)
+      for (std::size_t i = 0; i < problem.rows; ++i)
+        problem.impulse[i] += of_part(problem.next[i] - problem.impulse[i]);
+    for (std::size_t k = 0; k < velocities.size(); ++k)
+      for (std::size_t i = 0; i < lanes::k_body_words; ++i)
+        velocities[k][i] += of_part(island_.changes[k][i]);
+  }
+  fits_ = clamp_all(velocities) && fits_;
 }
 
 // Goes towards the solution of the active rows' equations, as far as it is allowed and D falls: all

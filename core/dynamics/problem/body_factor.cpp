@@ -309,22 +309,29 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
   }
 }
 
+// Scales the words of a body by 2^-scale.
+void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
+  for (std::size_t i = 0; i < k_side; ++i)
+    words[i] = held(scale >= 0 ? raw::round_shift_any(words[i], scale)
+                               : raw::scale_saturating(words[i], -scale),
+                    fits);
+}
+
 bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
   LKS_ASSERT(b.size() == plan.bodies);
   bool fits = true;
+  BodyVector* const rows = x_.data() + plan.first_column;
+  const Column* const columns = columns_.data() + plan.first_column;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
-    const Column& column = columns_[plan.first_column + k];
-    for (std::size_t i = 0; i < k_side; ++i)
-      x_[plan.first_column + k][i] =
-          held(raw::scale_saturating(b[column.body][i], -column.scale), fits);
+    rows[k] = b[columns[k].body];
+    scale_words(rows[k], columns[k].scale, fits);
   }
   solve_down(plan, fits);
   solve_up(plan, fits);
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
-    const Column& column = columns_[plan.first_column + k];
-    for (std::size_t i = 0; i < k_side; ++i)
-      b[column.body][i] =
-          held(raw::scale_saturating(x_[plan.first_column + k][i], -column.scale), fits);
+    BodyVector& x = b[columns[k].body];
+    x = rows[k];
+    scale_words(x, columns[k].scale, fits);
   }
   return fits;
 }

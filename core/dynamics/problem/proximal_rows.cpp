@@ -113,10 +113,11 @@ void set_row(const Pair& pair, const ContactRow& from, const Sides& sides, std::
   }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
   ProximalRow& row = pair.contact.all[index];
+  const RowScale from_impulse = pair.mass * norm;
   row.to_speed = pair.mass * norm.reciprocal();
-  row.to_impulse = (pair.mass * norm).reciprocal();
+  row.to_impulse = from_impulse.reciprocal();
   row.total = from.impulse;
-  pair.prepared.from_impulse[index] = pair.mass * norm;
+  pair.prepared.from_impulse[index] = from_impulse;
   pair.prepared.own[index] = product_rounded(length, length, 30);
   pair.prepared.response_a[index] = from.response_a;
   pair.prepared.response_b[index] = from.response_b;
