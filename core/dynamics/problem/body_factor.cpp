@@ -30,10 +30,10 @@ std::int64_t within_word(std::int64_t x) {
   return std::clamp(x, -k_most_word, k_most_word);
 }
 
-// As `within_word`, and tells when it had to.
-std::int64_t held(std::int64_t x, bool& fits) {
+// As `within_word`, and notes where it had to: `excess` is 0 as long as all words fit.
+std::int64_t held(std::int64_t x, std::int64_t& excess) {
   const std::int64_t result = within_word(x);
-  fits = fits && result == x;
+  excess |= result ^ x;
   return result;
 }
 
@@ -272,26 +272,29 @@ void BodyFactor::factor(const Plan& plan) {
 void BodyFactor::solve_down(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   BodyVector* const rows = x_.data() + plan.first_column;
+  std::int64_t excess = 0;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
     BodyVector& x = rows[k];
-    for (std::size_t i = 0; i < k_side; ++i) {
-      std::int64_t sum = 0;
-      for (std::size_t j = 0; j < i; ++j)
-        sum += diagonal.words[j][i] * x[j];
-      x[i] = held(times_pivot(column, i, held(x[i] - raw::round_shift(sum, k_entry_bits), fits)),
-                  fits);
+    std::array<std::int64_t, k_side> sums{};
+    for (std::size_t j = 0; j < k_side; ++j) {
+      const std::int64_t rest = held(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
+      x[j] = held(times_pivot(column, j, rest), excess);
+      for (std::size_t i = j + 1; i < k_side; ++i)
+        sums[i] += diagonal.words[j][i] * x[j];
     }
     if (column.count == 0) continue;
     fits =
         kernels.solve_down(blocks_.data(), column, below_.data() + column.first, x, rows) && fits;
   }
+  fits = fits && excess == 0;
 }
 
 void BodyFactor::solve_up(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   BodyVector* const rows = x_.data() + plan.first_column;
+  std::int64_t excess = 0;
   for (std::uint32_t k = plan.bodies; k-- > 0;) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
@@ -304,17 +307,26 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
       for (std::size_t j = i + 1; j < k_side; ++j)
         sum += diagonal.words[i][j] * x[j];
       const std::int64_t rest = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
-      x[i] = held(times_pivot(column, i, held(rest, fits)), fits);
+      x[i] = held(times_pivot(column, i, held(rest, excess)), excess);
     }
   }
+  fits = fits && excess == 0;
 }
 
-// Scales the words of a body by 2^-scale.
+// Scales the words of a body by 2^-scale. Words that shrink and fit need no clamp.
 void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
+  std::int64_t bits = 0;
   for (std::size_t i = 0; i < k_side; ++i)
-    words[i] = held(scale >= 0 ? raw::round_shift_any(words[i], scale)
-                               : raw::scale_saturating(words[i], -scale),
-                    fits);
+    bits |= words[i] ^ (words[i] >> 63);
+  if (scale >= 0 && bits < k_most_word) {
+    for (std::size_t i = 0; i < k_side; ++i)
+      words[i] = raw::round_shift(words[i], scale);
+    return;
+  }
+  std::int64_t excess = 0;
+  for (std::size_t i = 0; i < k_side; ++i)
+    words[i] = held(raw::scale_saturating(words[i], -scale), excess);
+  fits = fits && excess == 0;
 }
 
 bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
