@@ -1,5 +1,7 @@
 #include "core/dynamics/contact/block_words.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/dynamics/problem/proximal_words.h"
@@ -9,7 +11,7 @@ namespace lockstone {
 namespace {
 
 TEST(SmallProductSum, RoundsAsProductSumDoes) {
-  Random random;
+  test::Random random;
   for (int i = 0; i < 100000; ++i) {
     ProductSum sum;
     SmallProductSum small;

@@ -29,6 +29,17 @@ TEST(SubstepSchedule, SolvesBeforePositionsMoveAndRelaxesAfter) {
   EXPECT_EQ(schedule.stages()[7].substep, 1);
 }
 
+TEST(SubstepSchedule, OnlyRelaxesWhereAllContactsAreConverged) {
+  SubstepSchedule schedule(1);
+  TickWork work;
+  work.contact_blocks[0] = work.converged = 1;
+  work.iterates = false;
+  schedule.plan_substeps(work);
+  const std::vector<StageKind> expected = {StageKind::push_islands, StageKind::relax,
+                                           StageKind::relax_islands, StageKind::end_islands};
+  EXPECT_EQ(kinds_of(schedule), expected);
+}
+
 TEST(SubstepSchedule, HasNoStageForAbsentWork) {
   SubstepSchedule schedule(4);
   schedule.plan_substeps({});

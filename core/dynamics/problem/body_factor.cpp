@@ -313,14 +313,16 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
   fits = fits && excess == 0;
 }
 
-// Scales the words of a body by 2^-scale. Words that shrink and fit need no clamp.
+// Scales the words of a body by 2^-scale. Words that fit afterwards need no clamp.
 void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
+  const int grow = std::max(-scale, 0), shrink = std::max(scale, 0);
+  LKS_ASSERT(grow < 62 && shrink <= 62);
   std::int64_t bits = 0;
   for (std::size_t i = 0; i < k_side; ++i)
     bits |= words[i] ^ (words[i] >> 63);
-  if (scale >= 0 && bits < k_most_word) {
+  if (bits < k_most_word >> grow) {
     for (std::size_t i = 0; i < k_side; ++i)
-      words[i] = raw::round_shift(words[i], scale);
+      words[i] = raw::round_shift(words[i] * (std::int64_t{1} << grow), shrink);
     return;
   }
   std::int64_t excess = 0;

@@ -24,6 +24,9 @@ class ConvergedIslands {
 
   [[nodiscard]] std::uint32_t count() const { return solver_.count(); }
 
+  /// Contacts of all these islands.
+  [[nodiscard]] std::size_t contact_count() { return solver_.islands().contacts().size(); }
+
   /// Once islands are built: chooses, and takes the joints of chosen islands from the joint solver.
   void plan(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts,
             const EffortPolicy& effort, IslandBuilder& islands, TickJoints& joints);

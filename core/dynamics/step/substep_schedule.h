@@ -56,6 +56,7 @@ struct TickWork {
   std::uint32_t joined = 0;     ///< bodies that joints move
   std::uint32_t converged = 0;  ///< islands
   bool has_joints = false;
+  bool iterates = true;      ///< some contacts are of no converged island
   bool has_impacts = false;  ///< of balls
   bool watches_energy = false;
   bool bounces = false;
