@@ -75,8 +75,8 @@ void World::Impl::solve_contacts(StepReport& report) {
   report.contact_points = solver.points();
   for (const BouncingContact& each : bounces.contacts())
     report.contact_points += static_cast<std::uint32_t>(found.manifold_of(each.contact).count);
-  report.colors = solver.colors();
-  report.overflow_contacts = solver.overflow();
+  report.colors = solver.graph().colors();
+  report.overflow_contacts = solver.graph().count(k_overflow_color);
   report.saturations += solver.saturations();
   report.energy_limits = solver.energy_limits();
 }

@@ -18,7 +18,7 @@ class ContactPrepare : public ::testing::Test {
     manifold.points[1].separation = separation;
     const ContactRecord record;
     const ContactSurface surface;
-    lanes::ManifoldSource source;
+    lanes::PrepareInput source;
     (void)fill_source({body_, body_, manifold, record, surface, true}, softness_, source);
     return source.keep;
   }

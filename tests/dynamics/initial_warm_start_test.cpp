@@ -108,7 +108,7 @@ TEST(ContactPoints, ThatAreNewShareTheImpulsesOfVanishedOnes) {
   const SolverBody body;
   const ContactSurface surface;
   const auto impulses = [&] {
-    lanes::ManifoldSource source;
+    lanes::PrepareInput source;
     (void)fill_source({body, body, manifold, record, surface}, ContactSoftness{}, source);
     return source.impulses;
   };

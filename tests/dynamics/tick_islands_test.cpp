@@ -52,29 +52,29 @@ TEST(TickIslands, ForgetTheTickBefore) {
 
 TEST(IslandLoad, HasFewLoadsUpToItsBudget) {
   IslandLoad load;
-  for (std::uint32_t i = 0; i < IslandLoad::k_most_loaded; ++i)
-    load.loaded.raise();
-  EXPECT_TRUE(load.few_are_loaded());
-  load.loaded.raise();
-  EXPECT_FALSE(load.few_are_loaded());
+  for (std::uint32_t i = 0; i < IslandLoad::k_most_overloaded; ++i)
+    load.overloaded.raise();
+  EXPECT_TRUE(load.few_are_overloaded());
+  load.overloaded.raise();
+  EXPECT_FALSE(load.few_are_overloaded());
 }
 
-TEST(IslandLoad, IsAHeapBeyondItsBudgetOfBearingContacts) {
-  IslandLoad load{.bearing = IslandLoad::k_most_bearing, .loaded = 0};
-  EXPECT_FALSE(load.is_heap());
+TEST(IslandLoad, IsAStackBeyondItsBudgetOfBearingContacts) {
+  IslandLoad load{.bearing = IslandLoad::k_most_bearing, .overloaded = 0};
+  EXPECT_FALSE(load.is_stack());
   ++load.bearing;
-  EXPECT_TRUE(load.is_heap());
+  EXPECT_TRUE(load.is_stack());
   load.is_converged = true;
-  EXPECT_FALSE(load.is_heap());
+  EXPECT_FALSE(load.is_stack());
 }
 
 TEST(IslandLoad, NeedsAnInitialWarmStartWhereManyAreOverloadedAndAQuarterIsNew) {
-  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = 200};
-  EXPECT_TRUE(load.needs_first_loads());
+  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = 200};
+  EXPECT_TRUE(load.needs_initial_warm_start());
   load.fresh = 249;
-  EXPECT_FALSE(load.needs_first_loads());
-  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .loaded = IslandLoad::k_most_loaded};
-  EXPECT_FALSE(load.needs_first_loads());
+  EXPECT_FALSE(load.needs_initial_warm_start());
+  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = IslandLoad::k_most_overloaded};
+  EXPECT_FALSE(load.needs_initial_warm_start());
 }
 
 }  // namespace

@@ -18,11 +18,11 @@ constexpr std::int32_t k_one = 1 << 30;
 // The inputs and outputs of a tick.
 struct Scene {
   std::vector<ManifoldGeometry> geometry;
-  std::vector<ManifoldSources> sources;  // they point into the geometry, of the first copy
+  std::vector<PrepareInputs> sources;  // they point into the geometry, of the first copy
   std::vector<SourceBody> inertias;
   std::vector<BlockWord> restitution;
   std::vector<RowBody> bodies, warm;
-  std::vector<RowTravel> travel;
+  std::vector<DeltaPose> travel;
   std::vector<ManifoldBlock> blocks;
   std::vector<ManifoldApproach> approaches;
 
@@ -49,7 +49,7 @@ struct SceneMaker {
     for (std::int64_t& x : body.spin)
       x = velocity();
   }
-  void fill(RowTravel& body) {
+  void fill(DeltaPose& body) {
     for (std::int64_t& x : body.velocity)
       x = travel();
     for (std::int64_t& x : body.surface)
@@ -82,7 +82,7 @@ struct SceneMaker {
   }
 
   // Unread fields hold arbitrary bits.
-  void fill_points(ManifoldGeometry& geometry, ManifoldSource& in) {
+  void fill_points(ManifoldGeometry& geometry, PrepareInput& in) {
     in.count = fixed(1, 4);
     in.one_over_count = k_one / in.count;
     geometry[3] = operand(random);
@@ -98,7 +98,7 @@ struct SceneMaker {
   }
 
   // Features that few contacts have: rolling resistance, moving surfaces, axis locks.
-  void fill_extras(ManifoldSource& in, bool fixed_a) {
+  void fill_extras(PrepareInput& in, bool fixed_a) {
     if (random.next() % 2 == 0) {
       in.rolling_limit = fixed(1, k_one / 2);
       for (std::int32_t& x : in.rolling)
@@ -113,7 +113,7 @@ struct SceneMaker {
     in.held[random.next() % 3] = fixed_a ? k_one : fixed(0, k_one);
   }
 
-  void fill(ManifoldGeometry& geometry, ManifoldSource& in, bool plain) {
+  void fill(ManifoldGeometry& geometry, PrepareInput& in, bool plain) {
     fill_normal(geometry);
     fill_points(geometry, in);
     const bool fixed_a = random.next() % 4 == 0;
@@ -144,10 +144,10 @@ static_assert(offsetof(ManifoldBlock, axes) == sizeof(BlockWord) &&
               sizeof(ManifoldBlock) % sizeof(BlockWord) == 0);
 
 // Of lanes without a manifold blocks say nothing, of plain ones not all.
-void forget_empty(const ManifoldSources& sources, ManifoldBlock& block,
+void forget_empty(const PrepareInputs& sources, ManifoldBlock& block,
                   ManifoldApproach& approach) {
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
-    const ManifoldSource& source = sources.lanes[lane];
+    const PrepareInput& source = sources.lanes[lane];
     const bool is_empty = source.one_over_count == 0;
     const std::size_t first = is_empty ? sizeof(BlockWord) : offsetof(ManifoldBlock, inertia);
     const std::int64_t none = 0;
@@ -194,7 +194,7 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   const auto used = static_cast<std::size_t>(
       random.between(1, static_cast<std::int64_t>(blocks * k_block_lanes)));
   for (std::size_t i = 0; i < blocks * k_block_lanes; ++i, next += 2) {
-    ManifoldSources& sources = scene.sources[i / k_block_lanes];
+    PrepareInputs& sources = scene.sources[i / k_block_lanes];
     const std::size_t lane = i % k_block_lanes;
     if (i >= used) {  // as the solver leaves lanes without a contact
       sources.geometry[lane] = k_no_geometry.data();
@@ -210,7 +210,7 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
   return scene;
 }
 
-void run(const ManifoldKernels& kernels, const SweepRules& rules, Scene& scene) {
+void run(const ManifoldKernels& kernels, const SolverParams& rules, Scene& scene) {
   for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
     kernels.prepare(scene.sources[i], scene.inertias.data(), scene.bodies.data(), scene.warm.data(),
                     scene.blocks[i], scene.approaches[i]);
@@ -226,7 +226,7 @@ void run(const ManifoldKernels& kernels, const SweepRules& rules, Scene& scene) 
   }
 }
 
-std::string compare(const Scene& start, const SweepRules& rules) {
+std::string compare(const Scene& start, const SolverParams& rules) {
   Scene expected = start;
   run(k_scalar_manifolds, rules, expected);
   return on_each_target([&] {
@@ -244,9 +244,9 @@ std::string check_manifolds(std::uint64_t seed) {
   std::string report;
   for (int round = 0; round < 1500 && report.empty(); ++round) {
     const auto blocks = static_cast<std::size_t>(random.between(1, 4));
-    const auto limit_sway = static_cast<std::int32_t>(random.between(-(1 << 29), (1 << 29) - 1));
-    const auto part_sway = static_cast<std::int32_t>(random.between(-(1 << 29), (1 << 29) - 1));
-    const SweepRules rules{240, 3 << 20, 4194, 336, 1145324612, 31, limit_sway, part_sway};
+    const auto limit_dither = static_cast<std::int32_t>(random.between(-(1 << 29), (1 << 29) - 1));
+    const auto part_dither = static_cast<std::int32_t>(random.between(-(1 << 29), (1 << 29) - 1));
+    const SolverParams rules{240, 3 << 20, 4194, 336, 1145324612, 31, limit_dither, part_dither};
     report += compare(make_scene(blocks, round % 2 == 0, random), rules);
   }
   return report;

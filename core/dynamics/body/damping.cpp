@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/math/exponential.h"
 
 namespace lockstone {
@@ -28,6 +30,7 @@ Damping Damping::of(Rate rate, const TimeStep& step) {
   // Q40, below 2^48
   const std::int64_t wide = raw::round_divide(std::int64_t{rate.raw} << 20, step.tick_rate);
   const std::int64_t z = raw::round_shift(wide, 10);
+  LKS_ASSERT(z >= 0);
   if (z < k_full / 4) {
     const std::int64_t mean = mean_of_small(z), ease = k_full - times_q30(z, mean);
     return {static_cast<std::int32_t>(k_full - times_q30(z, ease)), static_cast<std::int32_t>(ease),
@@ -40,6 +43,7 @@ Damping Damping::of(Rate rate, const TimeStep& step) {
   const auto exponent = static_cast<std::int32_t>(-raw::round_shift(power, 30));  // Q26
   const auto keep = static_cast<std::int64_t>(exp2_raw(exponent, 26, 30));
   const std::int64_t ease = raw::round_divide((k_full - keep) << 30, z);
+  LKS_ASSERT(keep >= 0 && keep <= k_full);
   const std::int64_t mean = raw::round_divide((k_full - ease) << 30, z);
   return {static_cast<std::int32_t>(keep), static_cast<std::int32_t>(ease),
           static_cast<std::int32_t>(mean)};

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include <lockstone/assert.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
@@ -31,6 +32,7 @@ inline constexpr int k_share_bits = 30;
 
 /// a / b
 [[nodiscard]] inline BlockFloat quotient(BlockFloat a, BlockFloat b) {
+  LKS_ASSERT(a.mantissa > 0 && b.mantissa > 0);
   const auto dividend = static_cast<std::uint64_t>(a.mantissa) << 31;
   return block_float(dividend / static_cast<std::uint64_t>(b.mantissa),
                      a.exponent - b.exponent - 31);
@@ -39,6 +41,7 @@ inline constexpr int k_share_bits = 30;
 /// The energy s²·square + s·linear that a share s (Q30) of a change of velocity adds.
 [[nodiscard]] inline std::int64_t energy_of_share(std::int64_t square, std::int64_t linear,
                                                   std::int32_t share) {
+  LKS_ASSERT(share >= 0 && share <= 1 << k_share_bits);
   const std::int64_t inner =
       raw::saturating_add(product_rounded(square, share, k_share_bits), linear);
   return product_rounded(inner, share, k_share_bits);

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/math/int128.h"
 #include "core/math/roots.h"
 
@@ -62,6 +64,7 @@ FreeAxes axes_of(const Vec3<Unit>& inertia, const TurnTime& time) {
     return raw::round_divide(std::int64_t{1} << (2 * k_inverse_bits), inertia[order[i]].raw);
   };
   const std::int64_t least = inverse(0), middle = inverse(1), greatest = inverse(2);
+  LKS_ASSERT(least <= middle && middle <= greatest);
   const bool is_least_nearer = middle - least <= greatest - middle;
   FreeAxes axes;
   axes.nearer = is_least_nearer ? order[0] : order[2];
@@ -123,6 +126,7 @@ static_assert(2 * (k_third_shares[0] + k_third_shares[1] + k_third_shares[2]) + 
 static_assert(2 * (k_nearer_shares[0] + k_nearer_shares[1] + k_nearer_shares[2]) == 1 << 30);
 
 void turn_by_shares(const Split& split, std::int64_t pieces, Turning& body) {
+  LKS_ASSERT(pieces >= 1);
   std::array<TurnRate, 4> third;
   std::array<TurnRate, 3> nearer;
   std::ranges::transform(k_third_shares, third.begin(),
@@ -158,6 +162,7 @@ void turn_residual(const FreeAxes& axes, const TurnTime& time, int exponent, Tur
   const std::int64_t norm = norm_of(body.momentum);
   const std::uint64_t nearer = magnitude(split.nearer.angle(norm));
   const std::uint64_t third = magnitude(split.third.angle(norm));
+  LKS_ASSERT(norm >= 0);
   const bool is_top = nearer == 0 || third > k_most_pieces * k_piece;
   if (is_top) return body.turn(axes.third, split.third);
   if (multiply_wide(nearer, third) <= k_small_product) {

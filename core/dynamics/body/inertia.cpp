@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/principal_inverse.h"
 
 namespace lockstone {
@@ -10,6 +12,7 @@ namespace {
 
 // 1/I for a principal moment, Q30: 2^30 … 2^42.
 std::int64_t reciprocal(Unit moment) {
+  LKS_ASSERT(moment > Unit{});
   return raw::round_divide(std::int64_t{1} << 60, moment.raw);
 }
 
@@ -22,6 +25,7 @@ Velocity times(Velocity v, std::int32_t factor, int shift) {
 }
 
 InverseInertia isotropic(std::int64_t value_q30) {
+  LKS_ASSERT(value_q30 > 0);
   InverseInertia m;
   while ((value_q30 >> m.exponent) > (std::int64_t{1} << 30))
     ++m.exponent;
@@ -34,6 +38,7 @@ InverseInertia isotropic(std::int64_t value_q30) {
 InverseInertia without_axis(const InverseInertia& m, int k) {
   const std::int64_t entry[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}};
   const std::int64_t own = std::max<std::int64_t>(entry[k][k], 1);
+  LKS_ASSERT(k >= 0 && k < 3);
   const auto left = [&](int i, int j) {
     if (i == k || j == k) return 0;
     const std::int64_t taken = raw::round_divide(entry[i][k] * entry[j][k], own);
@@ -99,6 +104,7 @@ InverseInertia inverse_inertia(const PrincipalInverse& inverse, const Mat3& rota
 
 Vec3<Velocity> surface_velocity(const InverseInertia& m, const Vec3<Velocity>& spin) {
   const int shift = 30 - m.exponent;
+  LKS_ASSERT(shift >= 0 && shift <= 30);
   if ((m.xy | m.xz | m.yz) == 0)
     return {times(spin.x, m.xx, shift), times(spin.y, m.yy, shift), times(spin.z, m.zz, shift)};
   const auto row = [&](std::int32_t a, std::int32_t b, std::int32_t c) {

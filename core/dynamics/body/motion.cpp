@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/damping.h"
 #include "core/dynamics/body/free_rotation.h"
 #include "core/dynamics/body/tick_gain.h"
@@ -50,6 +52,7 @@ void fly_damped(Position& x, Velocity& v, std::int64_t gain, const Damping& damp
 
 // Shortens `v` by limit / |w| when |w| exceeds it.
 bool shorten(Vec3<Velocity>& v, const Vec3<Velocity>& w, Velocity most) {
+  LKS_ASSERT(most >= Velocity{});
   const std::int64_t limit = most.raw;
   const auto within = [&](Velocity x) { return x.raw <= limit / 2 && x.raw >= -limit / 2; };
   if (within(w.x) && within(w.y) && within(w.z)) return false;
@@ -95,6 +98,7 @@ RotationVector even_turn(const BodyRecord& body, const Mat3& rotation, const Tim
 
 // The axis of a body with one moment below 1/ratio of both others; -1 when there is none.
 int thin_axis(const BodyRecord& body, int ratio) {
+  LKS_ASSERT(ratio > 1);
   if (!body.is_dynamic()) return -1;
   const auto& [x, y, z] = body.inertia;
   const Unit least = min(x, min(y, z));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/pose_distance.h"
@@ -41,6 +43,7 @@ RestRules RestRules::of(std::uint32_t tick_rate, std::uint32_t milliseconds, Len
 }
 
 Velocity RestRules::brake(std::uint32_t tick_rate) const {
+  LKS_ASSERT(tick_rate >= 1);
   if (ticks == 0) return {};
   const std::int64_t two_distances = std::int64_t{distance.raw} << (33 - Length::frac_bits);
   return Velocity::from_raw(two_distances * tick_rate / (std::int64_t{ticks} * ticks));
@@ -71,6 +74,7 @@ bool count_rest(BodyRecord& body, const RestRules& rules) {
 }
 
 void slow_down(BodyRecord& body, const Mat3& rotation, Velocity brake) {
+  LKS_ASSERT(brake >= Velocity{});
   constexpr std::int64_t k_fast = std::int64_t{1} << 28;  // 1/16 m²/s², Q32
   const Vec3<Velocity> surface = surface_velocity(inverse_inertia(body, rotation), body.spin);
   const std::int64_t square = energy_product(body.velocity, body.velocity, body.spin, surface);

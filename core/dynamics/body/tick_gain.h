@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstdint>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/state/body_record.h"
 
 namespace lockstone {
@@ -42,6 +44,7 @@ inline int write_gain(const Vec3<Velocity>& gain, Vec3<Unit>& mantissa) {
   for (int i = 0; i < 3; ++i)
     largest = std::max(largest, static_cast<std::uint64_t>(abs(gain[i]).raw));
   const int exponent = std::max(0, static_cast<int>(std::bit_width(largest)) - 30);
+  LKS_ASSERT(exponent <= k_most_gain_exponent);
   for (int i = 0; i < 3; ++i)
     mantissa[i].raw = static_cast<std::int32_t>(raw::round_shift(gain[i].raw, exponent));
   return exponent;

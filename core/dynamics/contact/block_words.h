@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include <lockstone/assert.h>
 #include <lockstone/fixed.h>
 
 #include "core/dynamics/body/raw_vec3.h"
@@ -60,12 +61,30 @@ namespace lockstone {
   return result;
 }
 
+/// A `ProductSum` whose every partial sum is known to stay below 2^62: the same results, sooner.
+class SmallProductSum {
+ public:
+  constexpr void add(std::int64_t a, std::int64_t b) { add_product(a * b); }
+  constexpr void subtract(std::int64_t a, std::int64_t b) { add_product(-(a * b)); }
+  [[nodiscard]] constexpr std::int64_t rounded(int shift) const {
+    return raw::round_shift(sum_, shift);
+  }
+
+ private:
+  constexpr void add_product(std::int64_t product) {
+    sum_ += product;
+    LKS_ASSERT(magnitude(sum_) >> 62 == 0);
+  }
+
+  std::int64_t sum_ = 0;
+};
+
 /// a·x + b·y, in 30 bits less.
-[[nodiscard]] inline RawVec3 mixed(const RawVec3& a, std::int64_t x, const RawVec3& b,
-                                   std::int64_t y) {
+template <class Sum = ProductSum>
+[[nodiscard]] RawVec3 mixed(const RawVec3& a, std::int64_t x, const RawVec3& b, std::int64_t y) {
   RawVec3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
-    ProductSum sum;
+    Sum sum;
     sum.add(a[i], x);
     sum.add(b[i], y);
     result[i] = sum.rounded(30);
@@ -74,12 +93,13 @@ namespace lockstone {
 }
 
 /// arm × force + torque·turn, in 30 bits less.
-[[nodiscard]] inline RawVec3 moment_of(const RawVec3& arm, const RawVec3& force,
-                                       const RawVec3& torque, std::int64_t turn) {
+template <class Sum = ProductSum>
+[[nodiscard]] RawVec3 moment_of(const RawVec3& arm, const RawVec3& force, const RawVec3& torque,
+                                std::int64_t turn) {
   RawVec3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    ProductSum sum;
+    Sum sum;
     sum.add(arm[j], force[k]);
     sum.subtract(arm[k], force[j]);
     sum.add(torque[i], turn);

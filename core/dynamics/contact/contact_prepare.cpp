@@ -5,13 +5,15 @@
 #include <bit>
 #include <cstddef>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/mass_share.h"
 #include "core/math/roots.h"
 
 namespace lockstone {
 namespace {
 
-using lanes::ManifoldSource;
+using lanes::PrepareInput;
 
 constexpr std::int64_t k_one_q30 = std::int64_t{1} << 30;
 
@@ -30,6 +32,7 @@ constexpr std::int32_t k_contact_damping_ratio = 10;
 // With ω = 2π·hertz: a1 = 2ζ + hω, a2 = hω·a1, a3 = 1/(1 + a2);
 // bias rate = ω/a1, mass scale = a2·a3 = 1 − a3.
 Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
+  LKS_ASSERT(hertz > 0 && substep_rate > 0);
   const std::int64_t h_omega_q28 = raw::round_divide(k_two_pi_q28 * hertz, substep_rate);
   const std::int64_t a1_q28 = (std::int64_t{2 * k_contact_damping_ratio} << 28) + h_omega_q28;
   const std::int64_t a2_q24 = raw::round_shift((h_omega_q28 >> 2) * (a1_q28 >> 4), 26);
@@ -37,26 +40,29 @@ Softness make_softness(std::int64_t hertz, std::int64_t substep_rate) {
   const std::int64_t a3_q30 = raw::round_divide(std::int64_t{1} << 54, one_plus_q24);
   const std::int64_t omega_q20 = raw::round_shift(k_two_pi_q28 * hertz, 8);
   const std::int64_t rate_q20 = raw::round_divide(omega_q20 << 20, a1_q28 >> 8);
+  LKS_ASSERT(a3_q30 > 0 && a3_q30 <= k_one_q30);
+  LKS_ASSERT(rate_q20 > 0 && rate_q20 <= INT32_MAX);
   return {static_cast<std::int32_t>(rate_q20), static_cast<std::int32_t>(k_one_q30 - a3_q30)};
 }
 
 // In a pinched island, points that overlap by more than this are pinched; at twice this overlap, a
 // row keeps no more than half of its impulse from one iteration to the next.
-constexpr Displacement k_squeezed = Displacement::from_ratio(3, 1000);
-constexpr std::int32_t k_kept_of_squeezed = 1 << 29;
+constexpr Displacement k_pinched = Displacement::from_ratio(3, 1000);
+constexpr std::int32_t k_kept_of_pinched = 1 << 29;
 
 // The share of its impulse that a soft row keeps in a pinched island. Between two bodies that close
 // in without end, a heavily damped spring pushes without limit, until the body between them slips
 // out and is thrown away. A pinched contact gives way instead.
 std::int32_t kept_share(std::int32_t keep, const Manifold& manifold) {
+  LKS_ASSERT(keep >= 0 && keep <= k_one_q30);
   Displacement least = manifold.points[0].separation;
   for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
     least = min(least, manifold.points[i].separation);
-  const std::int64_t beyond = -std::int64_t{least.raw} - k_squeezed.raw;
+  const std::int64_t beyond = -std::int64_t{least.raw} - k_pinched.raw;
   if (beyond <= 0) return keep;
-  const std::int64_t most = keep - std::min(keep, k_kept_of_squeezed);
-  const std::int64_t lost = most * std::min<std::int64_t>(beyond, k_squeezed.raw);
-  return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_squeezed.raw));
+  const std::int64_t most = keep - std::min(keep, k_kept_of_pinched);
+  const std::int64_t lost = most * std::min<std::int64_t>(beyond, k_pinched.raw);
+  return keep - static_cast<std::int32_t>(raw::round_divide(lost, k_pinched.raw));
 }
 
 std::int32_t bounded_impulse(const ContactPointRecord& point) {
@@ -75,7 +81,8 @@ std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint3
 // Divides the impulses of points that are gone among the new ones: where boxes fall flush onto each
 // other, points change names from tick to tick, and contacts that forgot their impulses each time
 // would rattle.
-void hand_on(std::int64_t left, std::uint32_t fresh, ManifoldSource& out) {
+void hand_on(std::int64_t left, std::uint32_t fresh, PrepareInput& out) {
+  LKS_ASSERT(left > 0 && fresh != 0);
   const std::int64_t each =
       std::min<std::int64_t>(left / std::popcount(fresh), lanes::k_most_impulse);
   for (std::size_t i = 0; i < lanes::k_block_points; ++i)
@@ -84,8 +91,9 @@ void hand_on(std::int64_t left, std::uint32_t fresh, ManifoldSource& out) {
 
 // Warm starts each point with the impulse that the point of the same feature had at the end of the
 // last tick. Returns whether the record has all points already, in their places.
-bool fill_points(const ContactInput& in, ManifoldSource& out) {
+bool fill_points(const ContactInput& in, PrepareInput& out) {
   const auto count = static_cast<std::size_t>(in.manifold.count);
+  LKS_ASSERT(count <= lanes::k_block_points && in.record.count <= lanes::k_block_points);
   bool kept = in.record.count == count;
   std::int64_t left = 0;
   std::uint32_t fresh = 0;
@@ -120,7 +128,7 @@ int scale_exponent_of(const SolverBody& a, const SolverBody& b) {
 }
 
 // Rolling is resisted by arm/ℓ of the normal impulse.
-void fill_rolling(const ContactInput& in, int scale_exponent, ManifoldSource& out) {
+void fill_rolling(const ContactInput& in, int scale_exponent, PrepareInput& out) {
   out.rolling = {};
   out.rolling_limit = 0;
   if (in.surface.rolling_arm == Length{}) return;
@@ -154,7 +162,7 @@ ContactSoftness ContactSoftness::of(const TimeStep& step) {
   return {make_softness(hertz, rate), make_softness(2 * hertz, rate)};
 }
 
-bool fill_source(const ContactInput& in, const ContactSoftness& softness, ManifoldSource& out) {
+bool fill_source(const ContactInput& in, const ContactSoftness& softness, PrepareInput& out) {
   const SolverBody& a = in.body_a;
   const SolverBody& b = in.body_b;
   const int pair_exponent = std::max(a.inverse_inertia.exponent, b.inverse_inertia.exponent);
@@ -185,6 +193,11 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Manifo
   out.offset_shift = 20 + scale_exponent;
   out.shift = 28 - pair_exponent;
   fill_rolling(in, scale_exponent, out);
+  LKS_ASSERT(out.share_b >= 0);
+  LKS_ASSERT(out.inertia_a >= 1 && out.inertia_a <= 1 << 12);
+  LKS_ASSERT(out.inertia_b >= 1 && out.inertia_b <= 1 << 12);
+  LKS_ASSERT(out.offset_shift >= 13 && out.offset_shift <= 31);
+  LKS_ASSERT(out.shift >= 16 && out.shift <= 28);
   const Vec3<SolverVelocity>& drive = in.surface.drive;
   out.drive = {drive.x.raw, drive.y.raw, drive.z.raw};
   out.twist_drive = raw::saturate<std::int32_t>(

@@ -42,7 +42,7 @@ struct ContactInput {
 /// Fills the inputs of a constraint besides the geometry. Returns whether the record has the
 /// manifold's points already, in their places.
 bool fill_source(const ContactInput& input, const ContactSoftness& softness,
-                 lanes::ManifoldSource& out);
+                 lanes::PrepareInput& out);
 
 /// t·low + b·high of a lane's word, in world axes.
 void across(const lanes::ManifoldBlock& block, std::size_t lane, std::int64_t word,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/pose_distance.h"
 #include "core/dynamics/body/raw_vec3.h"
 
@@ -39,6 +41,7 @@ Vec3<Position> contact_position(const BodyRecord& body) {
 }
 
 bool is_near_contact_pose(const BodyRecord& body, int drift) {
+  LKS_ASSERT(drift == k_fine_drift || drift == k_coarse_drift);
   const int exponent = std::min(drift, body.scale_exponent + drift);
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
@@ -58,8 +61,8 @@ void set_contact_pose(BodyRecord& body) {
   body.contact_orientation = body.orientation;
 }
 
-ContactDrift drift_of(const BodyRecord& body) {
-  ContactDrift drift;
+PoseDelta drift_of(const BodyRecord& body) {
+  PoseDelta drift;
   for (int i = 0; i < 3; ++i) {
     drift.way[static_cast<std::size_t>(i)] =
         static_cast<std::int32_t>(within_bits(way_of(body, i), 25));
@@ -80,10 +83,11 @@ ContactDrift drift_of(const BodyRecord& body) {
   return drift;
 }
 
-void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold) {
+void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold) {
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   const Vec3<Unit>& n = manifold.normal;
   // n × turn, Q34: n · (turn × r) = r · (n × turn).
-  const auto across = [&](const ContactDrift& drift) -> RawVec3 {
+  const auto across = [&](const PoseDelta& drift) -> RawVec3 {
     const auto& turn = drift.turn;
     const auto part = [](std::int64_t x) { return raw::round_shift(x, Unit::frac_bits); };
     return {part(std::int64_t{n.y.raw} * turn[2] - std::int64_t{n.z.raw} * turn[1]),

@@ -17,11 +17,11 @@
 namespace lockstone {
 
 /// How far a body is from its contact pose.
-struct ContactDrift {
+struct PoseDelta {
   std::array<std::int32_t, 3> way{};   // of the centre, m, Q32
   std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q34
 
-  friend bool operator==(const ContactDrift&, const ContactDrift&) = default;
+  friend bool operator==(const PoseDelta&, const PoseDelta&) = default;
   [[nodiscard]] bool is_none() const {
     return (way[0] | way[1] | way[2] | turn[0] | turn[1] | turn[2]) == 0;
   }
@@ -45,10 +45,10 @@ inline constexpr int k_coarse_drift = -9;
 void set_contact_pose(BodyRecord& body);
 
 /// Of a body that is near its contact pose.
-[[nodiscard]] ContactDrift drift_of(const BodyRecord& body);
+[[nodiscard]] PoseDelta drift_of(const BodyRecord& body);
 
 /// From separations at the contact poses to those where the bodies are: along the normal, to first
 /// order; the error is below 2^-17 m for bodies of a metre.
-void shift_separations(const ContactDrift& a, const ContactDrift& b, Manifold& manifold);
+void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);
 
 }  // namespace lockstone

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/block_words.h"
 
 namespace lockstone {
@@ -50,6 +52,7 @@ void find_exponent(const ContactRun& run, const ContactPair& pair, ContactRow& r
   };
   add_side(pair.a, row.angular_a, row.response_a);
   add_side(pair.b, row.angular_b, row.response_b);
+  LKS_ASSERT(most > -1000);
   row.exponent = (most + 2) >> 1;
 }
 
@@ -80,6 +83,7 @@ void find_warp(ContactRows& contact) {
     size.add(contact.points[i].warp, contact.points[i].warp);
   }
   contact.warp_size = size.rounded(30);
+  LKS_ASSERT(contact.warp_size > 0);
 }
 
 }  // namespace
@@ -105,6 +109,7 @@ void find_rows(const ContactRun& run, ContactRows& contact) {
     const std::int64_t offset = block.points[i].offset[lane];
     point.x = low_word(offset);
     point.y = high_word(offset);
+    LKS_ASSERT(contact.masses[i] > 0);
     point.own = (std::int64_t{1} << 60) / contact.masses[i];
     point.impulse = low_word(block.points[i].impulse[lane]) * (std::int64_t{1} << k_row_more_bits);
     find_point(block, contact, point);
@@ -117,6 +122,7 @@ void find_responses(const ContactRun& run, const ContactPair& pair, ContactRow& 
   const ManifoldBlock& block = run.blocks[pair.block()];
   const std::size_t lane = pair.lane();
   const int shift = block.shift(lane);
+  LKS_ASSERT(shift >= 16 && shift <= 28);
   if (block.is_plain(lane)) {
     const std::int64_t both = block.moment[lane];
     row.response_a = through(low_word(both), shift, row.angular_a);

@@ -11,6 +11,7 @@
 
 #include "core/dynamics/body/raw_vec3.h"
 #include "core/dynamics/body/solver_body.h"
+#include "core/dynamics/contact/contact_index.h"
 #include "core/kernels/contact/manifold_block.h"
 
 namespace lockstone {
@@ -30,16 +31,16 @@ struct ContactRun {
   std::span<const lanes::RowBody> before;  // as the substep began
   std::span<const SolverBody> bodies;
   std::span<lanes::ManifoldBlock> blocks;
-  const lanes::SweepRules& rules;
+  const lanes::SolverParams& params;
 };
 
 /// A contact as the solver numbers it.
 struct ContactPair {
-  std::uint32_t slot = 0;      // lane of its block
+  ContactLane place;           // of its words
   std::uint32_t a = 0, b = 0;  // numbers of its bodies; 0: no impulse moves it
 
-  [[nodiscard]] std::size_t block() const { return slot / lanes::k_block_lanes; }
-  [[nodiscard]] std::size_t lane() const { return slot % lanes::k_block_lanes; }
+  [[nodiscard]] std::size_t block() const { return place.block(); }
+  [[nodiscard]] std::size_t lane() const { return place.lane(); }
 };
 
 /// B feels `linear`, angular_b of its impulse, A the opposite of `linear`, angular_a; responses are

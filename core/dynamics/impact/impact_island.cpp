@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/motion.h"
 #include "core/dynamics/impact/impact_response.h"
 #include "core/math/roots.h"
@@ -42,6 +44,7 @@ struct Fall {
 
   // When it does, Q30; beyond 2 it is held.
   [[nodiscard]] std::int64_t fraction(std::int64_t at_speed) const {
+    LKS_ASSERT(at_speed >= 0);
     constexpr std::int64_t k_late = std::int64_t{2} << 30;
     const std::int64_t top = u < 0 ? 2 * std::max<std::int64_t>(s, 0) : u + at_speed;
     const std::int64_t bottom = u < 0 ? at_speed - u : -g;
@@ -207,6 +210,8 @@ Meeting next_meeting(const BouncePair& pair, const Vec3<Acceleration>& gravity,
 }
 
 void BounceGroup::add(const BouncePair& pair) {
+  LKS_ASSERT(contact_count_ < contacts_.size());
+  LKS_ASSERT(pair.a != pair.b);
   Contact& contact = contacts_[contact_count_++];
   contact = {};
   contact.pair = pair;
@@ -221,6 +226,7 @@ std::uint8_t BounceGroup::flyer_of(BodyRecord* body) {
   const auto known =
       std::find_if(flyers_.begin(), end, [&](const Flyer& flyer) { return flyer.body == body; });
   if (known == end) {
+    LKS_ASSERT(flyer_count_ < flyers_.size());
     *known = {body, tick_gain(*body, gravity_, step_)};
     ++flyer_count_;
   }
@@ -253,6 +259,7 @@ void BounceGroup::run() {
     if (next == nullptr) break;
     const Unit fraction = Unit::from_raw(static_cast<std::int32_t>(first.fraction));
     advance(fraction);
+    LKS_ASSERT(fraction >= Unit{} && fraction <= left);
     left -= fraction;
     answer(*next, first.speed);
   }
@@ -274,6 +281,7 @@ void BounceGroup::advance(Unit fraction) {
 
 // A contact that is too slow to bounce again stays closed for the rest of the tick.
 void BounceGroup::answer(Contact& contact, Velocity speed) {
+  LKS_ASSERT(!contact.rests);
   contact.touched = true;
   contact.rests = speed <= k_least_bounce;
   BodyRecord& a = *contact.pair.a;

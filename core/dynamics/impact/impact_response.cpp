@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/motion.h"
 #include "core/math/block_float.h"
 #include "core/math/int128.h"
@@ -197,6 +199,7 @@ class ImpactSolver {
     const Velocity speed = dot(relative(point), normal_);
     const Velocity jump = jump_for(point.wanted - speed, point, normal_);
     const Velocity before = point.impulse;
+    LKS_ASSERT(point.impulse >= Velocity{});
     point.impulse = clamp(Velocity::from_raw(raw::saturating_add(before.raw, jump.raw)), Velocity{},
                           k_most_impulse);
     const Velocity change = point.impulse - before;
@@ -238,6 +241,8 @@ Side side_of(ImpactBody body, ImpactBody other) {
 
 Velocity answer_impact(ImpactBody a, ImpactBody b, const ImpactContact& contact) {
   const Side side_a = side_of(a, b), side_b = side_of(b, a);
+  LKS_ASSERT(contact.restitution >= Coefficient{} && contact.friction >= Coefficient{});
+  LKS_ASSERT(contact.manifold.count <= k_max_manifold_points);
   return ImpactSolver(side_a, side_b, contact).run();
 }
 

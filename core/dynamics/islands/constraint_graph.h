@@ -13,6 +13,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 /// Colours for constraints side by side; a constraint that finds none goes to the overflow colour.
@@ -33,6 +35,8 @@ class ConstraintGraph {
   /// A body that is not `pushed` conflicts with nothing: constraints may share it. No more are
   /// added than there is room for.
   void add(std::uint32_t body_a, bool pushed_a, std::uint32_t body_b, bool pushed_b) {
+    LKS_ASSERT(!pushed_a || body_a < taken_.size());
+    LKS_ASSERT(!pushed_b || body_b < taken_.size());
     const std::uint32_t taken = (pushed_a ? taken_[body_a] : 0U) | (pushed_b ? taken_[body_b] : 0U);
     const auto color = static_cast<std::uint32_t>(std::countr_one(taken));
     if (color < k_graph_colors) {

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 class Islands {
@@ -33,6 +35,7 @@ class Islands {
   }
 
   void join(std::uint32_t a, std::uint32_t b) {
+    LKS_ASSERT(a < parents_.size() && b < parents_.size());
     const std::uint32_t root_a = root(a), root_b = root(b);
     if (root_a < root_b) parents_[root_b] = root_a;
     if (root_b < root_a) parents_[root_a] = root_b;

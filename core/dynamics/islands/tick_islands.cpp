@@ -1,5 +1,7 @@
 #include "core/dynamics/islands/tick_islands.h"
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 TickIslands::TickIslands(std::size_t row_capacity, std::size_t body_capacity) {
@@ -16,6 +18,7 @@ void TickIslands::settle() {
   // A parent comes before its children, so it has its island when they ask for it.
   for (std::uint32_t body = 0; body < parents_.size(); ++body) {
     const std::uint32_t parent = parents_[body];
+    LKS_ASSERT(parent <= body);
     parents_[body] = parent == body ? count++ : parents_[parent];
   }
   loads_.assign(count, {});

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 /// A count that several threads raise, and that is copied while none does.
@@ -29,31 +31,31 @@ class SharedCount {
 /// Counts of one island, and the solver's decisions by them.
 struct IslandLoad {
   /// With more overloaded contacts an island starts warm: it would settle for long otherwise.
-  static constexpr std::uint32_t k_most_loaded = 8;
-  /// With more that bear several times a weight it is rebalanced: it would bend without.
+  static constexpr std::uint32_t k_most_overloaded = 8;
+  /// With more bearing contacts it is a stack, which is rebalanced: it would bend without.
   static constexpr std::uint32_t k_most_bearing = 128;
 
-  bool is_barred = false;     ///< nets, locked axes or rolling resistance: iterations alone do it
-  bool is_pinched = false;    ///< between a moving kinematic body and another immovable one
-  bool may_bounce = false;    ///< any restitution
-  bool is_fed = false;        ///< something besides gravity and forces may give it energy
-  bool has_joints = false;    ///< known where an island may gain energy
-  bool is_struck = false;     ///< something comes in fast
-  bool is_converged = false;  ///< solved to convergence, by `ProximalSolver`
-  std::uint32_t bodies = 0;   ///< dynamic ones
+  bool iterates_only = false;  ///< nets, locked axes or rolling resistance: no direct steps
+  bool is_pinched = false;     ///< between a moving kinematic body and another immovable one
+  bool may_bounce = false;     ///< any restitution
+  bool is_fed = false;         ///< something besides gravity and forces may give it energy
+  bool has_joints = false;     ///< known where an island may gain energy
+  bool is_struck = false;      ///< a contact of it comes in fast
+  bool is_converged = false;   ///< solved to convergence, by `BlockSolver`
+  std::uint32_t bodies = 0;    ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
-  SharedCount loaded;         ///< contacts at rest under several times a body's weight; from
-                              ///< k_most_loaded + 1 on it may be any greater number
+  SharedCount overloaded;     ///< contacts at rest under several times a body's weight; from
+                              ///< k_most_overloaded + 1 on it may be any greater number
 
-  [[nodiscard]] bool is_heap() const { return !is_converged && bearing > k_most_bearing; }
-  [[nodiscard]] bool few_are_loaded() const { return loaded.get() <= k_most_loaded; }
+  [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }
+  [[nodiscard]] bool few_are_overloaded() const { return overloaded.get() <= k_most_overloaded; }
   /// Many contacts are overloaded, and a good part of all are new and have no impulses yet.
-  [[nodiscard]] bool needs_first_loads() const {
+  [[nodiscard]] bool needs_initial_warm_start() const {
     if (is_converged) return false;
-    return !few_are_loaded() && fresh > k_most_loaded && fresh >= contacts / 4;
+    return !few_are_overloaded() && fresh > k_most_overloaded && fresh >= contacts / 4;
   }
 };
 
@@ -75,6 +77,7 @@ class TickIslands {
   }
 
   void join(std::uint32_t a, std::uint32_t b) {
+    LKS_ASSERT(a != 0 && b != 0 && a < parents_.size() && b < parents_.size());
     const std::uint32_t root_a = root(a), root_b = root(b);
     if (root_a < root_b) parents_[root_b] = root_a;
     if (root_b < root_a) parents_[root_a] = root_b;
@@ -88,7 +91,10 @@ class TickIslands {
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(loads_.size()); }
 
   /// The island of a body, after `settle`.
-  [[nodiscard]] std::uint32_t of(std::uint32_t body) const { return parents_[body]; }
+  [[nodiscard]] std::uint32_t of(std::uint32_t body) const {
+    LKS_ASSERT(body < parents_.size());
+    return parents_[body];
+  }
   [[nodiscard]] IslandLoad& load(std::uint32_t island) { return loads_[island]; }
   [[nodiscard]] const IslandLoad& load(std::uint32_t island) const { return loads_[island]; }
 

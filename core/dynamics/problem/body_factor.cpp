@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
 #include <lockstone/fixed.h>
 
 #include "core/math/roots.h"
@@ -29,10 +30,10 @@ std::int64_t within_word(std::int64_t x) {
   return std::clamp(x, -k_most_word, k_most_word);
 }
 
-// As `within_word`, and tells when it had to.
-std::int64_t held(std::int64_t x, bool& fits) {
+// As `within_word`, and notes where it had to: `excess` is 0 as long as all words fit.
+std::int64_t held(std::int64_t x, std::int64_t& excess) {
   const std::int64_t result = within_word(x);
-  fits = fits && result == x;
+  excess |= result ^ x;
   return result;
 }
 
@@ -69,6 +70,7 @@ void BodyFactor::clear() {
 
 // The body of least degree, the first of equals: its neighbours become neighbours of each other.
 std::uint32_t BodyFactor::eliminate_next(std::uint32_t bodies) {
+  LKS_ASSERT(bodies >= 1 && bodies <= k_most_bodies);
   std::uint32_t best = 0;
   for (std::uint32_t i = 1; i < bodies; ++i)
     if (degrees_[i] < degrees_[best]) best = i;
@@ -105,6 +107,7 @@ std::size_t BodyFactor::find_order(const Plan& plan, std::size_t& blocks) {
 }
 
 void BodyFactor::add_columns(const Plan& plan) {
+  LKS_ASSERT(order_.size() == plan.bodies);
   std::uint32_t block = plan.first_block + plan.bodies;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     Column column;
@@ -125,6 +128,7 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
   for (std::uint32_t i = 0; i < bodies; ++i)
     neighbours_[i].reset();
   for (const auto& [a, b] : pairs) {
+    LKS_ASSERT(a != b && a < bodies && b < bodies);
     neighbours_[a].set(b);
     neighbours_[b].set(a);
   }
@@ -163,6 +167,7 @@ void BodyFactor::add_targets(const Plan& plan) {
 }
 
 BodyFactor::Place BodyFactor::find(const Plan& plan, std::uint32_t a, std::uint32_t b) const {
+  LKS_ASSERT(a != b && a < plan.bodies && b < plan.bodies);
   const std::uint32_t pa = places_[plan.first_column + a], pb = places_[plan.first_column + b];
   return {find_block(plan, std::max(pa, pb), std::min(pa, pb)), pa > pb};
 }
@@ -228,6 +233,7 @@ void BodyFactor::set_pivot(Column& column, std::size_t j, std::int64_t sum, Bloc
   const auto root = static_cast<std::int64_t>(isqrt_rounded(pivot));  // 2^17 … 2^30
   const int shift = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(root)));
   column.shifts[j] = shift;
+  LKS_ASSERT(root >= std::int64_t{1} << 15 && root < std::int64_t{1} << 31);
   const std::int64_t inverse = raw::round_divide(std::int64_t{1} << (k_entry_bits + shift), root);
   column.mantissas[j] = static_cast<std::int32_t>(std::min(inverse, k_most_word));
   block.words[j][j] = root;
@@ -259,32 +265,36 @@ void BodyFactor::factor(const Plan& plan) {
     factor_diagonal(column, diagonal);
     kernels.eliminate(blocks_.data(), column, diagonal, below_.data() + column.first, targets);
     targets += std::size_t{column.count} * (column.count + 1) / 2;
+    LKS_ASSERT(targets <= targets_.data() + targets_.size());
   }
 }
 
 void BodyFactor::solve_down(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   BodyVector* const rows = x_.data() + plan.first_column;
+  std::int64_t excess = 0;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
     BodyVector& x = rows[k];
-    for (std::size_t i = 0; i < k_side; ++i) {
-      std::int64_t sum = 0;
-      for (std::size_t j = 0; j < i; ++j)
-        sum += diagonal.words[j][i] * x[j];
-      x[i] = held(times_pivot(column, i, held(x[i] - raw::round_shift(sum, k_entry_bits), fits)),
-                  fits);
+    std::array<std::int64_t, k_side> sums{};
+    for (std::size_t j = 0; j < k_side; ++j) {
+      const std::int64_t rest = held(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
+      x[j] = held(times_pivot(column, j, rest), excess);
+      for (std::size_t i = j + 1; i < k_side; ++i)
+        sums[i] += diagonal.words[j][i] * x[j];
     }
     if (column.count == 0) continue;
     fits =
         kernels.solve_down(blocks_.data(), column, below_.data() + column.first, x, rows) && fits;
   }
+  fits = fits && excess == 0;
 }
 
 void BodyFactor::solve_up(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
   BodyVector* const rows = x_.data() + plan.first_column;
+  std::int64_t excess = 0;
   for (std::uint32_t k = plan.bodies; k-- > 0;) {
     const Column& column = columns_[plan.first_column + k];
     const Block& diagonal = blocks_[plan.first_block + k];
@@ -297,26 +307,45 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
       for (std::size_t j = i + 1; j < k_side; ++j)
         sum += diagonal.words[i][j] * x[j];
       const std::int64_t rest = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
-      x[i] = held(times_pivot(column, i, held(rest, fits)), fits);
+      x[i] = held(times_pivot(column, i, held(rest, excess)), excess);
     }
   }
+  fits = fits && excess == 0;
+}
+
+// Scales the words of a body by 2^-scale. Words that fit afterwards need no clamp.
+void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
+  const int grow = std::max(-scale, 0), shrink = std::max(scale, 0);
+  LKS_ASSERT(grow < 62 && shrink <= 62);
+  std::int64_t bits = 0;
+  for (std::size_t i = 0; i < k_side; ++i)
+    bits |= words[i] ^ (words[i] >> 63);
+  if (bits < k_most_word >> grow) {
+    for (std::size_t i = 0; i < k_side; ++i)
+      words[i] = raw::round_shift(words[i] * (std::int64_t{1} << grow), shrink);
+    return;
+  }
+  std::int64_t excess = 0;
+  for (std::size_t i = 0; i < k_side; ++i)
+    words[i] = held(raw::scale_saturating(words[i], -scale), excess);
+  fits = fits && excess == 0;
 }
 
 bool BodyFactor::solve(const Plan& plan, std::span<BodyVector> b) {
+  LKS_ASSERT(b.size() == plan.bodies);
   bool fits = true;
+  BodyVector* const rows = x_.data() + plan.first_column;
+  const Column* const columns = columns_.data() + plan.first_column;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
-    const Column& column = columns_[plan.first_column + k];
-    for (std::size_t i = 0; i < k_side; ++i)
-      x_[plan.first_column + k][i] =
-          held(raw::scale_saturating(b[column.body][i], -column.scale), fits);
+    rows[k] = b[columns[k].body];
+    scale_words(rows[k], columns[k].scale, fits);
   }
   solve_down(plan, fits);
   solve_up(plan, fits);
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
-    const Column& column = columns_[plan.first_column + k];
-    for (std::size_t i = 0; i < k_side; ++i)
-      b[column.body][i] =
-          held(raw::scale_saturating(x_[plan.first_column + k][i], -column.scale), fits);
+    BodyVector& x = b[columns[k].body];
+    x = rows[k];
+    scale_words(x, columns[k].scale, fits);
   }
   return fits;
 }

@@ -109,6 +109,7 @@ class BodyFactor {
   static void set_pivot(Column& column, std::size_t j, std::int64_t sum, Block& block);
   [[nodiscard]] static std::int64_t times_pivot(const Column& column, std::size_t i,
                                                 std::int64_t x);
+  static void scale_words(BodyVector& words, int scale, bool& fits);
   void solve_down(const Plan& plan, bool& fits);
   void solve_up(const Plan& plan, bool& fits);
 

@@ -1,4 +1,4 @@
-// A joint in the problem of its island's contacts (`ProximalSolver`).
+// A joint in the problem of its island's contacts (`BlockSolver`).
 #pragma once
 
 #include <array>

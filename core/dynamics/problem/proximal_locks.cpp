@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/joint/joint_numbers.h"
 
 namespace lockstone {
@@ -58,6 +60,7 @@ void ProximalLocks::begin_group() {
 void ProximalLocks::add_joint(const End& a, const End& b) {
   Group& group = groups_.back();
   Joint& joint = joints_.emplace_back();
+  LKS_ASSERT(a.body != b.body);
   ++group.joints;
   joint.a = a.body;
   joint.b = b.body;
@@ -96,6 +99,7 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
   };
   const ProximalJoint pair{root_of(joint.a), root_of(joint.b), joint.part_a, joint.part_b,
                            mass_scale(group.unit, joint.inverse_mass)};
+  LKS_ASSERT(rows.size() <= joint.rows.size());
   joint.count = static_cast<std::uint32_t>(rows.size());
   joint.used = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -127,6 +131,7 @@ void ProximalLocks::add_to_factor(const Group& group, const Joint& joint) {
 }
 
 void ProximalLocks::factor(std::uint32_t index) {
+  LKS_ASSERT(index < groups_.size());
   const Group& group = groups_[index];
   factor_.reset(group.plan);
   for (const Joint& joint : joints_of(group))
@@ -192,6 +197,7 @@ void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) con
 
 // Fraction bits of units in which every error is below 1, at most k_finest_bits.
 int ProximalLocks::coarsest_bits(const Group& group) {
+  LKS_ASSERT(group.joints != 0);
   int most = 50 - k_finest_bits;
   for (const Joint& joint : joints_of(group))
     for (std::size_t i = 0; i < joint.count; ++i)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/block_words.h"
 #include "core/math/roots.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -102,6 +104,7 @@ struct Pair {
 // Row `index`, scaled by 1/length, Q30.
 void set_row(const Pair& pair, const ContactRow& from, const Sides& sides, std::int64_t length,
              std::size_t index) {
+  LKS_ASSERT(length > 0 && index < k_contact_rows);
   const std::int64_t inverse = (std::int64_t{1} << 62) / length;
   for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
     const std::int64_t both =
@@ -110,10 +113,11 @@ void set_row(const Pair& pair, const ContactRow& from, const Sides& sides, std::
   }
   const RowScale norm = RowScale::of(static_cast<std::uint64_t>(length), 30);
   ProximalRow& row = pair.contact.all[index];
+  const RowScale from_impulse = pair.mass * norm;
   row.to_speed = pair.mass * norm.reciprocal();
-  row.to_impulse = (pair.mass * norm).reciprocal();
+  row.to_impulse = from_impulse.reciprocal();
   row.total = from.impulse;
-  pair.prepared.from_impulse[index] = pair.mass * norm;
+  pair.prepared.from_impulse[index] = from_impulse;
   pair.prepared.own[index] = product_rounded(length, length, 30);
   pair.prepared.response_a[index] = from.response_a;
   pair.prepared.response_b[index] = from.response_b;
@@ -168,6 +172,7 @@ void add_friction(const Pair& pair, const ManifoldBlock& block) {
   set_row(pair, rows[0], t, length, first);
   set_row(pair, rows[1], b, length, first + 1);
   contact.rows = contact.points + 2;
+  LKS_ASSERT(contact.rows <= k_contact_rows);
   const std::int64_t twist = length_of(n);
   if (twist < k_whole_q30 >> 16) return;  // neither body turns about the normal
   set_row(pair, rows[2], n, twist, first + 2);
@@ -179,6 +184,7 @@ void add_friction(const Pair& pair, const ManifoldBlock& block) {
 }  // namespace
 
 RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
+  LKS_ASSERT(unit.mantissa > 0 && inverse.mantissa > 0);
   std::uint64_t ratio = (static_cast<std::uint64_t>(unit.mantissa) << 31) /
                         static_cast<std::uint64_t>(inverse.mantissa);  // 2^30 … 2^32
   int shift = 31 + inverse.exponent - unit.exponent;
@@ -190,6 +196,7 @@ RowScale mass_scale(BlockFloat unit, BlockFloat inverse) {
 }
 
 std::int64_t part_of(std::int64_t share) {
+  LKS_ASSERT(share >= 0 && share <= k_whole_q30);
   return root_of(share << 30);
 }
 
@@ -249,6 +256,7 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
   contact.binormal = rows.binormal;
   contact.radius = high_word(block.twist[lane]);
   const std::int64_t share_b = low_word(block.share[lane]);
+  LKS_ASSERT(share_b >= 0 && share_b <= k_whole_q30);
   const Pair pair{run,
                   contact,
                   problem,
@@ -280,6 +288,7 @@ void find_proximal_rows(const ContactRun& run, const InertiaRoot& root_a, const 
 
 void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContact& contact,
                lanes::ProximalBlock& problem) {
+  LKS_ASSERT(weight >= 0 && contact.rows <= k_contact_rows);
   std::int64_t most = 0, load = 0;
   for (std::size_t i = 0; i < contact.rows; ++i) {
     const std::int64_t own = prepared.own[i];
@@ -299,6 +308,8 @@ void set_gives(std::int64_t weight, const PreparedRows& prepared, ProximalContac
 }
 
 void set_give(std::int64_t give, std::size_t row, lanes::ProximalBlock& problem) {
+  LKS_ASSERT(give >= k_whole_q30 >> BodyFactor::k_least_bits && give <= k_whole_q30);
+  LKS_ASSERT(row < k_contact_rows);
   std::int64_t& own = problem.coupling[row][row];
   if (own != 0) own = std::min<std::int64_t>(own - problem.give[row] + give, INT32_MAX);
   problem.give[row] = give;

@@ -44,6 +44,7 @@ inline constexpr int k_row_unit_bits = 44;
 
 /// A contact of an island; its rows are the lanes of a `ProximalBlock`.
 struct ProximalContact : ContactPair {
+  ContactId id;
   std::uint32_t row_a = 0, row_b = 0;  // where their velocities stand
   std::uint32_t points = 0;
   std::uint32_t rows = 0;  // points and 2 or 3 of friction

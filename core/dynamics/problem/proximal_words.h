@@ -40,6 +40,11 @@ class Clamp {
 
 /// Returns whether nothing had to be clamped.
 [[nodiscard]] inline bool clamp_all(std::span<BodyVector> sums) {
+  std::int64_t bits = 0;
+  for (const BodyVector& sum : sums)
+    for (const std::int64_t x : sum)
+      bits |= x ^ (x >> 63);
+  if (bits < lanes::k_most_unit) return true;
   Clamp clamp;
   for (BodyVector& sum : sums)
     for (std::int64_t& x : sum)

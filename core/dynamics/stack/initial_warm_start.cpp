@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/contact/block_words.h"
 
@@ -54,31 +56,31 @@ void add_scaled(const RawVec3& direction, std::int64_t by, bool is_taken,
 
 }  // namespace
 
-void FirstLoads::make_room(std::uint32_t workers) {
+void InitialWarmStart::make_room(std::uint32_t workers) {
   while (supports_.size() < workers)
     supports_.emplace_back().reserve(k_most_supports);
 }
 
-void FirstLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
-                      Parallel& parallel) {
+void InitialWarmStart::find(SupportGraph& order, const ContactRun& run, std::span<RowBody> warm,
+                            Parallel& parallel) {
   order.find(run,
              [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
-  loads_.assign(order.links().size(), k_no_load);
+  mean_impulses_.assign(order.links().size(), k_no_impulse);
   order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
     Supports& supports = supports_[worker];
     gather(order, run, body, supports);
     hold_up(run.bodies[body], warm[body], supports);
     for (const Support& support : supports) {
       RowPush to_a, to_b;
-      hand_down(run, support, to_a, to_b);
-      order.hand_down(support.link, support.is_b, to_a, to_b, warm[body]);
+      propagate(run, support, to_a, to_b);
+      order.propagate(support.link, support.is_b, to_a, to_b, warm[body]);
     }
   });
 }
 
 // All points of a support push alike as far as that suffices, since iterations keep a pressure in
 // the middle best. A body that tips over has no supports.
-void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
+void InitialWarmStart::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
   RowBody row = warm;
   for (std::size_t i = 0; i < 3; ++i) {
     row.velocity[i] += body.gain[i] * k_to_row;
@@ -99,7 +101,7 @@ void FirstLoads::hold_up(const SolverBody& body, const RowBody& warm, Supports& 
 
 // Whether a point opens faster than a part of the weight would close it, so that the body falls.
 // Its push, if propagated, would grow from body to body.
-bool FirstLoads::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
+bool InitialWarmStart::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
   const std::int64_t slow = (body.greatest_gain() >> k_tipping_shift) * k_to_row;
   return std::ranges::any_of(supports, [&](const Support& support) {
     for (std::size_t i = 0; i < support.contact.count; ++i)
@@ -109,8 +111,8 @@ bool FirstLoads::tips(const RowBody& row, const SolverBody& body, const Supports
   });
 }
 
-void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
-                        Supports& supports) {
+void InitialWarmStart::gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
+                              Supports& supports) {
   supports.clear();
   order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
     if (supports.size() == k_most_supports) return;
@@ -123,7 +125,8 @@ void FirstLoads::gather(const SupportOrder& order, const ContactRun& run, std::u
   });
 }
 
-void FirstLoads::fill(const ContactRun& run, Support& support) {
+void InitialWarmStart::fill(const ContactRun& run, Support& support) {
+  LKS_ASSERT(support.contact.a != 0 || support.contact.b != 0);
   ContactRows& contact = support.contact;
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -153,7 +156,7 @@ void FirstLoads::fill(const ContactRun& run, Support& support) {
 }
 
 // Returns the magnitude of the change of each point's impulse, Q32.
-std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
+std::int64_t InitialWarmStart::push_together(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   if (contact.count == 0) return 0;
   const std::int64_t least =
@@ -161,6 +164,7 @@ std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
   const std::int64_t all =
       stopping(speed_of(contact.normal, support.response, support.is_b, body), support.common);
   const std::int64_t each = std::max(raw::round_divide(all, contact.count), -least);
+  LKS_ASSERT(least >= 0);
   for (std::size_t i = 0; i < contact.count; ++i)
     support.impulse[i] += each;
   const std::int64_t by = product_rounded(each * contact.count, support.share, 30);
@@ -169,7 +173,7 @@ std::int64_t FirstLoads::push_together(Support& support, RowBody& body) {
   return std::abs(each);
 }
 
-std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
+std::int64_t InitialWarmStart::push_points(Support& support, RowBody& body) {
   const ContactRows& contact = support.contact;
   std::int64_t most = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
@@ -177,6 +181,7 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
         speed_of(contact.normal, support.response_of(i), support.is_b, body), support.own[i]);
     const std::int64_t change = std::max(asked, -support.impulse[i]);
     support.impulse[i] += change;
+    LKS_ASSERT(support.impulse[i] >= 0);
     const std::int64_t by = product_rounded(change, support.share, 30);
     add_scaled(contact.normal, by, !support.is_b, body.velocity);
     add_scaled(support.turn_of(i), by, !support.is_b, body.spin);
@@ -187,8 +192,8 @@ std::int64_t FirstLoads::push_points(Support& support, RowBody& body) {
 
 // Gives the impulses to the block, rounded to its steps, and to both bodies. A new contact takes
 // them as its mean impulse.
-void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPush& to_a,
-                           RowPush& to_b) {
+void InitialWarmStart::propagate(const ContactRun& run, const Support& support, RowPush& to_a,
+                                 RowPush& to_b) {
   const ContactRows& contact = support.contact;
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
@@ -214,13 +219,15 @@ void FirstLoads::hand_down(const ContactRun& run, const Support& support, RowPus
   }
   if (!support.is_new || contact.count == 0) return;
   const std::int64_t load = raw::round_divide(sum, contact.count);
+  LKS_ASSERT(load >= 0 && load <= lanes::k_most_impulse);
   block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
-  loads_[support.link] = static_cast<std::int32_t>(load);
+  mean_impulses_[support.link] = static_cast<std::int32_t>(load);
 }
 
-void FirstLoads::store(const SupportOrder& order, std::span<ContactRecord> records) const {
-  for (std::size_t i = 0; i < loads_.size(); ++i)
-    if (loads_[i] != k_no_load) records[order.links()[i].record].load.raw = loads_[i];
+void InitialWarmStart::store(const SupportGraph& order, std::span<ContactRecord> records) const {
+  for (std::size_t i = 0; i < mean_impulses_.size(); ++i)
+    if (mean_impulses_[i] != k_no_impulse)
+      records[order.links()[i].record].load.raw = mean_impulses_[i];
 }
 
 }  // namespace lockstone

@@ -21,25 +21,27 @@
 
 namespace lockstone {
 
-class FirstLoads {
+class InitialWarmStart {
  public:
   /// No functions but this and `make_room` allocate.
-  explicit FirstLoads(std::size_t contact_capacity) { loads_.reserve(contact_capacity); }
+  explicit InitialWarmStart(std::size_t contact_capacity) {
+    mean_impulses_.reserve(contact_capacity);
+  }
   void make_room(std::uint32_t workers);
 
-  void clear() { loads_.clear(); }
+  void clear() { mean_impulses_.clear(); }
 
   /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
   /// given to the blocks, and the velocities that they give to bodies, added to `warm`. Bodies
   /// faster than 1/4 m/s are left out. `order` has the contacts, and finds the bodies that stand.
-  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+  void find(SupportGraph& order, const ContactRun& run, std::span<lanes::RowBody> warm,
             Parallel& parallel);
 
   /// To the records of new contacts, with the order of `find`.
-  void store(const SupportOrder& order, std::span<ContactRecord> records) const;
+  void store(const SupportGraph& order, std::span<ContactRecord> records) const;
 
  private:
-  static constexpr std::int32_t k_no_load = -1;
+  static constexpr std::int32_t k_no_impulse = -1;
 
   // A contact on which a body rests.
   struct Support {
@@ -68,17 +70,17 @@ class FirstLoads {
   static void hold_up(const SolverBody& body, const lanes::RowBody& warm, Supports& supports);
   [[nodiscard]] static bool tips(const lanes::RowBody& row, const SolverBody& body,
                                  const Supports& supports);
-  static void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
+  static void gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
                      Supports& supports);
   static void fill(const ContactRun& run, Support& support);
   [[nodiscard]] static std::int64_t push_together(Support& support, lanes::RowBody& body);
   [[nodiscard]] static std::int64_t push_points(Support& support, lanes::RowBody& body);
-  void hand_down(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
+  void propagate(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
 
   std::vector<Supports> supports_;  // by worker
   // By link, of a new contact: the impulse of a point, mean of all, for its record, m/s, Q20; else
-  // k_no_load.
-  std::vector<std::int32_t> loads_;
+  // k_no_impulse.
+  std::vector<std::int32_t> mean_impulses_;
 };
 
 }  // namespace lockstone

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
 #include <lockstone/fixed.h>
 
 namespace lockstone {
@@ -26,6 +27,8 @@ std::int64_t within(std::int64_t x, std::int64_t most) {
 }  // namespace
 
 void MotionBalance::add(const Motion6& column) {
+  LKS_ASSERT(std::ranges::all_of(
+      column, [](std::int64_t x) { return std::abs(x) <= std::int64_t{1} << 27; }));
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j <= i; ++j)
       sums_[i][j] += column[i] * column[j];
@@ -42,6 +45,7 @@ void MotionBalance::factor() {
     const std::int64_t pivot = scaled[j];
     const bool is_left_out = pivot < k_least_sum_pivot;
     over_[j] = is_left_out ? 0 : (std::int64_t{1} << (k_sum_bits + k_bits)) / pivot;
+    LKS_ASSERT(over_[j] >= 0 && over_[j] <= std::int64_t{1} << (k_bits + 8));
     for (std::size_t i = j + 1; i < 6; ++i) {
       const std::int64_t part = is_left_out ? 0 : scaled[i];
       lower_[i][j] = within(times_q20(part, over_[j]) / (1 << (k_sum_bits - k_bits)), k_most_lower);

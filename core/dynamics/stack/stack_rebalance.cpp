@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/contact/block_words.h"
 #include "core/math/wide/scalar_lanes.h"
@@ -80,7 +82,7 @@ Motion6 change_of(const RowBody& warm, const SolverBody& body) {
 
 }  // namespace
 
-void HeapLoads::make_room(std::uint32_t workers) {
+void StackRebalance::make_room(std::uint32_t workers) {
   while (scratch_.size() < workers) {
     scratch_.emplace_back();
     scratch_.back().supports.reserve(k_most_supports);
@@ -88,8 +90,8 @@ void HeapLoads::make_room(std::uint32_t workers) {
   }
 }
 
-void HeapLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBody> warm,
-                     Parallel& parallel) {
+void StackRebalance::find(SupportGraph& order, const ContactRun& run, std::span<RowBody> warm,
+                          Parallel& parallel) {
   order.find(run, [&](const SupportLink& link, std::uint32_t body) {
     if ((link.a == 0 || link.b == 0) && !link.is_on_ground) return false;
     return is_slower(run.rows[body], run.bodies[body], k_firm_shift) &&
@@ -102,15 +104,15 @@ void HeapLoads::find(SupportOrder& order, const ContactRun& run, std::span<RowBo
     for (const Support& support : scratch.supports) {
       RowPush to_a, to_b;
       push(run, support, to_a, to_b);
-      order.hand_down(support.link, support.pair.b == body, to_a, to_b, warm[body]);
+      order.propagate(support.link, support.pair.b == body, to_a, to_b, warm[body]);
     }
   });
   for (std::size_t body = 1; body < run.bodies.size(); ++body)
     if (order.is_held(body)) run.rows[body] = {};
 }
 
-void HeapLoads::gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
-                       Scratch& scratch) {
+void StackRebalance::gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
+                            Scratch& scratch) {
   scratch.supports.clear();
   scratch.columns.clear();
   order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
@@ -118,15 +120,16 @@ void HeapLoads::gather(const SupportOrder& order, const ContactRun& run, std::ui
     if (!is_swept(run.blocks[link.block()], link.lane())) return;
     Support& support = scratch.supports.emplace_back();
     support.pair = link;
+    LKS_ASSERT(link.a == body || link.b == body);
     support.link = number;
-    support.is_tied = grips(run.blocks[link.block()], link.lane());
+    support.has_friction_rows = grips(run.blocks[link.block()], link.lane());
     add_columns(run, support, link.b == body, scratch.columns);
   });
 }
 
 // Of points that push, then of the tangents.
-void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool is_b,
-                            std::vector<Motion6>& columns) {
+void StackRebalance::add_columns(const ContactRun& run, const Support& support, bool is_b,
+                                 std::vector<Motion6>& columns) {
   const ManifoldBlock& block = run.blocks[support.pair.block()];
   const std::size_t lane = support.pair.lane();
   const RawVec3 normal = normal_of(block, lane);
@@ -143,13 +146,13 @@ void HeapLoads::add_columns(const ContactRun& run, const Support& support, bool 
       turn[i] = raw::round_shift(t[i] * y - b[i] * x, 30);
     columns.push_back(column_of(normal, turned(arm, normal, scale, turn), share));
   }
-  if (!support.is_tied) return;
+  if (!support.has_friction_rows) return;
   for (const RawVec3& tangent : {t, b})
     columns.push_back(column_of(tangent, turned(arm, tangent, 0, {}), share));
 }
 
 // Whether all supports can give the impulses of the change.
-bool HeapLoads::balance(const ContactRun& run, const Motion6& change, Scratch& scratch) {
+bool StackRebalance::balance(const ContactRun& run, const Motion6& change, Scratch& scratch) {
   const auto is_great = [](std::int64_t x) {
     return x > MotionBalance::k_most_change || x < -MotionBalance::k_most_change;
   };
@@ -169,14 +172,14 @@ bool HeapLoads::balance(const ContactRun& run, const Motion6& change, Scratch& s
     const ManifoldBlock& block = run.blocks[support.pair.block()];
     for (std::size_t i = 0; i < k_block_points; ++i)
       if (low_word(block.points[i].impulse[support.pair.lane()]) > 0) support.points[i] = next();
-    if (support.is_tied) support.ties = {next(), next()};
+    if (support.has_friction_rows) support.friction = {next(), next()};
     if (!holds(run, support)) return false;
   }
   return true;
 }
 
 // Neither pulls nor slips.
-bool HeapLoads::holds(const ContactRun& run, const Support& support) {
+bool StackRebalance::holds(const ContactRun& run, const Support& support) {
   const ManifoldBlock& block = run.blocks[support.pair.block()];
   const std::size_t lane = support.pair.lane();
   std::int64_t push = 0;
@@ -185,15 +188,16 @@ bool HeapLoads::holds(const ContactRun& run, const Support& support) {
     if (now < 0 || now > lanes::k_most_impulse) return false;
     push += now;
   }
-  if (!support.is_tied) return true;
+  if (!support.has_friction_rows) return true;
   return is_within_limit(product_rounded(push, high_word(block.share[lane]), 30),
-                         low_word(block.friction[lane]) + support.ties[0],
-                         high_word(block.friction[lane]) + support.ties[1],
+                         low_word(block.friction[lane]) + support.friction[0],
+                         high_word(block.friction[lane]) + support.friction[1],
                          low_word(block.twist[lane]));
 }
 
 // To the block, and at its centre to both bodies.
-void HeapLoads::push(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b) {
+void StackRebalance::push(const ContactRun& run, const Support& support, RowPush& to_a,
+                          RowPush& to_b) {
   ManifoldBlock& block = run.blocks[support.pair.block()];
   const std::size_t lane = support.pair.lane();
   const RawVec3 t = tangent_of(block, lane), b = binormal_of(block, lane);
@@ -204,15 +208,16 @@ void HeapLoads::push(const ContactRun& run, const Support& support, RowPush& to_
     if (by == 0) continue;
     std::int64_t& word = block.points[i].impulse[lane];
     const std::int64_t now = low_word(word) + by;
+    LKS_ASSERT(now >= 0 && now <= lanes::k_most_impulse);
     word = std::max<std::int64_t>(high_word(word), now) * (std::int64_t{1} << 32) + now;
     push += by;
     about_t.add(high_word(block.points[i].offset[lane]), finer(by));
     about_b.subtract(low_word(block.points[i].offset[lane]), finer(by));
   }
   const std::int64_t friction = block.friction[lane];
-  block.friction[lane] = lanes::scalar::pack(low_word(friction) + support.ties[0],
-                                             high_word(friction) + support.ties[1]);
-  RawVec3 force = mixed(t, finer(support.ties[0]), b, finer(support.ties[1]));
+  block.friction[lane] = lanes::scalar::pack(low_word(friction) + support.friction[0],
+                                             high_word(friction) + support.friction[1]);
+  RawVec3 force = mixed(t, finer(support.friction[0]), b, finer(support.friction[1]));
   const RawVec3 along = mixed(normal_of(block, lane), finer(push), {}, 0);
   for (std::size_t i = 0; i < 3; ++i)
     force[i] += along[i];

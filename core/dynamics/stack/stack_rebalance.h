@@ -17,7 +17,7 @@
 
 namespace lockstone {
 
-class HeapLoads {
+class StackRebalance {
  public:
   /// No function but this allocates.
   void make_room(std::uint32_t workers);
@@ -27,7 +27,7 @@ class HeapLoads {
   /// `run`. A body stands firm if it is slower than an eighth of the speed that gravity gives in a
   /// substep, and rests by three points or more on the ground or on bodies that stand firm, with
   /// friction of an eighth of the push to spare: enough to stop it in a substep.
-  void find(SupportOrder& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+  void find(SupportGraph& order, const ContactRun& run, std::span<lanes::RowBody> warm,
             Parallel& parallel);
 
  private:
@@ -35,9 +35,9 @@ class HeapLoads {
   struct Support {
     ContactPair pair;
     std::uint32_t link = 0;
-    bool is_tied = false;  // friction takes part
+    bool has_friction_rows = false;  // friction takes part
     std::array<std::int64_t, lanes::k_block_points> points{};
-    std::array<std::int64_t, 2> ties{};  // along t and b
+    std::array<std::int64_t, 2> friction{};  // along t and b
   };
 
   // Of one body.
@@ -46,7 +46,7 @@ class HeapLoads {
     std::vector<Motion6> columns;  // of the rows of these
   };
 
-  static void gather(const SupportOrder& order, const ContactRun& run, std::uint32_t body,
+  static void gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
                      Scratch& scratch);
   static void add_columns(const ContactRun& run, const Support& support, bool is_b,
                           std::vector<Motion6>& columns);

@@ -1,5 +1,8 @@
 #include "core/dynamics/stack/support_graph.h"
 
+#include <lockstone/assert.h>
+
+#include "core/base/reserved.h"
 #include "core/dynamics/contact/block_words.h"
 
 namespace lockstone {
@@ -21,24 +24,25 @@ int against(const RawVec3& normal, const SolverBody& body) {
 
 }  // namespace
 
-SupportOrder::SupportOrder(std::size_t body_capacity, std::size_t contact_capacity)
+SupportGraph::SupportGraph(std::size_t body_capacity, std::size_t contact_capacity)
     : by_body_(body_capacity, contact_capacity) {
   links_.reserve(contact_capacity);
   upper_.reserve(contact_capacity);
   is_held_.reserve(body_capacity + 1);
   carried_.reserve(body_capacity + 1);
   order_.reserve(body_capacity + 1);
-  handed_.reserve(contact_capacity);
+  propagated_.reserve(contact_capacity);
   round_begins_.reserve(body_capacity + 1);
   rounds_.reserve(body_capacity + 1);
 }
 
-std::uint32_t SupportOrder::lower_of(std::uint32_t link) const {
+std::uint32_t SupportGraph::lower_of(std::uint32_t link) const {
   return upper_[link] == links_[link].b ? links_[link].a : links_[link].b;
 }
 
-void SupportOrder::find_uppers(const ContactRun& run) {
+void SupportGraph::find_uppers(const ContactRun& run) {
   by_body_.assign(std::span<const SupportLink>(links_), run.bodies.size());
+  LKS_ASSERT(is_reserved(upper_, links_.size()));
   upper_.assign(links_.size(), 0);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const SupportLink& link = links_[i];
@@ -52,7 +56,7 @@ void SupportOrder::find_uppers(const ContactRun& run) {
 
 // From the top down, beginning with bodies that carry no other. Bodies that carry each other in a
 // ring are left out.
-void SupportOrder::find_order() {
+void SupportGraph::find_order() {
   carried_.assign(is_held_.size(), 0);
   for (std::uint32_t i = 0; i < links_.size(); ++i)
     if (rests(i)) ++carried_[lower_of(i)];
@@ -73,6 +77,7 @@ void SupportOrder::find_order() {
       for (const std::uint32_t link : by_body_.at(order_[i])) {
         const std::uint32_t lower = upper_[link] == order_[i] ? lower_of(link) : 0;
         if (lower == 0) continue;
+        LKS_ASSERT(carried_[lower] != 0);
         --carried_[lower];
         add(lower);
       }
@@ -80,9 +85,9 @@ void SupportOrder::find_order() {
   }
 }
 
-void SupportOrder::add_handed(std::uint32_t body, lanes::RowBody& row) const {
+void SupportGraph::add_propagated(std::uint32_t body, lanes::RowBody& row) const {
   for (const std::uint32_t link : by_body_.at(body))
-    if (upper_[link] != 0 && upper_[link] != body) handed_[link].add_to(row);
+    if (upper_[link] != 0 && upper_[link] != body) propagated_[link].add_to(row);
 }
 
 }  // namespace lockstone

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 #include "core/base/parallel.h"
 #include "core/dynamics/contact/row_geometry.h"
 #include "core/dynamics/islands/body_links.h"
@@ -33,15 +35,19 @@ struct RowPush {
   }
 };
 
-class SupportOrder {
+class SupportGraph {
  public:
   /// No function but this allocates.
-  SupportOrder(std::size_t body_capacity, std::size_t contact_capacity);
+  SupportGraph(std::size_t body_capacity, std::size_t contact_capacity);
 
   void clear() { links_.clear(); }
 
   /// In the order of the records.
-  void add(const SupportLink& link) { links_.push_back(link); }
+  void add(const SupportLink& link) {
+    LKS_ASSERT(link.a != link.b);
+    LKS_ASSERT(links_.empty() || links_.back().record < link.record);
+    links_.push_back(link);
+  }
 
   /// Finds which bodies stand, over others, on something immovable. `carries(link, upper)` tells
   /// whether a link may hold up its upper body.
@@ -72,25 +78,25 @@ class SupportOrder {
   /// theirs.
   template <class Visit>
   void descend(Parallel& parallel, std::span<lanes::RowBody> rows, const Visit& visit) {
-    handed_.assign(links_.size(), {});
+    propagated_.assign(links_.size(), {});
     parallel.run_all(rounds_, [&](std::size_t round, std::uint32_t first, std::uint32_t end,
                                   std::uint32_t worker) {
       for (std::uint32_t i = first; i < end; ++i) {
         const std::uint32_t body = order_[round_begins_[round] + i];
-        add_handed(body, rows[body]);
+        add_propagated(body, rows[body]);
         visit(body, worker);
       }
     });
     for (std::uint32_t body = 1; body < is_held_.size(); ++body)
-      if (is_held_[body] != k_visited) add_handed(body, rows[body]);
+      if (is_held_[body] != k_visited) add_propagated(body, rows[body]);
   }
 
   /// Adds the pushes of a link: to the row of the body being visited, which rests on it by its side
   /// B or A, and later to the one that carries it.
-  void hand_down(std::uint32_t link, bool rests_by_b, const RowPush& to_a, const RowPush& to_b,
+  void propagate(std::uint32_t link, bool rests_by_b, const RowPush& to_a, const RowPush& to_b,
                  lanes::RowBody& row) {
     (rests_by_b ? to_b : to_a).add_to(row);
-    handed_[link] = rests_by_b ? to_a : to_b;
+    propagated_[link] = rests_by_b ? to_a : to_b;
   }
 
   /// Calls `visit(link, number)` for the links that a body rests on.
@@ -107,7 +113,7 @@ class SupportOrder {
 
   void find_uppers(const ContactRun& run);
   void find_order();
-  void add_handed(std::uint32_t body, lanes::RowBody& row) const;
+  void add_propagated(std::uint32_t body, lanes::RowBody& row) const;
   [[nodiscard]] std::uint32_t lower_of(std::uint32_t link) const;
   [[nodiscard]] bool rests(std::uint32_t link) const {
     return upper_[link] != 0 && is_held_[upper_[link]] != 0;
@@ -116,7 +122,7 @@ class SupportOrder {
   std::vector<SupportLink> links_;
   BodyLinks by_body_;
   std::vector<std::uint32_t> upper_;    // by link: the body that rests on the other; 0: none
-  std::vector<RowPush> handed_;         // by link: to the other
+  std::vector<RowPush> propagated_;     // by link: to the other
   std::vector<std::uint8_t> is_held_;   // by body: stands, over others, on something immovable
   std::vector<std::uint32_t> carried_;  // by body: contacts that others rest on it by
   std::vector<std::uint32_t> order_;    // bodies, round by round

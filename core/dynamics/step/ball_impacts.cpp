@@ -1,19 +1,17 @@
-// Impacts of balls with restitution that the solver keeps, because of joints or of other contacts.
-// They follow one after the other within the substep, so that a push passes along a row of balls.
-// The normal of a ball's impact does not depend on how the ball turns.
+#include "core/dynamics/step/ball_impacts.h"
+
+#include <algorithm>
 
 #include "core/dynamics/impact/impact_response.h"
-#include "core/dynamics/step/contact_solver.h"
 #include "core/math/product_sum.h"
 
 namespace lockstone {
 namespace {
 
-using lanes::k_block_lanes;
 using lanes::RowBody;
 
-// A push passes so far in a substep.
-constexpr int k_sweeps = 32;
+// A push passes so many contacts in a substep.
+constexpr int k_passes = 32;
 
 // Slower ones do not bounce, m/s, Q50: gravity gives no more in a tick at any usual rate.
 constexpr std::int64_t k_least_impact = std::int64_t{1} << 48;
@@ -37,96 +35,106 @@ std::int64_t along(const std::array<std::int64_t, 3>& a, const std::array<std::i
 
 }  // namespace
 
-// Contacts of balls, in the order of the records, of islands in which anything comes in fast.
-void ContactSolver::find_impacts(const ContactScene& scene) {
+BallImpacts::BallImpacts(const TimeStep& step, std::size_t contact_capacity, const Parts& parts)
+    : step_(step), parts_(parts) {
+  impacts_.reserve(contact_capacity);
+}
+
+void BallImpacts::find(const ContactScene& scene) {
   impacts_.clear();
-  if (!bounces_) return;
+  if (!parts_.constraints.has_restitution()) return;
   scene_ = scene;
-  const auto approach = [this](std::size_t i) {
-    const std::size_t slot = slot_of(i);
-    return std::int64_t{approaches_[slot / k_block_lanes].fastest(slot % k_block_lanes)} *
+  const ConstraintLayout& layout = parts_.constraints.layout();
+  const auto approach = [&](ContactId id) {
+    return std::int64_t{parts_.constraints.approach_of(layout.lane_of(id))} *
            (std::int64_t{1} << (50 - SolverVelocity::frac_bits));
   };
-  for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (approach(i) > k_least_impact) island_of(i).is_struck = true;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const ContactRecord& record = scene.records[entries_[i].record];
+  parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
+    if (approach(id) > k_least_impact) parts_.islands.load(contact).is_struck = true;
+  });
+  parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
+    const ContactRecord& record = scene.records[contact.record];
     const BodyRecord &a = scene.bodies[record.body_a], &b = scene.bodies[record.body_b];
     const bool are_balls = (a.is_ball() || !a.is_dynamic()) && (b.is_ball() || !b.is_dynamic());
-    if (are_balls && scene.surfaces[entries_[i].slot].restitution > Coefficient{} &&
-        scene.manifolds[entries_[i].slot].count == 1 && island_of(i).is_struck)
-      impacts_.push_back(static_cast<std::uint32_t>(i));
-  }
+    if (are_balls && scene.surfaces[contact.manifold].restitution > Coefficient{} &&
+        scene.manifolds[contact.manifold].count == 1 && parts_.islands.load(contact).is_struck)
+      impacts_.push_back(id);
+  });
 }
 
 // Whether they come together fast, within a substep.
-bool ContactSolver::meets(const Entry& entry) const {
-  const Manifold& manifold = scene_.manifolds[entry.slot];
-  const std::size_t a = row_of(entry.body_a), b = row_of(entry.body_b);
-  const std::int64_t speed = along(rows_[a].velocity, rows_[b].velocity, manifold.normal);
+bool BallImpacts::meets(const ContactRef& contact) const {
+  const Manifold& manifold = scene_.manifolds[contact.manifold];
+  LKS_ASSERT(manifold.count == 1);
+  const std::span<const RowBody> rows = parts_.bodies.rows();
+  const std::span<const lanes::DeltaPose> travel = parts_.bodies.travel();
+  const std::size_t a = parts_.bodies.row_of(contact.a), b = parts_.bodies.row_of(contact.b);
+  const std::int64_t speed = along(rows[a].velocity, rows[b].velocity, manifold.normal);
   if (speed > -k_least_impact) return false;
   const std::int64_t parted =
-      along(travel_[a].velocity, travel_[b].velocity, manifold.normal);  // m/s of substeps, Q32
+      along(travel[a].velocity, travel[b].velocity, manifold.normal);  // m/s of substeps, Q32
   const std::int64_t separation = std::int64_t{manifold.points[0].separation.raw}
                                   << (32 - Displacement::frac_bits);
   const std::int64_t closing = step_.substep.times(parted + (speed >> k_row_bits_more));
   return separation + closing < 0;
 }
 
-void ContactSolver::push_by_impact(std::uint32_t index, const BodyRecord& before,
-                                   const BodyRecord& after) {
-  if ((index & k_immovable) != 0 || !bodies_[index].is_pushed()) return;
+// Adds the change of a body's motion to its rows.
+void BallImpacts::push(BodyRef body, const BodyRecord& before, const BodyRecord& after) {
+  const std::uint32_t number = parts_.bodies.pushed_number(body);
+  if (number == 0) return;
   const auto add = [](std::int64_t& row, Velocity by) {
     const std::int64_t change = std::clamp(by.raw, -k_most_change, k_most_change);
     row = std::clamp(row, -k_most_row, k_most_row) + (change << k_row_bits_more);
   };
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    for (RowBody* row : {&rows_[index], &before_[index]}) {
+    for (RowBody* row : {&parts_.bodies.rows()[number], &parts_.bodies.before()[number]}) {
       add(row->velocity[axis], after.velocity[i] - before.velocity[i]);
       add(row->spin[axis], after.spin[i] - before.spin[i]);
     }
   }
-  hold(index);
+  parts_.bodies.hold(number);
 }
 
-void ContactSolver::answer(std::uint32_t index) {
-  const Entry& entry = entries_[index];
-  const ContactRecord& record = scene_.records[entry.record];
-  const ContactSurface& surface = scene_.surfaces[entry.slot];
-  const auto body_of = [&](std::uint32_t number, std::uint32_t body) {
-    BodyRecord copy = scene_.bodies[body];
-    if ((number & k_immovable) != 0 || !bodies_[number].is_pushed()) return copy;
-    for (int i = 0; i < 3; ++i) {
-      const auto axis = static_cast<std::size_t>(i);
-      copy.velocity[i].raw = rows_[number].velocity[axis] >> k_row_bits_more;
-      copy.spin[i].raw = rows_[number].spin[axis] >> k_row_bits_more;
-    }
-    return copy;
-  };
-  const BodyRecord a = body_of(entry.body_a, record.body_a);
-  const BodyRecord b = body_of(entry.body_b, record.body_b);
+// A body's record with the motion that it has now.
+BodyRecord BallImpacts::body_now(BodyRef ref, std::uint32_t body) const {
+  BodyRecord copy = scene_.bodies[body];
+  const std::uint32_t number = parts_.bodies.pushed_number(ref);
+  if (number == 0) return copy;
+  const RowBody& row = parts_.bodies.rows()[number];
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    copy.velocity[i].raw = row.velocity[axis] >> k_row_bits_more;
+    copy.spin[i].raw = row.spin[axis] >> k_row_bits_more;
+  }
+  return copy;
+}
+
+void BallImpacts::respond(ContactId id) {
+  const ContactRef& contact = parts_.contacts[id];
+  const ContactRecord& record = scene_.records[contact.record];
+  const ContactSurface& surface = scene_.surfaces[contact.manifold];
+  const BodyRecord a = body_now(contact.a, record.body_a);
+  const BodyRecord b = body_now(contact.b, record.body_b);
   BodyRecord after_a = a, after_b = b;
-  const auto inertia_of = [&](const BodyRecord& body, std::uint32_t index_of_body) {
-    return inverse_inertia(body, scene_.rotations[index_of_body]);
-  };
-  const InverseInertia inertia_a = inertia_of(a, record.body_a);
-  const InverseInertia inertia_b = inertia_of(b, record.body_b);
-  answer_impact({after_a, inertia_a}, {after_b, inertia_b},
-                {scene_.manifolds[entry.slot], surface.friction, surface.restitution, Velocity{}});
-  push_by_impact(entry.body_a, a, after_a);
-  push_by_impact(entry.body_b, b, after_b);
-  const std::size_t slot = slot_of(index);
-  restitution_[slot / k_block_lanes][slot % k_block_lanes] = 0;  // it has bounced in this tick
+  const InverseInertia inertia_a = inverse_inertia(a, scene_.rotations[record.body_a]);
+  const InverseInertia inertia_b = inverse_inertia(b, scene_.rotations[record.body_b]);
+  answer_impact(
+      {after_a, inertia_a}, {after_b, inertia_b},
+      {scene_.manifolds[contact.manifold], surface.friction, surface.restitution, Velocity{}});
+  push(contact.a, a, after_a);
+  push(contact.b, b, after_b);
+  parts_.constraints.forget_restitution(parts_.constraints.layout().lane_of(id));
 }
 
-void ContactSolver::run_impacts() {
+void BallImpacts::run() {
   bool any = true;
-  for (int i = 0; i < k_sweeps && any; ++i) {
+  for (int i = 0; i < k_passes && any; ++i) {
     any = false;
-    for (const std::uint32_t index : impacts_) {
-      if (!meets(entries_[index])) continue;
-      answer(index);
+    for (const ContactId id : impacts_) {
+      if (!meets(parts_.contacts[id])) continue;
+      respond(id);
       any = true;
     }
   }

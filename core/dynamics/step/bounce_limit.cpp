@@ -1,11 +1,8 @@
-// Restitution says how fast points part, whatever friction and turning make of the way there, and
-// so may give bodies more than they had (T. R. Kane, "A dynamics puzzle", 1984). Here bounces of an
-// island are scaled down until its energy at the tick's end is no more than gravity and forces
-// account for.
+#include "core/dynamics/step/bounce_limit.h"
 
+#include "core/base/reserved.h"
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/body/motion.h"
-#include "core/dynamics/step/contact_solver.h"
 #include "core/math/product_sum.h"
 
 namespace lockstone {
@@ -23,108 +20,102 @@ InverseInertia inertia_now(const BodyRecord& body) {
 
 }  // namespace
 
-// Marks islands that restitution, and those that moving surfaces and drives, may give energy.
-void ContactSolver::find_fed_islands(const ContactScene& scene) {
-  const auto moves = [&](std::uint32_t index) {
-    const BodyRecord& body = scene.bodies[index];
-    return !body.is_dynamic() &&
-           (body.velocity != Vec3<Velocity>{} || body.spin != Vec3<Velocity>{});
-  };
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const ContactRecord& record = scene.records[entries_[i].record];
-    const ContactSurface& surface = scene.surfaces[entries_[i].slot];
-    if (surface.restitution != Coefficient{}) island_of(i).may_bounce = true;
-    if (moves(record.body_a) || moves(record.body_b) || surface.twist_drive != Rate{} ||
-        surface.drive != Vec3<SolverVelocity>{})
-      island_of(i).is_fed = true;
-  }
-  for (const JointLink& link : scene.joint_links) {
-    const auto& axes = scene.joints[link.joint].axes;
-    const bool is_fed = std::ranges::any_of(axes, &JointAxisRecord::is_driven) ||
-                        moves(link.body_a) || moves(link.body_b);
-    for (const std::uint32_t body : {link.body_a, link.body_b}) {
-      if (!scene.bodies[body].is_dynamic()) continue;
-      IslandLoad& load = islands_.load(islands_.of(solver_index_[body]));
-      load.has_joints = true;
-      load.is_fed = load.is_fed || is_fed;
-    }
-  }
+BounceLimit::BounceLimit(const TimeStep& step, std::size_t body_capacity,
+                         std::size_t number_capacity, SolverBodies& bodies,
+                         const IslandBuilder& islands)
+    : step_(step), bodies_(bodies), islands_(islands) {
+  gained_.reserve(number_capacity);
+  gains_.reserve(body_capacity + 1);
 }
 
-void ContactSolver::keep_speeds(std::size_t first, std::size_t end) {
+void BounceLimit::reserve() {
+  LKS_ASSERT(is_reserved(gained_, bodies_.count()));
+  if (gained_.size() < bodies_.count()) gained_.resize(bodies_.count());
+}
+
+void BounceLimit::keep_speeds(std::size_t first, std::size_t end) {
+  LKS_ASSERT(end <= gained_.size());
   for (std::size_t i = first; i < end; ++i) {
-    before_[i] = rows_[i];
+    bodies_.before()[i] = bodies_.rows()[i];
     gained_[i] = 0;
   }
 }
 
-// Once a body has moved: its gain of energy, less the work of gravity and forces on its way.
-void ContactSolver::note_gain(std::size_t index, const BodyRecord& body, const BodyRecord& start) {
+void BounceLimit::note_gain(std::uint32_t number, const BodyRecord& body, const BodyRecord& start) {
+  const SolverBody& constants = bodies_.constants()[number];
   ProductSum work;  // twice of each mass, by half a substep's rate
   for (int i = 0; i < 3; ++i)
-    work.add(bodies_[index].gain[static_cast<std::size_t>(i)],
+    work.add(constants.gain[static_cast<std::size_t>(i)],
              (body.position[i].raw - start.position[i].raw) * step_.substep_rate());
-  gained_[index] = twice_energy(body, inertia_now(body)) -
-                   twice_energy(start, bodies_[index].inverse_inertia) - work.rounded(31);
+  gained_[number] = twice_energy(body, inertia_now(body)) -
+                    twice_energy(start, constants.inverse_inertia) - work.rounded(31);
 }
 
-// Velocity and spin before the bounces, and the gains that bounces gave.
-ContactSolver::Bounce ContactSolver::bounce_of(std::size_t index, const BodyRecord& body) const {
+BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecord& body) const {
   const auto read = [](const auto& v) {
     const auto part = [](std::int64_t x) {
       return Velocity::from_raw(x >> (lanes::k_velocity_bits - lanes::k_grid_bits));
     };
     return Vec3<Velocity>{part(v[0]), part(v[1]), part(v[2])};
   };
-  const Vec3<Velocity> velocity = read(before_[index].velocity), spin = read(before_[index].spin);
+  const lanes::RowBody& before = bodies_.before()[number];
+  const Vec3<Velocity> velocity = read(before.velocity), spin = read(before.spin);
   return {velocity, spin, body.velocity - velocity, body.spin - spin};
+}
+
+// Masses count as parts of that of the island's first body.
+void BounceLimit::add(std::uint32_t number, const IslandGain& gain, std::int64_t each,
+                      std::int64_t& sum) const {
+  const BlockFloat mass = quotient(gain.unit, bodies_.constants()[number].inverse_mass);
+  sum = raw::saturating_add(sum, scale_saturating(each, mass, 0));
+}
+
+template <class Visit>
+void BounceLimit::for_gaining(const Visit& visit) {
+  for (std::uint32_t i = 1; i < bodies_.count(); ++i) {
+    const std::uint32_t island = islands_.all().of(i);
+    if (island != 0 && gains_[island].gained > 0) visit(i, gains_[island]);
+  }
+}
+
+void BounceLimit::sum_gains() {
+  gains_.assign(islands_.count(), {});
+  for (std::uint32_t i = 1; i < bodies_.count(); ++i) {
+    const std::uint32_t island = islands_.all().of(i);
+    const IslandLoad& load = islands_.load(island);
+    const SolverBody& constants = bodies_.constants()[i];
+    if (!load.may_bounce || load.is_fed || !constants.is_pushed()) continue;
+    IslandGain& gain = gains_[island];
+    if (gain.unit == BlockFloat{}) gain.unit = constants.inverse_mass;
+    add(i, gain, gained_[i], gain.gained);
+  }
 }
 
 // The greatest share s of its bounces with which an island gains nothing; their own gain of energy
 // is s²·square + s·linear.
-std::int32_t ContactSolver::share_of_bounces(const IslandGain& gain) {
-  const std::int64_t allowed =
-      raw::saturating_add(raw::saturating_add(gain.square, gain.linear), -gain.gained);
-  return greatest_share(gain.square, gain.linear, allowed);
-}
-
-template <class Visit>
-void ContactSolver::for_gaining(const Visit& visit) {
-  for (std::uint32_t i = 1; i < members_.size(); ++i) {
-    IslandGain& gain = gains_[islands_.of(i)];
-    if (islands_.of(i) != 0 && gain.gained > 0) visit(i, gain);
-  }
-}
-
-// Masses count as parts of that of the island's first body.
-void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_limit) {
-  if (!bounces_) return;
-  gains_.assign(islands_.count(), {});
-  const auto add = [this](std::uint32_t i, const IslandGain& gain, std::int64_t& sum,
-                          std::int64_t each) {
-    const BlockFloat mass = quotient(gain.unit, bodies_[i].inverse_mass);
-    sum = raw::saturating_add(sum, scale_saturating(each, mass, 0));
-  };
-  for (std::uint32_t i = 1; i < members_.size(); ++i) {
-    IslandGain& gain = gains_[islands_.of(i)];
-    const IslandLoad& load = islands_.load(islands_.of(i));
-    if (!load.may_bounce || load.is_fed || !bodies_[i].is_pushed()) continue;
-    if (gain.unit == BlockFloat{}) gain.unit = bodies_[i].inverse_mass;
-    add(i, gain, gain.gained, gained_[i]);
-  }
+void BounceLimit::sum_bounces(std::span<const BodyRecord> bodies) {
   for_gaining([&](std::uint32_t i, IslandGain& gain) {
-    const BodyRecord& body = bodies[members_[i]];
+    const BodyRecord& body = bodies[bodies_.side(i).body()];
     const Bounce bounce = bounce_of(i, body);
     const Vec3<Velocity> gained = surface_velocity(inertia_now(body), bounce.spin_gain);
-    add(i, gain, gain.square,
-        energy_product(bounce.velocity_gain, bounce.velocity_gain, bounce.spin_gain, gained));
-    add(i, gain, gain.linear,
-        2 * energy_product(bounce.velocity, bounce.velocity_gain, bounce.spin, gained));
+    add(i, gain,
+        energy_product(bounce.velocity_gain, bounce.velocity_gain, bounce.spin_gain, gained),
+        gain.square);
+    add(i, gain, 2 * energy_product(bounce.velocity, bounce.velocity_gain, bounce.spin, gained),
+        gain.linear);
   });
-  for (IslandGain& gain : gains_)
-    if (gain.gained > 0) gain.share = share_of_bounces(gain);
+  for (IslandGain& gain : gains_) {
+    if (gain.gained <= 0) continue;
+    const std::int64_t allowed =
+        raw::saturating_add(raw::saturating_add(gain.square, gain.linear), -gain.gained);
+    gain.share = greatest_share(gain.square, gain.linear, allowed);
+    LKS_ASSERT(gain.share >= 0 && gain.share <= 1 << k_share_bits);
+  }
+}
+
+void BounceLimit::scale(std::span<BodyRecord> bodies, Velocity speed_limit) {
   for_gaining([&](std::uint32_t i, const IslandGain& gain) {
-    BodyRecord& body = bodies[members_[i]];
+    BodyRecord& body = bodies[bodies_.side(i).body()];
     const Bounce bounce = bounce_of(i, body);
     for (int axis = 0; axis < 3; ++axis) {
       const auto part = [&](Velocity v) { return times(v, Unit::from_raw(gain.share)); };
@@ -134,6 +125,12 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
     hold_axes(body);
     (void)limit_speed(body, inertia_now(body), speed_limit);
   });
+}
+
+void BounceLimit::limit(std::span<BodyRecord> bodies, Velocity speed_limit) {
+  sum_gains();
+  sum_bounces(bodies);
+  scale(bodies, speed_limit);
 }
 
 }  // namespace lockstone

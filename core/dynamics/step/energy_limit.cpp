@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/linkage/joint_solver.h"
 
@@ -36,8 +38,8 @@ std::int64_t bounded_row(std::int64_t x) {
 std::int64_t row_energy(const EnergyLimit::Bodies& all, std::uint32_t i) {
   const Vec3<Velocity> velocity = read(all.rows[i].velocity), spin = read(all.rows[i].spin);
   const Vec3<Velocity> surface = surface_velocity(all.bodies[i].inverse_inertia, spin);
-  return energy_product(velocity, velocity, all.joints.own_spin(all.members[i], spin, surface),
-                        surface);
+  return energy_product(velocity, velocity,
+                        all.joints.own_spin(all.numbers.side(i).body(), spin, surface), surface);
 }
 
 }  // namespace
@@ -51,9 +53,9 @@ void EnergyLimit::begin(const Bodies& all) {
   watches_ = false;
   count_ = 0;
   if (!all.joints.has_own()) return;
-  starts_.resize(all.members.size());
+  starts_.resize(all.numbers.count());
   islands_.assign(all.islands.count(), {});
-  for (std::uint32_t i = 1; i < all.members.size(); ++i) {
+  for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
     const IslandLoad& load = all.islands.load(all.islands.of(i));
     if (all.islands.of(i) == 0 || !load.has_joints || load.contacts == 0 || load.is_fed) continue;
     Island& island = islands_[all.islands.of(i)];
@@ -67,7 +69,7 @@ void EnergyLimit::begin(const Bodies& all) {
 
 template <class Visit>
 void EnergyLimit::for_watched(const Bodies& all, const Visit& visit) {
-  for (std::uint32_t i = 1; i < all.members.size(); ++i) {
+  for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
     Island& island = islands_[all.islands.of(i)];
     if (island.unit != BlockFloat{} && all.bodies[i].is_pushed())
       visit(i, island, quotient(island.unit, all.bodies[i].inverse_mass));
@@ -75,6 +77,7 @@ void EnergyLimit::for_watched(const Bodies& all, const Visit& visit) {
 }
 
 void EnergyLimit::note(const Bodies& all) {
+  LKS_ASSERT(watches_);
   for (Island& island : islands_)
     island.first = 0;
   for_watched(all, [&](std::uint32_t i, Island& island, BlockFloat mass) {
@@ -108,6 +111,7 @@ void EnergyLimit::sum(const Bodies& all) {
 // Takes an excess of energy away from all bodies of an island alike.
 void EnergyLimit::take(Island& island, std::int64_t excess) {
   island.share = root_of_share(raw::saturating_add(island.now, -excess), island.now);
+  LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
   ++count_;
 }
 

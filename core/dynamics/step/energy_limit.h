@@ -13,6 +13,7 @@
 
 #include "core/dynamics/body/solver_body.h"
 #include "core/dynamics/islands/tick_islands.h"
+#include "core/dynamics/step/solver_bodies.h"
 #include "core/kernels/contact/contact_rows.h"
 #include "core/math/block_float.h"
 
@@ -25,7 +26,7 @@ class EnergyLimit {
   /// The solver's bodies by their numbers, from 1. `before`: velocities at the substep's beginning,
   /// which change along with those now, so that differences of the two stay.
   struct Bodies {
-    std::span<const std::uint32_t> members;  // the body in the world
+    const SolverBodies& numbers;
     std::span<const SolverBody> bodies;
     std::span<lanes::RowBody> rows, before;
     const TickIslands& islands;

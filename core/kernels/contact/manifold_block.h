@@ -104,7 +104,7 @@ struct alignas(64) ManifoldBlock {
 using ManifoldGeometry = std::array<std::int32_t, 4 + 8 * k_block_points>;
 
 /// The other inputs of a manifold's preparation, in groups of 16 bytes.
-struct alignas(16) ManifoldSource {
+struct alignas(16) PrepareInput {
   std::array<std::int32_t, 3> friction{};  // impulse of the tick before in world axes, m/s, Q20
   std::int32_t twist = 0;                  // m/s, Q20
   // Of points the impulse of the tick before, 0 … k_most_impulse, m/s, Q20; zero beyond the count.
@@ -129,7 +129,7 @@ struct alignas(16) ManifoldSource {
   std::array<std::int32_t, 3> held{};  // by world axis: how much of a push axis locks take, Q30
   std::int32_t is_elastic = 0;         // 1 with restitution
 };
-static_assert(sizeof(ManifoldSource) == 144);
+static_assert(sizeof(PrepareInput) == 144);
 
 /// The inertia of a body for preparation: M = entry · 2^-30 · 2^exponent. The pair gives the
 /// exponent.
@@ -139,10 +139,10 @@ struct alignas(32) SourceBody {
 };
 
 /// The manifolds of a block.
-struct ManifoldSources {
+struct PrepareInputs {
   std::array<std::uint32_t, k_block_lanes> body_a{}, body_b{};  // row_body_offset of the index
   std::array<const std::int32_t*, k_block_lanes> geometry{};    // first words of ManifoldGeometry
-  std::array<ManifoldSource, k_block_lanes> lanes{};
+  std::array<PrepareInput, k_block_lanes> lanes{};
 };
 
 /// How a manifold's points come in: relative normal velocities before the solver, m/s, Q20.
@@ -169,26 +169,26 @@ struct alignas(64) ManifoldApproach {
 
 /// The travel of a body since the tick began, as the sum of its `RowBody` at the end of each
 /// substep: velocity and surface velocity, m/s, Q32.
-struct alignas(64) RowTravel {
+struct alignas(64) DeltaPose {
   std::array<std::int64_t, 3> velocity{};
   std::array<std::int64_t, 3> surface{};
   std::array<std::int64_t, 2> unused{};
 
-  friend bool operator==(const RowTravel&, const RowTravel&) = default;
+  friend bool operator==(const DeltaPose&, const DeltaPose&) = default;
 };
 
 /// Constants of an iteration.
-struct SweepRules {
+struct SolverParams {
   std::int32_t substep_rate = 240;  // 1/s
   std::int32_t push_out = 0;        // overlap goes at most this fast, m/s, Q20
-  std::int32_t skin = 0;            // nearer points count as touching, m, Q24
+  std::int32_t contact_slop = 0;    // nearer points count as touching, m, Q24
   std::int32_t overlap = 0;         // where touching points come to rest, m, Q24
   std::int32_t step_mantissa = 0;   // substep = mantissa · 2^-(24 − 17 + step_shift)
   std::int32_t step_shift = 32;     // 1 … 32
   // Added before rounding to nearest, Q30, −½ … ½: to the limit of friction, and to the components
   // of an impulse that is shortened to it.
-  std::int32_t limit_sway = 0;
-  std::int32_t part_sway = 0;
+  std::int32_t limit_dither = 0;
+  std::int32_t part_dither = 0;
 };
 
 /// The iterations over manifolds, as one target computes them. No body may occur twice in a block,
@@ -197,16 +197,17 @@ struct SweepRules {
 struct ManifoldKernels {
   /// Fills a block. The impulses to start from are added to `warm`, by body; `bodies` tells the
   /// approach.
-  void (*prepare)(const ManifoldSources& sources, const SourceBody* inertias, const RowBody* bodies,
+  void (*prepare)(const PrepareInputs& sources, const SourceBody* inertias, const RowBody* bodies,
                   RowBody* warm, ManifoldBlock& block, ManifoldApproach& approach);
 
   /// An iteration that pushes overlap out, by soft rows: normals only, at the separations that the
   /// last `relax` saw.
-  void (*solve)(RowBody* bodies, ManifoldBlock* blocks, std::size_t count, const SweepRules& rules);
+  void (*solve)(RowBody* bodies, ManifoldBlock* blocks, std::size_t count,
+                const SolverParams& rules);
 
   /// An iteration without bias, with friction. Separations are brought up to date first.
-  void (*relax)(RowBody* bodies, const RowTravel* travel, ManifoldBlock* blocks, std::size_t count,
-                const SweepRules& rules);
+  void (*relax)(RowBody* bodies, const DeltaPose* travel, ManifoldBlock* blocks, std::size_t count,
+                const SolverParams& rules);
 
   /// Points that came in faster than `threshold` (m/s, Q20) and were pushed leave at restitution
   /// (Q30, by lane) times that.

@@ -131,13 +131,13 @@ HWY_INLINE HWY_ATTR SourcePoints load_source_points(const std::int32_t* const* g
 }
 
 /// Where the records of sources lie from a piece on.
-HWY_INLINE HWY_ATTR RecordsAt<const std::int32_t> pieces_of(const ManifoldSource* in) {
+HWY_INLINE HWY_ATTR RecordsAt<const std::int32_t> pieces_of(const PrepareInput* in) {
   static constexpr std::uint32_t k_index[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  return {in->friction.data(), k_index, sizeof(ManifoldSource) / sizeof(std::int32_t)};
+  return {in->friction.data(), k_index, sizeof(PrepareInput) / sizeof(std::int32_t)};
 }
 
 template <bool plain>
-HWY_INLINE HWY_ATTR SourceLanes load_source(const ManifoldSources& in, std::size_t lane,
+HWY_INLINE HWY_ATTR SourceLanes load_source(const PrepareInputs& in, std::size_t lane,
                                             const SourceBody* inertias, Lanes count,
                                             Lanes one_over_count, const SourcePoints& points) {
   const RecordsAt<const std::int32_t> at = pieces_of(&in.lanes[lane]);

@@ -21,7 +21,7 @@ struct PointLanes {
   Lanes x[4], y[4];  // Q30
   Lanes speed[4];    // v of each, operand, Q20
   Lanes bias[4];     // the speed to be added to it, operand, Q20
-  Lanes gap[4];      // the word of separations: above that of `skin` when apart
+  Lanes gap[4];      // the word of separations: above that of `contact_slop` when apart
   Lanes widest;      // the greatest of them
   Lanes rest[4];     // (1 − κ)·load, Q50; 0: no point
   Lanes start[4];    // P at the beginning, clean
@@ -29,8 +29,8 @@ struct PointLanes {
 };
 
 /// The greatest word of a separation that counts as touching; its upper half decides.
-HWY_INLINE HWY_ATTR Lanes touching_word(const SweepRules& rules) {
-  return broadcast((std::int64_t{rules.skin} << 32) | 0xffffffff);
+HWY_INLINE HWY_ATTR Lanes touching_word(const SolverParams& rules) {
+  return broadcast((std::int64_t{rules.contact_slop} << 32) | 0xffffffff);
 }
 
 /// How fast points go apart at their offsets.
@@ -62,7 +62,7 @@ HWY_INLINE HWY_ATTR void load_points(const ManifoldBlock& block, std::size_t lan
 
 /// Whether any point of any lane is apart.
 HWY_INLINE HWY_ATTR bool find_gaps(const ManifoldBlock& block, std::size_t lane,
-                                   const SweepRules& rules, PointLanes& points) {
+                                   const SolverParams& rules, PointLanes& points) {
   for (std::size_t i = 0; i < 4; ++i)
     points.gap[i] = load(&block.points[i].separation[lane]);
   points.widest = max(max(points.gap[0], points.gap[1]), max(points.gap[2], points.gap[3]));
@@ -73,7 +73,7 @@ HWY_INLINE HWY_ATTR bool find_gaps(const ManifoldBlock& block, std::size_t lane,
 /// else, when `soft`, the spring pulls towards its rest, at most at the speed of pushing out.
 template <bool soft, bool apart>
 HWY_INLINE HWY_ATTR void load_biases(const ManifoldBlock& block, std::size_t lane,
-                                     const SweepRules& rules, PointLanes& points) {
+                                     const SolverParams& rules, PointLanes& points) {
   constexpr std::int64_t k_fastest = std::int64_t{1} << 34;  // 1024 m/s, Q24
   for (std::size_t i = 0; i < 4; ++i) {
     const Lanes now = load_upper(&block.points[i].separation[lane]);
@@ -199,7 +199,7 @@ HWY_INLINE HWY_ATTR void solve_rows(const ManifoldBlock& block, std::size_t lane
 /// Most blocks have no point that is apart, and skip the work for such points.
 template <bool soft, bool apart>
 HWY_INLINE HWY_ATTR void solve_biased(const ManifoldBlock& block, std::size_t lane,
-                                      const EachShift& by, const SweepRules& rules,
+                                      const EachShift& by, const SolverParams& rules,
                                       PointLanes& points) {
   load_biases<soft, apart>(block, lane, rules, points);
   if constexpr (soft) {
@@ -212,7 +212,7 @@ HWY_INLINE HWY_ATTR void solve_biased(const ManifoldBlock& block, std::size_t la
 
 template <bool soft>
 HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane, const Axes& axes,
-                                          const CenterMotion& motion, const SweepRules& rules,
+                                          const CenterMotion& motion, const SolverParams& rules,
                                           Ahead& ahead, PointLanes& points) {
   constexpr std::size_t lines = soft ? k_normal_lines : k_friction_lines;
   load_points(block, lane, axes, motion, points);
@@ -229,7 +229,7 @@ HWY_INLINE HWY_ATTR Impulse solve_normals(ManifoldBlock& block, std::size_t lane
 
 template <bool plain>
 HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
-                                     const SweepRules& rules, Ahead& ahead) {
+                                     const SolverParams& rules, Ahead& ahead) {
   BodyPair bodies{};
   bodies.load_from(words, block, lane);
   ahead.ask(k_normal_lines);
@@ -244,7 +244,7 @@ HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std
 }
 
 HWY_ATTR inline void solve_manifolds(RowBody* bodies, ManifoldBlock* blocks, std::size_t count,
-                                     const SweepRules& rules) {
+                                     const SolverParams& rules) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
     const ManifoldBlock& next = block_at(blocks, i + 1, count);

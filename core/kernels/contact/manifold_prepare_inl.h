@@ -182,7 +182,7 @@ struct Quotients {
   Lanes rolling[3];   // tt, bb, tb, Q24; 0 where rolling is not resisted
 };
 
-HWY_INLINE HWY_ATTR void find_rolling_mass(const ManifoldSource* in, const CenterResponse& k,
+HWY_INLINE HWY_ATTR void find_rolling_mass(const PrepareInput* in, const CenterResponse& k,
                                            Lanes (&mass)[3]) {
   bool any = false;
   for (std::size_t lane = 0; lane < k_lanes; ++lane)
@@ -211,7 +211,7 @@ struct Divisors {
 };
 
 /// Puts the quotients, rounded down, in the place of their divisors, lane by lane.
-HWY_INLINE HWY_ATTR void divide_each(const ManifoldSource* in, Divisors& d) {
+HWY_INLINE HWY_ATTR void divide_each(const PrepareInput* in, Divisors& d) {
   std::int64_t words[5][k_lanes];
   for (std::size_t i = 0; i < 5; ++i)
     store(d.of[i], words[i]);
@@ -252,7 +252,7 @@ HWY_INLINE HWY_ATTR Lanes quotient_of(Lanes d, Lanes shift, Lanes power) {
 }
 
 /// As `divide_each`, side by side where there are lanes enough and divisors as they should be.
-HWY_INLINE HWY_ATTR void divide(const ManifoldSource* in, Lanes shift, Divisors& d) {
+HWY_INLINE HWY_ATTR void divide(const PrepareInput* in, Lanes shift, Divisors& d) {
   const Lanes one = power_of_two(shift);
   Lanes least = d.of[0], most = d.of[0];
   for (std::size_t i = 1; i < 5; ++i) {
@@ -267,7 +267,7 @@ HWY_INLINE HWY_ATTR void divide(const ManifoldSource* in, Lanes shift, Divisors&
 
 /// Radius and twist lane by lane: words go to memory once and come back once.
 template <bool plain>
-HWY_INLINE HWY_ATTR Quotients find_quotients(const ManifoldSource* in, Lanes count,
+HWY_INLINE HWY_ATTR Quotients find_quotients(const PrepareInput* in, Lanes count,
                                              const EachShift& by, const CenterResponse& k,
                                              const Offsets& at, const Lanes (&of)[4][4]) {
   std::int64_t words[2][k_lanes];
@@ -350,7 +350,7 @@ HWY_INLINE HWY_ATTR void store_friction_of(const SourceLanes& in, std::size_t la
 }
 
 /// As `is_empty`, before the block is filled.
-HWY_INLINE HWY_ATTR bool is_empty(const ManifoldSources& in, std::size_t lane) {
+HWY_INLINE HWY_ATTR bool is_empty(const PrepareInputs& in, std::size_t lane) {
   if constexpr (k_lanes == k_block_lanes) return false;
   std::int32_t used = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
@@ -358,7 +358,7 @@ HWY_INLINE HWY_ATTR bool is_empty(const ManifoldSources& in, std::size_t lane) {
   return used == 0;
 }
 
-HWY_INLINE HWY_ATTR bool are_plain(const ManifoldSources& in, std::size_t lane) {
+HWY_INLINE HWY_ATTR bool are_plain(const PrepareInputs& in, std::size_t lane) {
   if constexpr (!k_tells_plain) return false;
   std::int32_t kinds = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
@@ -372,7 +372,7 @@ HWY_INLINE HWY_ATTR void leave_empty(std::size_t lane, ManifoldBlock& block,
   store(broadcast(0), &approach.summary[lane]);
 }
 
-HWY_INLINE HWY_ATTR bool are_elastic(const ManifoldSources& in, std::size_t lane) {
+HWY_INLINE HWY_ATTR bool are_elastic(const PrepareInputs& in, std::size_t lane) {
   std::int32_t elastic = 0;
   for (std::size_t i = lane; i < lane + k_lanes; ++i)
     elastic |= in.lanes[i].is_elastic;
@@ -412,7 +412,7 @@ HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides<pl
 }
 
 template <bool plain>
-HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t lane,
+HWY_INLINE HWY_ATTR void prepare_lanes(const PrepareInputs& in, std::size_t lane,
                                        const SourceBody* inertias, const std::int64_t* words,
                                        std::int64_t* warm, ManifoldBlock& block,
                                        ManifoldApproach& approach) {
@@ -453,7 +453,7 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const ManifoldSources& in, std::size_t la
   store_friction_of<plain>(source, lane, axes, tangents, response, quotients, block);
 }
 
-HWY_ATTR inline void prepare_manifolds(const ManifoldSources& in, const SourceBody* inertias,
+HWY_ATTR inline void prepare_manifolds(const PrepareInputs& in, const SourceBody* inertias,
                                        const RowBody* bodies, RowBody* warm, ManifoldBlock& block,
                                        ManifoldApproach& approach) {
   block.body_a = in.body_a;

@@ -22,7 +22,7 @@ HWY_INLINE HWY_ATTR Vector surface_travel(const BodyLanes& went) {
 
 /// s = s₀ + h·(sum of the points' speeds apart): the Jacobian of velocities, applied to travel.
 HWY_INLINE HWY_ATTR void move_separations(ManifoldBlock& block, std::size_t lane, const Axes& axes,
-                                          const std::int64_t* travel, const SweepRules& rules) {
+                                          const std::int64_t* travel, const SolverParams& rules) {
   BodyPair went{};
   went.load_from(travel, block, lane);
   const Vector apart = {subtract(went.b.velocity[0], went.a.velocity[0]),
@@ -58,7 +58,7 @@ struct FrictionLanes {
 
 /// Shortens friction that exceeds its limit to the limit. Few lanes do, so that one at a time is
 /// fast enough; only lanes whose limit is 0 are cleared together.
-HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, FrictionLanes& f) {
+HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SolverParams& rules, FrictionLanes& f) {
   const Lanes none = broadcast(0);
   f = {select_equal(limit, none, none, f.t), select_equal(limit, none, none, f.b),
        select_equal(limit, none, none, f.twist)};
@@ -72,7 +72,7 @@ HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, Fr
   store(f.twist, about_n);
   for (std::uint32_t left = beyond; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    shorten_friction(limits[lane], rules.part_sway, along_t[lane], along_b[lane], about_n[lane]);
+    shorten_friction(limits[lane], rules.part_dither, along_t[lane], along_b[lane], about_n[lane]);
   }
   f = {load(along_t), load(along_b), load(about_n)};
 }
@@ -81,7 +81,7 @@ HWY_INLINE HWY_ATTR void limit_friction(Lanes limit, const SweepRules& rules, Fr
 template <bool plain>
 HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, const Axes& axes,
                                         const CenterMotion& motion, const PointLanes& points,
-                                        const SweepRules& rules, Impulse& p) {
+                                        const SolverParams& rules, Impulse& p) {
   const Lanes x = subtract(broadcast(0), p.about_b);
   const Vector given = {p.n, x, p.about_t};
   const Vector coupling = load_vector(block.coupling, lane);
@@ -118,7 +118,7 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
   const Lanes pushed = sum_of_pushes(points);
   const Lanes coefficient = upper(load(&block.share[lane]));
   const Lanes most = min(multiply(coefficient, pushed), broadcast(std::int64_t{1} << 60));
-  limit_friction(round_shift_positive<30>(add(most, broadcast(rules.limit_sway)), 1 << 30), rules,
+  limit_friction(round_shift_positive<30>(add(most, broadcast(rules.limit_dither)), 1 << 30), rules,
                  f);
   p.t = subtract(f.t, friction);
   p.b = subtract(f.b, upper(friction));
@@ -130,7 +130,7 @@ HWY_INLINE HWY_ATTR void solve_friction(ManifoldBlock& block, std::size_t lane, 
 /// Turning about the tangents, against a torque of at most the rolling limit times ΣP. A pass of
 /// its own, for few ask for it.
 HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, const Axes& axes,
-                                        const PointLanes& points, const SweepRules& rules,
+                                        const PointLanes& points, const SolverParams& rules,
                                         BodyPair& bodies) {
   const Lanes none = broadcast(0);
   const Lanes factor = upper_part(load(&block.turn[lane]));
@@ -157,7 +157,7 @@ HWY_INLINE HWY_ATTR void resist_rolling(ManifoldBlock& block, std::size_t lane, 
 
 template <bool plain>
 HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std::int64_t* words,
-                                     const std::int64_t* travel, const SweepRules& rules,
+                                     const std::int64_t* travel, const SolverParams& rules,
                                      Ahead& ahead) {
   BodyPair bodies{};
   bodies.load_from(words, block, lane);
@@ -177,9 +177,9 @@ HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std
   bodies.store_to(words, block, lane);
 }
 
-HWY_ATTR inline void relax_manifolds(RowBody* bodies, const RowTravel* travel,
+HWY_ATTR inline void relax_manifolds(RowBody* bodies, const DeltaPose* travel,
                                      ManifoldBlock* blocks, std::size_t count,
-                                     const SweepRules& rules) {
+                                     const SolverParams& rules) {
   std::int64_t* words = bodies->velocity.data();
   const std::int64_t* way = travel->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {

@@ -4,7 +4,7 @@
 // then two of friction, then the twist; lanes without a row are 0. A body's six unknowns lie in
 // lanes 0 … 5 of a word, and so do the rows of a 6 × 6 block of the matrix. Quantities of a phase
 // are integers in its own units, within ±k_most_unit, so that a row's sums of products fit in 64
-// bits. The method: core/dynamics/direct/proximal_solver.h.
+// bits. The method: core/dynamics/direct/phase_solver.h.
 #pragma once
 
 #include <array>

@@ -37,7 +37,7 @@ class BodyCache {
   /// At the contact pose, by body index.
   [[nodiscard]] const std::vector<Mat3>& contact_rotations() const { return contact_rotations_; }
   /// From the contact pose.
-  [[nodiscard]] const ContactDrift& drift(std::uint32_t body) const { return drifts_[body]; }
+  [[nodiscard]] const PoseDelta& drift(std::uint32_t body) const { return drifts_[body]; }
   /// Another number whenever the contact pose is another.
   [[nodiscard]] std::uint32_t contact_pose_number(std::uint32_t body) const {
     return contact_pose_numbers_[body];
@@ -63,7 +63,7 @@ class BodyCache {
   std::vector<const Asset*> assets_;
   std::vector<Mat3> rotations_;
   std::vector<Mat3> contact_rotations_;
-  std::vector<ContactDrift> drifts_;
+  std::vector<PoseDelta> drifts_;
   std::vector<std::uint32_t> contact_pose_numbers_;
   std::vector<ShapeFrame> frames_;  // kept where an asset is
   std::vector<Length> inner_radii_;

@@ -168,7 +168,7 @@ void PairCollider::fill(std::uint32_t id, const ContactKey& key, const Surface* 
 
 void PairCollider::shift_by_drift(const Pair& pair, Manifold& manifold) const {
   if (!is_found_at_contact_poses(world_, pair)) return;
-  const ContactDrift &a = world_.cache.drift(pair.a), &b = world_.cache.drift(pair.b);
+  const PoseDelta &a = world_.cache.drift(pair.a), &b = world_.cache.drift(pair.b);
   if (!a.is_none() || !b.is_none()) shift_separations(a, b, manifold);
 }
 

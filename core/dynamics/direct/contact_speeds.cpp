@@ -1,18 +1,38 @@
-// The speeds of a contact's rows as the tick begins, and those that moving surfaces give them.
+#include "core/dynamics/direct/contact_speeds.h"
+
+#include <lockstone/assert.h>
 
 #include "core/dynamics/contact/block_words.h"
-#include "core/dynamics/direct/proximal_solver.h"
 #include "core/dynamics/problem/proximal_words.h"
 
 namespace lockstone {
+namespace {
 
 using namespace proximal;
 using lanes::ManifoldBlock;
 using lanes::RowBody;
 
-// Moving surfaces add to the speeds of friction: the drive is a mean of the tick's substeps.
-void ProximalSolver::set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
-                                Problem& problem) {
+// Velocity and spin of A and B, Q50.
+struct Motion {
+  RawVec3 along{}, spin_a{}, spin_b{};
+};
+
+std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
+                         const RawVec3& response_b, const Motion& motion) {
+  ProductSum sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (linear != nullptr) sum.add((*linear)[k], motion.along[k]);
+    sum.add(response_b[k], motion.spin_b[k]);
+    sum.subtract(response_a[k], motion.spin_a[k]);
+  }
+  return sum.rounded(30);
+}
+
+}  // namespace
+
+void set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
+                lanes::ProximalBlock& problem) {
+  LKS_ASSERT(substeps >= 1 && contact.points <= contact.rows);
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
   if (block.is_plain(lane)) return;
@@ -35,25 +55,8 @@ void ProximalSolver::set_drives(const ContactRun& run, int substeps, ProximalCon
   }
 }
 
-// Velocity and spin of A and B, Q50.
-struct ProximalSolver::Motion {
-  RawVec3 along{}, spin_a{}, spin_b{};
-};
-
-std::int64_t ProximalSolver::speed_along(const RawVec3* linear, const RawVec3& response_a,
-                                         const RawVec3& response_b, const Motion& motion) {
-  ProductSum sum;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (linear != nullptr) sum.add((*linear)[k], motion.along[k]);
-    sum.add(response_b[k], motion.spin_b[k]);
-    sum.subtract(response_a[k], motion.spin_a[k]);
-  }
-  return sum.rounded(30);
-}
-
-// Speeds of all rows as the tick begins, and once gravity and forces have acted.
-void ProximalSolver::measure(const ContactRun& run, const PreparedRows& prepared,
-                             const ProximalContact& contact, Problem& problem) {
+void measure_speeds(const ContactRun& run, const PreparedRows& prepared,
+                    const ProximalContact& contact, lanes::ProximalBlock& problem) {
   Motion start, gained;
   const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
                             RawVec3& gained_spin, std::int64_t sign) {

@@ -1,21 +1,19 @@
-// The joints among an island's contacts. Locks are rows that may pull, limits are rows that push;
-// both are read again in each phase, where the joint solver has them. Their impulses go to the
-// joint solver, which repeats those of locks in the next substep, and a phase finds their changes.
-// Springs and motors act in between, one by one; then the joint solver closes the openings that
-// second-order terms leave.
+#include "core/dynamics/direct/joint_phases.h"
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/block_words.h"
-#include "core/dynamics/direct/proximal_solver.h"
 #include "core/dynamics/problem/proximal_words.h"
 #include "core/math/wide/scalar_lanes.h"
 
-namespace lockstone {
+namespace lockstone::joint_phases {
 namespace {
 
 using namespace proximal;
 using lanes::ProximalBlock;
+using Problem = ProximalBlock;
 
 // γ of locks and limits over a row's response to itself, 2^-14: the factor's least eigenvalue.
 constexpr std::int64_t k_lock_give = std::int64_t{1} << (30 - BodyFactor::k_least_bits);
@@ -44,6 +42,7 @@ BodyVector motion_of(const lanes::RowBody& row, const InertiaRoot& root, const R
 bool has_turned(const IslandJoint& joint, const ProximalBlock& problem,
                 std::span<const JointRow> rows) {
   if (joint.row_count != rows.size()) return true;
+  LKS_ASSERT(problem.rows <= k_contact_rows && joint.row_count <= k_max_joint_rows);
   for (std::size_t lane = 0; lane < problem.rows; ++lane) {
     const JointDirections &now = rows[joint.rows[lane]], &then = joint.read[lane];
     if (now.kind != then.kind || now.axis != then.axis || now.flipped != then.flipped) return true;
@@ -101,8 +100,8 @@ void read_joint(std::span<const JointRow> rows, const ProximalJoint& pair, Islan
 }
 
 // The speeds of a joint's rows, and how far its limits are.
-void see_joint(const JointAccess& access, const IslandJoint& joint, ProximalBlock& problem,
-               bool pushes_out) {
+void measure_joint(const JointAccess& access, const IslandJoint& joint, ProximalBlock& problem,
+                   bool pushes_out) {
   const std::span<const JointRow> rows = access.joints.rows(joint.joint);
   for (std::size_t lane = 0; lane < problem.rows; ++lane) {
     const auto in_units = [&](std::int64_t speed) {
@@ -118,32 +117,29 @@ void see_joint(const JointAccess& access, const IslandJoint& joint, ProximalBloc
   }
 }
 
-}  // namespace
-
 // Contacts' rows stay for the tick, and so does the inertia of the bodies that have any.
-void ProximalSolver::see_inertia(const ContactRun& run, const Island& island) {
-  for (std::uint32_t k = 0; k < island.bodies; ++k) {
-    const std::uint32_t body = bodies_[island.first_body + k];
-    if (body >= first_free_)
-      roots_[island.first_vector + k] = inertia_root(run.bodies[body].inverse_inertia);
+void find_free_roots(const ContactRun& run, const IslandView& island, std::uint32_t first_free) {
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const std::uint32_t body = island.bodies[k];
+    if (body >= first_free) island.roots[k] = inertia_root(run.bodies[body].inverse_inertia);
   }
 }
 
 // How bodies move now, as all rows see it.
-void ProximalSolver::see_bodies(const ContactRun& run, const Island& island) {
-  const std::span<BodyVector> motions = of(changes_, island);
-  for (std::uint32_t k = 0; k < island.bodies; ++k) {
-    const std::uint32_t body = bodies_[island.first_body + k];
-    motions[k] = motion_of(run.rows[body], roots_[island.first_vector + k],
-                           mass_scale(island.unit, run.bodies[body].inverse_mass));
+void find_motions(const ContactRun& run, const IslandView& island) {
+  const std::span<BodyVector> motions = island.changes;
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const std::uint32_t body = island.bodies[k];
+    motions[k] = motion_of(run.rows[body], island.roots[k],
+                           mass_scale(island.state.unit, run.bodies[body].inverse_mass));
   }
-  motions[island.bodies] = {};
+  motions[island.bodies.size()] = {};
 }
 
 // The speed of a contact's row by the motion of the bodies that impulses move.
-std::int64_t ProximalSolver::seen_speed(const Island& island, const Problem& problem,
-                                        std::size_t row) {
-  const std::span<const BodyVector> motions = of(changes_, island);
+std::int64_t speed_of(const IslandView& island, const Problem& problem, std::size_t row) {
+  LKS_ASSERT(row < problem.rows);
+  const std::span<const BodyVector> motions = island.changes;
   const BodyVector &a = motions[problem.a], &b = motions[problem.b];
   ProductSum sum;
   for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
@@ -153,71 +149,58 @@ std::int64_t ProximalSolver::seen_speed(const Island& island, const Problem& pro
   return sum.rounded(30);
 }
 
-// Joints may hold bodies where they overlap, and then no impulses part them: they would grow
-// without limit. The deeper a point overlaps, the softer its row, and the more of its impulse it
-// forgets.
-void ProximalSolver::soften(std::int64_t overlap, const ProximalRow& row, std::size_t i,
-                            Problem& problem) {
-  constexpr std::int64_t k_firm = (std::int64_t{1} << 24) / 4000, k_soft = 16 * k_firm;  // m, Q24
-  constexpr std::int64_t k_most_give = k_whole >> 3;
-  constexpr std::int64_t k_width = k_soft - k_firm;
-  const std::int64_t beyond = std::clamp<std::int64_t>(overlap - k_firm, 0, k_width);
-  const std::int64_t more = std::max<std::int64_t>(k_most_give - row.give, 0);
-  set_give(row.give + raw::round_divide(more * beyond, k_width), i, problem);
-  problem.held_centre[i] -= raw::round_divide(problem.held[i] / 2, k_width) * beyond;
-}
+}  // namespace
 
 // The rest of the rows' speeds, which kinematic bodies give them.
-void ProximalSolver::find_carried_speeds(const ContactRun& run, const Island& island) {
-  see_bodies(run, island);
-  for (std::uint32_t i = 0; i < island.contacts; ++i) {
-    ProximalContact& contact = contacts_[island.first_contact + i];
-    const Problem& problem = problems_[island.first_problem + i];
+void begin(const ContactRun& run, const IslandView& island) {
+  find_motions(run, island);
+  for (std::size_t i = 0; i < island.contacts.size(); ++i) {
+    ProximalContact& contact = island.contacts[i];
+    const Problem& problem = island.problems[i];
     for (std::size_t r = 0; r < contact.rows; ++r)
-      contact.all[r].carried = within_row(problem.moved[r] - seen_speed(island, problem, r));
+      contact.all[r].carried = within_row(problem.moved[r] - speed_of(island, problem, r));
   }
 }
 
-// Joints have pushed the bodies since the last phase, and turn with them. Rows and factor are kept
-// while no joint's rows have turned far.
-void ProximalSolver::see_joints(const ContactRun& run, const JointAccess& joints, Island& island,
-                                bool pushes_out) {
-  const std::span<IslandJoint> all = std::span(joints_).subspan(island.first_joint, island.joints);
-  const std::span<Problem> problems = problems_of(island).subspan(island.contacts);
-  const bool reads = std::ranges::any_of(all, [&](const IslandJoint& joint) {
-    return has_turned(joint, problems[static_cast<std::size_t>(&joint - all.data())],
-                      joints.joints.rows(joint.joint));
-  });
-  if (reads) see_inertia(run, island);
-  see_bodies(run, island);
-  for (std::uint32_t i = 0; i < island.contacts; ++i) {
-    const ProximalContact& contact = contacts_[island.first_contact + i];
-    Problem& problem = problems_[island.first_problem + i];
+void update(const ContactRun& run, const JointAccess& access, const IslandView& island,
+            std::uint32_t first_free, bool pushes_out) {
+  const std::span<IslandJoint> joints = island.joints;
+  const std::span<Problem> problems = island.joint_problems();
+  LKS_ASSERT(problems.size() == joints.size());
+  bool reads = false;
+  for (std::size_t i = 0; i < joints.size() && !reads; ++i)
+    reads = has_turned(joints[i], problems[i], access.joints.rows(joints[i].joint));
+  if (reads) find_free_roots(run, island, first_free);
+  find_motions(run, island);
+  for (std::size_t i = 0; i < island.contacts.size(); ++i) {
+    const ProximalContact& contact = island.contacts[i];
+    Problem& problem = island.problems[i];
     for (std::size_t r = 0; r < contact.rows; ++r)
-      problem.moving[r] = within_row(contact.all[r].carried + seen_speed(island, problem, r));
+      problem.moving[r] = within_row(contact.all[r].carried + speed_of(island, problem, r));
   }
-  for (std::uint32_t i = 0; i < island.joints; ++i) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
     if (reads) {
-      const ProximalJoint pair{roots_[island.first_vector + problems[i].a],
-                               roots_[island.first_vector + problems[i].b], all[i].part_a,
-                               all[i].part_b, mass_scale(island.unit, all[i].inverse_mass)};
-      read_joint(joints.joints.rows(all[i].joint), pair, all[i], problems[i]);
+      const ProximalJoint pair{island.roots[problems[i].a], island.roots[problems[i].b],
+                               joints[i].part_a, joints[i].part_b,
+                               mass_scale(island.state.unit, joints[i].inverse_mass)};
+      read_joint(access.joints.rows(joints[i].joint), pair, joints[i], problems[i]);
     }
-    see_joint(joints, all[i], problems[i], pushes_out);
+    measure_joint(access, joints[i], problems[i], pushes_out);
   }
-  if (reads) island.is_factored = island.was_factored = false;
+  if (reads) island.state.is_factored = island.state.was_factored = false;
 }
 
-void ProximalSolver::give_joints(const JointAccess& access, const Island& island) {
-  for (std::uint32_t i = 0; i < island.joints; ++i) {
-    const IslandJoint& joint = joints_[island.first_joint + i];
-    const Problem& problem = problems_[island.first_problem + island.contacts + i];
+void give(const JointAccess& access, const IslandView& island) {
+  const std::span<const Problem> problems = island.joint_problems();
+  for (std::size_t i = 0; i < island.joints.size(); ++i) {
+    const IslandJoint& joint = island.joints[i];
+    const Problem& problem = problems[i];
     JointSolver::RowImpulses impulses{};
     for (std::size_t lane = 0; lane < problem.rows; ++lane)
       impulses[joint.rows[lane]] = joint.to_impulse[lane].times(
-          problem.impulse[lane] - problem.start[lane], island.bits - 50);
+          problem.impulse[lane] - problem.start[lane], island.state.bits - 50);
     access.joints.give(access.run, joint.joint, impulses);
   }
 }
 
-}  // namespace lockstone
+}  // namespace lockstone::joint_phases

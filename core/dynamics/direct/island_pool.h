@@ -1,0 +1,126 @@
+// The islands of a tick that are solved to convergence: their bodies, contacts, joints and rows, in
+// pools, island by island.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/dynamics/problem/body_factor.h"
+#include "core/dynamics/problem/island_joint.h"
+#include "core/dynamics/problem/proximal_rows.h"
+
+namespace lockstone {
+
+/// An island's progress through the phases of a tick.
+struct IslandState {
+  BlockFloat unit{};          ///< 1/m₀
+  int bits = 0;               ///< fraction bits of the phase's units
+  int loose = 0;              ///< the phase's tolerance is 2^this times the least
+  bool is_first = true;       ///< substep of the tick
+  bool warms = false;         ///< this phase begins with the impulses of the tick before
+  bool was_factored = false;  ///< in this tick
+  bool is_factored = false;   ///< for the rows that are active
+};
+
+/// Where blocks of the bodies of a contact or a joint are in the factor.
+struct MatrixBlocks {
+  static constexpr std::uint32_t k_none = 0xffffffff;
+
+  std::uint32_t a = k_none, b = k_none;
+  BodyFactor::Place both{k_none, false};
+};
+
+/// A body's change of velocity in a phase, m/s, Q32.
+struct PhaseGain {
+  RawVec3 velocity{}, spin{};
+};
+
+/// The parts of one island in the pools. Contacts and joints name their bodies by their order here;
+/// the number after the last is a body that nothing moves, whose vectors are 0.
+struct IslandView {
+  IslandState& state;
+  const BodyFactor::Plan& plan;
+  std::span<const std::uint32_t> bodies;  ///< numbers in the solver
+  std::span<ProximalContact> contacts;
+  std::span<IslandJoint> joints;
+  std::span<lanes::ProximalBlock> problems;  ///< of contacts, then of joints
+  std::span<const MatrixBlocks> blocks;      ///< alike
+  std::span<BodyVector> velocities;  ///< changes since the phase began; one more than bodies
+  std::span<BodyVector> changes;     ///< alike
+  std::span<PhaseGain> gains;        ///< alike
+  std::span<InertiaRoot> roots;      ///< alike
+
+  [[nodiscard]] std::span<lanes::ProximalBlock> contact_problems() const {
+    return problems.first(contacts.size());
+  }
+  [[nodiscard]] std::span<lanes::ProximalBlock> joint_problems() const {
+    return problems.subspan(contacts.size());
+  }
+};
+
+class IslandPool {
+ public:
+  /// The sizes that the pools are made for.
+  struct Capacity {
+    std::size_t numbers = 0;   ///< bodies of islands are among the first of the solver
+    std::size_t bodies = 0;    ///< of all islands
+    std::size_t problems = 0;  ///< contacts and joints of all islands
+    std::size_t joints = 0;
+  };
+
+  /// No function but this allocates.
+  [[gnu::cold]] explicit IslandPool(const Capacity& capacity);
+
+  void clear();
+
+  /// An island whose bodies, contacts and joints are given in their order; false if it is too
+  /// large. Bodies are numbers in the solver; of a contact the pair's numbers are read, 0 for a
+  /// body that nothing moves.
+  [[nodiscard]] bool add(std::span<const std::uint32_t> bodies,
+                         std::span<const ProximalContact> contacts,
+                         std::span<const IslandJoint> joints);
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
+  [[nodiscard]] IslandView view(std::uint32_t island);
+  [[nodiscard]] BodyFactor& factor() { return factor_; }
+
+  /// Of all islands.
+  [[nodiscard]] std::span<ProximalContact> contacts() { return contacts_; }
+  [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
+
+ private:
+  // Where an island's parts begin, and how many there are.
+  struct Island {
+    IslandState state;
+    BodyFactor::Plan plan;
+    std::uint32_t first_body = 0, bodies = 0;
+    std::uint32_t first_vector = 0;  // one more than bodies
+    std::uint32_t first_contact = 0, contacts = 0;
+    std::uint32_t first_joint = 0, joints = 0;
+    std::uint32_t first_problem = 0;
+  };
+
+  [[nodiscard]] Island place(std::size_t bodies, std::size_t contacts, std::size_t joints) const;
+  [[nodiscard]] bool fits(const Island& island) const;
+  [[nodiscard]] bool plan(Island& island, std::span<const std::uint32_t> bodies,
+                          std::span<const ProximalContact> contacts,
+                          std::span<const IslandJoint> joints);
+  void add_problem(const Island& island, std::uint32_t a, std::uint32_t b);
+
+  Capacity capacity_;
+  std::vector<Island> islands_;
+  std::vector<std::uint32_t> bodies_;
+  std::vector<ProximalContact> contacts_;
+  std::vector<IslandJoint> joints_;
+  std::vector<lanes::ProximalBlock> problems_;
+  std::vector<MatrixBlocks> blocks_;
+  std::vector<BodyVector> velocities_, changes_;
+  std::vector<PhaseGain> gains_;
+  std::vector<InertiaRoot> roots_;
+  std::vector<std::uint32_t> local_;  // by number in the solver: the order in its island
+  std::vector<BodyFactor::Pair> pairs_;
+  BodyFactor factor_;
+};
+
+}  // namespace lockstone

@@ -1,0 +1,61 @@
+// Finds the impulses of one phase of an island: the warm start, passes over its rows, and direct
+// steps by its factor.
+//
+// A phase finds impulses λ and velocities v = v* + M⁻¹Jᵀλ such that J·v + b + γ(λ − c) = 0 for
+// every row that is neither separating nor sliding, with λ ≥ 0 along normals and friction within
+// its limit: the least of D(λ) = |M⁻¹Jᵀλ|²/2 + λ·(J·v* + b) + Σ γ(λ − c)²/2 over those λ. Passes of
+// projected Gauss-Seidel find which rows those are; direct steps solve for them by a factor of
+// 1 + JᵀJ/γ, and go towards its solution only as far as D falls. The compliance γ is small, and the
+// centre c, the last substep's impulse less a bounded leak, carries the load: the solution is that
+// of rigid contacts but for a damping of the order of γ.
+//
+// Sources: J. Carpentier, R. Budhiraja, N. Mansard, "Proximal and sparse resolution of constrained
+// dynamic equations", 2021 (the proximal problem); docs/notes/solver-choice.md (the leak, and the
+// comparison of solvers). Kinetic energy after the warm start is at most that of the free motion,
+// since its impulses are scaled to the least of D.
+#pragma once
+
+#include <cstdint>
+
+#include "core/dynamics/direct/island_pool.h"
+#include "core/dynamics/problem/body_factor.h"
+
+namespace lockstone {
+
+class PhaseSolver {
+ public:
+  /// For one phase, whose kept quantities are set.
+  PhaseSolver(const IslandView& island, BodyFactor& factor) : island_(island), factor_(factor) {}
+
+  /// Chooses the phase's units. Returns false where nothing moves or pushes.
+  [[nodiscard]] bool set_units();
+
+  /// Finds the impulses; `scales`: the phase begins with the last ones, scaled. Units that turn out
+  /// too fine become coarser.
+  void solve(bool scales);
+
+ private:
+  [[nodiscard]] bool converge(bool scales);
+  void scale_warm_start();
+  void iterate();
+  [[nodiscard]] bool move_centres();
+  [[nodiscard]] bool pass();
+  void mark_active();
+  void factor();
+  [[nodiscard]] bool direct_step();
+  void find_residuals();
+  [[nodiscard]] bool solve_for_changes();
+  void sum_changes();
+  [[nodiscard]] std::int64_t search() const;
+  void go(std::int64_t part);
+
+  [[nodiscard]] std::size_t body_count() const { return island_.bodies.size(); }
+
+  const IslandView& island_;
+  BodyFactor& factor_;
+  int drop_ = 0;            // bits of residuals that the direct step at hand leaves out
+  bool fits_ = true;        // so far nothing had to be clamped in these units
+  bool is_solved_ = false;  // by the last direct step
+};
+
+}  // namespace lockstone

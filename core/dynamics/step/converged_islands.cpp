@@ -1,0 +1,87 @@
+#include "core/dynamics/step/converged_islands.h"
+
+#include <algorithm>
+
+#include "core/math/roots.h"
+
+namespace lockstone {
+namespace {
+
+// The velocity that gravity adds in a substep, m/s, Q32.
+std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
+  const auto size = static_cast<std::int64_t>(norm(gravity.x.raw, gravity.y.raw, gravity.z.raw));
+  return step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
+}
+
+}  // namespace
+
+ConvergedIslands::ConvergedIslands(const TimeStep& step, std::size_t body_capacity,
+                                   std::size_t contact_capacity, std::size_t joint_capacity,
+                                   std::size_t converged_contacts,
+                                   std::uint32_t most_island_contacts)
+    : step_(step),
+      solver_({body_capacity + contact_capacity + 1, std::min(body_capacity, converged_contacts),
+               converged_contacts, joint_capacity}),
+      lists_(body_capacity, contact_capacity, joint_capacity) {
+  bodies_.reserve(BodyFactor::k_most_bodies);
+  contacts_.reserve(most_island_contacts);
+  joints_.reserve(std::min<std::size_t>(most_island_contacts, joint_capacity));
+}
+
+void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodies,
+                            const ContactList& contacts, const EffortPolicy& effort,
+                            IslandBuilder& islands, TickJoints& joints) {
+  solver_.clear(joints.first_without_contacts());
+  EffortPolicy::mark_iterated(scene, bodies, contacts, joints, islands);
+  lists_.build(scene, bodies, contacts, islands);
+  for (std::uint32_t island = 1; island < islands.count(); ++island) {
+    IslandLoad& load = islands.load(island);
+    if (!effort.may_converge(load)) continue;
+    list(contacts, islands, joints, island);
+    LKS_ASSERT(bodies_.size() == load.bodies && contacts_.size() == load.contacts);
+    load.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
+    if (!load.is_converged) continue;
+    for (const IslandJoint& joint : joints_)
+      joints.solver().put_among_contacts(joint.joint);
+  }
+}
+
+void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& islands,
+                            const TickJoints& joints, std::uint32_t island) {
+  bodies_.clear();
+  contacts_.clear();
+  joints_.clear();
+  lists_.for_bodies(island, [&](std::uint32_t number) { bodies_.push_back(number); });
+  const auto pushed = [&](BodyRef body) { return islands.of(body) == 0 ? 0 : body.number(); };
+  lists_.for_contacts(island, [&](ContactId id) {
+    ProximalContact& contact = contacts_.emplace_back();
+    contact.id = id;
+    contact.a = pushed(contacts[id].a);
+    contact.b = pushed(contacts[id].b);
+  });
+  lists_.for_joints(island, [&](std::uint32_t link) {
+    joints_.push_back(joints.solver().island_joint(joints.solver().number_of(link)));
+  });
+}
+
+void ConvergedIslands::begin(const ContactScene& scene, SolverBodies& bodies,
+                             const ContactList& contacts, const ConstraintLayout& layout,
+                             const ContactRun& run) {
+  for (ProximalContact& contact : solver_.islands().contacts()) {
+    const ContactRef& ref = contacts[contact.id];
+    const Vec3<SolverVelocity>& arc = scene.surfaces[ref.manifold].arc;
+    contact.arc = {arc.x.raw, arc.y.raw, arc.z.raw};
+    contact.place = layout.lane_of(contact.id);
+    contact.row_a = bodies.row_of(ref.a);
+    contact.row_b = bodies.row_of(ref.b);
+  }
+  // The first phase adds a scaled warm start itself: the velocities that single contacts of the
+  // last tick give to a body may exceed all limits.
+  for (const std::uint32_t body : solver_.islands().bodies())
+    bodies.before()[body] = {};
+  const std::int64_t weight = weight_of(scene.gravity, step_);
+  for (std::uint32_t i = 0; i < solver_.count(); ++i)
+    solver_.begin(run, i, weight, step_.substeps);
+}
+
+}  // namespace lockstone

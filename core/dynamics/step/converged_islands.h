@@ -1,0 +1,63 @@
+// The islands of a tick that are solved to convergence: chooses them, and hands their contacts and
+// joints to the block solver.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/dynamics/contact/row_geometry.h"
+#include "core/dynamics/direct/block_solver.h"
+#include "core/dynamics/step/constraint_layout.h"
+#include "core/dynamics/step/effort_policy.h"
+#include "core/dynamics/step/island_lists.h"
+#include "core/dynamics/step/tick_joints.h"
+
+namespace lockstone {
+
+class ConvergedIslands {
+ public:
+  /// No function but this allocates. `contacts`: of all converged islands, with their joints.
+  [[gnu::cold]] ConvergedIslands(const TimeStep& step, std::size_t body_capacity,
+                                 std::size_t contact_capacity, std::size_t joint_capacity,
+                                 std::size_t converged_contacts,
+                                 std::uint32_t most_island_contacts);
+
+  [[nodiscard]] std::uint32_t count() const { return solver_.count(); }
+
+  /// Contacts of all these islands.
+  [[nodiscard]] std::size_t contact_count() { return solver_.islands().contacts().size(); }
+
+  /// Once islands are built: chooses, and takes the joints of chosen islands from the joint solver.
+  void plan(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts,
+            const EffortPolicy& effort, IslandBuilder& islands, TickJoints& joints);
+
+  /// Once blocks are prepared: takes the contacts over from the iterations.
+  void begin(const ContactScene& scene, SolverBodies& bodies, const ContactList& contacts,
+             const ConstraintLayout& layout, const ContactRun& run);
+
+  /// One phase of islands `first` … `end` − 1, by their numbers here. With `pushes_out` overlap
+  /// goes.
+  void solve(const ContactRun& run, TickJoints& joints, std::size_t first, std::size_t end,
+             bool pushes_out) {
+    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i)
+      solver_.solve(run, {joints.solver(), joints.run()}, i, pushes_out);
+  }
+  /// After the last phase.
+  void end(const ContactRun& run, std::size_t first, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i)
+      solver_.end(run, i);
+  }
+
+ private:
+  void list(const ContactList& contacts, const IslandBuilder& islands, const TickJoints& joints,
+            std::uint32_t island);
+
+  TimeStep step_;
+  BlockSolver solver_;
+  IslandLists lists_;
+  std::vector<std::uint32_t> bodies_;  // of the island at hand
+  std::vector<ProximalContact> contacts_;
+  std::vector<IslandJoint> joints_;
+};
+
+}  // namespace lockstone
