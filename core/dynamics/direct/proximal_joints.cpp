@@ -212,7 +212,7 @@ void ProximalSolver::give_joints(const JointAccess& access, const Island& island
   for (std::uint32_t i = 0; i < island.joints; ++i) {
     const IslandJoint& joint = joints_[island.first_joint + i];
     const Problem& problem = problems_[island.first_problem + island.contacts + i];
-    JointSolver::RowImpulses impulses{};
+    RowImpulses impulses{};
     for (std::size_t lane = 0; lane < problem.rows; ++lane)
       impulses[joint.rows[lane]] = joint.to_impulse[lane].times(
           problem.impulse[lane] - problem.start[lane], island.bits - 50);

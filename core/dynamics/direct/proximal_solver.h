@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "core/dynamics/linkage/joint_solver.h"
+#include "core/dynamics/linkage/island_joints.h"
 #include "core/dynamics/problem/body_factor.h"
 #include "core/dynamics/problem/island_joint.h"
 #include "core/dynamics/problem/proximal_rows.h"
@@ -27,7 +27,7 @@ namespace lockstone {
 
 /// The joints of a tick, and the data that they are solved with.
 struct JointAccess {
-  JointSolver& joints;
+  IslandJoints& joints;
   JointRun run;
 };
 

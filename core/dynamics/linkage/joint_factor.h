@@ -64,6 +64,9 @@ class JointFactor {
 
   /// Right-hand side, then solution: 46 fraction bits.
   [[nodiscard]] std::int64_t& rhs(std::uint32_t row) { return rhs_[row]; }
+  [[nodiscard]] std::span<std::int64_t> rhs_of(const Column& column) {
+    return std::span(rhs_).subspan(column.first_row, column.rows);
+  }
 
   /// Sets all entries of the group by its columns' counts: block(j, k, to) writes the responses of
   /// the rows of joint j to impulses on those of joint k, row by row, for j = k (as far as the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dynamics/linkage/joint_solver.h"
 #include "core/dynamics/step/contact_solver.h"
 #include "core/math/roots.h"
 
@@ -173,7 +174,7 @@ void ContactSolver::plan_converged(const ContactScene& scene) {
     load.is_converged = proximal_->add(island_bodies_, island_contacts_, island_joints_);
     if (!load.is_converged) continue;
     for (const IslandJoint& joint : island_joints_)
-      joints_->put_among_contacts(joint.joint);
+      joints_->island_joints().put_among_contacts(joint.joint);
   }
 }
 
@@ -189,7 +190,7 @@ void ContactSolver::list_island(std::uint32_t island) {
   const std::size_t joints = members_.size() + entries_.size();
   for (std::uint32_t i = first_of_[2 * islands_.count() + island]; i != 0;
        i = next_of_[joints + i - 1])
-    island_joints_.push_back(joints_->island_joint(joints_->number_of(i - 1)));
+    island_joints_.push_back(joints_->island_joints().joint(joints_->number_of(i - 1)));
 }
 
 void ContactSolver::begin_converged(const ContactScene& scene) {
@@ -215,7 +216,8 @@ void ContactSolver::run_converged(StageKind kind, std::size_t first, std::size_t
     if (kind == StageKind::end_islands)
       proximal_->end(contact_run(), i);
     else
-      proximal_->solve(contact_run(), {*joints_, joint_run()}, i, kind == StageKind::push_islands);
+      proximal_->solve(contact_run(), {joints_->island_joints(), joint_run()}, i,
+                       kind == StageKind::push_islands);
   }
 }
 
