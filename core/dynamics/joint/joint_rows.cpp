@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/joint/geared_rows.h"
 #include "core/dynamics/joint/joint_geometry.h"
 #include "core/dynamics/joint/joint_numbers.h"
@@ -112,6 +114,7 @@ class SixAxisRows {
   // a = xA·xB, b = t·xB; next to 0 it is b, at ω·(xB × t).
   void add_swing(std::size_t axis, const RawVec3& t, bool limits) {
     const RawVec3 x = raw_of(frame_b_.x);
+    LKS_ASSERT(axis == 4 || axis == 5);
     const std::int64_t b =
         along({Position::from_raw(x[0]), Position::from_raw(x[1]), Position::from_raw(x[2])}, t);
     if (rows_.is_rigid(axis))
@@ -183,6 +186,7 @@ bool has_world_axes(const JointRecord& joint) {
 }
 
 std::size_t most_rows(const JointRecord& joint) {
+  LKS_ASSERT(joint.exists());
   if (joint.kind >= static_cast<std::uint8_t>(JointKind::pulley)) return 1;
   std::size_t count = 0;
   for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/state/joint_record.h"
 
 namespace lockstone {
@@ -118,8 +120,10 @@ void JointFactor::fill_blocks(std::uint32_t first, std::uint32_t count, const Fi
   const std::span<const Column> group = columns(first, count);
   for (std::uint32_t k = 0; k < count; ++k) {
     block(k, k, values_.data() + group[k].diagonal);
-    for (const Block& below : blocks(group[k]))
+    for (const Block& below : blocks(group[k])) {
+      LKS_ASSERT(below.row > k && below.row < count);
       block(below.row, k, values_.data() + below.values);
+    }
   }
 }
 
