@@ -10,31 +10,40 @@ namespace {
 
 using lanes::RowBody;
 
-void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
+// As below, where a velocity leaves its bounds.
+[[gnu::noinline, gnu::cold]] void add_bounded(RowBody& body, const RawVec3& velocity,
+                                              const RawVec3& spin) {
   const auto gained = [](std::int64_t x, std::int64_t by) {
     return bounded(bounded(x, k_row_bound) + bounded(by, 2 * k_row_bound), k_row_bound);
   };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    body.velocity[axis] = gained(body.velocity[axis], velocity[axis]);
+    body.spin[axis] = gained(body.spin[axis], spin[axis]);
+  }
+}
+
+// Adds a change to a body's velocity, within ±k_row_bound.
+inline void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
   // Offset by the bound, a value out of bounds has bit 62 or 63 set.
   const auto excess = [](std::int64_t x) {
     return static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(k_row_bound);
   };
-  RowBody next = body;
-  std::uint64_t beyond = 0;
   const auto sum = [](std::int64_t x, std::int64_t by) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(x) +
                                      static_cast<std::uint64_t>(by));
   };
+  RawVec3 next_velocity, next_spin;
+  std::uint64_t beyond = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    next.velocity[axis] = sum(body.velocity[axis], velocity[axis]);
-    next.spin[axis] = sum(body.spin[axis], spin[axis]);
-    beyond |= excess(body.velocity[axis]) | excess(next.velocity[axis]);
-    beyond |= excess(body.spin[axis]) | excess(next.spin[axis]);
+    next_velocity[axis] = sum(body.velocity[axis], velocity[axis]);
+    next_spin[axis] = sum(body.spin[axis], spin[axis]);
+    beyond |= excess(body.velocity[axis]) | excess(next_velocity[axis]);
+    beyond |= excess(body.spin[axis]) | excess(next_spin[axis]);
   }
-  for (std::size_t axis = 0; axis < 3 && beyond >> 62 != 0; ++axis) {
-    next.velocity[axis] = gained(body.velocity[axis], velocity[axis]);
-    next.spin[axis] = gained(body.spin[axis], spin[axis]);
-  }
-  body = next;
+  if (beyond >> 62 != 0) [[unlikely]]
+    return add_bounded(body, velocity, spin);
+  body.velocity = next_velocity;
+  body.spin = next_spin;
 }
 
 // The change between velocities held within bounds; contacts may push velocities out of them.
@@ -83,8 +92,8 @@ void add_point(Side side, std::span<const JointRow> rows, const RowImpulses& jum
 }
 
 template <class Side>
-void add_rows(Side side, std::span<const JointRow> rows, const RowImpulses& jumps,
-              const RowRange& range, RawVec3& velocity, RawVec3& spin) {
+[[gnu::noinline]] void add_rows(Side side, std::span<const JointRow> rows, const RowImpulses& jumps,
+                                const RowRange& range, RawVec3& velocity, RawVec3& spin) {
   LKS_ASSERT(range.first <= range.end && range.end <= rows.size());
   std::array<ProductSum, 3> along, about;
   for (std::size_t r = range.first; r < range.end; ++r) {
@@ -123,30 +132,48 @@ std::int64_t row_speed(const JointRun& run, const LinkedJoint& joint, const Join
   return bounded(sum.rounded(30), k_row_bound);
 }
 
-void push(const JointRun& run, const LinkedJoint& joint, std::size_t row, std::int64_t impulse) {
+[[gnu::noinline]] void push(const JointRun& run, const LinkedJoint& joint, std::size_t row,
+                            std::int64_t impulse) {
   if (impulse == 0) return;
   RowImpulses impulses;
   impulses[row] = impulse;
   push(run, joint, row, row + 1, impulses);
 }
 
+namespace {
+
+template <class Side>
+void push_side(const JointRun& run, const LinkedJoint& joint, const RowRange& range,
+               const RowImpulses& impulses, std::uint32_t solver, const MassShare& share,
+               Side side) {
+  if (share.mantissa == 0) return;
+  RowImpulses jumps;  // of the body's own velocity
+  RawVec3 velocity, spin;
+  const auto jump = [&](std::size_t r) {
+    jumps[r] = product_rounded(impulses[r], share.mantissa, share.shift);
+  };
+  if (joint.rows.is_point && range.first == 0 && range.end >= 3) {
+    for (std::size_t r = 0; r < 3; ++r)
+      jump(r);
+    for (std::size_t r = 3; r < range.end; ++r)
+      jump(r);
+    add_point(side, joint.rows.rows, jumps, range.end, velocity, spin);
+  } else {
+    for (std::size_t r = range.first; r < range.end; ++r)
+      jump(r);
+    add_rows(side, joint.rows.rows, jumps, range, velocity, spin);
+  }
+  add_velocity(run.rows[solver], velocity, spin);
+}
+
+}  // namespace
+
 void push(const JointRun& run, const LinkedJoint& joint, std::size_t first, std::size_t end,
           const RowImpulses& impulses) {
   LKS_ASSERT(first <= end && end <= joint.rows.count);
-  const auto push_side = [&](std::uint32_t solver, const MassShare& share, auto side) {
-    if (share.mantissa == 0) return;
-    RowImpulses jumps;  // of the body's own velocity
-    for (std::size_t r = first; r < end; ++r)
-      jumps[r] = product_rounded(impulses[r], share.mantissa, share.shift);
-    RawVec3 velocity{}, spin;
-    if (joint.rows.is_point && first == 0 && end >= 3)
-      add_point(side, joint.rows.rows, jumps, end, velocity, spin);
-    else
-      add_rows(side, joint.rows.rows, jumps, {first, end}, velocity, spin);
-    add_velocity(run.rows[solver], velocity, spin);
-  };
-  push_side(joint.solver_a, joint.share_a, SideA{});
-  push_side(joint.solver_b, joint.share_b, SideB{});
+  const RowRange range{first, end};
+  push_side(run, joint, range, impulses, joint.solver_a, joint.share_a, SideA{});
+  push_side(run, joint, range, impulses, joint.solver_b, joint.share_b, SideB{});
 }
 
 void begin_pushes(const JointRun& run, JointSystem& system, std::span<const std::uint32_t> bodies) {

@@ -13,11 +13,17 @@
 namespace lockstone {
 namespace {
 
+[[gnu::noinline, gnu::cold]] std::int64_t scaled_wide_response(std::int64_t response,
+                                                               std::int32_t inverse_mass,
+                                                               int shift) {
+  return product_rounded(response, inverse_mass, std::max(shift, 1));
+}
+
 // response · inverse mass · 2^-shift, at most 2^-1
-std::int64_t scaled_response(std::int64_t response, const BodyRecord& body, int shift) {
-  if (shift >= 2 && shift <= 62 && magnitude(response) >> 32 == 0)
-    return raw::round_shift_any(response * body.inverse_mass, shift);
-  return product_rounded(response, body.inverse_mass, std::max(shift, 1));
+inline std::int64_t scaled_response(std::int64_t response, std::int32_t inverse_mass, int shift) {
+  if (shift >= 2 && shift <= 62 && magnitude(response) >> 32 == 0) [[likely]]
+    return raw::round_shift_any(response * inverse_mass, shift);
+  return scaled_wide_response(response, inverse_mass, shift);
 }
 
 // x · mass · 2^shift within ±k_row_bound
@@ -79,7 +85,7 @@ void add_shared(const LinkedJoint& p, const LinkedJoint& q, const SharedBody& sh
   const auto add = [&](std::size_t r, std::size_t s, const ProductSum& sum) {
     const int shift = p.scales[r] + q.scales[s] + excess;
     if (shift > 120) return;
-    block[r * columns + s] += scaled_response(sum.rounded(30), record, shift);
+    block[r * columns + s] += scaled_response(sum.rounded(30), record.inverse_mass, shift);
   };
   const bool is_diagonal = &p == &q;
   const bool are_points = p.rows.is_point && q.rows.is_point;
