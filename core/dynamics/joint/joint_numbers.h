@@ -47,7 +47,7 @@ inline constexpr std::int64_t k_close_way = std::int64_t{8} << 32;
 [[nodiscard]] constexpr std::int64_t closing_speed(std::int64_t error, std::int64_t rate,
                                                    int shift = 0) {
   LKS_ASSERT(rate > 0 && shift >= 0);
-  return product_rounded(error, rate << 19, 1 + shift);
+  return product_rounded(error, rate << 21, 3 + shift);  // shifts from 3 on are faster
 }
 
 }  // namespace lockstone

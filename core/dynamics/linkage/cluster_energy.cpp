@@ -21,18 +21,34 @@ std::int64_t product_of(const JointMotion& a, const JointMotion& b) {
   return energy_product(a.velocity, b.velocity, a.spin, b.surface);
 }
 
-}  // namespace
+// How a body turns; `is_heavier`: than it is.
+struct Turning {
+  const InverseInertia& inertia;
+  const Mat3& rotation;
+  bool is_heavier;
+};
 
-JointMotion motion_of(const LinkedBody& body, const lanes::RowBody& row) {
+JointMotion motion_of(const BodyRecord& record, const Turning& turning, const lanes::RowBody& row) {
   JointMotion motion;
   for (int i = 0; i < 3; ++i) {
     motion.velocity[i] = to_velocity(row.velocity[static_cast<std::size_t>(i)]);
     motion.spin[i] = to_velocity(row.spin[static_cast<std::size_t>(i)]);
   }
-  motion.surface = surface_velocity(body.inverse_inertia, motion.spin);
-  if (body.least_inertia != 0)
-    motion.spin = spin_of(*body.record, body.pose.rotation, motion.surface);
+  motion.surface = surface_velocity(turning.inertia, motion.spin);
+  if (turning.is_heavier) motion.spin = spin_of(record, turning.rotation, motion.surface);
   return motion;
+}
+
+}  // namespace
+
+JointMotion motion_of(const LinkedBody& body, const lanes::RowBody& row) {
+  const Turning turning{body.inverse_inertia, body.pose.rotation, body.least_inertia != 0};
+  return motion_of(*body.record, turning, row);
+}
+
+JointMotion start_motion_of(const LinkedBody& body) {
+  const Turning turning{body.start_inertia, body.start_rotation, body.starts_heavier};
+  return motion_of(*body.record, turning, body.start);
 }
 
 std::int64_t energy_of(const JointMotion& motion) {

@@ -20,6 +20,9 @@ struct JointMotion {
 
 [[nodiscard]] JointMotion motion_of(const LinkedBody& body, const lanes::RowBody& row);
 
+/// The motion at the substep's beginning, by the inertia of then.
+[[nodiscard]] JointMotion start_motion_of(const LinkedBody& body);
+
 /// Twice the energy for each mass: of all motion, and of turning alone.
 [[nodiscard]] std::int64_t energy_of(const JointMotion& motion);
 [[nodiscard]] std::int64_t turning_energy_of(const JointMotion& motion);

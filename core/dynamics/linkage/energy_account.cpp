@@ -68,7 +68,9 @@ void EnergyAccount::begin(const JointRun& run, JointCluster& cluster) {
     if (!body.pushed) continue;
     body.start = run.before[body.solver];
     body.start_position = body.pose.position;
-    body.start_turning = turning_energy_of(motion_of(body, body.start));
+    body.start_inertia = body.inverse_inertia;
+    body.start_rotation = body.pose.rotation;
+    body.starts_heavier = body.least_inertia != 0;
   }
   if (!cluster.knows_energy)
     cluster.energy = sum_over(system_, cluster, [&](const LinkedBody& body) {
@@ -101,8 +103,8 @@ void EnergyAccount::project_start(const JointRun& run, const JointCluster& clust
     body.saved_row = row;
     const SolverBody& solver = run.bodies[body.solver];
     // A body whose spin stays while it turns far may turn with more energy than before.
-    const std::int32_t kept =
-        root_of_share(body.start_turning, turning_energy_of(motion_of(body, body.start)));
+    const std::int32_t kept = root_of_share(turning_energy_of(start_motion_of(body)),
+                                            turning_energy_of(motion_of(body, body.start)));
     LKS_ASSERT(kept >= 0 && kept <= 1 << k_share_bits);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       row.velocity[axis] = bounded(body.start.velocity[axis], k_row_bound) +

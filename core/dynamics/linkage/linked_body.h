@@ -57,8 +57,10 @@ struct LinkedBody {
   lanes::RowBody saved_row{};
   lanes::RowBody start{};  // of the substep
   Vec3<Position> start_position{};
-  std::int64_t start_turning = 0;  // twice the energy for each mass
-  BlockFloat mass{};               // as a part of that of its cluster's heaviest body
+  InverseInertia start_inertia{};  // and where it was then
+  Mat3 start_rotation{};
+  bool starts_heavier = false;  // to turn than it is
+  BlockFloat mass{};            // as a part of that of its cluster's heaviest body
 };
 
 /// A body as a tick finds it.

@@ -153,8 +153,7 @@ void push_side(const JointRun& run, const LinkedJoint& joint, const RowRange& ra
     jumps[r] = product_rounded(impulses[r], share.mantissa, share.shift);
   };
   if (joint.rows.is_point && range.first == 0 && range.end >= 3) {
-    for (std::size_t r = 0; r < 3; ++r)
-      jump(r);
+    jump(0), jump(1), jump(2);
     for (std::size_t r = 3; r < range.end; ++r)
       jump(r);
     add_point(side, joint.rows.rows, jumps, range.end, velocity, spin);

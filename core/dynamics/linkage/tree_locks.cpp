@@ -71,49 +71,72 @@ struct SharedBody {
   bool is_a_of_p, is_a_of_q;
 };
 
-// Adds the responses of the locks of p to impulses on those of q through one body.
-void add_shared(const LinkedJoint& p, const LinkedJoint& q, const SharedBody& shared,
-                std::int64_t* block) {
-  if (!shared.body.pushed) return;
-  const auto linear_x = shared.is_a_of_p ? &JointRow::linear_a : &JointRow::linear_b;
-  const auto linear_y = shared.is_a_of_q ? &JointRow::linear_a : &JointRow::linear_b;
-  const auto angular_x = shared.is_a_of_p ? &JointRow::angular_a : &JointRow::angular_b;
-  const auto response_y = shared.is_a_of_q ? &JointRow::response_a : &JointRow::response_b;
-  const std::size_t columns = q.rows.locks;
-  const BodyRecord& record = *shared.body.record;
-  const int excess = 30 - k_matrix_bits - record.inverse_mass_exponent;
-  const auto add = [&](std::size_t r, std::size_t s, const ProductSum& sum) {
-    const int shift = p.scales[r] + q.scales[s] + excess;
-    if (shift > 120) return;
-    block[r * columns + s] += scaled_response(sum.rounded(30), record.inverse_mass, shift);
-  };
-  const bool is_diagonal = &p == &q;
-  const bool are_points = p.rows.is_point && q.rows.is_point;
-  if (are_points && p.rows.locks == 3 && columns == 3) {  // row i along axis i, its lever across
-    for (std::size_t r = 0; r < 3; ++r) {
-      const RawVec3& lever = p.rows.rows[r].*angular_x;
-      const std::size_t j = (r + 1) % 3, k = (r + 2) % 3;
-      for (std::size_t s = 0; s < (is_diagonal ? r + 1 : 3); ++s) {
-        const RawVec3& response = q.rows.rows[s].*response_y;
-        ProductSum sum;
-        sum.add(lever[j], response[j]);
-        sum.add(lever[k], response[k]);
-        if (r == s) sum.add((p.rows.rows[r].*linear_x)[r], (q.rows.rows[r].*linear_y)[r]);
-        add(r, s, sum);
-      }
-    }
-    return;
+// The responses of the locks of p to impulses on those of q through one body: sums of products of
+// Jacobians and responses, scaled as rows of the matrix.
+struct SharedRows {
+  explicit SharedRows(const SharedBody& shared)
+      : inverse_mass(shared.body.record->inverse_mass),
+        excess(30 - k_matrix_bits - shared.body.record->inverse_mass_exponent),
+        linear_x(shared.is_a_of_p ? &JointRow::linear_a : &JointRow::linear_b),
+        linear_y(shared.is_a_of_q ? &JointRow::linear_a : &JointRow::linear_b),
+        angular_x(shared.is_a_of_p ? &JointRow::angular_a : &JointRow::angular_b),
+        response_y(shared.is_a_of_q ? &JointRow::response_a : &JointRow::response_b) {}
+
+  [[nodiscard]] std::int64_t scaled(const ProductSum& sum, int scales) const {
+    const int shift = scales + excess;
+    return shift > 120 ? 0 : scaled_response(sum.rounded(30), inverse_mass, shift);
   }
+
+  std::int32_t inverse_mass;
+  int excess;
+  RawVec3 JointDirections::*linear_x;
+  RawVec3 JointDirections::*linear_y;
+  RawVec3 JointDirections::*angular_x;
+  RawVec3 JointRow::*response_y;
+};
+
+bool is_only_a_point(const LinkedJoint& joint) {
+  return joint.rows.is_point && joint.rows.locks == 3;
+}
+
+// Row i of a point is along axis i, its lever across. `is_lower`: only as far as the diagonal.
+void add_shared_points(const LinkedJoint& p, const LinkedJoint& q, const SharedRows& shared,
+                       bool is_lower, std::int64_t* block) {
+  for (std::size_t r = 0; r < 3; ++r) {
+    const JointRow& x = p.rows.rows[r];
+    const RawVec3& lever = x.*shared.angular_x;
+    const std::size_t j = (r + 1) % 3, k = (r + 2) % 3;
+    LKS_ASSERT(lever[r] == 0);
+    for (std::size_t s = 0; s < (is_lower ? r + 1 : 3); ++s) {
+      const JointRow& y = q.rows.rows[s];
+      const RawVec3& response = y.*shared.response_y;
+      ProductSum sum;
+      sum.add(lever[j], response[j]);
+      sum.add(lever[k], response[k]);
+      if (r == s) sum.add((x.*shared.linear_x)[r], (y.*shared.linear_y)[r]);
+      block[r * 3 + s] += shared.scaled(sum, p.scales[r] + q.scales[s]);
+    }
+  }
+}
+
+void add_shared(const LinkedJoint& p, const LinkedJoint& q, const SharedBody& body,
+                std::int64_t* block) {
+  if (!body.body.pushed) return;
+  const SharedRows shared(body);
+  const bool is_diagonal = &p == &q;
+  if (is_only_a_point(p) && is_only_a_point(q))
+    return add_shared_points(p, q, shared, is_diagonal, block);
+  const std::size_t columns = q.rows.locks;
   for (std::size_t r = 0; r < p.rows.locks; ++r) {
     const JointRow& x = p.rows.rows[r];
     for (std::size_t s = 0; s < (is_diagonal ? r + 1 : columns); ++s) {
       const JointRow& y = q.rows.rows[s];
       ProductSum sum;
       for (std::size_t i = 0; i < 3; ++i) {
-        sum.add((x.*linear_x)[i], (y.*linear_y)[i]);
-        sum.add((x.*angular_x)[i], (y.*response_y)[i]);
+        sum.add((x.*shared.linear_x)[i], (y.*shared.linear_y)[i]);
+        sum.add((x.*shared.angular_x)[i], (y.*shared.response_y)[i]);
       }
-      add(r, s, sum);
+      block[r * columns + s] += shared.scaled(sum, p.scales[r] + q.scales[s]);
     }
   }
 }
