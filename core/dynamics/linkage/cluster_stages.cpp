@@ -5,6 +5,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/linkage/cluster_energy.h"
 #include "core/dynamics/linkage/joint_drives.h"
 #include "core/dynamics/linkage/pulled_links.h"
 #include "core/dynamics/linkage/row_motion.h"
@@ -38,6 +39,19 @@ void repeat_impulses(const JointRun& run, LinkedJoint& joint) {
   if (end > 0) push(run, joint, 0, std::max(end, joint.rows.locks), impulses);
 }
 
+// Whether a body of the group turns by more than 1/128 rad in a substep.
+bool turns_fast(const JointRun& run, const JointSystem& system, const JointGroup& group) {
+  const std::int64_t most = std::int64_t{system.step.substep_rate()} << 25;  // rad/s, Q32
+  return std::ranges::any_of(system.bodies_of(group), [&](std::uint32_t index) {
+    const LinkedBody& body = system.bodies[index];
+    const Vec3<Velocity> surface = motion_of(body, run.rows[body.solver]).surface;
+    std::uint64_t size = 0;
+    for (int i = 0; i < 3; ++i)
+      size |= magnitude(surface[i].raw);
+    return static_cast<std::int64_t>(size) > raw::scale_saturating(most, body.scale);
+  });
+}
+
 }  // namespace
 
 void ClusterStages::begin(JointCluster& cluster) {
@@ -55,7 +69,7 @@ void ClusterStages::prepare(const JointRun& run, JointCluster& cluster) {
   LKS_ASSERT(cluster.group_count > 0);
   linearize(system_, cluster);
   for (JointGroup& group : system_.groups_of(cluster))
-    group.turns_fast = false;
+    group.turns_fast = turns_fast(run, system_, group);
   for (LinkedJoint& joint : system_.joints_of(cluster))
     leave_out_far_limits(run, system_.step, joint);
   if (cluster.drifts_first) drift_first(run, cluster);

@@ -23,6 +23,9 @@ constexpr int k_most_passes = 8;
 constexpr int k_most_solves = 12;
 constexpr std::int64_t k_nearly_closed = 1 << 22;
 
+// Of loops whose locks are closed: a third solve leaves as much, because of the compliance.
+constexpr int k_loop_solves = 2;
+
 // Of solves for velocities; and of those while a factor of earlier rows leaves more than 60 nm/s,
 // of loops 8 µm/s, Q50.
 constexpr int k_velocity_solves = 2, k_most_velocity_solves = 5;
@@ -43,6 +46,9 @@ constexpr std::int64_t k_rounding = 16;
 
 // Where there are limits or drives: 15 nm. After one step most openings lie between both.
 constexpr std::int64_t k_pushed_rounding = 64;
+
+// Of loops: 60 nm. Their compliance leaves about half of that.
+constexpr std::int64_t k_loop_rounding = 256;
 
 // Openings that ropes and chains may leave: 30 nm, as much as rounding of spin does at an arm of 1
 // m.
@@ -208,7 +214,8 @@ void LockSolver::hold_roughly(const JointRun& run, const JointCluster& cluster, 
 // rounding does, the check after it is skipped.
 std::int64_t LockSolver::close(const JointRun& run, JointGroup& group, bool turn) {
   const bool loops = group.has_solved_loops();
-  const std::int64_t enough = group.only_locks ? k_rounding : k_pushed_rounding;
+  const std::int64_t rounding = group.only_locks ? k_rounding : k_pushed_rounding;
+  const std::int64_t enough = loops ? k_loop_rounding : rounding;
   const std::int64_t expected = group.only_locks ? k_noise : k_pushed_rounding;
   const int fall_bits = loops ? k_loop_fall_bits : k_tree_fall_bits;
   const int most = turn && !loops ? k_most_solves : k_most_passes;
@@ -219,12 +226,14 @@ std::int64_t LockSolver::close(const JointRun& run, JointGroup& group, bool turn
     const bool drives =
         loops && !group.only_locks && (i == 0 || loops_.motor_error(run, group) > k_slow_loop);
     if (widest <= enough && !drives) return 0;
+    if (i >= k_loop_solves && loops && widest <= k_closed) return widest;
     if (i >= k_position_solves && loops && widest <= k_nearly_closed) return widest;
     const bool slow = i > 0 && widest > before >> fall_bits;
     const bool wide = turn && widest > (loops ? k_nearly_closed : k_closed);
-    const bool renews = slow && (wide || !group.is_fresh);
+    const bool at_once = i == 0 && turn && !loops && group.turns_fast;
+    const bool renews = at_once || (slow && (wide || !group.is_fresh));
     if (renews) {
-      if (turn) look_ahead(run, group, true);
+      if (turn && !at_once) look_ahead(run, group, true);
       factor(run, group, turn);
       group.turns_fast = true;
       set_position_errors(group);
@@ -264,10 +273,9 @@ void LockSolver::hold_speed(const JointRun& run, JointGroup& group, int pass) {
   if (pass > 0 && loops) group.speed = std::max(group.speed, loops_.motor_error(run, group));
   const auto is_pulled = [this](std::uint32_t body) { return system_.bodies[body].pulled; };
   const bool always =
-      pass < k_velocity_solves &&
+      pass == 0 &&
       (is_driven || (group.only_locks && std::ranges::any_of(system_.bodies_of(group), is_pulled)));
-  const bool is_exact = pass < k_velocity_solves && !(pass > 0 && loops);
-  if (!always && group.speed <= (is_exact ? k_still : slow)) return;
+  if (!always && group.speed <= (pass == 0 ? k_still : slow)) return;
   const int fall_bits = loops ? k_loop_fall_bits : k_tree_fall_bits;
   const bool is_slow = pass == 0 ? group.turns_fast : group.speed > before >> fall_bits;
   if (is_slow && !group.is_fresh && group.is_direct) {
