@@ -23,13 +23,15 @@ const Vec3<Acceleration> k_gravity{{}, Acceleration::from_ratio(-981, 100), {}};
 
 struct Hung {
   BodyRecord body;
-  SwingPivot pivot;
+  Pivot pivot;
   Vec3<Acceleration> gravity = k_gravity;
   TimeStep step = TimeStep::of(60, 1);
 
   [[nodiscard]] Mat3 rotation() const { return to_matrix(body.orientation); }
-  [[nodiscard]] bool can() const { return can_swing(body, rotation(), pivot, gravity, step); }
-  SwingStep go() { return swing(body, rotation(), pivot, gravity, step); }
+  [[nodiscard]] bool can() const {
+    return can_step_about_pivot(body, rotation(), pivot, gravity, step);
+  }
+  PivotStep go() { return step_about_pivot(body, rotation(), pivot, gravity, step); }
 
   // From the pivot, which is the origin.
   void hang() { body.position = -arm_of(rotation(), pivot.anchor); }
@@ -146,7 +148,7 @@ TEST(PivotIntegrator, TakesForcesForGravity) {
 
 TEST(PivotIntegrator, ReturnsTheForceOfTheJoint) {
   Hung still = hung({0.2_r, 0.3_r, 0.25_r}, {{}, 1_m, {}});
-  const SwingStep step = still.go();
+  const PivotStep step = still.go();
   EXPECT_EQ(still.body.position, (Vec3<Position>{{}, -1_m, {}}));
   EXPECT_NEAR(to_double(step.impulse.y), 9.81 / 60, 1e-9);
   EXPECT_NEAR(to_double(step.impulse.x), 0, 1e-9);

@@ -195,7 +195,7 @@ void give(const JointAccess& access, const IslandView& island) {
   for (std::size_t i = 0; i < island.joints.size(); ++i) {
     const IslandJoint& joint = island.joints[i];
     const Problem& problem = problems[i];
-    JointSolver::RowImpulses impulses{};
+    RowImpulses impulses{};
     for (std::size_t lane = 0; lane < problem.rows; ++lane)
       impulses[joint.rows[lane]] = joint.to_impulse[lane].times(
           problem.impulse[lane] - problem.start[lane], island.state.bits - 50);

@@ -7,13 +7,13 @@
 
 #include "core/dynamics/contact/row_geometry.h"
 #include "core/dynamics/direct/island_pool.h"
-#include "core/dynamics/linkage/joint_solver.h"
+#include "core/dynamics/linkage/island_joints.h"
 
 namespace lockstone {
 
 /// The joints of a tick, and the data that they are solved with.
 struct JointAccess {
-  JointSolver& joints;
+  IslandJoints& joints;
   JointRun run;
 };
 

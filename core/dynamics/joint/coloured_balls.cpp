@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/mass_share.h"
 
@@ -60,6 +62,7 @@ void JointNet::clear(std::uint32_t rows) {
 }
 
 void JointNet::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
+  LKS_ASSERT(a.pushed || b.pushed);
   graph_.add(a.row, a.pushed, b.row, b.pushed);
   entries_.push_back({link, &record, a, b});
 }
@@ -75,8 +78,9 @@ void JointNet::lay_out() {
   if (blocks_.size() < blocks) blocks_.resize(blocks);  // they only grow
   const std::span<const ConstraintGraph::Place> places = graph_.places();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank] =
-        static_cast<std::uint32_t>(i);
+    std::uint32_t& slot = slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank];
+    LKS_ASSERT(slot == k_no_joint);
+    slot = static_cast<std::uint32_t>(i);
   }
 }
 
@@ -86,6 +90,7 @@ const BallKernels& JointNet::kernels_of(std::size_t color) const {
 
 void JointNet::fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
   const BallKernels& kernels = kernels_of(color);
+  LKS_ASSERT(first <= end && end <= ranges_[color].count);
   for (std::size_t i = ranges_[color].first + first; i < ranges_[color].first + end; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
       const std::uint32_t entry = slots_[i * k_block_lanes + lane];
@@ -113,6 +118,7 @@ void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane
     if (!end->pushed) run.places[end->row] = body_place(end->record->position, *end->rotation);
   }
   const int of_a = exponent_of(entry.a), of_b = exponent_of(entry.b), pair = std::max(of_a, of_b);
+  LKS_ASSERT(pair - of_a <= k_factor_exponent && pair - of_b <= k_factor_exponent);
   block.body_a[lane] = lanes::row_body_offset(entry.a.row);
   block.body_b[lane] = lanes::row_body_offset(entry.b.row);
   for (int axis = 0; axis < 3; ++axis) {
@@ -129,14 +135,17 @@ void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane
 }
 
 void JointNet::lift(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  LKS_ASSERT(first <= end && end <= ranges_[color].count);
   kernels_of(color).lift(run.rows, &blocks_[ranges_[color].first + first], end - first);
 }
 
 void JointNet::relax(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  LKS_ASSERT(first <= end && end <= ranges_[color].count);
   kernels_of(color).relax(run.rows, &blocks_[ranges_[color].first + first], end - first);
 }
 
 void JointNet::follow(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+  LKS_ASSERT(first <= end && end <= ranges_[color].count);
   kernels_of(color).follow(run.rows, run.before, &blocks_[ranges_[color].first + first],
                            end - first, run.places, run.inertias, substep_rate_);
 }
@@ -145,6 +154,7 @@ void JointNet::store(std::span<const JointLink> links, std::span<JointRecord> jo
                      std::size_t first, std::size_t end) const {
   for (std::size_t slot = first; slot < end; ++slot) {
     if (slots_[slot] == k_no_joint) continue;
+    LKS_ASSERT(entries_[slots_[slot]].link < links.size());
     const BallBlock& block = blocks_[slot / k_block_lanes];
     const std::size_t lane = slot % k_block_lanes;
     JointRecord& joint = joints[links[entries_[slots_[slot]].link].joint];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <lockstone/assert.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
@@ -21,6 +22,7 @@ inline constexpr std::int64_t k_row_bound = std::int64_t{1} << 61;
 inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
 
 [[nodiscard]] constexpr std::int64_t bounded(std::int64_t x, std::int64_t bound) {
+  LKS_ASSERT(bound >= 0);
   return std::clamp(x, -bound, bound);
 }
 
@@ -44,7 +46,8 @@ inline constexpr std::int64_t k_close_way = std::int64_t{8} << 32;
 /// The speed that closes an error (m, Q32) in a substep, or in 2^shift of them: m/s, Q50.
 [[nodiscard]] constexpr std::int64_t closing_speed(std::int64_t error, std::int64_t rate,
                                                    int shift = 0) {
-  return product_rounded(error, rate << 19, 1 + shift);
+  LKS_ASSERT(rate > 0 && shift >= 0);
+  return product_rounded(error, rate << 21, 3 + shift);  // shifts from 3 on are faster
 }
 
 }  // namespace lockstone

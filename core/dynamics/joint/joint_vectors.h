@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <lockstone/assert.h>
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
 
@@ -13,8 +14,21 @@
 
 namespace lockstone {
 
+[[nodiscard]] inline RawVec3 raw_of(const Vec3<Unit>& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
+
+// x · 2^-shift for either sign of `shift`, within ±2^44.
+[[nodiscard]] inline std::int64_t shifted(std::int64_t x, int shift) {
+  LKS_ASSERT(shift >= -44);
+  constexpr std::int64_t k_bound = std::int64_t{1} << 44;
+  if (shift >= 0) return std::clamp(raw::round_shift(x, std::min(shift, 62)), -k_bound, k_bound);
+  return std::clamp(x, -(k_bound >> -shift), k_bound >> -shift) * (std::int64_t{1} << -shift);
+}
+
 // (arm / 2^exponent) × n, Q30, from an arm in Q32.
 [[nodiscard]] inline RawVec3 lever(const Vec3<Position>& arm, const RawVec3& n, int exponent) {
+  LKS_ASSERT(exponent > -32 && exponent < 64);
   const auto part = [&](Position p, std::int64_t y, Position q, std::int64_t z) {
     ProductSum sum;
     sum.add(p.raw, y);
@@ -41,6 +55,7 @@ namespace lockstone {
 }
 
 [[nodiscard]] inline RawVec3 divided(const RawVec3& v, std::int64_t divisor_q30) {
+  LKS_ASSERT(divisor_q30 > 0);
   const auto part = [&](std::int64_t x) {
     return raw::round_divide(std::clamp(x, -4 * k_one, 4 * k_one) * k_one, divisor_q30);
   };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/free_rotation.h"
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/motion.h"
@@ -19,7 +21,7 @@ namespace {
 constexpr std::int64_t k_most_gap = std::int64_t{1} << (Position::frac_bits - 16);
 
 // A substep is taken in pieces of at most half a radian of the swing, in this many at most.
-constexpr std::int32_t k_most_swing_pieces = 32;
+constexpr std::int32_t k_most_pieces = 32;
 
 // Bits of the mantissa of a pull, so that products below fit in 63 bits.
 constexpr int k_pull_bits = 29;
@@ -84,6 +86,7 @@ struct Arm {
     const int shift = Unit::frac_bits - Length::frac_bits - exponent;
     for (int i = 0; i < 3; ++i)
       part[static_cast<std::size_t>(i)] = raw::scale_binary(anchor[i].raw, shift);
+    LKS_ASSERT(sum_of(part) <= std::int64_t{3} << 30);
   }
 };
 
@@ -110,6 +113,7 @@ PivotInertia inertia_about(const BodyRecord& body, const Arm& arm) {
     found = principal_axes({d.x, d.y, d.z, -product(0, 1), -product(0, 2), -product(1, 2)});
   }
   PivotInertia result{{}, found.axes};
+  LKS_ASSERT(distance >= 0);  // the arm's scale is not below the body's
   for (int i = 0; i < 3; ++i) {
     const std::int64_t whole = raw::round_shift(found.moments[i], 28);
     result.moments[i].raw = raw::saturate<std::int32_t>(std::max(whole, std::int64_t{1}));
@@ -135,8 +139,10 @@ struct Pull {
     }
     if (sizes == 0) return;
     exponent = static_cast<int>(std::bit_width(sizes)) - k_pull_bits;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       mantissa[i] = raw::scale_binary(sum[i], -exponent);
+      LKS_ASSERT(magnitude(mantissa[i]) >> k_pull_bits <= 1);
+    }
   }
 };
 
@@ -146,9 +152,10 @@ std::int32_t pieces_of(const Pull& pull, const Arm& arm, const Vec3<Unit>& momen
                        const TimeStep& step) {
   const auto& [x, y, z] = moments;
   const Unit middle = max(min(x, y), min(max(x, y), z));
+  LKS_ASSERT(middle.raw > 0);
   const std::int64_t product = (sum_of(pull.mantissa) >> 1) * (sum_of(arm.part) >> 2) / middle.raw;
   const int shift = pull.exponent - 27 - arm.exponent;  // of 4·ω²
-  for (std::int32_t pieces = 1; pieces <= k_most_swing_pieces; pieces *= 2) {
+  for (std::int32_t pieces = 1; pieces <= k_most_pieces; pieces *= 2) {
     const std::int64_t rate = std::int64_t{step.substep_rate()} * pieces;
     const std::int64_t left = shift < 0 ? product >> std::min(-shift, 62) : product;
     const std::int64_t right = shift > 0 ? (rate * rate) >> std::min(shift, 62) : rate * rate;
@@ -176,10 +183,10 @@ struct Kick {
 
 // The body about its pivot, on its way through a tick: orientation and angular momentum / (mass ·
 // 2^exponent), as spin is of a body.
-class Swing {
+class PivotMotion {
  public:
-  Swing(const BodyRecord& body, const Mat3& rotation, const Arm& arm, const PivotInertia& inertia,
-        const Pull& pull)
+  PivotMotion(const BodyRecord& body, const Mat3& rotation, const Arm& arm,
+              const PivotInertia& inertia, const Pull& pull)
       : arm_(arm), pull_(pull), moments_(inertia.moments), from_pivot_(negated(arm.part)) {
     const RawVec3 u = turned(rotation, from_pivot_);
     spin_ = scaled(body.spin, body.scale_exponent - arm.exponent) + moment(u, body.velocity);
@@ -198,6 +205,7 @@ class Swing {
   // By `pieces` of 1 / rate each, with a constant torque besides, as spin in each; returns the
   // turns about an axis that it took.
   std::uint32_t run(std::int32_t rate, std::int32_t pieces, const Vec3<Velocity>& torque) {
+    LKS_ASSERT(rate > 0 && pieces > 0);
     const FreeRotor rotor(moments_, arm_.exponent, {2 * rate, Unit::from_integer(1)});
     const Kick first(pull_, std::int64_t{6} * rate), between(pull_, std::int64_t{3} * rate),
         middle(pull_, std::int64_t{3} * rate, 1);
@@ -277,8 +285,8 @@ class Swing {
 
 }  // namespace
 
-bool can_swing(const BodyRecord& body, const Mat3& rotation, const SwingPivot& pivot,
-               const Vec3<Acceleration>& gravity, const TimeStep& step) {
+bool can_step_about_pivot(const BodyRecord& body, const Mat3& rotation, const Pivot& pivot,
+                          const Vec3<Acceleration>& gravity, const TimeStep& step) {
   const Vec3<Position> gap = body.position + arm_of(rotation, pivot.anchor) - pivot.place;
   for (int i = 0; i < 3; ++i)
     if (gap[i].raw > k_most_gap || gap[i].raw < -k_most_gap) return false;
@@ -290,8 +298,8 @@ bool can_swing(const BodyRecord& body, const Mat3& rotation, const SwingPivot& p
   return pieces_of(pull, arm, inertia_about(body, arm).moments, step) != 0;
 }
 
-SwingStep swing(BodyRecord& body, const Mat3& rotation, const SwingPivot& pivot,
-                const Vec3<Acceleration>& gravity, const TimeStep& step) {
+PivotStep step_about_pivot(BodyRecord& body, const Mat3& rotation, const Pivot& pivot,
+                           const Vec3<Acceleration>& gravity, const TimeStep& step) {
   const Arm arm(body, pivot.anchor);
   const PivotInertia inertia = inertia_about(body, arm);
   const Pull pull(body, gravity, step);
@@ -301,19 +309,19 @@ SwingStep swing(BodyRecord& body, const Mat3& rotation, const SwingPivot& pivot,
   for (int i = 0; i < 3; ++i)
     torque[i].raw = raw::round_divide(torque[i].raw, pieces * step.substeps);
 
-  Swing swing(body, rotation, arm, inertia, pull);
-  SwingStep result;
-  result.axis_turns = swing.run(step.substep_rate() * pieces, step.substeps * pieces, torque);
+  PivotMotion motion(body, rotation, arm, inertia, pull);
+  PivotStep result;
+  result.axis_turns = motion.run(step.substep_rate() * pieces, step.substeps * pieces, torque);
 
   body.orientation = inertia.axes == Quat{}
-                         ? swing.orientation()
-                         : normalized(multiply(swing.orientation(), conjugate(inertia.axes)));
+                         ? motion.orientation()
+                         : normalized(multiply(motion.orientation(), conjugate(inertia.axes)));
   const Mat3 end = to_matrix(body.orientation);
   const RawVec3 back = turned(end, arm.part);
   const Vec3<Velocity> before = body.velocity + tick_gain(body, gravity, step);
-  body.velocity = moment(back, swing.surface_velocity());  // (−back) × … the other way about
+  body.velocity = moment(back, motion.surface_velocity());  // (−back) × … the other way about
   body.spin =
-      scaled(swing.spin() + moment(back, body.velocity), arm.exponent - body.scale_exponent);
+      scaled(motion.spin() + moment(back, body.velocity), arm.exponent - body.scale_exponent);
   body.position = pivot.place - arm_of(end, pivot.anchor);
   result.impulse = body.velocity - before;
   for (int i = 0; i < 3; ++i)

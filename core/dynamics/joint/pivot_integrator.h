@@ -19,25 +19,27 @@
 namespace lockstone {
 
 /// Where a body hangs: in the world, and in its own frame of mass.
-struct SwingPivot {
+struct Pivot {
   Vec3<Position> place{};
   Vec3<Length> anchor{};
 };
 
 /// The result of a tick.
-struct SwingStep {
+struct PivotStep {
   Vec3<Velocity> impulse{};  // of the pivot per mass, the mean of the substeps
   std::uint32_t axis_turns = 0;
 };
 
-/// Whether `swing` may take a dynamic body without locked axes: the joint holds within 2^-16 m, the
-/// arm is no more than some 30 times the body's radius, and the step resolves the swing.
-[[nodiscard]] bool can_swing(const BodyRecord& body, const Mat3& rotation, const SwingPivot& pivot,
-                             const Vec3<Acceleration>& gravity, const TimeStep& step);
+/// Whether `step_about_pivot` may take a dynamic body without locked axes: the joint holds within
+/// 2^-16 m, the arm is no more than some 30 times the body's radius, and the step resolves the
+/// swing.
+[[nodiscard]] bool can_step_about_pivot(const BodyRecord& body, const Mat3& rotation,
+                                        const Pivot& pivot, const Vec3<Acceleration>& gravity,
+                                        const TimeStep& step);
 
 /// Moves the body by a tick. Only the part of its velocities that turns it about the pivot counts;
 /// the angular momentum about the pivot is kept to 2^-32 m/s of the arm's end.
-SwingStep swing(BodyRecord& body, const Mat3& rotation, const SwingPivot& pivot,
-                const Vec3<Acceleration>& gravity, const TimeStep& step);
+PivotStep step_about_pivot(BodyRecord& body, const Mat3& rotation, const Pivot& pivot,
+                           const Vec3<Acceleration>& gravity, const TimeStep& step);
 
 }  // namespace lockstone

@@ -1,5 +1,6 @@
 #include "core/dynamics/joint/turn_springs.h"
 
+#include <lockstone/assert.h>
 #include <lockstone/quat.h>
 
 #include "core/dynamics/joint/joint_geometry.h"
@@ -22,6 +23,7 @@ std::int64_t product(std::int64_t x, std::int64_t y) {
 
 // α / sin α of an angle within ±π/2, Q30. Below 2^-4 the series 1 + s²/6 + 3·s⁴/40, within 2^-28.
 std::int64_t angle_over_sine(std::int64_t sine, std::int64_t cosine) {
+  LKS_ASSERT(sine >= 0 && cosine >= 0);
   if (sine < k_one >> 4) {
     const std::int64_t square = product(sine, sine);
     return k_one + square / 6 + 3 * product(square, square) / 40;
@@ -57,6 +59,7 @@ SpringTurnRows whole_rows(Quat off, const Mat3& frame_b) {
   const RawVec3 v{off.x.raw, off.y.raw, off.z.raw};
   const auto sine = static_cast<std::int64_t>(norm(v[0], v[1], v[2]));
   const std::int64_t k = angle_over_sine(sine, off.w.raw), cosine = product(k, off.w.raw);
+  LKS_ASSERT(sine <= k_one + 4 && k >= k_one && k <= 2 * k_one);  // 1 … π/2
   SpringTurnRows rows;
   RawVec3 n{};
   for (std::size_t i = 0; i < 3 && sine > 0; ++i)
@@ -114,12 +117,14 @@ SpringTurn spring_turn(const JointRecord& joint) {
 }
 
 bool acts_together(const JointRecord& joint, SpringTurn turn, std::size_t axis) {
+  LKS_ASSERT(axis < k_joint_axes);
   if (turn == SpringTurn::apart || !is_sprung(joint, axis)) return false;
   return turn == SpringTurn::whole || axis != k_twist;
 }
 
 SpringTurnRows spring_turn_rows(const JointRecord& joint, SpringTurn turn,
                                 const Quat& orientation_a, const Quat& orientation_b) {
+  LKS_ASSERT(turn != SpringTurn::apart);
   const Quat target = multiply(multiply(orientation_a, joint.orientation_a), target_of(joint));
   const Quat frame_b = multiply(orientation_b, joint.orientation_b);
   if (turn == SpringTurn::swing) return swing_rows(to_matrix(target), to_matrix(frame_b));

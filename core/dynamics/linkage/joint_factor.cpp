@@ -5,6 +5,8 @@
 #include <bit>
 #include <type_traits>
 
+#include <lockstone/assert.h>
+
 #include "core/math/product_sum.h"
 #include "core/math/reciprocal.h"
 
@@ -98,7 +100,9 @@ void JointFactor::clear() {
 // The column of joint k from `found_`.
 bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_t rows,
                               std::size_t most_rows) {
+  LKS_ASSERT(rows <= most_rows && most_rows <= k_factor_rows);
   std::sort(found_.begin(), found_.end());
+  LKS_ASSERT(found_.empty() || (found_.front() > k && found_.back() < count));
   Column column;
   column.rows = rows;
   column.first_block = static_cast<std::uint32_t>(blocks_.size());
@@ -130,6 +134,7 @@ bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_
 std::int64_t* JointFactor::find_block(const Column& column, std::uint32_t row) {
   const auto all = blocks(column);
   const auto found = std::ranges::lower_bound(all, row, {}, &Block::row);
+  LKS_ASSERT(found != all.end() && found->row == row);  // planned
   return values_.data() + found->values;
 }
 
@@ -137,9 +142,11 @@ std::int64_t* JointFactor::find_block(const Column& column, std::uint32_t row) {
 std::uint32_t JointFactor::factor_diagonal(Column& column) {
   std::int64_t* d = values_.data() + column.diagonal;
   const std::uint32_t n = column.count;
+  LKS_ASSERT(n <= column.rows);
   std::uint32_t left_out = 0;
   for (std::uint32_t c = 0; c < n; ++c) {
     const std::int64_t pivot = d[c * n + c];
+    LKS_ASSERT(pivot <= std::int64_t{1} << k_matrix_bits);
     Reciprocal& inverse = reciprocals_[column.first_row + c];
     if (pivot < k_least_pivot) {
       inverse = {};
@@ -207,6 +214,7 @@ void JointFactor::divide_rows(const Column& column, std::int64_t* b, std::uint32
 // A_ij ← A_ij − B_i·D⁻¹·B_jᵀ for all pairs of blocks below, then B ← B·D⁻¹.
 void JointFactor::update(std::uint32_t first, const Column& column) {
   const std::uint32_t n = column.count;
+  LKS_ASSERT(n <= column.rows);
   const std::span<const Block> below = blocks(column);
   Entries entries;
   for (std::size_t j = 0; j < below.size(); ++j) {
@@ -237,6 +245,7 @@ std::uint32_t JointFactor::factor(std::uint32_t first, std::uint32_t count) {
   std::uint32_t left_out = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     Column& column = columns_[first + k];
+    LKS_ASSERT(column.count <= k_factor_rows);
     left_out += factor_diagonal(column);
     eliminate(first, column);
     update(first, column);
@@ -245,6 +254,7 @@ std::uint32_t JointFactor::factor(std::uint32_t first, std::uint32_t count) {
 }
 
 void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
+  LKS_ASSERT(first + count <= columns_.size());
   for (std::uint32_t k = 0; k < count; ++k) {
     const Column& column = columns_[first + k];
     with_size(column.count, [&](auto n) { substitute(first, column, n); });

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/state/joint_record.h"
 
 namespace lockstone {
@@ -64,6 +66,9 @@ class JointFactor {
 
   /// Right-hand side, then solution: 46 fraction bits.
   [[nodiscard]] std::int64_t& rhs(std::uint32_t row) { return rhs_[row]; }
+  [[nodiscard]] std::span<std::int64_t> rhs_of(const Column& column) {
+    return std::span(rhs_).subspan(column.first_row, column.rows);
+  }
 
   /// Sets all entries of the group by its columns' counts: block(j, k, to) writes the responses of
   /// the rows of joint j to impulses on those of joint k, row by row, for j = k (as far as the
@@ -115,8 +120,10 @@ void JointFactor::fill_blocks(std::uint32_t first, std::uint32_t count, const Fi
   const std::span<const Column> group = columns(first, count);
   for (std::uint32_t k = 0; k < count; ++k) {
     block(k, k, values_.data() + group[k].diagonal);
-    for (const Block& below : blocks(group[k]))
+    for (const Block& below : blocks(group[k])) {
+      LKS_ASSERT(below.row > k && below.row < count);
       block(below.row, k, values_.data() + below.values);
+    }
   }
 }
 

@@ -42,7 +42,7 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
     load.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
     if (!load.is_converged) continue;
     for (const IslandJoint& joint : joints_)
-      joints.solver().put_among_contacts(joint.joint);
+      joints.solver().island_joints().put_among_contacts(joint.joint);
   }
 }
 
@@ -60,7 +60,7 @@ void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& is
     contact.b = pushed(contacts[id].b);
   });
   lists_.for_joints(island, [&](std::uint32_t link) {
-    joints_.push_back(joints.solver().island_joint(joints.solver().number_of(link)));
+    joints_.push_back(joints.solver().island_joints().joint(joints.solver().number_of(link)));
   });
 }
 

@@ -40,7 +40,7 @@ class ConvergedIslands {
   void solve(const ContactRun& run, TickJoints& joints, std::size_t first, std::size_t end,
              bool pushes_out) {
     for (auto i = static_cast<std::uint32_t>(first); i < end; ++i)
-      solver_.solve(run, {joints.solver(), joints.run()}, i, pushes_out);
+      solver_.solve(run, {joints.solver().island_joints(), joints.run()}, i, pushes_out);
   }
   /// After the last phase.
   void end(const ContactRun& run, std::size_t first, std::size_t end) {

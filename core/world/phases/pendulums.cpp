@@ -51,12 +51,12 @@ void Pendulums::look_for(const JointLink& link) {
   if (!record.is_dynamic() || record.locks != 0 || !is_point(world_.joints[link.joint])) return;
   if (world_.joint_graph.neighbours(body).size() != 1) return;
   const Pendulum swing{link.joint, body, is_first};
-  if (can_swing(record, world_.cache.rotation(body), pivot_of(swing), world_.header.gravity,
-                world_.time_step))
+  if (can_step_about_pivot(record, world_.cache.rotation(body), pivot_of(swing),
+                           world_.header.gravity, world_.time_step))
     pendulums_.push_back(swing);
 }
 
-SwingPivot Pendulums::pivot_of(const Pendulum& swing) const {
+Pivot Pendulums::pivot_of(const Pendulum& swing) const {
   const JointRecord& joint = world_.joints[swing.joint];
   const std::uint32_t other = swing.is_first ? joint.body_b : joint.body_a;
   const Vec3<Length>& held = swing.is_first ? joint.anchor_b : joint.anchor_a;
@@ -73,8 +73,8 @@ std::span<const JointLink> Pendulums::joints_to_solve() const {
 // Returns the number of turns about an axis.
 std::uint32_t Pendulums::run(std::uint32_t body) {
   const Pendulum& swing = pendulums_[place_of_[body] - 1];
-  const SwingStep step =
-      lockstone::swing(world_.bodies[swing.body], world_.cache.rotation(swing.body),
+  const PivotStep step =
+      step_about_pivot(world_.bodies[swing.body], world_.cache.rotation(swing.body),
                        pivot_of(swing), world_.header.gravity, world_.time_step);
   JointRecord& joint = world_.joints[swing.joint];
   for (std::size_t i = 0; i < k_joint_axes; ++i)

@@ -1,0 +1,228 @@
+#include "core/dynamics/linkage/joint_planner.h"
+
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
+#include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/linkage/joint_drives.h"
+#include "core/dynamics/linkage/pulled_links.h"
+
+namespace lockstone {
+namespace {
+
+// Locks of more loops say too much more than once to be solved for exactly: a bridge of planks on
+// two ropes flew apart.
+constexpr std::uint32_t k_most_loops = 2;
+
+// Whether the coloured balls can hold a body at this anchor: one that is pushed along every axis
+// with the anchor within the range of its format, or one that stands still.
+bool fits_ball(const LinkedBody& body, const Vec3<Length>& anchor) {
+  if (!body.pushed) return !body.record->moves();
+  if ((body.record->locks & k_lock_moving) != 0) return false;
+  const int shift = Length::frac_bits + body.record->scale_exponent;
+  LKS_ASSERT(shift < 63);
+  const std::int64_t bound = std::int64_t{1} << std::max(shift, 0);
+  const auto inside = [&](Length x) { return x.raw <= bound && x.raw >= -bound; };
+  return inside(anchor.x) && inside(anchor.y) && inside(anchor.z);
+}
+
+}  // namespace
+
+JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loops,
+                           std::size_t body_capacity, std::size_t joint_capacity)
+    : system_(system), trees_(trees), loops_(loops) {
+  seen_.reserve(joint_capacity);
+  visited_.reserve(body_capacity);
+  sorted_.reserve(joint_capacity);
+  in_net_.reserve(joint_capacity);
+}
+
+std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_contacts) {
+  for (LinkedBody& body : system_.bodies)
+    body.touches = body.pushed && body.solver < first_without_contacts;
+  link_bodies();
+  find_pulled_links(system_);
+  trees_.clear();
+  loops_.clear();
+  system_.groups.clear();
+  system_.clusters.clear();
+  system_.order.clear();
+  system_.group_bodies.clear();
+  in_net_.clear();
+  seen_.assign(system_.added.size(), 0);
+  visited_.assign(system_.bodies.size(), 0);
+  for (std::uint32_t i = 0; i < system_.bodies.size(); ++i) {
+    if (system_.bodies[i].pushed && visited_[i] == 0) find_group(i);
+  }
+  for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
+    if (system_.added[i].joint == AddedJoint::k_in_net) in_net_.push_back(i);
+  }
+  return in_net_;
+}
+
+// Lists the joints of each pushed body, by index.
+void JointPlanner::link_bodies() {
+  std::vector<LinkedBody>& bodies = system_.bodies;
+  for (LinkedBody& body : bodies)
+    body.joint_count = 0;
+  const auto for_each_end = [&](auto&& f) {
+    for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
+      for (const std::uint32_t body : {system_.added[i].a, system_.added[i].b})
+        if (bodies[body].pushed) f(bodies[body], i);
+    }
+  };
+  for_each_end([](LinkedBody& body, std::uint32_t) { ++body.joint_count; });
+  std::uint32_t total = 0;
+  for (LinkedBody& body : bodies) {
+    body.first_joint = total;
+    total += body.joint_count;
+    body.joint_count = 0;
+  }
+  LKS_ASSERT(total <= 2 * system_.added.size());
+  system_.by_body.assign(total, 0);
+  for_each_end([&](LinkedBody& body, std::uint32_t joint) {
+    system_.by_body[body.first_joint + body.joint_count++] = joint;
+  });
+}
+
+// Finds all joints connected to a body, breadth first. Backwards, each joint of a tree comes after
+// those beyond it, so that elimination fills nothing in.
+void JointPlanner::find_group(std::uint32_t root) {
+  std::vector<std::uint32_t>& bodies = system_.group_bodies;
+  JointGroup group;
+  group.first = static_cast<std::uint32_t>(system_.order.size());
+  group.first_body = static_cast<std::uint32_t>(bodies.size());
+  bodies.push_back(root);
+  visited_[root] = 1;
+  for (std::size_t i = group.first_body; i < bodies.size(); ++i) {
+    for (const std::uint32_t index : system_.joints_at(system_.bodies[bodies[i]])) {
+      if (seen_[index] != 0) continue;
+      seen_[index] = 1;
+      system_.order.push_back(index);
+      for (const std::uint32_t body : {system_.added[index].a, system_.added[index].b}) {
+        if (visited_[body] != 0 || !system_.bodies[body].pushed) continue;
+        visited_[body] = 1;
+        bodies.push_back(body);
+      }
+    }
+  }
+  group.count = static_cast<std::uint32_t>(system_.order.size()) - group.first;
+  group.body_count = static_cast<std::uint32_t>(bodies.size()) - group.first_body;
+  LKS_ASSERT(group.body_count <= group.count + 1);  // connected
+  if (group.count == 0) return;
+  const auto first_group = static_cast<std::uint32_t>(system_.groups.size());
+  plan_group(group);
+  add_cluster(group, first_group);
+}
+
+void JointPlanner::plan_group(JointGroup group) {
+  std::reverse(system_.order.begin() + group.first, system_.order.end());
+  const std::span<const std::uint32_t> joints = system_.joints_of(group);
+  for (std::uint32_t k = 0; k < group.count; ++k)
+    system_.added[joints[k]].place = k;
+  // The pushed bodies of a tree on the ground are as many as its joints.
+  const bool has_few_loops = group.count <= group.body_count + k_most_loops;
+  const bool needs_loops = has_loops(group) || has_motors(group) || is_pressed(group);
+  if (needs_loops && loops_.plan(group)) return system_.groups.push_back(group);
+  if (!has_few_loops || !trees_.plan(group)) return plan_singles(group);
+  group.is_direct = true;
+  system_.groups.push_back(group);
+}
+
+// Too many joints for one factor: balls go to the net, and each other joint is a group, by index.
+void JointPlanner::plan_singles(const JointGroup& group) {
+  std::vector<std::uint32_t>& order = system_.order;
+  const auto begin = order.begin() + group.first, end = begin + group.count;
+  const auto rest = std::partition(begin, end, [&](std::uint32_t index) {
+    AddedJoint& added = system_.added[index];
+    added.place = 0;
+    if (!fits_net(added)) return false;
+    added.joint = AddedJoint::k_in_net;
+    system_.bodies[added.a].in_net = system_.bodies[added.b].in_net = true;
+    return true;
+  });
+  std::sort(rest, end);
+  for (auto single = rest; single != end; ++single) {
+    JointGroup alone;
+    alone.first = static_cast<std::uint32_t>(single - order.begin());
+    alone.count = 1;
+    trees_.plan_single(alone);
+    system_.groups.push_back(alone);
+  }
+}
+
+// Makes the joints that are not in a net, by index.
+void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_group) {
+  sorted_.clear();
+  for (const std::uint32_t index : system_.joints_of(group)) {
+    if (system_.added[index].joint != AddedJoint::k_in_net) sorted_.push_back(index);
+  }
+  if (sorted_.empty()) return;
+  std::sort(sorted_.begin(), sorted_.end());
+  JointCluster cluster;
+  cluster.first_joint = static_cast<std::uint32_t>(system_.joints.size());
+  cluster.joint_count = static_cast<std::uint32_t>(sorted_.size());
+  for (const std::uint32_t index : sorted_)
+    make_joint(system_.added[index]);
+  for (std::uint32_t& index : std::span(system_.order).subspan(group.first, group.count))
+    index = system_.added[index].joint;
+  cluster.first_group = first_group;
+  cluster.group_count = static_cast<std::uint32_t>(system_.groups.size()) - first_group;
+  cluster.first_body = group.first_body;
+  cluster.body_count = group.body_count;
+  LKS_ASSERT(cluster.group_count == 1 || cluster.group_count == cluster.joint_count);
+  system_.clusters.push_back(cluster);
+}
+
+void JointPlanner::make_joint(AddedJoint& added) {
+  added.joint = static_cast<std::uint32_t>(system_.joints.size());
+  LinkedJoint& joint = system_.joints.emplace_back();
+  joint.record = added.record;
+  joint.a = added.a;
+  joint.b = added.b;
+  joint.rows.rows = system_.take_rows(most_rows(*added.record));
+  joint.frames = {to_matrix(added.record->orientation_a), to_matrix(added.record->orientation_b)};
+  set_masses(joint, system_.bodies[added.a], system_.bodies[added.b]);
+  set_drives(system_, joint);
+}
+
+// A tree has as many joints as bodies that are pushed, or one less if no joint holds it to another
+// body; loops may go through such a body.
+bool JointPlanner::has_loops(const JointGroup& group) const {
+  const auto hangs = [this](std::uint32_t index) {
+    const AddedJoint& joint = system_.added[index];
+    return !system_.bodies[joint.a].pushed || !system_.bodies[joint.b].pushed;
+  };
+  const bool is_hung = std::ranges::any_of(system_.joints_of(group), hangs);
+  return group.count >= group.body_count + (is_hung ? 1 : 0);
+}
+
+// A motor pushes as well as locks do, and has a solution along with them.
+bool JointPlanner::has_motors(const JointGroup& group) const {
+  return std::ranges::any_of(system_.joints_of(group), [this](std::uint32_t index) {
+    return std::ranges::any_of(system_.added[index].record->axes, [](const JointAxisRecord& axis) {
+      return axis.is_driven() && !axis.is_spring();
+    });
+  });
+}
+
+// Whether contacts press links that are pulled hard. There locks that hold exactly turn errors of
+// contacts into energy: ropes about posts flew apart.
+bool JointPlanner::is_pressed(const JointGroup& group) const {
+  bool touches = false, pulled = false;
+  for (const std::uint32_t index : system_.bodies_of(group)) {
+    touches = touches || system_.bodies[index].touches;
+    pulled = pulled || system_.bodies[index].pulled;
+  }
+  return touches && pulled;
+}
+
+// Balls that nothing limits or drives, on bodies that a ball can hold.
+bool JointPlanner::fits_net(const AddedJoint& added) const {
+  const JointRecord& joint = *added.record;
+  return is_point(joint) && fits_ball(system_.bodies[added.a], joint.anchor_a) &&
+         fits_ball(system_.bodies[added.b], joint.anchor_b);
+}
+
+}  // namespace lockstone
