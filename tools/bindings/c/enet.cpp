@@ -60,7 +60,7 @@ std::int64_t unix_us() {
 void encrypt_server(Carrier& carrier, const lks_enet_def& def, const net::Key& key) {
   net::SecureServerOptions security;
   security.backend_key = key;
-  security.match = def.match;
+  security.match = def.match_id;
   security.max_connections = def.max_connections;
   security.unix_us_at_zero = unix_us() - lks_now_us();
   carrier.random = std::make_unique<net::SystemRandom>();
@@ -127,8 +127,8 @@ lks_status lks_enet_listen(const lks_enet_def* def, const char* address, const v
     net::EnetOptions options = options_of(raw, address);
     auto carrier = std::make_shared<Carrier>();
     if (key != nullptr) {
-      options.link_key = net::make_link_key(key_of(key), raw.match);
-      options.match_tag = net::make_match_tag(raw.match);
+      options.link_key = net::make_link_key(key_of(key), raw.match_id);
+      options.match_tag = net::make_match_tag(raw.match_id);
     }
     carrier->socket = listen(options);
     carrier->session = carrier->socket.get();
@@ -190,14 +190,14 @@ lks_status lks_enet_wait(lks_transport* transport, int64_t limit_us) {
   });
 }
 
-lks_status lks_issue_token(const void* key, uint64_t match, uint64_t player, uint32_t slot,
+lks_status lks_issue_token(const void* key, uint64_t match_id, uint64_t player, uint32_t slot,
                            uint64_t expires_unix_s, const char* address, uint32_t port, char* out,
                            size_t capacity) {
   return call([&] {
     if (key == nullptr) throw Failure{LKS_NULL_ARGUMENT, "key is null"};
     required(out, "out");
     net::TokenGrant grant;
-    grant.match = match;
+    grant.match = match_id;
     grant.player = player;
     grant.slot = narrow<std::uint8_t>(slot, "slot");
     grant.expires_unix_s = expires_unix_s;

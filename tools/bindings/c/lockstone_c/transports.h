@@ -26,7 +26,7 @@ typedef struct lks_enet_def {
   uint32_t
       unlimited; /* 1: no limits on a peer's traffic, for a match that runs as fast as it can */
   uint32_t timeout_ms;
-  uint64_t match; /* of the tokens, where `key` is given */
+  uint64_t match_id; /* of the tokens, where `key` is given */
 } lks_enet_def;
 LKS_API lks_status lks_enet_def_init(lks_enet_def* def, size_t size);
 
@@ -57,7 +57,7 @@ LKS_API lks_status lks_enet_wait(lks_transport* transport, int64_t limit_us);
 /* A token for one seat of one match, from the backend's key of 32 bytes. `address` and `port` are
  * the server's. Writes a terminated text; LKS_BUFFER_TOO_SMALL when it does not fit: 1,029 bytes
  * are always enough. */
-LKS_API lks_status lks_issue_token(const void* key, uint64_t match, uint64_t player, uint32_t slot,
+LKS_API lks_status lks_issue_token(const void* key, uint64_t match_id, uint64_t player, uint32_t slot,
                                    uint64_t expires_unix_s, const char* address, uint32_t port,
                                    char* out, size_t capacity);
 
