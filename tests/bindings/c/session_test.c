@@ -388,7 +388,7 @@ static void a_token_opens_a_seat_of_an_encrypted_match(void) {
   int64_t begin = lks_now_us();
   lks_status status = lks_enet_def_init(&socket, sizeof socket);
   if (status == LKS_OK) {
-    socket.match = 42;
+    socket.match_id = 42;
     status = lks_enet_listen(&socket, "127.0.0.1", key, &listening);
   }
   if (status == LKS_UNSUPPORTED) return;
@@ -438,7 +438,7 @@ static void messages_go_to_the_programs_function(void) {
   end_match(m);
 }
 
-/* Counts what is in use, and refuses beyond a limit. */
+/* Counts the bytes in use, and refuses more than a limit. */
 typedef struct heap {
   size_t in_use, calls, limit;
 } heap;
