@@ -12,7 +12,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 HEADERS = sorted((HERE / "c/lockstone_c").glob("*.h")) + [HERE.parent / "tool/include/lockstone/game_abi.h"]
-NOTE = "Written by tools/bindings/generate.py from the C headers, which say what each declaration means."
+NOTE = "Written by tools/bindings/generate.py from the C headers, which document each declaration."
 
 
 class Interface:

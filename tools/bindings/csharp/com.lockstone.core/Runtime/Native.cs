@@ -1,4 +1,4 @@
-// Written by tools/bindings/generate.py from the C headers, which say what each declaration means.
+// Written by tools/bindings/generate.py from the C headers, which document each declaration.
 using System;
 using System.Runtime.InteropServices;
 

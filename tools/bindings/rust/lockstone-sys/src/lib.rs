@@ -1,4 +1,4 @@
-// Written by tools/bindings/generate.py from the C headers, which say what each declaration means.
+// Written by tools/bindings/generate.py from the C headers, which document each declaration.
 #![allow(non_camel_case_types)]
 #![allow(clippy::all)]
 #![cfg_attr(rustfmt, rustfmt_skip)]
