@@ -26,6 +26,8 @@ foreach(component IN ITEMS runtime development tools)
       DESTINATION ${doc} RENAME copyright COMPONENT ${component})
   endif()
 endforeach()
+install(FILES ${packaging}/systemd/lockstone@.service
+  DESTINATION lib/systemd/system COMPONENT tools)
 install(FILES ${text}/lockstone.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 
 set(CPACK_GENERATOR DEB)

@@ -48,6 +48,17 @@ net::ServerConfig server_config(const MatchOptions& options, std::vector<std::by
   return config;
 }
 
+/// In seconds of the host's clock.
+struct TickTimes {
+  double started = 0;
+  double last_tick = 0;
+};
+
+struct HostOrders {
+  bool pause = false;  ///< by a player
+  bool drain = false;  ///< by the owner
+};
+
 }  // namespace
 
 struct MatchHost::Impl final : net::ServerObserver {
@@ -63,14 +74,12 @@ struct MatchHost::Impl final : net::ServerObserver {
   MatchLog log;
   Progress progress;
   Journal journal;
-  bool draining = false;
   Stopwatch watch;
   MatchSummary summary;
-  double started_seconds = 0;
-  double last_tick_seconds = 0;
+  TickTimes times;
   std::uint64_t ticks_seen = 0;
   std::unique_ptr<MetricsPort> metrics_port;
-  bool wanted_pause = false;
+  HostOrders wanted;
   std::optional<std::uint16_t> resume_mask;  ///< of a match that goes on
   std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
@@ -82,10 +91,10 @@ struct MatchHost::Impl final : net::ServerObserver {
   void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                    std::optional<std::uint64_t> hash) override {
     const double now = watch.seconds();
-    if (last_tick_seconds > 0) {
-      summary.longest_seconds = std::max(summary.longest_seconds, now - last_tick_seconds);
+    if (times.last_tick > 0) {
+      summary.longest_seconds = std::max(summary.longest_seconds, now - times.last_tick);
     }
-    last_tick_seconds = now;
+    times.last_tick = now;
     summary.final_hash = hash.value_or(0);
     log.record(*match.simulation, tick, inputs, summary.final_hash);
   }
@@ -122,7 +131,7 @@ struct MatchHost::Impl final : net::ServerObserver {
                        : kind == net::AskKind::resume ? "asks to go on"
                                                       : "asks for a pause";
     say({"player_asks", fmt::format("player {} {} ({}, {})", slot, wish, topic, choice), slot});
-    if (kind != net::AskKind::vote) wanted_pause = kind == net::AskKind::pause;
+    if (kind != net::AskKind::vote) wanted.pause = kind == net::AskKind::pause;
   }
 
   // One archive that holds all that is known about it.
@@ -151,7 +160,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     }
   }
   void match_started() override {
-    started_seconds = watch.seconds();
+    times.started = watch.seconds();
     const World* world = world_of(*match.game, *match.simulation);
     const std::string bodies =
         world == nullptr ? "" : fmt::format(", {} bodies", world->body_count());
@@ -278,8 +287,8 @@ bool MatchHost::update() {
   Impl& impl = *impl_;
   impl.server->update(impl.watch.microseconds());
   if (impl.server->state() == net::ServerState::over) return false;
-  if (impl.wanted_pause != impl.server->paused()) {
-    impl.wanted_pause ? impl.server->pause() : impl.server->resume();
+  if (impl.wanted.pause != impl.server->paused()) {
+    impl.wanted.pause ? impl.server->pause() : impl.server->resume();
   }
   if (impl.metrics_port != nullptr) {
     impl.metrics_port->serve([this] { return metrics(); });
@@ -297,7 +306,7 @@ void MatchHost::stop() {
 
 void MatchHost::drain() {
   Impl& impl = *impl_;
-  if (std::exchange(impl.draining, true)) return;
+  if (std::exchange(impl.wanted.drain, true)) return;
   const bool begun = impl.server->state() != net::ServerState::lobby;
   impl.say({"draining", begun ? "draining: the match is played to its end"
                               : "draining: the match has not begun, and ends"});
@@ -329,7 +338,7 @@ MatchSummary MatchHost::finish() {
   MatchSummary& summary = impl.summary;
   summary.ticks = ticks_closed();
   summary.reason = impl.server->finish_reason();
-  summary.seconds = std::max(0.0, impl.last_tick_seconds - impl.started_seconds);
+  summary.seconds = std::max(0.0, impl.times.last_tick - impl.times.started);
   summary.record_status = impl.log.finish(to_string(summary.reason));
   impl.write_bundle();
   for (unsigned slot = 0; slot < impl.match.simulation->info().player_count; ++slot) {
@@ -354,7 +363,7 @@ MatchMetrics MatchHost::metrics() const {
   MatchMetrics metrics;
   metrics.port = port();
   metrics.state = to_string(impl_->server->state());
-  metrics.ready = !impl_->draining && impl_->server->state() <= net::ServerState::running;
+  metrics.ready = !impl_->wanted.drain && impl_->server->state() <= net::ServerState::running;
   metrics.ticks = ticks_closed();
   metrics.spectators = impl_->server->spectators();
   metrics.present_mask = impl_->server->present_mask();
