@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the declarations of the C interface for Rust and C#, from its headers.
+"""Writes the declarations of the C interface for Rust, C# and Python, from its headers.
 
 usage: generate.py [--check]
 
@@ -211,10 +211,72 @@ def sharp(c):
     return "\n".join(lines + ["    }", "}", ""])
 
 
+CTYPES = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64", "uint8_t": "c_uint8",
+          "uint16_t": "c_uint16", "size_t": "c_size_t", "char": "c_char", "int": "c_int32"}
+
+
+def ctypes_type(c, kind):
+    base, levels = pointers(kind)
+    base = c.plain(base)
+    if base in c.callbacks:
+        return base
+    if not levels:
+        return "None" if base == "void" else "c_int32" if base == "lks_status" else CTYPES.get(base, base)
+    if base == "char" and levels == [True]:
+        return "c_char_p"
+    if base in ("void", "uint8_t", "char") or base in c.opaque:
+        return "c_void_p" if len(levels) == 1 else "POINTER(c_void_p)"
+    return f"POINTER({CTYPES.get(base, base)})"
+
+
+def ctypes_function(c, result, parameters):
+    return ", ".join(ctypes_type(c, kind) for kind in [result] + [kind for kind, _ in parameters])
+
+
+def ctypes_structure(c, name, fields):
+    lines = [f"class {name}(Structure):", "    _fields_ = ["]
+    for field, kind, count in fields:
+        text = f"CFUNCTYPE({ctypes_function(c, *kind[1:])})" if isinstance(kind, tuple) else ctypes_type(c, kind)
+        lines.append(f'        ("{field}", {text}{f" * {count}" if count else ""}),')
+    return lines + ["    ]", "", ""]
+
+
+def in_order_of_use(c):
+    """The structures, each after those that it contains or points to."""
+    done = []
+
+    def visit(name):
+        for _, kind, _ in c.structs[name]:
+            texts = [kind] if isinstance(kind, str) else [kind[1], *(text for text, _ in kind[2])]
+            for base in (c.plain(pointers(text)[0]) for text in texts):
+                if base in c.structs and base not in done:
+                    visit(base)
+        if name not in done:
+            done.append(name)
+
+    for name in c.structs:
+        visit(name)
+    return done
+
+
+def python(c):
+    lines = ["# " + NOTE, "# flake8: noqa",
+             "from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_int32, c_int64, c_size_t, c_uint8,",
+             "                    c_uint16, c_uint32, c_uint64, c_void_p)", ""]
+    lines += [f"{name} = {value}" for name, (value, _) in c.constants.items()] + [""]
+    lines += [f"{name} = CFUNCTYPE({ctypes_function(c, *kind)})" for name, kind in c.callbacks.items()] + ["", ""]
+    for name in in_order_of_use(c):
+        lines += ctypes_structure(c, name, c.structs[name])
+    lines += ["# The types of the result and of the arguments.", "FUNCTIONS = {"]
+    lines += [f'    "{name}": [{ctypes_function(c, *kind)}],' for name, kind in c.functions.items() if name.startswith("lks_")]
+    return "\n".join(lines + ["}", ""])
+
+
 def main():
     c = Interface(HEADERS)
     files = {HERE / "rust/lockstone-sys/src/lib.rs": rust(c),
-             HERE / "csharp/com.lockstone.core/Runtime/Native.cs": sharp(c)}
+             HERE / "csharp/com.lockstone.core/Runtime/Native.cs": sharp(c),
+             HERE / "python/lockstone/_declarations.py": python(c)}
     stale = [path for path, text in files.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
     if sys.argv[1:] == ["--check"]:
         sys.exit("\n".join(f"{path} is not the generated one: run {__file__}" for path in stale) or 0)
