@@ -33,7 +33,7 @@ install(FILES ${text}/lockstone.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 CO
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lockstone)
 set(CPACK_PACKAGE_VENDOR "The Lockstone authors")
-set(CPACK_PACKAGE_CONTACT "The Lockstone authors <lockstone@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "The Lockstone authors <lockstone@users.noreply.github.com>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "deterministic lockstep physics")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -45,33 +45,31 @@ set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_COMPONENTS_ALL runtime c development tools)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY >=)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 
-set(about " Bodies, joints and contacts in fixed-point numbers: the same inputs give the same
- state, bit for bit, on every machine and compiler. With sessions in lockstep or
- with rollback, recorded matches and their verification.")
-function(lockstone_describe group name section summary more)
+# lockstone_describe(GROUP package section text): the summary is the same for all.
+set(about "Bodies, joints and contacts in fixed-point numbers: the same inputs give the
+same state, bit for bit, on every machine and compiler. With sessions in
+lockstep or with rollback, recorded matches and their verification.")
+function(lockstone_describe group name section more)
   string(TOUPPER ${group} GROUP)
-  string(REPLACE "\n " "\n" body "${about}")
-  string(STRIP "${body}" body)
   set(CPACK_DEBIAN_${GROUP}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(CPACK_DEBIAN_${GROUP}_PACKAGE_SECTION ${section} PARENT_SCOPE)
-  set(CPACK_DEBIAN_${GROUP}_DESCRIPTION "${summary}\n${body}\n\n${more}" PARENT_SCOPE)
+  set(CPACK_DEBIAN_${GROUP}_DESCRIPTION "${about}\n\n${more}" PARENT_SCOPE)
 endfunction()
-lockstone_describe(runtime liblockstone-c0 libs "deterministic lockstep physics, C library"
+lockstone_describe(runtime liblockstone-c0 libs
   "This package has the shared library of the C interface.")
-lockstone_describe(dev liblockstone-dev libdevel "deterministic lockstep physics, development files"
+lockstone_describe(dev liblockstone-dev libdevel
   "This package has the headers of the C and the C++ interface, static libraries,\nand the files by which CMake and pkg-config find them.")
-lockstone_describe(tools lockstone games "deterministic lockstep physics, command"
-  "This package has the command: it hosts and joins matches, verifies, bisects and\ncompares their logs, also for games of one's own.")
+lockstone_describe(tools lockstone utils
+  "This package has the command: it hosts and joins matches, verifies, bisects\nand compares their logs, also for games of one's own.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
   "liblockstone-c0 (= ${PROJECT_VERSION}), libenet-dev, libsodium-dev, libzstd-dev")
-# The linker's cache learns of the library.
+# The linker's cache learns of the library, and packages that use it of its name.
 file(WRITE ${text}/triggers "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${text}/triggers)
+file(WRITE ${text}/shlibs "liblockstone_c 0 liblockstone-c0 (>= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${text}/triggers ${text}/shlibs)
 
 include(CPack)
 cpack_add_component_group(runtime)
