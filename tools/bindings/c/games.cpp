@@ -88,9 +88,10 @@ lks_status lks_game_create(const lockstone_game_table* table, lks_game** out) {
 
 lks_status lks_game_builtin(lks_game** out) {
   return call([&] {
+    required(out, "out");
     auto game = std::make_shared<Game>();
     game->make = scenes::make_simulation;
-    required(out, "out") = new lks_game{std::move(game)};
+    *out = new lks_game{std::move(game)};
   });
 }
 

@@ -63,8 +63,10 @@ void lks_transport_destroy(lks_transport* transport) {
 }
 
 lks_status lks_network_create(uint64_t seed, lks_network** out) {
-  return call(
-      [&] { required(out, "out") = new lks_network{std::make_shared<net::SimNetwork>(seed)}; });
+  return call([&] {
+    required(out, "out");
+    *out = new lks_network{std::make_shared<net::SimNetwork>(seed)};
+  });
 }
 
 void lks_network_destroy(lks_network* network) {
