@@ -2,7 +2,7 @@
 # Builds the project with all warnings in build/release and runs its tests.
 #
 # usage: tools/test.sh [--sanitize] [--fuzz[=SECONDS]] [--cross[=TARGET,…]] [--explore [SECONDS]]
-#                      [--werror]
+#                      [--bindings] [--werror]
 #
 # The tests do the same in every run: their seeds are listed (tests/support/random.h and
 # listed_seeds.txt). LOCKSTONE_TEST_SEED gives them another.
@@ -15,6 +15,8 @@
 #   --explore    also run the tests that draw from a seed with new ones (default 60 s), after all
 #                others. Its findings are counted in a line of their own and printed with the
 #                command that repeats it; the status is then 3, if nothing else failed
+#   --bindings   also test the bindings of Rust and C#, whose compilers are installed. Without it they are
+#                tested where the compilers are there already
 #   --werror     compiler warnings are errors
 #   --help       print this
 #
@@ -108,6 +110,7 @@ corpus_of() {
 sanitize=false
 fuzz_seconds=0
 explore_seconds=0
+bindings=false
 cross=()
 options=()
 while (($#)); do
@@ -122,6 +125,7 @@ while (($#)); do
     --explore)
       explore_seconds=60
       if [[ ${1-} =~ ^[0-9]+$ ]]; then explore_seconds=$1 && shift; fi ;;
+    --bindings) bindings=true ;;
     --werror) options+=(-DLOCKSTONE_WARNINGS_AS_ERRORS=ON) ;;
     --help) usage; exit ;;
     *) usage >&2; exit 2 ;;
@@ -129,6 +133,7 @@ while (($#)); do
 done
 
 require_packages demo build assets
+if "$bindings"; then require_packages bindings; fi
 if "$sanitize"; then
   require_packages clang
   build_preset asan-ubsan

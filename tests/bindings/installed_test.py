@@ -15,8 +15,9 @@ if shutil.which("pkg-config") is None or shutil.which("cc") is None:
     print("needs pkg-config and cc")
     sys.exit(77)
 with tempfile.TemporaryDirectory() as folder:
-    subprocess.run([cmake, "--install", build, "--component", "c", "--prefix", folder], check=True,
-                   stdout=subprocess.DEVNULL)
+    for component in ("runtime", "c"):
+        subprocess.run([cmake, "--install", build, "--component", component, "--prefix", folder], check=True,
+                       stdout=subprocess.DEVNULL)
     package = next(pathlib.Path(folder).rglob("lockstone_c.pc"))
     environment = {**os.environ, "PKG_CONFIG_PATH": str(package.parent), "LD_LIBRARY_PATH": str(package.parents[1])}
     flags = subprocess.run(["pkg-config", "--cflags", "--libs", "lockstone_c"], check=True, env=environment,

@@ -272,6 +272,24 @@ class Matches(Case):
         self.expect(OK, pushers, "flips", "--count", 20, "--ticks", 30)
         self.expect(OK, tool, "simnet", "--seeds", 1, "--ticks", 300, "--clients", 3)
 
+    def test_served_by_the_c_interface_are_played_by_the_tools(self):
+        if IN_C == "none":
+            self.skipTest("this build has no C library")
+        play, pushers = [str(pathlib.Path(TOOL_IN_C).with_name("pushers_play"))], [LOCKSTONE, "--game", IN_C]
+        log = self.folder / "match.lks"
+        server = subprocess.Popen([*play, "serve", "2", "240", log], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(server.stdout.close)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.kill)
+        port = server.stdout.readline().split()[1]
+        player = subprocess.Popen([*play, "join", port], stdout=subprocess.PIPE, text=True)
+        result = json.loads(self.expect(OK, pushers, "join", "--insecure", "--port", port, "--json").stdout)
+        ticks = player.communicate(timeout=60)[0]
+        self.assertEqual(server.communicate(timeout=60)[0], ticks)
+        self.assertEqual((player.returncode, server.returncode), (0, 0))
+        self.assertEqual(ticks.splitlines()[-1], f"239 {result['final_hash'].removeprefix('0x')}")
+        self.assertIn("same; 240 ticks verified", self.expect(OK, pushers, "verify", "--strict", log).stdout)
+
     def test_survive_bad_networks(self):
         for command in (own(), loaded()):
             done = self.expect(OK, command, "simnet", "--seeds", 2, "--ticks", 300, "--clients", 3)

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "tests/support/await.h"
+#include "tools/lockstone/match/journal.h"
 
 namespace lockstone::tool {
 namespace {
@@ -96,6 +97,23 @@ TEST(Metrics, AreAnsweredInTheFormatOfEachPath) {
   EXPECT_TRUE(has(prometheus, "lockstone_player_late_inputs{match=\"7777\",player=\"1\"} 3"));
   EXPECT_TRUE(has(Caller(*port).ask(*port, "/stats.json"), "\"late_inputs\": 3"));
   EXPECT_TRUE(has(Caller(*port).ask(*port, "/"), "player 1 (here):"));
+}
+
+TEST(Metrics, TellWhetherPlayersMayCome) {
+  const auto port = MetricsPort::open(0);
+  ASSERT_NE(port, nullptr);
+  EXPECT_TRUE(has(Caller(*port).ask(*port, "/readyz"), "HTTP/1.0 200 OK"));
+  EXPECT_TRUE(has(Caller(*port).ask(*port, "/livez"), "HTTP/1.0 200 OK"));
+}
+
+TEST(Journal, WritesOneObjectALine) {
+  const std::string line =
+      journal_line({"player_joined", "player 3 joined: \"A\"\n\xff", std::uint8_t{3}}, 7777,
+                   1'764'072'000'123);
+  EXPECT_EQ(line,
+            R"({"time":"2025-11-25T12:00:00.123Z","level":"info","event":"player_joined",)"
+            R"("match":7777,"player":3,"text":"player 3 joined: \"A\"\n)"
+            "\xef\xbf\xbd\"}");
 }
 
 TEST(Metrics, TellOfAttacksByReason) {

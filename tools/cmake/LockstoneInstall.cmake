@@ -16,19 +16,20 @@ foreach(room IN LISTS rooms)
   endif()
   install(TARGETS lockstone_${room}
     EXPORT lockstone_${room}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(EXPORT lockstone_${room}
-    NAMESPACE lockstone:: FILE lockstone_${room}.cmake DESTINATION ${package_dir})
+    NAMESPACE lockstone:: FILE lockstone_${room}.cmake DESTINATION ${package_dir}
+    COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/include/
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")
 endforeach()
 # A game's continuous integration may build the libraries alone.
 if(TARGET lockstone)
-  install(TARGETS lockstone RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
+  install(TARGETS lockstone RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools OPTIONAL)
 endif()
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lockstone RENAME copyright)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lockstone RENAME copyright COMPONENT tools)
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/tools/cmake/lockstoneConfig.cmake.in
@@ -44,4 +45,8 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindENet.cmake
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindSodium.cmake
   ${PROJECT_SOURCE_DIR}/tools/cmake/FindZstd.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT development)
+
+if(PROJECT_IS_TOP_LEVEL AND TARGET lockstone_c AND TARGET lockstone AND UNIX AND NOT APPLE)
+  include(LockstonePackages)
+endif()

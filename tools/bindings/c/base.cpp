@@ -41,6 +41,8 @@ const char* own_name_of(lks_status status) {
       return "out of memory";
     case LKS_INTERNAL:
       return "internal fault";
+    case LKS_UNSUPPORTED:
+      return "unsupported";
     default:
       return "unknown status";
   }

@@ -3,6 +3,7 @@
 #include <lockstone/replay/verifier.h>
 
 #include "tools/bindings/c/call.h"
+#include "tools/bindings/c/log_report.h"
 #include "tools/scenes/play.h"
 
 namespace {
@@ -28,12 +29,13 @@ lks_log_report raw_of(const replay::VerifyReport& report) {
   return raw;
 }
 
-void verify(replay::Source& source, lks_log_report& report) {
-  check_size<lks_log_report>(report.size, "report");
-  give(raw_of(replay::verify(source, scenes::make_simulation)), &report, report.size, "report");
-}
-
 }  // namespace
+
+void lockstone::c::verify(replay::Source& source, const SimulationFactory& make,
+                          lks_log_report& report) {
+  check_size<lks_log_report>(report.size, "report");
+  give(raw_of(replay::verify(source, make)), &report, report.size, "report");
+}
 
 lks_status lks_verify_log(const char* path, lks_log_report* report) {
   return call([&] {
@@ -43,7 +45,7 @@ lks_status lks_verify_log(const char* path, lks_log_report* report) {
       throw Failure{static_cast<lks_status>(source.status()),
                     std::string(path) + ": " + std::string(to_string(source.status()))};
     }
-    verify(*source.value(), *report);
+    verify(*source.value(), scenes::make_simulation, *report);
   });
 }
 
@@ -52,6 +54,6 @@ lks_status lks_verify_log_bytes(const void* bytes, size_t count, lks_log_report*
     required(report, "report");
     array(bytes, count, "bytes");
     replay::MemorySource source({static_cast<const std::byte*>(bytes), count});
-    verify(source, *report);
+    verify(source, scenes::make_simulation, *report);
   });
 }

@@ -14,13 +14,12 @@
 
 #include <lockstone/hash.h>
 #include <lockstone/net/transport_secure.h>
-#include <lockstone/replay/background_sink.h>
-#include <lockstone/replay/sink.h>
 #include <lockstone/world.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/logs/resume.h"
+#include "tools/lockstone/match/journal.h"
+#include "tools/lockstone/match/match_log.h"
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/support/build_text.h"
 #include "tools/lockstone/support/output_file.h"
@@ -49,90 +48,15 @@ net::ServerConfig server_config(const MatchOptions& options, std::vector<std::by
   return config;
 }
 
-/// The log of a match, or nothing where none is wanted. After the first error it stays silent: a
-/// full disk must not end the match.
-class MatchLog {
- public:
-  [[nodiscard]] Status open(const MatchOptions& options, const GameDef& game,
-                            const Simulation& simulation, ByteView config) {
-    if (options.record.empty() && options.bundle.empty()) return Status::ok;
-    if (options.record.empty()) {
-      auto memory = std::make_unique<replay::MemorySink>();
-      memory_ = memory.get();
-      sink_ = std::move(memory);
-    } else {
-      const bool resumes = !options.resume.empty();
-      auto sink = replay::FileSink::create(options.record + (resumes ? k_unfinished : ""),
-                                           options.force || resumes);
-      if (!sink) return sink.status();
-      sink_ = std::move(sink).value();
-    }
-    replay::RecorderOptions recorder_options;
-    recorder_options.keyframe_bytes_max = simulation.snapshot_bytes_max(SnapshotKind::canonical);
-    recorder_options.signing_key = options.signing_key;
-    background_.emplace(*sink_);
-    recorder_.emplace(*background_, recorder_options);
-    replay::MatchMetadata match{.match_id = random_match_id(), .seed = options.start.seed};
-    name_game(game, match);
-    const Status begun = recorder_->begin(simulation.info(), config, match);
-    return note(begun == Status::ok && !options.resume.empty() ? take_over(options) : begun);
-  }
+/// In seconds of the host's clock.
+struct TickTimes {
+  double started = 0;
+  double last_tick = 0;
+};
 
-  void record(const Simulation& simulation, std::uint64_t tick, std::span<const PlayerInput> inputs,
-              std::uint64_t hash) {
-    if (!active()) return;
-    if (note(recorder_->record_tick(tick, inputs, hash)) != Status::ok) return;
-    if (recorder_->keyframe_due()) static_cast<void>(note(recorder_->keyframe(simulation)));
-  }
-
-  void event(replay::EventKind kind, std::uint8_t slot, std::string_view text) {
-    if (!active()) return;
-    static_cast<void>(note(recorder_->event(recorder_->next_tick(), kind, slot, text)));
-  }
-
-  [[nodiscard]] Status finish(std::string_view reason) {
-    if (active()) static_cast<void>(note(recorder_->finish(reason)));
-    if (background_) static_cast<void>(note(background_->close()));
-    return status_;
-  }
-
-  /// After `finish`: the recorded log.
-  [[nodiscard]] std::vector<std::byte> bytes(const std::string& record) const {
-    if (memory_ != nullptr) return memory_->bytes();
-    const std::string text = read_file(record).value_or("");
-    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-    return {begin, begin + text.size()};
-  }
-
- private:
-  static constexpr const char* k_unfinished = ".resuming";
-
-  // The old log stays as it is until the new one holds all of it, and then gives way at once.
-  [[nodiscard]] Status take_over(const MatchOptions& options) {
-    Status status = copy_log(options.resume, *recorder_);
-    if (status == Status::ok) status = recorder_->flush();
-    std::error_code error;
-    if (status == Status::ok && memory_ == nullptr) {
-      std::filesystem::rename(options.record + k_unfinished, options.record, error);
-    }
-    return error ? Status::io_error : status;
-  }
-
-  [[nodiscard]] bool active() const { return recorder_.has_value() && status_ == Status::ok; }
-
-  Status note(Status status) {
-    if (status != Status::ok && status_ == Status::ok) {
-      status_ = status;
-      complain(fmt::format("the log is given up: {}", to_string(status)));
-    }
-    return status;
-  }
-
-  std::unique_ptr<replay::Sink> sink_;
-  const replay::MemorySink* memory_ = nullptr;  ///< it, where no file was asked for
-  std::optional<replay::BackgroundSink> background_;
-  std::optional<replay::Recorder> recorder_;
-  Status status_ = Status::ok;
+struct HostOrders {
+  bool pause = false;  ///< by a player
+  bool drain = false;  ///< by the owner
 };
 
 }  // namespace
@@ -149,54 +73,56 @@ struct MatchHost::Impl final : net::ServerObserver {
   std::unique_ptr<net::Server> server;
   MatchLog log;
   Progress progress;
+  Journal journal;
   Stopwatch watch;
   MatchSummary summary;
-  double started_seconds = 0;
-  double last_tick_seconds = 0;
+  TickTimes times;
   std::uint64_t ticks_seen = 0;
   std::unique_ptr<MetricsPort> metrics_port;
-  bool wanted_pause = false;
+  HostOrders wanted;
   std::optional<std::uint16_t> resume_mask;  ///< of a match that goes on
   std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
-  void say(const std::string& line) {
+  void say(const JournalEntry& entry) {
     progress.clear();
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+    journal.write(entry);
   }
 
   void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                    std::optional<std::uint64_t> hash) override {
     const double now = watch.seconds();
-    if (last_tick_seconds > 0) {
-      summary.longest_seconds = std::max(summary.longest_seconds, now - last_tick_seconds);
+    if (times.last_tick > 0) {
+      summary.longest_seconds = std::max(summary.longest_seconds, now - times.last_tick);
     }
-    last_tick_seconds = now;
+    times.last_tick = now;
     summary.final_hash = hash.value_or(0);
     log.record(*match.simulation, tick, inputs, summary.final_hash);
   }
   void player_joined(std::uint8_t slot, std::string_view name) override {
-    say(fmt::format("player {} joined: {}", slot, name));
+    say({"player_joined", fmt::format("player {} joined: {}", slot, name), slot});
     log.event(replay::EventKind::join, slot, name);
   }
   void player_left(std::uint8_t slot, net::LeaveReason reason) override {
     if (reason != net::LeaveReason::match_over) {
-      say(fmt::format("player {} left: {}", slot, to_string(reason)));
+      say({"player_left", fmt::format("player {} left: {}", slot, to_string(reason)), slot});
     }
     log.event(replay::EventKind::leave, slot, to_string(reason));
   }
   void player_silent(std::uint8_t slot, std::int64_t silent_us) override {
-    say(fmt::format("player {} is silent since {} ms", slot, silent_us / 1000));
+    say({"player_silent", fmt::format("player {} is silent since {} ms", slot, silent_us / 1000),
+         slot});
   }
-  void player_refused(const net::Refusal& refusal) override { say(refusal.to_line()); }
+  void player_refused(const net::Refusal& refusal) override {
+    say({"player_refused", refusal.to_line()});
+  }
   void desync_found(const net::DesyncReport& report) override {
     ++summary.desyncs;
-    say("desync: " + report.to_line());
+    say({"desync", "desync: " + report.to_line(), report.slot, report.tick});
     log.event(replay::EventKind::note, report.slot, "desync: " + report.to_line());
     if (!options.bundle.empty() && bundle.empty()) begin_bundle(report);
   }
   void player_active(std::uint8_t slot, std::uint64_t tick) override {
-    say(fmt::format("player {} plays from tick {} on", slot, tick));
+    say({"player_active", fmt::format("player {} plays from tick {} on", slot, tick), slot, tick});
     log.event(replay::EventKind::join, slot, fmt::format("plays from tick {} on", tick));
   }
   void player_asks(std::uint8_t slot, net::AskKind kind, std::uint8_t topic,
@@ -204,8 +130,8 @@ struct MatchHost::Impl final : net::ServerObserver {
     const char* wish = kind == net::AskKind::vote     ? "votes"
                        : kind == net::AskKind::resume ? "asks to go on"
                                                       : "asks for a pause";
-    say(fmt::format("player {} {} ({}, {})", slot, wish, topic, choice));
-    if (kind != net::AskKind::vote) wanted_pause = kind == net::AskKind::pause;
+    say({"player_asks", fmt::format("player {} {} ({}, {})", slot, wish, topic, choice), slot});
+    if (kind != net::AskKind::vote) wanted.pause = kind == net::AskKind::pause;
   }
 
   // One archive that holds all that is known about it.
@@ -230,14 +156,16 @@ struct MatchHost::Impl final : net::ServerObserver {
     for (std::byte byte : archive)
       text.push_back(static_cast<char>(byte));
     if (write_text_file({options.bundle, options.force}, text)) {
-      say("the desync is written to " + options.bundle);
+      say({"desync_written", "the desync is written to " + options.bundle});
     }
   }
   void match_started() override {
-    started_seconds = watch.seconds();
+    times.started = watch.seconds();
     const World* world = world_of(*match.game, *match.simulation);
-    say(fmt::format("the match begins: {} players{}", match.simulation->info().player_count,
-                    world == nullptr ? "" : fmt::format(", {} bodies", world->body_count())));
+    const std::string bodies =
+        world == nullptr ? "" : fmt::format(", {} bodies", world->body_count());
+    say({"match_started", fmt::format("the match begins: {} players{}",
+                                      match.simulation->info().player_count, bodies)});
   }
   void match_finished(net::FinishReason reason, std::uint64_t,
                       std::optional<std::uint64_t>) override {
@@ -263,7 +191,8 @@ struct MatchHost::Impl final : net::ServerObserver {
     options.start.seed = resumed->header.match.seed;
     if (options.record.empty()) options.record = options.resume;
     ticks_seen = match.simulation->tick();
-    say(fmt::format("{} goes on at tick {}", options.resume, match.simulation->tick()));
+    const std::uint64_t tick = match.simulation->tick();
+    say({"match_resumed", fmt::format("{} goes on at tick {}", options.resume, tick), {}, tick});
     return true;
   }
 
@@ -304,6 +233,7 @@ struct MatchHost::Impl final : net::ServerObserver {
     net::Server::Created created = net::Server::create(
         server_options, {session_transport(), match.simulation.get(), nullptr, this});
     server = std::move(created.server);
+    journal = Journal(options.json_log, transport->port());
     if (server == nullptr) return refuse(std::string(to_string(created.error)));
     return true;
   }
@@ -357,8 +287,8 @@ bool MatchHost::update() {
   Impl& impl = *impl_;
   impl.server->update(impl.watch.microseconds());
   if (impl.server->state() == net::ServerState::over) return false;
-  if (impl.wanted_pause != impl.server->paused()) {
-    impl.wanted_pause ? impl.server->pause() : impl.server->resume();
+  if (impl.wanted.pause != impl.server->paused()) {
+    impl.wanted.pause ? impl.server->pause() : impl.server->resume();
   }
   if (impl.metrics_port != nullptr) {
     impl.metrics_port->serve([this] { return metrics(); });
@@ -374,13 +304,41 @@ void MatchHost::stop() {
   impl_->server->stop();
 }
 
+void MatchHost::drain() {
+  Impl& impl = *impl_;
+  if (std::exchange(impl.wanted.drain, true)) return;
+  const bool begun = impl.server->state() != net::ServerState::lobby;
+  impl.say({"draining", begun ? "draining: the match is played to its end"
+                              : "draining: the match has not begun, and ends"});
+  if (!begun) impl.server->stop();
+}
+
+void MatchHost::say_summary(const MatchSummary& summary) {
+  impl_->say({"match_over",
+              fmt::format("the match is over: {}, {} ticks, final hash {}",
+                          to_string(summary.reason), summary.ticks, hash_text(summary.final_hash)),
+              {},
+              summary.ticks});
+  impl_->say({"match_time", fmt::format("{:.1f} s, longest between two ticks {:.0f} ms",
+                                        summary.seconds, 1000 * summary.longest_seconds)});
+  for (std::uint8_t slot = 0; slot < summary.players.size(); ++slot) {
+    const net::PlayerStats& player = summary.players[slot];
+    impl_->say({"player_summary",
+                fmt::format("player {}: {} of {} hashes equal, {} late inputs, {} bytes in, {} "
+                            "bytes out",
+                            slot, player.hashes_equal, player.hashes_compared, player.late_inputs,
+                            player.bytes_received, player.bytes_sent),
+                slot});
+  }
+}
+
 MatchSummary MatchHost::finish() {
   Impl& impl = *impl_;
   impl.progress.clear();
   MatchSummary& summary = impl.summary;
   summary.ticks = ticks_closed();
   summary.reason = impl.server->finish_reason();
-  summary.seconds = std::max(0.0, impl.last_tick_seconds - impl.started_seconds);
+  summary.seconds = std::max(0.0, impl.times.last_tick - impl.times.started);
   summary.record_status = impl.log.finish(to_string(summary.reason));
   impl.write_bundle();
   for (unsigned slot = 0; slot < impl.match.simulation->info().player_count; ++slot) {
@@ -404,6 +362,8 @@ std::uint64_t MatchHost::ticks_closed() const {
 MatchMetrics MatchHost::metrics() const {
   MatchMetrics metrics;
   metrics.port = port();
+  metrics.state = to_string(impl_->server->state());
+  metrics.ready = !impl_->wanted.drain && impl_->server->state() <= net::ServerState::running;
   metrics.ticks = ticks_closed();
   metrics.spectators = impl_->server->spectators();
   metrics.present_mask = impl_->server->present_mask();

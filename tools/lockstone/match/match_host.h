@@ -42,6 +42,7 @@ struct MatchOptions {
   std::string bundle;              ///< the first desync is written to this file; empty: nowhere
   std::uint16_t metrics_port = 0;  ///< 0: none
   std::string metrics_bind = "127.0.0.1";
+  bool json_log = false;                          ///< print JSON, one object a line
   bool force = false;                             ///< replace files that are there
   std::optional<replay::SigningKey> signing_key;  ///< of the log; none: it is not signed
 };
@@ -73,6 +74,13 @@ class MatchHost {
 
   /// Ends the match after the ticks closed so far.
   void stop();
+
+  /// Prints the outcome.
+  void say_summary(const MatchSummary& summary);
+
+  /// Takes no new match: one that runs is played to its end, one that waits for players ends. The
+  /// match is no longer ready.
+  void drain();
 
   /// Finishes the log and sums up. Once.
   [[nodiscard]] MatchSummary finish();

@@ -147,7 +147,8 @@ std::string metrics_as_json(const MatchMetrics& metrics) {
       player[figure.name] = figure.value(metrics.players[slot]);
     players.push_back(std::move(player));
   }
-  nlohmann::ordered_json json{{"port", metrics.port}};
+  nlohmann::ordered_json json{
+      {"port", metrics.port}, {"state", metrics.state}, {"ready", metrics.ready}};
   for (const MatchFigure& figure : k_match_figures)
     json[figure.name] = figure.value(metrics);
   for (const ReasonFigure& figure : k_reason_figures) {
@@ -241,6 +242,7 @@ void MetricsPort::serve(const std::function<MatchMetrics()>& metrics) {
 // An answer that does not fit into the system's buffer at once is cut: a scraper asks again.
 void MetricsPort::answer(const std::function<MatchMetrics()>& metrics, std::string_view request) {
   std::string body;
+  const char* status = "200 OK";
   const char* type = "text/plain; charset=utf-8";
   if (request.rfind("GET /metrics", 0) == 0) {
     body = metrics_for_prometheus(metrics());
@@ -248,11 +250,17 @@ void MetricsPort::answer(const std::function<MatchMetrics()>& metrics, std::stri
   } else if (request.rfind("GET /stats.json", 0) == 0) {
     body = metrics_as_json(metrics());
     type = "application/json";
+  } else if (request.rfind("GET /livez", 0) == 0) {
+    body = "ok\n";
+  } else if (request.rfind("GET /readyz", 0) == 0) {
+    const MatchMetrics now = metrics();
+    body = fmt::format("{}\n", now.state);
+    if (!now.ready) status = "503 Service Unavailable";
   } else {
     body = metrics_as_text(metrics());
   }
   const std::string head = fmt::format(
-      "HTTP/1.0 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+      "HTTP/1.0 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n", status,
       type, body.size());
   const std::string all = head + body;
   static_cast<void>(::send(client_, all.data(), all.size(), MSG_NOSIGNAL));

@@ -15,7 +15,9 @@
 namespace lockstone::tool {
 
 struct MatchMetrics {
-  std::uint16_t port = 0;  ///< of the match
+  std::uint16_t port = 0;       ///< of the match
+  std::string_view state = {};  ///< of the server
+  bool ready = true;            ///< players may come
   std::uint64_t ticks = 0;
   std::size_t spectators = 0;
   std::uint16_t present_mask = 0;
@@ -32,8 +34,9 @@ struct MatchMetrics {
 /// Prometheus' text format 0.0.4.
 [[nodiscard]] std::string metrics_for_prometheus(const MatchMetrics& metrics);
 
-/// A listening TCP socket that answers `GET /metrics`, `/stats.json` and everything
-/// else with a text. Never blocks.
+/// A listening TCP socket that answers `GET /metrics`, `/stats.json`, `/livez` (200: the match's
+/// loop runs), `/readyz` (200, or 503 where no player should be sent to) and everything else with a
+/// text. Never blocks.
 class MetricsPort {
  public:
   /// On a numeric IPv4 or IPv6 address. Null, with a complaint, when the system refuses. 0: the

@@ -9,6 +9,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/match/journal.h"
 #include "tools/lockstone/match/match_host.h"
 #include "tools/lockstone/match/match_options.h"
 #include "tools/lockstone/match/secrets.h"
@@ -28,6 +29,8 @@ struct ServeOptions {
   std::string key;
   std::string sign;
   std::vector<std::string> addresses;
+  std::string log_format = "text";
+  bool drain = false;
 };
 
 // Not k_ok, with a complaint, unless the match is either for tokens or insecure by name.
@@ -54,28 +57,19 @@ bool set_signing(ServeOptions& options) {
   return options.match.signing_key.has_value();
 }
 
-void print_players(const MatchSummary& summary) {
-  for (std::size_t slot = 0; slot < summary.players.size(); ++slot) {
-    const net::PlayerStats& player = summary.players[slot];
-    fmt::print("player {}: {} of {} hashes equal, {} late inputs, {} bytes in, {} bytes out\n",
-               slot, player.hashes_equal, player.hashes_compared, player.late_inputs,
-               player.bytes_received, player.bytes_sent);
-  }
-}
-
-int run_match(MatchHost& host) {
+int run_match(MatchHost& host, bool drains) {
   bool stopping = false;
   while (host.update()) {
     if (!interrupted() || stopping) continue;
+    if (drains && asked_to_end()) {
+      host.drain();
+      continue;
+    }
     host.stop();
     stopping = true;
   }
   const MatchSummary summary = host.finish();
-  fmt::print("the match is over: {}, {} ticks, final hash {}\n", to_string(summary.reason),
-             summary.ticks, hash_text(summary.final_hash));
-  fmt::print("{:.1f} s, longest between two ticks {:.0f} ms\n", summary.seconds,
-             1000 * summary.longest_seconds);
-  print_players(summary);
+  host.say_summary(summary);
   if (summary.desyncs > 0) return k_different;
   return summary.record_status == Status::ok ? k_ok : k_unavailable;
 }
@@ -118,6 +112,7 @@ void remove_brackets(std::string& address) {
 int serve(const Games& games, ServeOptions options) {
   remove_brackets(options.match.bind);
   remove_brackets(options.match.metrics_bind);
+  options.match.json_log = options.log_format == "json";
   options.match.strict = options.policy == "strict";
   options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
                                 : options.on_desync == "resync" ? net::DesyncPolicy::resync
@@ -131,17 +126,29 @@ int serve(const Games& games, ServeOptions options) {
     hosts.push_back(MatchHost::create(games, options_of(options, i)));
     if (hosts.back() == nullptr) return k_unavailable;
     const net::HostPort where{options.match.bind, hosts.back()->port()};
-    fmt::print("listening on {}\n", where.to_text());
+    Journal(options.match.json_log, where.port)
+        .write({"listening", fmt::format("listening on {}", where.to_text())});
   }
-  std::fflush(stdout);
   std::vector<int> exits(hosts.size());
   std::vector<std::thread> threads;
   for (std::size_t i = 1; i < hosts.size(); ++i)
-    threads.emplace_back([&hosts, &exits, i] { exits[i] = run_match(*hosts[i]); });
-  exits[0] = run_match(*hosts[0]);
+    threads.emplace_back(
+        [&hosts, &exits, i, &options] { exits[i] = run_match(*hosts[i], options.drain); });
+  exits[0] = run_match(*hosts[0], options.drain);
   for (std::thread& thread : threads)
     thread.join();
   return *std::max_element(exits.begin(), exits.end());
+}
+
+void add_service_options(CLI::App& command, ServeOptions& options) {
+  command.add_flag("--drain", options.drain,
+                   "On SIGTERM play a match that runs to its end, and take no new one; a second "
+                   "signal, or Ctrl-C, stops it");
+  command
+      .add_option("--log-format", options.log_format,
+                  "Print lines for people, or JSON, one object a line")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
 }
 
 void add_security_options(CLI::App& command, ServeOptions& options) {
@@ -210,7 +217,7 @@ void add_serve_command(CLI::App& app, Tool& tool) {
   command->add_option("--bundle", options->match.bundle,
                       "Write the first desync to this file (tar): report, both states, log");
   command->add_option("--metrics-port", options->match.metrics_port,
-                      "Answer /metrics and /stats.json over HTTP");
+                      "Answer /metrics, /stats.json, /readyz and /livez over HTTP");
   command
       ->add_option("--metrics-bind", options->match.metrics_bind,
                    "Numeric address for that; anybody who reaches it may read")
@@ -218,6 +225,7 @@ void add_serve_command(CLI::App& app, Tool& tool) {
   command->add_option("--matches", options->matches, "Host this many matches, on ports that follow")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  add_service_options(*command, *options);
   add_security_options(*command, *options);
   command->callback([options, &tool] { tool.exit_code = serve(tool.games, *options); });
 }

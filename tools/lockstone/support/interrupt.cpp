@@ -5,10 +5,14 @@
 namespace lockstone::tool {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+volatile std::sig_atomic_t g_interrupts = 0;
+volatile std::sig_atomic_t g_terminations = 0;
 
-void note(int) {
-  g_interrupted = 1;
+void note(int signal) {
+  if (signal == SIGTERM && g_terminations < 2)
+    g_terminations = g_terminations + 1;
+  else
+    g_interrupts = 1;
 }
 
 }  // namespace
@@ -19,7 +23,11 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return g_interrupted != 0;
+  return g_interrupts != 0 || g_terminations != 0;
+}
+
+bool asked_to_end() {
+  return g_interrupts == 0 && g_terminations == 1;
 }
 
 }  // namespace lockstone::tool

@@ -9,4 +9,7 @@ void catch_interrupts();
 /// True once one of them came.
 [[nodiscard]] bool interrupted();
 
+/// True once SIGTERM came alone, and once: a service that may take its time is asked to end.
+[[nodiscard]] bool asked_to_end();
+
 }  // namespace lockstone::tool

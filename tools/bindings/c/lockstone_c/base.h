@@ -38,7 +38,8 @@ enum {
   LKS_BUFFER_TOO_SMALL = 66,   /* the `count` or `bytes` written to `out` says how much is needed */
   LKS_READ_ONLY = 67,          /* a built-in scene plays by itself: it takes no command */
   LKS_OUT_OF_MEMORY = 68,
-  LKS_INTERNAL = 69 /* a fault of the library; please report it */
+  LKS_INTERNAL = 69,   /* a fault of the library; please report it */
+  LKS_UNSUPPORTED = 70 /* the library was built without it */
 };
 
 /* "stale handle", …; "unknown status" for other values. Never null. */

@@ -6,7 +6,11 @@ LOCKSTONE_LIBRARY names the library's file where the system does not find it.
 from typing import List
 
 from ._library import LockstoneError, lib
+from .games import (ABSENT, CANONICAL, NATIVE, NEUTRAL, RECEIVED, REPEATED, Game, GameLibrary, Info, Input,
+                    Simulation)
 from .logs import CORRUPT, DIVERGED, INCOMPATIBLE, SAME, Verdict, verify_log
+from .recordings import Log, LoggedTick, Recorder
+from .sessions import Client, Network, Server, SessionEvent, Transport, now_us, ticks_of
 from .shapes import Assets, box, capsule, cone, cylinder, half_space, sphere
 from .units import Raw
 from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,

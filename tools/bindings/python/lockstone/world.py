@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from ctypes import byref, sizeof
 from fractions import Fraction
-from typing import Any, List, NamedTuple, Optional, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
 from ._library import (BodyDef, BodyView, Event, Filter, Hit, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
@@ -171,23 +171,34 @@ class Body:
         self._call("lks_sleep_body")
 
 
+def _definition(gravity: Optional[Vector], rules: Dict[str, int]) -> WorldDef:
+    definition = WorldDef()
+    lib.lks_world_def_init(byref(definition), sizeof(definition))
+    for name, value in rules.items():
+        if name not in dict(WorldDef._fields_):
+            raise TypeError(f"a world has no rule {name}")
+        setattr(definition, name, value)
+    if gravity is not None:
+        definition.gravity = _wide(gravity, units.ACCELERATION)
+    return definition
+
+
 class World:
     """A world, or a built-in scene. `rules` are the fields of lks_world_def, in raw integers; gravity
     is in m/s²."""
 
     def __init__(self, *, gravity: Optional[Vector] = None, assets: Optional[Assets] = None,
                  **rules: int) -> None:
-        definition = WorldDef()
-        lib.lks_world_def_init(byref(definition), sizeof(definition))
-        for name, value in rules.items():
-            if name not in dict(WorldDef._fields_):
-                raise TypeError(f"a world has no rule {name}")
-            setattr(definition, name, value)
-        if gravity is not None:
-            definition.gravity = _wide(gravity, units.ACCELERATION)
         handle = ctypes.c_void_p()
-        lib.lks_world_create(byref(definition), assets.handle if assets else None, byref(handle))
+        lib.lks_world_create(byref(_definition(gravity, rules)), assets.handle if assets else None, byref(handle))
         self._take(handle)
+
+    @staticmethod
+    def config_hash(*, gravity: Optional[Vector] = None, assets: Optional[Assets] = None, **rules: int) -> int:
+        """Over everything in the arguments that can change a result: peers compare it before they play."""
+        value = ctypes.c_uint64()
+        lib.lks_config_hash(byref(_definition(gravity, rules)), assets.handle if assets else None, byref(value))
+        return value.value
 
     @classmethod
     def scene(cls, name: str, seed: int = 1) -> "World":
@@ -309,15 +320,32 @@ class World:
                                units.raw(radius, units.LENGTH, 32), None, room, len(room), byref(count))
         return [Body(self, number) for number in room[:count.value]]
 
-    def save(self) -> bytes:
-        """The state, for files and other machines."""
+    def part_hashes(self) -> Dict[str, int]:
+        """Of the header, bodies, contacts and joints."""
+        parts = (ctypes.c_uint64 * 5)()
+        lib.lks_part_hashes(self.handle, parts)
+        return dict(zip(("header", "bodies", "contacts", "joints"), parts[1:]))
+
+    def snapshot_bytes_max(self, kind: int = 1) -> int:
         most = ctypes.c_size_t()
-        lib.lks_snapshot_bytes_max(self.handle, 1, byref(most))
-        room = ctypes.create_string_buffer(most.value)
+        lib.lks_snapshot_bytes_max(self.handle, kind, byref(most))
+        return most.value
+
+    def save(self, kind: int = 1) -> bytes:
+        """The state, for files and other machines; of kind 0 for this process alone, as rollback needs it."""
+        most = self.snapshot_bytes_max(kind)
+        room = ctypes.create_string_buffer(most)
         written = ctypes.c_size_t()
-        lib.lks_save(self.handle, 1, room, most.value, byref(written))
+        lib.lks_save(self.handle, kind, room, most, byref(written))
         return room.raw[:written.value]
 
-    def load(self, state: bytes) -> None:
-        """Replaces the state. The bytes may come from anywhere: they are checked first."""
-        lib.lks_load(self.handle, 1, state, len(state))
+    def load(self, state: bytes, kind: int = 1) -> None:
+        """Replaces the state. The bytes may come from anywhere: they are checked first. Those of kind 0 are not: they
+        must be those that `save` gave in this process."""
+        lib.lks_load(self.handle, kind, state, len(state))
+
+    def describe_difference(self, here: bytes, there: bytes) -> Optional[str]:
+        """The first difference between two states that `save` gave, for people."""
+        differs, text = ctypes.c_uint32(), ctypes.create_string_buffer(512)
+        lib.lks_describe_difference(self.handle, here, len(here), there, len(there), byref(differs), text, len(text))
+        return text.value.decode(errors="replace") if differs.value else None

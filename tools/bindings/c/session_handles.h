@@ -1,0 +1,57 @@
+// Events of sessions, kept from one update to the next.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/bindings/c/game_handles.h"
+
+namespace lockstone::c {
+
+class SessionEvents {
+ public:
+  SessionEvents() { events_.reserve(256); }
+
+  void clear() {
+    events_.clear();
+    texts_.clear();
+  }
+
+  /// Keeps the event, and the text for people where there is one.
+  void add(lks_session_event event, std::string text = {});
+
+  void give(lks_session_event* out, std::size_t capacity, std::size_t* count) const;
+  void give_text(std::size_t index, char* out, std::size_t capacity) const;
+
+ private:
+  struct Text {
+    std::size_t index;
+    std::string text;
+  };
+  std::vector<lks_session_event> events_;
+  std::vector<Text> texts_;
+};
+
+/// Marks a session while its `update` runs: callbacks must not call it.
+class Updating {
+ public:
+  explicit Updating(bool& mark) : mark_(mark) { mark_ = true; }
+  ~Updating() { mark_ = false; }
+  Updating(const Updating&) = delete;
+  Updating& operator=(const Updating&) = delete;
+
+ private:
+  bool& mark_;
+};
+
+/// An event of this kind; all else zero.
+[[nodiscard]] inline lks_session_event event_of(std::uint32_t kind) {
+  lks_session_event event{};
+  event.kind = kind;
+  return event;
+}
+
+/// A time-out of a session; throws unless it is above 0.
+[[nodiscard]] std::int64_t timeout_of(std::int64_t value_us, std::string_view field);
+
+}  // namespace lockstone::c

@@ -1,0 +1,377 @@
+use std::ptr;
+
+use crate::error::{c_text, check, definition, sized, Result};
+use crate::sys::{
+    self, lks_angular_velocity, lks_axis, lks_body_view, lks_filter, lks_hit, lks_i32x3, lks_i64x3, lks_joint_event,
+    lks_joint_view, lks_length, lks_number, lks_pose, lks_rate, lks_shape, lks_step_report, lks_surface,
+    lks_surface_motion, lks_velocity,
+};
+
+definition!(
+    /// Capacities and rules of a world.
+    WorldDef, lks_world_def, lks_world_def_init
+);
+definition!(
+    /// A body to be made: at first a dynamic sphere of 0.5 m.
+    BodyDef, lks_body_def, lks_body_def_init
+);
+definition!(
+    /// The bodies that a query sees.
+    QueryFilter, lks_query_filter, lks_query_filter_init
+);
+
+/// Names a body. The name of a destroyed one never names another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Body(pub u64);
+
+/// Names a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Joint(pub u64);
+
+/// A joint to be made.
+#[derive(Clone, Copy)]
+pub struct JointDef(pub sys::lks_joint_def);
+
+impl JointDef {
+    /// `kind`: `sys::LKS_JOINT_…`, which locks and frees the axes.
+    pub fn new(kind: u32, a: Body, b: Body) -> Result<Self> {
+        let mut def = sized!(lks_joint_def);
+        check(unsafe { sys::lks_joint_def_init(&mut def, std::mem::size_of_val(&def), kind, a.0, b.0) })?;
+        Ok(JointDef(def))
+    }
+}
+
+/// The axes in which an impulse or force is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Frame {
+    World = sys::LKS_FRAME_WORLD,
+    Body = sys::LKS_FRAME_BODY,
+}
+
+/// Shapes, by their sizes.
+pub struct Shape;
+
+impl Shape {
+    const fn of(kind: u32, x: lks_length, y: lks_length, z: lks_length, asset: u64) -> lks_shape {
+        lks_shape { kind, size: lks_i32x3 { x, y, z }, asset }
+    }
+    pub const fn sphere(radius: lks_length) -> lks_shape {
+        Self::of(sys::LKS_SPHERE, radius, 0, 0, 0)
+    }
+    pub const fn capsule(half_height: lks_length, radius: lks_length) -> lks_shape {
+        Self::of(sys::LKS_CAPSULE, radius, half_height, 0, 0)
+    }
+    pub const fn cuboid(half_x: lks_length, half_y: lks_length, half_z: lks_length) -> lks_shape {
+        Self::of(sys::LKS_BOX, half_x, half_y, half_z, 0)
+    }
+    pub const fn cylinder(half_height: lks_length, radius: lks_length) -> lks_shape {
+        Self::of(sys::LKS_CYLINDER, radius, half_height, 0, 0)
+    }
+    pub const fn cone(height: lks_length, radius: lks_length) -> lks_shape {
+        Self::of(sys::LKS_CONE, radius, height, 0, 0)
+    }
+    pub const fn half_space() -> lks_shape {
+        Self::of(sys::LKS_HALF_SPACE, 0, 0, 0, 0)
+    }
+    /// Of an asset: `sys::LKS_HULL`, `LKS_MESH`, `LKS_HEIGHT_FIELD` or `LKS_COMPOUND`.
+    pub const fn asset(kind: u32, name: u64) -> lks_shape {
+        Self::of(kind, 0, 0, 0, name)
+    }
+}
+
+/// Geometry that shapes name; every peer needs the same set.
+pub struct Assets(*mut sys::lks_assets);
+
+impl Assets {
+    pub fn new() -> Result<Self> {
+        let mut assets = ptr::null_mut();
+        check(unsafe { sys::lks_assets_create(&mut assets) })?;
+        Ok(Assets(assets))
+    }
+    /// Adds the convex hull of the points; returns its name.
+    pub fn add_hull(&mut self, points: &[lks_i32x3], max_vertices: i32) -> Result<u64> {
+        let mut name = 0;
+        check(unsafe { sys::lks_assets_add_hull(self.0, points.as_ptr(), points.len(), max_vertices, &mut name) })?;
+        Ok(name)
+    }
+    /// Adds an asset from its canonical bytes.
+    pub fn add_bytes(&mut self, bytes: &[u8]) -> Result<u64> {
+        let mut name = 0;
+        check(unsafe { sys::lks_assets_add_bytes(self.0, bytes.as_ptr().cast(), bytes.len(), &mut name) })?;
+        Ok(name)
+    }
+}
+
+impl Drop for Assets {
+    fn drop(&mut self) {
+        unsafe { sys::lks_assets_destroy(self.0) }
+    }
+}
+
+/// The hash of a world and of its parts.
+pub type Hashes = sys::lks_hashes;
+
+/// A body with its pose and velocity.
+#[derive(Clone, Copy)]
+pub struct Placed {
+    pub body: Body,
+    pub pose: lks_pose,
+    pub velocity: lks_i64x3,
+}
+
+/// A world of bodies and joints. Written by commands alone: on an error nothing has changed.
+pub struct World(*mut sys::lks_world);
+
+// One thread at a time uses it; queries may run on several.
+unsafe impl Send for World {}
+
+impl Drop for World {
+    fn drop(&mut self) {
+        unsafe { sys::lks_world_destroy(self.0) }
+    }
+}
+
+macro_rules! commands {
+    ($($(#[$note:meta])* $name:ident($($argument:ident: $kind:ty => $pass:expr),*) = $c:ident;)*) => {
+        $($(#[$note])*
+        pub fn $name(&mut self, $($argument: $kind),*) -> Result<()> {
+            check(unsafe { sys::$c(self.0, $($pass),*) })
+        })*
+    };
+}
+
+impl World {
+    pub fn new(def: &WorldDef) -> Result<Self> {
+        Self::create(def, ptr::null())
+    }
+    pub fn with_assets(def: &WorldDef, assets: &Assets) -> Result<Self> {
+        Self::create(def, assets.0)
+    }
+    fn create(def: &WorldDef, assets: *const sys::lks_assets) -> Result<Self> {
+        let mut world = ptr::null_mut();
+        check(unsafe { sys::lks_world_create(&def.0, assets, &mut world) })?;
+        Ok(World(world))
+    }
+    /// A built-in scene, which takes no command: its hashes are known.
+    pub fn scene(name: &str, seed: u64) -> Result<Self> {
+        let name = c_text(name)?;
+        let mut world = ptr::null_mut();
+        check(unsafe { sys::lks_world_create_scene(name.as_ptr(), seed, &mut world) })?;
+        Ok(World(world))
+    }
+    /// Of the definition without assets: peers compare it before they play.
+    pub fn config_hash(def: &WorldDef) -> Result<u64> {
+        let mut hash = 0;
+        check(unsafe { sys::lks_config_hash(&def.0, ptr::null(), &mut hash) })?;
+        Ok(hash)
+    }
+    /// For functions of `sys` that are not wrapped here.
+    pub fn as_ptr(&self) -> *mut sys::lks_world {
+        self.0
+    }
+
+    pub fn set_threads(&mut self, threads: u32) -> Result<()> {
+        check(unsafe { sys::lks_world_set_threads(self.0, threads) })
+    }
+    pub fn step(&mut self) -> Result<lks_step_report> {
+        let mut report = sized!(lks_step_report);
+        check(unsafe { sys::lks_step(self.0, &mut report) })?;
+        Ok(report)
+    }
+    pub fn tick(&self) -> u64 {
+        let mut tick = 0;
+        unsafe { sys::lks_tick(self.0, &mut tick) };
+        tick
+    }
+    pub fn hash(&self) -> u64 {
+        let mut hash = 0;
+        unsafe { sys::lks_hash(self.0, &mut hash) };
+        hash
+    }
+    pub fn part_hashes(&self) -> Hashes {
+        let mut hashes = unsafe { std::mem::zeroed() };
+        unsafe { sys::lks_part_hashes(self.0, &mut hashes) };
+        hashes
+    }
+
+    pub fn create_body(&mut self, def: &BodyDef) -> Result<Body> {
+        let mut body = 0;
+        check(unsafe { sys::lks_create_body(self.0, &def.0, &mut body) })?;
+        Ok(Body(body))
+    }
+    pub fn create_joint(&mut self, def: &JointDef) -> Result<Joint> {
+        let mut joint = 0;
+        check(unsafe { sys::lks_create_joint(self.0, &def.0, &mut joint) })?;
+        Ok(Joint(joint))
+    }
+    /// Names a body for people: not state.
+    pub fn set_name(&mut self, body: Body, name: &str) -> Result<()> {
+        let name = c_text(name)?;
+        check(unsafe { sys::lks_set_name(self.0, body.0, name.as_ptr()) })
+    }
+
+    commands! {
+        destroy_body(body: Body => body.0) = lks_destroy_body;
+        teleport(body: Body => body.0, pose: &lks_pose => pose) = lks_teleport;
+        set_velocity(body: Body => body.0, velocity: lks_i64x3 => &velocity) = lks_set_velocity;
+        set_angular_velocity(body: Body => body.0, velocity: lks_i64x3 => &velocity) = lks_set_angular_velocity;
+        /// At the centre of mass.
+        apply_impulse(body: Body => body.0, impulse: lks_i64x3 => &impulse, frame: Frame => frame as u32)
+            = lks_apply_impulse;
+        apply_impulse_at(body: Body => body.0, impulse: lks_i64x3 => &impulse, point: lks_i32x3 => &point,
+                         frame: Frame => frame as u32) = lks_apply_impulse_at;
+        apply_angular_impulse(body: Body => body.0, impulse: lks_i64x3 => &impulse, frame: Frame => frame as u32)
+            = lks_apply_angular_impulse;
+        /// Works over the coming tick.
+        apply_force(body: Body => body.0, force: lks_i64x3 => &force, frame: Frame => frame as u32) = lks_apply_force;
+        apply_force_at(body: Body => body.0, force: lks_i64x3 => &force, point: lks_i32x3 => &point,
+                       frame: Frame => frame as u32) = lks_apply_force_at;
+        apply_torque(body: Body => body.0, torque: lks_i64x3 => &torque, frame: Frame => frame as u32)
+            = lks_apply_torque;
+        move_kinematic(body: Body => body.0, pose: &lks_pose => pose) = lks_move_kinematic;
+        set_material(body: Body => body.0, surface: &lks_surface => surface) = lks_set_material;
+        set_surface_motion(body: Body => body.0, motion: &lks_surface_motion => motion) = lks_set_surface_motion;
+        set_gravity_scale(body: Body => body.0, scale: lks_number => scale) = lks_set_gravity_scale;
+        set_damping(body: Body => body.0, linear: lks_rate => linear, angular: lks_rate => angular) = lks_set_damping;
+        set_axis_locks(body: Body => body.0, locks: u32 => locks) = lks_set_axis_locks;
+        set_speed_limit(body: Body => body.0, linear: lks_velocity => linear, angular: lks_angular_velocity => angular)
+            = lks_set_speed_limit;
+        set_filter(body: Body => body.0, filter: &lks_filter => filter) = lks_set_filter;
+        set_user_data(body: Body => body.0, user_data: u64 => user_data) = lks_set_user_data;
+        wake_body(body: Body => body.0) = lks_wake_body;
+        sleep_body(body: Body => body.0) = lks_sleep_body;
+        set_allow_sleep(body: Body => body.0, allow: bool => allow as u32) = lks_set_allow_sleep;
+        set_gravity(gravity: lks_i64x3 => &gravity) = lks_set_gravity;
+        destroy_joint(joint: Joint => joint.0) = lks_destroy_joint;
+        set_linear_axis(joint: Joint => joint.0, axis: u32 => axis, settings: &lks_axis => settings)
+            = lks_set_linear_axis;
+        set_angular_axis(joint: Joint => joint.0, axis: u32 => axis, settings: &lks_axis => settings)
+            = lks_set_angular_axis;
+    }
+
+    pub fn exists(&self, body: Body) -> bool {
+        let mut exists = 0;
+        unsafe { sys::lks_body_exists(self.0, body.0, &mut exists) };
+        exists == 1
+    }
+    pub fn body(&self, body: Body) -> Result<lks_body_view> {
+        let mut view = sized!(lks_body_view);
+        check(unsafe { sys::lks_body_get(self.0, body.0, &mut view) })?;
+        Ok(view)
+    }
+    pub fn joint(&self, joint: Joint) -> Result<lks_joint_view> {
+        let mut view = sized!(lks_joint_view);
+        check(unsafe { sys::lks_joint_get(self.0, joint.0, &mut view) })?;
+        Ok(view)
+    }
+    pub fn pose(&self, body: Body) -> Result<lks_pose> {
+        let mut pose = unsafe { std::mem::zeroed() };
+        check(unsafe { sys::lks_body_pose(self.0, body.0, &mut pose) })?;
+        Ok(pose)
+    }
+    /// All bodies by ascending index.
+    pub fn bodies(&self) -> Vec<Placed> {
+        let mut count = 0;
+        unsafe { sys::lks_bodies(self.0, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), 0, &mut count) };
+        let mut names = vec![0_u64; count];
+        let mut poses: Vec<lks_pose> = vec![unsafe { std::mem::zeroed() }; count];
+        let mut velocities = vec![lks_i64x3 { x: 0, y: 0, z: 0 }; count];
+        unsafe {
+            sys::lks_bodies(self.0, names.as_mut_ptr(), poses.as_mut_ptr(), velocities.as_mut_ptr(), count, &mut count)
+        };
+        let placed = |i: usize| Placed { body: Body(names[i]), pose: poses[i], velocity: velocities[i] };
+        (0..count).map(placed).collect()
+    }
+    /// Of the last step.
+    pub fn events(&self) -> Vec<sys::lks_event> {
+        let mut count = 0;
+        unsafe { sys::lks_events(self.0, ptr::null_mut(), 0, &mut count) };
+        let mut events: Vec<sys::lks_event> = vec![unsafe { std::mem::zeroed() }; count];
+        unsafe { sys::lks_events(self.0, events.as_mut_ptr(), count, &mut count) };
+        events
+    }
+    /// The joints that broke in the last step.
+    pub fn joint_events(&self) -> Vec<lks_joint_event> {
+        let mut count = 0;
+        unsafe { sys::lks_joint_events(self.0, ptr::null_mut(), 0, &mut count) };
+        let mut events: Vec<lks_joint_event> = vec![unsafe { std::mem::zeroed() }; count];
+        unsafe { sys::lks_joint_events(self.0, events.as_mut_ptr(), count, &mut count) };
+        events
+    }
+    pub fn touching(&self, a: Body, b: Body) -> Result<bool> {
+        let mut touching = 0;
+        check(unsafe { sys::lks_touching(self.0, a.0, b.0, &mut touching) })?;
+        Ok(touching == 1)
+    }
+
+    /// The first body along the ray, if any.
+    pub fn cast_ray(&self, origin: lks_i64x3, way: lks_i32x3, filter: &QueryFilter) -> Result<Option<lks_hit>> {
+        let mut hit: lks_hit = unsafe { std::mem::zeroed() };
+        check(unsafe { sys::lks_cast_ray(self.0, &origin, &way, &filter.0, &mut hit) })?;
+        Ok(Some(hit).filter(|hit| hit.body != 0))
+    }
+    /// The first body that a shape meets on its way, if any.
+    pub fn cast_shape(
+        &self,
+        shape: &lks_shape,
+        start: &lks_pose,
+        way: lks_i32x3,
+        filter: &QueryFilter,
+    ) -> Result<Option<lks_hit>> {
+        let mut hit: lks_hit = unsafe { std::mem::zeroed() };
+        check(unsafe { sys::lks_cast_shape(self.0, shape, start, &way, &filter.0, &mut hit) })?;
+        Ok(Some(hit).filter(|hit| hit.body != 0))
+    }
+    /// The bodies that overlap the sphere, by ascending index.
+    pub fn overlap_sphere(&self, centre: lks_i64x3, radius: lks_length, filter: &QueryFilter) -> Result<Vec<Body>> {
+        let mut found = vec![0_u64; 64];
+        let mut count = found.len();
+        while count == found.len() {
+            found.resize(found.len() * 2, 0);
+            let room = found.as_mut_ptr();
+            check(unsafe {
+                sys::lks_overlap_sphere(self.0, &centre, radius, &filter.0, room, found.len(), &mut count)
+            })?;
+        }
+        Ok(found[..count].iter().copied().map(Body).collect())
+    }
+
+    pub fn snapshot_bytes_max(&self, kind: crate::Snapshot) -> usize {
+        let mut bytes = 0;
+        unsafe { sys::lks_snapshot_bytes_max(self.0, kind as u32, &mut bytes) };
+        bytes
+    }
+    /// Writes the state; returns its bytes.
+    pub fn save(&self, kind: crate::Snapshot, out: &mut [u8]) -> Result<usize> {
+        let mut bytes = 0;
+        check(unsafe { sys::lks_save(self.0, kind as u32, out.as_mut_ptr().cast(), out.len(), &mut bytes) })?;
+        Ok(bytes)
+    }
+    /// Canonical bytes may come from anywhere. Native ones must be those that `save` wrote in this
+    /// process: hence unsafe.
+    ///
+    /// # Safety
+    /// Of native bytes: unchanged since `save` wrote them in this process.
+    pub unsafe fn load(&mut self, kind: crate::Snapshot, bytes: &[u8]) -> Result<()> {
+        check(sys::lks_load(self.0, kind as u32, bytes.as_ptr().cast(), bytes.len()))
+    }
+    /// The first difference between two canonical snapshots, for people.
+    pub fn describe_difference(&self, here: &[u8], there: &[u8]) -> Result<Option<String>> {
+        let mut text = [0; 512];
+        let mut differs = 0;
+        check(unsafe {
+            sys::lks_describe_difference(
+                self.0,
+                here.as_ptr().cast(),
+                here.len(),
+                there.as_ptr().cast(),
+                there.len(),
+                &mut differs,
+                text.as_mut_ptr(),
+                text.len(),
+            )
+        })?;
+        Ok((differs == 1).then(|| crate::error::text_in(&text)))
+    }
+}
