@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <lockstone/assert.h>
+#include <lockstone/units.h>
+#include <lockstone/vec3.h>
 
 namespace lockstone {
 
@@ -41,10 +43,15 @@ struct IslandLoad {
   bool is_fed = false;         ///< something besides gravity and forces may give it energy
   bool has_joints = false;     ///< known where an island may gain energy
   bool is_struck = false;      ///< a contact of it comes in fast
+  bool is_uneven = false;      ///< bodies that touch differ in mass by more than 16 : 1
+  bool is_loose = false;       ///< a loose pile, which iterations bring to rest
   bool is_converged = false;   ///< solved to convergence, by `BlockSolver`
   std::uint32_t bodies = 0;    ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;
+  std::uint32_t loose = 0;    ///< bodies that were of a loose pile in the last tick
+  std::uint32_t stirred = 0;  ///< bodies much faster or slower than the island as a whole
+  Vec3<Velocity> velocity{};  ///< the mean of its bodies
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount overloaded;     ///< contacts at rest under several times a body's weight; from

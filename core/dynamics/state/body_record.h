@@ -18,8 +18,9 @@ enum BodyFlag : std::uint8_t {
   k_body_asleep = 8,          // neither moves nor is looked at; its velocities are zero
   k_body_no_sleep = 16,       // never falls asleep
   k_body_changed_sleep = 32,  // sleeps and did not at the last events, or the reverse; dynamic
+  k_body_loose = 64,          // of a loose pile in the last tick that solved it, effort_policy.h
   k_all_body_flags = k_body_trigger | k_body_pushed | k_body_bullet | k_body_asleep |
-                     k_body_no_sleep | k_body_changed_sleep,
+                     k_body_no_sleep | k_body_changed_sleep | k_body_loose,
 };
 
 /// Bits of BodyRecord::locks: three axes of moving, three of turning.
@@ -92,6 +93,10 @@ struct BodyRecord {
   [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
   [[nodiscard]] bool may_sleep() const { return (flags & k_body_no_sleep) == 0; }
   [[nodiscard]] bool has_changed_sleep() const { return (flags & k_body_changed_sleep) != 0; }
+  [[nodiscard]] bool is_loose() const { return (flags & k_body_loose) != 0; }
+  void set_loose(bool loose) {
+    flags = static_cast<std::uint8_t>(loose ? flags | k_body_loose : flags & ~k_body_loose);
+  }
   [[nodiscard]] bool rotates() const { return (locks & k_lock_turning) != k_lock_turning; }
   [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
   [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }

@@ -222,6 +222,11 @@ bool ContactSolver::keeps_contact_pose(std::uint32_t body, const BodyRecord& rec
   return is_near_contact_pose(record, is_stack ? k_fine_drift : k_coarse_drift);
 }
 
+bool ContactSolver::is_loose(std::uint32_t body) const {
+  const std::uint32_t number = bodies_.number_of(body);
+  return number != 0 && islands_.load(islands_.all().of(number)).is_loose;
+}
+
 EnergyLimit::Bodies ContactSolver::energy_bodies() {
   return {bodies_,          bodies_.constants(), bodies_.rows(),
           bodies_.before(), islands_.all(),      joints_.solver()};

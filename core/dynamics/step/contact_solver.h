@@ -78,6 +78,9 @@ class ContactSolver {
   /// it has not drifted far.
   [[nodiscard]] bool keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const;
 
+  /// Whether the body is of a loose pile.
+  [[nodiscard]] bool is_loose(std::uint32_t body) const;
+
   [[nodiscard]] std::uint32_t contacts() const { return contacts_.size(); }
   [[nodiscard]] std::uint32_t points() const { return constraints_.points(); }
   [[nodiscard]] const ConstraintGraph& graph() const { return constraints_.layout().graph(); }

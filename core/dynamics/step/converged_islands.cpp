@@ -34,6 +34,7 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
   solver_.clear(joints.first_without_contacts());
   EffortPolicy::mark_iterated(scene, bodies, contacts, joints, islands);
   lists_.build(scene, bodies, contacts, islands);
+  EffortPolicy::mark_loose(scene, bodies, islands);
   for (std::uint32_t island = 1; island < islands.count(); ++island) {
     IslandLoad& load = islands.load(island);
     if (!effort.may_converge(load)) continue;

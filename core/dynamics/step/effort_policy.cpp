@@ -23,11 +23,33 @@ constexpr Displacement k_rigid_range = Displacement::from_ratio(1, 5000);
 constexpr std::int64_t k_rigid_part = 10;
 constexpr int k_rigid_shift = 6;
 
-// Whether impulses would need more bits than there are beside speeds: above 200,000 : 1.
-bool is_too_uneven(BlockFloat a, BlockFloat b) {
-  constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
-  if (a.mantissa == 0 || b.mantissa == 0) return false;
-  return std::min(ratio(a, b), ratio(b, a)).raw < k_least_share;
+// The lesser of two inverse masses over the greater, Q30; 1 where a body has no mass.
+std::int32_t lesser_share(BlockFloat a, BlockFloat b) {
+  if (a.mantissa == 0 || b.mantissa == 0) return 1 << 30;
+  return std::min(ratio(a, b), ratio(b, a)).raw;
+}
+
+// Below this share, 200,000 : 1, impulses would need more bits than there are beside speeds.
+constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
+constexpr std::int32_t k_uneven_share = (1 << 30) / 16;
+
+// A pile becomes loose when a quarter of its bodies differ from their mean velocity by more than
+// 1/4 m/s along an axis, and stays loose while half of its bodies were. It has at least this many
+// bodies: few ones converge at little cost.
+constexpr std::uint32_t k_least_loose_bodies = 24;
+
+bool is_stirred(const BodyRecord& body, const Vec3<Velocity>& mean) {
+  constexpr std::int64_t k_fast = std::int64_t{1} << (Velocity::frac_bits - 2);
+  const auto is_fast = [&](int axis) {
+    const std::int64_t apart = body.velocity[axis].raw - mean[axis].raw;
+    return apart > k_fast || apart < -k_fast;
+  };
+  return is_fast(0) || is_fast(1) || is_fast(2);
+}
+
+bool is_loose_pile(const IslandLoad& island) {
+  if (island.bodies < k_least_loose_bodies || island.joints != 0 || island.is_uneven) return false;
+  return island.stirred > island.bodies / 4 || island.loose > island.bodies / 2;
 }
 
 std::int64_t impulse_of(const ContactRecord& record) {
@@ -73,14 +95,38 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
                : scene.bodies[bodies.side(body.number()).body()].inverse_mass_value();
   };
   contacts.for_each([&](ContactId, const ContactRef& contact) {
+    IslandLoad& load = islands.load(contact);
     const bool rolls = scene.surfaces[contact.manifold].rolling_arm != Length{};
-    if (rolls || is_too_uneven(mass(contact.a), mass(contact.b)))
-      islands.load(contact).iterates_only = true;
+    const std::int32_t share = lesser_share(mass(contact.a), mass(contact.b));
+    if (rolls || share < k_least_share) load.iterates_only = true;
+    load.is_uneven = load.is_uneven || share < k_uneven_share;
   });
 }
 
+void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bodies,
+                              IslandBuilder& islands) {
+  const auto for_bodies = [&](auto&& work) {
+    for (std::uint32_t number = 1; number < bodies.count(); ++number) {
+      const std::uint32_t island = islands.of(BodyRef::numbered(number));
+      if (island != 0) work(islands.load(island), scene.bodies[bodies.side(number).body()]);
+    }
+  };
+  for_bodies([](IslandLoad& island, const BodyRecord& body) {
+    island.velocity = island.velocity + body.velocity;  // at most 2^57 even for 2^16 bodies
+    island.loose += body.is_loose() ? 1U : 0U;
+  });
+  for (std::uint32_t island = 1; island < islands.count(); ++island)
+    for (int i = 0; i < 3; ++i)
+      islands.load(island).velocity[i].raw /= std::max(islands.load(island).bodies, 1U);
+  for_bodies([](IslandLoad& island, const BodyRecord& body) {
+    island.stirred += is_stirred(body, island.velocity) ? 1U : 0U;
+  });
+  for (std::uint32_t island = 1; island < islands.count(); ++island)
+    islands.load(island).is_loose = is_loose_pile(islands.load(island));
+}
+
 bool EffortPolicy::may_converge(const IslandLoad& island) const {
-  if (island.iterates_only || island.is_pinched) return false;
+  if (island.iterates_only || island.is_pinched || island.is_loose) return false;
   return island.contacts != 0 && island.contacts + island.joints <= most_island_contacts_ &&
          island.bodies <= BodyFactor::k_most_bodies;
 }

@@ -34,6 +34,10 @@ class EffortPolicy {
                             const ContactList& contacts, const TickJoints& joints,
                             IslandBuilder& islands);
 
+  /// Marks loose piles, once the counts of islands are known.
+  static void mark_loose(const ContactScene& scene, const SolverBodies& bodies,
+                         IslandBuilder& islands);
+
   /// Whether an island, whose counts are known, may be solved to convergence.
   [[nodiscard]] bool may_converge(const IslandLoad& island) const;
 

@@ -55,6 +55,7 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
         fly(record, rotation, world_.header.gravity, world_.time_step, world_.header.tick);
     ++counts.free_bodies;
   }
+  record.set_loose(solved != nullptr && solver_.is_loose(body));
   damp_spin(record, world_.time_step);
   hold_axes(record);
   const InverseInertia inertia = inertia_of(body, solved);
