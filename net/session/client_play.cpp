@@ -57,7 +57,7 @@ void Client::Impl::take_records(const Ticks& message) {
 // A client whose hashes nobody acknowledges stops before it loses the snapshots that a report of a
 // difference would need.
 std::uint64_t Client::Impl::unacknowledged_limit() const {
-  const bool keeps = snapshots.capacity() > 0 || (predicts() && config.snapshot_ticks > 0);
+  const bool keeps = snapshots.keeps_records() || (predicts() && config.snapshot_ticks > 0);
   const std::size_t kept = keeps ? config.snapshot_ticks : config.history_ticks;
   return std::min<std::uint64_t>(kept, config.history_ticks);
 }
@@ -107,7 +107,7 @@ void Client::Impl::note_parts() {
 void Client::Impl::after_step(std::uint64_t hash) {
   hashes.push(hash);
   state_hash = hash;
-  if (snapshots.capacity() > 0) {
+  if (snapshots.keeps_records()) {
     const std::size_t size = simulation->save(SnapshotKind::canonical, snapshots.claim(stepped));
     snapshots.commit(stepped, size);
   }
