@@ -10,10 +10,6 @@
 namespace lockstone::net {
 namespace {
 
-// A player whose connection breaks calls again after 0.25 s, and each time after twice as long.
-constexpr std::uint32_t k_entries_per_second = 1;
-constexpr std::uint32_t k_entry_burst = 10;
-
 std::uint64_t unix_seconds(const SecureServerOptions& options, std::int64_t now_us) {
   const std::int64_t unix_us = options.unix_us_at_zero + now_us;
   return unix_us < 0 ? 0 : static_cast<std::uint64_t>(unix_us / 1'000'000);
@@ -79,21 +75,6 @@ void SecureTransport::Impl::end_older_handshake(const SealedGrant& grant) {
     static_cast<void>(close(link, RefuseReason::replaced, unheard));
     ++counters.handshakes_replaced;
   }
-}
-
-// Each entry costs the session a seating, and maybe a snapshot. Only proven ones count, so nobody
-// else uses up a player's.
-bool SecureTransport::Impl::may_enter(const PeerIdentity& identity) {
-  Entries* place = &entries.front();
-  for (Entries& one : entries) {
-    if (one.last_us >= 0 && one.player == identity.player && one.slot == identity.slot) {
-      one.last_us = now_us;
-      return one.limit.take(now_us, 1);
-    }
-    if (one.last_us < place->last_us) place = &one;
-  }
-  *place = {identity.player, identity.slot, now_us, RateLimit(k_entries_per_second, k_entry_burst)};
-  return place->limit.take(now_us, 1);
 }
 
 RefuseReason SecureTransport::Impl::judge(const SecureHello& hello, SealedGrant& grant) const {
@@ -174,7 +155,7 @@ bool SecureTransport::Impl::on_confirm(Link& link, ByteView packet, TransportEve
                       packet[0] == static_cast<std::byte>(SecureKind::confirm) &&
                       link.opener.check_proof(packet.subspan(1));
   if (!proven) return refuse(link, RefuseReason::token_refused, event);
-  if (!may_enter(link.identity)) {
+  if (!entries.take(link.identity, now_us)) {
     // The connection ends without a reason: an honest player calls again, after a longer pause.
     ++counters.handshakes_limited;
     static_cast<void>(close(link, RefuseReason::none, event));

@@ -7,8 +7,8 @@
 
 #include <lockstone/net/transport_secure.h>
 
+#include "net/security/entry_limits.h"
 #include "net/security/packet_seal.h"
-#include "net/security/rate_limit.h"
 
 namespace lockstone::net {
 
@@ -31,14 +31,6 @@ struct SecureTransport::Impl {
     std::array<std::byte, k_hello_bytes> hello{};  ///< client: as sent
   };
 
-  // How often a seat was taken of late.
-  struct Entries {
-    std::uint64_t player = 0;
-    std::uint8_t slot = 0;
-    std::int64_t last_us = -1;  ///< below 0: this place is free
-    RateLimit limit;
-  };
-
   Impl(Transport& wrapped, RandomSource& random_source, std::size_t max_connections);
 
   // transport_secure.cpp
@@ -57,7 +49,6 @@ struct SecureTransport::Impl {
   [[nodiscard]] bool challenge(Link& link, const SecureHello& hello, const SealedGrant& grant,
                                ByteView packet, TransportEvent& event);
   void end_older_handshake(const SealedGrant& grant);
-  [[nodiscard]] bool may_enter(const PeerIdentity& identity);
   [[nodiscard]] bool on_confirm(Link& link, ByteView packet, TransportEvent& event);
   [[nodiscard]] bool on_challenge(Link& link, ByteView packet, TransportEvent& event);
   [[nodiscard]] bool open(Link& link, TransportEvent& event);
@@ -70,7 +61,7 @@ struct SecureTransport::Impl {
   ConnectToken token;
   std::int64_t now_us = 0;
   std::vector<Link> links;                ///< never resized
-  std::vector<Entries> entries;           ///< the same; of a server
+  EntryLimits entries;                    ///< of a server
   std::optional<TransportEvent> pending;  ///< to be told before anything else
   SecurityCounters counters;
   std::vector<std::byte> sealed;  ///< a packet on its way out

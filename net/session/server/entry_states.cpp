@@ -80,7 +80,7 @@ void EntryStates::ask_donor() {
     donation_.under_way = true;
     donation_.since_us = data_.match.now_us;
     entry_.ticks = agreed;
-    entry_.hash = data_.judge.right_hash(agreed - 1);
+    entry_.hash = data_.judge.right().at(agreed - 1);
     dumps_.request(donation_.transfer, donor, agreed - 1);
     return;
   }

@@ -38,8 +38,8 @@ void PlayerEntry::begin(std::uint8_t slot, const Peer& peer) {
 bool PlayerEntry::has_right_state(const Peer& peer) const {
   if (peer.ticks_stepped == 0) return true;
   const std::uint64_t last = peer.ticks_stepped - 1;
-  if (!data_.judge.knows_right_hash(last)) return !data_.simulates();
-  return data_.judge.right_hash(last) == peer.state_hash;
+  if (!data_.judge.right().knows(last)) return !data_.simulates();
+  return data_.judge.right().at(last) == peer.state_hash;
 }
 
 void PlayerEntry::resync(std::uint8_t slot) {

@@ -37,8 +37,8 @@ PlayerStats player_stats(const ServerData& data, std::uint8_t slot) {
   if (!data.roster.is_slot(slot)) misused("Server: the slot must be below the player count");
   const Seat& seat = data.roster.seat(slot);
   PlayerStats stats = seat.stats;
-  stats.hashes_compared = data.judge.compared(slot);
-  stats.hashes_equal = data.judge.equal(slot);
+  stats.hashes_compared = data.judge.player(slot).compared;
+  stats.hashes_equal = data.judge.player(slot).equal;
   stats.parts_equal = data.parts_judge.equal(slot);
   if (seat.peer == nullptr) return stats;
   const TransportStats traffic = data.parts.transport->stats(seat.peer->connection);
@@ -64,8 +64,8 @@ ConnectionCounts connection_counts(const ServerData& data) {
 
 std::optional<std::uint64_t> final_hash(const ServerData& data) {
   const std::uint64_t ticks = data.match.confirmed;
-  if (ticks == 0 || data.judge.right_hash_ticks() != ticks) return std::nullopt;
-  return data.judge.right_hash(ticks - 1);
+  if (ticks == 0 || data.judge.right().end() != ticks) return std::nullopt;
+  return data.judge.right().at(ticks - 1);
 }
 
 Welcome welcome_of(const ServerData& data, std::uint8_t slot, Entry way) {

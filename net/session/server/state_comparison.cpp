@@ -22,7 +22,7 @@ void StateComparison::tell_agreed(const std::optional<Mismatch>& found) {
   const bool undecided = found && found->verdict == Verdict::undecided;
   const std::uint64_t end = undecided ? found->tick : data_.judge.judged_ticks();
   for (; agreed_told_ < end; ++agreed_told_)
-    data_.observer->hash_agreed(agreed_told_, data_.judge.right_hash(agreed_told_));
+    data_.observer->hash_agreed(agreed_told_, data_.judge.right().at(agreed_told_));
 }
 
 // Only differences that the hashes of every tick miss.
@@ -37,7 +37,7 @@ void StateComparison::compare_parts() {
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot) {
     if (cases_.freeze_match()) return;
     const std::optional<PartMismatch> found = judge.found(slot);
-    if (!found || data_.judge.judged(slot) < found->ticks) continue;
+    if (!found || data_.judge.player(slot).judged < found->ticks) continue;
     judge.forget(slot);
     if (data_.roster.seat(slot).condemned) continue;
     data_.judge.ignore(slot);
