@@ -31,7 +31,7 @@ class RightHashes {
 
   void push(std::uint64_t hash) { hashes_.push(hash); }
 
-  /// The match goes on after `ticks` of them, above 0; the last hash is known.
+  /// The match continues after `ticks` of them, above 0; the last hash is known.
   void begin_after(std::uint64_t ticks, std::uint64_t hash) {
     hashes_.restart(ticks - 1);
     hashes_.push(hash);

@@ -51,8 +51,8 @@ class SimMatch final : public net::ServerObserver {
   void check_control();
   [[nodiscard]] MatchOutcome outcome() const;
 
-  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                   std::optional<std::uint64_t> hash) override;
+  void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                      std::optional<std::uint64_t> hash) override;
   void match_started() override { faults_.begin(now_us_); }
   void match_finished(net::FinishReason, std::uint64_t, std::optional<std::uint64_t>) override {
     oracle_.set_over();
@@ -179,7 +179,7 @@ MatchOutcome SimMatch::run() {
 // Returns how many clients were on the way in when a fast match was over.
 std::uint64_t SimMatch::check_end() {
   if (server_->state() != net::ServerState::over) {
-    oracle_.fail(fmt::format("no progress: {} of {} ticks after {} ms", server_->ticks_closed(),
+    oracle_.fail(fmt::format("no progress: {} of {} ticks after {} ms", server_->ticks_confirmed(),
                              setup_.ticks, now_us_ / 1000));
     return 0;
   }
@@ -230,7 +230,7 @@ MatchOutcome SimMatch::outcome() const {
   MatchOutcome outcome;
   outcome.failure = oracle_.failure();
   outcome.mode = mode_;
-  outcome.ticks = server_->ticks_closed();
+  outcome.ticks = server_->ticks_confirmed();
   outcome.comparisons = oracle_.comparisons();
   outcome.last_hash = oracle_.last_hash();
   outcome.refused_packets = sealed_.refused();
@@ -251,9 +251,9 @@ MatchOutcome SimMatch::outcome() const {
   return outcome;
 }
 
-void SimMatch::tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                           std::optional<std::uint64_t> hash) {
-  oracle_.closed(tick, inputs, hash);
+void SimMatch::tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                              std::optional<std::uint64_t> hash) {
+  oracle_.confirmed(tick, inputs, hash);
   if (hash) log_.record(tick, inputs, *hash, *simulation_);
 }
 
@@ -264,7 +264,7 @@ void SimMatch::player_left(std::uint8_t slot, net::LeaveReason reason) {
                         reason == net::LeaveReason::disconnected || !node.alive() ||
                         node.client().state() < net::ClientState::lobby;
   if (!expected) {
-    oracle_.fail(fmt::format("tick {}: client {} was lost: {}", server_->ticks_closed(), slot,
+    oracle_.fail(fmt::format("tick {}: client {} was lost: {}", server_->ticks_confirmed(), slot,
                              to_string(reason)));
   }
 }

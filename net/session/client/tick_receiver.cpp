@@ -16,7 +16,7 @@ bool TickReceiver::on_ticks(ByteView packet) {
   Ticks message;
   if (decode(packet, data_.game.shape, message) != Status::ok) return false;
   const bool sane = message.hashes_received <= data_.progress.stepped &&
-                    message.inputs_received <= message.ticks_closed + k_input_window_ticks;
+                    message.inputs_received <= message.ticks_confirmed + k_input_window_ticks;
   if (!sane) return false;
   take_acknowledgements(message);
   take_records(message);

@@ -54,9 +54,9 @@ struct Seat : Follower {
   std::size_t dump_bytes_allowed = 0;   ///< of dumps that it was asked for and that may still come
   std::uint64_t hashes_had = 0;         ///< hashes below were here …
   std::int64_t hashes_since_us = 0;     ///< … since then, and others are owed
-  bool condemned = false;               ///< its state was wrong: it is out until its case is closed
-  bool expelled = false;                ///< and for good
-  bool confirmed = false;               ///< its player has spoken since it was told its key
+  bool condemned = false;  ///< its state was wrong: it is out until its case is settled
+  bool expelled = false;   ///< and for good
+  bool confirmed = false;  ///< its player has spoken since it was told its key
   PlayerStats stats;
 
   /// Its player is here and has a say in tick `tick`.

@@ -62,7 +62,7 @@ ServerState Server::state() const {
 FinishReason Server::finish_reason() const {
   return impl_->data.match.finish_reason;
 }
-std::uint64_t Server::ticks_closed() const {
+std::uint64_t Server::ticks_confirmed() const {
   return impl_->data.match.confirmed;
 }
 std::uint16_t Server::present_mask() const {
@@ -233,8 +233,8 @@ bool Server::Impl::on_bye(Peer& peer, ByteView packet) {
   return true;
 }
 
-void ServerObserver::tick_closed(std::uint64_t, std::span<const PlayerInput>,
-                                 std::optional<std::uint64_t>) {}
+void ServerObserver::tick_confirmed(std::uint64_t, std::span<const PlayerInput>,
+                                    std::optional<std::uint64_t>) {}
 void ServerObserver::hash_agreed(std::uint64_t, std::uint64_t) {}
 void ServerObserver::player_joined(std::uint8_t, std::string_view) {}
 void ServerObserver::player_left(std::uint8_t, LeaveReason) {}

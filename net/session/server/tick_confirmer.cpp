@@ -74,7 +74,7 @@ void TickConfirmer::confirm_next() {
   const std::optional<std::uint64_t> hash = step_simulation(record);
   const std::uint64_t tick = match.confirmed++;
   if (data_.simulates()) uses_.states.keyframes().note(*data_.parts.simulation);
-  data_.observer->tick_closed(tick, RecordInputs(record, data_.shape).view(), hash);
+  data_.observer->tick_confirmed(tick, RecordInputs(record, data_.shape).view(), hash);
 }
 
 std::optional<std::uint64_t> TickConfirmer::step_simulation(ByteView record) {

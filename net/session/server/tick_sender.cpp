@@ -95,7 +95,7 @@ std::uint64_t TickSender::send_ticks(const Follower& follower, std::uint64_t fir
   }
   message.first_tick = first_tick;
   message.count = static_cast<std::uint8_t>(end - first_tick);
-  message.ticks_closed = all;
+  message.ticks_confirmed = all;
   message.waiting_mask = data_.match.waiting;
   message.coded = writer.written();
   // A datagram that the transport does not take is lost like any other.
