@@ -79,7 +79,7 @@ TEST(Entry, LostPlayerGoesOnWithTicksAlone) {
   match.expect_all_equal();
 }
 
-// The line is still dead when it calls for the first time.
+// The connection is still dead when it calls for the first time.
 TEST(Entry, LostPlayerMayCallAgainAndAgain) {
   Match match(rejoinable_match(2, 1200, 7));
   match.network.partition(*match.players[1].transport, 2 * k_second_us, 15 * k_second_us);

@@ -225,7 +225,7 @@ TEST(Ipv6, OneClientCallsBothKindsInTurn) {
   }
 }
 
-// An address of this machine beside ::1, none of one line only; nothing where there is none.
+// An address of this machine beside ::1, none of one link only; nothing where there is none.
 std::optional<std::string> other_address() {
   std::ifstream list("/proc/net/if_inet6");
   for (std::string line; std::getline(list, line);) {
