@@ -7,6 +7,19 @@
 
 namespace lockstone::replay {
 
+namespace {
+
+DecodeFault check_bounds(const ChunkHeader& chunk, const SimulationInfo& info,
+                         std::size_t snapshot_bytes_max) {
+  if (chunk.type == ChunkType::keyframe &&
+      chunk.raw_bytes > sizeof(std::uint64_t) + snapshot_bytes_max) {
+    return malformed(24, "a snapshot longer than any of this simulation");
+  }
+  return check_bounds(chunk, info);
+}
+
+}  // namespace
+
 Walk ChunkReader::open() {
   std::array<std::byte, k_max_file_header_bytes> buffer{};
   const std::uint64_t size = source_.size();
@@ -23,23 +36,24 @@ Walk ChunkReader::open() {
   if (size < header_bytes) return truncated();
   const std::span<std::byte> header = std::span(buffer).first(header_bytes);
   if (source_.read_at(0, header) != Status::ok) return read_error();
-  fault = decode_file_header(header, log_, previous_);
+  std::uint64_t checksum = 0;
+  fault = decode_file_header(header, log_, checksum);
   if (!fault.ok()) return reject_file(fault);
-  cursor_ = header_bytes;
+  chain_.begin(header_bytes, checksum);
   return Walk::good;
 }
 
 Walk ChunkReader::next_frame() {
-  chunk_offset_ = cursor_;
+  chunk_offset_ = next_offset();
   frame_ = {};
   if (remaining() == 0) return Walk::finished;
   if (remaining() < k_chunk_header_bytes) {
     return torn(ChunkType::none, "the log ends inside the frame of a chunk");
   }
   std::array<std::byte, k_chunk_header_bytes> bytes{};
-  if (source_.read_at(cursor_, bytes) != Status::ok) return read_error();
+  if (source_.read_at(chunk_offset_, bytes) != Status::ok) return read_error();
   DecodeFault fault = decode_chunk_frame(bytes, frame_);
-  if (fault.ok()) fault = check_bounds();
+  if (fault.ok()) fault = check_bounds(frame_.header, log_.info, snapshot_bytes_max_);
   if (fault.status == Status::checksum_mismatch) {
     // The type in a damaged frame may be the damage, so it is not named.
     frame_.header.type = ChunkType::none;
@@ -49,43 +63,20 @@ Walk ChunkReader::next_frame() {
   return check_place();
 }
 
-DecodeFault ChunkReader::check_bounds() const {
-  const ChunkHeader& chunk = frame_.header;
-  if (chunk.type == ChunkType::keyframe &&
-      chunk.raw_bytes > sizeof(std::uint64_t) + snapshot_bytes_max_) {
-    return malformed(24, "a snapshot longer than any of this simulation");
-  }
-  return replay::check_bounds(chunk, log_.info);
-}
-
 Status ChunkReader::jump(std::uint64_t offset) {
   if (offset > source_.size()) return Status::malformed;
-  cursor_ = offset;
-  jumped_ = true;
+  chain_.jump(offset);
   return Status::ok;
 }
 
 Walk ChunkReader::check_place() {
-  if (jumped_) {
-    sequence_ = frame_.header.sequence;
-    previous_ = frame_.previous;
-    jumped_ = false;
-  }
-  if (frame_.header.sequence != sequence_) {
-    return reject(Status::malformed, "chunk " + std::to_string(frame_.header.sequence) +
-                                         " stands where chunk " + std::to_string(sequence_) +
-                                         " belongs: chunks are missing, repeated or out of order");
-  }
-  if (frame_.previous != previous_) {
-    return reject(Status::checksum_mismatch,
-                  name_chunk() + " does not follow the chunk before it: it is from another log");
+  if (const auto broken = chain_.check(frame_, name_chunk())) {
+    return reject(broken->status, broken->reason);
   }
   if (remaining() - k_chunk_header_bytes < frame_.header.stored_bytes) {
     return torn(frame_.header.type, "the log ends inside " + name_chunk());
   }
-  previous_ = frame_.checksum;
-  ++sequence_;
-  cursor_ += k_chunk_header_bytes + frame_.header.stored_bytes;
+  chain_.advance(frame_);
   return Walk::good;
 }
 
@@ -110,7 +101,7 @@ Walk ChunkReader::unpack() {
 
 std::string ChunkReader::name_chunk() const {
   const ChunkHeader& header = frame_.header;
-  if (header.type == ChunkType::none) return "chunk " + std::to_string(sequence_);
+  if (header.type == ChunkType::none) return "chunk " + std::to_string(chain_.next_sequence());
   std::string name(to_string(header.type));
   name +=
       " chunk " + std::to_string(header.sequence) + " (tick " + std::to_string(header.first_tick);

@@ -11,6 +11,7 @@
 #include <lockstone/replay/format.h>
 #include <lockstone/replay/source.h>
 
+#include "replay/chunk_chain.h"
 #include "replay/decode_fault.h"
 #include "replay/header_codec.h"
 
@@ -23,6 +24,8 @@ enum class Walk : std::uint8_t {
   damaged,
 };
 
+/// Holds one frame and its payload. Nothing is accepted that a checksum or the chain contradicts;
+/// every rejection leaves its place and reason in `damage`.
 class ChunkReader {
  public:
   explicit ChunkReader(Source& source) : source_(source) {}
@@ -59,22 +62,21 @@ class ChunkReader {
   [[nodiscard]] const ChunkHeader& chunk() const { return frame_.header; }
   [[nodiscard]] std::uint64_t chunk_offset() const { return chunk_offset_; }
   /// Where the next chunk begins, and the predecessor's checksum that it must name.
-  [[nodiscard]] std::uint64_t next_offset() const { return cursor_; }
-  [[nodiscard]] std::uint64_t last_checksum() const { return previous_; }
+  [[nodiscard]] std::uint64_t next_offset() const { return chain_.next_offset(); }
+  [[nodiscard]] std::uint64_t last_checksum() const { return chain_.checksum(); }
   [[nodiscard]] ByteView payload() const { return payload_; }
 
   /// The last damage that was reported; Status::ok before that.
   [[nodiscard]] const Damage& damage() const { return damage_; }
 
  private:
-  [[nodiscard]] std::uint64_t remaining() const { return source_.size() - cursor_; }
+  [[nodiscard]] std::uint64_t remaining() const { return source_.size() - next_offset(); }
   [[nodiscard]] std::string name_chunk() const;
   Walk reject(Status status, std::string what);
   Walk reject_file(const DecodeFault& fault);
   Walk report(Walk walk, Damage damage);
   Walk read_error();
   Walk torn(ChunkType type, std::string what);
-  [[nodiscard]] DecodeFault check_bounds() const;
   Walk check_place();
 
   Source& source_;
@@ -82,12 +84,9 @@ class ChunkReader {
   ChunkFrame frame_;
   std::vector<std::byte> payload_;
   std::vector<std::byte> unpacked_;
-  std::uint64_t cursor_ = 0;        ///< where the next chunk begins
+  ChunkChain chain_;
   std::uint64_t chunk_offset_ = 0;  ///< of the current chunk
-  std::uint64_t previous_ = 0;      ///< checksum that the next chunk must name
   std::size_t snapshot_bytes_max_ = k_max_keyframe_bytes;
-  std::uint32_t sequence_ = 0;  ///< of the next chunk
-  bool jumped_ = false;         ///< the next chunk is the first after a jump
   Damage damage_;
 };
 

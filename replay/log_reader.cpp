@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <utility>
 
 #include <lockstone/assert.h>
 #include <lockstone/replay/log_reader.h>
 
 #include "replay/chunk_reader.h"
 #include "replay/input_codec.h"
+#include "replay/log_order.h"
 #include "replay/record_codec.h"
 
 namespace lockstone::replay {
@@ -20,30 +19,37 @@ std::string_view to_string(LogItem item) {
   return index < k_names.size() ? k_names[index] : "unknown";
 }
 
+/// Reads one chunk after another, checks it, and decodes its content.
 struct LogReader::Parts {
   explicit Parts(Source& source) : chunks(source) {}
 
+  [[nodiscard]] LogItem read_next();
+
   ChunkReader chunks;
+  LogOrder order;
   LogItem item = LogItem::skipped;  // the last answer
+  bool opened = false;
+
+  // The content of the last chunk of each kind.
   InputBlock inputs;
   std::vector<std::uint64_t> hashes;
   std::vector<LogEvent> events;
   LogEnd end;
-  LogEnd seen;  // totals so far, which the END must repeat
-  Transcript transcript;
-  std::optional<std::uint64_t> last_keyframe;  // its tick
-  std::uint64_t next_tick = 0;
   std::uint64_t keyframe_hash = 0;
-  bool opened = false;
-  bool has_scene = false;
-  bool awaits_hashes = false;  // the last chunk was INPUT
-  bool complete = false;
-  bool signed_end = false;  // a SIGNATURE stands behind the END
-  bool arrives = false;     // the next chunk is the keyframe that was jumped to
-  bool jumped = false;      // `seen` does not count earlier items
 
-  LogItem reject(Status status, const char* what) {
-    chunks.reject_chunk(status, what);
+ private:
+  [[nodiscard]] const ChunkHeader& chunk() const { return chunks.chunk(); }
+  [[nodiscard]] LogItem read_behind_end();
+  [[nodiscard]] LogItem read_known();
+  [[nodiscard]] bool check_frame();
+  [[nodiscard]] LogItem read_inputs();
+  [[nodiscard]] LogItem read_hashes();
+  [[nodiscard]] LogItem read_keyframe();
+  [[nodiscard]] LogItem read_events();
+  [[nodiscard]] LogItem read_end();
+
+  LogItem reject(Status status, const char* reason) {
+    chunks.reject_chunk(status, reason);
     return LogItem::damaged;
   }
   LogItem reject(const DecodeFault& fault) {
@@ -80,13 +86,13 @@ const LogEnd& LogReader::end() const {
   return parts_->end;
 }
 TranscriptHash LogReader::transcript() const {
-  return parts_->transcript.value();
+  return parts_->order.transcript();
 }
 void LogReader::bound_snapshots(std::size_t bytes) {
   parts_->chunks.bound_snapshots(bytes);
 }
 bool LogReader::complete() const {
-  return parts_->complete;
+  return parts_->order.complete();
 }
 const Damage& LogReader::damage() const {
   return parts_->chunks.damage();
@@ -109,51 +115,44 @@ Status LogReader::open() {
     return damage().status;
   }
   parts_->opened = true;
-  parts_->next_tick = header().match.start_tick;
+  parts_->order.begin(header().match.start_tick);
   return Status::ok;
 }
 
 Status LogReader::jump(const KeyframePlace& place) {
-  LKS_ASSERT(parts_->has_scene && !is_last(parts_->item));
+  LKS_ASSERT(parts_->order.has_scene() && !is_last(parts_->item));
   const Status status = parts_->chunks.jump(place.offset);
-  if (status != Status::ok) return status;
-  parts_->seen = {};
-  parts_->transcript = {};
-  parts_->last_keyframe.reset();
-  parts_->next_tick = place.tick;
-  parts_->awaits_hashes = false;
-  parts_->arrives = parts_->jumped = true;
-  return Status::ok;
+  if (status == Status::ok) parts_->order.jump(place.tick);
+  return status;
 }
 
 LogItem LogReader::next() {
   LKS_ASSERT(parts_->opened || parts_->item == LogItem::damaged);
-  if (!is_last(parts_->item)) parts_->item = read_next();
+  if (!is_last(parts_->item)) parts_->item = parts_->read_next();
   return parts_->item;
 }
 
-LogItem LogReader::read_next() {
-  if (parts_->complete) return read_behind_end();
-  ChunkReader& chunks = parts_->chunks;
+LogItem LogReader::Parts::read_next() {
+  if (order.complete()) return read_behind_end();
   const Walk walk = chunks.next_frame();
   if (walk == Walk::finished) return LogItem::finished;
   if (walk == Walk::torn) return LogItem::torn;
   if (walk != Walk::good || chunks.read_payload() != Walk::good) return LogItem::damaged;
   if (!is_known(chunk().type)) {
     if ((chunk().flags & k_flag_may_skip) != 0) return LogItem::skipped;
-    return parts_->reject(Status::unsupported_version, "of a type that this build must not skip");
+    return reject(Status::unsupported_version, "of a type that this build must not skip");
   }
-  if (!check_frame() || !check_order()) return LogItem::damaged;
+  if (!check_frame()) return LogItem::damaged;
+  if (const char* fault = order.check(chunk())) return reject(Status::malformed, fault);
   return chunks.unpack() == Walk::good ? read_known() : LogItem::damaged;
 }
 
 // One signature over all before it, and nothing else.
-LogItem LogReader::read_behind_end() {
-  ChunkReader& chunks = parts_->chunks;
+LogItem LogReader::Parts::read_behind_end() {
   const Walk walk = chunks.next_frame();
   if (walk == Walk::finished) return LogItem::finished;
-  const bool is_signature = walk == Walk::good && chunk().type == ChunkType::signature &&
-                            !std::exchange(parts_->signed_end, true);
+  const bool is_signature =
+      walk == Walk::good && chunk().type == ChunkType::signature && order.take_signature();
   if (!is_signature) {
     chunks.reject_rest();
     return LogItem::damaged;
@@ -161,50 +160,24 @@ LogItem LogReader::read_behind_end() {
   return chunks.read_payload() == Walk::good ? LogItem::skipped : LogItem::damaged;
 }
 
-bool LogReader::check_frame() {
+bool LogReader::Parts::check_frame() {
   if (chunk().version != k_chunk_version || chunk().codec > Codec::zstd) {
-    (void)parts_->reject(Status::unsupported_version, "unknown chunk version or codec");
+    (void)reject(Status::unsupported_version, "unknown chunk version or codec");
     return false;
   }
   const bool has_ticks = chunk().type == ChunkType::input || chunk().type == ChunkType::hash;
-  const std::size_t second = max_chunk_ticks(header().info);
+  const std::size_t second = max_chunk_ticks(chunks.log().info);
   const bool in_range = has_ticks ? chunk().count >= 1 && chunk().count <= second
                                   : chunk().count == 0 || chunk().type == ChunkType::event;
-  if (!in_range) (void)parts_->reject(Status::malformed, "count out of range");
+  if (!in_range) (void)reject(Status::malformed, "count out of range");
   return in_range;
 }
 
-// A scene first; then inputs and their hashes in turn, and at most one keyframe between them.
-bool LogReader::check_order() {
-  const ChunkType type = chunk().type;
-  const auto fail = [&](const char* what) {
-    (void)parts_->reject(Status::malformed, what);
-    return false;
-  };
-  if (parts_->has_scene == (type == ChunkType::scene))
-    return fail("the scene comes first, and once");
-  if (parts_->arrives && type != ChunkType::keyframe) return fail("not the keyframe looked for");
-  if (parts_->awaits_hashes != (type == ChunkType::hash)) {
-    return fail("each INPUT chunk is followed by its HASH chunk");
-  }
-  if (type == ChunkType::keyframe && parts_->last_keyframe == chunk().first_tick) {
-    return fail("a second keyframe of one tick");
-  }
-  return check_place();
-}
-
-// Tick after tick.
-bool LogReader::check_place() {
-  const std::uint64_t behind = chunk().type == ChunkType::hash ? parts_->inputs.ticks() : 0;
-  if (chunk().first_tick == parts_->next_tick - behind) return true;
-  (void)parts_->reject(Status::malformed, "not at the log's next tick");
-  return false;
-}
-
-LogItem LogReader::read_known() {
+LogItem LogReader::Parts::read_known() {
   switch (chunk().type) {
     case ChunkType::scene:
-      return read_scene();
+      order.note_scene();
+      return LogItem::scene;
     case ChunkType::input:
       return read_inputs();
     case ChunkType::hash:
@@ -218,86 +191,58 @@ LogItem LogReader::read_known() {
   }
 }
 
-LogItem LogReader::read_scene() {
-  parts_->has_scene = true;
-  return LogItem::scene;
-}
-
-LogItem LogReader::read_inputs() {
-  if (header().match.start_tick > 0 && parts_->seen.keyframes == 0) {
-    return parts_->reject(Status::malformed, "no keyframe at the start tick");
-  }
-  const SimulationInfo& info = header().info;
-  const DecodeFault fault = parts_->inputs.decode(parts_->chunks.payload(), chunk().count,
-                                                  info.player_count, info.input_bytes);
-  if (!fault.ok()) return parts_->reject(fault);
-  parts_->awaits_hashes = true;
-  parts_->next_tick += chunk().count;
+LogItem LogReader::Parts::read_inputs() {
+  if (const char* fault = order.check_start()) return reject(Status::malformed, fault);
+  const SimulationInfo& info = chunks.log().info;
+  const DecodeFault fault =
+      inputs.decode(chunks.payload(), chunk().count, info.player_count, info.input_bytes);
+  if (!fault.ok()) return reject(fault);
+  order.note_inputs(chunk().count);
   return LogItem::inputs;
 }
 
-LogItem LogReader::read_hashes() {
-  const ByteView payload = parts_->chunks.payload();
-  const std::size_t count = parts_->inputs.ticks();
+LogItem LogReader::Parts::read_hashes() {
+  const ByteView payload = chunks.payload();
+  const std::size_t count = inputs.ticks();
   if (chunk().count != count || payload.size() != count * sizeof(std::uint64_t)) {
-    return parts_->reject(Status::malformed, "not one hash for each tick of its INPUT chunk");
+    return reject(Status::malformed, "not one hash for each tick of its INPUT chunk");
   }
   ByteReader reader(payload);
-  parts_->hashes.resize(count);
-  for (std::uint64_t& hash : parts_->hashes)
+  hashes.resize(count);
+  for (std::uint64_t& hash : hashes)
     hash = reader.get<std::uint64_t>();
   for (std::size_t i = 0; i < count; ++i)
-    parts_->transcript.add(chunk().first_tick + i, parts_->inputs.tick(i));
-  parts_->awaits_hashes = false;
-  parts_->seen.ticks += count;
-  parts_->seen.final_hash = parts_->hashes.back();
+    order.add_to_transcript(chunk().first_tick + i, inputs.tick(i));
+  order.note_hashes(hashes.back());
   return LogItem::hashes;
 }
 
-LogItem LogReader::read_keyframe() {
-  const ByteView payload = parts_->chunks.payload();
+LogItem LogReader::Parts::read_keyframe() {
+  const ByteView payload = chunks.payload();
   if (payload.size() <= sizeof(std::uint64_t)) {
-    return parts_->reject(Status::malformed, "no snapshot in it");
+    return reject(Status::malformed, "no snapshot in it");
   }
-  parts_->keyframe_hash = ByteReader(payload).get<std::uint64_t>();
-  if (parts_->seen.ticks > 0 && parts_->keyframe_hash != parts_->seen.final_hash) {
-    return parts_->reject(Status::malformed, "its hash is not that of the tick before");
-  }
-  const bool has_tick_before = chunk().first_tick > header().match.start_tick;
-  if (parts_->arrives && has_tick_before) parts_->seen.final_hash = parts_->keyframe_hash;
-  parts_->arrives = false;
-  parts_->last_keyframe = chunk().first_tick;
-  ++parts_->seen.keyframes;
+  keyframe_hash = ByteReader(payload).get<std::uint64_t>();
+  const char* fault = order.check_keyframe(keyframe_hash);
+  if (fault != nullptr) return reject(Status::malformed, fault);
+  order.note_keyframe(chunk().first_tick, keyframe_hash);
   return LogItem::keyframe;
 }
 
-LogItem LogReader::read_events() {
-  const DecodeFault fault = decode_events(parts_->chunks.payload(), chunk().count,
-                                          header().info.player_count, parts_->events);
-  if (!fault.ok()) return parts_->reject(fault);
-  parts_->seen.events += parts_->events.size();
+LogItem LogReader::Parts::read_events() {
+  const DecodeFault fault =
+      decode_events(chunks.payload(), chunk().count, chunks.log().info.player_count, events);
+  if (!fault.ok()) return reject(fault);
+  order.note_events(events.size());
   return LogItem::events;
 }
 
-LogItem LogReader::read_end() {
-  const DecodeFault fault = decode_end(parts_->chunks.payload(), parts_->end);
-  if (!fault.ok()) return parts_->reject(fault);
-  if (!check_end(parts_->end)) {
-    return parts_->reject(Status::malformed, "its totals are not those of the log");
-  }
-  if (!parts_->jumped && parts_->end.transcript != parts_->transcript.value()) {
-    return parts_->reject(Status::malformed, "its transcript is not that of the log's inputs");
-  }
-  parts_->complete = true;
+LogItem LogReader::Parts::read_end() {
+  const DecodeFault fault = decode_end(chunks.payload(), end);
+  if (!fault.ok()) return reject(fault);
+  if (const char* wrong = order.check_end(end)) return reject(Status::malformed, wrong);
+  order.note_end();
   return LogItem::end;
-}
-
-bool LogReader::check_end(const LogEnd& end) const {
-  const LogEnd& seen = parts_->seen;
-  const bool ends_here = end.final_tick == parts_->next_tick && end.final_hash == seen.final_hash;
-  if (parts_->jumped) return ends_here;
-  return ends_here && end.ticks == seen.ticks && end.events == seen.events &&
-         end.keyframes == seen.keyframes;
 }
 
 }  // namespace lockstone::replay

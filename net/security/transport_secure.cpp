@@ -1,7 +1,5 @@
 #include <algorithm>
 
-#include <lockstone/assert.h>
-
 #include "net/security/transport_secure_impl.h"
 
 namespace lockstone::net {
@@ -12,12 +10,8 @@ constexpr std::size_t k_max_client_connections = 8;
 
 }  // namespace
 
-SecureTransport::Impl::Impl(Transport& wrapped, RandomSource& random_source,
-                            std::size_t max_connections)
-    : carrier(wrapped),
-      secrets(random_source),
-      links(max_connections),
-      entries(max_connections),
+SecureTransport::Impl::Impl(Transport& carrier, RandomSource& secrets, std::size_t max_connections)
+    : data{carrier, secrets, SecureLinks(carrier, max_connections), {}},
       sealed(k_max_reliable_bytes + k_carrier_reserve_bytes),
       opened(k_max_reliable_bytes + k_carrier_reserve_bytes) {}
 
@@ -29,7 +23,7 @@ Result<std::unique_ptr<SecureTransport>> SecureTransport::serve(Transport& carri
                         options.max_connections <= k_max_connections && options.handshake_us > 0;
   if (!in_range) return Status::invalid_argument;
   auto impl = std::make_unique<Impl>(carrier, random, options.max_connections);
-  impl->server = options;
+  impl->server.emplace(impl->data, options);
   return std::unique_ptr<SecureTransport>(new SecureTransport(std::move(impl)));
 }
 
@@ -38,82 +32,69 @@ Result<std::unique_ptr<SecureTransport>> SecureTransport::join(Transport& carrie
                                                                RandomSource& random) {
   if (!security_available()) return Status::incompatible;
   auto impl = std::make_unique<Impl>(carrier, random, k_max_client_connections);
-  impl->token = token;
+  impl->client.emplace(impl->data, token);
   return std::unique_ptr<SecureTransport>(new SecureTransport(std::move(impl)));
 }
 
 SecureTransport::SecureTransport(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
-SecureTransport::~SecureTransport() {
-  for (Impl::Link& link : impl_->links)
-    impl_->release(link);
-}
+SecureTransport::~SecureTransport() = default;
 
 bool SecureTransport::poll(std::int64_t now_us, TransportEvent& event) {
   Impl& impl = *impl_;
-  impl.now_us = now_us;
-  if (impl.pending) {
-    event = *impl.pending;
-    impl.pending.reset();
-    return true;
-  }
+  impl.data.now_us = now_us;
+  if (impl.server && impl.server->take_pending(event)) return true;
   TransportEvent source;
-  while (impl.carrier.poll(now_us, source)) {
+  while (impl.data.carrier.poll(now_us, source)) {
     if (impl.translate(source, event)) return true;
   }
-  return impl.expire(event);
+  if (impl.server) impl.server->expire();  // the session of a client counts that itself
+  return false;
 }
 
 Status SecureTransport::send(ConnectionId connection, Channel channel, ByteView bytes) {
-  Impl::Link* link = impl_->find(connection);
-  if (link == nullptr || link->stage != Impl::Stage::open) return Status::stale_handle;
+  SecureLink* link = impl_->data.links.find(connection);
+  if (link == nullptr || link->stage != SecureStage::open) return Status::stale_handle;
   const bool reliable = channel == Channel::reliable;
   const std::size_t limit = reliable ? k_max_reliable_bytes : k_max_datagram_bytes;
   if (bytes.empty() || bytes.size() > limit) return Status::invalid_argument;
   const std::size_t size = link->sealer.seal(channel, bytes, impl_->sealed);
   const Status status =
-      impl_->carrier.send(connection, channel, ByteView(impl_->sealed).first(size));
+      impl_->data.carrier.send(connection, channel, ByteView(impl_->sealed).first(size));
   // A packet that the carrier refused never left this machine, so its counter may be used again.
   if (reliable && status == Status::ok) link->sealer.reliable_sent();
   return status;
 }
 
 void SecureTransport::flush() {
-  impl_->carrier.flush();
+  impl_->data.carrier.flush();
 }
 
 void SecureTransport::disconnect(ConnectionId connection) {
-  if (Impl::Link* link = impl_->find(connection)) impl_->release(*link);
-  impl_->carrier.disconnect(connection);
+  if (SecureLink* link = impl_->data.links.find(connection)) SecureLinks::release(*link);
+  impl_->data.carrier.disconnect(connection);
 }
 
 TransportStats SecureTransport::stats(ConnectionId connection) const {
-  return impl_->carrier.stats(connection);
+  return impl_->data.carrier.stats(connection);
 }
 
 PeerIdentity SecureTransport::identity(ConnectionId connection) const {
-  const Impl::Link* link = impl_->find(connection);
+  const SecureLink* link = impl_->data.links.find(connection);
   return link == nullptr ? PeerIdentity{} : link->identity;
 }
 
 void SecureTransport::trust(ConnectionId connection) {
-  impl_->carrier.trust(connection);
+  impl_->data.carrier.trust(connection);
 }
 
 const SecurityCounters& SecureTransport::counters() const {
-  return impl_->counters;
-}
-
-SecureTransport::Impl::Link* SecureTransport::Impl::find(ConnectionId connection) {
-  const auto found = std::find_if(links.begin(), links.end(), [connection](const Link& link) {
-    return link.stage != Stage::unused && link.connection == connection;
-  });
-  return found == links.end() ? nullptr : &*found;
+  return impl_->data.counters;
 }
 
 bool SecureTransport::Impl::translate(const TransportEvent& source, TransportEvent& event) {
   if (source.kind == TransportEventKind::connected) return accept(source.connection, event);
-  Link* link = find(source.connection);
+  SecureLink* link = data.links.find(source.connection);
   if (link == nullptr) {
     // A client whose call was refused before there was a connection.
     event = source;
@@ -121,20 +102,20 @@ bool SecureTransport::Impl::translate(const TransportEvent& source, TransportEve
   }
   if (source.kind == TransportEventKind::received) return receive(*link, source, event);
   // A server's session hears of those alone who came in.
-  const bool known = link->stage == Stage::open || !server;
-  release(*link);
+  const bool known = link->stage == SecureStage::open || !server;
+  SecureLinks::release(*link);
   event = source;
   return known;
 }
 
-bool SecureTransport::Impl::receive(Link& link, const TransportEvent& source,
+bool SecureTransport::Impl::receive(SecureLink& link, const TransportEvent& source,
                                     TransportEvent& event) {
-  if (link.stage != Stage::open) {
+  if (link.stage != SecureStage::open) {
     // An unreliable packet may have overtaken the handshake, which is reliable.
     if (source.channel == Channel::unreliable) return false;
-    if (!server) return on_challenge(link, source.bytes, event);
-    return link.stage == Stage::greeting ? on_hello(link, source.bytes, event)
-                                         : on_confirm(link, source.bytes, event);
+    if (client) return client->on_challenge(link, source.bytes, event);
+    return link.stage == SecureStage::greeting ? server->on_hello(link, source.bytes, event)
+                                               : server->on_confirm(link, source.bytes, event);
   }
   std::size_t size = 0;
   if (source.bytes.size() > opened.size()) return false;
@@ -144,45 +125,24 @@ bool SecureTransport::Impl::receive(Link& link, const TransportEvent& source,
       event.bytes = ByteView(opened).first(size);
       return true;
     case PacketOpener::Outcome::replayed:
-      ++counters.packets_replayed;
+      ++data.counters.packets_replayed;
       return false;
     case PacketOpener::Outcome::forged:
       break;
   }
-  ++counters.packets_forged;
+  ++data.counters.packets_forged;
   // An unreliable one may come from anybody. The reliable stream cannot go on without this packet.
   if (source.channel == Channel::unreliable) return false;
-  return close(link, RefuseReason::stream_damaged, event);
+  return data.links.close(link, RefuseReason::stream_damaged, event);
 }
 
-// Handshakes that take too long, one a call.
-bool SecureTransport::Impl::expire(TransportEvent& event) {
-  if (!server) return false;  // the session of a client counts that itself
-  for (Link& link : links) {
-    if (link.stage == Stage::unused || link.stage == Stage::open) continue;
-    if (now_us - link.since_us <= server->handshake_us) continue;
-    ++counters.handshakes_timed_out;
-    static_cast<void>(close(link, RefuseReason::handshake_timeout, event));
+bool SecureTransport::Impl::accept(ConnectionId connection, TransportEvent& event) {
+  SecureLink* link = data.links.add(connection, data.now_us);
+  if (link == nullptr) {
+    data.carrier.disconnect(connection);
+    return false;
   }
-  return false;
-}
-
-// Ends a connection from this side and makes the event of it.
-bool SecureTransport::Impl::close(Link& link, RefuseReason reason, TransportEvent& event) {
-  event = {};
-  event.kind = TransportEventKind::disconnected;
-  event.connection = link.connection;
-  event.reason = reason;
-  release(link);
-  carrier.disconnect(event.connection);
-  return true;
-}
-
-void SecureTransport::Impl::release(Link& link) {
-  crypto::wipe(std::as_writable_bytes(std::span(&link.sealer, 1)));
-  crypto::wipe(std::as_writable_bytes(std::span(&link.opener, 1)));
-  crypto::wipe(link.secret.bytes);
-  link = {};
+  return client && client->greet(*link, event);
 }
 
 }  // namespace lockstone::net

@@ -1,78 +1,31 @@
-// The inside of SecureTransport: transport_secure.cpp handles the packets of open connections,
-// secure_handshake.cpp the handshake.
+// The inside of SecureTransport: the packets of open connections. The handshake of each side is a
+// class of its own.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include <lockstone/net/transport_secure.h>
 
-#include "net/security/packet_seal.h"
-#include "net/security/rate_limit.h"
+#include "net/security/secure_client_handshake.h"
+#include "net/security/secure_data.h"
+#include "net/security/secure_server_handshake.h"
 
 namespace lockstone::net {
 
+/// Opens the carrier's packets, or hands them to the handshake. Functions return whether there is
+/// an event to tell.
 struct SecureTransport::Impl {
-  enum class Stage : std::uint8_t {
-    unused,
-    greeting,  ///< server: waits for hello; client: waits for challenge
-    proving,   ///< server: waits for confirm
-    open,
-  };
+  Impl(Transport& carrier, RandomSource& secrets, std::size_t max_connections);
 
-  struct Link {
-    ConnectionId connection = k_no_connection;
-    Stage stage = Stage::unused;
-    std::int64_t since_us = 0;
-    PeerIdentity identity;
-    PacketSealer sealer;
-    PacketOpener opener;
-    Key secret;                                    ///< client: of the key agreement
-    std::array<std::byte, k_hello_bytes> hello{};  ///< client: as sent
-  };
-
-  // How often a seat was taken of late.
-  struct Entries {
-    std::uint64_t player = 0;
-    std::uint8_t slot = 0;
-    std::int64_t last_us = -1;  ///< below 0: this place is free
-    RateLimit limit;
-  };
-
-  Impl(Transport& wrapped, RandomSource& random_source, std::size_t max_connections);
-
-  // transport_secure.cpp
   [[nodiscard]] bool translate(const TransportEvent& source, TransportEvent& event);
-  [[nodiscard]] bool receive(Link& link, const TransportEvent& source, TransportEvent& event);
-  [[nodiscard]] bool expire(TransportEvent& event);
-  [[nodiscard]] bool close(Link& link, RefuseReason reason, TransportEvent& event);
-  void release(Link& link);
-  [[nodiscard]] Link* find(ConnectionId connection);
-
-  // secure_handshake.cpp: each returns whether there is an event to tell.
   [[nodiscard]] bool accept(ConnectionId connection, TransportEvent& event);
-  [[nodiscard]] bool greet(Link& link, TransportEvent& event);
-  [[nodiscard]] bool on_hello(Link& link, ByteView packet, TransportEvent& event);
-  [[nodiscard]] RefuseReason judge(const SecureHello& hello, SealedGrant& grant) const;
-  [[nodiscard]] bool challenge(Link& link, const SecureHello& hello, const SealedGrant& grant,
-                               ByteView packet, TransportEvent& event);
-  void end_older_handshake(const SealedGrant& grant);
-  [[nodiscard]] bool may_enter(const PeerIdentity& identity);
-  [[nodiscard]] bool on_confirm(Link& link, ByteView packet, TransportEvent& event);
-  [[nodiscard]] bool on_challenge(Link& link, ByteView packet, TransportEvent& event);
-  [[nodiscard]] bool open(Link& link, TransportEvent& event);
-  [[nodiscard]] bool refuse(Link& link, RefuseReason reason, TransportEvent& event);
-  [[nodiscard]] bool send_plain(const Link& link, ByteView bytes);
+  [[nodiscard]] bool receive(SecureLink& link, const TransportEvent& source, TransportEvent& event);
 
-  Transport& carrier;
-  RandomSource& secrets;
-  std::optional<SecureServerOptions> server;  ///< or else a client's `token`
-  ConnectToken token;
-  std::int64_t now_us = 0;
-  std::vector<Link> links;                ///< never resized
-  std::vector<Entries> entries;           ///< the same; of a server
-  std::optional<TransportEvent> pending;  ///< to be told before anything else
-  SecurityCounters counters;
+  SecureData data;
+  std::optional<SecureServerHandshake> server;  ///< this one or the other
+  std::optional<SecureClientHandshake> client;
   std::vector<std::byte> sealed;  ///< a packet on its way out
   std::vector<std::byte> opened;  ///< the last event's bytes point into it
 };

@@ -22,6 +22,52 @@ struct Mismatch {
   std::uint64_t hash_there = 0;
 };
 
+/// The right hash of each recent tick: the server's own, or in a relay the one that most players
+/// had.
+class RightHashes {
+ public:
+  explicit RightHashes(std::size_t history_ticks)
+      : history_ticks_(history_ticks), hashes_(history_ticks) {}
+
+  void push(std::uint64_t hash) { hashes_.push(hash); }
+
+  /// The match continues after `ticks` of them, above 0; the last hash is known.
+  void begin_after(std::uint64_t ticks, std::uint64_t hash) {
+    hashes_.restart(ticks - 1);
+    hashes_.push(hash);
+    first_ = ticks - 1;
+  }
+
+  /// Of a tick that is known.
+  [[nodiscard]] std::uint64_t at(std::uint64_t tick) const { return hashes_.at(tick); }
+  /// No tick from here on is known.
+  [[nodiscard]] std::uint64_t end() const { return hashes_.next_tick(); }
+  [[nodiscard]] bool knows(std::uint64_t tick) const {
+    return tick >= first_ && tick < end() && end() - tick <= history_ticks_;
+  }
+
+ private:
+  std::size_t history_ticks_;
+  HashRing hashes_;
+  std::uint64_t first_ = 0;
+};
+
+/// One player's reports.
+struct PlayerHashes {
+  HashRing reported;
+  std::uint64_t first = 0;   ///< reports began here
+  std::uint64_t judged = 0;  ///< next tick to compare
+  std::uint64_t compared = 0;
+  std::uint64_t equal = 0;
+  bool present = false;  ///< is waited for
+  bool ignored = false;  ///< was found different: its later hashes prove nothing
+
+  /// It has a say about the tick.
+  [[nodiscard]] bool counts_at(std::uint64_t tick) const {
+    return !ignored && first <= tick && reported.next_tick() > tick;
+  }
+};
+
 /// Every player's hashes are taken in tick order without gaps, and each is compared before the
 /// next: so the first mismatch found for a player is at the first tick that differs.
 class HashJudge {
@@ -29,12 +75,16 @@ class HashJudge {
   /// With `has_own`, the server's own hashes decide; else the majority of the players does.
   HashJudge(std::size_t player_count, std::size_t history_ticks, bool has_own);
 
-  void push_own(std::uint64_t hash) { own_.push(hash); }
+  void push_own(std::uint64_t hash) { right_.push(hash); }
+
+  /// Before anything else: the match goes on after `ticks` of them, above 0; the last hash is
+  /// known.
+  void begin_after(std::uint64_t ticks, std::uint64_t hash) { right_.begin_after(ticks, hash); }
 
   /// Whether `slot` may report one more: false: it would overwrite hashes that are not yet
   /// compared.
   [[nodiscard]] bool can_push(std::size_t slot) const;
-  void push(std::size_t slot, std::uint64_t hash) { players_[slot].reported.push(hash); }
+  void push(std::size_t slot, std::uint64_t hash);
 
   /// The next tick whose hash is wanted of `slot`.
   [[nodiscard]] std::uint64_t wanted(std::size_t slot) const {
@@ -43,14 +93,6 @@ class HashJudge {
 
   /// `slot` reports again, from `tick` on, whatever it reported before. Nobody waits for it yet.
   void restart(std::size_t slot, std::uint64_t tick);
-
-  /// Before anything else: the match goes on after `ticks` of them, above 0; the last hash is
-  /// known.
-  void begin_after(std::uint64_t ticks, std::uint64_t hash) {
-    own_.restart(ticks - 1);
-    own_.push(hash);
-    own_first_ = ticks - 1;
-  }
 
   /// Players that do not report any more are not waited for.
   void set_present(std::size_t slot, bool present) { players_[slot].present = present; }
@@ -62,47 +104,22 @@ class HashJudge {
   /// out of all further comparison.
   [[nodiscard]] std::optional<Mismatch> advance();
 
-  /// Ticks below were compared for `slot`.
-  [[nodiscard]] std::uint64_t judged(std::size_t slot) const { return players_[slot].judged; }
-
   /// Ticks below were compared for every present player.
   [[nodiscard]] std::uint64_t judged_ticks() const;
 
-  [[nodiscard]] std::uint64_t compared(std::size_t slot) const { return players_[slot].compared; }
-  [[nodiscard]] std::uint64_t equal(std::size_t slot) const { return players_[slot].equal; }
-
-  /// The server's hash of a recent tick; in a relay, the one that most players had.
-  [[nodiscard]] std::uint64_t right_hash(std::uint64_t tick) const { return own_.at(tick); }
-  [[nodiscard]] std::uint64_t right_hash_ticks() const { return own_.next_tick(); }
-  [[nodiscard]] bool knows_right_hash(std::uint64_t tick) const {
-    const std::uint64_t end = own_.next_tick();
-    return tick >= own_first_ && tick < end && end - tick <= history_ticks_;
-  }
+  /// The reports of a player, and how far they were compared.
+  [[nodiscard]] const PlayerHashes& player(std::size_t slot) const { return players_[slot]; }
+  [[nodiscard]] const RightHashes& right() const { return right_; }
 
  private:
-  struct Player {
-    HashRing reported;
-    std::uint64_t first = 0;   ///< reports began here
-    std::uint64_t judged = 0;  ///< next tick to compare
-    std::uint64_t compared = 0;
-    std::uint64_t equal = 0;
-    bool present = false;
-    bool ignored = false;  ///< was found different: its later hashes prove nothing
-  };
-
-  std::optional<Mismatch> compare_with_own(std::uint8_t slot);
+  std::optional<Mismatch> compare_with_right(std::uint8_t slot);
   std::optional<Mismatch> compare_players();
   void compare_tick(std::uint64_t tick);
-  [[nodiscard]] bool all_reported(std::uint64_t tick) const;
-  [[nodiscard]] bool takes_part(const Player& player, std::uint64_t tick) const;
-  [[nodiscard]] std::uint8_t speaker_for(std::uint64_t tick) const;
-  [[nodiscard]] std::uint8_t speaker_of_largest_group(std::size_t& votes, std::size_t& all) const;
 
   bool has_own_;
   std::size_t history_ticks_;
-  HashRing own_;  ///< the server's, or in a relay the players'
-  std::uint64_t own_first_ = 0;
-  std::vector<Player> players_;
+  RightHashes right_;
+  std::vector<PlayerHashes> players_;
   std::uint64_t shared_judged_ = 0;  ///< next tick to compare among players
   std::vector<Mismatch> pending_;    ///< found, not yet answered; at most one a player
 };

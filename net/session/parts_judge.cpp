@@ -77,11 +77,11 @@ void PartsJudge::compare(std::uint8_t slot, const Parts& theirs, std::uint8_t re
       theirs.ticks, slot, reference, verdict, part, right.hashes[part], theirs.hashes[part]};
 }
 
-void PartsJudge::vote(std::uint16_t voters, std::uint64_t closed) {
+void PartsJudge::vote(std::uint16_t voters, std::uint64_t confirmed) {
   for (Check& check : checks_) {
     if (check.ticks == 0 || check.decided) continue;
     const bool all = (check.reported & voters) == voters;
-    if (all || closed >= check.ticks + k_patience_ticks) decide(check, voters);
+    if (all || confirmed >= check.ticks + k_patience_ticks) decide(check, voters);
   }
 }
 

@@ -38,10 +38,10 @@ class PartsJudge {
   /// A player's. The first for its ticks counts.
   void take(std::uint8_t slot, const Parts& parts);
 
-  /// Without own parts: decides the checks that all of `voters` have reported, and, after `closed`
-  /// ticks, the checks that are so old that nobody is waited for any more. Bit n of `voters`: slot
-  /// n.
-  void vote(std::uint16_t voters, std::uint64_t closed);
+  /// Without own parts: decides the checks that all of `voters` have reported, and, after
+  /// `confirmed` ticks, the checks that are so old that nobody is waited for any more. Bit n of
+  /// `voters`: slot n.
+  void vote(std::uint16_t voters, std::uint64_t confirmed);
 
   /// The first difference found in a player, until it is forgotten.
   [[nodiscard]] const std::optional<PartMismatch>& found(std::size_t slot) const {

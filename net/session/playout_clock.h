@@ -1,5 +1,5 @@
-// When to step a closed tick: late enough that nearly all ticks are there in time, so that the game
-// moves evenly though packets do not.
+// When to step a confirmed tick: late enough that nearly all ticks are there in time, so that the
+// game moves evenly though packets do not.
 #pragma once
 
 #include <array>

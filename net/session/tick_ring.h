@@ -17,7 +17,8 @@ class TickRing {
   /// A capacity of 0 keeps nothing.
   TickRing(std::size_t capacity, std::size_t record_bytes);
 
-  [[nodiscard]] std::size_t capacity() const { return entries_.size(); }
+  /// False for a capacity of 0.
+  [[nodiscard]] bool keeps_records() const { return !entries_.empty(); }
 
   /// The place for `tick`'s record, of record_bytes bytes; the old record is dropped.
   [[nodiscard]] std::span<std::byte> claim(std::uint64_t tick);

@@ -27,6 +27,20 @@ bool read_ipv4(const std::string& text, std::uint16_t port, ENetAddress& address
   return true;
 }
 
+EnetTransport::State::State(const EnetOptions& options)
+    : connections(data, options),
+      refusals(data, connections),
+      gate(data, connections, refusals),
+      outgoing(data, connections) {
+  data.checksum = LinkChecksum(options.link_key);
+  data.match_tag = options.match_tag;
+}
+
+EnetTransport::State::~State() {
+  release_current();
+  if (data.host != nullptr) enet_host_destroy(data.host);
+}
+
 // ENet's callbacks. It has no room for a user's pointer in a host, but the compressor's context,
 // which is not used while there are no functions beside it.
 
@@ -36,17 +50,18 @@ EnetTransport::State& EnetTransport::State::of(const ENetHost* host) {
 
 int ENET_CALLBACK EnetTransport::State::intercept(ENetHost* host, ENetEvent*) {
   State& state = of(host);
-  ++state.datagrams_a_round;
-  if (state.is_wake()) return state.admit_ipv6() ? 0 : 1;
+  EnetData& data = state.data;
+  ++state.datagrams_a_round_;
+  if (data.ipv6 != nullptr && data.ipv6->is_wake(*host)) return state.admit_ipv6() ? 0 : 1;
   const auto datagram =
       std::as_writable_bytes(std::span(host->receivedData, host->receivedDataLength));
-  if (!state.takes_ipv4) {
-    ++state.counters.datagrams;
-    ++state.counters.strays;
+  if (!state.takes_ipv4_) {
+    ++data.counters.datagrams;
+    ++data.counters.strays;
     return 1;
   }
-  state.source = source_of(host->receivedAddress);
-  return state.admit(datagram) ? 0 : 1;
+  data.source = source_of(host->receivedAddress);
+  return state.gate.admit(datagram) ? 0 : 1;
 }
 
 // Outgoing bytes are in the host's own buffers, of which there are at least two, the header and a
@@ -58,22 +73,16 @@ enet_uint32 ENET_CALLBACK EnetTransport::State::compute_checksum(const ENetBuffe
   const std::size_t offset = sent ? offsetof(ENetHost, buffers) : offsetof(ENetHost, packetData);
   const void* begin = static_cast<const std::byte*>(inside) - offset;
   State& state = of(static_cast<const ENetHost*>(begin));
-  if (!sent) return raw_value(state.admitted);  // the gate has judged it
-  std::size_t size = 0;
-  for (const ENetBuffer& buffer : std::span(buffers, count)) {
-    if (buffer.dataLength > state.gathered.size() - size) return 0;  // longer than any datagram
-    std::memcpy(state.gathered.data() + size, buffer.data, buffer.dataLength);
-    size += buffer.dataLength;
-  }
-  return raw_value(state.finish(size));
+  if (!sent) return raw_value(state.gate.admitted());
+  return state.outgoing.finish(std::span(buffers, count));
 }
 
 void EnetTransport::State::configure(const EnetOptions& options) {
-  host->maximumPacketSize = k_max_reliable_bytes + k_carrier_reserve_bytes;
-  host->maximumWaitingData = options.max_waiting_bytes;
-  host->compressor.context = this;
-  host->checksum = compute_checksum;
-  host->intercept = intercept;
+  data.host->maximumPacketSize = k_max_reliable_bytes + k_carrier_reserve_bytes;
+  data.host->maximumWaitingData = options.max_waiting_bytes;
+  data.host->compressor.context = this;
+  data.host->checksum = compute_checksum;
+  data.host->intercept = intercept;
   // ENet's own seed is the time and an address, which others may guess.
   SystemRandom system;
   RandomSource* random = options.random;
@@ -81,7 +90,7 @@ void EnetTransport::State::configure(const EnetOptions& options) {
   if (random == nullptr) return;
   Word seed;
   random->fill(seed);
-  host->randomSeed = raw_value(seed);
+  data.host->randomSeed = raw_value(seed);
 }
 
 Result<std::unique_ptr<EnetTransport::State>> EnetTransport::State::create(
@@ -91,11 +100,11 @@ Result<std::unique_ptr<EnetTransport::State>> EnetTransport::State::create(
   }
   if (options.link_key && !security_available()) return Status::incompatible;
   auto state = std::make_unique<State>(options);
-  if (!state->library.ready()) return Status::io_error;
-  state->listens = address != nullptr;
+  if (!state->data.library.ready()) return Status::io_error;
+  state->data.listens = address != nullptr;
   errno = 0;
-  state->host = enet_host_create(address, options.max_connections, k_channels, 0, 0);
-  if (state->host == nullptr) {
+  state->data.host = enet_host_create(address, options.max_connections, k_channels, 0, 0);
+  if (state->data.host == nullptr) {
     if (problem != nullptr) *problem = std::strerror(errno);
     return Status::io_error;
   }
@@ -129,7 +138,7 @@ Result<std::unique_ptr<EnetTransport::State>> EnetTransport::State::create_ipv6(
   for (unsigned tries = both && options.port == 0 ? k_tries_for_a_port : 1;; --tries) {
     Result<std::unique_ptr<State>> state = create(options, &address, problem);
     if (!state) return state;
-    state.value()->takes_ipv4 = both;
+    state.value()->takes_ipv4_ = both;
     DatagramSource where = local;
     if (both) where.port = state.value()->port();
     errno = 0;
@@ -140,9 +149,15 @@ Result<std::unique_ptr<EnetTransport::State>> EnetTransport::State::create_ipv6(
 }
 
 std::uint16_t EnetTransport::State::port() const {
-  if (listens && ipv6 != nullptr) return ipv6->socket().port();
+  if (data.listens && data.ipv6 != nullptr) return data.ipv6->socket().port();
   ENetAddress address{};
-  return enet_socket_get_address(host->socket, &address) == 0 ? address.port : std::uint16_t{0};
+  const bool bound = enet_socket_get_address(data.host->socket, &address) == 0;
+  return bound ? address.port : std::uint16_t{0};
+}
+
+bool EnetTransport::State::add_ipv6(const DatagramSource* local) {
+  if (data.ipv6 == nullptr) data.ipv6 = Ipv6Side::open(*data.host, local);
+  return data.ipv6 != nullptr;
 }
 
 }  // namespace lockstone::net

@@ -33,18 +33,33 @@ class Ipv6Side {
   Ipv6Side(std::unique_ptr<Udp6Socket> socket, const ENetAddress& own)
       : socket_(std::move(socket)), own_(own) {}
 
+  /// Opens the side beside a host of ENet's. Binds ENet's socket if nothing has, since wakes need
+  /// its port. Without a local address the system chooses one. Null, with the reason in errno, when
+  /// the system refuses.
+  [[nodiscard]] static std::unique_ptr<Ipv6Side> open(const ENetHost& host,
+                                                      const DatagramSource* local);
+
   [[nodiscard]] const Udp6Socket& socket() const { return *socket_; }
   [[nodiscard]] const ENetAddress& own() const { return own_; }
   void send(const DatagramSource& to, ByteView bytes) const { socket_->send(to, bytes); }
+
+  /// Sends ENet's current datagram over IPv6, and puts a wake in its place.
+  void send_instead(ENetHost& host, const DatagramSource& to, ByteView datagram) const;
+
+  /// Whether ENet has just received a wake.
+  [[nodiscard]] bool is_wake(const ENetHost& host) const;
+  void wake(const ENetHost& host) const;
+
+  /// Sleeps until a datagram has come for either half.
+  [[nodiscard]] bool wait(const ENetHost& host, enet_uint32 limit_ms) const;
 
   void begin_poll() { left_ = k_max_datagrams_a_poll; }
 
   /// Whether a datagram waits here, for which the socket is read if need be.
   [[nodiscard]] bool fetch(EnetCounters& counters);
-  [[nodiscard]] bool waits() const { return waits_; }
 
-  /// Takes the one that waits.
-  [[nodiscard]] ByteView take(DatagramSource& source);
+  /// Puts the one that waits in the place of the datagram that ENet has received.
+  [[nodiscard]] std::span<std::byte> take(ENetHost& host, DatagramSource& source);
 
  private:
   std::unique_ptr<Udp6Socket> socket_;

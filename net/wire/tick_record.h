@@ -1,5 +1,5 @@
-// One closed tick as bytes: two bits of InputOrigin a slot (slot n in byte n / 4, bits 2(n % 4) and
-// up), then the slots' inputs. Also what a tick's hash and log are made of.
+// One confirmed tick as bytes: two bits of InputOrigin a slot (slot n in byte n / 4, bits 2(n % 4)
+// and up), then the slots' inputs. Also what a tick's hash and log are made of.
 #pragma once
 
 #include <array>

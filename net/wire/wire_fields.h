@@ -83,13 +83,13 @@ template <class Wire, class Message>
 void fields(Wire& wire, Message& message, const Ticks&) {
   wire.tick(message.first_tick);
   wire.value(message.count);
-  wire.tick(message.ticks_closed);
+  wire.tick(message.ticks_confirmed);
   wire.tick(message.inputs_received);
   wire.tick(message.hashes_received);
   wire.value(message.waiting_mask);
   wire.value(message.margin_quarters);
-  wire.require(message.first_tick + message.count <= message.ticks_closed);
-  wire.require(message.hashes_received <= message.ticks_closed);
+  wire.require(message.first_tick + message.count <= message.ticks_confirmed);
+  wire.require(message.hashes_received <= message.ticks_confirmed);
   wire.rest(message.coded);
 }
 

@@ -110,7 +110,7 @@ void print_tick(std::uint64_t tick, std::uint64_t hash) {
 
 struct Referee final : net::ServerObserver {
   replay::Recorder* recorder = nullptr;
-  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+  void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                    std::optional<std::uint64_t> hash) override {
     print_tick(tick, hash.value_or(0));
     (void)recorder->record_tick(tick, inputs, hash.value_or(0));

@@ -126,7 +126,7 @@ Ticks sample_ticks() {
   Ticks ticks;
   ticks.first_tick = 3;
   ticks.count = 3;
-  ticks.ticks_closed = 6;
+  ticks.ticks_confirmed = 6;
   ticks.inputs_received = 9;
   ticks.coded = coded;
   return ticks;

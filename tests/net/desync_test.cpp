@@ -189,8 +189,8 @@ TEST(Desync, FreezesTheMatchWhileItIsExplained) {
   ASSERT_TRUE(match.run(60 * k_second_us));
   ASSERT_EQ(match.server_log.reports.size(), 1U);
   EXPECT_EQ(match.server_log.reports[0].tick, 100U);
-  EXPECT_GT(match.server->ticks_closed(), 120U);
-  EXPECT_LT(match.server->ticks_closed(), 136U);
+  EXPECT_GT(match.server->ticks_confirmed(), 120U);
+  EXPECT_LT(match.server->ticks_confirmed(), 136U);
 }
 
 TEST(Desync, IsExplainedThoughItsReportsWereCutOff) {
@@ -211,7 +211,7 @@ TEST(Desync, JudgeThatWasHitItselfSaysSo) {
   options.server.desync_policy = DesyncPolicy::kick;
   Match match(options);
   match.run_for(2 * k_second_us);
-  const std::uint64_t tick = match.server->ticks_closed();
+  const std::uint64_t tick = match.server->ticks_confirmed();
   ASSERT_TRUE(match.server_simulation.flip_bit("body", 5, "spin", 17));
   ASSERT_TRUE(match.run(60 * k_second_us));
   ASSERT_GE(match.server_log.reports.size(), 1U);

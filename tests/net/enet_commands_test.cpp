@@ -80,7 +80,7 @@ TEST(CommandFilter, RefusesCommandsThatNoSessionSends) {
       command(0x07, 1, 0, {{1, 2}, {1, 2}, {0, 1}}),      // unreliable, which ENet sorts
       command(0x49, 1, 0, {{9, 2}, {0, 2}}),              // nothing in it
       command(0xc9, 1, 0, {{9, 2}, {1, 2}, {0, 1}}),      // to be acknowledged
-      command(0x8a, 0xff, 1, {{1, 4}, {0, 4}}),           // a narrow line
+      command(0x8a, 0xff, 1, {{1, 4}, {0, 4}}),           // a narrow connection
       command(0x8b, 0xff, 1, {{1, 4}, {0, 4}, {32, 4}}),  // a throttle that shuts
       command(0x83, 0xff, 1,
               {{0, 4},

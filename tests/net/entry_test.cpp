@@ -30,7 +30,7 @@ TEST(Entry, LateJoinerPlaysFromTheAnnouncedTickAndNobodyWaits) {
     Match match(options);
     match.players[2].paused = true;
     match.run_for(4 * k_second_us);
-    EXPECT_GT(match.server->ticks_closed(), 200U);
+    EXPECT_GT(match.server->ticks_confirmed(), 200U);
     match.players[2].paused = false;
     ASSERT_TRUE(match.run(30 * k_second_us)) << "seed " << seed;
     EXPECT_LT(match.now_us, 13 * k_second_us);
@@ -79,7 +79,7 @@ TEST(Entry, LostPlayerGoesOnWithTicksAlone) {
   match.expect_all_equal();
 }
 
-// The line is still dead when it calls for the first time.
+// The connection is still dead when it calls for the first time.
 TEST(Entry, LostPlayerMayCallAgainAndAgain) {
   Match match(rejoinable_match(2, 1200, 7));
   match.network.partition(*match.players[1].transport, 2 * k_second_us, 15 * k_second_us);
@@ -211,7 +211,7 @@ TEST(Entry, MatchWaitsWhileAllPlayersAreExpectedBack) {
   match.run_for(2 * k_second_us);
   match.network.partition(match.server_transport, match.now_us, match.now_us + 8 * k_second_us);
   match.run_for(8 * k_second_us);
-  const std::uint64_t closed = match.server->ticks_closed();
+  const std::uint64_t closed = match.server->ticks_confirmed();
   EXPECT_EQ(match.server->present_mask(), 0);
   EXPECT_EQ(match.server->state(), ServerState::running);
   EXPECT_LT(closed, 450U);
@@ -262,10 +262,10 @@ TEST(Entry, PausesAndGoesOn) {
                                   asked.begin(), asked.end()));
   match.server->pause();
   match.run_for(k_second_us);
-  const std::uint64_t closed = match.server->ticks_closed();
+  const std::uint64_t closed = match.server->ticks_confirmed();
   EXPECT_TRUE(match.players[0].client->paused());
   match.run_for(10 * k_second_us);
-  EXPECT_EQ(match.server->ticks_closed(), closed);
+  EXPECT_EQ(match.server->ticks_confirmed(), closed);
   match.server->resume();
   ASSERT_TRUE(match.run(30 * k_second_us));
   EXPECT_FALSE(match.players[0].client->paused());

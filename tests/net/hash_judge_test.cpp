@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "net/security/entry_limits.h"
 #include "net/session/peer_watch.h"
 
 namespace lockstone::net {
@@ -26,8 +27,8 @@ TEST(HashJudge, FindsTheFirstTickThoughReportsComeLate) {
   EXPECT_EQ(found->tick, 5U);
   EXPECT_EQ(found->hash_here, 5U);
   EXPECT_EQ(found->hash_there, 100U);
-  EXPECT_EQ(judge.equal(0), 5U);
-  EXPECT_EQ(judge.compared(0), 6U);
+  EXPECT_EQ(judge.player(0).equal, 5U);
+  EXPECT_EQ(judge.player(0).compared, 6U);
   EXPECT_FALSE(judge.advance().has_value());
 }
 
@@ -80,6 +81,61 @@ TEST(HashJudge, TakesNoReportThatWouldOverwriteAnUncomparedOne) {
     judge.push(0, 1);
   }
   EXPECT_FALSE(judge.can_push(0));
+}
+
+TEST(RightHashes, KnowTheLastTicksOnly) {
+  RightHashes right(4);
+  EXPECT_FALSE(right.knows(0));
+  for (std::uint64_t tick = 0; tick < 6; ++tick)
+    right.push(100 + tick);
+  EXPECT_EQ(right.end(), 6U);
+  EXPECT_FALSE(right.knows(1));
+  EXPECT_TRUE(right.knows(2));
+  EXPECT_EQ(right.at(2), 102U);
+  EXPECT_FALSE(right.knows(6));
+}
+
+TEST(RightHashes, KnowTheLastHashOfAMatchThatGoesOn) {
+  RightHashes right(4);
+  right.begin_after(50, 7);
+  EXPECT_FALSE(right.knows(48));
+  EXPECT_TRUE(right.knows(49));
+  EXPECT_EQ(right.at(49), 7U);
+  EXPECT_EQ(right.end(), 50U);
+}
+
+TEST(PlayerHashes, CountFromTheirFirstReportUntilAMismatch) {
+  PlayerHashes player;
+  player.reported = HashRing(8);
+  player.first = 2;
+  player.reported.restart(2);
+  player.reported.push(5);
+  EXPECT_FALSE(player.counts_at(1));
+  EXPECT_TRUE(player.counts_at(2));
+  EXPECT_FALSE(player.counts_at(3));
+  player.ignored = true;
+  EXPECT_FALSE(player.counts_at(2));
+}
+
+TEST(EntryLimits, LimitEachPlayerAlone) {
+  EntryLimits limits(4);
+  const PeerIdentity one{true, 1, 10, 0};
+  const PeerIdentity other{true, 1, 11, 1};
+  for (std::uint32_t i = 0; i < EntryLimits::k_burst; ++i)
+    EXPECT_TRUE(limits.take(one, 0));
+  EXPECT_FALSE(limits.take(one, 0));
+  EXPECT_TRUE(limits.take(other, 0));
+  EXPECT_TRUE(limits.take(one, 1'000'000)) << "one a second comes back";
+}
+
+TEST(EntryLimits, ForgetTheLeastRecentSeatWhenAllPlacesAreUsed) {
+  EntryLimits limits(2);
+  const auto player = [](std::uint64_t number) { return PeerIdentity{true, 1, number, 0}; };
+  for (std::uint32_t i = 0; i < EntryLimits::k_burst; ++i)
+    EXPECT_TRUE(limits.take(player(1), 0));
+  EXPECT_TRUE(limits.take(player(2), 1));
+  EXPECT_TRUE(limits.take(player(3), 2));
+  EXPECT_TRUE(limits.take(player(1), 3)) << "it is taken for a new one";
 }
 
 TEST(PeerWatch, CountsThreeBadPacketsInTenSeconds) {

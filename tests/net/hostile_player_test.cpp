@@ -27,7 +27,7 @@ constexpr std::int64_t k_unhindered_us = 12 * k_second_us;
 
 void expect_honest_played_on(const Match& match) {
   EXPECT_EQ(match.server->finish_reason(), FinishReason::completed);
-  EXPECT_EQ(match.server->ticks_closed(), k_ticks);
+  EXPECT_EQ(match.server->ticks_confirmed(), k_ticks);
   for (std::size_t i = 0; i < 4; ++i) {
     if (i == k_liar) continue;
     EXPECT_EQ(match.players[i].client->ticks_stepped(), k_ticks) << i;
@@ -38,7 +38,7 @@ void expect_honest_played_on(const Match& match) {
 
 // How long it took until the server closed the last tick.
 std::int64_t run_until_closed(Match& match) {
-  while (match.server->ticks_closed() < k_ticks && match.now_us < 60 * k_second_us)
+  while (match.server->ticks_confirmed() < k_ticks && match.now_us < 60 * k_second_us)
     match.step();
   return match.now_us;
 }

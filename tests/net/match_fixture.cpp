@@ -31,8 +31,8 @@ MatchOptions match_of(std::uint8_t players, std::uint64_t ticks, std::uint64_t s
   return options;
 }
 
-void ServerLog::tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                            std::optional<std::uint64_t> hash) {
+void ServerLog::tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                               std::optional<std::uint64_t> hash) {
   EXPECT_EQ(tick, seen.ticks.size());
   seen.add(inputs);
   if (hash) seen.hashes.push_back(*hash);

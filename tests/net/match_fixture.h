@@ -95,8 +95,8 @@ class ScriptedInputs final : public InputSource {
 };
 
 struct ServerLog final : ServerObserver {
-  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                   std::optional<std::uint64_t> hash) override;
+  void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                      std::optional<std::uint64_t> hash) override;
   void hash_agreed(std::uint64_t tick, std::uint64_t hash) override;
   void player_left(std::uint8_t slot, LeaveReason reason) override;
   void player_silent(std::uint8_t slot, std::int64_t silent_us) override;

@@ -14,7 +14,7 @@ std::size_t count_origin(const Seen& seen, std::size_t slot, InputOrigin origin)
 
 void expect_played_through(const Match& match, std::uint64_t ticks) {
   EXPECT_EQ(match.server->finish_reason(), FinishReason::completed);
-  EXPECT_EQ(match.server->ticks_closed(), ticks);
+  EXPECT_EQ(match.server->ticks_confirmed(), ticks);
   EXPECT_TRUE(match.server_log.reports.empty());
   for (std::uint8_t slot = 0; slot < match.players.size(); ++slot) {
     const Client& client = *match.players[slot].client;
@@ -116,7 +116,7 @@ TEST(Match, DropsWhoNeedsTicksThatAreNotKeptAnyMore) {
   match.run_for(7 * k_second_us);
   ASSERT_EQ(match.server_log.left.size(), 1U);
   EXPECT_EQ(match.server_log.left[0], std::pair(std::uint8_t{1}, LeaveReason::too_far_behind));
-  EXPECT_GT(match.server->ticks_closed(), 400U);
+  EXPECT_GT(match.server->ticks_confirmed(), 400U);
   match.expect_all_equal();
 }
 
@@ -206,9 +206,9 @@ TEST(Match, StrictWaitsAndSaysForWhom) {
   match.run_for(2 * k_second_us);
   match.players[2].paused = true;
   match.run_for(k_second_us);
-  const std::uint64_t stuck_at = match.server->ticks_closed();
+  const std::uint64_t stuck_at = match.server->ticks_confirmed();
   match.run_for(k_second_us);
-  EXPECT_EQ(match.server->ticks_closed(), stuck_at);
+  EXPECT_EQ(match.server->ticks_confirmed(), stuck_at);
   EXPECT_EQ(match.server->waiting_mask(), 0b100);
   EXPECT_EQ(match.players[0].client->waiting_mask(), 0b100);
   match.players[2].paused = false;
@@ -226,7 +226,7 @@ TEST(Match, StrictDropsWhoIsWaitedForTooLong) {
   match.run_for(2 * k_second_us);
   match.players[2].paused = true;
   ASSERT_TRUE(match.run(60 * k_second_us));
-  EXPECT_EQ(match.server->ticks_closed(), 240U);
+  EXPECT_EQ(match.server->ticks_confirmed(), 240U);
   ASSERT_EQ(match.server_log.left.size(), 1U);
   EXPECT_EQ(match.server_log.left[0], std::pair(std::uint8_t{2}, LeaveReason::timed_out));
   match.expect_all_equal();
@@ -259,8 +259,8 @@ TEST(Match, StopsWhenTheOwnerSaysSo) {
   match.server->stop();
   ASSERT_TRUE(match.run(10 * k_second_us));
   EXPECT_EQ(match.server->finish_reason(), FinishReason::stopped);
-  EXPECT_GT(match.server->ticks_closed(), 150U);
-  EXPECT_EQ(match.players[0].client->ticks_stepped(), match.server->ticks_closed());
+  EXPECT_GT(match.server->ticks_confirmed(), 150U);
+  EXPECT_EQ(match.players[0].client->ticks_stepped(), match.server->ticks_confirmed());
   EXPECT_EQ(match.players[0].client->finish_reason(), FinishReason::stopped);
   match.expect_all_equal();
 }

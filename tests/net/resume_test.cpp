@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t k_ticks = 900;
 
-/// The toy after this many of a server's closed ticks.
+/// The toy after this many of a server's confirmed ticks.
 void step_to(ToySimulation& toy, const Seen& seen, std::size_t ticks, std::size_t input_bytes) {
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     std::vector<PlayerInput> inputs;
@@ -58,15 +58,15 @@ TEST_P(Resume, MatchGoesOnFromItsLogAndStaysEqual) {
       options.client.prediction_ticks = prediction;
       Match match(options);
       match.run_for(5 * k_second_us);
-      const std::uint64_t closed = match.server->ticks_closed();
+      const std::uint64_t closed = match.server->ticks_confirmed();
       replace_server(match, GetParam());
-      EXPECT_EQ(match.server->ticks_closed(), 0U);  // before the first update
+      EXPECT_EQ(match.server->ticks_confirmed(), 0U);  // before the first update
       while (!match.done() && match.now_us < 60 * k_second_us) {
         match.step();
         reconnect_lost(match);
       }
       EXPECT_EQ(match.server->finish_reason(), FinishReason::completed);
-      EXPECT_EQ(match.server->ticks_closed(), k_ticks);
+      EXPECT_EQ(match.server->ticks_confirmed(), k_ticks);
       EXPECT_GT(k_ticks, closed);
       EXPECT_TRUE(match.server_log.reports.empty());
       for (std::uint8_t slot = 0; slot < 3; ++slot) {
@@ -88,7 +88,7 @@ TEST(Resume, PlayerThatComesMuchLaterDoesNotGoOnFromAStateThatNeverWas) {
   match.run_for(5 * k_second_us);
   replace_server(match, 40);
   match.players[2].paused = true;
-  while (match.server->ticks_closed() < 400 && match.now_us < 60 * k_second_us) {
+  while (match.server->ticks_confirmed() < 400 && match.now_us < 60 * k_second_us) {
     match.step();
     reconnect_lost(match);
   }
@@ -150,7 +150,7 @@ TEST(Reconnect, IsOfNoUseForWhoWasSentAway) {
   EXPECT_FALSE(match.players[0].client->may_reconnect());
 }
 
-// The simulation stands ahead of the last closed tick when the connection is lost.
+// The simulation stands ahead of the last confirmed tick when the connection is lost.
 TEST(Reconnect, ClientThatPredictsGoesOnFromClosedTicks) {
   MatchOptions options = match_of(2, k_ticks, 332);
   options.client.prediction_ticks = 8;

@@ -117,7 +117,7 @@ ClientFailure failure_of_sync_test(bool forgets) {
     client->update(match.now_us);
     match.step();
   }
-  EXPECT_GT(match.server->ticks_closed(), 0U);
+  EXPECT_GT(match.server->ticks_confirmed(), 0U);
   return client->failure();
 }
 

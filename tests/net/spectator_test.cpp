@@ -25,7 +25,7 @@ TEST(Spectator, SeesAllOfAMatchLaterThanThePlayers) {
     std::uint64_t least = ~std::uint64_t{0};
     for (int i = 0; i < 2000; ++i) {
       match.step();
-      const std::uint64_t closed = match.server->ticks_closed();
+      const std::uint64_t closed = match.server->ticks_confirmed();
       if (closed > 200 && closed < 590) {
         least = std::min(least, closed - match.players[2].client->ticks_stepped());
       }
@@ -52,8 +52,8 @@ TEST(Spectator, ComesLateIntoAMatch) {
       const Client& spectator = *match.players[2].client;
       EXPECT_EQ(spectator.state(), ClientState::running);
       EXPECT_EQ(spectator.stats().states_loaded, 1U);
-      EXPECT_GT(spectator.ticks_stepped() + delay_ticks + 30, match.server->ticks_closed());
-      EXPECT_LE(spectator.ticks_stepped() + delay_ticks, match.server->ticks_closed());
+      EXPECT_GT(spectator.ticks_stepped() + delay_ticks + 30, match.server->ticks_confirmed());
+      EXPECT_LE(spectator.ticks_stepped() + delay_ticks, match.server->ticks_confirmed());
       ASSERT_TRUE(match.run(30 * k_second_us));
       EXPECT_EQ(spectator.ticks_stepped(), 1800U);
       match.expect_all_equal();
@@ -71,7 +71,7 @@ TEST(Spectator, IsDroppedWhenItIsTooSlowAndNobodyWaitsForIt) {
                           Cut::receiving);
   match.run_for(8 * k_second_us);
   EXPECT_EQ(match.server->spectators(), 0U);
-  EXPECT_GT(match.server->ticks_closed(), 450U);
+  EXPECT_GT(match.server->ticks_confirmed(), 450U);
   EXPECT_EQ(match.server->present_mask(), 0b11);
 }
 

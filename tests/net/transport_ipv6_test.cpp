@@ -57,11 +57,11 @@ TEST(Ipv6, ALinkLocalSiteIsOneInterfaces) {
 }
 
 TEST(ResolveHost, GivesTheAddressesOfANameAndAnAddressItself) {
-  using Addresses = std::vector<std::string>;
-  EXPECT_EQ(resolve_host("127.0.0.1"), Addresses{"127.0.0.1"});
-  EXPECT_EQ(resolve_host("::1"), Addresses{"::1"});
-  EXPECT_EQ(resolve_host("2001:DB8:0::1"), Addresses{"2001:db8::1"});
-  const Addresses found = resolve_host("localhost");
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(resolve_host("127.0.0.1"), Texts{"127.0.0.1"});
+  EXPECT_EQ(resolve_host("::1"), Texts{"::1"});
+  EXPECT_EQ(resolve_host("2001:DB8:0::1"), Texts{"2001:db8::1"});
+  const Texts found = resolve_host("localhost");
   EXPECT_FALSE(found.empty());
   for (const std::string& address : found)
     EXPECT_TRUE(address == "::1" || address.rfind("127.", 0) == 0) << address;
@@ -225,7 +225,7 @@ TEST(Ipv6, OneClientCallsBothKindsInTurn) {
   }
 }
 
-// An address of this machine beside ::1, none of one line only; nothing where there is none.
+// An address of this machine beside ::1, none of one link only; nothing where there is none.
 std::optional<std::string> other_address() {
   std::ifstream list("/proc/net/if_inet6");
   for (std::string line; std::getline(list, line);) {

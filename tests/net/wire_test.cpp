@@ -206,7 +206,7 @@ TEST(Wire, RefusesTicksThatNoServerBuilds) {
   ASSERT_TRUE(writer.add(record));
   Ticks ticks;
   ticks.count = 1;
-  ticks.ticks_closed = 1;
+  ticks.ticks_confirmed = 1;
   ticks.coded = writer.written();
   EXPECT_EQ(decode(encoded(ticks), k_shape, ticks), Status::malformed);
 }

@@ -56,7 +56,7 @@ TEST(Simnet, OneFlippedBitIsReportedAtItsTickBodyAndField) {
   EXPECT_EQ(totals.matches, options.seeds);
 }
 
-// On lines with all but deaths: where two of four are dead, nobody has a majority.
+// On connections with all faults but deaths: where two of four are dead, nobody has a majority.
 TEST(Simnet, ALiarKeepsNobodyFromPlayingToTheEnd) {
   BatchOptions options = small_batch(80);
   options.seeds = 2;

@@ -227,7 +227,7 @@ class Flood final : public Attack {
   }
 
   void step(std::int64_t now_us) override {
-    if ((match_.present_mask() >> slot_ & 1) == 0 || match_.ticks_closed() == 0) return;
+    if ((match_.present_mask() >> slot_ & 1) == 0 || match_.ticks_confirmed() == 0) return;
     constexpr std::int64_t k_most_at_once = 32;
     if (due_us_ == 0) due_us_ = now_us;
     due_us_ = std::max(due_us_, now_us - k_most_at_once * pause_us_);

@@ -53,7 +53,7 @@ SiegeReport report_of(const TrialMatch& match, const SiegeOptions& options,
   for (unsigned slot = 0; slot < options.honest; ++slot)
     report.honest.push_back(match.outcome(slot));
   report.traitor = match.outcome(options.honest);
-  report.ticks = match.ticks_closed();
+  report.ticks = match.ticks_confirmed();
   report.longest_server_gap_us = match.longest_server_gap_us();
   report.server_stalls = match.server_stalls();
   report.server_busy_us = match.server_busy_us();
@@ -98,7 +98,7 @@ std::optional<SiegeReport> run_siege(const SiegeOptions& options) {
       if (!stopped) attack->step(now_us);
     visitors.step(now_us);
     going = match->update(now_us);
-    dropped = dropped || (match->ticks_closed() > 0 && !stopped &&
+    dropped = dropped || (match->ticks_confirmed() > 0 && !stopped &&
                           (match->present_mask() >> options.honest & 1) == 0);
     const bool done = dropped && match->server_counters().expelled > 0 && visitors.over() &&
                       all_sent(attacks, options.least_sent);

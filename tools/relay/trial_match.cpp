@@ -28,8 +28,8 @@ class AnyInputs final : public net::InputSource {
 };
 
 struct ServerTrace final : net::ServerObserver {
-  void tick_closed(std::uint64_t, std::span<const PlayerInput>,
-                   std::optional<std::uint64_t> hash) override {
+  void tick_confirmed(std::uint64_t, std::span<const PlayerInput>,
+                      std::optional<std::uint64_t> hash) override {
     hashes.push_back(hash.value_or(0));
     stalls.tick(now_us);
   }
@@ -270,8 +270,8 @@ const SimulationFactory& TrialMatch::factory() const {
   return impl_->options.game->make;
 }
 
-std::uint64_t TrialMatch::ticks_closed() const {
-  return impl_->server->ticks_closed();
+std::uint64_t TrialMatch::ticks_confirmed() const {
+  return impl_->server->ticks_confirmed();
 }
 std::uint16_t TrialMatch::present_mask() const {
   return impl_->server->present_mask();

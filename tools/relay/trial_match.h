@@ -59,10 +59,10 @@ class TrialMatch {
   void pause(unsigned slot, bool paused);
 
   [[nodiscard]] PlayerOutcome outcome(unsigned slot) const;
-  [[nodiscard]] std::uint64_t ticks_closed() const;
+  [[nodiscard]] std::uint64_t ticks_confirmed() const;
   [[nodiscard]] const SimulationFactory& factory() const;  ///< of the game that is played
   [[nodiscard]] std::uint16_t present_mask() const;
-  [[nodiscard]] std::int64_t longest_server_gap_us() const;  ///< between two closed ticks
+  [[nodiscard]] std::int64_t longest_server_gap_us() const;  ///< between two confirmed ticks
   /// How often the server was busy for more than k_stall_us at a stretch: its own processor time.
   [[nodiscard]] unsigned server_stalls() const;
   [[nodiscard]] std::int64_t server_busy_us() const;  ///< its processor time, all together

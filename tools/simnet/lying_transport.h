@@ -19,7 +19,7 @@ enum class Lie : std::uint8_t {
   alternately,  ///< every second one is
   parts,        ///< only the 128 bits a part are wrong
   silence,      ///< no hashes at all
-  future,       ///< hashes of ticks that are not closed yet
+  future,       ///< hashes of ticks that are not confirmed yet
   dumps,        ///< true hashes, and dumps that nobody asked for
 };
 inline constexpr std::size_t k_lies = 8;

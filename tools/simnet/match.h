@@ -64,7 +64,7 @@ struct MatchMode {
 struct MatchOutcome {
   std::string failure;  ///< empty: all is as it must be
   MatchMode mode;
-  std::uint64_t ticks = 0;         ///< closed by the server
+  std::uint64_t ticks = 0;         ///< confirmed by the server
   std::uint64_t client_ticks = 0;  ///< stepped by all clients together
   std::uint64_t comparisons = 0;   ///< of a peer's state with the correct one
   std::uint64_t last_hash = 0;

@@ -29,9 +29,7 @@ void Node::reconnect(net::SimNetwork& network, net::SimTransport& server,
 }
 
 void Node::kill(net::SimNetwork& network) {
-  refused_before_ = refused_packets();
-  resends_before_ = resends();
-  rollbacks_before_ = rollbacks();
+  before_ = {rollbacks(), refused_packets(), resends()};
   rejoin_key_ = client_->rejoin_key();
   client_.reset();
   lying_.reset();
@@ -45,15 +43,15 @@ void Node::update(std::int64_t span_us) {
 }
 
 std::uint64_t Node::refused_packets() const {
-  return refused_before_ + (sealed_ == nullptr ? 0 : sealed_->refused());
+  return before_.refused_packets + (sealed_ == nullptr ? 0 : sealed_->refused());
 }
 
 std::uint64_t Node::resends() const {
-  return resends_before_ + (client_ == nullptr ? 0 : client_->stats().resends_requested);
+  return before_.resends + (client_ == nullptr ? 0 : client_->stats().resends_requested);
 }
 
 std::uint64_t Node::rollbacks() const {
-  return rollbacks_before_ + (client_ == nullptr ? 0 : client_->stats().rollbacks);
+  return before_.rollbacks + (client_ == nullptr ? 0 : client_->stats().rollbacks);
 }
 
 void Node::sample(std::uint64_t tick, std::span<std::byte> out) {

@@ -27,6 +27,14 @@ class SkewedClock {
   std::int64_t local_ns_ = 0;
 };
 
+/// The counters of a client's processes that have died.
+struct FormerLives {
+  std::uint64_t rollbacks = 0;
+  std::uint64_t refused_packets = 0;
+  std::uint64_t resends = 0;
+};
+
+/// Runs a client on its own clock, plays scripted inputs, and shows every tick to the oracle.
 class Node final : public net::ClientObserver, public net::InputSource {
  public:
   Node(std::size_t index, std::uint64_t seed, std::uint8_t input_bytes, Oracle& oracle)
@@ -77,9 +85,7 @@ class Node final : public net::ClientObserver, public net::InputSource {
   std::uint64_t ticks_ = 0;
   std::uint32_t delay_ticks_ = 0;
   std::uint64_t rejoin_key_ = 0;  ///< survives the process, as in a file
-  std::uint64_t rollbacks_before_ = 0;
-  std::uint64_t refused_before_ = 0;  ///< of former lives
-  std::uint64_t resends_before_ = 0;
+  FormerLives before_;
 };
 
 }  // namespace lockstone::simnet

@@ -25,10 +25,10 @@ Oracle::Oracle(std::unique_ptr<Simulation> reference, std::uint64_t expected_tic
   truth_.reserve(static_cast<std::size_t>(expected_ticks));
 }
 
-void Oracle::closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                    std::optional<std::uint64_t> hash) {
+void Oracle::confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                       std::optional<std::uint64_t> hash) {
   if (tick != truth_.size()) {
-    return fail(fmt::format("tick {}: the server closed it after tick {}", tick, truth_.size()));
+    return fail(fmt::format("tick {}: the server confirmed it after tick {}", tick, truth_.size()));
   }
   reference_->step(inputs);
   truth_.push_back({digest(inputs), reference_->hash()});
@@ -56,11 +56,11 @@ void Oracle::stepped(std::size_t client, std::uint64_t tick, std::span<const Pla
                      std::uint64_t hash) {
   ++comparisons_;
   if (tick >= truth_.size()) {
-    return fail(fmt::format("tick {}: client {} stepped it before it was closed", tick, client));
+    return fail(fmt::format("tick {}: client {} stepped it before it was confirmed", tick, client));
   }
   const Tick& truth = truth_[static_cast<std::size_t>(tick)];
   if (digest(inputs) != truth.inputs) {
-    fail(fmt::format("tick {}: client {} stepped other inputs than the server closed", tick,
+    fail(fmt::format("tick {}: client {} stepped other inputs than the server confirmed", tick,
                      client));
   }
   const bool excused = client == excused_ && tick >= excused_tick_;

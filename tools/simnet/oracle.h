@@ -12,22 +12,22 @@
 
 namespace lockstone::simnet {
 
-/// The server's closed ticks are the truth about inputs; a run of these inputs without any network
-/// is the truth about states. The first violation stays.
+/// The server's confirmed ticks are the truth about inputs; a run of these inputs without any
+/// network is the truth about states. The first violation stays.
 class Oracle {
  public:
   /// `reference` stands at tick 0. Every this many ticks it is saved and loaded, so that whatever a
   /// snapshot forgets shows.
   Oracle(std::unique_ptr<Simulation> reference, std::uint64_t expected_ticks);
 
-  void closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-              std::optional<std::uint64_t> hash);
+  void confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                 std::optional<std::uint64_t> hash);
   void stepped(std::size_t client, std::uint64_t tick, std::span<const PlayerInput> inputs,
                std::uint64_t hash);
   void fail(const std::string& what);
   /// This client is a control: it may go wrong from `tick` on.
   void excuse(std::size_t client, std::uint64_t tick) { excused_ = client, excused_tick_ = tick; }
-  /// No further tick will close.
+  /// No further tick will be confirmed.
   void set_over() { over_ = true; }
   [[nodiscard]] bool over() const { return over_; }
 

@@ -16,37 +16,80 @@
 
 namespace lockstone {
 
-/// Checks one command of a world; `of(command)` for each kind.
+/// Checks one command of a world; the checks of each group of commands are a class inside it.
 class CommandExplainer {
  public:
-  CommandExplainer(const World& world, World::Impl& impl, std::string prefix)
-      : world_(world), impl_(impl), find_(std::move(prefix)) {}
+  class Subjects;
+  class Motion;
+  class Properties;
+  class Existence;
+  struct All;
+};
 
-  Refusal take() { return find_.take(); }
+/// The bodies and joints that commands name, with the checks that several commands share.
+class CommandExplainer::Subjects {
+ public:
+  Subjects(const World& of_world, World::Impl& of_impl, std::string prefix)
+      : world(of_world), impl(of_impl), find(std::move(prefix)) {}
 
-  void of(const std::monostate&) { find_.require(false, "command", "none", "a command"); }
-  void of(const CreateBody& c) { find_.adopt(world_.explain(c.def)); }
-  void of(const CreateJoint& c) { find_.adopt(world_.explain(c.def)); }
-  void of(const DestroyBody& c) { (void)body(c.body); }
-  void of(const DestroyJoint& c) { (void)joint(c.joint); }
-  void of(const SetFilter& c) { (void)body(c.body); }
-  void of(const SetUserData& c) { (void)body(c.body); }
+  const BodyRecord* body(BodyHandle handle) {
+    const BodyRecord* record = impl.find(handle);
+    find.require(record != nullptr, "body",
+                 RefusalFinder::handle_text(handle.index, handle.generation),
+                 "the handle of a body that exists");
+    return record;
+  }
+
+  const JointRecord* joint(JointHandle handle) {
+    const JointRecord* record = impl.find(handle);
+    find.require(record != nullptr, "joint",
+                 RefusalFinder::handle_text(handle.index, handle.generation),
+                 "the handle of a joint that exists");
+    return record;
+  }
+
+  void require_motion(const BodyRecord& record, bool good, std::string_view wanted) {
+    find.require(good, "body",
+                 "a " + std::string(to_string(static_cast<MotionType>(record.motion))) + " body",
+                 wanted);
+  }
+
+  const BodyRecord* moving(BodyHandle handle) {
+    const BodyRecord* record = body(handle);
+    if (record != nullptr) require_motion(*record, record->moves(), "kinematic or dynamic");
+    return record;
+  }
+
+  void placed(const Vec3<Position>& position, const Quat& orientation) {
+    find.within("position", position, k_world_limit, "m");
+    find.direction("orientation", orientation);
+  }
+
+  const World& world;
+  World::Impl& impl;
+  RefusalFinder find;
+};
+
+/// Checks the commands that move a body: places, velocities, impulses and forces.
+class CommandExplainer::Motion {
+ public:
+  explicit Motion(Subjects& on) : on_(on) {}
 
   void of(const Teleport& c) {
-    if (body(c.body) == nullptr) return;
-    find_.within("position", c.position, k_world_limit, "m");
-    find_.direction("orientation", c.orientation);
-    if (find_.done()) return;
-    find_.within("position (of the centre of mass)",
-                 body_pose(impl_.cache.asset(c.body.index), {c.position, c.orientation}).position,
-                 k_world_limit, "m");
+    if (on_.body(c.body) == nullptr) return;
+    on_.placed(c.position, c.orientation);
+    if (on_.find.done()) return;
+    on_.find.within("position (of the centre of mass)", target_of(c).position, k_world_limit, "m");
   }
 
   void of(const SetVelocity& c) {
-    if (moving(c.body) != nullptr) find_.within("velocity", c.velocity, k_speed_limit, "m/s");
+    if (on_.moving(c.body) != nullptr) {
+      on_.find.within("velocity", c.velocity, k_speed_limit, "m/s");
+    }
   }
   void of(const SetAngularVelocity& c) {
-    if (const BodyRecord* record = moving(c.body)) turning(*record, c.angular_velocity);
+    const BodyRecord* record = on_.moving(c.body);
+    if (record != nullptr) check_turning(on_.find, c.angular_velocity, record->scale_exponent);
   }
 
   void of(const ApplyImpulse& c) { push(c.body, c.frame); }
@@ -57,141 +100,147 @@ class CommandExplainer {
   void of(const ApplyForceAt& c) { push_at(c); }
 
   void of(const MoveKinematic& c) {
-    const BodyRecord* record = body(c.body);
+    const BodyRecord* record = on_.body(c.body);
     if (record == nullptr) return;
-    require_motion(*record, !record->is_dynamic() && record->moves(), "kinematic");
-    find_.within("position", c.position, k_world_limit, "m");
-    find_.direction("orientation", c.orientation);
-    if (find_.done()) return;
-    const Vec3<Position> now = world_.position(c.body);
-    const Transform target =
-        body_pose(impl_.cache.asset(c.body.index), {c.position, c.orientation});
+    on_.require_motion(*record, !record->is_dynamic() && record->moves(), "kinematic");
+    on_.placed(c.position, c.orientation);
+    if (on_.find.done()) return;
+    const Vec3<Position> now = on_.world.position(c.body);
     Vec3<Velocity> velocity, spin;
-    find_.require(motion_to(*record, target, impl_.def.tick_rate, velocity, spin), "position",
-                  "from " + to_decimal(now) + " to " + to_decimal(c.position) + " m",
-                  "so near, in place and orientation, that 500 m/s reach it in one tick");
+    const bool near = motion_to(*record, target_of(c), on_.impl.def.tick_rate, velocity, spin);
+    on_.find.require(near, "position",
+                     "from " + to_decimal(now) + " to " + to_decimal(c.position) + " m",
+                     "so near, in place and orientation, that 500 m/s reach it in one tick");
   }
-
-  void of(const SetMaterial& c) {
-    if (body(c.body) != nullptr) check(find_, c.surface);
-  }
-  void of(const SetSurfaceMotion& c) {
-    const BodyRecord* record = body(c.body);
-    if (record == nullptr) return;
-    require_motion(*record, !record->is_dynamic(), "static or kinematic");
-    check(find_, c.motion);
-  }
-  void of(const SetGravityScale& c) {
-    if (body(c.body) != nullptr)
-      find_.within("scale", c.scale, -k_gravity_scale_limit, k_gravity_scale_limit);
-  }
-  void of(const SetDamping& c) {
-    if (body(c.body) == nullptr) return;
-    find_.at_least("linear", c.linear, Rate{}, "1/s");
-    find_.at_least("angular", c.angular, Rate{}, "1/s");
-  }
-  void of(const SetAxisLocks& c) {
-    const BodyRecord* record = body(c.body);
-    if (record == nullptr) return;
-    require_motion(*record, record->is_dynamic(), "dynamic");
-    BodyRecord locked = *record;
-    locked.locks = locks_of(c.locks);
-    find_.require(impl_.joint_registry.fits(c.body.index, locked), "locks", "a body that turns",
-                  "such that every joint of the body is near enough to it");
-  }
-  void of(const SetSpeedLimit& c) {
-    if (body(c.body) != nullptr) check(find_, c.limit);
-  }
-  void of(const SetGravity& c) {
-    find_.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");
-  }
-
-  void of(const WakeBody& c) { (void)moving(c.body); }
-  void of(const SetAllowSleep& c) { (void)moving(c.body); }
-  void of(const SleepBody& c) {
-    const BodyRecord* record = body(c.body);
-    if (record == nullptr) return;
-    require_motion(*record, record->is_dynamic(), "dynamic");
-    find_.require(impl_.sleep_flags.rest_rules().ticks != 0, "body",
-                  "in a world whose sleep_ms is 0", "in a world where bodies sleep");
-    find_.require(
-        find_.done() || record->is_asleep() || impl_.island_sleep.may_island_sleep(c.body.index),
-        "body", "in an island with a body whose allow_sleep is false", "free to sleep");
-  }
-
-  void of(const SetLinearAxis& c) { axis(c); }
-  void of(const SetAngularAxis& c) { axis(c); }
 
  private:
-  const BodyRecord* body(BodyHandle handle) {
-    const BodyRecord* record = impl_.find(handle);
-    find_.require(record != nullptr, "body",
-                  RefusalFinder::handle_text(handle.index, handle.generation),
-                  "the handle of a body that exists");
-    return record;
-  }
-
-  const JointRecord* joint(JointHandle handle) {
-    const JointRecord* record = impl_.find(handle);
-    find_.require(record != nullptr, "joint",
-                  RefusalFinder::handle_text(handle.index, handle.generation),
-                  "the handle of a joint that exists");
-    return record;
-  }
-
-  void require_motion(const BodyRecord& record, bool good, std::string_view wanted) {
-    find_.require(good, "body",
-                  "a " + std::string(to_string(static_cast<MotionType>(record.motion))) + " body",
-                  wanted);
-  }
-
-  const BodyRecord* moving(BodyHandle handle) {
-    const BodyRecord* record = body(handle);
-    if (record != nullptr) require_motion(*record, record->moves(), "kinematic or dynamic");
-    return record;
-  }
-
-  void turning(const BodyRecord& record, const Vec3<AngularVelocity>& omega) {
-    check_turning(find_, omega, record.scale_exponent);
+  template <class Move>
+  [[nodiscard]] Transform target_of(const Move& c) const {
+    return body_pose(on_.impl.cache.asset(c.body.index), {c.position, c.orientation});
   }
 
   bool push(BodyHandle handle, Frame frame) {
-    const BodyRecord* record = body(handle);
+    const BodyRecord* record = on_.body(handle);
     if (record == nullptr) return false;
-    require_motion(*record, record->is_dynamic(), "dynamic");
-    find_.known("frame", frame, Frame::world, Frame::body);
-    return !find_.done();
+    on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    on_.find.known("frame", frame, Frame::world, Frame::body);
+    return !on_.find.done();
   }
 
   template <class Push>
   void push_at(const Push& c) {
     if (!push(c.body, c.frame)) return;
     TickGain unused;
-    const bool near = gain_of(impl_, c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
-    const BodyRecord& record = *impl_.find(c.body);
-    const Length radius = properties_of(record.shape(), impl_.cache.asset(c.body.index)).radius;
-    find_.require(near, "point", to_decimal(c.point) + " m",
-                  "within twice the body's radius, " + to_decimal(radius) +
-                      " m, of its centre of mass along each axis");
+    const bool near = gain_of(on_.impl, c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
+    const BodyRecord& record = *on_.impl.find(c.body);
+    const Length radius = properties_of(record.shape(), on_.impl.cache.asset(c.body.index)).radius;
+    on_.find.require(near, "point", to_decimal(c.point) + " m",
+                     "within twice the body's radius, " + to_decimal(radius) +
+                         " m, of its centre of mass along each axis");
   }
 
+  Subjects& on_;
+};
+
+/// Checks the commands that change a property of a body or of the world.
+class CommandExplainer::Properties {
+ public:
+  explicit Properties(Subjects& on) : on_(on) {}
+
+  void of(const SetFilter& c) { (void)on_.body(c.body); }
+  void of(const SetUserData& c) { (void)on_.body(c.body); }
+  void of(const SetMaterial& c) {
+    if (on_.body(c.body) != nullptr) check(on_.find, c.surface);
+  }
+  void of(const SetSurfaceMotion& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    on_.require_motion(*record, !record->is_dynamic(), "static or kinematic");
+    check(on_.find, c.motion);
+  }
+  void of(const SetGravityScale& c) {
+    if (on_.body(c.body) == nullptr) return;
+    on_.find.within("scale", c.scale, -k_gravity_scale_limit, k_gravity_scale_limit);
+  }
+  void of(const SetDamping& c) {
+    if (on_.body(c.body) == nullptr) return;
+    on_.find.at_least("linear", c.linear, Rate{}, "1/s");
+    on_.find.at_least("angular", c.angular, Rate{}, "1/s");
+  }
+  void of(const SetAxisLocks& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    BodyRecord locked = *record;
+    locked.locks = locks_of(c.locks);
+    on_.find.require(on_.impl.joint_registry.fits(c.body.index, locked), "locks",
+                     "a body that turns", "such that every joint of the body is near enough to it");
+  }
+  void of(const SetSpeedLimit& c) {
+    if (on_.body(c.body) != nullptr) check(on_.find, c.limit);
+  }
+  void of(const SetGravity& c) {
+    on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");
+  }
+
+ private:
+  Subjects& on_;
+};
+
+/// Checks the commands that create and destroy, move joints' axes, and let bodies sleep or wake.
+class CommandExplainer::Existence {
+ public:
+  explicit Existence(Subjects& on) : on_(on) {}
+
+  void of(const std::monostate&) { on_.find.require(false, "command", "none", "a command"); }
+  void of(const CreateBody& c) { on_.find.adopt(on_.world.explain(c.def)); }
+  void of(const CreateJoint& c) { on_.find.adopt(on_.world.explain(c.def)); }
+  void of(const DestroyBody& c) { (void)on_.body(c.body); }
+  void of(const DestroyJoint& c) { (void)on_.joint(c.joint); }
+
+  void of(const WakeBody& c) { (void)on_.moving(c.body); }
+  void of(const SetAllowSleep& c) { (void)on_.moving(c.body); }
+  void of(const SleepBody& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    on_.find.require(on_.impl.sleep_flags.rest_rules().ticks != 0, "body",
+                     "in a world whose sleep_ms is 0", "in a world where bodies sleep");
+    const bool free = on_.find.done() || record->is_asleep() ||
+                      on_.impl.island_sleep.may_island_sleep(c.body.index);
+    on_.find.require(free, "body", "in an island with a body whose allow_sleep is false",
+                     "free to sleep");
+  }
+
+  void of(const SetLinearAxis& c) { axis(c); }
+  void of(const SetAngularAxis& c) { axis(c); }
+
+ private:
   template <class SetAxis>
   void axis(const SetAxis& c) {
-    const JointRecord* record = joint(c.joint);
+    const JointRecord* record = on_.joint(c.joint);
     if (record == nullptr) return;
-    find_.within("axis", std::uint32_t{c.axis}, 0U, 2U);
-    if (!find_.done()) check_axis(find_, static_cast<JointKind>(record->kind), c.axis, c.settings);
+    on_.find.within("axis", std::uint32_t{c.axis}, 0U, 2U);
+    if (on_.find.done()) return;
+    check_axis(on_.find, static_cast<JointKind>(record->kind), c.axis, c.settings);
   }
 
-  const World& world_;
-  World::Impl& impl_;
-  RefusalFinder find_;
+  Subjects& on_;
+};
+
+/// `of(command)` for each kind of command.
+struct CommandExplainer::All : Motion, Properties, Existence {
+  explicit All(Subjects& on) : Motion(on), Properties(on), Existence(on) {}
+  using Existence::of;
+  using Motion::of;
+  using Properties::of;
 };
 
 Refusal World::explain(const Command& command) const {
-  CommandExplainer explainer(*this, *impl_, std::string(name_of(command)) + '.');
+  CommandExplainer::Subjects subjects(*this, *impl_, std::string(name_of(command)) + '.');
+  CommandExplainer::All explainer(subjects);
   std::visit([&](const auto& c) { explainer.of(c); }, command);
-  return explainer.take();
+  return subjects.find.take();
 }
 
 }  // namespace lockstone

@@ -94,7 +94,7 @@ struct lks_server final : net::ServerObserver {
     if (records()) note(log->recorder->event(log->recorder->next_tick(), kind, slot, text));
   }
 
-  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+  void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
                    std::optional<std::uint64_t> hash) override {
     lks_session_event event = event_of(LKS_SESSION_TICK);
     event.tick = tick;
@@ -296,7 +296,7 @@ lks_status lks_server_get(const lks_server* server, lks_server_view* view) {
     const net::Server& source = *handle(server).server;
     lks_server_view raw{};
     raw.state = static_cast<std::uint32_t>(source.state());
-    raw.ticks_closed = source.ticks_closed();
+    raw.ticks_closed = source.ticks_confirmed();
     if (source.state() >= net::ServerState::closing)
       raw.finish_reason = static_cast<std::uint32_t>(source.finish_reason());
     raw.present_mask = source.present_mask();

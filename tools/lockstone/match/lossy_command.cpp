@@ -101,7 +101,7 @@ void print_bots(const LossyOptions& options, const relay::TrialMatch& match) {
   const double minutes = options.match / 60;
   for (unsigned slot = 0; slot < options.players; ++slot) {
     const relay::PlayerOutcome player = match.outcome(slot);
-    const auto ticks = static_cast<double>(match.ticks_closed());
+    const auto ticks = static_cast<double>(match.ticks_confirmed());
     fmt::print(
         "player {}: {} ticks, {} ({:.2f} %) inputs replaced, stalled {:.0f} ms a minute, "
         "longest {:.0f} ms, {}\n",
@@ -138,13 +138,13 @@ int play_match(const Games& games, const LossyOptions& options) {
     if (watch.seconds() > options.match + 30) break;
   }
   print_bots(options, *match);
-  fmt::print("server: {} ticks, longest between two {:.0f} ms\n", match->ticks_closed(),
+  fmt::print("server: {} ticks, longest between two {:.0f} ms\n", match->ticks_confirmed(),
              static_cast<double>(match->longest_server_gap_us()) / 1000);
   print_counters(match->relay()->counters());
   for (unsigned slot = 0; slot < options.players; ++slot) {
     if (!match->outcome(slot).equal) return k_different;
   }
-  return match->ticks_closed() == trial.ticks ? k_ok : k_unavailable;
+  return match->ticks_confirmed() == trial.ticks ? k_ok : k_unavailable;
 }
 
 void add_fault_options(CLI::App& command, LossyOptions& options) {

@@ -88,8 +88,8 @@ struct MatchHost::Impl final : net::ServerObserver {
     journal.write(entry);
   }
 
-  void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                   std::optional<std::uint64_t> hash) override {
+  void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                      std::optional<std::uint64_t> hash) override {
     const double now = watch.seconds();
     if (times.last_tick > 0) {
       summary.longest_seconds = std::max(summary.longest_seconds, now - times.last_tick);
@@ -294,7 +294,7 @@ bool MatchHost::update() {
     impl.metrics_port->serve([this] { return metrics(); });
   }
   // The transport does not wait: give the processor away when there was nothing to do.
-  const bool busy = std::exchange(impl.ticks_seen, ticks_closed()) != ticks_closed();
+  const bool busy = std::exchange(impl.ticks_seen, ticks_confirmed()) != ticks_confirmed();
   if (!busy) std::this_thread::sleep_for(impl.options.fast ? 100us : 1000us);
   impl.progress.show(progress_line());
   return true;
@@ -336,7 +336,7 @@ MatchSummary MatchHost::finish() {
   Impl& impl = *impl_;
   impl.progress.clear();
   MatchSummary& summary = impl.summary;
-  summary.ticks = ticks_closed();
+  summary.ticks = ticks_confirmed();
   summary.reason = impl.server->finish_reason();
   summary.seconds = std::max(0.0, impl.times.last_tick - impl.times.started);
   summary.record_status = impl.log.finish(to_string(summary.reason));
@@ -355,8 +355,8 @@ const GameDef& MatchHost::game() const {
   return *impl_->match.game;
 }
 
-std::uint64_t MatchHost::ticks_closed() const {
-  return impl_->server->ticks_closed();
+std::uint64_t MatchHost::ticks_confirmed() const {
+  return impl_->server->ticks_confirmed();
 }
 
 MatchMetrics MatchHost::metrics() const {
@@ -364,7 +364,7 @@ MatchMetrics MatchHost::metrics() const {
   metrics.port = port();
   metrics.state = to_string(impl_->server->state());
   metrics.ready = !impl_->wanted.drain && impl_->server->state() <= net::ServerState::running;
-  metrics.ticks = ticks_closed();
+  metrics.ticks = ticks_confirmed();
   metrics.spectators = impl_->server->spectators();
   metrics.present_mask = impl_->server->present_mask();
   metrics.desyncs = impl_->summary.desyncs;
@@ -383,7 +383,7 @@ std::string MatchHost::progress_line() const {
   if (impl_->server->state() == net::ServerState::lobby) {
     return fmt::format("waiting for players: {} of {}", present, impl_->options.start.players);
   }
-  std::string line = fmt::format("tick {}", ticks_closed());
+  std::string line = fmt::format("tick {}", ticks_confirmed());
   if (impl_->options.ticks > 0) line += fmt::format(" of {}", impl_->options.ticks);
   line += fmt::format(", {} players", present);
   const std::uint16_t waiting = impl_->server->waiting_mask();

@@ -72,7 +72,7 @@ class MatchHost {
   /// Does the work that is due; false once the match is over.
   [[nodiscard]] bool update();
 
-  /// Ends the match after the ticks closed so far.
+  /// Ends the match after the ticks confirmed so far.
   void stop();
 
   /// Prints the outcome.
@@ -87,7 +87,7 @@ class MatchHost {
 
   [[nodiscard]] const Simulation& simulation() const;
   [[nodiscard]] const GameDef& game() const;
-  [[nodiscard]] std::uint64_t ticks_closed() const;
+  [[nodiscard]] std::uint64_t ticks_confirmed() const;
 
   [[nodiscard]] MatchMetrics metrics() const;
 

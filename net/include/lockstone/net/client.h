@@ -1,5 +1,5 @@
-// The client's side of a match: sends inputs ahead, steps the ticks that the server closed, reports
-// hashes.
+// The client's side of a match: sends inputs ahead, steps the ticks that the server confirmed,
+// reports hashes.
 #pragma once
 
 #include <cstddef>
@@ -48,13 +48,13 @@ struct ClientConfig {
   std::uint8_t wanted_slot = k_no_slot;  ///< k_no_slot: any; k_spectator_slot: only watch
   std::string build;             ///< of the game and the machine, for reports; 64 characters
   std::uint64_t rejoin_key = 0;  ///< Client::rejoin_key of a former process: the same seat again
-  std::uint32_t history_ticks = 1024;  ///< closed ticks buffered; power of two, 256 … 65536
+  std::uint32_t history_ticks = 1024;  ///< confirmed ticks buffered; power of two, 256 … 65536
   std::uint32_t snapshot_ticks = 64;   ///< canonical snapshots kept, one a tick; 0 … 4096
   std::uint32_t max_lead_ticks = 16;   ///< inputs sampled beyond the delay while ticks lack; ≤ 32
   std::uint32_t max_steps_per_update = 64;  ///< above 0
   bool adapt_lead = true;  ///< send inputs earlier when they come late, later when there is time
   bool play_out_evenly = true;  ///< keep ticks back as long as their arrival jitters, ≤ 250 ms
-  /// Rollback: ticks stepped beyond the closed ones, on guesses; 0 … 15. 0: lockstep.
+  /// Rollback: ticks stepped beyond the confirmed ones, on guesses; 0 … 15. 0: lockstep.
   std::uint8_t prediction_ticks = 0;
   std::uint8_t prediction_delay_ticks = 0;  ///< own inputs show that much later, and fewer guesses
   bool sync_test = false;  ///< roll back every tick, step it again and compare; for tests
@@ -67,7 +67,7 @@ class InputSource {
  public:
   virtual ~InputSource() = default;
   /// Fills the input for `tick`; called at most once for each tick, in order. Ticks that the server
-  /// closed without waiting for it are left out. `out` comes as zeros.
+  /// confirmed without waiting for it are left out. `out` comes as zeros.
   virtual void sample(std::uint64_t tick, std::span<std::byte> out) = 0;
 };
 
@@ -159,7 +159,7 @@ class Client {
   [[nodiscard]] FinishReason finish_reason() const;
   [[nodiscard]] std::uint8_t slot() const;  ///< k_no_slot before being seated
 
-  /// How many closed ticks were stepped.
+  /// How many confirmed ticks were stepped.
   [[nodiscard]] std::uint64_t ticks_stepped() const;
 
   /// Rollback: ticks stepped, guessed ones included; else as ticks_stepped.

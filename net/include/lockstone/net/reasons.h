@@ -16,8 +16,8 @@ enum class LatePolicy : std::uint8_t {
 };
 
 enum class Pacing : std::uint8_t {
-  real_time = 0,  ///< tick T closes 1/tick_rate after tick T-1
-  fast = 1,       ///< a tick closes once every present player's input is there; always waits
+  real_time = 0,  ///< tick T is confirmed 1/tick_rate after tick T-1
+  fast = 1,       ///< a tick is confirmed once every present player's input is there; always waits
 };
 
 enum class RefuseReason : std::uint8_t {

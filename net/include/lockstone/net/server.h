@@ -1,4 +1,4 @@
-// The server's side of a match: seats the players, closes tick after tick, compares states.
+// The server's side of a match: seats the players, confirms tick after tick, compares states.
 #pragma once
 
 #include <array>
@@ -53,8 +53,8 @@ struct ConnectionCounts {
 
 enum class ServerState : std::uint8_t {
   lobby,      ///< waits for all players
-  running,    ///< closes ticks
-  finishing,  ///< all ticks closed; waits for the last hashes
+  running,    ///< confirms ticks: makes their inputs final
+  finishing,  ///< all ticks confirmed; waits for the last hashes
   closing,    ///< says good-bye
   over,       ///< nothing more will happen
 };
@@ -77,7 +77,7 @@ struct ServerConfig {
   Pacing pacing = Pacing::real_time;
   DesyncPolicy desync_policy = DesyncPolicy::resync;
   std::uint32_t history_ticks =
-      1024;  ///< closed ticks kept for laggards; power of two, 256 … 65536
+      1024;  ///< confirmed ticks kept for laggards; power of two, 256 … 65536
   std::uint32_t snapshot_ticks = 64;      ///< canonical snapshots kept, one a tick; 0 … 4096
   std::size_t max_dump_bytes = 16 << 20;  ///< of a client's snapshot, where no simulation says
   /// Ticks run without a player in its seat, and a player who comes later may take it.
@@ -98,9 +98,10 @@ class ServerObserver {
  public:
   virtual ~ServerObserver() = default;
 
-  /// A tick is closed. `hash` is the state after it, where the server simulates.
-  virtual void tick_closed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                           std::optional<std::uint64_t> hash);
+  /// A tick is confirmed: its inputs are final. `hash` is the state after it, where the server
+  /// simulates.
+  virtual void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
+                              std::optional<std::uint64_t> hash);
   /// Relay: all players that reported this tick had this hash.
   virtual void hash_agreed(std::uint64_t tick, std::uint64_t hash);
   virtual void player_joined(std::uint8_t slot, std::string_view name);
@@ -145,10 +146,10 @@ class Server {
   /// Does all that is due: call at least once a tick. `now_us` never runs backwards.
   void update(std::int64_t now_us);
 
-  /// Ends the match after the ticks closed so far.
+  /// Ends the match after the ticks confirmed so far.
   void stop();
 
-  /// No ticks close until `resume`. The players are told.
+  /// No ticks are confirmed until `resume`. The players are told.
   void pause();
   void resume();
   [[nodiscard]] bool paused() const;
@@ -156,8 +157,8 @@ class Server {
   [[nodiscard]] ServerState state() const;
   [[nodiscard]] FinishReason finish_reason() const;  ///< once finishing is over
 
-  /// How many ticks are closed: tick 0 … ticks_closed() - 1.
-  [[nodiscard]] std::uint64_t ticks_closed() const;
+  /// How many ticks are confirmed: tick 0 … ticks_confirmed() - 1.
+  [[nodiscard]] std::uint64_t ticks_confirmed() const;
 
   [[nodiscard]] std::size_t spectators() const;
 

@@ -49,7 +49,7 @@ inline constexpr std::uint32_t k_max_snapshot_ticks = 1 << 12;
 
 inline constexpr std::uint8_t k_max_prediction_ticks = 15;
 
-/// How far beyond the closed ticks a server takes inputs.
+/// How far beyond the confirmed ticks a server takes inputs.
 inline constexpr std::uint32_t k_input_window_ticks = 128;
 
 /// A refusal, with both values of the field that differs.
@@ -89,8 +89,8 @@ struct PlayerStats {
   std::uint64_t packets_sent = 0;
   std::uint64_t packets_received = 0;
   std::int64_t round_trip_us = -1;       ///< -1: the transport does not know
-  std::uint64_t late_inputs = 0;         ///< came after their tick was closed
-  std::uint64_t substituted_inputs = 0;  ///< ticks closed without this player's input
+  std::uint64_t late_inputs = 0;         ///< came after their tick was confirmed
+  std::uint64_t substituted_inputs = 0;  ///< ticks confirmed without this player's input
   std::uint64_t hashes_compared = 0;
   std::uint64_t hashes_equal = 0;
   std::uint64_t parts_equal = 0;  ///< checks of 128 bits a part, every 64 ticks

@@ -87,8 +87,8 @@ class EnetTransport final : public Transport {
   EnetTransport& operator=(const EnetTransport&) = delete;
 
   /// Begins to connect; `connected` or `disconnected` follows as an event. `address` is numeric,
-  /// IPv4 or IPv6 (`fe80::1%eth0` for one that is valid on one line only). invalid_argument: it is
-  /// not; io_error: the system has no IPv6.
+  /// IPv4 or IPv6 (`fe80::1%eth0` for one that is valid on one interface only). invalid_argument:
+  /// it is not; io_error: the system has no IPv6.
   [[nodiscard]] Result<ConnectionId> connect(const std::string& address, std::uint16_t port);
 
   /// The UDP port that this side is bound to; 0 before anything was sent by an `open` socket.

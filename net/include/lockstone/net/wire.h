@@ -157,7 +157,7 @@ inline constexpr std::int8_t k_no_margin = -128;
 /// Client: its inputs from `first_tick` on, in `coded` for a RecordReader of input_bytes; the ticks
 /// it has; and the hashes that the server has not acknowledged.
 struct Inputs {
-  std::uint64_t ticks_received = 0;  ///< closed ticks 0 … ticks_received - 1 are here
+  std::uint64_t ticks_received = 0;  ///< confirmed ticks 0 … ticks_received - 1 are here
   std::uint64_t first_tick = 0;
   std::uint8_t count = 0;
   std::uint64_t first_hash_tick = 0;
@@ -166,11 +166,11 @@ struct Inputs {
   ByteView coded;
 };
 
-/// Server: closed ticks from `first_tick` on, in `coded` for a RecordReader of record_bytes.
+/// Server: confirmed ticks from `first_tick` on, in `coded` for a RecordReader of record_bytes.
 struct Ticks {
   std::uint64_t first_tick = 0;
   std::uint8_t count = 0;
-  std::uint64_t ticks_closed = 0;             ///< how many ticks the server has closed
+  std::uint64_t ticks_confirmed = 0;          ///< how many ticks the server has confirmed
   std::uint64_t inputs_received = 0;          ///< this client need not send inputs below
   std::uint64_t hashes_received = 0;          ///< this client need not send hashes below
   std::uint16_t waiting_mask = 0;             ///< slots that the match waits for (strict)
@@ -178,7 +178,7 @@ struct Ticks {
   ByteView coded;
 };
 
-/// Client: closed ticks that are missing between others.
+/// Client: confirmed ticks that are missing between others.
 struct Resend {
   std::uint64_t first_tick = 0;
   std::uint16_t count = 0;

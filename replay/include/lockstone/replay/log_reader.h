@@ -99,21 +99,6 @@ class LogReader {
 
  private:
   struct Parts;
-
-  [[nodiscard]] LogItem read_next();
-  [[nodiscard]] LogItem read_behind_end();
-  [[nodiscard]] LogItem read_known();
-  [[nodiscard]] bool check_frame();
-  [[nodiscard]] bool check_end(const LogEnd& end) const;
-  [[nodiscard]] bool check_order();
-  [[nodiscard]] bool check_place();
-  [[nodiscard]] LogItem read_scene();
-  [[nodiscard]] LogItem read_inputs();
-  [[nodiscard]] LogItem read_hashes();
-  [[nodiscard]] LogItem read_keyframe();
-  [[nodiscard]] LogItem read_events();
-  [[nodiscard]] LogItem read_end();
-
   std::unique_ptr<Parts> parts_;
 };
 
