@@ -35,6 +35,42 @@ TEST(EffortPolicy, ConvergesNeitherPinchedIslandsNorThoseLeftToIterations) {
   EXPECT_FALSE(effort.may_converge(island));
 }
 
+TEST(EffortPolicy, CallsAPileLooseFromWhenAQuarterIsStirredUntilHalfIsNot) {
+  IslandLoad island;
+  island.bodies = 100;
+  island.stirred = 25;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+  island.stirred = 26;
+  EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
+  island.stirred = 0;
+  island.loose = 51;
+  EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
+  island.loose = 50;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+}
+
+TEST(EffortPolicy, CallsNoIslandLooseThatIsSmallUnevenOrJointed) {
+  IslandLoad island;
+  island.bodies = island.stirred = 24;
+  EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
+  --island.bodies;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+  island.bodies = 100;
+  island.is_uneven = true;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+  island.is_uneven = false;
+  island.joints = 1;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+}
+
+TEST(EffortPolicy, ConvergesNoLoosePile) {
+  IslandLoad island;
+  island.bodies = island.contacts = 30;
+  EXPECT_TRUE(policy(100).may_converge(island));
+  island.is_loose = true;
+  EXPECT_FALSE(policy(100).may_converge(island));
+}
+
 TEST(EffortPolicy, ConvergesNoneWhereTheWorldAllowsNone) {
   EXPECT_EQ(policy(0).most_island_contacts(), 0U);
   EXPECT_EQ(policy(1000000).most_island_contacts(), 1024U);

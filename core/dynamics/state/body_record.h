@@ -93,10 +93,6 @@ struct BodyRecord {
   [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
   [[nodiscard]] bool may_sleep() const { return (flags & k_body_no_sleep) == 0; }
   [[nodiscard]] bool has_changed_sleep() const { return (flags & k_body_changed_sleep) != 0; }
-  [[nodiscard]] bool is_loose() const { return (flags & k_body_loose) != 0; }
-  void set_loose(bool loose) {
-    flags = static_cast<std::uint8_t>(loose ? flags | k_body_loose : flags & ~k_body_loose);
-  }
   [[nodiscard]] bool rotates() const { return (locks & k_lock_turning) != k_lock_turning; }
   [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
   [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }
@@ -154,6 +150,10 @@ struct BodyRecord {
   }
   [[nodiscard]] bool is(MotionType type) const { return motion == static_cast<std::uint8_t>(type); }
 };
+
+[[nodiscard]] inline bool is_loose(const BodyRecord& body) {
+  return (body.flags & k_body_loose) != 0;
+}
 
 // clang-format off
 // X: a field in the unit of its type; B: one that holds bits without a unit.

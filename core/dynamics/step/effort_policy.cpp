@@ -33,11 +33,10 @@ std::int32_t lesser_share(BlockFloat a, BlockFloat b) {
 constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
 constexpr std::int32_t k_uneven_share = (1 << 30) / 16;
 
-// A pile becomes loose when a quarter of its bodies differ from their mean velocity by more than
-// 1/4 m/s along an axis, and stays loose while half of its bodies were. It has at least this many
-// bodies: few ones converge at little cost.
+// A loose pile has at least this many bodies: few ones converge at little cost.
 constexpr std::uint32_t k_least_loose_bodies = 24;
 
+// Whether a body differs from a velocity by more than 1/4 m/s along an axis.
 bool is_stirred(const BodyRecord& body, const Vec3<Velocity>& mean) {
   constexpr std::int64_t k_fast = std::int64_t{1} << (Velocity::frac_bits - 2);
   const auto is_fast = [&](int axis) {
@@ -45,11 +44,6 @@ bool is_stirred(const BodyRecord& body, const Vec3<Velocity>& mean) {
     return apart > k_fast || apart < -k_fast;
   };
   return is_fast(0) || is_fast(1) || is_fast(2);
-}
-
-bool is_loose_pile(const IslandLoad& island) {
-  if (island.bodies < k_least_loose_bodies || island.joints != 0 || island.is_uneven) return false;
-  return island.stirred > island.bodies / 4 || island.loose > island.bodies / 2;
 }
 
 std::int64_t impulse_of(const ContactRecord& record) {
@@ -113,7 +107,7 @@ void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bod
   };
   for_bodies([](IslandLoad& island, const BodyRecord& body) {
     island.velocity = island.velocity + body.velocity;  // at most 2^57 even for 2^16 bodies
-    island.loose += body.is_loose() ? 1U : 0U;
+    island.loose += is_loose(body) ? 1U : 0U;
   });
   for (std::uint32_t island = 1; island < islands.count(); ++island)
     for (int i = 0; i < 3; ++i)
@@ -123,6 +117,11 @@ void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bod
   });
   for (std::uint32_t island = 1; island < islands.count(); ++island)
     islands.load(island).is_loose = is_loose_pile(islands.load(island));
+}
+
+bool EffortPolicy::is_loose_pile(const IslandLoad& island) {
+  if (island.bodies < k_least_loose_bodies || island.joints != 0 || island.is_uneven) return false;
+  return island.stirred > island.bodies / 4 || island.loose > island.bodies / 2;
 }
 
 bool EffortPolicy::may_converge(const IslandLoad& island) const {

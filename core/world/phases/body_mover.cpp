@@ -55,7 +55,9 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
         fly(record, rotation, world_.header.gravity, world_.time_step, world_.header.tick);
     ++counts.free_bodies;
   }
-  record.set_loose(solved != nullptr && solver_.is_loose(body));
+  const bool is_loose = solved != nullptr && solver_.is_loose(body);
+  record.flags = static_cast<std::uint8_t>(is_loose ? record.flags | k_body_loose
+                                                    : record.flags & ~k_body_loose);
   damp_spin(record, world_.time_step);
   hold_axes(record);
   const InverseInertia inertia = inertia_of(body, solved);
