@@ -10,6 +10,13 @@ namespace {
 
 using namespace literals;
 
+constexpr ShapeKind after_last_shape() {
+  return static_cast<ShapeKind>(static_cast<int>(k_last_shape_kind) + 1);
+}
+constexpr JointKind after_last_joint() {
+  return static_cast<JointKind>(static_cast<int>(k_last_joint_kind) + 1);
+}
+
 template <class Def>
 struct Wrong {
   const char* field;  ///< that `explain` names
@@ -62,7 +69,7 @@ TEST(ExplainBody, NamesEachFieldThatCreateBodyRefuses) {
   const std::vector<Wrong<D>> all{
       {"body.motion", [](D& d) { d.motion = static_cast<MotionType>(0); }},
       {"body.motion", [](D& d) { d.shape = Shape::half_space(); }},
-      {"body.shape.kind", [](D& d) { d.shape.kind = static_cast<ShapeKind>(10); }},
+      {"body.shape.kind", [](D& d) { d.shape.kind = after_last_shape(); }},
       {"body.shape.radius", [](D& d) { d.shape = Shape::sphere({}); }},
       {"body.shape.size.y", [](D& d) { d.shape.size.y = 1_m; }},
       {"body.shape.half_height", [](D& d) { d.shape = Shape::capsule(513_m, 1_m); }},
@@ -146,7 +153,7 @@ TEST(ExplainJoint, NamesEachFieldThatCreateJointRefuses) {
          d.body_b = {77, 1};
        }},
       {"joint.body_b", [](D& d) { d.body_b = d.body_a; }},
-      {"joint.kind", [](D& d) { d.kind = static_cast<JointKind>(12); }},
+      {"joint.kind", [](D& d) { d.kind = after_last_joint(); }},
       {"joint.frame_a.orientation", [](D& d) { d.frame_a.orientation.w = {}; }},
       {"joint.frame_b.orientation", [](D& d) { d.frame_b.orientation.w = {}; }},
       {"joint.frame_a.position", [](D& d) { d.frame_a.position.y = 300_m; }},
@@ -195,7 +202,7 @@ TEST(JointDef, WithoutItsKindsLocksIsRefused) {
 }
 
 TEST(JointDef, OfAnyKindIsAccepted) {
-  for (int i = 1; i <= 11; ++i) {
+  for (int i = 1; i <= static_cast<int>(k_last_joint_kind); ++i) {
     Pair pair;
     const auto kind = static_cast<JointKind>(i);
     const JointDef def = JointDef::of(kind, pair.a, pair.b);

@@ -62,7 +62,9 @@ TEST(JointStore, RefusesImpossibleJoints) {
     change(def);
     EXPECT_EQ(p.world.create_joint(def).status(), status);
   };
-  refused([](JointDef& def) { def.kind = static_cast<JointKind>(12); });
+  refused([](JointDef& def) {
+    def.kind = static_cast<JointKind>(static_cast<int>(k_last_joint_kind) + 1);
+  });
   refused([](JointDef& def) { def.kind = {}; });
   refused([](JointDef& def) { def.body_a = def.body_b; });
   refused([&](JointDef& def) { def.body_b = other; });

@@ -82,7 +82,9 @@ BodyDef CommandDice::body_def() {
   def.motion =
       goes_wild() ? static_cast<MotionType>(random_.below(256)) : k_motions[random_.below(4)];
   def.shape = chance(2) ? Shape::box(0.3_m, 0.3_m, 0.3_m) : Shape::capsule(0.3_m, 0.2_m);
-  if (goes_wild()) def.shape = {static_cast<ShapeKind>(random_.below(11)), vector(Length(1_m)), {}};
+  constexpr std::uint32_t k_shape_kinds = static_cast<std::uint32_t>(k_last_shape_kind) + 1;
+  if (goes_wild())  // one kind that does not exist among them
+    def.shape = {static_cast<ShapeKind>(random_.below(k_shape_kinds + 1)), vector(Length(1_m)), {}};
   def.position = vector(Position(3_m));
   def.position.y.raw = raw::saturating_add(def.position.y.raw, Position(2_m).raw);
   def.orientation = turn();
@@ -190,8 +192,9 @@ void CommandDice::fill(SetGravity& c) {
   if (goes_wild()) c.gravity.x = number(Acceleration::from_integer(1000));
 }
 void CommandDice::fill(CreateJoint& c) {
+  constexpr auto k_kinds = static_cast<std::uint32_t>(k_last_joint_kind);
   const auto kind =
-      static_cast<JointKind>(goes_wild() ? random_.below(256) : 1 + random_.below(11));
+      static_cast<JointKind>(goes_wild() ? random_.below(256) : 1 + random_.below(k_kinds));
   c.def = JointDef::of(kind, body(), body());
   c.def.frame_a.position = vector(Length(1_m));
   c.def.frame_b.position = vector(Length(1_m));

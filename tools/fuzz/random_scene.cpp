@@ -242,7 +242,7 @@ JointFrame random_frame(Random& random) {
 }
 
 JointDef random_joint(const World& world, Random& random) {
-  const auto kind = static_cast<JointKind>(random.between(1, 11));
+  const auto kind = static_cast<JointKind>(random.between(1, static_cast<int>(k_last_joint_kind)));
   const BodyHandle a = any_body(world, random);
   const BodyHandle b = any_body(world, random);
   JointDef def = JointDef::of(kind, a, b);

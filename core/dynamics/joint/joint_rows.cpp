@@ -187,7 +187,7 @@ bool has_world_axes(const JointRecord& joint) {
 
 std::size_t most_rows(const JointRecord& joint) {
   LKS_ASSERT(joint.exists());
-  if (joint.kind >= static_cast<std::uint8_t>(JointKind::pulley)) return 1;
+  if (has_own_equation(static_cast<JointKind>(joint.kind))) return 1;
   std::size_t count = 0;
   for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {
     if (joint.mode(axis) != AxisMode::free) ++count;
@@ -205,7 +205,7 @@ bool is_point(const JointRecord& joint) {
 }
 
 bool holds_a_point(const JointRecord& joint, std::uint8_t far) {
-  if (joint.kind >= static_cast<std::uint8_t>(JointKind::pulley)) return false;
+  if (has_own_equation(static_cast<JointKind>(joint.kind))) return false;
   if (joint.is(JointKind::distance) || !has_world_axes(joint)) return false;
   for (std::size_t axis = 3; axis < k_joint_axes; ++axis) {
     const bool is_free = joint.mode(axis) == AxisMode::free || (far >> axis & 1) != 0;

@@ -34,7 +34,7 @@ std::int64_t times_mass(std::int64_t x, BlockFloat mass, int shift) {
 }
 
 std::uint32_t most_locks(const JointRecord& joint) {
-  if (joint.kind >= static_cast<std::uint8_t>(JointKind::pulley) || joint.is(JointKind::distance)) {
+  if (has_own_equation(static_cast<JointKind>(joint.kind)) || joint.is(JointKind::distance)) {
     return 1;
   }
   std::uint32_t count = 0;

@@ -38,7 +38,13 @@ enum class JointKind : std::uint8_t {
   gear = 10,   ///< turning about x of frame a + ratio · that about x of frame b stays 0
   rack = 11,   ///< turning about x of frame a + ratio · motion along x of frame b stays 0
 };
+inline constexpr JointKind k_last_joint_kind = JointKind::rack;
 [[nodiscard]] std::string_view to_string(JointKind kind);
+
+/// Returns whether one equation of its own takes the place of the kind's six axes.
+[[nodiscard]] constexpr bool has_own_equation(JointKind kind) {
+  return kind == JointKind::pulley || kind == JointKind::gear || kind == JointKind::rack;
+}
 
 enum class AxisMode : std::uint8_t {
   locked = 0,   ///< stays at 0; with a spring (hertz > 0) softly

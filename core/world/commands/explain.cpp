@@ -242,7 +242,7 @@ Refusal World::explain(const JointDef& def) const {
   find.require(a != nullptr, "body_a", handle(def.body_a), k_body);
   find.require(b != nullptr, "body_b", handle(def.body_b), k_body);
   find.require(def.body_a != def.body_b, "body_b", handle(def.body_b), "another body than body_a");
-  find.known("kind", def.kind, JointKind::distance, JointKind::rack);
+  find.known("kind", def.kind, JointKind::distance, k_last_joint_kind);
   find.direction("frame_a.orientation", def.frame_a.orientation);
   find.direction("frame_b.orientation", def.frame_b.orientation);
   if (find.done()) return find.take();

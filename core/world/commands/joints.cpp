@@ -20,8 +20,6 @@
 namespace lockstone {
 namespace {
 
-constexpr std::uint8_t k_last_kind = static_cast<std::uint8_t>(JointKind::rack);
-
 bool in_world(const Vec3<Position>& p) {
   const auto is_within = [](Position x) { return x <= k_world_limit && x >= -k_world_limit; };
   return is_within(p.x) && is_within(p.y) && is_within(p.z);
@@ -192,7 +190,8 @@ bool holds_something(const JointDef& def) {
 }
 
 Status validate(const JointRecord& joint) {
-  if (!is_generation(joint.generation) || joint.kind > k_last_kind) return Status::malformed;
+  if (!is_generation(joint.generation) || joint.kind > static_cast<std::uint8_t>(k_last_joint_kind))
+    return Status::malformed;
   if (!joint.exists()) {
     JointRecord empty;
     empty.generation = joint.generation;

@@ -25,9 +25,9 @@ std::string_view to_string(CombineRule rule) {
   return name_of(k_names, rule);
 }
 std::string_view to_string(JointKind kind) {
-  constexpr std::array<std::string_view, 11> k_names{"distance", "ball",  "hinge", "slider",
-                                                     "weld",     "wheel", "motor", "six-axis",
-                                                     "pulley",   "gear",  "rack"};
+  constexpr std::array<std::string_view, static_cast<std::size_t>(k_last_joint_kind)> k_names{
+      "distance", "ball",     "hinge",  "slider", "weld", "wheel",
+      "motor",    "six-axis", "pulley", "gear",   "rack"};
   return name_of(k_names, kind, 1);
 }
 std::string_view to_string(AxisMode mode) {

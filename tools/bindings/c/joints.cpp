@@ -44,7 +44,7 @@ lks_joint_frame frame_raw(const JointFrame& frame) {
 }
 
 JointKind kind_of(std::uint32_t kind) {
-  return enumerator(kind, JointKind::distance, JointKind::rack, "joint.kind");
+  return enumerator(kind, JointKind::distance, k_last_joint_kind, "joint.kind");
 }
 
 lks_joint_def joint_def_raw(const JointDef& def) {
