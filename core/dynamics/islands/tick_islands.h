@@ -8,8 +8,6 @@
 #include <vector>
 
 #include <lockstone/assert.h>
-#include <lockstone/units.h>
-#include <lockstone/vec3.h>
 
 namespace lockstone {
 
@@ -51,7 +49,7 @@ struct IslandLoad {
   std::uint32_t joints = 0;
   std::uint32_t loose = 0;    ///< bodies that were of a loose pile in the last tick
   std::uint32_t stirred = 0;  ///< bodies much faster or slower than the island as a whole
-  Vec3<Velocity> velocity{};  ///< the mean of its bodies
+  std::int32_t velocity[3]{};  ///< the mean of its bodies, 1/16 m/s
   std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
   std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
   SharedCount overloaded;     ///< contacts at rest under several times a body's weight; from

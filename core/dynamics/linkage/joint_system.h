@@ -35,20 +35,18 @@ struct JointGroup {
   std::uint32_t body_count = 0;
   std::uint32_t column = 0;                          // its first one in the factor of trees
   std::uint32_t loops = ProximalLocks::k_too_large;  // its number there, if it is solved there
-  bool is_direct = false;                            // a factor has all of its locks
-  bool only_locks = false;                           // neither limits nor drives
-  std::int64_t rate = 0;                             // 1 / the time that its bodies drift for
+  bool is_direct : 1 = false;                        // a factor has all of its locks
+  bool only_locks : 1 = false;                       // neither limits nor drives
 
-  // Its factor.
-  bool is_factored = false;
-  bool is_fresh = false;    // and so for the present rows
-  bool turns_fast = false;  // in this tick a factor of earlier rows did not serve
-  int exponent = 0;         // least of its rows
-
-  // Its solves.
-  bool is_rough = false;   // a step of this tick did not hold the joints
-  int fresh_solves = 0;    // for velocities, with a factor of the present rows
-  std::int64_t speed = 0;  // greatest of its locks, as last found, Q50
+  // Its factor and its solves.
+  bool is_factored : 1 = false;
+  bool is_fresh : 1 = false;      // and so for the present rows
+  bool turns_fast : 1 = false;    // in this tick a factor of earlier rows did not serve
+  bool is_rough : 1 = false;      // a step of this tick did not hold the joints
+  std::int16_t fresh_solves = 0;  // for velocities, with a factor of the present rows
+  int exponent = 0;               // least of its rows
+  std::int64_t speed = 0;         // greatest of its locks, as last found, Q50
+  std::int64_t rate = 0;          // 1 / the time that its bodies drift for
 
   /// Whether `ProximalLocks` solves it, with its motors.
   [[nodiscard]] bool has_solved_loops() const { return loops != ProximalLocks::k_too_large; }

@@ -36,14 +36,17 @@ constexpr std::int32_t k_uneven_share = (1 << 30) / 16;
 // A loose pile has at least this many bodies: few ones converge at little cost.
 constexpr std::uint32_t k_least_loose_bodies = 24;
 
-// Whether a body differs from a velocity by more than 1/4 m/s along an axis.
-bool is_stirred(const BodyRecord& body, const Vec3<Velocity>& mean) {
-  constexpr std::int64_t k_fast = std::int64_t{1} << (Velocity::frac_bits - 2);
-  const auto is_fast = [&](int axis) {
-    const std::int64_t apart = body.velocity[axis].raw - mean[axis].raw;
-    return apart > k_fast || apart < -k_fast;
-  };
-  return is_fast(0) || is_fast(1) || is_fast(2);
+// A component of velocity, 1/16 m/s, within ±2^14 or so: that of 2^16 bodies fits a word.
+std::int32_t coarse(Velocity v) {
+  return static_cast<std::int32_t>(raw::round_shift(v.raw, Velocity::frac_bits - 4));
+}
+
+// Whether a body differs from the mean velocity of its island by more than 1/4 m/s along an axis.
+bool is_stirred(const BodyRecord& body, const IslandLoad& island) {
+  constexpr std::int32_t k_fast = 4;
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(coarse(body.velocity[i]) - island.velocity[i]) > k_fast) return true;
+  return false;
 }
 
 std::int64_t impulse_of(const ContactRecord& record) {
@@ -106,14 +109,17 @@ void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bod
     }
   };
   for_bodies([](IslandLoad& island, const BodyRecord& body) {
-    island.velocity = island.velocity + body.velocity;  // at most 2^57 even for 2^16 bodies
+    for (int i = 0; i < 3; ++i)
+      island.velocity[i] += coarse(body.velocity[i]);
     island.loose += is_loose(body) ? 1U : 0U;
   });
-  for (std::uint32_t island = 1; island < islands.count(); ++island)
-    for (int i = 0; i < 3; ++i)
-      islands.load(island).velocity[i].raw /= std::max(islands.load(island).bodies, 1U);
+  for (std::uint32_t island = 1; island < islands.count(); ++island) {
+    IslandLoad& load = islands.load(island);
+    for (std::int32_t& component : load.velocity)
+      component /= static_cast<std::int32_t>(std::max(load.bodies, 1U));
+  }
   for_bodies([](IslandLoad& island, const BodyRecord& body) {
-    island.stirred += is_stirred(body, island.velocity) ? 1U : 0U;
+    island.stirred += is_stirred(body, island) ? 1U : 0U;
   });
   for (std::uint32_t island = 1; island < islands.count(); ++island)
     islands.load(island).is_loose = is_loose_pile(islands.load(island));
