@@ -196,7 +196,7 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Prepar
   LKS_ASSERT(out.share_b >= 0);
   LKS_ASSERT(out.inertia_a >= 1 && out.inertia_a <= 1 << 12);
   LKS_ASSERT(out.inertia_b >= 1 && out.inertia_b <= 1 << 12);
-  LKS_ASSERT(out.offset_shift >= 13 && out.offset_shift <= 31);
+  LKS_ASSERT(out.offset_shift >= 10 && out.offset_shift <= 31);
   LKS_ASSERT(out.shift >= 16 && out.shift <= 28);
   const Vec3<SolverVelocity>& drive = in.surface.drive;
   out.drive = {drive.x.raw, drive.y.raw, drive.z.raw};

@@ -247,7 +247,8 @@ void begin_substep(const IslandView& island) {
       problem.held_centre[i] = held;
       if (i >= contact.points) continue;
       ProximalRow& row = contact.all[i];
-      LKS_ASSERT(held >= 0 && row.weight_leak >= 0);
+      LKS_ASSERT(held >= 0);
+      LKS_ASSERT(row.weight_leak >= 0);
       row.leak = std::min(held / k_leak_part, row.weight_leak);
       problem.held_centre[i] -= row.leak;
     }

@@ -7,10 +7,14 @@
 namespace lockstone {
 namespace {
 
-// The velocity that gravity adds in a substep, m/s, Q32.
+// The velocity that gravity adds in a substep, m/s, Q32, but at most 2 m/s, which its products need
+// to fit.
 std::int64_t weight_of(const Vec3<Acceleration>& gravity, const TimeStep& step) {
+  constexpr std::int64_t k_most = std::int64_t{2} << 32;
   const auto size = static_cast<std::int64_t>(norm(gravity.x.raw, gravity.y.raw, gravity.z.raw));
-  return step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
+  const std::int64_t gain =
+      step.substep.times(raw::scale_saturating(size, 32 - Acceleration::frac_bits));
+  return std::min(gain, k_most);
 }
 
 }  // namespace
