@@ -13,6 +13,7 @@
 #include <lockstone/testing/floating.h>
 #include <lockstone/thread_pool.h>
 
+#include "core/collision/narrow_phase/seams.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -299,6 +300,14 @@ TEST(NoSeam, AreFoundAlikeByAnyNumberOfThreads) {
     hashes.push_back(world.hash().total);
   }
   EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+// Their difference is 2, which no unit holds.
+TEST(Seams, TakeOppositeNormalsForOnesThatDiffer) {
+  const Unit one = Unit::from_integer(1);
+  EXPECT_TRUE(are_alike({one, {}, {}}, {one, {}, {}}));
+  EXPECT_FALSE(are_alike({one, {}, {}}, {-one, {}, {}}));
+  EXPECT_FALSE(are_alike({{}, -one, {}}, {{}, one, {}}));
 }
 
 }  // namespace

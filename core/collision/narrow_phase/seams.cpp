@@ -1,5 +1,7 @@
 #include "core/collision/narrow_phase/seams.h"
 
+#include <cstdlib>
+
 #include <lockstone/assert.h>
 
 #include "core/collision/narrow_phase/pieces.h"
@@ -114,9 +116,11 @@ bool is_part(const Piece& piece, std::uint32_t part) {
 }  // namespace
 
 bool are_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {
-  constexpr Unit k_least = Unit::from_raw(1 << (Unit::frac_bits - 11));
-  const Vec3<Unit> apart = a - b;
-  return max(max(abs(apart.x), abs(apart.y)), abs(apart.z)) <= k_least;
+  constexpr std::int64_t k_least = 1 << (Unit::frac_bits - 11);
+  const auto is_near = [&](int i) {  // opposite units are 2 apart, which no unit is
+    return std::abs(std::int64_t{a[i].raw} - b[i].raw) <= k_least;
+  };
+  return is_near(0) && is_near(1) && is_near(2);
 }
 
 std::optional<FaceOfShape> touched_face(const TouchedPart& touched, const TouchedPoint& at) {
