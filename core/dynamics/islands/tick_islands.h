@@ -34,6 +34,8 @@ struct IslandLoad {
   static constexpr std::uint32_t k_most_overloaded = 8;
   /// With more bearing contacts it is a stack, which is rebalanced: it would bend without.
   static constexpr std::uint32_t k_most_bearing = 128;
+  /// With fewer bodies it is no loose pile: few ones converge at little cost.
+  static constexpr std::uint32_t k_least_loose = 24;
 
   bool iterates_only = false;  ///< nets, locked axes or rolling resistance: no direct steps
   bool is_pinched = false;     ///< between a moving kinematic body and another immovable one
@@ -47,14 +49,18 @@ struct IslandLoad {
   std::uint32_t bodies = 0;    ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;
-  std::uint32_t loose = 0;    ///< bodies that were of a loose pile in the last tick
-  std::uint32_t stirred = 0;  ///< bodies much faster or slower than the island as a whole
+  std::uint32_t loose = 0;     ///< bodies that were of a loose pile in the last tick
+  std::uint32_t stirred = 0;   ///< bodies much faster or slower than the island as a whole
   std::int32_t velocity[3]{};  ///< the mean of its bodies, 1/16 m/s
-  std::uint32_t fresh = 0;    ///< contacts of this tick, between two dynamic bodies
-  std::uint32_t bearing = 0;  ///< contacts whose mean impulse is several times a weight
-  SharedCount overloaded;     ///< contacts at rest under several times a body's weight; from
-                              ///< k_most_overloaded + 1 on it may be any greater number
+  std::uint32_t fresh = 0;     ///< contacts of this tick, between two dynamic bodies
+  std::uint32_t bearing = 0;   ///< contacts whose mean impulse is several times a weight
+  SharedCount overloaded;      ///< contacts at rest under several times a body's weight; from
+                               ///< k_most_overloaded + 1 on it may be any greater number
 
+  /// Enough bodies, without joints and of like masses.
+  [[nodiscard]] bool may_be_loose() const {
+    return bodies >= k_least_loose && joints == 0 && !is_uneven;
+  }
   [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_overloaded() const { return overloaded.get() <= k_most_overloaded; }
   /// Many contacts are overloaded, and a good part of all are new and have no impulses yet.

@@ -47,6 +47,18 @@ RawVec3 geared(const RawVec3& v, const JointRecord& joint, int shift) {
   return result;
 }
 
+// The x axes of both frames, that of A times 2^-shift.
+struct GearedAxis {
+  int shift;
+  RawVec3 a, b;
+};
+
+GearedAxis geared_axis(const JointPlace& place) {
+  const int shift = ratio_shift(place.joint);
+  return {shift, scaled_axis(frame_of(place.a.rotation, place.frames.a), shift),
+          raw_of(frame_of(place.b.rotation, place.frames.b).x)};
+}
+
 }  // namespace
 
 void fill_distance(RowWriter& rows, const JointArms& arms) {
@@ -83,23 +95,19 @@ void fill_pulley(RowWriter& rows, const JointArms& arms) {
 
 void fill_gear(RowWriter& rows) {
   const JointPlace& place = rows.place();
-  const int shift = ratio_shift(place.joint);
-  const RawVec3 x_a = scaled_axis(frame_of(place.a.rotation, place.frames.a), shift);
-  const RawVec3 x_b = raw_of(frame_of(place.b.rotation, place.frames.b).x);
+  const GearedAxis axis = geared_axis(place);
   JointRow row;
-  row.angular_a = negated(rows.angular_row(x_a).angular_a);
-  row.angular_b = rows.angular_row(geared(x_b, place.joint, shift)).angular_b;
+  row.angular_a = negated(rows.angular_row(axis.a).angular_a);
+  row.angular_b = rows.angular_row(geared(axis.b, place.joint, axis.shift)).angular_b;
   rows.push([&] { return row; }, 0, RowKind::lock, 0);
 }
 
 void fill_rack(RowWriter& rows, const JointArms& arms) {
   const JointPlace& place = rows.place();
-  const int shift = ratio_shift(place.joint);
-  const RawVec3 x_a = scaled_axis(frame_of(place.a.rotation, place.frames.a), shift);
-  const RawVec3 x_b = raw_of(frame_of(place.b.rotation, place.frames.b).x);
+  const GearedAxis axis = geared_axis(place);
   JointRow row;
-  row.angular_a = negated(rows.angular_row(x_a).angular_a);
-  row.linear_b = geared(x_b, place.joint, shift - place.exponent);
+  row.angular_a = negated(rows.angular_row(axis.a).angular_a);
+  row.linear_b = geared(axis.b, place.joint, axis.shift - place.exponent);
   row.angular_b = lever(arms.b, row.linear_b, place.scale_b);
   rows.push([&] { return row; }, 0, RowKind::lock, 0);
 }

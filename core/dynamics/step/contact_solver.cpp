@@ -215,16 +215,14 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
 }
 
 bool ContactSolver::keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const {
-  const std::uint32_t number = bodies_.number_of(body);
-  const std::uint32_t island = number == 0 ? 0 : islands_.all().of(number);
-  if (island == 0 || islands_.load(island).is_converged) return false;
-  const bool is_stack = islands_.load(island).is_stack();
-  return is_near_contact_pose(record, is_stack ? k_fine_drift : k_coarse_drift);
+  const IslandLoad* island = islands_.find(bodies_, body);
+  if (island == nullptr || island->is_converged) return false;
+  return is_near_contact_pose(record, island->is_stack() ? k_fine_drift : k_coarse_drift);
 }
 
 bool ContactSolver::is_loose(std::uint32_t body) const {
-  const std::uint32_t number = bodies_.number_of(body);
-  return number != 0 && islands_.load(islands_.all().of(number)).is_loose;
+  const IslandLoad* island = islands_.find(bodies_, body);
+  return island != nullptr && island->is_loose;
 }
 
 EnergyLimit::Bodies ContactSolver::energy_bodies() {

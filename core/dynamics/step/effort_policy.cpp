@@ -33,9 +33,6 @@ std::int32_t lesser_share(BlockFloat a, BlockFloat b) {
 constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
 constexpr std::int32_t k_uneven_share = (1 << 30) / 16;
 
-// A loose pile has at least this many bodies: few ones converge at little cost.
-constexpr std::uint32_t k_least_loose_bodies = 24;
-
 // A component of velocity, 1/16 m/s, within ±2^14 or so: that of 2^16 bodies fits a word.
 std::int32_t coarse(Velocity v) {
   return static_cast<std::int32_t>(raw::round_shift(v.raw, Velocity::frac_bits - 4));
@@ -47,6 +44,16 @@ bool is_stirred(const BodyRecord& body, const IslandLoad& island) {
   for (int i = 0; i < 3; ++i)
     if (std::abs(coarse(body.velocity[i]) - island.velocity[i]) > k_fast) return true;
   return false;
+}
+
+// Calls `work(island, body)` for each dynamic body, whose island is not 0.
+template <class Work>
+void for_each_body(const ContactScene& scene, const SolverBodies& bodies, IslandBuilder& islands,
+                   Work work) {
+  for (std::uint32_t number = 1; number < bodies.count(); ++number) {
+    const std::uint32_t island = islands.of(BodyRef::numbered(number));
+    if (island != 0) work(islands.load(island), scene.bodies[bodies.side(number).body()]);
+  }
 }
 
 std::int64_t impulse_of(const ContactRecord& record) {
@@ -80,12 +87,9 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   for (std::uint32_t i = 0; i < scene.joint_links.size(); ++i)
     if (joints.solver().number_of(i) == JointSolver::k_in_net)
       islands.load(islands.of(scene, bodies, scene.joint_links[i])).iterates_only = true;
-  for (std::uint32_t number = 1; number < bodies.count(); ++number) {
-    const std::uint32_t island = islands.of(BodyRef::numbered(number));
-    const std::uint32_t body = bodies.side(number).body();
-    if (island != 0 && (scene.bodies[body].locks & k_lock_moving) != 0)
-      islands.load(island).iterates_only = true;
-  }
+  for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
+    if ((body.locks & k_lock_moving) != 0) island.iterates_only = true;
+  });
   const auto mass = [&](BodyRef body) {
     return body.is_standing()
                ? BlockFloat{}
@@ -102,32 +106,29 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
 
 void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bodies,
                               IslandBuilder& islands) {
-  const auto for_bodies = [&](auto&& work) {
-    for (std::uint32_t number = 1; number < bodies.count(); ++number) {
-      const std::uint32_t island = islands.of(BodyRef::numbered(number));
-      if (island != 0) work(islands.load(island), scene.bodies[bodies.side(number).body()]);
-    }
-  };
-  for_bodies([](IslandLoad& island, const BodyRecord& body) {
+  if (!islands.all().any(&IslandLoad::may_be_loose)) return;
+  for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
+    if (!island.may_be_loose()) return;
     for (int i = 0; i < 3; ++i)
       island.velocity[i] += coarse(body.velocity[i]);
     island.loose += is_loose(body) ? 1U : 0U;
   });
-  for (std::uint32_t island = 1; island < islands.count(); ++island) {
-    IslandLoad& load = islands.load(island);
-    for (std::int32_t& component : load.velocity)
-      component /= static_cast<std::int32_t>(std::max(load.bodies, 1U));
+  for (std::uint32_t index = 1; index < islands.count(); ++index) {
+    IslandLoad& island = islands.load(index);
+    if (!island.may_be_loose()) continue;
+    for (std::int32_t& component : island.velocity)
+      component /= static_cast<std::int32_t>(island.bodies);
   }
-  for_bodies([](IslandLoad& island, const BodyRecord& body) {
-    island.stirred += is_stirred(body, island) ? 1U : 0U;
+  for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
+    if (island.may_be_loose() && is_stirred(body, island)) ++island.stirred;
   });
-  for (std::uint32_t island = 1; island < islands.count(); ++island)
-    islands.load(island).is_loose = is_loose_pile(islands.load(island));
+  for (std::uint32_t index = 1; index < islands.count(); ++index)
+    islands.load(index).is_loose = is_loose_pile(islands.load(index));
 }
 
 bool EffortPolicy::is_loose_pile(const IslandLoad& island) {
-  if (island.bodies < k_least_loose_bodies || island.joints != 0 || island.is_uneven) return false;
-  return island.stirred > island.bodies / 4 || island.loose > island.bodies / 2;
+  return island.may_be_loose() &&
+         (island.stirred > island.bodies / 4 || island.loose > island.bodies / 2);
 }
 
 bool EffortPolicy::may_converge(const IslandLoad& island) const {

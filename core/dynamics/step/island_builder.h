@@ -48,6 +48,13 @@ class IslandBuilder {
   [[nodiscard]] std::uint32_t of(const ContactScene& scene, const SolverBodies& bodies,
                                  const JointLink& link) const;
 
+  /// The island of a body by its index in the world; null of one that is in none.
+  [[nodiscard]] const IslandLoad* find(const SolverBodies& bodies, std::uint32_t body) const {
+    const std::uint32_t number = bodies.number_of(body);
+    const std::uint32_t island = number == 0 ? 0 : islands_.of(number);
+    return island == 0 ? nullptr : &load(island);
+  }
+
   [[nodiscard]] IslandLoad& load(std::uint32_t island) { return islands_.load(island); }
   [[nodiscard]] const IslandLoad& load(std::uint32_t island) const { return islands_.load(island); }
   [[nodiscard]] IslandLoad& load(const ContactRef& contact) { return load(of(contact)); }
