@@ -41,7 +41,8 @@ class Pushers final : public Simulation {
 
   [[nodiscard]] SimulationInfo info() const override {
     return {.abi = k_simulation_abi,
-            .config_hash = config_hash(definition(), AssetSet(std::vector<AssetPtr>()).hash()) + players_,
+            .config_hash =
+                config_hash(definition(), AssetSet(std::vector<AssetPtr>()).hash()) + players_,
             .scene_hash = scene_hash_,
             .canary = canary_hash(),
             .tick_rate = 60,
@@ -68,8 +69,7 @@ class Pushers final : public Simulation {
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return world_.load(kind, bytes); }
   [[nodiscard]] std::uint64_t hash() const override { return world_.hash().total; }
-  [[nodiscard]] std::size_t part_hashes(
-      std::span<PartHash, k_max_state_parts> out) const override {
+  [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override {
     const StateHash hash = world_.hash();
     out[0] = {"bodies", {.low = hash.bodies, .high = 0}};
     out[1] = {"contacts", {.low = hash.contacts, .high = 0}};
@@ -111,7 +111,7 @@ void print_tick(std::uint64_t tick, std::uint64_t hash) {
 struct Referee final : net::ServerObserver {
   replay::Recorder* recorder = nullptr;
   void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                   std::optional<std::uint64_t> hash) override {
+                      std::optional<std::uint64_t> hash) override {
     print_tick(tick, hash.value_or(0));
     (void)recorder->record_tick(tick, inputs, hash.value_or(0));
   }

@@ -73,7 +73,8 @@ TEST(IslandLoad, NeedsAnInitialWarmStartWhereManyAreOverloadedAndAQuarterIsNew) 
   EXPECT_TRUE(load.needs_initial_warm_start());
   load.fresh = 249;
   EXPECT_FALSE(load.needs_initial_warm_start());
-  load = {.contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = IslandLoad::k_most_overloaded};
+  load = {
+      .contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = IslandLoad::k_most_overloaded};
   EXPECT_FALSE(load.needs_initial_warm_start());
 }
 

@@ -144,8 +144,7 @@ static_assert(offsetof(ManifoldBlock, axes) == sizeof(BlockWord) &&
               sizeof(ManifoldBlock) % sizeof(BlockWord) == 0);
 
 // Of lanes without a manifold blocks say nothing, of plain ones not all.
-void forget_empty(const PrepareInputs& sources, ManifoldBlock& block,
-                  ManifoldApproach& approach) {
+void forget_empty(const PrepareInputs& sources, ManifoldBlock& block, ManifoldApproach& approach) {
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const PrepareInput& source = sources.lanes[lane];
     const bool is_empty = source.one_over_count == 0;

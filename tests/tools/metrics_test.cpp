@@ -107,13 +107,11 @@ TEST(Metrics, TellWhetherPlayersMayCome) {
 }
 
 TEST(Journal, WritesOneObjectALine) {
-  const std::string line =
-      journal_line({"player_joined", "player 3 joined: \"A\"\n\xff", std::uint8_t{3}}, 7777,
-                   1'764'072'000'123);
-  EXPECT_EQ(line,
-            R"({"time":"2025-11-25T12:00:00.123Z","level":"info","event":"player_joined",)"
-            R"("match":7777,"player":3,"text":"player 3 joined: \"A\"\n)"
-            "\xef\xbf\xbd\"}");
+  const std::string line = journal_line(
+      {"player_joined", "player 3 joined: \"A\"\n\xff", std::uint8_t{3}}, 7777, 1'764'072'000'123);
+  EXPECT_EQ(line, R"({"time":"2025-11-25T12:00:00.123Z","level":"info","event":"player_joined",)"
+                  R"("match":7777,"player":3,"text":"player 3 joined: \"A\"\n)"
+                  "\xef\xbf\xbd\"}");
 }
 
 TEST(Metrics, TellOfAttacksByReason) {

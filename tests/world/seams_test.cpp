@@ -1,4 +1,6 @@
 // Static bodies side by side are met as one surface; real steps, walls and rims are still met.
+#include "core/collision/narrow_phase/seams.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,6 @@
 #include <lockstone/testing/floating.h>
 #include <lockstone/thread_pool.h>
 
-#include "core/collision/narrow_phase/seams.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {

@@ -5,20 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check.h"
+
 /* tools/examples/pushers: one byte of configuration, the number of players; two bytes of input. */
 const struct lockstone_game_table* lockstone_game(void);
-
-static int failures = 0;
-
-static void check(int holds, const char* what, int line) {
-  if (holds) return;
-  ++failures;
-  fprintf(stderr, "line %d: %s\n  last error: %s\n", line, what, lks_last_error());
-}
-
-#define CHECK(condition) check((condition) != 0, #condition, __LINE__)
-#define OK(call) check((call) == LKS_OK, #call, __LINE__)
-#define REFUSED(status, call) check((call) == (status), #call " must be " #status, __LINE__)
 
 enum { PLAYERS = 2, TICKS = 240, MAX_EVENTS = 4096 };
 

@@ -104,13 +104,7 @@ struct ClientBox final : net::ClientObserver, net::InputSource, net::InputPredic
     at_tick(LKS_SESSION_SILENT, 0, 0, silent_us);
   }
   void desync_reported(const net::DesyncReport& report) override {
-    lks_session_event event = event_of(LKS_SESSION_DESYNC);
-    event.slot = report.slot;
-    event.tick = report.tick;
-    event.reason = static_cast<std::uint32_t>(report.verdict);
-    event.hash = report.hash_here;
-    event.other_hash = report.hash_there;
-    events.add(event, report.to_line());
+    events.add(event_of(report), report.to_line());
     say(LKS_LEVEL_ERROR, "desync: " + report.to_line());
   }
   void match_finished(net::FinishReason reason, std::uint64_t ticks) override {
@@ -164,16 +158,7 @@ std::string reason_of(const net::Client& client) {
 }
 
 lks_session_stats raw_of(const net::ClientStats& stats) {
-  lks_session_stats raw{};
-  raw.size = sizeof raw;
-  raw.margin_quarters = stats.margin_quarters;
-  raw.bytes_sent = stats.bytes_sent;
-  raw.bytes_received = stats.bytes_received;
-  raw.packets_sent = stats.packets_sent;
-  raw.packets_received = stats.packets_received;
-  raw.round_trip_us = stats.round_trip_us;
-  raw.substituted_inputs = stats.substituted_inputs;
-  raw.malformed_packets = stats.malformed_packets;
+  lks_session_stats raw = traffic_of(stats);
   raw.rollbacks = stats.rollbacks;
   raw.ticks_stepped_again = stats.ticks_stepped_again;
   raw.states_loaded = stats.states_loaded;

@@ -95,7 +95,7 @@ struct lks_server final : net::ServerObserver {
   }
 
   void tick_confirmed(std::uint64_t tick, std::span<const PlayerInput> inputs,
-                   std::optional<std::uint64_t> hash) override {
+                      std::optional<std::uint64_t> hash) override {
     lks_session_event event = event_of(LKS_SESSION_TICK);
     event.tick = tick;
     event.hash = hash.value_or(0);
@@ -133,13 +133,7 @@ struct lks_server final : net::ServerObserver {
     say(LKS_LEVEL_WARNING, refusal.to_line());
   }
   void desync_found(const net::DesyncReport& report) override {
-    lks_session_event event = event_of(LKS_SESSION_DESYNC);
-    event.slot = report.slot;
-    event.tick = report.tick;
-    event.reason = static_cast<std::uint32_t>(report.verdict);
-    event.hash = report.hash_here;
-    event.other_hash = report.hash_there;
-    events.add(event, report.to_line());
+    events.add(event_of(report), report.to_line());
     record(replay::EventKind::note, report.slot, "desync: " + report.to_line());
     say(LKS_LEVEL_ERROR, "desync: " + report.to_line());
   }
@@ -201,16 +195,7 @@ void claim(lks_server& made, lks_simulation* simulation, lks_transport* transpor
 }
 
 lks_session_stats raw_of(const net::PlayerStats& stats) {
-  lks_session_stats raw{};
-  raw.size = sizeof raw;
-  raw.margin_quarters = stats.margin_quarters;
-  raw.bytes_sent = stats.bytes_sent;
-  raw.bytes_received = stats.bytes_received;
-  raw.packets_sent = stats.packets_sent;
-  raw.packets_received = stats.packets_received;
-  raw.round_trip_us = stats.round_trip_us;
-  raw.substituted_inputs = stats.substituted_inputs;
-  raw.malformed_packets = stats.malformed_packets;
+  lks_session_stats raw = traffic_of(stats);
   raw.hashes_compared = stats.hashes_compared;
   raw.hashes_equal = stats.hashes_equal;
   return raw;

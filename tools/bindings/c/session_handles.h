@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <lockstone/net/session.h>
+
 #include "tools/bindings/c/game_handles.h"
 
 namespace lockstone::c {
@@ -49,6 +51,25 @@ class Updating {
   lks_session_event event{};
   event.kind = kind;
   return event;
+}
+
+/// A desync as an event; its text is the report's line.
+[[nodiscard]] lks_session_event event_of(const net::DesyncReport& report);
+
+/// The figures that servers keep of a player and clients of themselves; all else zero.
+template <class Stats>
+[[nodiscard]] lks_session_stats traffic_of(const Stats& stats) {
+  lks_session_stats raw{};
+  raw.size = sizeof raw;
+  raw.margin_quarters = stats.margin_quarters;
+  raw.bytes_sent = stats.bytes_sent;
+  raw.bytes_received = stats.bytes_received;
+  raw.packets_sent = stats.packets_sent;
+  raw.packets_received = stats.packets_received;
+  raw.round_trip_us = stats.round_trip_us;
+  raw.substituted_inputs = stats.substituted_inputs;
+  raw.malformed_packets = stats.malformed_packets;
+  return raw;
 }
 
 /// A time-out of a session; throws unless it is above 0.

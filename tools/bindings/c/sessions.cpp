@@ -24,6 +24,16 @@ void SessionEvents::give_text(std::size_t index, char* out, std::size_t capacity
   write_text(found == texts_.end() ? std::string_view() : found->text, out, capacity);
 }
 
+lks_session_event event_of(const net::DesyncReport& report) {
+  lks_session_event event = event_of(LKS_SESSION_DESYNC);
+  event.slot = report.slot;
+  event.tick = report.tick;
+  event.reason = static_cast<std::uint32_t>(report.verdict);
+  event.hash = report.hash_here;
+  event.other_hash = report.hash_there;
+  return event;
+}
+
 std::int64_t timeout_of(std::int64_t value_us, std::string_view field) {
   if (value_us <= 0) throw invalid(field, "must be above 0");
   return value_us;
