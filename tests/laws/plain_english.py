@@ -123,7 +123,7 @@ def read_tree(root):
 
 
 def read_words(text):
-    """(idioms, {phrase: (pattern, replacement)}) of a word list."""
+    """(idioms, {phrase: (its first letters, pattern, replacement)}) of a word list."""
     idioms, banned = [], {}
     for line in text.splitlines():
         if line.startswith("allow "):
@@ -132,7 +132,8 @@ def read_words(text):
             phrase, arrow, better = line.partition(" -> ")
             expect(arrow, f"plain_english_words.txt: no replacement: {line}")
             pattern = r"\s+".join(re.escape(word).replace(r"\*", r"\w*") for word in phrase.split())
-            banned[phrase] = re.compile(rf"\b{pattern}\b", re.IGNORECASE), better
+            first = phrase.split()[0].partition("*")[0].lower()
+            banned[phrase] = first, re.compile(rf"\b{pattern}\b", re.IGNORECASE), better
     return idioms, banned
 
 
@@ -147,8 +148,10 @@ def findings_in(prose, words, is_page=False):
     found = [(m.start(), "what", "name the subject") for m in _WHAT.finditer(prose)
              if not _QUESTION.match(prose, m.end()) and not is_idiom(prose, m.start(), idioms)]
     found += [(m.start(), "answers", "Returns") for m in _ANSWERS.finditer(prose) if not is_page]
-    for pattern, better in banned.values():
-        found += [(m.start(), "words", f"{' '.join(m[0].split())} -> {better}") for m in pattern.finditer(prose)]
+    lower = prose.lower()
+    for first, pattern, better in banned.values():
+        if first in lower:  # a search for plain text is a hundred times as fast
+            found += [(m.start(), "words", f"{' '.join(m[0].split())} -> {better}") for m in pattern.finditer(prose)]
     return sorted(found)
 
 
