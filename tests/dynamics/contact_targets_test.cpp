@@ -7,6 +7,7 @@
 
 #include "core/kernels/target.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -100,7 +101,7 @@ TEST(NetsOfBalls, AreTheSameOnEveryTarget) {
   const auto run = [](std::string_view target) {
     EXPECT_EQ(lanes::set_target(target), Status::ok);
     World world = wheels_of_balls();
-    test::step(world, 60);
+    test::step(world, test::share_of(60));
     return world.hash().total;
   };
   const std::uint64_t expected = run("scalar");

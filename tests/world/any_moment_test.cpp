@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/workload.h"
 #include "tests/world/random_commands.h"
 #include "tests/world/world_fixture.h"
 
@@ -12,7 +13,7 @@ namespace {
 using namespace literals;
 using Bytes = std::vector<std::byte>;
 
-constexpr std::uint64_t k_seeds = 60;  // 0 … k_seeds − 1
+constexpr auto k_seeds = test::share_of(std::uint64_t{60});  // 0 … k_seeds − 1
 constexpr int k_ticks = 40;
 
 std::string difference(const World& a, const World& b) {

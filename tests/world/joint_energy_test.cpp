@@ -8,6 +8,7 @@
 #include <lockstone/testing/floating.h>
 
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tests/world/joint_fixture.h"
 
 namespace lockstone {
@@ -82,7 +83,7 @@ struct Whirl {
 TEST(JointEnergy, OfBarsThatWhirlOnLeversIsNeverGained) {
   for (const JointKind kind :
        {JointKind::ball, JointKind::hinge, JointKind::slider, JointKind::weld})
-    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    for (std::uint64_t seed = 1; seed <= test::share_of(std::uint64_t{40}); ++seed)
       for (const int spin : {5, 20, 60})
         EXPECT_LT(Whirl(kind, seed, spin).gain(), 0.01)
             << static_cast<int>(kind) << ", seed " << seed << ", " << spin << " rad/s";
@@ -90,7 +91,7 @@ TEST(JointEnergy, OfBarsThatWhirlOnLeversIsNeverGained) {
 
 TEST(JointEnergy, IsGivenBackOnlyWhereTheSubstepDoesNotResolveTheTurning) {
   std::uint32_t calm = 0, wild = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::share_of(std::uint64_t{40}); ++seed) {
     Whirl slow(JointKind::weld, seed, 2), fast(JointKind::weld, seed, 60);
     (void)slow.gain();
     (void)fast.gain();

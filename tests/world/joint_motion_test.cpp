@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/workload.h"
 #include "tests/world/joint_fixture.h"
 
 namespace lockstone {
@@ -250,18 +251,22 @@ double widest_gap_about_a_post(int links, std::int64_t load) {
     joint.frame_a.position.y = -0.1_m;
   }
   double widest = 0;
-  for (int tick = 0; tick < 480; ++tick) {
+  constexpr int k_ticks = LKS_SANITIZED ? 240 : 480;
+  for (int tick = 0; tick < k_ticks; ++tick) {
     (void)world.step();
     widest = std::max(widest, worst_gap(world));
   }
   return widest;
 }
 
+// With sanitizers each rope carries one load, the heaviest.
 TEST(Joints, RopesAboutAPostStayTogether) {
   for (const int links : {6, 12, 16, 24, 36})
-    for (const int load : {10, 100, 250})
+    for (const int load : {250, 100, 10}) {
+      if (LKS_SANITIZED && load != 250) continue;
       EXPECT_LT(widest_gap_about_a_post(links, load), 0.02)
           << links << " links, " << load << " : 1";
+    }
 }
 
 TEST(Joints, FastBodiesPassBodiesThatTheyAreJoinedTo) {

@@ -6,6 +6,7 @@
 
 #include "core/world/state/snapshot_format.h"
 #include "tests/support/random.h"
+#include "tests/support/workload.h"
 #include "tests/world/world_fixture.h"
 
 namespace lockstone {
@@ -59,7 +60,8 @@ TEST(CanonicalSnapshot, MutatedIsRefusedWholeOrLives) {
   ASSERT_EQ(world.load(SnapshotKind::canonical, good), Status::ok);
   const std::uint64_t before = world.hash().total;
   int accepted = 0;
-  for (int i = 0; i < 400; ++i) {
+  constexpr int k_rounds = test::share_of(400);
+  for (int i = 0; i < k_rounds; ++i) {
     Bytes bytes = good;
     mutate(bytes, random);
     if (world.load(SnapshotKind::canonical, bytes) != Status::ok) {
@@ -71,7 +73,7 @@ TEST(CanonicalSnapshot, MutatedIsRefusedWholeOrLives) {
     expect_lives(world);
     ASSERT_EQ(world.load(SnapshotKind::canonical, good), Status::ok);
   }
-  EXPECT_LT(accepted, 400);
+  EXPECT_LT(accepted, k_rounds);
 }
 
 TEST(CanonicalSnapshot, OneFlippedBitThatIsLetInLives) {
@@ -80,7 +82,8 @@ TEST(CanonicalSnapshot, OneFlippedBitThatIsLetInLives) {
   test::Random random;
   World world = test::make_world();
   int accepted = 0;
-  for (int i = 0; i < 200; ++i) {
+  constexpr int k_rounds = test::share_of(200);
+  for (int i = 0; i < k_rounds; ++i) {
     Bytes bytes = good;
     bytes[random.below(bytes.size() - 8)] ^= static_cast<std::byte>(1U << random.below(8));
     reseal(bytes);
@@ -89,7 +92,7 @@ TEST(CanonicalSnapshot, OneFlippedBitThatIsLetInLives) {
     EXPECT_NE(world.hash().total, source.hash().total);
     expect_lives(world);
   }
-  EXPECT_GT(accepted, 50);  // velocities, impulses, user data: most bits make another good world
+  EXPECT_GT(accepted, k_rounds / 4);  // velocities, impulses, user data: most bits make another good world
 }
 
 }  // namespace

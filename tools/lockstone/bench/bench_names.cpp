@@ -8,7 +8,7 @@ namespace lockstone::tool {
 namespace {
 
 /// As `to_string`, in one word.
-std::string kind_name(std::size_t kind) {
+std::string numbered_kind(std::size_t kind) {
   std::string name(to_string(static_cast<ShapeKind>(kind)));
   std::ranges::replace(name, ' ', '-');
   return name;
@@ -29,7 +29,7 @@ std::vector<PairRow> pair_rows(const StepProfile& profile) {
     for (std::size_t b = a; b < StepProfile::k_kinds; ++b) {
       const PairProfile& pairs = profile.pair_kinds[a][b];
       if (pairs.pairs != 0)
-        rows.push_back({fmt::format("{}-{}", kind_name(a), kind_name(b)), &pairs});
+        rows.push_back({fmt::format("{}-{}", numbered_kind(a), numbered_kind(b)), &pairs});
     }
   }
   return rows;

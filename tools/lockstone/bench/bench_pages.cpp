@@ -13,7 +13,7 @@ namespace lockstone::tool {
 namespace {
 
 // One figure of a row at all its settings, the judged one among them.
-struct Figure {
+struct PageFigure {
   const bench::AccuracyRow* row;
   std::vector<const bench::AccuracyResult*> results;
 
@@ -29,11 +29,11 @@ struct Figure {
   }
 };
 
-std::vector<Figure> figures_of(std::span<const MeasuredAccuracy> rows) {
-  std::vector<Figure> figures;
+std::vector<PageFigure> figures_of(std::span<const MeasuredAccuracy> rows) {
+  std::vector<PageFigure> figures;
   for (const MeasuredAccuracy& measured : rows) {
     for (const bench::AccuracyResult& result : measured.results) {
-      const auto known = std::ranges::find_if(figures, [&](const Figure& figure) {
+      const auto known = std::ranges::find_if(figures, [&](const PageFigure& figure) {
         const bench::AccuracyResult& first = *figure.results.front();
         return figure.row == measured.row && first.name == result.name && first.unit == result.unit;
       });
@@ -47,9 +47,9 @@ std::vector<Figure> figures_of(std::span<const MeasuredAccuracy> rows) {
 }
 
 // Columns that are the same for all settings are left out.
-std::vector<std::vector<std::string>> columns_of(const std::vector<Figure>& figures) {
+std::vector<std::vector<std::string>> columns_of(const std::vector<PageFigure>& figures) {
   std::vector<std::vector<std::string>> all;
-  for (const Figure& figure : figures) {
+  for (const PageFigure& figure : figures) {
     const std::vector<std::string> settings = figure.settings();
     if (settings.size() > 1 && std::ranges::count(all, settings) == 0) all.push_back(settings);
   }
@@ -65,7 +65,7 @@ const char* verdict(bool met) {
   return met ? "met" : "**missed**";
 }
 
-std::string line_of(const Figure& figure) {
+std::string line_of(const PageFigure& figure) {
   const bench::AccuracyResult& judged = figure.judged();
   const std::string tries = judged.tries > 1 ? fmt::format(", {} tries", judged.tries) : "";
   std::string text = fmt::format("| {} | {}: {}{} | {} |", figure.row->number, figure.row->name,
@@ -79,9 +79,10 @@ std::string line_of(const Figure& figure) {
   return text + fmt::format(" {} |\n", judged.hash == 0 ? "" : hash_text(judged.hash));
 }
 
-std::string table_of(const std::vector<Figure>& figures, const std::vector<std::string>& columns) {
+std::string table_of(const std::vector<PageFigure>& figures,
+                     const std::vector<std::string>& columns) {
   std::string lines;
-  for (const Figure& figure : figures) {
+  for (const PageFigure& figure : figures) {
     const bool fits = columns.empty() ? figure.results.size() == 1 : figure.settings() == columns;
     if (fits) lines += line_of(figure);
   }
@@ -104,7 +105,7 @@ std::string head(std::string_view title, std::string_view command) {
 }  // namespace
 
 std::string accuracy_page(std::span<const MeasuredAccuracy> rows, std::string_view command) {
-  const std::vector<Figure> figures = figures_of(rows);
+  const std::vector<PageFigure> figures = figures_of(rows);
   std::string text = head("Errors against exact references", command);
   text +=
       "\nEach figure is the worst of its row. Settings are ticks a second and substeps of a tick; "

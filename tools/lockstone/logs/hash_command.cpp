@@ -45,7 +45,7 @@ struct HashOptions {
   bool json = false;  ///< always: here for symmetry with other commands
 };
 
-constexpr std::size_t k_most_config_bytes = 64U << 10;
+constexpr std::size_t k_most_quoted_config_bytes = 64U << 10;
 
 // All hashes on the way of a golden scene.
 ordered_json chain_of(const Games& games, const SceneDef& scene) {
@@ -185,7 +185,7 @@ int hash_log(const Games& games, const HashOptions& options) {
   json["game_version"] = log.game->version;
   json["match"] = match_text(found.ticks->reader().header());
   const ByteView config = found.ticks->config();
-  json["config"] = config.size() <= k_most_config_bytes ? hexadecimal_text(config) : "";
+  json["config"] = config.size() <= k_most_quoted_config_bytes ? hexadecimal_text(config) : "";
   const int code = LogRun(options, found).run(json);
   return code == k_ok ? emit(options, json) : code;
 }
