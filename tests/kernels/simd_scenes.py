@@ -40,8 +40,9 @@ def main():
         return 1
     wrong = 0
     for scene in scenes:
-        wanted = hashes(lockstone, scene)
-        different = [name for name in present if hashes(lockstone, scene, "--simd", name) != wanted]
+        # Without --simd one of the names is taken: golden_scenes compares that with the record.
+        wanted, *others = [hashes(lockstone, scene, "--simd", name) for name in present]
+        different = [name for name, other in zip(present[1:], others) if other != wanted]
         print(f"{scene['name']:<14} {wanted[0]}", *(f"other on {name}" for name in different))
         wrong += len(different)
     return 1 if wrong else 0

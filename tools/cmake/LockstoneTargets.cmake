@@ -13,23 +13,22 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_G
   target_compile_options(lockstone_options INTERFACE -fno-ipa-modref)
 endif()
 
-# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD is on, files of one folder are
-# compiled a few at once: headers take most of the time to compile one. More at once gain little,
-# and a change of one costs all of them. Elsewhere they are compiled one by one, whatever
-# CMAKE_UNITY_BUILD says.
+# lockstone_unite_sources(TARGET): where LOCKSTONE_UNITY_BUILD is on, up to twenty files of one part
+# (core/dynamics, net/session, …) are compiled at once: the headers of one unit take a second.
+# Elsewhere they are compiled one by one, whatever CMAKE_UNITY_BUILD says.
 function(lockstone_unite_sources target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${LOCKSTONE_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   set(folders)
   foreach(source IN LISTS sources)
-    get_filename_component(folder ${source} DIRECTORY)
+    string(REGEX MATCH "^[^/]*/" folder ${source})  # none for the files of a library without folders
     string(MAKE_C_IDENTIFIER "in_${folder}" folder)
     list(APPEND folders ${folder})
     list(APPEND ${folder} ${source})
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  set(most 8)
+  set(most 20)
   foreach(folder IN LISTS folders)
     list(LENGTH ${folder} length)
     math(EXPR groups "(${length} + ${most} - 1) / ${most}")

@@ -120,7 +120,7 @@ struct Work {
 };
 
 // The fields of a body that an impact changes.
-struct Motion {
+struct SideMotion {
   Vec3<Velocity> velocity, spin;
 };
 
@@ -143,7 +143,7 @@ class ImpactSolver {
   // there, and so may give the bodies more than they had (T. R. Kane, "A dynamics puzzle", 1984).
   // Without restitution all impulses take energy away.
   Velocity run() {
-    const Motion before_a = motion_of(a_), before_b = motion_of(b_);
+    const SideMotion before_a = motion_of(a_), before_b = motion_of(b_);
     for (int attempt = 0; attempt < k_attempts; ++attempt) {
       sweep();
       if (!work_.is_gain()) break;
@@ -155,11 +155,11 @@ class ImpactSolver {
   }
 
  private:
-  static Motion motion_of(const Side& side) {
+  static SideMotion motion_of(const Side& side) {
     return {side.body.record.velocity, side.body.record.spin};
   }
 
-  static void set_motion(const Side& side, const Motion& motion) {
+  static void set_motion(const Side& side, const SideMotion& motion) {
     if (side.share == Unit{}) return;  // others may be reading it
     side.body.record.velocity = motion.velocity;
     side.body.record.spin = motion.spin;

@@ -145,25 +145,25 @@ struct ShownFeatures {
 /// pushes by its front or not at all.
 bool find_face_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
                         const ShownFeatures& shown, Manifold& found) {
-  struct FaceChoice {
+  struct ShownFace {
     const ContactFeature& face;
     const ContactFeature& other;
     bool is_a;
     Fine separation = -k_any_separation;
   };
-  FaceChoice of_a{shown.a, shown.b, true}, of_b{shown.b, shown.a, false};
-  for (FaceChoice* choice : {&of_a, &of_b}) {
+  ShownFace of_a{shown.a, shown.b, true}, of_b{shown.b, shown.a, false};
+  for (ShownFace* choice : {&of_a, &of_b}) {
     if (!choice->face.is_flat) continue;
     const Vec3<Unit>& n = choice->face.normal;
     choice->separation = separation_along(pair, choice->is_a ? n : -n);
   }
   // A polygon has fewer sides than the face of something round.
   const bool a_first = is_round(pair.b.shape) && !is_round(pair.a.shape);
-  const FaceChoice& first = a_first ? of_a : of_b;
-  const FaceChoice& second = a_first ? of_b : of_a;
+  const ShownFace& first = a_first ? of_a : of_b;
+  const ShownFace& second = a_first ? of_b : of_a;
   const bool changes =
       !first.face.is_flat || second.separation > second_face_threshold(first.separation);
-  for (const FaceChoice* choice : {changes ? &second : &first, changes ? &first : &second}) {
+  for (const ShownFace* choice : {changes ? &second : &first, changes ? &first : &second}) {
     if (!choice->face.is_flat || !stands_for(choice->separation, axis.separation)) continue;
     found = on_face(pair, choice->face, choice->other, choice->is_a);
     if (attains(found, choice->separation)) return true;
