@@ -126,6 +126,7 @@ wanted=("$@")
 
 # A package that cannot be installed costs its target, not the others.
 (require_packages demo build clang cross) || true
+if [[ " ${wanted[*]} " == *" riscv64 "* ]]; then (require_packages cross-riscv64) || true; fi
 if [[ " ${wanted[*]} " =~ \ (i386|windows|wasm|wasm-scalar)\  ]]; then (require_packages cross-more) || true; fi
 export WINEDEBUG=${WINEDEBUG:--all}
 # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.

@@ -132,15 +132,15 @@ while (($#)); do
   esac
 done
 
-require_packages demo build assets
-if "$bindings"; then require_packages bindings; fi
+sections=(demo build assets)
+if "$bindings"; then sections+=(bindings); fi
+if "$sanitize" || ((fuzz_seconds)); then sections+=(clang); fi
+require_packages "${sections[@]}"
 if "$sanitize"; then
-  require_packages clang
   build_preset asan-ubsan
   run_tests asan-ubsan
 fi
 if ((fuzz_seconds)); then
-  require_packages clang
   mapfile -t build_targets < <(fuzzers | sed 's/^/fuzz_/')
   build_preset fuzz
   build_targets=()

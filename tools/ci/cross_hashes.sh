@@ -83,6 +83,7 @@ hash_match() {
 }
 
 (require_packages demo cross) || true  # a package that cannot be had costs its target
+if [[ " ${targets[*]} " == *" riscv64 "* ]]; then (require_packages cross-riscv64) || true; fi
 mkdir -p "$out"
 for target in "${targets[@]}"; do
   [[ $target == native || -f tools/cmake/toolchains/$target.cmake ]] || die "unknown target $target"
