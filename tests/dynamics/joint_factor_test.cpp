@@ -83,6 +83,20 @@ TEST(JointFactor, SolvesItsSystem) {
   }
 }
 
+TEST(JointFactor, LosesBitsWhereASolutionIsGreat) {
+  Chain chain(1);
+  for (std::uint32_t row = 0; row < k_rows; ++row) {
+    for (std::uint32_t column = 0; column <= row; ++column)
+      chain.set(row, column, row == column ? std::ldexp(1, -10 * static_cast<int>(row)) : 0);
+  }
+  EXPECT_EQ(chain.factor.factor(0, 1), 0U);
+  for (std::uint32_t row = 0; row < k_rows; ++row)
+    chain.factor.rhs(row) = std::int64_t{3} << 46;
+  EXPECT_EQ(chain.factor.solve(0, 1), 12);
+  for (std::uint32_t row = 0; row < k_rows; ++row)
+    EXPECT_EQ(chain.factor.rhs(row), std::int64_t{3} << (46 - 12 + 10 * row));
+}
+
 TEST(JointFactor, LeavesOutRowsThatSayTheSameTwice) {
   Chain chain(1);
   for (std::uint32_t row = 0; row < k_rows; ++row) {

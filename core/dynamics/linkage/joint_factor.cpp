@@ -23,6 +23,9 @@ constexpr std::size_t k_most_blocks_per_joint = 6;
 
 constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_matrix_bits - 24);
 
+// A solution of 2^10 has impulses that light bodies should not get at once, see `TreeLocks`.
+constexpr std::uint64_t k_solution_bound = std::uint64_t{1} << 56;
+
 // Bits that a solution loses where it would not fit, and how often.
 constexpr int k_fewer_bits = 12, k_most_tries = 4;
 
@@ -338,6 +341,7 @@ bool JointFactor::substitute_back(std::uint32_t first, const Column& column, Siz
     y[c] = product_rounded(y[c], inverse.mantissa, inverse.shift);
     fits = magnitude(y[c]) < k_product_bound && fits;
     fits = take(y[c], sums[c].rounded(k_factor_bits)) && fits;
+    fits = magnitude(y[c]) < k_solution_bound && fits;
   }
   return fits;
 }

@@ -80,7 +80,7 @@ class JointFactor {
   std::uint32_t factor(std::uint32_t first, std::uint32_t count);
 
   /// Solves for `rhs`. Returns by how many fraction bits the solution is shorter than 46: almost
-  /// always none, more where it would exceed 2^15.
+  /// always none, more where it would exceed 2^10.
   [[nodiscard]] int solve(std::uint32_t first, std::uint32_t count);
 
  private:
