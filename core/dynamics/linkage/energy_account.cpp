@@ -15,14 +15,14 @@ namespace {
 
 // In a tick a cluster may gain 2^-this of its kinetic energy: where steps hold the joints, whose
 // errors come and go, and where they do not.
-constexpr int k_free_gain_shift = 6, k_rough_gain_shift = 10;
+constexpr int k_free_gain_shift = 8, k_rough_gain_shift = 10;
 
 // Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.
 constexpr std::int64_t k_rounding_energy = 43;
 
 }  // namespace
 
-void EnergyAccount::open(JointCluster& cluster) {
+void EnergyAccount::open(JointCluster& cluster, bool turns_wildly) {
   const auto stands = [&](std::uint32_t index) {
     return system_.bodies[index].pushed || system_.bodies[index].solver == 0;
   };
@@ -32,7 +32,7 @@ void EnergyAccount::open(JointCluster& cluster) {
   };
   cluster.gained = 0;
   for (JointGroup& group : system_.groups_of(cluster))
-    group.is_rough = false;
+    group.is_rough = turns_wildly;
   cluster.is_driven = std::ranges::any_of(system_.joints_of(cluster), [](const LinkedJoint& joint) {
     return std::ranges::any_of(joint.record->axes, &JointAxisRecord::is_driven);
   });

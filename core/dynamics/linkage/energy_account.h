@@ -25,8 +25,9 @@ class EnergyAccount {
   void clear() { returns_ = 0; }
 
   /// When a cluster's joints are prepared for a tick: finds its heaviest body, and whether anything
-  /// but gravity and forces drives it.
-  void open(JointCluster& cluster);
+  /// but gravity and forces drives it. `turns_wildly`: a body turns so far in a substep that its
+  /// energy is kept as strictly as where steps fail.
+  void open(JointCluster& cluster, bool turns_wildly);
 
   /// At the beginning of a substep.
   void begin(const JointRun& run, JointCluster& cluster);

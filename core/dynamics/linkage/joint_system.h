@@ -42,7 +42,7 @@ struct JointGroup {
   bool is_factored : 1 = false;
   bool is_fresh : 1 = false;      // and so for the present rows
   bool turns_fast : 1 = false;    // in this tick a factor of earlier rows did not serve
-  bool is_rough : 1 = false;      // a step of this tick did not hold the joints
+  bool is_rough : 1 = false;      // a step did not hold the joints, or bodies turn wildly
   std::int16_t fresh_solves = 0;  // for velocities, with a factor of the present rows
   int exponent = 0;               // least of its rows
   std::int64_t speed = 0;         // greatest of its locks, as last found, Q50
