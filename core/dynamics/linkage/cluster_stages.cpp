@@ -18,7 +18,7 @@ namespace {
 constexpr int k_drive_passes = 2;
 
 // A group whose bodies turn by more than 2^-this rad in a substep does not begin with an earlier
-// factor; does not go half a substep first, since its energy needs the account, and a strict one.
+// factor; does not go half a substep first, since its energy needs the account.
 constexpr int k_stale_turn = 7, k_wild_turn = 3;
 
 // Repeats the impulses of the last substep. Those after it went into the velocities already.
@@ -74,16 +74,14 @@ void ClusterStages::begin(JointCluster& cluster) {
 void ClusterStages::prepare(const JointRun& run, JointCluster& cluster) {
   LKS_ASSERT(cluster.group_count > 0);
   linearize(system_, cluster);
-  bool is_wild = false;
-  for (JointGroup& group : system_.groups_of(cluster)) {
+  for (JointGroup& group : system_.groups_of(cluster))
     group.turns_fast = turns_fast(run, system_, group, k_stale_turn);
-    is_wild = is_wild || turns_fast(run, system_, group, k_wild_turn);
-  }
   for (LinkedJoint& joint : system_.joints_of(cluster))
     leave_out_far_limits(run, system_.step, joint);
-  if (cluster.drifts_first && is_wild) stay(cluster);
+  if (cluster.drifts_first && turns_fast(run, system_, system_.groups_of(cluster)[0], k_wild_turn))
+    stay(cluster);
   if (cluster.drifts_first) drift_first(run, cluster);
-  account_.open(cluster, is_wild);
+  account_.open(cluster);
 }
 
 void ClusterStages::warm_start(const JointRun& run, JointCluster& cluster) {

@@ -185,7 +185,6 @@ void LockSolver::solve_positions(const JointRun& run, const JointCluster& cluste
   if (holds && !(must_be_passive && closes_too_fast(run, system_, cluster))) return;
   restore(run, group);
   hold_roughly(run, cluster, group);
-  group.is_rough = true;
 }
 
 // Returns the widest opening that is left.

@@ -240,8 +240,8 @@ void TreeLocks::apply(const JointRun& run, const JointGroup& group, bool positio
     const std::span<const std::int64_t> solution = errors(group, k);
     RowImpulses impulses;
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
-      impulses[r] = times_mass(solution[r], joint.inverse_mass,
-                               4 + shift - joint.scales[r] - group.exponent);
+      impulses[r] =
+          times_mass(solution[r], joint.inverse_mass, 4 + shift - joint.scales[r] - group.exponent);
       const std::uint8_t axis = joint.rows.rows[r].axis;
       std::int64_t& total = later ? joint.relaxed[axis] : joint.locks[axis];
       total = bounded(total + impulses[r], k_product_bound);
