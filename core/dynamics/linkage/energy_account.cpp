@@ -14,7 +14,7 @@ namespace lockstone {
 namespace {
 
 // A cluster may gain, and regain of what it lost, 2^-this of its kinetic energy.
-constexpr int k_gain_shift = 6;
+constexpr int k_gain_shift = 10;
 
 // In a tick the account forgets 2^-this of itself: half in three seconds.
 constexpr int k_forget_shift = 8;
