@@ -49,17 +49,30 @@ TEST(EffortPolicy, CallsAPileLooseFromWhenAQuarterIsStirredUntilHalfIsNot) {
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
 }
 
-TEST(EffortPolicy, CallsNoIslandLooseThatIsSmallUnevenOrJointed) {
+TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
   IslandLoad island;
   island.bodies = island.stirred = 24;
   EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
   --island.bodies;
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
   island.bodies = 100;
-  island.is_uneven = true;
+  island.least_share = (1 << 30) / 16 - 1;
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
-  island.is_uneven = false;
+}
+
+TEST(EffortPolicy, CallsNoIslandWithJointsLooseThatIsSmallUnevenOrCarried) {
+  IslandLoad island;
   island.joints = 1;
+  island.bodies = island.stirred = 8;
+  island.least_share = (1 << 30) / 32;
+  EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
+  --island.least_share;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+  ++island.least_share;
+  island.is_carried = true;
+  EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
+  island.is_carried = false;
+  --island.bodies;
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
 }
 

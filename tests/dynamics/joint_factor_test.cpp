@@ -77,10 +77,24 @@ TEST(JointFactor, SolvesItsSystem) {
         sum += chain.at(row, column) * expected[column];
       chain.factor.rhs(row) = std::llround(std::ldexp(sum, 46));
     }
-    chain.factor.solve(0, chain.count);
+    EXPECT_EQ(chain.factor.solve(0, chain.count), 0);
     for (std::uint32_t row = 0; row < expected.size(); ++row)
       ASSERT_NEAR(std::ldexp(static_cast<double>(chain.factor.rhs(row)), -46), expected[row], 1e-8);
   }
+}
+
+TEST(JointFactor, LosesBitsWhereASolutionIsGreat) {
+  Chain chain(1);
+  for (std::uint32_t row = 0; row < k_rows; ++row) {
+    for (std::uint32_t column = 0; column <= row; ++column)
+      chain.set(row, column, row == column ? std::ldexp(1, -10 * static_cast<int>(row)) : 0);
+  }
+  EXPECT_EQ(chain.factor.factor(0, 1), 0U);
+  for (std::uint32_t row = 0; row < k_rows; ++row)
+    chain.factor.rhs(row) = std::int64_t{3} << 46;
+  EXPECT_EQ(chain.factor.solve(0, 1), 12);
+  for (std::uint32_t row = 0; row < k_rows; ++row)
+    EXPECT_EQ(chain.factor.rhs(row), std::int64_t{3} << (46 - 12 + 10 * row));
 }
 
 TEST(JointFactor, LeavesOutRowsThatSayTheSameTwice) {
@@ -92,7 +106,7 @@ TEST(JointFactor, LeavesOutRowsThatSayTheSameTwice) {
   EXPECT_EQ(chain.factor.factor(0, 1), 1U);
   for (std::uint32_t row = 0; row < k_rows; ++row)
     chain.factor.rhs(row) = std::int64_t{1} << 46;
-  chain.factor.solve(0, 1);
+  EXPECT_EQ(chain.factor.solve(0, 1), 0);
   EXPECT_EQ(chain.factor.rhs(0), std::int64_t{2} << 46);
   EXPECT_EQ(chain.factor.rhs(1), 0);
   EXPECT_EQ(chain.factor.rhs(2), std::int64_t{2} << 46);

@@ -64,6 +64,16 @@ TEST(GeneralRun, GainsNoEnergyWhereJointsCannotHold) {
     EXPECT_LT(play("jumble", seed).gain, 0.05) << seed;
 }
 
+// Sliders, welds and hinges with levers of metres between masses of 1000 : 1, thrown: the impulses
+// that hold them exceed those that light bodies may get at once.
+TEST(GeneralRun, HoldsLightBodiesBetweenHeavyOnesOnLongLevers) {
+  for (const std::uint64_t seed : {245587U, 348918U}) {
+    const GeneralFigures figures = play("fling", seed);
+    EXPECT_LT(figures.speed, 30) << seed;
+    EXPECT_LT(figures.gain, 0.05) << seed;
+  }
+}
+
 TEST(GeneralRun, EndsInTheSameStateOnAnyNumberOfThreads) {
   GeneralOptions options;
   for (const std::string_view name : {"pendulum", "cairn", "clatter", "trigger"})

@@ -34,8 +34,9 @@ struct IslandLoad {
   static constexpr std::uint32_t k_most_overloaded = 8;
   /// With more bearing contacts it is a stack, which is rebalanced: it would bend without.
   static constexpr std::uint32_t k_most_bearing = 128;
-  /// With fewer bodies it is no loose pile: few ones converge at little cost.
-  static constexpr std::uint32_t k_least_loose = 24;
+  /// With fewer bodies it is no loose pile, with joints or without: few ones converge at little
+  /// cost.
+  static constexpr std::uint32_t k_least_jointed_loose = 8, k_least_loose = 24;
 
   bool iterates_only = false;  ///< nets, locked axes or rolling resistance: no direct steps
   bool is_pinched = false;     ///< between a moving kinematic body and another immovable one
@@ -43,23 +44,25 @@ struct IslandLoad {
   bool is_fed = false;         ///< something besides gravity and forces may give it energy
   bool has_joints = false;     ///< known where an island may gain energy
   bool is_struck = false;      ///< a contact of it comes in fast
-  bool is_uneven = false;      ///< bodies that touch differ in mass by more than 16 : 1
+  bool is_carried = false;     ///< a joint holds it to an immovable body, or has a drive
   bool is_loose = false;       ///< a loose pile, which iterations bring to rest
   bool is_converged = false;   ///< solved to convergence, by `BlockSolver`
   std::uint32_t bodies = 0;    ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;
-  std::uint32_t loose = 0;     ///< bodies that were of a loose pile in the last tick
-  std::uint32_t stirred = 0;   ///< bodies much faster or slower than the island as a whole
-  std::int32_t velocity[3]{};  ///< the mean of its bodies, 1/16 m/s
-  std::uint32_t fresh = 0;     ///< contacts of this tick, between two dynamic bodies
-  std::uint32_t bearing = 0;   ///< contacts whose mean impulse is several times a weight
-  SharedCount overloaded;      ///< contacts at rest under several times a body's weight; from
-                               ///< k_most_overloaded + 1 on it may be any greater number
+  std::int32_t least_share = 1 << 30;  ///< of the masses of two that touch or are jointed, Q30
+  std::uint32_t loose = 0;             ///< bodies that were of a loose pile in the last tick
+  std::uint32_t stirred = 0;           ///< bodies much faster or slower than the island as a whole
+  std::int32_t velocity[3]{};          ///< the mean of its bodies, 1/16 m/s
+  std::uint32_t fresh = 0;             ///< contacts of this tick, between two dynamic bodies
+  std::uint32_t bearing = 0;           ///< contacts whose mean impulse is several times a weight
+  SharedCount overloaded;  ///< contacts at rest under several times a body's weight; from
+                           ///< k_most_overloaded + 1 on it may be any greater number
 
-  /// Enough bodies, without joints and of like masses.
+  /// Enough bodies: with joints that only limit how they lie to each other, or of like masses.
   [[nodiscard]] bool may_be_loose() const {
-    return bodies >= k_least_loose && joints == 0 && !is_uneven;
+    if (joints == 0) return bodies >= k_least_loose && least_share >= (1 << 30) / 16;
+    return bodies >= k_least_jointed_loose && !is_carried && least_share >= (1 << 30) / 32;
   }
   [[nodiscard]] bool is_stack() const { return !is_converged && bearing > k_most_bearing; }
   [[nodiscard]] bool few_are_overloaded() const { return overloaded.get() <= k_most_overloaded; }

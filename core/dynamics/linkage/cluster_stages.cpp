@@ -17,6 +17,10 @@ namespace {
 // Of iterations over drives and limits before positions move.
 constexpr int k_drive_passes = 2;
 
+// A group whose bodies turn by more than 2^-this rad in a substep does not begin with an earlier
+// factor; does not go half a substep first, since its energy needs the account.
+constexpr int k_stale_turn = 7, k_wild_turn = 3;
+
 // Repeats the impulses of the last substep. Those after it went into the velocities already.
 void repeat_impulses(const JointRun& run, LinkedJoint& joint) {
   RowImpulses impulses;
@@ -39,9 +43,11 @@ void repeat_impulses(const JointRun& run, LinkedJoint& joint) {
   if (end > 0) push(run, joint, 0, std::max(end, joint.rows.locks), impulses);
 }
 
-// Whether a body of the group turns by more than 1/128 rad in a substep.
-bool turns_fast(const JointRun& run, const JointSystem& system, const JointGroup& group) {
-  const std::int64_t most = std::int64_t{system.step.substep_rate()} << 25;  // rad/s, Q32
+// Whether a body of the group turns by more than 2^-shift rad in a substep.
+bool turns_fast(const JointRun& run, const JointSystem& system, const JointGroup& group,
+                int shift) {
+  LKS_ASSERT(shift > 0 && shift < 32);
+  const std::int64_t most = std::int64_t{system.step.substep_rate()} << (32 - shift);  // rad/s, Q32
   return std::ranges::any_of(system.bodies_of(group), [&](std::uint32_t index) {
     const LinkedBody& body = system.bodies[index];
     const Vec3<Velocity> surface = motion_of(body, run.rows[body.solver]).surface;
@@ -69,9 +75,11 @@ void ClusterStages::prepare(const JointRun& run, JointCluster& cluster) {
   LKS_ASSERT(cluster.group_count > 0);
   linearize(system_, cluster);
   for (JointGroup& group : system_.groups_of(cluster))
-    group.turns_fast = turns_fast(run, system_, group);
+    group.turns_fast = turns_fast(run, system_, group, k_stale_turn);
   for (LinkedJoint& joint : system_.joints_of(cluster))
     leave_out_far_limits(run, system_.step, joint);
+  if (cluster.drifts_first && turns_fast(run, system_, system_.groups_of(cluster)[0], k_wild_turn))
+    stay(cluster);
   if (cluster.drifts_first) drift_first(run, cluster);
   account_.open(cluster);
 }

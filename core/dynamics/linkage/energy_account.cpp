@@ -13,9 +13,14 @@
 namespace lockstone {
 namespace {
 
-// In a tick a cluster may gain 2^-this of its kinetic energy: where steps hold the joints, whose
-// errors come and go, and where they do not.
-constexpr int k_free_gain_shift = 6, k_rough_gain_shift = 10;
+// A cluster may gain, and regain of what it lost, 2^-this of its kinetic energy.
+constexpr int k_gain_shift = 10;
+
+// In a tick the account forgets 2^-this of itself: half in three seconds.
+constexpr int k_forget_shift = 8;
+
+// From fraction bits of the record to those of energies here.
+constexpr int k_record_shift = 32 - k_gained_frac_bits;
 
 // Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.
 constexpr std::int64_t k_rounding_energy = 43;
@@ -30,9 +35,6 @@ void EnergyAccount::open(JointCluster& cluster) {
     const LinkedBody& body = system_.bodies[index];
     return body.touches || body.is_among_contacts || body.in_net;
   };
-  cluster.gained = 0;
-  for (JointGroup& group : system_.groups_of(cluster))
-    group.is_rough = false;
   cluster.is_driven = std::ranges::any_of(system_.joints_of(cluster), [](const LinkedJoint& joint) {
     return std::ranges::any_of(joint.record->axes, &JointAxisRecord::is_driven);
   });
@@ -42,8 +44,19 @@ void EnergyAccount::open(JointCluster& cluster) {
       std::ranges::all_of(system_.joints_of(cluster), [&](const LinkedJoint& joint) {
         return stands(joint.a) && stands(joint.b);
       });
+  cluster.first_gained = 0;
+  if (cluster.is_passive) {
+    const std::int64_t stored = system_.joints_of(cluster)[0].record->energy_gained;
+    cluster.first_gained =
+        (stored - raw::round_shift(stored, k_forget_shift)) * (std::int64_t{1} << k_record_shift);
+  }
+  cluster.gained = cluster.first_gained;
   find_heaviest_body(cluster);
   cluster.knows_energy = false;
+}
+
+std::int32_t EnergyAccount::stored_gain(const JointCluster& cluster) {
+  return raw::saturate<std::int32_t>(raw::round_shift(cluster.gained, k_record_shift));
 }
 
 void EnergyAccount::find_heaviest_body(JointCluster& cluster) {
@@ -140,11 +153,10 @@ void EnergyAccount::settle(const JointRun& run, JointCluster& cluster) {
     return twice.rounded(31);
   });
   cluster.gained = raw::saturating_add(cluster.gained, raw::saturating_add(cluster.energy, -work));
-  const bool is_rough = std::ranges::any_of(
-      system_.groups_of(cluster),
-      [&](const JointGroup& group) { return group.is_rough || system_.is_stiff(group); });
-  const int shift = is_rough ? k_rough_gain_shift : k_free_gain_shift;
-  if (cluster.gained <= (cluster.energy >> shift) + k_rounding_energy) return;
+  // Where little moves, at a turning point, the account stays as it came from faster ticks.
+  const std::int64_t share = cluster.energy >> k_gain_shift;
+  cluster.gained = std::max(cluster.gained, std::min(-share, cluster.first_gained));
+  if (cluster.gained <= std::max(share, cluster.first_gained) + k_rounding_energy) return;
   cluster.knows_energy = false;
   returns_.fetch_add(1, std::memory_order_relaxed);
   begin_pushes(run, system_, system_.bodies_of(cluster));

@@ -2,10 +2,11 @@
 //
 // Locks and limits do no work, so a cluster that nothing else drives has no more energy than
 // gravity and forces give it. Where links turn faster than the substep resolves, a step may still
-// give it some. Each tick keeps an account of that for each cluster: once the gain exceeds a part
-// of its energy, the velocities go towards those of a step without positional correction, which is
-// a projection in the metric of the masses and so gains nothing, as far as it takes to return the
-// gain.
+// give it some. Each cluster has an account of that, in the record of its first joint: once the
+// gain exceeds a part of its energy, the velocities go towards those of a step without positional
+// correction, which is a projection in the metric of the masses and so gains nothing, as far as it
+// takes to return the gain. Losses count as well, up to a part of the energy, so that errors that
+// come and go cost nothing.
 #pragma once
 
 #include <atomic>
@@ -34,8 +35,11 @@ class EnergyAccount {
   /// After the impulses of the last substep: if they give much energy, less of them is repeated.
   void limit_warm_start(const JointRun& run, const JointCluster& cluster);
 
-  /// After a substep: the cluster returns its gain of the tick, if that is more than it may keep.
+  /// After a substep: the cluster returns its gain, if that is more than it may keep.
   void settle(const JointRun& run, JointCluster& cluster);
+
+  /// After the last substep: its gain for `JointRecord::energy_gained`.
+  [[nodiscard]] static std::int32_t stored_gain(const JointCluster& cluster);
 
   /// Times that a cluster returned energy in this tick.
   [[nodiscard]] std::uint32_t returns() const { return returns_; }

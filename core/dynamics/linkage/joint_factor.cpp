@@ -7,6 +7,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/math/int128.h"
 #include "core/math/product_sum.h"
 #include "core/math/reciprocal.h"
 
@@ -22,9 +23,18 @@ constexpr std::size_t k_most_blocks_per_joint = 6;
 
 constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_matrix_bits - 24);
 
+// A solution of 2^10 has impulses that light bodies should not get at once, see `TreeLocks`.
+constexpr std::uint64_t k_solution_bound = std::uint64_t{1} << 56;
+
+// Bits that a solution loses where it would not fit, and how often.
+constexpr int k_fewer_bits = 12, k_most_tries = 4;
+
 // x ← x − part, clamped, since the factors of a matrix that is nearly singular have no bound.
-void take(std::int64_t& x, std::int64_t part) {
-  x = std::clamp(x - part, -k_product_bound, k_product_bound);
+// Returns whether it fits.
+bool take(std::int64_t& x, std::int64_t part) {
+  const std::int64_t left = x - part;
+  x = std::clamp(left, -k_product_bound, k_product_bound);
+  return x == left && magnitude(part) < k_product_bound;
 }
 
 // Points have three rows, contacts four: numbers that are known while compiling.
@@ -60,7 +70,7 @@ void subtract_product(std::int64_t* to, const Product<Rows, Columns, Terms>& siz
       ProductSum sum;
       for (std::uint32_t c = 0; c < size.terms; ++c)
         sum.add(entries[r * size.terms + c], factors[s * size.terms + c]);
-      take(to[r * size.columns + s], sum.rounded(k_factor_bits));
+      (void)take(to[r * size.columns + s], sum.rounded(k_factor_bits));
     }
   }
 }
@@ -82,6 +92,7 @@ JointFactor::JointFactor(std::size_t joint_capacity)
   blocks_.reserve(block_capacity_);
   values_.reserve(value_capacity_);
   rhs_.reserve(joint_capacity * k_factor_rows);
+  given_.reserve(joint_capacity * k_factor_rows);
   reciprocals_.reserve(joint_capacity * k_factor_rows);
   marks_.reserve(joint_capacity);
   found_.reserve(joint_capacity);
@@ -94,6 +105,7 @@ void JointFactor::clear() {
   blocks_.clear();
   values_.clear();
   rhs_.clear();
+  given_.clear();
   reciprocals_.clear();
 }
 
@@ -122,6 +134,7 @@ bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_
   if (values > value_capacity_) return false;
   values_.resize(values);
   rhs_.resize(rhs_.size() + rows);
+  given_.resize(rhs_.size());
   reciprocals_.resize(rhs_.size());
   if (!found_.empty()) {
     next_[k] = head_[found_.front()];
@@ -166,7 +179,7 @@ std::uint32_t JointFactor::factor_diagonal(Column& column) {
     }
     for (std::uint32_t r = c + 1; r < n; ++r) {
       for (std::uint32_t s = c + 1; s <= r; ++s)
-        take(d[r * n + s], product_rounded(d[r * n + c], above[s], k_factor_bits));
+        (void)take(d[r * n + s], product_rounded(d[r * n + c], above[s], k_factor_bits));
     }
   }
   return left_out;
@@ -183,7 +196,7 @@ void JointFactor::eliminate_block(const Column& column, std::int64_t* b, std::ui
       ProductSum sum;
       for (std::uint32_t s = 0; s < c; ++s)
         sum.add(line[s], d[c * n + s]);
-      take(line[c], sum.rounded(k_factor_bits));
+      (void)take(line[c], sum.rounded(k_factor_bits));
     }
   }
 }
@@ -253,36 +266,57 @@ std::uint32_t JointFactor::factor(std::uint32_t first, std::uint32_t count) {
   return left_out;
 }
 
-void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
-  LKS_ASSERT(first + count <= columns_.size());
+int JointFactor::solve(std::uint32_t first, std::uint32_t count) {
+  LKS_ASSERT(count > 0 && first + count <= columns_.size());
+  const Column& last = columns_[first + count - 1];
+  const std::size_t begin = columns_[first].first_row, size = last.first_row + last.rows - begin;
+  const std::span<std::int64_t> rhs = std::span(rhs_).subspan(begin, size);
+  const std::span<std::int64_t> given = std::span(given_).subspan(begin, size);
+  std::ranges::copy(rhs, given.begin());
+  int lost = 0;
+  for (int i = 1; !try_solve(first, count) && i < k_most_tries; ++i) {
+    lost += k_fewer_bits;
+    std::ranges::transform(given, rhs.begin(),
+                           [&](std::int64_t x) { return raw::round_shift(x, lost); });
+  }
+  return lost;
+}
+
+// Returns whether the solution fits.
+bool JointFactor::try_solve(std::uint32_t first, std::uint32_t count) {
+  bool fits = true;
   for (std::uint32_t k = 0; k < count; ++k) {
     const Column& column = columns_[first + k];
-    with_size(column.count, [&](auto n) { substitute(first, column, n); });
+    with_size(column.count, [&](auto n) { fits = substitute(first, column, n) && fits; });
   }
   for (std::uint32_t k = count; k-- > 0;) {
     const Column& column = columns_[first + k];
-    with_size(column.count, [&](auto n) { substitute_back(first, column, n); });
+    with_size(column.count, [&](auto n) { fits = substitute_back(first, column, n) && fits; });
   }
+  return fits;
 }
 
 // Forward substitution: subtracts the terms of one joint's rows from its own and from those below.
+// Both return whether all numbers fit.
 template <class Size>
-void JointFactor::substitute(std::uint32_t first, const Column& column, Size n) {
+bool JointFactor::substitute(std::uint32_t first, const Column& column, Size n) {
   std::int64_t* y = rhs_.data() + column.first_row;
   const std::int64_t* d = values_.data() + column.diagonal;
+  bool fits = true;
   for (std::uint32_t r = 1; r < n; ++r)
-    take(y[r], dot_product(d + r * n, y, r).rounded(k_factor_bits));
+    fits = take(y[r], dot_product(d + r * n, y, r).rounded(k_factor_bits)) && fits;
   for (const Block& block : blocks(column)) {
     const Column& target = columns_[first + block.row];
     const std::int64_t* line = values_.data() + block.values;
     std::int64_t* x = rhs_.data() + target.first_row;
     for (std::uint32_t r = 0; r < target.count; ++r, line += n)
-      take(x[r], dot_product(line, y, n).rounded(k_factor_bits));
+      fits = take(x[r], dot_product(line, y, n).rounded(k_factor_bits)) && fits;
   }
+  return fits;
 }
 
 template <class Size>
-void JointFactor::substitute_back(std::uint32_t first, const Column& column, Size n) {
+bool JointFactor::substitute_back(std::uint32_t first, const Column& column, Size n) {
   std::int64_t* y = rhs_.data() + column.first_row;
   const std::int64_t* d = values_.data() + column.diagonal;
   std::array<ProductSum, k_factor_rows> sums;
@@ -295,6 +329,7 @@ void JointFactor::substitute_back(std::uint32_t first, const Column& column, Siz
         sums[c].add(line[c], x[r]);
     }
   }
+  bool fits = true;
   for (std::uint32_t c = n; c-- > 0;) {
     const Reciprocal& inverse = reciprocals_[column.first_row + c];
     if (inverse.mantissa == 0) {
@@ -304,8 +339,11 @@ void JointFactor::substitute_back(std::uint32_t first, const Column& column, Siz
     for (std::uint32_t r = c + 1; r < n; ++r)
       sums[c].add(d[r * n + c], y[r]);
     y[c] = product_rounded(y[c], inverse.mantissa, inverse.shift);
-    take(y[c], sums[c].rounded(k_factor_bits));
+    fits = magnitude(y[c]) < k_product_bound && fits;
+    fits = take(y[c], sums[c].rounded(k_factor_bits)) && fits;
+    fits = magnitude(y[c]) < k_solution_bound && fits;
   }
+  return fits;
 }
 
 }  // namespace lockstone

@@ -79,8 +79,9 @@ class JointFactor {
   /// Factors the group in place. Returns the number of pivots that were left out.
   std::uint32_t factor(std::uint32_t first, std::uint32_t count);
 
-  /// Solves for `rhs`.
-  void solve(std::uint32_t first, std::uint32_t count);
+  /// Solves for `rhs`. Returns by how many fraction bits the solution is shorter than 46: almost
+  /// always none, more where it would exceed 2^10.
+  [[nodiscard]] int solve(std::uint32_t first, std::uint32_t count);
 
  private:
   struct Reciprocal {
@@ -96,16 +97,18 @@ class JointFactor {
   void divide_rows(const Column& column, std::int64_t* b, std::uint32_t rows, Size n,
                    Entries& entries) const;
   void update(std::uint32_t first, const Column& column);
+  [[nodiscard]] bool try_solve(std::uint32_t first, std::uint32_t count);
   template <class Size>
-  void substitute(std::uint32_t first, const Column& column, Size n);
+  [[nodiscard]] bool substitute(std::uint32_t first, const Column& column, Size n);
   template <class Size>
-  void substitute_back(std::uint32_t first, const Column& column, Size n);
+  [[nodiscard]] bool substitute_back(std::uint32_t first, const Column& column, Size n);
   [[nodiscard]] std::int64_t* find_block(const Column& column, std::uint32_t row);
 
   std::vector<Column> columns_;
   std::vector<Block> blocks_;
   std::vector<std::int64_t> values_;
   std::vector<std::int64_t> rhs_;
+  std::vector<std::int64_t> given_;  // the right-hand side, for another try
   std::vector<Reciprocal> reciprocals_;
   std::vector<std::uint32_t> marks_;  // by joint of a group: the column it was last seen in, + 1
   std::vector<std::uint32_t> found_;
@@ -156,6 +159,7 @@ bool JointFactor::plan(std::uint32_t count, const Neighbours& neighbours, const 
   blocks_.resize(blocks);
   values_.resize(values);
   rhs_.resize(sides);
+  given_.resize(sides);
   reciprocals_.resize(sides);
   return false;
 }

@@ -70,6 +70,8 @@ void JointSolver::end(const JointRun& run) {
   for (LinkedBody& body : system_.bodies) {
     if (body.pushed) set_least_inertia(run, body, 0);
   }
+  for (const JointCluster& cluster : system_.clusters)
+    system_.joints_of(cluster)[0].energy_gained = EnergyAccount::stored_gain(cluster);
 }
 
 void JointSolver::prepare(const JointRun& run, std::size_t first, std::size_t end) {

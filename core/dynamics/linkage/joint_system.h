@@ -42,7 +42,6 @@ struct JointGroup {
   bool is_factored : 1 = false;
   bool is_fresh : 1 = false;      // and so for the present rows
   bool turns_fast : 1 = false;    // in this tick a factor of earlier rows did not serve
-  bool is_rough : 1 = false;      // a step of this tick did not hold the joints
   std::int16_t fresh_solves = 0;  // for velocities, with a factor of the present rows
   int exponent = 0;               // least of its rows
   std::int64_t speed = 0;         // greatest of its locks, as last found, Q50
@@ -66,9 +65,11 @@ struct JointCluster {
   bool is_driven = false;   // by springs or motors
   bool is_passive = false;  // only gravity and forces give it energy
   bool knows_energy = false;
-  BlockFloat unit{};        // inverse mass of its heaviest body
-  std::int64_t gained = 0;  // besides, in this tick: twice the energy by that mass
-  std::int64_t energy = 0;  // as the last substep ended, if that is known
+  BlockFloat unit{};  // inverse mass of its heaviest body
+  // Twice an energy by that mass, (m/s)², Q32:
+  std::int64_t gained = 0;        // besides, at any time
+  std::int64_t first_gained = 0;  // as the tick began
+  std::int64_t energy = 0;        // as the last substep ended, if that is known
 };
 
 struct JointSystem {

@@ -61,6 +61,7 @@ void store_impulses(const LinkedJoint& joint, bool drifts, JointRecord& record) 
   const auto to_record = [](std::int64_t impulse) {
     return SolverVelocity::from_raw(raw::saturate<std::int32_t>(raw::round_shift(impulse, 30)));
   };
+  record.energy_gained = joint.energy_gained;
   for (JointAxisRecord& axis : record.axes)
     axis.impulse = axis.drive_impulse = {};
   for (std::size_t i = 0; i < joint.rows.count; ++i) {

@@ -71,6 +71,8 @@ struct LinkedJoint {
   std::array<std::int64_t, k_joint_axes> left_open{};  // of locks, by row: too far to close in the
                                                        // substep, m, Q32
 
+  std::int32_t energy_gained = 0;  // of its cluster, if it is the first one there
+
   std::uint64_t factored = 0;  // rows that the factor has, as a list of `list_rows`
   std::uint32_t left_out = 0;  // rows, a bit each, without impulses from the factor of loops
   std::array<std::int8_t, k_joint_axes> scales{};  // of its locks in the factor, exponents

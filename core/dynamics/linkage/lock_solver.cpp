@@ -181,10 +181,10 @@ void LockSolver::solve_positions(const JointRun& run, const JointCluster& cluste
     return is_open(system_.joints[index].rows);
   });
   const bool holds = find_positions(run, group) <= k_lost;
-  if (holds && !(was_open && closes_too_fast(run, system_, cluster))) return;
+  const bool must_be_passive = was_open || cluster.is_passive || cluster.drifts_first;
+  if (holds && !(must_be_passive && closes_too_fast(run, system_, cluster))) return;
   restore(run, group);
   hold_roughly(run, cluster, group);
-  group.is_rough = true;
 }
 
 // Returns the widest opening that is left.

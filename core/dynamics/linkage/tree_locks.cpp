@@ -82,9 +82,12 @@ struct SharedRows {
         angular_x(shared.is_a_of_p ? &JointRow::angular_a : &JointRow::angular_b),
         response_y(shared.is_a_of_q ? &JointRow::response_a : &JointRow::response_b) {}
 
+  // Where a row moves bodies so little that its scale leaves no shift, the sum keeps more bits.
   [[nodiscard]] std::int64_t scaled(const ProductSum& sum, int scales) const {
     const int shift = scales + excess;
-    return shift > 120 ? 0 : scaled_response(sum.rounded(30), inverse_mass, shift);
+    if (shift > 120) return 0;
+    const int more = std::clamp(1 - shift, 0, 29);
+    return scaled_response(sum.rounded(30 - more), inverse_mass, shift + more);
   }
 
   std::int32_t inverse_mass;
@@ -221,15 +224,24 @@ void TreeLocks::scale_errors(const JointGroup& group) {
 void TreeLocks::solve(const JointRun& run, JointGroup& group, bool positions) {
   if (!system_.has_factor(group)) factor(group);
   scale_errors(group);
-  factor_.solve(group.column, group.count);
+  const int lost = factor_.solve(group.column, group.count);
+  // Impulses so great that their solution did not fit: light bodies stay within the bounds of
+  // velocities when all joints push a little at a time.
+  const int pieces = lost / 3;
+  for (int i = 0; i < 1 << pieces; ++i)
+    apply(run, group, positions, lost - pieces);
+}
+
+// The solution, times 2^`shift`.
+void TreeLocks::apply(const JointRun& run, const JointGroup& group, bool positions, int shift) {
   const bool later = group.is_direct && !positions;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
     const std::span<const std::int64_t> solution = errors(group, k);
     RowImpulses impulses;
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
-      const int shift = 4 - joint.scales[r] - group.exponent;
-      impulses[r] = times_mass(solution[r], joint.inverse_mass, shift);
+      impulses[r] =
+          times_mass(solution[r], joint.inverse_mass, 4 + shift - joint.scales[r] - group.exponent);
       const std::uint8_t axis = joint.rows.rows[r].axis;
       std::int64_t& total = later ? joint.relaxed[axis] : joint.locks[axis];
       total = bounded(total + impulses[r], k_product_bound);

@@ -41,6 +41,7 @@ class TreeLocks {
 
  private:
   void scale_errors(const JointGroup& group);
+  void apply(const JointRun& run, const JointGroup& group, bool positions, int shift);
   void fill_block(const LinkedJoint& p, const LinkedJoint& q, std::int64_t* block) const;
 
   JointSystem& system_;

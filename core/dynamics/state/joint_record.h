@@ -20,6 +20,9 @@ enum JointFlag : std::uint8_t {
 
 inline constexpr std::size_t k_joint_axes = 6;
 
+/// Of JointRecord::energy_gained.
+inline constexpr int k_gained_frac_bits = 16;
+
 /// Settings and impulses of one axis; lengths and angles, speeds and efforts are raws of the public
 /// types. Impulses are per substep and the pair's velocity jump, λ·(1/mA + 1/mB); those of a joint
 /// whose first three axes are rigid are along the axes of the world. An angular axis has the length
@@ -62,7 +65,7 @@ struct JointRecord {
   std::array<std::uint8_t, k_joint_axes> modes{};  // AxisMode
   std::uint8_t kind = 0;                           // JointKind, 0 for an empty slot
   std::uint8_t flags = 0;                          // JointFlag
-  std::uint32_t reserved = 0;                      // keeps the record free of padding; always 0
+  std::int32_t energy_gained = 0;                  // see EnergyAccount; twice, (m/s)², Q16
 
   friend bool operator==(const JointRecord&, const JointRecord&) = default;
 
@@ -117,7 +120,7 @@ constexpr void visit_fields(JointRecord& record, F&& f) {
     visit_value(k_axis_names[i], ".mode", record.modes[i], f);
   visit_value("kind", "", record.kind, f);
   visit_value("flags", "", record.flags, f);
-  visit_value("reserved", "", record.reserved, f);
+  visit_in({k_gained_frac_bits, "m²/s²"}, "energy_gained", "", record.energy_gained, f);
 }
 
 static_assert(visited_bytes<JointRecord>() == sizeof(JointRecord), "a field is missing");

@@ -31,7 +31,6 @@ std::int32_t lesser_share(BlockFloat a, BlockFloat b) {
 
 // Below this share, 200,000 : 1, impulses would need more bits than there are beside speeds.
 constexpr std::int32_t k_least_share = (1 << 30) / 200'000;
-constexpr std::int32_t k_uneven_share = (1 << 30) / 16;
 
 // A component of velocity, 1/16 m/s, within ±2^14 or so: that of 2^16 bodies fits a word.
 std::int32_t coarse(Velocity v) {
@@ -84,9 +83,18 @@ void EffortPolicy::begin(const Vec3<Acceleration>& gravity) {
 void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& bodies,
                                  const ContactList& contacts, const TickJoints& joints,
                                  IslandBuilder& islands) {
-  for (std::uint32_t i = 0; i < scene.joint_links.size(); ++i)
-    if (joints.solver().number_of(i) == JointSolver::k_in_net)
-      islands.load(islands.of(scene, bodies, scene.joint_links[i])).iterates_only = true;
+  for (std::uint32_t i = 0; i < scene.joint_links.size(); ++i) {
+    const JointLink& link = scene.joint_links[i];
+    IslandLoad& load = islands.load(islands.of(scene, bodies, link));
+    if (joints.solver().number_of(i) == JointSolver::k_in_net) load.iterates_only = true;
+    const bool is_free =
+        scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic() &&
+        std::ranges::none_of(scene.joints[link.joint].axes, &JointAxisRecord::is_driven);
+    if (!is_free) load.is_carried = true;
+    const BodyRecord &a = scene.bodies[link.body_a], &b = scene.bodies[link.body_b];
+    load.least_share =
+        std::min(load.least_share, lesser_share(a.inverse_mass_value(), b.inverse_mass_value()));
+  }
   for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
     if ((body.locks & k_lock_moving) != 0) island.iterates_only = true;
   });
@@ -100,7 +108,7 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
     const bool rolls = scene.surfaces[contact.manifold].rolling_arm != Length{};
     const std::int32_t share = lesser_share(mass(contact.a), mass(contact.b));
     if (rolls || share < k_least_share) load.iterates_only = true;
-    load.is_uneven = load.is_uneven || share < k_uneven_share;
+    load.least_share = std::min(load.least_share, share);
   });
 }
 

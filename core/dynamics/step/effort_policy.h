@@ -34,9 +34,9 @@ class EffortPolicy {
                             const ContactList& contacts, const TickJoints& joints,
                             IslandBuilder& islands);
 
-  /// Whether an island without joints and with like masses is a loose pile: more than a quarter of
-  /// its bodies differ from their mean velocity by 1/4 m/s, or more than half of them were in one
-  /// in the last tick. Iterations bring such a pile to rest sooner, at a tenth of the price.
+  /// Whether an island that may be loose is a loose pile: more than a quarter of its bodies differ
+  /// from their mean velocity by 1/4 m/s, or more than half of them were in one in the last tick.
+  /// Iterations bring such a pile to rest sooner, at a tenth of the price.
   [[nodiscard]] static bool is_loose_pile(const IslandLoad& island);
 
   /// Marks loose piles, once the counts of islands are known.

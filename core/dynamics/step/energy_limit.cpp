@@ -10,11 +10,11 @@
 namespace lockstone {
 namespace {
 
-// In a tick an island may gain this part of its kinetic energy: 2^-6.
-constexpr int k_free_gain_shift = 6;
+// In a tick an island may gain this part of its kinetic energy: 2^-8.
+constexpr int k_free_gain_shift = 8;
 
-// And so much besides, twice by the heaviest body's mass: (5 cm/s)², Q32.
-constexpr std::int64_t k_least_gain = (std::int64_t{1} << 32) / 400;
+// And so much besides, twice by the heaviest body's mass: (1.25 cm/s)², Q32.
+constexpr std::int64_t k_least_gain = (std::int64_t{1} << 32) / 6400;
 
 // Positions may move with velocities of so much more energy than the substep began with: 2^-4 of
 // it, and, twice for each mass, (0.5 m/s)², Q32, to close joints and overlap.

@@ -197,8 +197,7 @@ Status validate(const JointRecord& joint) {
     empty.generation = joint.generation;
     return joint == empty ? Status::ok : Status::malformed;
   }
-  const bool known = (joint.flags & ~k_all_joint_flags) == 0 && joint.reserved == 0 &&
-                     joint.body_a != joint.body_b;
+  const bool known = (joint.flags & ~k_all_joint_flags) == 0 && joint.body_a != joint.body_b;
   const bool in_range = in_world(joint.ground_a) && in_world(joint.ground_b) &&
                         joint.break_force >= Force{} && joint.break_torque >= Torque{} &&
                         joint.break_force.raw <= k_effort_limit &&
