@@ -1,4 +1,4 @@
-#include "core/dynamics/step/contact_list.h"
+#include "core/dynamics/step/input/contact_list.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "core/dynamics/step/effort_policy.h"
+#include "core/dynamics/step/islands/effort_policy.h"
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/step/contact_params.h"
+#include "core/dynamics/step/input/contact_params.h"
 
 namespace lockstone {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/dynamics/step/island_builder.h"
+#include "core/dynamics/step/islands/island_builder.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/step/island_lists.h"
+#include "core/dynamics/step/islands/island_lists.h"
 #include "tests/dynamics/tick_scene.h"
 
 namespace lockstone {

@@ -5,10 +5,10 @@
 
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/joint/joint_numbers.h"
-#include "core/dynamics/linkage/cluster_energy.h"
-#include "core/dynamics/linkage/joint_drives.h"
-#include "core/dynamics/linkage/pulled_links.h"
-#include "core/dynamics/linkage/row_motion.h"
+#include "core/dynamics/linkage/rows/cluster_energy.h"
+#include "core/dynamics/linkage/rows/joint_drives.h"
+#include "core/dynamics/linkage/rows/pulled_links.h"
+#include "core/dynamics/linkage/rows/row_motion.h"
 #include "tests/dynamics/joint_scene.h"
 #include "tests/support/random.h"
 

@@ -8,11 +8,11 @@
 #include <lockstone/joint.h>
 
 #include "core/dynamics/linkage/joint_planner.h"
-#include "core/dynamics/linkage/joint_system.h"
-#include "core/dynamics/linkage/linked_bodies.h"
-#include "core/dynamics/linkage/loop_locks.h"
-#include "core/dynamics/linkage/row_responses.h"
-#include "core/dynamics/linkage/tree_locks.h"
+#include "core/dynamics/linkage/locks/loop_locks.h"
+#include "core/dynamics/linkage/locks/tree_locks.h"
+#include "core/dynamics/linkage/rows/row_responses.h"
+#include "core/dynamics/linkage/system/joint_system.h"
+#include "core/dynamics/linkage/system/linked_bodies.h"
 
 namespace lockstone::test {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/step/contact_list.h"
-#include "core/dynamics/step/contact_scene.h"
-#include "core/dynamics/step/island_builder.h"
-#include "core/dynamics/step/solver_bodies.h"
+#include "core/dynamics/step/input/contact_list.h"
+#include "core/dynamics/step/input/contact_scene.h"
+#include "core/dynamics/step/input/solver_bodies.h"
+#include "core/dynamics/step/islands/island_builder.h"
 
 namespace lockstone {
 

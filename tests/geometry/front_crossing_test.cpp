@@ -4,7 +4,7 @@
 #include <lockstone/mesh.h>
 
 #include "core/geometry/mesh_contact/front_crossing_search.h"
-#include "tests/geometry/asset_parts.h"
+#include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::geometry {
 namespace {

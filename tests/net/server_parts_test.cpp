@@ -1,12 +1,12 @@
 // The parts of a server, each alone.
 #include <gtest/gtest.h>
 
-#include "net/session/server/departures.h"
-#include "net/session/server/dumps.h"
-#include "net/session/server/keyframe_store.h"
-#include "net/session/server/resume_wait.h"
-#include "net/session/server/roster.h"
-#include "net/session/server/tick_schedule.h"
+#include "net/session/server/data/keyframe_store.h"
+#include "net/session/server/data/resume_wait.h"
+#include "net/session/server/data/roster.h"
+#include "net/session/server/data/tick_schedule.h"
+#include "net/session/server/desync/dumps.h"
+#include "net/session/server/leaving/departures.h"
 #include "tests/net/match_fixture.h"
 
 namespace lockstone::net::test {

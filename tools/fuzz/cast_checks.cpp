@@ -1,5 +1,5 @@
 #include "core/geometry/dispatch/raycast.h"
-#include "core/geometry/distance/shape_cast.h"
+#include "core/geometry/distance/motion/shape_cast.h"
 #include "tools/fuzz/pair_checks.h"
 #include "tools/fuzz/surface.h"
 

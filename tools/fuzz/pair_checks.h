@@ -1,8 +1,8 @@
 // Checks that must hold of every pair of shapes.
 #pragma once
 
-#include "core/geometry/distance/epa.h"
-#include "core/geometry/distance/gjk.h"
+#include "core/geometry/distance/epa/epa.h"
+#include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/distance/manifold.h"
 #include "tools/fuzz/pair_source.h"
 #include "tools/fuzz/verdict.h"

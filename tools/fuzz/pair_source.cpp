@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/geometry/distance/gjk.h"
+#include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/numeric/normals.h"
 
 namespace lockstone::fuzz {

@@ -4,8 +4,8 @@
 
 #include <lockstone/assert.h>
 
-#include "core/geometry/distance/gjk.h"
-#include "core/geometry/distance/shape_cast.h"
+#include "core/geometry/distance/gjk/gjk.h"
+#include "core/geometry/distance/motion/shape_cast.h"
 #include "core/math/int128.h"
 
 namespace lockstone {

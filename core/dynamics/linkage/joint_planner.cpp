@@ -5,8 +5,8 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
-#include "core/dynamics/linkage/joint_drives.h"
-#include "core/dynamics/linkage/pulled_links.h"
+#include "core/dynamics/linkage/rows/joint_drives.h"
+#include "core/dynamics/linkage/rows/pulled_links.h"
 
 namespace lockstone {
 namespace {

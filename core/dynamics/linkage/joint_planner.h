@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "core/dynamics/linkage/joint_system.h"
-#include "core/dynamics/linkage/loop_locks.h"
-#include "core/dynamics/linkage/tree_locks.h"
+#include "core/dynamics/linkage/locks/loop_locks.h"
+#include "core/dynamics/linkage/locks/tree_locks.h"
+#include "core/dynamics/linkage/system/joint_system.h"
 
 namespace lockstone {
 

@@ -6,7 +6,7 @@
 
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/motion.h"
-#include "core/dynamics/linkage/pulled_links.h"
+#include "core/dynamics/linkage/rows/pulled_links.h"
 
 namespace lockstone {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/geometry/contact/collide_convex.h"
+#include "core/geometry/contact/feature/collide_convex.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/shapes/rim_shape.h"
 #include "core/geometry/shapes/shape_table.h"
 #include "core/math/roots.h"

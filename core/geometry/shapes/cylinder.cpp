@@ -1,7 +1,7 @@
 // Cylinders: size.x is the radius, size.y half the height, along y.
-#include "core/geometry/contact/collide_convex.h"
+#include "core/geometry/contact/feature/collide_convex.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/query/ray_round.h"
 #include "core/geometry/shapes/rim_shape.h"
 #include "core/geometry/shapes/shape_table.h"

@@ -1,7 +1,7 @@
 // Spheres: size.x is the radius.
-#include "core/geometry/contact/plane_meeting.h"
+#include "core/geometry/contact/half_space/plane_meeting.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/shapes/ball_swept.h"
 #include "core/geometry/shapes/shape_table.h"
 

@@ -7,10 +7,10 @@
 #include <lockstone/status.h>
 
 #include "core/world/commands/joint_registry.h"
+#include "core/world/data/world_data.h"
 #include "core/world/derived/body_names.h"
 #include "core/world/sleep/sleep_flags.h"
 #include "core/world/sleep/waking.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

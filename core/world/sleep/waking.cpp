@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/world/phases/continuous.h"
+#include "core/world/phases/motion/continuous.h"
 
 namespace lockstone {
 

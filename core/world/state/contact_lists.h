@@ -11,7 +11,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/state/contact_record.h"
-#include "core/world/sleep/sleeping_contacts.h"
+#include "core/world/state/sleeping_contacts.h"
 
 namespace lockstone {
 

@@ -1,0 +1,177 @@
+#include "core/dynamics/linkage/cluster/energy_account.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <lockstone/assert.h>
+
+#include "core/dynamics/joint/joint_numbers.h"
+#include "core/dynamics/linkage/rows/cluster_energy.h"
+#include "core/dynamics/linkage/rows/row_motion.h"
+#include "core/math/product_sum.h"
+
+namespace lockstone {
+namespace {
+
+// In a tick a cluster may gain 2^-this of its kinetic energy: where steps hold the joints, whose
+// errors come and go, and where they do not.
+constexpr int k_free_gain_shift = 6, k_rough_gain_shift = 10;
+
+// Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.
+constexpr std::int64_t k_rounding_energy = 43;
+
+}  // namespace
+
+void EnergyAccount::open(JointCluster& cluster) {
+  const auto stands = [&](std::uint32_t index) {
+    return system_.bodies[index].pushed || system_.bodies[index].solver == 0;
+  };
+  const auto may_be_pushed = [&](std::uint32_t index) {
+    const LinkedBody& body = system_.bodies[index];
+    return body.touches || body.is_among_contacts || body.in_net;
+  };
+  cluster.gained = 0;
+  for (JointGroup& group : system_.groups_of(cluster))
+    group.is_rough = false;
+  cluster.is_driven = std::ranges::any_of(system_.joints_of(cluster), [](const LinkedJoint& joint) {
+    return std::ranges::any_of(joint.record->axes, &JointAxisRecord::is_driven);
+  });
+  cluster.is_passive =
+      !cluster.drifts_first && !cluster.is_driven &&
+      std::ranges::none_of(system_.bodies_of(cluster), may_be_pushed) &&
+      std::ranges::all_of(system_.joints_of(cluster), [&](const LinkedJoint& joint) {
+        return stands(joint.a) && stands(joint.b);
+      });
+  find_heaviest_body(cluster);
+  cluster.knows_energy = false;
+}
+
+void EnergyAccount::find_heaviest_body(JointCluster& cluster) {
+  cluster.unit = {};
+  for (const std::uint32_t index : system_.bodies_of(cluster)) {
+    const BlockFloat inverse = system_.bodies[index].record->inverse_mass_value();
+    if (!system_.bodies[index].pushed) continue;
+    const bool is_heavier = ratio(inverse, cluster.unit) < Unit::from_raw(1 << 29);
+    if (cluster.unit == BlockFloat{} || is_heavier) cluster.unit = inverse;
+  }
+  for (const std::uint32_t index : system_.bodies_of(cluster)) {
+    LinkedBody& body = system_.bodies[index];
+    if (body.pushed) body.mass = quotient(cluster.unit, body.record->inverse_mass_value());
+  }
+}
+
+void EnergyAccount::begin(const JointRun& run, JointCluster& cluster) {
+  if (!cluster.is_passive) return;
+  LKS_ASSERT(!run.before.empty());
+  for (const std::uint32_t index : system_.bodies_of(cluster)) {
+    LinkedBody& body = system_.bodies[index];
+    if (!body.pushed) continue;
+    body.start = run.before[body.solver];
+    body.start_position = body.pose.position;
+    body.start_inertia = body.inverse_inertia;
+    body.start_rotation = body.pose.rotation;
+    body.starts_heavier = body.least_inertia != 0;
+  }
+  if (!cluster.knows_energy)
+    cluster.energy = sum_over(system_, cluster, [&](const LinkedBody& body) {
+      return energy_of(motion_of(body, body.start));
+    });
+  cluster.gained = raw::saturating_add(cluster.gained, -cluster.energy);
+}
+
+// Impulses of the last substep may suit this one badly: after a blow, or where links turn fast. The
+// share that leaves the least energy is repeated.
+void EnergyAccount::limit_warm_start(const JointRun& run, const JointCluster& cluster) {
+  const JointGroup& group = system_.groups_of(cluster)[0];
+  if (!group.is_direct || group.has_solved_loops() || cluster.is_driven) return;
+  const EnergyPath path = energy_path(run, system_, cluster, &LinkedBody::unpushed);
+  if (path.gain() <= path.first / 4 + k_rounding_energy) return;
+  const std::int32_t share = share_of(-(path.linear / 2), path.square);
+  go_part(run, system_, cluster, &LinkedBody::unpushed, share);
+  for (LinkedJoint& joint : system_.joints_of(cluster))
+    for (std::int64_t& impulse : joint.locks)
+      impulse = product_rounded(impulse, share, k_share_bits);
+}
+
+// The velocities without positional correction: the substep's first ones, with the gain of gravity
+// and forces, such that locks and limits do not open where the bodies are now.
+void EnergyAccount::project_start(const JointRun& run, const JointCluster& cluster) {
+  for (const std::uint32_t index : system_.bodies_of(cluster)) {
+    LinkedBody& body = system_.bodies[index];
+    if (!body.pushed) continue;
+    lanes::RowBody& row = run.rows[body.solver];
+    body.saved_row = row;
+    const SolverBody& solver = run.bodies[body.solver];
+    // A body whose spin stays while it turns far may turn with more energy than before.
+    const std::int32_t kept = root_of_share(turning_energy_of(start_motion_of(body)),
+                                            turning_energy_of(motion_of(body, body.start)));
+    LKS_ASSERT(kept >= 0 && kept <= 1 << k_share_bits);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      row.velocity[axis] = bounded(body.start.velocity[axis], k_row_bound) +
+                           solver.gain[axis] * (std::int64_t{1} << 18);
+      row.spin[axis] =
+          product_rounded(bounded(body.start.spin[axis], k_row_bound), kept, k_share_bits) +
+          solver.spin_gain[axis] * (std::int64_t{1} << 18);
+    }
+  }
+  for (LinkedJoint& joint : system_.joints_of(cluster)) {
+    joint.saved = joint.locks;
+    joint.carried = joint.relaxed;
+  }
+  locks_.hold_speeds(run, cluster);
+  for (LinkedJoint& joint : system_.joints_of(cluster)) {
+    joint.locks = joint.saved;
+    joint.relaxed = joint.carried;
+  }
+}
+
+void EnergyAccount::settle(const JointRun& run, JointCluster& cluster) {
+  if (!cluster.is_passive) return;
+  cluster.energy = sum_over(system_, cluster, [&](const LinkedBody& body) {
+    return energy_of(motion_of(body, run.rows[body.solver]));
+  });
+  cluster.knows_energy = true;
+  const std::int64_t work = sum_over(system_, cluster, [&](const LinkedBody& body) {
+    ProductSum twice;  // by half a substep's rate
+    for (int i = 0; i < 3; ++i)
+      twice.add(
+          run.bodies[body.solver].gain[static_cast<std::size_t>(i)],
+          (body.pose.position[i].raw - body.start_position[i].raw) * system_.step.substep_rate());
+    return twice.rounded(31);
+  });
+  cluster.gained = raw::saturating_add(cluster.gained, raw::saturating_add(cluster.energy, -work));
+  const bool is_rough = std::ranges::any_of(
+      system_.groups_of(cluster),
+      [&](const JointGroup& group) { return group.is_rough || system_.is_stiff(group); });
+  const int shift = is_rough ? k_rough_gain_shift : k_free_gain_shift;
+  if (cluster.gained <= (cluster.energy >> shift) + k_rounding_energy) return;
+  cluster.knows_energy = false;
+  returns_.fetch_add(1, std::memory_order_relaxed);
+  begin_pushes(run, system_, system_.bodies_of(cluster));
+  return_gain(run, cluster);
+  cluster.gained = 0;
+  end_pushes(run, system_, system_.bodies_of(cluster));
+}
+
+void EnergyAccount::return_gain(const JointRun& run, const JointCluster& cluster) {
+  project_start(run, cluster);
+  const std::span<const std::uint32_t> bodies = system_.bodies_of(cluster);
+  for (const std::uint32_t index : bodies) {
+    LinkedBody& body = system_.bodies[index];
+    if (body.pushed) std::swap(body.saved_row, run.rows[body.solver]);
+  }
+  const EnergyPath path = energy_path(run, system_, cluster, &LinkedBody::saved_row);
+  const std::int64_t allowed = raw::saturating_add(cluster.energy, -cluster.gained);
+  if (path.first > allowed) {
+    go_part(run, system_, cluster, &LinkedBody::saved_row, 0);
+    // Rest fits all locks, so a share of any velocities that fit does.
+    for (const std::uint32_t index : bodies)
+      system_.bodies[index].saved_row = {};
+    go_part(run, system_, cluster, &LinkedBody::saved_row, root_of_share(allowed, path.first));
+  } else {
+    go_part(run, system_, cluster, &LinkedBody::saved_row,
+            greatest_share(path.square, path.linear, raw::saturating_add(allowed, -path.first)));
+  }
+}
+
+}  // namespace lockstone
