@@ -162,7 +162,7 @@ TEST(ProximalKernels, LeaveSpeedsThatFollowBodiesToNearest) {
     Island island(3, maker);
     island.move(maker);
     std::vector<ProximalBlock> after = island.blocks;
-    k_kernels.follow(after.data(), after.size(), island.bodies.data(), shift);
+    k_kernels.update_residuals(after.data(), after.size(), island.bodies.data(), shift);
     for (std::size_t c = 0; c < after.size(); ++c) {
       for (std::size_t r = 0; r < after[c].rows; ++r) {
         const Exact along = dot(island, island.blocks[c], r);

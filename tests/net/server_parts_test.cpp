@@ -221,7 +221,7 @@ TEST(Departures, ReserveTheSeatOfALostPlayerAndNotThatOfAnExpelledOne) {
   server.departures.expel(1, LeaveReason::malformed);
   EXPECT_EQ(expelled.rejoin_key, 0U);
   EXPECT_LE(expelled.reserved_until_us, server.data.match.now_us);
-  EXPECT_TRUE(server.data.offenders.is_barred(expelled.identity, 1));
+  EXPECT_TRUE(server.data.offenders.is_banned(expelled.identity, 1));
   EXPECT_EQ(server.data.counters.expelled, 1U);
 }
 

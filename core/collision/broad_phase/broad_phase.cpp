@@ -103,7 +103,7 @@ void BroadPhase::clear() {
   changed_ = true;
 }
 
-bool BroadPhase::follow(std::uint32_t body, const Bounds& bounds) {
+bool BroadPhase::update(std::uint32_t body, const Bounds& bounds) {
   LKS_ASSERT(has(body));
   const Bounds& fat = proxies_[body].fat;
   if (bounds_[body] == bounds) return true;
@@ -118,7 +118,7 @@ void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits
   if (proxy.present && proxy.traits == traits) {
     if (bounds_[body] == bounds) return;
     changed_ = true;
-    if (follow(body, bounds)) return;
+    if (update(body, bounds)) return;
     const Bounds before = bounds_[body];
     bounds_[body] = bounds;
     proxy.fat = traits.moves ? fattened(before, bounds) : bounds;

@@ -41,7 +41,7 @@ class BroadPhase {
   /// Sets the bounds of a body that is present, as `set` with the same traits does, if nothing else
   /// has to change for that; otherwise does nothing and returns false. Calls for different bodies
   /// may go on at the same time; `note_change` must follow if any of the bounds were new.
-  [[nodiscard]] bool follow(std::uint32_t body, const Bounds& bounds);
+  [[nodiscard]] bool update(std::uint32_t body, const Bounds& bounds);
   void note_change() { changed_ = true; }
 
   [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].present; }

@@ -13,7 +13,7 @@ using geometry::FrontCrossing;
 using geometry::PointWay;
 
 // How far before the front it is left: surely before it in the next tick.
-constexpr Length k_front_gap = geometry::k_front_guard * 4;
+constexpr Length k_front_gap = geometry::k_front_margin * 4;
 
 Vec3<Position> to_local(const PlacedShape& placed, const Vec3<Position>& point) {
   return rotate_inverse(placed.rotation, point - placed.origin);

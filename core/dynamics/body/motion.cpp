@@ -40,8 +40,8 @@ void damp(Vec3<Velocity>& v, Rate damping, const TimeStep& step) {
 }
 
 // The way and the velocity of one axis under damping.
-void fly_damped(Position& x, Velocity& v, std::int64_t gain, const Damping& damping,
-                const TimeStep& step) {
+void integrate_damped(Position& x, Velocity& v, std::int64_t gain, const Damping& damping,
+                      const TimeStep& step) {
   const auto times = [](std::int64_t value, std::int32_t factor) {
     return raw::multiply_shift(value, factor, 30);
   };
@@ -166,12 +166,12 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world
   return too_fast || spins_too_fast;
 }
 
-void hold_in_range(Vec3<Velocity>& v) {
+void clamp_speed(Vec3<Velocity>& v) {
   for (int i = 0; i < 3; ++i)
     v[i] = clamp(v[i], -k_speed_limit, k_speed_limit);
 }
 
-void hold_axes(BodyRecord& body) {
+void apply_axis_locks(BodyRecord& body) {
   if (body.locks == 0) return;
   for (int i = 0; i < 3; ++i) {
     if (body.is_locked(i)) body.velocity[i] = {};
@@ -206,7 +206,7 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
   for (int i = 0; i < 3; ++i) {
     const std::int64_t gain = in_this_tick(g[i].raw, step.tick_rate) + force[i].raw;
     if (damped) {
-      fly_damped(body.position[i], body.velocity[i], gain, damping, step);
+      integrate_damped(body.position[i], body.velocity[i], gain, damping, step);
       continue;
     }
     // (v + gain/2)·dt
@@ -272,11 +272,11 @@ SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
         part_of(g[i].raw, step.substep_rate()) + part_of(force[i].raw, step.substeps);
     solver.spin_gain[axis] = part_of(torque[i].raw, step.substeps);
   }
-  solver.held = body.locks & k_lock_moving;
+  solver.locked = body.locks & k_lock_moving;
   solver.inverse_inertia = inverse_inertia(body, rotation);
   solver.inverse_mass = body.inverse_mass_value();
   solver.scale_exponent = body.scale_exponent;
-  solver.is_plain = solver.held == 0 && turns_alike(solver.inverse_inertia);
+  solver.is_plain = solver.locked == 0 && turns_alike(solver.inverse_inertia);
   return solver;
 }
 

@@ -29,11 +29,11 @@ void damp_spin(BodyRecord& body, const TimeStep& step);
 bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit);
 
 /// Velocity and spin along locked axes are zero.
-void hold_axes(BodyRecord& body);
+void apply_axis_locks(BodyRecord& body);
 
 /// Clamps each component to ±500 m/s, since commands may add up between two ticks. The tick's end
 /// limits the speeds themselves.
-void hold_in_range(Vec3<Velocity>& v);
+void clamp_speed(Vec3<Velocity>& v);
 
 /// Clamps the position to the world, and stops the components of motion out of it. Returns whether
 /// it had to.

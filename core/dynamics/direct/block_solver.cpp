@@ -8,9 +8,9 @@ namespace {
 
 // Adds the velocities that the phase gave to bodies to the speeds of the rows.
 void add_to_speeds(const IslandView& island) {
-  lanes::proximal_kernels().follow(island.problems.data(), island.problems.size(),
-                                   island.velocities.data(),
-                                   30 + island.state.bits - k_row_unit_bits);
+  lanes::proximal_kernels().update_residuals(island.problems.data(), island.problems.size(),
+                                             island.velocities.data(),
+                                             30 + island.state.bits - k_row_unit_bits);
 }
 
 }  // namespace

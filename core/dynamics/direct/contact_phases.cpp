@@ -14,8 +14,8 @@ namespace lockstone::contact_phases {
 namespace {
 
 using namespace proximal;
+using lanes::BodyVelocity;
 using lanes::ManifoldBlock;
-using lanes::RowBody;
 using lanes::scalar::pack;
 using Problem = lanes::ProximalBlock;
 using RowWords = std::array<std::int64_t, k_contact_rows>;
@@ -311,7 +311,7 @@ void give(const ContactRun& run, const IslandView& island) {
                     k_motion_bound);
   };
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    RowBody& row = run.rows[island.bodies[k]];
+    BodyVelocity& row = run.rows[island.bodies[k]];
     for (std::size_t i = 0; i < 3; ++i) {
       add(row.velocity[i], gains[k].velocity[i]);
       add(row.spin[i], gains[k].spin[i]);

@@ -9,8 +9,8 @@ namespace lockstone {
 namespace {
 
 using namespace proximal;
+using lanes::BodyVelocity;
 using lanes::ManifoldBlock;
-using lanes::RowBody;
 
 // Velocity and spin of A and B, Q50.
 struct Motion {
@@ -60,7 +60,7 @@ void measure_speeds(const ContactRun& run, const PreparedRows& prepared,
   Motion start, gained;
   const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
                             RawVec3& gained_spin, std::int64_t sign) {
-    const RowBody& row = run.rows[index];
+    const BodyVelocity& row = run.rows[index];
     for (std::size_t k = 0; k < 3; ++k) {
       start.along[k] += sign * row.velocity[k];
       spin[k] = row.spin[k];

@@ -25,7 +25,8 @@ constexpr std::int64_t k_least_joint_change = (std::int64_t{1} << 50) / 10000;
 constexpr std::uint64_t k_far_turned = std::uint64_t{1} << 23;
 
 // √(m/m₀)·(v, Cᵀ·spin), in units of kept quantities.
-BodyVector motion_of(const lanes::RowBody& row, const InertiaRoot& root, const RowScale& mass) {
+BodyVector motion_of(const lanes::BodyVelocity& row, const InertiaRoot& root,
+                     const RowScale& mass) {
   constexpr int k_down = lanes::k_velocity_bits - k_row_unit_bits;
   BodyVector u{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -14,7 +14,7 @@
 namespace lockstone {
 namespace {
 
-constexpr int k_sweeps_per_point = 12;
+constexpr int k_passes_per_point = 12;
 
 // Impulses stay below this, m/s: more than any approach asks for where the answer is not absurd.
 constexpr Velocity k_most_impulse = Velocity::from_integer(1 << 20);
@@ -63,7 +63,7 @@ struct Side {
     const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
     body.record.velocity += own;
     if (turns && !(is_ball && along_normal)) body.record.spin += cross_arm(arm, own);
-    hold_axes(body.record);
+    apply_axis_locks(body.record);
   }
 
   // α (u·u + (r̄ × u) · M (r̄ × u)), 32 bits; u·u without locked axes
@@ -174,7 +174,7 @@ class ImpactSolver {
   }
 
   void sweep() {
-    for (int i = 0; i < k_sweeps_per_point * contact_.manifold.count; ++i)
+    for (int i = 0; i < k_passes_per_point * contact_.manifold.count; ++i)
       solve(points_[static_cast<std::size_t>(i % contact_.manifold.count)]);
   }
 

@@ -35,7 +35,7 @@ JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loo
   seen_.reserve(joint_capacity);
   visited_.reserve(body_capacity);
   sorted_.reserve(joint_capacity);
-  in_net_.reserve(joint_capacity);
+  in_balls_.reserve(joint_capacity);
 }
 
 std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_contacts) {
@@ -49,16 +49,16 @@ std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_co
   system_.clusters.clear();
   system_.order.clear();
   system_.group_bodies.clear();
-  in_net_.clear();
+  in_balls_.clear();
   seen_.assign(system_.added.size(), 0);
   visited_.assign(system_.bodies.size(), 0);
   for (std::uint32_t i = 0; i < system_.bodies.size(); ++i) {
     if (system_.bodies[i].pushed && visited_[i] == 0) find_group(i);
   }
   for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
-    if (system_.added[i].joint == AddedJoint::k_in_net) in_net_.push_back(i);
+    if (system_.added[i].joint == AddedJoint::k_in_balls) in_balls_.push_back(i);
   }
-  return in_net_;
+  return in_balls_;
 }
 
 // Lists the joints of each pushed body, by index.
@@ -130,7 +130,8 @@ void JointPlanner::plan_group(JointGroup group) {
   system_.groups.push_back(group);
 }
 
-// Too many joints for one factor: balls go to the net, and each other joint is a group, by index.
+// Too many joints for one factor: balls become coloured balls, and each other joint is a group, by
+// index.
 void JointPlanner::plan_singles(const JointGroup& group) {
   std::vector<std::uint32_t>& order = system_.order;
   const auto begin = order.begin() + group.first, end = begin + group.count;
@@ -138,8 +139,8 @@ void JointPlanner::plan_singles(const JointGroup& group) {
     AddedJoint& added = system_.added[index];
     added.place = 0;
     if (!fits_net(added)) return false;
-    added.joint = AddedJoint::k_in_net;
-    system_.bodies[added.a].in_net = system_.bodies[added.b].in_net = true;
+    added.joint = AddedJoint::k_in_balls;
+    system_.bodies[added.a].in_balls = system_.bodies[added.b].in_balls = true;
     return true;
   });
   std::sort(rest, end);
@@ -152,11 +153,11 @@ void JointPlanner::plan_singles(const JointGroup& group) {
   }
 }
 
-// Makes the joints that are not in a net, by index.
+// Makes the joints that are not coloured balls, by index.
 void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_group) {
   sorted_.clear();
   for (const std::uint32_t index : system_.joints_of(group)) {
-    if (system_.added[index].joint != AddedJoint::k_in_net) sorted_.push_back(index);
+    if (system_.added[index].joint != AddedJoint::k_in_balls) sorted_.push_back(index);
   }
   if (sorted_.empty()) return;
   std::sort(sorted_.begin(), sorted_.end());

@@ -47,7 +47,7 @@ void JointSolver::add(const JointRecord& record, const Side& a, const Side& b) {
 void JointSolver::begin(const JointRun& run) {
   const RoundDivisor rate(system_.step.substep_rate());
   for (LinkedBody& body : system_.bodies) {
-    body.centred = body.pushed && !body.in_net && !body.touches && !body.is_among_contacts;
+    body.centred = body.pushed && !body.in_balls && !body.touches && !body.is_among_contacts;
     body.rate = rate;
   }
   for (JointGroup& group : system_.groups)
@@ -97,7 +97,7 @@ void JointSolver::relax(const JointRun& run, std::size_t first, std::size_t end)
 void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end) const {
   for (std::size_t i = first; i < end; ++i) {
     const LinkedBody& body = system_.bodies[i];
-    if (body.solver == 0 || !body.in_net) continue;
+    if (body.solver == 0 || !body.in_balls) continue;
     run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
   }
 }
@@ -113,10 +113,11 @@ void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) 
 
 void JointSolver::store(std::size_t added, JointRecord& record) const {
   const std::uint32_t index = system_.added[added].joint;
-  if (index == k_in_net) return;
+  if (index == k_in_balls) return;
   const LinkedJoint& joint = system_.joints[index];
-  const bool drifts = system_.bodies[joint.a].drifts_first || system_.bodies[joint.b].drifts_first;
-  store_impulses(joint, drifts, record);
+  const bool moves_first =
+      system_.bodies[joint.a].moves_first || system_.bodies[joint.b].moves_first;
+  store_impulses(joint, moves_first, record);
 }
 
 Vec3<Velocity> JointSolver::own_spin(std::uint32_t index, const Vec3<Velocity>& spin,

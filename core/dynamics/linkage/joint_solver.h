@@ -78,8 +78,9 @@ class JointSolver {
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
 
-  /// Number of clusters, without joints that are left to a net. No two share a body that is pushed:
-  /// the functions below take a range of clusters, and ranges may be worked at side by side.
+  /// Number of clusters, without joints that are left to the coloured balls. No two share a body
+  /// that is pushed: the functions below take a range of clusters, and ranges may be worked at side
+  /// by side.
   [[nodiscard]] std::uint32_t cluster_count() const {
     return static_cast<std::uint32_t>(system_.clusters.size());
   }
@@ -90,7 +91,7 @@ class JointSolver {
   void solve(const JointRun& run, std::size_t first, std::size_t end);
   void relax(const JointRun& run, std::size_t first, std::size_t end);
 
-  /// Writes where bodies of nets are to `places`, each by itself.
+  /// Writes where bodies of coloured balls are to `places`, each by itself.
   void place(const JointRun& run, std::size_t first, std::size_t end) const;
 
   /// Moves the jointed bodies, as the contact solver moves those without joints: each by itself, in
@@ -100,11 +101,12 @@ class JointSolver {
     return static_cast<std::uint32_t>(system_.bodies.size());
   }
 
-  /// Impulses back to a record, in the order of adding; not of those in a net.
+  /// Impulses back to a record, in the order of adding; not of those among the coloured balls.
   void store(std::size_t added, JointRecord& joint) const;
 
-  /// The number of the joint that was added so; k_in_net of one that is left to a net.
-  static constexpr std::uint32_t k_in_net = AddedJoint::k_in_net;
+  /// The number of the joint that was added so; k_in_balls of one that is left to the coloured
+  /// balls.
+  static constexpr std::uint32_t k_in_balls = AddedJoint::k_in_balls;
   [[nodiscard]] std::uint32_t number_of(std::size_t added) const {
     return system_.added[added].joint;
   }

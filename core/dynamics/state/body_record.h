@@ -45,10 +45,11 @@ struct BodyRecord {
   std::uint64_t user_data = 0;
   AssetId asset{};  // Shape::asset
   Quat orientation{{}, {}, {}, {}};
-  Quat contact_orientation{{}, {}, {}, {}};  // and place: where contacts are found, contact_pose.h
-  Vec3<Length> contact_place{};              // low 32 bits
-  Vec3<Length> size{};                       // Shape::size
-  Vec3<Unit> inertia{};                      // principal moments / (mass · s²), each in (0, 1]
+  Quat contact_orientation{
+      {}, {}, {}, {}};           // and place: where contacts are found, recycling_pose.h
+  Vec3<Length> contact_place{};  // low 32 bits
+  Vec3<Length> size{};           // Shape::size
+  Vec3<Unit> inertia{};          // principal moments / (mass · s²), each in (0, 1]
   // One of three. A body that forces push in this tick: the velocities that they give it
   // (tick_gain.h). Another dynamic body that may fall asleep: the pose at which it began to rest
   // (rest.h). A static or kinematic body: the motion of its surface. Else zero.

@@ -119,7 +119,7 @@ void ContactSolver::fill_bodies(const ContactScene& scene, std::size_t first, st
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end_of_numbers; ++i) {
     SolverBody& body = bodies_.constants()[i];
     const std::uint32_t island = islands_.all().of(static_cast<std::uint32_t>(i));
-    body.rests = islands_.load(island).is_stack() && EffortPolicy::rests(bodies_.rows()[i], body);
+    body.rests = islands_.tally(island).is_stack() && EffortPolicy::rests(bodies_.rows()[i], body);
   }
 }
 
@@ -150,7 +150,7 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return converged_->solve(constraints_.run(), joints_, first, end,
                                stage.kind == StageKind::push_islands);
     case StageKind::solve_balls:
-      return joints_.balls().lift(joints_.balls_run(), stage.color, first, end);
+      return joints_.balls().solve_positions(joints_.balls_run(), stage.color, first, end);
     case StageKind::solve_joints:
       return joints.solve(joints_.run(), first, end);
     case StageKind::limit_moves:
@@ -162,7 +162,7 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
     case StageKind::relax_joints:
       return joints.relax(joints_.run(), first, end);
     case StageKind::update_balls:
-      return joints_.balls().follow(joints_.balls_run(), stage.color, first, end);
+      return joints_.balls().update(joints_.balls_run(), stage.color, first, end);
     case StageKind::relax_balls:
       return joints_.balls().relax(joints_.balls_run(), stage.color, first, end);
     case StageKind::relax:
@@ -214,14 +214,14 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
   if (constraints_.has_restitution()) bounce_limit_.limit(bodies, speed_limit);
 }
 
-bool ContactSolver::keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const {
-  const IslandLoad* island = islands_.find(bodies_, body);
+bool ContactSolver::keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const {
+  const IslandTally* island = islands_.find(bodies_, body);
   if (island == nullptr || island->is_converged) return false;
-  return is_near_contact_pose(record, island->is_stack() ? k_fine_drift : k_coarse_drift);
+  return is_near_recycling_pose(record, island->is_stack() ? k_fine_delta : k_coarse_delta);
 }
 
 bool ContactSolver::is_loose(std::uint32_t body) const {
-  const IslandLoad* island = islands_.find(bodies_, body);
+  const IslandTally* island = islands_.find(bodies_, body);
   return island != nullptr && island->is_loose;
 }
 

@@ -75,8 +75,8 @@ class ContactSolver {
   }
 
   /// Whether the body's manifolds may stay as they are: its island is left to the iterations, and
-  /// it has not drifted far.
-  [[nodiscard]] bool keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const;
+  /// it has not moved far.
+  [[nodiscard]] bool keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const;
 
   /// Whether the body is of a loose pile.
   [[nodiscard]] bool is_loose(std::uint32_t body) const;

@@ -40,12 +40,12 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
   lists_.build(scene, bodies, contacts, islands);
   EffortPolicy::mark_loose(scene, bodies, islands);
   for (std::uint32_t island = 1; island < islands.count(); ++island) {
-    IslandLoad& load = islands.load(island);
-    if (!effort.may_converge(load)) continue;
+    IslandTally& tally = islands.tally(island);
+    if (!effort.may_converge(tally)) continue;
     list(contacts, islands, joints, island);
-    LKS_ASSERT(bodies_.size() == load.bodies && contacts_.size() == load.contacts);
-    load.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
-    if (!load.is_converged) continue;
+    LKS_ASSERT(bodies_.size() == tally.bodies && contacts_.size() == tally.contacts);
+    tally.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
+    if (!tally.is_converged) continue;
     for (const IslandJoint& joint : joints_)
       joints.solver().island_joints().put_among_contacts(joint.joint);
   }

@@ -128,7 +128,7 @@ Sizes cone_scaled(const Sizes& size, Unit share) {
   return {rounded<Length>(size.x * share), rounded<Length>(size.y * share), {}};
 }
 
-Sizes cone_eroded(const Sizes& size, Length depth) {
+Sizes cone_shrunk(const Sizes& size, Length depth) {
   const Length inner = cone_inner_radius(size);
   const Length left = inner - min(depth, inner);
   return cone_scaled(size, Unit::from_raw(static_cast<std::int32_t>(
@@ -242,7 +242,7 @@ const ShapeTraits k_cone{
     .face_along = cone_face_along,
     .vertex_at = no_vertex_at,
     .vertices = no_vertices,
-    .eroded = cone_eroded,
+    .shrunk = cone_shrunk,
     .shortened = cone_scaled,
     .make_core = cone_core,
     .below_plane = below_feature,

@@ -85,7 +85,7 @@ Shape cylinder_with_round_ends(const Sizes& size) {
   return Shape::capsule(size.y, size.x);
 }
 
-Sizes cylinder_eroded(const Sizes& size, Length depth) {
+Sizes cylinder_shrunk(const Sizes& size, Length depth) {
   return {size.x - depth, size.y - depth, {}};
 }
 
@@ -139,7 +139,7 @@ const ShapeTraits k_cylinder{
     .face_along = cylinder_face_along,
     .vertex_at = no_vertex_at,
     .vertices = no_vertices,
-    .eroded = cylinder_eroded,
+    .shrunk = cylinder_shrunk,
     .shortened = cylinder_shortened,
     .make_core = cylinder_core,
     .below_plane = below_feature,

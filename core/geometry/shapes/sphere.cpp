@@ -64,7 +64,7 @@ const ShapeTraits k_sphere{
     .face_along = round_face_along,
     .vertex_at = sphere_vertex_at,
     .vertices = sphere_vertices,
-    .eroded = ball_swept_eroded,
+    .shrunk = ball_swept_shrunk,
     .shortened = sphere_shortened,
     .make_core = sphere_core,
     .below_plane = below_sphere,

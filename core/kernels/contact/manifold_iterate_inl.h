@@ -1,10 +1,10 @@
 // The iteration of manifold_block.h without friction for the target at hand, and code that all
 // iterations share.
-#if defined(LKS_WIDE_MANIFOLD_SWEEP_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LKS_WIDE_MANIFOLD_SWEEP_INL_H
-#undef LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#if defined(LKS_WIDE_MANIFOLD_ITERATE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_MANIFOLD_ITERATE_INL_H
+#undef LKS_WIDE_MANIFOLD_ITERATE_INL_H
 #else
-#define LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#define LKS_WIDE_MANIFOLD_ITERATE_INL_H
 #endif
 
 #include "core/kernels/contact/manifold_ahead_inl.h"
@@ -243,7 +243,7 @@ HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std
   bodies.store_to(words, block, lane);
 }
 
-HWY_ATTR inline void solve_manifolds(RowBody* bodies, ManifoldBlock* blocks, std::size_t count,
+HWY_ATTR inline void solve_manifolds(BodyVelocity* bodies, ManifoldBlock* blocks, std::size_t count,
                                      const SolverParams& rules) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {

@@ -24,7 +24,7 @@ class BodyRegistry {
   Result<BodyHandle> create(const BodyDef& def);
   Status destroy(BodyHandle body);
 
-  /// After `disturb`, when no contact of the body is frozen.
+  /// After `disturb`, when no contact of the body sleeps.
   void drop_contacts_of(std::uint32_t body);
 
   /// For records that were loaded.

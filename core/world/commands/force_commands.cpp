@@ -115,8 +115,8 @@ Status CommandExecutor::push_now(BodyHandle body, const Push& push) {
   BodyRecord& record = *world_.edit(body);
   add_velocity(record.velocity, gain.velocity);
   add_velocity(record.spin, gain.spin);
-  hold_in_range(record.velocity);
-  hold_in_range(record.spin);
+  clamp_speed(record.velocity);
+  clamp_speed(record.spin);
   world_.refresh(body.index);
   return Status::ok;
 }

@@ -91,7 +91,7 @@ struct WorldData {
   }
   template <class F>
   void visit(ContactStore, F&& f) const {
-    if (contacts.frozen().count() == 0) return f(contacts.active());
+    if (contacts.sleeping().count() == 0) return f(contacts.active());
     for_each_contact([&](const ContactRecord& contact) { f(std::span(&contact, 1)); });
   }
   template <class F>

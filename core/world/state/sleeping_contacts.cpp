@@ -6,12 +6,12 @@
 
 namespace lockstone {
 
-FrozenContacts::FrozenContacts(std::uint32_t body_capacity, std::uint32_t contact_capacity)
+SleepingContacts::SleepingContacts(std::uint32_t body_capacity, std::uint32_t contact_capacity)
     : nodes_(contact_capacity),
       heads_{std::vector<std::uint32_t>(body_capacity, k_null),
              std::vector<std::uint32_t>(body_capacity, k_null)} {}
 
-void FrozenContacts::clear() {
+void SleepingContacts::clear() {
   for (auto& heads : heads_)
     std::fill(heads.begin(), heads.end(), k_null);
   used_ = count_ = 0;
@@ -19,7 +19,8 @@ void FrozenContacts::clear() {
   hash_ = 0;
 }
 
-void FrozenContacts::link(std::uint32_t slot, int side, std::uint32_t body, std::uint32_t before) {
+void SleepingContacts::link(std::uint32_t slot, int side, std::uint32_t body,
+                            std::uint32_t before) {
   std::uint32_t& from = before == k_null ? heads_[side][body] : nodes_[before].links[side].after;
   const std::uint32_t after = from;
   nodes_[slot].links[side] = {before, after};
@@ -27,13 +28,13 @@ void FrozenContacts::link(std::uint32_t slot, int side, std::uint32_t body, std:
   if (after != k_null) nodes_[after].links[side].before = slot;
 }
 
-void FrozenContacts::unlink(std::uint32_t slot, int side, std::uint32_t body) {
+void SleepingContacts::unlink(std::uint32_t slot, int side, std::uint32_t body) {
   const Link at = nodes_[slot].links[side];
   (at.before == k_null ? heads_[side][body] : nodes_[at.before].links[side].after) = at.after;
   if (at.after != k_null) nodes_[at.after].links[side].before = at.before;
 }
 
-void FrozenContacts::add(const ContactRecord& record) {
+void SleepingContacts::add(const ContactRecord& record) {
   std::uint32_t slot = free_;
   if (slot != k_null) {
     free_ = nodes_[slot].links[0].after;
@@ -53,7 +54,7 @@ void FrozenContacts::add(const ContactRecord& record) {
   hash_ += hash_contact(record);
 }
 
-void FrozenContacts::remove(std::uint32_t slot) {
+void SleepingContacts::remove(std::uint32_t slot) {
   Node& node = nodes_[slot];
   unlink(slot, 0, node.record.body_a);
   unlink(slot, 1, node.record.body_b);

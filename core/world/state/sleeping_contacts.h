@@ -14,10 +14,10 @@ namespace lockstone {
 
 /// Where a contact is kept follows from the state: derived. Each body has two lists, of the
 /// contacts in which it is A, by key, and of those in which it is B, in no order.
-class FrozenContacts {
+class SleepingContacts {
  public:
   /// No function but this allocates.
-  FrozenContacts(std::uint32_t body_capacity, std::uint32_t contact_capacity);
+  SleepingContacts(std::uint32_t body_capacity, std::uint32_t contact_capacity);
 
   void clear();
 

@@ -47,7 +47,7 @@ TEST(ContactLists, SetAsideTheContactsOfWhichNoBodyIsAwake) {
   lists.freeze([](std::uint32_t body) { return body >= 3; });
   EXPECT_EQ(first_bodies(lists), (Numbers{2, 4}));
   EXPECT_EQ(ids_of(lists), (Numbers{12, 13}));
-  EXPECT_EQ(lists.frozen().count(), 2U);
+  EXPECT_EQ(lists.sleeping().count(), 2U);
   EXPECT_EQ(lists.count(), 4U);
   EXPECT_EQ(lists.active_capacity(), k_contacts - 2);
 }
@@ -62,7 +62,7 @@ TEST(ContactLists, MergeThawedContactsByKeyAndKnowNoManifoldOfThem) {
   EXPECT_EQ(first_bodies(lists), (Numbers{0, 1, 2, 4}));
   constexpr std::uint32_t k_none = ContactLists::k_no_manifold;
   EXPECT_EQ(ids_of(lists), (Numbers{k_none, k_none, 12, 13}));
-  EXPECT_EQ(lists.frozen().count(), 0U);
+  EXPECT_EQ(lists.sleeping().count(), 0U);
 }
 
 TEST(ContactLists, VisitActiveAndFrozenContactsByKey) {
@@ -71,7 +71,7 @@ TEST(ContactLists, VisitActiveAndFrozenContactsByKey) {
   Numbers visited;
   lists.for_each(k_bodies, [&](const ContactRecord& record) { visited.push_back(record.body_a); });
   EXPECT_EQ(visited, (Numbers{0, 1, 2, 4}));
-  EXPECT_EQ(lists.frozen().count(), 1U);
+  EXPECT_EQ(lists.sleeping().count(), 1U);
 }
 
 TEST(ContactLists, ForgetManifoldsWhereContactsOfABodyAreDropped) {
@@ -86,16 +86,16 @@ TEST(ContactLists, ForgetManifoldsWhereContactsOfABodyAreDropped) {
 TEST(ContactLists, ChangeARecordWhereItIs) {
   ContactLists lists = four_contacts();
   lists.freeze([](std::uint32_t body) { return body >= 3; });
-  const std::uint64_t hash = lists.frozen().hash();
+  const std::uint64_t hash = lists.sleeping().hash();
   lists.change(lists.active()[0], [](ContactRecord& record) { record.part_a = 7; });
   EXPECT_EQ(lists.active()[0].part_a, 7U);
-  EXPECT_EQ(lists.frozen().hash(), hash);
-  const ContactRecord* frozen = nullptr;
-  lists.frozen().for_each_of(0, [&](const ContactRecord& record) { frozen = &record; });
-  ASSERT_NE(frozen, nullptr);
-  lists.change(*frozen, [](ContactRecord& record) { record.part_b = 9; });
-  EXPECT_EQ(frozen->part_b, 9U);
-  EXPECT_NE(lists.frozen().hash(), hash);
+  EXPECT_EQ(lists.sleeping().hash(), hash);
+  const ContactRecord* sleeping = nullptr;
+  lists.sleeping().for_each_of(0, [&](const ContactRecord& record) { sleeping = &record; });
+  ASSERT_NE(sleeping, nullptr);
+  lists.change(*sleeping, [](ContactRecord& record) { record.part_b = 9; });
+  EXPECT_EQ(sleeping->part_b, 9U);
+  EXPECT_NE(lists.sleeping().hash(), hash);
 }
 
 TEST(ContactLists, AdoptALoadedStateByTheFlagsOfItsBodies) {
@@ -104,7 +104,7 @@ TEST(ContactLists, AdoptALoadedStateByTheFlagsOfItsBodies) {
   lists.forget_manifolds();
   lists.adopt(loaded, [](std::uint32_t body) { return body == 6; });
   EXPECT_EQ(first_bodies(lists), (Numbers{1}));
-  EXPECT_EQ(lists.frozen().count(), 2U);
+  EXPECT_EQ(lists.sleeping().count(), 2U);
   EXPECT_EQ(lists.count(), 3U);
 }
 

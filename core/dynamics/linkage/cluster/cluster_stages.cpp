@@ -60,9 +60,9 @@ void ClusterStages::begin(JointCluster& cluster) {
       [](const LinkedJoint& joint) { return lockstone::only_locks(*joint.record); });
   for (JointGroup& group : system_.groups_of(cluster))
     group.only_locks = only_locks;
-  cluster.drifts_first = can_drift_first(cluster);
+  cluster.moves_first = can_move_first(cluster);
   for (const std::uint32_t body : system_.bodies_of(cluster))
-    system_.bodies[body].drifts_first = cluster.drifts_first;
+    system_.bodies[body].moves_first = cluster.moves_first;
 }
 
 void ClusterStages::prepare(const JointRun& run, JointCluster& cluster) {
@@ -72,7 +72,7 @@ void ClusterStages::prepare(const JointRun& run, JointCluster& cluster) {
     group.turns_fast = turns_fast(run, system_, group);
   for (LinkedJoint& joint : system_.joints_of(cluster))
     leave_out_far_limits(run, system_.step, joint);
-  if (cluster.drifts_first) drift_first(run, cluster);
+  if (cluster.moves_first) move_first(run, cluster);
   account_.open(cluster);
 }
 
@@ -80,7 +80,7 @@ void ClusterStages::warm_start(const JointRun& run, JointCluster& cluster) {
   const std::span<const std::uint32_t> bodies = system_.bodies_of(cluster);
   const bool is_last = ++cluster.substep == system_.step.substeps;
   LKS_ASSERT(cluster.substep <= system_.step.substeps);
-  if (cluster.drifts_first)
+  if (cluster.moves_first)
     set_rate(cluster, std::int64_t{system_.step.substep_rate()} * (is_last ? 2 : 1));
   account_.begin(run, cluster);
   begin_pushes(run, system_, bodies);
@@ -137,7 +137,7 @@ void ClusterStages::relax(const JointRun& run, const JointCluster& cluster) {
   begin_pushes(run, system_, bodies);
   for (LinkedJoint& joint : system_.joints_of(cluster))
     solve_springs_later(run, joint);
-  locks_.hold_speeds(run, cluster);
+  locks_.lock_speeds(run, cluster);
   end_pushes(run, system_, bodies);
 }
 

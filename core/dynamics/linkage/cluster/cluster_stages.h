@@ -2,8 +2,8 @@
 //
 // The scheme is RATTLE: impulses at the beginning of the substep such that locks hold at its end,
 // and at the end such that they do not open (H. C. Andersen, "Rattle: a velocity version of the
-// Shake algorithm", 1983). A body by itself that only locks hold drifts half a substep first
-// (cluster_drift.cpp).
+// Shake algorithm", 1983). A body by itself that only locks hold moves half a substep first
+// (cluster_moves_first.cpp).
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class ClusterStages {
   /// At a tick's beginning: decides whether positions go half a substep first.
   void begin(JointCluster& cluster);
 
-  /// Once contacts are prepared: rows; a body that drifts first goes half a substep.
+  /// Once contacts are prepared: rows; a body that moves first goes half a substep.
   void prepare(const JointRun& run, JointCluster& cluster);
 
   /// At the beginning of a substep, after forces: the impulses of the last one again.
@@ -38,8 +38,8 @@ class ClusterStages {
  private:
   [[nodiscard]] bool push_drives(const JointRun& run, const JointCluster& cluster);
   [[nodiscard]] bool solve_locks(const JointRun& run, const JointCluster& cluster, bool again);
-  [[nodiscard]] bool can_drift_first(const JointCluster& cluster);
-  void drift_first(JointRun run, JointCluster& cluster);
+  [[nodiscard]] bool can_move_first(const JointCluster& cluster);
+  void move_first(JointRun run, JointCluster& cluster);
   void stay(JointCluster& cluster);
   void set_rate(const JointCluster& cluster, std::int64_t rate);
 

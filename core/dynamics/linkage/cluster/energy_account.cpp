@@ -28,7 +28,7 @@ void EnergyAccount::open(JointCluster& cluster) {
   };
   const auto may_be_pushed = [&](std::uint32_t index) {
     const LinkedBody& body = system_.bodies[index];
-    return body.touches || body.is_among_contacts || body.in_net;
+    return body.touches || body.is_among_contacts || body.in_balls;
   };
   cluster.gained = 0;
   for (JointGroup& group : system_.groups_of(cluster))
@@ -37,7 +37,7 @@ void EnergyAccount::open(JointCluster& cluster) {
     return std::ranges::any_of(joint.record->axes, &JointAxisRecord::is_driven);
   });
   cluster.is_passive =
-      !cluster.drifts_first && !cluster.is_driven &&
+      !cluster.moves_first && !cluster.is_driven &&
       std::ranges::none_of(system_.bodies_of(cluster), may_be_pushed) &&
       std::ranges::all_of(system_.joints_of(cluster), [&](const LinkedJoint& joint) {
         return stands(joint.a) && stands(joint.b);
@@ -99,7 +99,7 @@ void EnergyAccount::project_start(const JointRun& run, const JointCluster& clust
   for (const std::uint32_t index : system_.bodies_of(cluster)) {
     LinkedBody& body = system_.bodies[index];
     if (!body.pushed) continue;
-    lanes::RowBody& row = run.rows[body.solver];
+    lanes::BodyVelocity& row = run.rows[body.solver];
     body.saved_row = row;
     const SolverBody& solver = run.bodies[body.solver];
     // A body whose spin stays while it turns far may turn with more energy than before.
@@ -118,7 +118,7 @@ void EnergyAccount::project_start(const JointRun& run, const JointCluster& clust
     joint.saved = joint.locks;
     joint.carried = joint.relaxed;
   }
-  locks_.hold_speeds(run, cluster);
+  locks_.lock_speeds(run, cluster);
   for (LinkedJoint& joint : system_.joints_of(cluster)) {
     joint.locks = joint.saved;
     joint.relaxed = joint.carried;

@@ -249,7 +249,7 @@ std::int64_t LockSolver::close(const JointRun& run, JointGroup& group, bool turn
   return set_position_errors(group);
 }
 
-void LockSolver::hold_speeds(const JointRun& run, const JointCluster& cluster) {
+void LockSolver::lock_speeds(const JointRun& run, const JointCluster& cluster) {
   for (int i = 0; i < k_most_velocity_solves; ++i) {
     if (i < k_velocity_solves) {
       for (LinkedJoint& joint : system_.joints_of(cluster))

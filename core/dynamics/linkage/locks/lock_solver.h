@@ -32,7 +32,7 @@ class LockSolver {
   /// Gives the locks the speed that closes a quarter of their openings in a substep.
   void close_a_quarter(const JointRun& run, JointGroup& group);
 
-  // The same in parts, for a cluster that first drifts half a substep.
+  // The same in parts, for a cluster that first moves half a substep.
 
   /// Locks that are open by less, m, Q32, are closed: 1 µm.
   static constexpr std::int64_t k_closed = 1 << 12;
@@ -49,7 +49,7 @@ class LockSolver {
   // After positions moved.
 
   /// Velocities such that locks and limits do not open.
-  void hold_speeds(const JointRun& run, const JointCluster& cluster);
+  void lock_speeds(const JointRun& run, const JointCluster& cluster);
 
  private:
   void look_ahead(const JointRun& run, JointGroup& group, bool turn);

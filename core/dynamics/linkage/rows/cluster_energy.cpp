@@ -28,7 +28,8 @@ struct Turning {
   bool is_heavier;
 };
 
-JointMotion motion_of(const BodyRecord& record, const Turning& turning, const lanes::RowBody& row) {
+JointMotion motion_of(const BodyRecord& record, const Turning& turning,
+                      const lanes::BodyVelocity& row) {
   JointMotion motion;
   for (int i = 0; i < 3; ++i) {
     motion.velocity[i] = to_velocity(row.velocity[static_cast<std::size_t>(i)]);
@@ -41,7 +42,7 @@ JointMotion motion_of(const BodyRecord& record, const Turning& turning, const la
 
 }  // namespace
 
-JointMotion motion_of(const LinkedBody& body, const lanes::RowBody& row) {
+JointMotion motion_of(const LinkedBody& body, const lanes::BodyVelocity& row) {
   const Turning turning{body.inverse_inertia, body.pose.rotation, body.least_inertia != 0};
   return motion_of(*body.record, turning, row);
 }
@@ -86,7 +87,7 @@ void go_part(const JointRun& run, const JointSystem& system, const JointCluster&
   for (const std::uint32_t index : system.bodies_of(cluster)) {
     const LinkedBody& body = system.bodies[index];
     if (!body.pushed) continue;
-    lanes::RowBody& row = run.rows[body.solver];
+    lanes::BodyVelocity& row = run.rows[body.solver];
     const auto between = [&](std::int64_t begin, std::int64_t& now) {
       const std::int64_t first = bounded(begin, k_row_bound);
       now = first + product_rounded(bounded(now, k_row_bound) - first, share, k_share_bits);

@@ -18,7 +18,7 @@ struct JointMotion {
   Vec3<Velocity> velocity{}, surface{}, spin{};
 };
 
-[[nodiscard]] JointMotion motion_of(const LinkedBody& body, const lanes::RowBody& row);
+[[nodiscard]] JointMotion motion_of(const LinkedBody& body, const lanes::BodyVelocity& row);
 
 /// The motion at the substep's beginning, by the inertia of then.
 [[nodiscard]] JointMotion start_motion_of(const LinkedBody& body);
@@ -41,7 +41,7 @@ template <class Each>
 }
 
 /// Velocities that a stage noted: `unpushed` or `saved_row`.
-using NotedVelocities = lanes::RowBody LinkedBody::*;
+using NotedVelocities = lanes::BodyVelocity LinkedBody::*;
 
 /// The energy on the way from noted velocities to the present ones: where a share s of the way is
 /// gone, it is first + s·linear + s²·square.

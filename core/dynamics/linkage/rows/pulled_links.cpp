@@ -24,10 +24,10 @@ void add_pull(LinkedBody& body, std::int64_t jump, std::int64_t lever) {
 }
 
 // Adds half of a substep's impulses: the other half is that of `relaxed`, or goes before it.
-void add_pull(JointSystem& system, const LinkedJoint& joint, bool drifts_first) {
+void add_pull(JointSystem& system, const LinkedJoint& joint, bool moves_first) {
   const auto total = [&](std::size_t i) {
-    return drifts_first ? (joint.locks[i] + joint.carried[i]) / 2
-                        : joint.locks[i] + joint.relaxed[i];
+    return moves_first ? (joint.locks[i] + joint.carried[i]) / 2
+                       : joint.locks[i] + joint.relaxed[i];
   };
   const auto pull =
       static_cast<std::int64_t>(norm(total(0) >> 20, total(1) >> 20, total(2) >> 20));  // Q30
@@ -103,7 +103,7 @@ void resist_pulls(const JointRun& run, JointSystem& system) {
   for (const LinkedJoint& joint : system.joints)
     add_pull(system, joint, false);
   for (const AddedJoint& joint : system.added)
-    if (joint.joint == AddedJoint::k_in_net) add_last_pull(system, joint);
+    if (joint.joint == AddedJoint::k_in_balls) add_last_pull(system, joint);
   for (LinkedBody& body : system.bodies)
     resist_pull(run, system, body);
 }
@@ -112,9 +112,9 @@ void resist_pulls(const JointRun& run, JointSystem& system, const JointCluster& 
   for (const std::uint32_t body : system.bodies_of(cluster))
     system.bodies[body].pull = 0;
   for (const LinkedJoint& joint : system.joints_of(cluster))
-    add_pull(system, joint, cluster.drifts_first);
+    add_pull(system, joint, cluster.moves_first);
   for (const std::uint32_t body : system.bodies_of(cluster)) {
-    if (system.bodies[body].centred && !cluster.drifts_first)
+    if (system.bodies[body].centred && !cluster.moves_first)
       resist_pull(run, system, system.bodies[body]);
   }
 }

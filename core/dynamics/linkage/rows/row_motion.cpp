@@ -8,10 +8,10 @@
 namespace lockstone {
 namespace {
 
-using lanes::RowBody;
+using lanes::BodyVelocity;
 
 // As below, where a velocity leaves its bounds.
-[[gnu::noinline, gnu::cold]] void add_bounded(RowBody& body, const RawVec3& velocity,
+[[gnu::noinline, gnu::cold]] void add_bounded(BodyVelocity& body, const RawVec3& velocity,
                                               const RawVec3& spin) {
   const auto gained = [](std::int64_t x, std::int64_t by) {
     return bounded(bounded(x, k_row_bound) + bounded(by, 2 * k_row_bound), k_row_bound);
@@ -23,7 +23,7 @@ using lanes::RowBody;
 }
 
 // Adds a change to a body's velocity, within ±k_row_bound.
-inline void add_velocity(RowBody& body, const RawVec3& velocity, const RawVec3& spin) {
+inline void add_velocity(BodyVelocity& body, const RawVec3& velocity, const RawVec3& spin) {
   // Offset by the bound, a value out of bounds has bit 62 or 63 set.
   const auto excess = [](std::int64_t x) {
     return static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(k_row_bound);
@@ -113,8 +113,8 @@ template <class Side>
 
 std::int64_t row_speed(const JointRun& run, const LinkedJoint& joint, const JointRow& row) {
   LKS_ASSERT(row.axis < k_joint_axes);
-  const RowBody& a = run.rows[joint.solver_a];
-  const RowBody& b = run.rows[joint.solver_b];
+  const BodyVelocity& a = run.rows[joint.solver_a];
+  const BodyVelocity& b = run.rows[joint.solver_b];
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
     sum.add(row.response_a[i], a.spin[i]);
@@ -190,7 +190,7 @@ void end_pushes(const JointRun& run, const JointSystem& system,
   for (const std::uint32_t index : bodies) {
     const LinkedBody& body = system.bodies[index];
     if (!body.pushed) continue;
-    const RowBody& row = run.rows[body.solver];
+    const BodyVelocity& row = run.rows[body.solver];
     RawVec3 velocity, spin;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       velocity[axis] = gain(body.unpushed.velocity[axis], row.velocity[axis]);

@@ -13,9 +13,9 @@ namespace lockstone {
 /// The data of a substep, by solver body; 0 is immovable.
 struct JointRun {
   std::span<SolverBody> bodies;
-  std::span<lanes::RowBody> rows;
-  std::span<lanes::RowBody> before;  // receives joint impulses too: they are not replayed
-  std::span<lanes::SourceBody> inertias;
+  std::span<lanes::BodyVelocity> rows;
+  std::span<lanes::BodyVelocity> before;  // receives joint impulses too: they are not replayed
+  std::span<lanes::BodyInertia> inertias;
   std::span<lanes::BodyPlace> places;
 };
 

@@ -20,12 +20,12 @@ namespace lockstone {
 
 /// A joint as it was added, before groups are found.
 struct AddedJoint {
-  static constexpr std::uint32_t k_in_net = 0xffffffff;
+  static constexpr std::uint32_t k_in_balls = 0xffffffff;
 
   const JointRecord* record = nullptr;
   std::uint32_t a = 0, b = 0;  // in JointSystem::bodies
   std::uint32_t place = 0;     // within its group, in the order of elimination
-  std::uint32_t joint = 0;     // in JointSystem::joints; k_in_net if the coloured balls have it
+  std::uint32_t joint = 0;     // in JointSystem::joints; k_in_balls if the coloured balls have it
 };
 
 struct JointGroup {
@@ -46,7 +46,7 @@ struct JointGroup {
   std::int16_t fresh_solves = 0;  // for velocities, with a factor of the present rows
   int exponent = 0;               // least of its rows
   std::int64_t speed = 0;         // greatest of its locks, as last found, Q50
-  std::int64_t rate = 0;          // 1 / the time that its bodies drift for
+  std::int64_t rate = 0;          // 1 / the time that its bodies move for
 
   /// Whether `ProximalLocks` solves it, with its motors.
   [[nodiscard]] bool has_solved_loops() const { return loops != ProximalLocks::k_too_large; }
@@ -59,8 +59,8 @@ struct JointCluster {
   std::uint32_t group_count = 0;
   std::uint32_t first_body = 0;  // in JointSystem::group_bodies
   std::uint32_t body_count = 0;
-  std::int32_t substep = 0;   // number of the present one, from 1
-  bool drifts_first = false;  // positions go half a substep first
+  std::int32_t substep = 0;  // number of the present one, from 1
+  bool moves_first = false;  // positions go half a substep first
 
   // Its account of energy.
   bool is_driven = false;   // by springs or motors

@@ -79,8 +79,8 @@ void set_least_inertia(const JointRun& run, LinkedBody& body, std::int64_t least
   LKS_ASSERT(is_power_of_two_or_zero(least));
   if (least == body.least_inertia) return;
   LKS_ASSERT(body.pushed && body.solver < run.rows.size());
-  lanes::RowBody& row = run.rows[body.solver];
-  const lanes::RowBody old = row;
+  lanes::BodyVelocity& row = run.rows[body.solver];
+  const lanes::BodyVelocity old = row;
   const auto velocity = [](std::int64_t x) { return Velocity::from_raw(raw::round_shift(x, 18)); };
   const Vec3<Velocity> w = surface_velocity(
       body.inverse_inertia, {velocity(row.spin[0]), velocity(row.spin[1]), velocity(row.spin[2])});
@@ -103,7 +103,7 @@ void set_least_inertia(const JointRun& run, LinkedBody& body, std::int64_t least
   run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
 }
 
-// Without contacts gravity acts half before and half after, unless the drift itself lies half
+// Without contacts gravity acts half before and half after, unless the move itself lies half
 // before and half after. The body turns by its inertia half a substep on, as it was first seen
 // there in this substep.
 JointPose pose_after(const JointRun& run, LinkedBody& body) {
@@ -111,12 +111,12 @@ JointPose pose_after(const JointRun& run, LinkedBody& body) {
   JointPose after = body.pose;
   if (body.solver == 0) return after;
   LKS_ASSERT(body.solver < run.rows.size());
-  const lanes::RowBody& row = run.rows[body.solver];
+  const lanes::BodyVelocity& row = run.rows[body.solver];
   const SolverBody& solver = run.bodies[body.solver];
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     std::int64_t velocity = moving_speed(row.velocity[axis]);
-    if (body.centred && !body.drifts_first) velocity -= solver.gain[axis] * (1 << 17);
+    if (body.centred && !body.moves_first) velocity -= solver.gain[axis] * (1 << 17);
     after.position[i].raw += raw::round_shift(body.rate.quotient(velocity), 18);
   }
   if (row.spin == std::array<std::int64_t, 3>{} || !body.record->rotates()) return after;
@@ -144,7 +144,7 @@ JointPose pose_after(const JointRun& run, LinkedBody& body) {
 }
 
 void look_ahead(const JointRun& run, LinkedBody& body) {
-  const lanes::RowBody& row = run.rows[body.solver];
+  const lanes::BodyVelocity& row = run.rows[body.solver];
   if (body.has_looked && is_alike(row, body.looked)) return;
   body.after = pose_after(run, body);
   body.looked = row;
@@ -153,17 +153,17 @@ void look_ahead(const JointRun& run, LinkedBody& body) {
 
 void move_body(const JointRun& run, LinkedBody& body) {
   LKS_ASSERT(body.solver != 0);
-  const lanes::RowBody& row = run.rows[body.solver];
+  const lanes::BodyVelocity& row = run.rows[body.solver];
   const bool is_known = body.has_looked && is_alike(row, body.looked);
   body.pose = is_known ? body.after : pose_after(run, body);
   body.has_looked = false;
-  if (body.in_net) {
+  if (body.in_balls) {
     run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
   }
   if (!body.record->is_dynamic() || body.record->has_spherical_inertia()) return;
   body.inverse_inertia = inverse_inertia_of(body, body.pose.rotation);
   run.bodies[body.solver].inverse_inertia = body.inverse_inertia;
-  run.inertias[body.solver] = source_body(body.inverse_inertia);
+  run.inertias[body.solver] = body_inertia(body.inverse_inertia);
 }
 
 }  // namespace lockstone

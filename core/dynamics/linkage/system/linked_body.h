@@ -24,9 +24,9 @@ struct LinkedBody {
   bool pushed = false;             // impulses change its velocity
   bool touches = false;            // has contacts
   bool is_among_contacts = false;  // its joints are in the problem of its island's contacts
-  bool in_net = false;             // a joint of it is left to the coloured balls
-  bool centred = false;            // half kick, drift, half kick
-  bool drifts_first = false;       // half drift, kick, half drift
+  bool in_balls = false;           // a joint of it is left to the coloured balls
+  bool centred = false;            // velocity Verlet: half a push, a move, half a push
+  bool moves_first = false;        // position Verlet: half a move, a push, half a move
 
   // The joints that hold it.
   std::uint32_t first_joint = 0;  // in JointSystem::by_body
@@ -36,9 +36,9 @@ struct LinkedBody {
   // Where it is, and where it will be after the substep with its present velocity.
   JointPose pose;
   JointPose after;
-  lanes::RowBody looked{};  // the velocity that `after` was found with
+  lanes::BodyVelocity looked{};  // the velocity that `after` was found with
   bool has_looked = false;
-  RoundDivisor rate{};  // 1 / the time that it drifts for
+  RoundDivisor rate{};  // 1 / the time that it moves for
 
   // How heavy it is to turn.
   std::int64_t least_inertia = 0;  // Q30: a power of two, or 0 for its own inertia
@@ -53,9 +53,9 @@ struct LinkedBody {
   bool pulled = false;             // an eighth as hard as needs more inertia
 
   // Velocities and energies noted by stages of the substep.
-  lanes::RowBody unpushed{};  // as the present stage found it
-  lanes::RowBody saved_row{};
-  lanes::RowBody start{};  // of the substep
+  lanes::BodyVelocity unpushed{};  // as the present stage found it
+  lanes::BodyVelocity saved_row{};
+  lanes::BodyVelocity start{};  // of the substep
   Vec3<Position> start_position{};
   InverseInertia start_inertia{};  // and where it was then
   Mat3 start_rotation{};

@@ -57,7 +57,7 @@ void load_impulses(LinkedJoint& joint, int shift) {
   }
 }
 
-void store_impulses(const LinkedJoint& joint, bool drifts, JointRecord& record) {
+void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& record) {
   const auto to_record = [](std::int64_t impulse) {
     return SolverVelocity::from_raw(raw::saturate<std::int32_t>(raw::round_shift(impulse, 30)));
   };
@@ -70,9 +70,9 @@ void store_impulses(const LinkedJoint& joint, bool drifts, JointRecord& record) 
     if (row.kind == RowKind::drive) {
       axis.drive_impulse = to_record(joint.driven[row.axis] + joint.driven_later[row.axis]);
     } else {
-      axis.impulse = to_record(bounded(
-          joint.locks[row.axis] + joint.relaxed[row.axis] + (drifts ? joint.carried[row.axis] : 0),
-          k_product_bound));
+      axis.impulse = to_record(bounded(joint.locks[row.axis] + joint.relaxed[row.axis] +
+                                           (moves_first ? joint.carried[row.axis] : 0),
+                                       k_product_bound));
     }
   }
 }

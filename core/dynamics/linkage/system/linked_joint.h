@@ -62,12 +62,12 @@ struct LinkedJoint {
   std::array<InverseResponse, k_max_joint_rows> inverse_responses{};  // of limits and drives
   std::array<JointDrive, k_joint_axes> drives{};
 
-  AxisImpulses locks{};         // before positions move; of limits in both phases
-  AxisImpulses relaxed{};       // of locks, after positions moved
-  AxisImpulses carried{};       // `relaxed` of the substep before, or saved where no cluster drifts
-  AxisImpulses saved{};         // of `locks`
-  AxisImpulses driven{};        // of drives, before positions move
-  AxisImpulses driven_later{};  // of drives, after it
+  AxisImpulses locks{};    // before positions move; of limits in both phases
+  AxisImpulses relaxed{};  // of locks, after positions moved
+  AxisImpulses carried{};  // `relaxed` of the substep before, or saved where no cluster moves first
+  AxisImpulses saved{};    // of `locks`
+  AxisImpulses driven{};   // of drives, before positions move
+  AxisImpulses driven_later{};                         // of drives, after it
   std::array<std::int64_t, k_joint_axes> left_open{};  // of locks, by row: too far to close in the
                                                        // substep, m, Q32
 
@@ -88,8 +88,8 @@ void set_masses(LinkedJoint& joint, const LinkedBody& a, const LinkedBody& b);
 /// Begins with the impulses of the last tick: those of locks times 2^(shift − 30).
 void load_impulses(LinkedJoint& joint, int shift);
 
-/// Writes the impulses to a record. `drifts`: positions moved half a substep first.
-void store_impulses(const LinkedJoint& joint, bool drifts, JointRecord& record);
+/// Writes the impulses to a record. `moves_first`: positions moved half a substep first.
+void store_impulses(const LinkedJoint& joint, bool moves_first, JointRecord& record);
 
 /// Whether a joint neither limits nor drives any axis.
 [[nodiscard]] bool only_locks(const JointRecord& joint);

@@ -52,7 +52,7 @@ std::int64_t mean_impulse(const ContactRecord& record) {
 
 // The mean impulse (`load`) follows the impulses over 2^shift ticks, where the initial warm start
 // gave one. If other contacts learned theirs while bodies settle, these would tremble on.
-void follow_mean(std::int64_t now, int shift, ContactRecord& record) {
+void update_mean(std::int64_t now, int shift, ContactRecord& record) {
   const std::int64_t mean = record.load.raw;
   if (mean == 0) return;
   record.load.raw = static_cast<std::int32_t>(mean + raw::round_shift(now - mean, shift));
@@ -188,12 +188,12 @@ void ContactConstraints::fill_lane(const ContactScene& scene, ContactLane place,
   const SolverBody& b = side(contact.b, record.body_b, scratch.fixed_b);
   const std::size_t lane = place.lane();
   lanes::PrepareInputs& inputs = scratch.inputs;
-  inputs.body_a[lane] = lanes::row_body_offset(bodies.row_of(contact.a));
-  inputs.body_b[lane] = lanes::row_body_offset(bodies.row_of(contact.b));
+  inputs.body_a[lane] = lanes::body_velocity_offset(bodies.row_of(contact.a));
+  inputs.body_b[lane] = lanes::body_velocity_offset(bodies.row_of(contact.b));
   inputs.geometry[lane] = geometry_of(manifold);
   if (layout_.is_alone(contact))
     constants[contact.a.is_standing() ? contact.b.number() : contact.a.number()].is_alone = true;
-  IslandLoad& island = parts_.islands.load(contact);
+  IslandTally& island = parts_.islands.tally(contact);
   lanes::PrepareInput& input = inputs.lanes[lane];
   const ContactInput from{a, b, manifold, record, surface, island.is_pinched};
   has_points_[place.value] = fill_source(from, softness_, input) ? 1 : 0;
@@ -209,7 +209,7 @@ void ContactConstraints::solve(std::size_t color, std::size_t first, std::size_t
   const std::size_t begin = layout_.blocks_of(color).first;
   kernels_of(color).solve(parts_.bodies.rows().data(), &blocks_[begin + first], end - first,
                           params_);
-  hold_bodies(begin + first, begin + end);
+  apply_axis_locks(begin + first, begin + end);
 }
 
 void ContactConstraints::relax(std::size_t color, std::size_t first, std::size_t end,
@@ -217,7 +217,7 @@ void ContactConstraints::relax(std::size_t color, std::size_t first, std::size_t
   const std::size_t begin = layout_.blocks_of(color).first;
   kernels_of(color).relax(parts_.bodies.rows().data(), parts_.bodies.travel().data(),
                           &blocks_[begin + first], end - first, dithered(params_, substep));
-  hold_bodies(begin + first, begin + end);
+  apply_axis_locks(begin + first, begin + end);
 }
 
 void ContactConstraints::bounce(std::size_t color, std::size_t first, std::size_t end) {
@@ -229,18 +229,18 @@ void ContactConstraints::bounce(std::size_t color, std::size_t first, std::size_
     kernels_of(color).bounce(parts_.bodies.rows().data(), blocks_[block], approaches_[block],
                              restitution, k_restitution_threshold);
   }
-  hold_bodies(begin + first, begin + end);
+  apply_axis_locks(begin + first, begin + end);
 }
 
 // The bodies of blocks of one colour, which no other block of it names.
-void ContactConstraints::hold_bodies(std::size_t first, std::size_t end) {
-  if (!parts_.bodies.holds_any()) return;
+void ContactConstraints::apply_axis_locks(std::size_t first, std::size_t end) {
+  if (!parts_.bodies.has_axis_locks()) return;
   for (std::size_t i = first * k_block_lanes; i < end * k_block_lanes; ++i) {
     const ContactLane place{static_cast<std::uint32_t>(i)};
     if (!layout_.has_contact(place)) continue;
     const ContactRef& contact = parts_.contacts[layout_.contact_at(place)];
     for (const BodyRef body : {contact.a, contact.b})
-      if (!body.is_standing()) parts_.bodies.hold(body.number());
+      if (!body.is_standing()) parts_.bodies.apply_axis_locks(body.number());
   }
 }
 
@@ -258,7 +258,7 @@ std::uint32_t ContactConstraints::store(std::size_t color, std::size_t first, st
     ContactRecord& record = target.records[contact.record];
     if (has_points_[i] == 0) name_points(target.manifolds[contact.manifold], record);
     clamped += store_contact(place, record);
-    follow_mean(mean_impulse(record), load_shift_, record);
+    update_mean(mean_impulse(record), load_shift_, record);
     target.approaches[contact.record].raw = approach_of(place);
     if (record.is_touching())
       motion.note_push(contact, unit_normal_of(blocks_[place.block()], place.lane()));

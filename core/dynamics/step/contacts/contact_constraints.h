@@ -85,7 +85,7 @@ class ContactConstraints {
   [[nodiscard]] const ContactRef* look_ahead(std::size_t lane,
                                              std::span<const ContactRecord> records) const;
   [[nodiscard]] const lanes::ManifoldKernels& kernels_of(std::size_t color) const;
-  void hold_bodies(std::size_t first, std::size_t end);
+  void apply_axis_locks(std::size_t first, std::size_t end);
   std::uint32_t store_contact(ContactLane place, ContactRecord& record) const;
 
   Parts parts_;

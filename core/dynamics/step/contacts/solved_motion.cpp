@@ -9,8 +9,8 @@
 namespace lockstone {
 namespace {
 
+using lanes::BodyVelocity;
 using lanes::DeltaPose;
-using lanes::RowBody;
 
 // From the Q50 of rows to the Q32 of velocities.
 Velocity from_row(std::int64_t row) {
@@ -70,7 +70,7 @@ Vec3<Velocity> SolvedMotion::half_step_back(std::uint32_t number, const BodyReco
       gain[i] -= times(along, n[i]);
   }
   for (int i = 0; i < 3; ++i)
-    if (bodies_.constants()[number].is_held(i)) gain[i] = {};
+    if (bodies_.constants()[number].is_locked(i)) gain[i] = {};
   const auto half = [&](Velocity v) {
     return Velocity::from_raw(raw::round_divide(step_.substep.times(v.raw), 2));
   };
@@ -78,14 +78,14 @@ Vec3<Velocity> SolvedMotion::half_step_back(std::uint32_t number, const BodyReco
 }
 
 std::array<Vec3<Velocity>, 2> SolvedMotion::speeds(std::uint32_t number) const {
-  const RowBody& row = bodies_.rows()[number];
+  const BodyVelocity& row = bodies_.rows()[number];
   return {from_row(row.velocity), from_row(row.spin)};
 }
 
 std::uint32_t SolvedMotion::scatter(std::uint32_t number, const Mat3& rotation,
                                     const JointPose* pose, BodyRecord& body) const {
   LKS_ASSERT(number != 0 && number < bodies_.count());
-  const RowBody& row = bodies_.rows()[number];
+  const BodyVelocity& row = bodies_.rows()[number];
   const DeltaPose& travel = bodies_.travel()[number];
   const Vec3<Velocity> back = body.is_dynamic() ? half_step_back(number, body) : Vec3<Velocity>{};
   const auto moved = [&](std::int64_t sum) { return Velocity::from_raw(step_.substep.times(sum)); };

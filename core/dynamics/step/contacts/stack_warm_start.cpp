@@ -23,16 +23,16 @@ void StackWarmStart::find(const ContactScene& scene, const ContactRun& run, Para
   initial_.clear();
   if (islands.has_stacks() && EffortPolicy::rebalances(scene.tick)) {
     add_supports(scene, [&](const ContactRef& contact) {
-      const IslandLoad& island = islands.load(contact);
+      const IslandTally& island = islands.tally(contact);
       return island.is_stack() && !island.needs_initial_warm_start() && is_free(contact.a) &&
              is_free(contact.b);
     });
     rebalance_.find(supports_, run, parts_.bodies.before(), parallel);
   }
   // Last, since `store` reads its supports.
-  if (islands.all().any(&IslandLoad::needs_initial_warm_start)) {
+  if (islands.all().any(&IslandTally::needs_initial_warm_start)) {
     add_supports(scene, [&](const ContactRef& contact) {
-      return islands.load(contact).needs_initial_warm_start();
+      return islands.tally(contact).needs_initial_warm_start();
     });
     initial_.find(supports_, run, parts_.bodies.before(), parallel);
   }
@@ -42,7 +42,7 @@ void StackWarmStart::find(const ContactScene& scene, const ContactRun& run, Para
 bool StackWarmStart::is_free(BodyRef body) const {
   if (body.is_standing()) return true;
   const std::uint32_t number = body.number();
-  return parts_.bodies.constants()[number].held == 0 &&
+  return parts_.bodies.constants()[number].locked == 0 &&
          parts_.joints.solver().find(parts_.bodies.side(number).body()) == nullptr;
 }
 

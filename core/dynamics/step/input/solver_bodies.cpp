@@ -9,8 +9,8 @@
 namespace lockstone {
 namespace {
 
+using lanes::BodyVelocity;
 using lanes::DeltaPose;
-using lanes::RowBody;
 
 // The greatest speed of a body in a substep along each axis: 1000 m/s, Q50. Sums of sixteen
 // substeps can be read.
@@ -59,7 +59,7 @@ void SolverBodies::clear() {
     number_of_[side.body()] = 0;
   sides_.assign(1, {});
   standing_count_ = 0;
-  holds_any_ = false;
+  has_axis_locks_ = false;
 }
 
 BodyRef SolverBodies::add(BodySide side) {
@@ -97,8 +97,8 @@ void SolverBodies::fill_numbered(const ContactScene& scene, std::size_t number) 
   const BodyRecord& record = scene.bodies[body];
   SolverBody& constants = constants_[number];
   constants = solver_body(record, scene.rotations[body], scene.gravity, step_);
-  if (constants.held != 0) holds_any_.store(true, std::memory_order_relaxed);
-  inertias_[number] = source_body(constants.inverse_inertia);
+  if (constants.locked != 0) has_axis_locks_.store(true, std::memory_order_relaxed);
+  inertias_[number] = body_inertia(constants.inverse_inertia);
   for (int i = 0; i < 3; ++i) {
     rows_[number].velocity[static_cast<std::size_t>(i)] = to_row(record.velocity[i]);
     rows_[number].spin[static_cast<std::size_t>(i)] = to_row(record.spin[i]);
@@ -111,8 +111,8 @@ void SolverBodies::fill_numbered(const ContactScene& scene, std::size_t number) 
 void SolverBodies::integrate_velocities(bool is_first, std::size_t first, std::size_t end) {
   LKS_ASSERT(end <= count());
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
-    RowBody& row = rows_[i];
-    RowBody& before = before_[i];
+    BodyVelocity& row = rows_[i];
+    BodyVelocity& before = before_[i];
     const SolverBody& body = constants_[i];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (is_first) {
@@ -123,15 +123,15 @@ void SolverBodies::integrate_velocities(bool is_first, std::size_t first, std::s
         repeat_component(row.spin[axis], before.spin[axis]);
       }
     }
-    hold(static_cast<std::uint32_t>(i));
+    apply_axis_locks(static_cast<std::uint32_t>(i));
   }
 }
 
 // Preparation gives locked axes no response; here the velocity that a push left there is cleared.
-void SolverBodies::hold(std::uint32_t number) {
-  if (constants_[number].held == 0) return;
+void SolverBodies::apply_axis_locks(std::uint32_t number) {
+  if (constants_[number].locked == 0) return;
   for (int axis = 0; axis < 3; ++axis) {
-    if (constants_[number].is_held(axis))
+    if (constants_[number].is_locked(axis))
       rows_[number].velocity[static_cast<std::size_t>(axis)] = 0;
   }
 }
@@ -141,7 +141,7 @@ void SolverBodies::integrate_positions(std::size_t first, std::size_t end) {
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i) {
     const SolverBody& body = constants_[i];
     if (body.is_pushed() && is_still(rows_[i])) continue;
-    const RowBody row = body.is_alone ? steadied(rows_[i]) : rows_[i];
+    const BodyVelocity row = body.is_alone ? steadied(rows_[i]) : rows_[i];
     DeltaPose& travel = travel_[i];
     const std::array<std::int64_t, 3> spin = {within_limit(row.spin[0]), within_limit(row.spin[1]),
                                               within_limit(row.spin[2])};

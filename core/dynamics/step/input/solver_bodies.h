@@ -19,7 +19,7 @@ namespace lockstone {
 class SolverBodies {
  public:
   /// No function but this allocates. A moving body has one number, or, if no impulse moves it, one
-  /// in each contact. Bodies that stand still have rows in contacts and in nets of joints.
+  /// in each contact. Bodies that stand still have rows in contacts and in coloured balls.
   [[gnu::cold]] SolverBodies(const TimeStep& step, std::size_t body_capacity,
                              std::size_t contact_capacity, std::size_t joint_capacity);
 
@@ -64,8 +64,10 @@ class SolverBodies {
   void integrate_positions(std::size_t first, std::size_t end);
 
   /// Clears the velocity along locked axes of moving.
-  void hold(std::uint32_t number);
-  [[nodiscard]] bool holds_any() const { return holds_any_.load(std::memory_order_relaxed); }
+  void apply_axis_locks(std::uint32_t number);
+  [[nodiscard]] bool has_axis_locks() const {
+    return has_axis_locks_.load(std::memory_order_relaxed);
+  }
 
   /// By number.
   [[nodiscard]] std::span<SolverBody> constants() { return std::span(constants_).first(count()); }
@@ -73,12 +75,12 @@ class SolverBodies {
     return std::span(constants_).first(count());
   }
   /// By row.
-  [[nodiscard]] std::span<lanes::RowBody> rows() { return rows_; }
-  [[nodiscard]] std::span<const lanes::RowBody> rows() const { return rows_; }
+  [[nodiscard]] std::span<lanes::BodyVelocity> rows() { return rows_; }
+  [[nodiscard]] std::span<const lanes::BodyVelocity> rows() const { return rows_; }
   /// Velocities at the beginning of the substep; before the first: those of the warm start.
-  [[nodiscard]] std::span<lanes::RowBody> before() { return before_; }
+  [[nodiscard]] std::span<lanes::BodyVelocity> before() { return before_; }
   [[nodiscard]] std::span<const lanes::DeltaPose> travel() const { return travel_; }
-  [[nodiscard]] std::span<lanes::SourceBody> inertias() { return inertias_; }
+  [[nodiscard]] std::span<lanes::BodyInertia> inertias() { return inertias_; }
 
  private:
   void fill_numbered(const ContactScene& scene, std::size_t number);
@@ -87,12 +89,12 @@ class SolverBodies {
   std::vector<std::uint32_t> number_of_;  // by body of the world: the first of its numbers, or 0
   std::vector<BodySide> sides_;           // by number
   std::vector<SolverBody> constants_;     // by number
-  std::vector<lanes::SourceBody> inertias_;
-  std::vector<lanes::RowBody> rows_;
-  std::vector<lanes::RowBody> before_;
+  std::vector<lanes::BodyInertia> inertias_;
+  std::vector<lanes::BodyVelocity> rows_;
+  std::vector<lanes::BodyVelocity> before_;
   std::vector<lanes::DeltaPose> travel_;
   std::uint32_t standing_count_ = 0;
-  std::atomic<bool> holds_any_{false};  // any locked axis of moving
+  std::atomic<bool> has_axis_locks_{false};  // any locked axis of moving
 };
 
 }  // namespace lockstone

@@ -39,12 +39,12 @@ void TickJoints::gather_balls(const ContactScene& scene) {
   balls_.clear(coloured.empty() ? 0 : bodies_.count());
   for (const std::uint32_t i : coloured) {
     const JointLink& link = scene.joint_links[i];
-    const auto end = [&](std::uint32_t body) -> JointNet::End {
+    const auto end = [&](std::uint32_t body) -> ColouredBalls::End {
       const std::uint32_t number = bodies_.number_of(body);
       const BodyRef ref = number != 0 ? BodyRef::numbered(number) : bodies_.add_standing();
       return {bodies_.row_of(ref), &scene.bodies[body], &scene.rotations[body], number != 0};
     };
-    const JointNet::End a = end(link.body_a), b = end(link.body_b);
+    const ColouredBalls::End a = end(link.body_a), b = end(link.body_b);
     balls_.add(i, scene.joints[link.joint], a, b);
   }
   balls_.lay_out();
@@ -58,14 +58,14 @@ void TickJoints::begin() {
   solver_->begin({bodies_.constants(), bodies_.rows(), {}, {}, {}});
   const std::span<const SolverBody> constants = bodies_.constants();
   for (std::size_t i = 1; i < constants.size(); ++i)
-    bodies_.inertias()[i] = source_body(constants[i].inverse_inertia);
+    bodies_.inertias()[i] = body_inertia(constants[i].inverse_inertia);
 }
 
 JointRun TickJoints::run() {
   return {bodies_.constants(), bodies_.rows(), bodies_.before(), bodies_.inertias(), places_};
 }
 
-NetRun TickJoints::balls_run() {
+ColouredBallsRun TickJoints::balls_run() {
   return {bodies_.rows().data(), bodies_.before().data(), bodies_.inertias().data(),
           bodies_.constants().data(), places_.data()};
 }
@@ -78,7 +78,7 @@ void TickJoints::store(std::span<const JointLink> links, std::span<JointRecord> 
     for (std::size_t i = 0; i < links.size(); ++i)
       solver_->store(i, joints[links[i].joint]);
   }
-  parallel.for_each({balls_.slot_count(), k_lane_grain},
+  parallel.for_each({balls_.lane_count(), k_lane_grain},
                     [&](std::size_t first, std::size_t end, std::uint32_t) {
                       balls_.store(links, joints, first, end);
                     });

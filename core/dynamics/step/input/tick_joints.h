@@ -37,11 +37,11 @@ class TickJoints {
   [[nodiscard]] std::uint32_t first_without_contacts() const { return first_without_contacts_; }
   [[nodiscard]] JointSolver& solver() { return *solver_; }
   [[nodiscard]] const JointSolver& solver() const { return *solver_; }
-  [[nodiscard]] JointNet& balls() { return balls_; }
-  [[nodiscard]] const JointNet& balls() const { return balls_; }
+  [[nodiscard]] ColouredBalls& balls() { return balls_; }
+  [[nodiscard]] const ColouredBalls& balls() const { return balls_; }
 
   [[nodiscard]] JointRun run();
-  [[nodiscard]] NetRun balls_run();
+  [[nodiscard]] ColouredBallsRun balls_run();
 
   /// Writes the last impulses of each joint to the records.
   void store(std::span<const JointLink> links, std::span<JointRecord> joints,
@@ -52,7 +52,7 @@ class TickJoints {
 
   SolverBodies& bodies_;
   std::unique_ptr<JointSolver> solver_;
-  JointNet balls_;
+  ColouredBalls balls_;
   std::uint32_t first_without_contacts_ = 1;
   std::vector<lanes::BodyPlace> places_;  // by row, of the bodies of coloured ball joints
 };

@@ -39,7 +39,7 @@ std::int32_t coarse(Velocity v) {
 }
 
 // Whether a body differs from the mean velocity of its island by more than 1/4 m/s along an axis.
-bool is_stirred(const BodyRecord& body, const IslandLoad& island) {
+bool is_stirred(const BodyRecord& body, const IslandTally& island) {
   constexpr std::int32_t k_fast = 4;
   for (int i = 0; i < 3; ++i)
     if (std::abs(coarse(body.velocity[i]) - island.velocity[i]) > k_fast) return true;
@@ -52,7 +52,7 @@ void for_each_body(const ContactScene& scene, const SolverBodies& bodies, Island
                    Work work) {
   for (std::uint32_t number = 1; number < bodies.count(); ++number) {
     const std::uint32_t island = islands.of(BodyRef::numbered(number));
-    if (island != 0) work(islands.load(island), scene.bodies[bodies.side(number).body()]);
+    if (island != 0) work(islands.tally(island), scene.bodies[bodies.side(number).body()]);
   }
 }
 
@@ -85,9 +85,9 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
                                  const ContactList& contacts, const TickJoints& joints,
                                  IslandBuilder& islands) {
   for (std::uint32_t i = 0; i < scene.joint_links.size(); ++i)
-    if (joints.solver().number_of(i) == JointSolver::k_in_net)
-      islands.load(islands.of(scene, bodies, scene.joint_links[i])).iterates_only = true;
-  for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
+    if (joints.solver().number_of(i) == JointSolver::k_in_balls)
+      islands.tally(islands.of(scene, bodies, scene.joint_links[i])).iterates_only = true;
+  for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
     if ((body.locks & k_lock_moving) != 0) island.iterates_only = true;
   });
   const auto mass = [&](BodyRef body) {
@@ -96,48 +96,48 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
                : scene.bodies[bodies.side(body.number()).body()].inverse_mass_value();
   };
   contacts.for_each([&](ContactId, const ContactRef& contact) {
-    IslandLoad& load = islands.load(contact);
+    IslandTally& tally = islands.tally(contact);
     const bool rolls = scene.surfaces[contact.manifold].rolling_arm != Length{};
     const std::int32_t share = lesser_share(mass(contact.a), mass(contact.b));
-    if (rolls || share < k_least_share) load.iterates_only = true;
-    load.is_uneven = load.is_uneven || share < k_uneven_share;
+    if (rolls || share < k_least_share) tally.iterates_only = true;
+    tally.is_uneven = tally.is_uneven || share < k_uneven_share;
   });
 }
 
 void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bodies,
                               IslandBuilder& islands) {
-  if (!islands.all().any(&IslandLoad::may_be_loose)) return;
-  for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
+  if (!islands.all().any(&IslandTally::may_be_loose)) return;
+  for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
     if (!island.may_be_loose()) return;
     for (int i = 0; i < 3; ++i)
       island.velocity[i] += coarse(body.velocity[i]);
     island.loose += is_loose(body) ? 1U : 0U;
   });
   for (std::uint32_t index = 1; index < islands.count(); ++index) {
-    IslandLoad& island = islands.load(index);
+    IslandTally& island = islands.tally(index);
     if (!island.may_be_loose()) continue;
     for (std::int32_t& component : island.velocity)
       component /= static_cast<std::int32_t>(island.bodies);
   }
-  for_each_body(scene, bodies, islands, [](IslandLoad& island, const BodyRecord& body) {
+  for_each_body(scene, bodies, islands, [](IslandTally& island, const BodyRecord& body) {
     if (island.may_be_loose() && is_stirred(body, island)) ++island.stirred;
   });
   for (std::uint32_t index = 1; index < islands.count(); ++index)
-    islands.load(index).is_loose = is_loose_pile(islands.load(index));
+    islands.tally(index).is_loose = is_loose_pile(islands.tally(index));
 }
 
-bool EffortPolicy::is_loose_pile(const IslandLoad& island) {
+bool EffortPolicy::is_loose_pile(const IslandTally& island) {
   return island.may_be_loose() &&
          (island.stirred > island.bodies / 4 || island.loose > island.bodies / 2);
 }
 
-bool EffortPolicy::may_converge(const IslandLoad& island) const {
+bool EffortPolicy::may_converge(const IslandTally& island) const {
   if (island.iterates_only || island.is_pinched || island.is_loose) return false;
   return island.contacts != 0 && island.contacts + island.joints <= most_island_contacts_ &&
          island.bodies <= BodyFactor::k_most_bodies;
 }
 
-bool EffortPolicy::rests(const lanes::RowBody& row, const SolverBody& body) {
+bool EffortPolicy::rests(const lanes::BodyVelocity& row, const SolverBody& body) {
   return is_slower(row, body, k_rigid_shift);
 }
 

@@ -1,5 +1,5 @@
 // Decides how much the solver does for an island or a contact: every limit stands here or in
-// `IslandLoad`, and counts within one island.
+// `IslandTally`, and counts within one island.
 #pragma once
 
 #include <cstdint>
@@ -36,21 +36,21 @@ class EffortPolicy {
 
   /// Whether an island without joints and with like masses is a loose pile: more than a quarter of
   /// its bodies differ from their mean velocity by 1/4 m/s, or more than half of them were in one
-  /// in the last tick. Iterations bring such a pile to rest sooner, at a tenth of the price.
-  [[nodiscard]] static bool is_loose_pile(const IslandLoad& island);
+  /// in the last tick. Iterations bring such a pile to rest sooner, at a tenth of the cost.
+  [[nodiscard]] static bool is_loose_pile(const IslandTally& island);
 
   /// Marks loose piles, once the counts of islands are known.
   static void mark_loose(const ContactScene& scene, const SolverBodies& bodies,
                          IslandBuilder& islands);
 
   /// Whether an island, whose counts are known, may be solved to convergence.
-  [[nodiscard]] bool may_converge(const IslandLoad& island) const;
+  [[nodiscard]] bool may_converge(const IslandTally& island) const;
 
   /// Whether stacks are rebalanced in a tick.
   [[nodiscard]] static bool rebalances(std::uint64_t tick) { return tick % k_rebalance_ticks == 0; }
 
   /// Whether a body of a stack hardly moves: it may stand on rigid contacts.
-  [[nodiscard]] static bool rests(const lanes::RowBody& row, const SolverBody& body);
+  [[nodiscard]] static bool rests(const lanes::BodyVelocity& row, const SolverBody& body);
 
   /// Whether a contact of a stack bears, and lies where it comes to rest: it is rigid, since a
   /// stack would bend by a spring there. Other contacts stay springs, since a spring damps a body

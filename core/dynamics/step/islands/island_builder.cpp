@@ -11,7 +11,7 @@ void IslandBuilder::build(const ContactScene& scene, const SolverBodies& bodies,
                           const ContactList& contacts) {
   join(scene, bodies, contacts);
   contacts.for_each([&](ContactId, const ContactRef& contact) {
-    IslandLoad& own = load(contact);
+    IslandTally& own = tally(contact);
     ++own.contacts;
     own.fresh += contacts.is_new(contact) ? 1U : 0U;
     own.bearing += contacts.is_bearing(contact) ? 1U : 0U;
@@ -47,7 +47,7 @@ std::uint32_t IslandBuilder::of(const ContactScene& scene, const SolverBodies& b
 }
 
 // Where a body that no impulse moves holds an island by a contact.
-IslandHold IslandBuilder::hold_of(const ContactScene& scene, const ContactRef& contact) const {
+ImmovablePush IslandBuilder::push_of(const ContactScene& scene, const ContactRef& contact) const {
   const bool holds_a = of(contact.a) == 0;
   if (!holds_a && of(contact.b) != 0) return {};
   const ContactRecord& record = scene.records[contact.record];
@@ -58,17 +58,17 @@ IslandHold IslandBuilder::hold_of(const ContactScene& scene, const ContactRef& c
 void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& contacts) {
   pinched_.clear();
   contacts.for_each([&](ContactId, const ContactRef& contact) {
-    const IslandHold hold = hold_of(scene, contact);
-    if (hold.island == 0) return;
-    const BodyRecord& holder = scene.bodies[hold.body];
+    const ImmovablePush push = push_of(scene, contact);
+    if (push.island == 0) return;
+    const BodyRecord& holder = scene.bodies[push.body];
     if (holder.velocity != Vec3<Velocity>{} || holder.spin != Vec3<Velocity>{})
-      pinched_.add_moving(hold);
+      pinched_.add_moving(push);
   });
   if (!pinched_.has_moving()) return;
   pinched_.sort();
   contacts.for_each([&](ContactId, const ContactRef& contact) {
-    const IslandHold hold = hold_of(scene, contact);
-    if (hold.island != 0 && pinched_.is_pinched(hold)) load(hold.island).is_pinched = true;
+    const ImmovablePush push = push_of(scene, contact);
+    if (push.island != 0 && pinched_.is_pinched(push)) tally(push.island).is_pinched = true;
   });
 }
 
@@ -82,10 +82,10 @@ void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverB
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ContactRecord& record = scene.records[contact.record];
     const ContactSurface& surface = scene.surfaces[contact.manifold];
-    if (surface.restitution != Coefficient{}) load(contact).may_bounce = true;
+    if (surface.restitution != Coefficient{}) tally(contact).may_bounce = true;
     if (moves(record.body_a) || moves(record.body_b) || surface.twist_drive != Rate{} ||
         surface.drive != Vec3<SolverVelocity>{})
-      load(contact).is_fed = true;
+      tally(contact).is_fed = true;
   });
   for (const JointLink& link : scene.joint_links) {
     const auto& axes = scene.joints[link.joint].axes;
@@ -93,7 +93,7 @@ void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverB
                         moves(link.body_a) || moves(link.body_b);
     for (const std::uint32_t body : {link.body_a, link.body_b}) {
       if (!scene.bodies[body].is_dynamic()) continue;
-      IslandLoad& own = load(islands_.of(bodies.number_of(body)));
+      IslandTally& own = tally(islands_.of(bodies.number_of(body)));
       own.has_joints = true;
       own.is_fed = own.is_fed || is_fed;
     }

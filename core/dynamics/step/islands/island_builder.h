@@ -27,7 +27,7 @@ class IslandBuilder {
                            const ContactList& contacts);
 
   /// Once it is known which islands are converged.
-  void find_stacks() { has_stacks_ = islands_.any(&IslandLoad::is_stack); }
+  void find_stacks() { has_stacks_ = islands_.any(&IslandTally::is_stack); }
   [[nodiscard]] bool has_stacks() const { return has_stacks_; }
 
   [[nodiscard]] const TickIslands& all() const { return islands_; }
@@ -49,20 +49,22 @@ class IslandBuilder {
                                  const JointLink& link) const;
 
   /// The island of a body by its index in the world; null of one that is in none.
-  [[nodiscard]] const IslandLoad* find(const SolverBodies& bodies, std::uint32_t body) const {
+  [[nodiscard]] const IslandTally* find(const SolverBodies& bodies, std::uint32_t body) const {
     const std::uint32_t number = bodies.number_of(body);
     const std::uint32_t island = number == 0 ? 0 : islands_.of(number);
-    return island == 0 ? nullptr : &load(island);
+    return island == 0 ? nullptr : &tally(island);
   }
 
-  [[nodiscard]] IslandLoad& load(std::uint32_t island) { return islands_.load(island); }
-  [[nodiscard]] const IslandLoad& load(std::uint32_t island) const { return islands_.load(island); }
-  [[nodiscard]] IslandLoad& load(const ContactRef& contact) { return load(of(contact)); }
+  [[nodiscard]] IslandTally& tally(std::uint32_t island) { return islands_.tally(island); }
+  [[nodiscard]] const IslandTally& tally(std::uint32_t island) const {
+    return islands_.tally(island);
+  }
+  [[nodiscard]] IslandTally& tally(const ContactRef& contact) { return tally(of(contact)); }
 
  private:
   void join(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts);
   void mark_pinched(const ContactScene& scene, const ContactList& contacts);
-  [[nodiscard]] IslandHold hold_of(const ContactScene& scene, const ContactRef& contact) const;
+  [[nodiscard]] ImmovablePush push_of(const ContactScene& scene, const ContactRef& contact) const;
 
   TickIslands islands_;
   PinchedIslands pinched_;

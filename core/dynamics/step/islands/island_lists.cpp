@@ -34,14 +34,14 @@ void IslandLists::build(const ContactScene& scene, const SolverBodies& bodies,
   for (std::uint32_t number = bodies.count(); number-- > 1;) {
     const std::uint32_t island = islands.of(BodyRef::numbered(number));
     if (island == 0) continue;
-    ++islands.load(island).bodies;
+    ++islands.tally(island).bodies;
     push_front(bodies_, island, number);
   }
   for (std::uint32_t i = contacts.size(); i-- > 0;)
     push_front(contacts_, islands.of(contacts[{i}]), i);
   for (std::uint32_t i = joints; i-- > 0;) {
     const std::uint32_t island = islands.of(scene, bodies, scene.joint_links[i]);
-    ++islands.load(island).joints;
+    ++islands.tally(island).joints;
     push_front(joints_, island, i);
   }
 }

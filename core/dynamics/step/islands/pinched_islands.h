@@ -13,12 +13,12 @@
 namespace lockstone {
 
 /// Where a body of the world that no impulse moves pushes an island, along the normal.
-struct IslandHold {
+struct ImmovablePush {
   std::uint32_t island = 0;  // 0: none
   std::uint32_t body = 0;
   Vec3<Unit> normal{};
 
-  friend bool operator==(const IslandHold&, const IslandHold&) = default;
+  friend bool operator==(const ImmovablePush&, const ImmovablePush&) = default;
   [[nodiscard]] auto key() const {
     return std::tuple(island, body, normal.x.raw, normal.y.raw, normal.z.raw);
   }
@@ -30,17 +30,17 @@ class PinchedIslands {
   [[gnu::cold]] explicit PinchedIslands(std::size_t contact_capacity);
 
   void clear() { moving_.clear(); }
-  /// A hold by a body that moves. At most one for each contact.
-  void add_moving(const IslandHold& hold);
+  /// A push by a body that moves. At most one for each contact.
+  void add_moving(const ImmovablePush& push);
   [[nodiscard]] bool has_moving() const { return !moving_.empty(); }
 
   /// Once all are added, and before the first question.
   void sort();
-  /// Whether a moving body pushes the island against this hold, of another body.
-  [[nodiscard]] bool is_pinched(const IslandHold& hold) const;
+  /// Whether a moving body pushes the island against this push, of another body.
+  [[nodiscard]] bool is_pinched(const ImmovablePush& push) const;
 
  private:
-  std::vector<IslandHold> moving_;  // by island
+  std::vector<ImmovablePush> moving_;  // by island
 };
 
 }  // namespace lockstone

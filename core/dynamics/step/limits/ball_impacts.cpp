@@ -8,7 +8,7 @@
 namespace lockstone {
 namespace {
 
-using lanes::RowBody;
+using lanes::BodyVelocity;
 
 // A push passes so many contacts in a substep.
 constexpr int k_passes = 32;
@@ -50,14 +50,14 @@ void BallImpacts::find(const ContactScene& scene) {
            (std::int64_t{1} << (50 - SolverVelocity::frac_bits));
   };
   parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
-    if (approach(id) > k_least_impact) parts_.islands.load(contact).is_struck = true;
+    if (approach(id) > k_least_impact) parts_.islands.tally(contact).is_struck = true;
   });
   parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
     const ContactRecord& record = scene.records[contact.record];
     const BodyRecord &a = scene.bodies[record.body_a], &b = scene.bodies[record.body_b];
     const bool are_balls = (a.is_ball() || !a.is_dynamic()) && (b.is_ball() || !b.is_dynamic());
     if (are_balls && scene.surfaces[contact.manifold].restitution > Coefficient{} &&
-        scene.manifolds[contact.manifold].count == 1 && parts_.islands.load(contact).is_struck)
+        scene.manifolds[contact.manifold].count == 1 && parts_.islands.tally(contact).is_struck)
       impacts_.push_back(id);
   });
 }
@@ -66,7 +66,7 @@ void BallImpacts::find(const ContactScene& scene) {
 bool BallImpacts::meets(const ContactRef& contact) const {
   const Manifold& manifold = scene_.manifolds[contact.manifold];
   LKS_ASSERT(manifold.count == 1);
-  const std::span<const RowBody> rows = parts_.bodies.rows();
+  const std::span<const BodyVelocity> rows = parts_.bodies.rows();
   const std::span<const lanes::DeltaPose> travel = parts_.bodies.travel();
   const std::size_t a = parts_.bodies.row_of(contact.a), b = parts_.bodies.row_of(contact.b);
   const std::int64_t speed = along(rows[a].velocity, rows[b].velocity, manifold.normal);
@@ -89,12 +89,12 @@ void BallImpacts::push(BodyRef body, const BodyRecord& before, const BodyRecord&
   };
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    for (RowBody* row : {&parts_.bodies.rows()[number], &parts_.bodies.before()[number]}) {
+    for (BodyVelocity* row : {&parts_.bodies.rows()[number], &parts_.bodies.before()[number]}) {
       add(row->velocity[axis], after.velocity[i] - before.velocity[i]);
       add(row->spin[axis], after.spin[i] - before.spin[i]);
     }
   }
-  parts_.bodies.hold(number);
+  parts_.bodies.apply_axis_locks(number);
 }
 
 // A body's record with the motion that it has now.
@@ -102,7 +102,7 @@ BodyRecord BallImpacts::body_now(BodyRef ref, std::uint32_t body) const {
   BodyRecord copy = scene_.bodies[body];
   const std::uint32_t number = parts_.bodies.pushed_number(ref);
   if (number == 0) return copy;
-  const RowBody& row = parts_.bodies.rows()[number];
+  const BodyVelocity& row = parts_.bodies.rows()[number];
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     copy.velocity[i].raw = row.velocity[axis] >> k_row_bits_more;

@@ -58,7 +58,7 @@ BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecor
     };
     return Vec3<Velocity>{part(v[0]), part(v[1]), part(v[2])};
   };
-  const lanes::RowBody& before = bodies_.before()[number];
+  const lanes::BodyVelocity& before = bodies_.before()[number];
   const Vec3<Velocity> velocity = read(before.velocity), spin = read(before.spin);
   return {velocity, spin, body.velocity - velocity, body.spin - spin};
 }
@@ -82,9 +82,9 @@ void BounceLimit::sum_gains() {
   gains_.assign(islands_.count(), {});
   for (std::uint32_t i = 1; i < bodies_.count(); ++i) {
     const std::uint32_t island = islands_.all().of(i);
-    const IslandLoad& load = islands_.load(island);
+    const IslandTally& tally = islands_.tally(island);
     const SolverBody& constants = bodies_.constants()[i];
-    if (!load.may_bounce || load.is_fed || !constants.is_pushed()) continue;
+    if (!tally.may_bounce || tally.is_fed || !constants.is_pushed()) continue;
     IslandGain& gain = gains_[island];
     if (gain.unit == BlockFloat{}) gain.unit = constants.inverse_mass;
     add(i, gain, gained_[i], gain.gained);
@@ -122,7 +122,7 @@ void BounceLimit::scale(std::span<BodyRecord> bodies, Velocity speed_limit) {
       body.velocity[axis] = bounce.velocity[axis] + part(bounce.velocity_gain[axis]);
       body.spin[axis] = bounce.spin[axis] + part(bounce.spin_gain[axis]);
     }
-    hold_axes(body);
+    apply_axis_locks(body);
     (void)limit_speed(body, inertia_now(body), speed_limit);
   });
 }

@@ -56,8 +56,9 @@ void EnergyLimit::begin(const Bodies& all) {
   starts_.resize(all.numbers.count());
   islands_.assign(all.islands.count(), {});
   for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
-    const IslandLoad& load = all.islands.load(all.islands.of(i));
-    if (all.islands.of(i) == 0 || !load.has_joints || load.contacts == 0 || load.is_fed) continue;
+    const IslandTally& tally = all.islands.tally(all.islands.of(i));
+    if (all.islands.of(i) == 0 || !tally.has_joints || tally.contacts == 0 || tally.is_fed)
+      continue;
     Island& island = islands_[all.islands.of(i)];
     const BlockFloat inverse = all.bodies[i].inverse_mass;
     if (inverse.mantissa == 0) continue;

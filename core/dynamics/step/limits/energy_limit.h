@@ -28,7 +28,7 @@ class EnergyLimit {
   struct Bodies {
     const SolverBodies& numbers;
     std::span<const SolverBody> bodies;
-    std::span<lanes::RowBody> rows, before;
+    std::span<lanes::BodyVelocity> rows, before;
     const TickIslands& islands;
     const JointSolver& joints;
   };

@@ -58,9 +58,9 @@ SplitVec split(const RawVec& v) {
 RawVec PolytopeView::to_own(const Vec3<Length>& v) const {
   const RawVec turn = turned(axes, v);
   constexpr std::int64_t unit = std::int64_t{1} << k_fine_per_length;
-  return {turn.x + (origin.coarse.x * unit + origin.rest.x),
-          turn.y + (origin.coarse.y * unit + origin.rest.y),
-          turn.z + (origin.coarse.z * unit + origin.rest.z)};
+  return {turn.x + (origin.coarse.x * unit + origin.remainder.x),
+          turn.y + (origin.coarse.y * unit + origin.remainder.y),
+          turn.z + (origin.coarse.z * unit + origin.remainder.z)};
 }
 
 RawVec PolytopeView::to_own_coarse(const Vec3<Length>& v) const {

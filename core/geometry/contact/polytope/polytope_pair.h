@@ -10,8 +10,8 @@ namespace lockstone::geometry {
 
 /// A fine vector in two parts, so that its product with a unit vector stays within 64 bits.
 struct SplitVec {
-  RawVec coarse;  ///< 20 fraction bits
-  RawVec rest;    ///< fine, lanes within ±2^29
+  RawVec coarse;     ///< 20 fraction bits
+  RawVec remainder;  ///< fine, components within ±2^29
 };
 
 [[nodiscard]] SplitVec split(const RawVec& v);
@@ -19,8 +19,9 @@ struct SplitVec {
 /// Rounded once. |v| < 2^13 m.
 [[nodiscard]] constexpr Fine dot(const SplitVec& v, const Vec3<Unit>& n) {
   const Fine coarse = v.coarse.x * n.x.raw + v.coarse.y * n.y.raw + v.coarse.z * n.z.raw;
-  const Fine rest = v.rest.x * n.x.raw + v.rest.y * n.y.raw + v.rest.z * n.z.raw;
-  return coarse + raw::round_shift(rest, k_fine_per_length);
+  const Fine remainder =
+      v.remainder.x * n.x.raw + v.remainder.y * n.y.raw + v.remainder.z * n.z.raw;
+  return coarse + raw::round_shift(remainder, k_fine_per_length);
 }
 
 /// Own axes to others, exact: |v| < 2^13 m.

@@ -90,10 +90,10 @@ Metres acceleration_in(const MovingCore& body, const PlaneFrame& frame, const Ve
     const Metres across = norm_above(turned(normal, turning));
     return product_above(product_above(across, spin), reach.from_centre);
   }
-  const RawVec drift = raws(body.sweep.translation) - raws(frame.body->sweep.translation);
+  const RawVec translation = raws(body.sweep.translation) - raws(frame.body->sweep.translation);
   const Metres frame_spin = norm_above(raws(frame.body->sweep.rotation));
   const Metres surface = product_above(spin, reach.from_centre);
-  const Metres speed = sum_above(norm_above(drift), surface);
+  const Metres speed = sum_above(norm_above(translation), surface);
   const Metres distance = sum_above(reach.from_frame, speed);  // until the end of the sweep
   return sum_above(product_above(product_above(frame_spin, frame_spin), distance),
                    sum_above(product_above(2 * frame_spin, speed), product_above(spin, surface)));
@@ -124,14 +124,14 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
   const RawVec axis = turned(normal, turning);
   RawVec frame_axis;
   RawVec frame_centre;
-  RawVec drift = still ? RawVec{} : raws(body.sweep.translation);
+  RawVec translation = still ? RawVec{} : raws(body.sweep.translation);
   if (frame.body != nullptr && !still) {
     frame_axis = turned(normal, raws(frame.body->sweep.rotation));
     frame_centre = frame.body->centre;
-    drift = drift - raws(frame.body->sweep.translation);
+    translation = translation - raws(frame.body->sweep.translation);
   }
   projection.count = 0;
-  projection.rate = along_normal(normal, drift);
+  projection.rate = along_normal(normal, translation);
   std::uint64_t from_centre = 0;
   std::uint64_t from_plane = 0;
   for_each_bound(core, normal, [&](const RawVec& point) {

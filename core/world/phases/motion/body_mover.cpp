@@ -59,7 +59,7 @@ void BodyMover::move(std::uint32_t body, Counts& counts) {
   record.flags = static_cast<std::uint8_t>(is_loose ? record.flags | k_body_loose
                                                     : record.flags & ~k_body_loose);
   damp_spin(record, world_.time_step);
-  hold_axes(record);
+  apply_axis_locks(record);
   const InverseInertia inertia = inertia_of(body, solved);
   counts.saturations += limit_speed(record, inertia, world_.def.speed_limit) ? 1U : 0U;
   counts.saturations += limit_position(record) ? 1U : 0U;
@@ -73,14 +73,14 @@ InverseInertia BodyMover::inertia_of(std::uint32_t body, const SolverBody* solve
                            : inverse_inertia(world_.bodies[body], world_.cache.rotation(body));
 }
 
-// Only in islands that iterations solve may a body drift from its pose: the residual motion of
-// converged contacts is finer.
-void BodyMover::renew_contact_poses() {
+// Only in islands that iterations solve may a body move away from its recycling pose: the residual
+// motion of converged contacts is finer.
+void BodyMover::renew_recycling_poses() {
   world_.parallel.for_each(
       moved_.pieces(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
         for (const std::uint32_t body : moved_.bodies().subspan(first, end - first))
-          if (!solver_.keeps_contact_pose(body, world_.bodies[body]))
-            world_.cache.take_contact_pose(body, world_.bodies[body]);
+          if (!solver_.keeps_recycling_pose(body, world_.bodies[body]))
+            world_.cache.renew_recycling_pose(body, world_.bodies[body]);
       });
 }
 

@@ -32,8 +32,8 @@ class BodyMover {
         rest_rules_(rest_rules) {}
 
   void run(StepReport& report);
-  /// Gives bodies that left their contact pose another.
-  void renew_contact_poses();
+  /// Gives bodies that left their recycling pose another.
+  void renew_recycling_poses();
 
  private:
   struct Counts {

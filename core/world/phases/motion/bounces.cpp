@@ -78,61 +78,62 @@ void Bounces::find() {
   }
 }
 
-bool Bounces::flies(std::uint32_t body) const {
+bool Bounces::is_ballistic(std::uint32_t body) const {
   return world_.bodies[body].is_dynamic() && world_.bodies[body].is_awake();
 }
 
-// Groups of bodies that touch. Held are those with a contact without restitution, with a joint, or
-// with a body that sleeps.
+// Groups of bodies that touch. Active are those with a contact without restitution, with a joint,
+// or with a body that sleeps.
 void Bounces::join_groups() {
   islands_.begin(world_.awake.list());
   for (const std::uint32_t body : world_.awake.list())
     marks_[body] = 0;
-  const auto hold = [&](std::uint32_t body) {
-    if (flies(body)) islands_.hold(body);
+  const auto mark_active = [&](std::uint32_t body) {
+    if (is_ballistic(body)) islands_.mark_active(body);
   };
   for (std::size_t i = 0; i < found_.records.size(); ++i) {
     const ContactRecord& record = found_.records[i];
     if (record.is_trigger()) continue;
     const bool a = world_.bodies[record.body_a].is_dynamic(),
                b = world_.bodies[record.body_b].is_dynamic();
-    const bool both_fly = flies(record.body_a) && flies(record.body_b);
-    if (both_fly) islands_.join(record.body_a, record.body_b);
-    if (is_elastic(found_.manifold_of(i), found_.surface_of(i)) && (both_fly || a != b)) continue;
-    hold(record.body_a);
-    hold(record.body_b);
+    const bool both_ballistic = is_ballistic(record.body_a) && is_ballistic(record.body_b);
+    if (both_ballistic) islands_.join(record.body_a, record.body_b);
+    if (is_elastic(found_.manifold_of(i), found_.surface_of(i)) && (both_ballistic || a != b))
+      continue;
+    mark_active(record.body_a);
+    mark_active(record.body_b);
   }
   for (const JointLink& link : world_.joint_graph.awake_links()) {
-    hold(link.body_a);
-    hold(link.body_b);
+    mark_active(link.body_a);
+    mark_active(link.body_b);
   }
   (void)islands_.settle(world_.awake.list());
   for (const ContactRecord& record : found_.records) {
-    if (record.is_trigger() || !one_flies(record)) continue;
+    if (record.is_trigger() || !one_is_ballistic(record)) continue;
     std::uint8_t& marks = marks_[root_of(record)];
     if (marks < k_contact_count) ++marks;
   }
 }
 
-bool Bounces::one_flies(const ContactRecord& record) const {
-  return flies(record.body_a) || flies(record.body_b);
+bool Bounces::one_is_ballistic(const ContactRecord& record) const {
+  return is_ballistic(record.body_a) || is_ballistic(record.body_b);
 }
 
 // The least body of the group.
 std::uint32_t Bounces::root_of(const ContactRecord& record) {
-  return islands_.root(flies(record.body_a) ? record.body_a : record.body_b);
+  return islands_.root(is_ballistic(record.body_a) ? record.body_a : record.body_b);
 }
 
-BouncePair Bounces::pair_of(std::size_t contact) {
+ImpactPair Bounces::pair_of(std::size_t contact) {
   const ContactRecord& record = found_.records[contact];
   return {&world_.bodies[record.body_a], &world_.bodies[record.body_b],
           &found_.manifold_of(contact), &found_.surface_of(contact)};
 }
 
 bool Bounces::may_bounce(const ContactRecord& record) {
-  if (record.is_trigger() || !one_flies(record)) return false;
+  if (record.is_trigger() || !one_is_ballistic(record)) return false;
   const std::uint32_t root = root_of(record);
-  return !islands_.is_held(root) && (marks_[root] & k_contact_count) <= k_most_bounce_contacts;
+  return !islands_.is_active(root) && (marks_[root] & k_contact_count) <= k_most_bounce_contacts;
 }
 
 // A contact that will bounce marks its whole group; a contact that comes to rest leaves the group
@@ -142,13 +143,13 @@ void Bounces::look_for(std::size_t contact) {
   const Manifold& manifold = found_.manifold_of(contact);
   if (!may_bounce(record) || manifold.count == 0) return;
   const std::uint32_t root = root_of(record);
-  const Meeting meeting =
-      next_meeting(pair_of(contact), world_.header.gravity, world_.time_step, k_two_ticks);
-  const bool rests = meeting.meets && meeting.speed <= k_least_bounce;
+  const PairImpact impact =
+      next_impact(pair_of(contact), world_.header.gravity, world_.time_step, k_two_ticks);
+  const bool rests = impact.meets && impact.speed <= k_least_bounce;
   if (rests || is_nearer(manifold, k_overlap) || turns_much(record.body_a) ||
       turns_much(record.body_b))
-    return islands_.hold(root);
-  if (meeting.meets)
+    return islands_.mark_active(root);
+  if (impact.meets)
     marks_[root] |= k_will_bounce;
   else if (is_nearer(manifold, k_resting_overlap))
     marks_[root] |= k_leans;
@@ -202,7 +203,7 @@ void Bounces::run_group(std::uint32_t index) {
   const std::size_t end = index + 1 < groups_.size() ? groups_[index + 1] : contacts_.size();
   const std::span<const BouncingContact> group_contacts =
       std::span(contacts_).subspan(first, end - first);
-  BounceGroup group(world_.header.gravity, world_.time_step);
+  ImpactIsland group(world_.header.gravity, world_.time_step);
   for (const BouncingContact& each : group_contacts)
     group.add(pair_of(each.contact));
   group.run();

@@ -34,10 +34,10 @@ class Bounces {
 
  private:
   void join_groups();
-  [[nodiscard]] bool flies(std::uint32_t body) const;
-  [[nodiscard]] bool one_flies(const ContactRecord& record) const;
+  [[nodiscard]] bool is_ballistic(std::uint32_t body) const;
+  [[nodiscard]] bool one_is_ballistic(const ContactRecord& record) const;
   [[nodiscard]] std::uint32_t root_of(const ContactRecord& record);
-  [[nodiscard]] BouncePair pair_of(std::size_t contact);
+  [[nodiscard]] ImpactPair pair_of(std::size_t contact);
   [[nodiscard]] bool may_bounce(const ContactRecord& record);
   void look_for(std::size_t contact);
   [[nodiscard]] bool turns_much(std::uint32_t body) const;

@@ -118,19 +118,19 @@ void ContinuousCollision::run(StepReport& report) {
   for (const std::uint32_t body : moved_.bodies()) {
     if ((far_movers_[body] & (k_far_mover | k_swept_over)) == 0) continue;
     ++report.continuous_bodies;
-    follow(body, report);
+    sweep_body(body, report);
   }
   if (world_.triggers.count() != 0)
     for (const Sweeper& each : sweepers_)
       passes_.note(each.body, motion_in_tick(each.body), {}, k_whole_tick);
-  if (narrow_.knows_triangles()) hold_before_fronts(world_, moved_);
+  if (narrow_.knows_triangles()) clamp_to_fronts(world_, moved_);
   if (passes_.overflowed()) report.status = Status::capacity_exhausted;
 }
 
 // Again when an impact changes how a body turns before its own way is looked at.
 void ContinuousCollision::note_far_mover(std::uint32_t body) {
-  const bool is_followed = world_.bodies[body].is_dynamic() && !world_.bodies[body].is_trigger();
-  far_movers_[body] = !went_far(body) ? 0 : is_followed ? k_far_mover : k_sweeper;
+  const bool is_swept = world_.bodies[body].is_dynamic() && !world_.bodies[body].is_trigger();
+  far_movers_[body] = !went_far(body) ? 0 : is_swept ? k_far_mover : k_sweeper;
 }
 
 bool ContinuousCollision::went_far(std::uint32_t body) const {
@@ -140,11 +140,11 @@ bool ContinuousCollision::went_far(std::uint32_t body) const {
 // Farther than half its thickness: a shorter motion cannot take it through anything.
 bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
                                    const BodyRecord& record) const {
-  const bool is_followed = record.is_dynamic() && !record.is_trigger();
-  if (!is_followed && !may_sweep(record, world_.cache.asset(body))) return false;
+  const bool is_swept = record.is_dynamic() && !record.is_trigger();
+  if (!is_swept && !may_sweep(record, world_.cache.asset(body))) return false;
   const std::int64_t limit =
-      is_followed ? rounded<Position>(world_.cache.inner_radius(body) / 2).raw
-                  : sweeping_limit(world_.cache.inner_radius(body), world_.cache.asset(body)).raw;
+      is_swept ? rounded<Position>(world_.cache.inner_radius(body) / 2).raw
+               : sweeping_limit(world_.cache.inner_radius(body), world_.cache.asset(body)).raw;
   const Vec3<Position> gone = record.position - start.position;
   std::int64_t way = sum_of_magnitudes(gone);
   if (way > limit) way = static_cast<std::int64_t>(norm(gone.x.raw, gone.y.raw, gone.z.raw));
@@ -159,20 +159,20 @@ bool ContinuousCollision::goes_far(std::uint32_t body, const Transform& start,
       Length::from_raw(raw::saturate<std::int32_t>(sum_of_magnitudes(record.size)));
   if (world_.cache.asset(body) == nullptr && !goes_far(reach)) return false;
   const Length radius = bounding_radius(record.shape(), world_.cache.asset(body));
-  const bool shows_turning = radius > world_.cache.inner_radius(body) || !is_followed;
+  const bool shows_turning = radius > world_.cache.inner_radius(body) || !is_swept;
   return shows_turning && goes_far(radius);
 }
 
 // How it turned is of interest only where something is in its way. A sweeper that it meets twice
 // takes it along from the first time on: a straight way ends behind a blade that turns.
-void ContinuousCollision::follow(std::uint32_t body, StepReport& report) {
+void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
   BodyRecord& record = world_.bodies[body];
   const Transform& start = moved_.start(body);
   bool is_free = true;
   visit_obstacles(body, {start, record.position - start.position, {}},
                   [&](std::uint32_t) { is_free = false; });
   if (is_free) return passes_.note(body, motion_in_tick(body), {}, k_whole_tick);
-  if (!world_.joint_graph.neighbours(body).empty()) return follow_joined(body, report);
+  if (!world_.joint_graph.neighbours(body).empty()) return sweep_joined(body, report);
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = world_.cache.rotation(body);
   Unit done{};                    // of the tick
@@ -236,7 +236,7 @@ void ContinuousCollision::push_out(std::uint32_t body, std::uint32_t sweeper) {
 // Bodies connected by joints stop together where the first of them runs into something, and lose
 // the rest of the tick: a limb that stopped alone would leave its joint. The solver propagates the
 // impact to the others.
-void ContinuousCollision::follow_joined(std::uint32_t body, StepReport& report) {
+void ContinuousCollision::sweep_joined(std::uint32_t body, StepReport& report) {
   if (!find_impact(body, motion_in_tick(body), {}).impact.hit)
     return passes_.note(body, motion_in_tick(body), {}, k_whole_tick);
   list_joined(body);

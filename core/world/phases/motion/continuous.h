@@ -71,8 +71,8 @@ class ContinuousCollision {
   /// From a pose to that of `end`.
   [[nodiscard]] bool goes_far(std::uint32_t body, const Transform& start,
                               const BodyRecord& end) const;
-  void follow(std::uint32_t body, StepReport& report);
-  void follow_joined(std::uint32_t body, StepReport& report);
+  void sweep_body(std::uint32_t body, StepReport& report);
+  void sweep_joined(std::uint32_t body, StepReport& report);
   void list_joined(std::uint32_t body);
   template <class F>
   void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;

@@ -43,7 +43,7 @@ FrontPush find_front(const WorldData& world, std::uint32_t body, const Vec3<Posi
   return first;
 }
 
-void hold_before_fronts(WorldData& world, std::uint32_t body, const Vec3<Position>& start) {
+void clamp_to_fronts(WorldData& world, std::uint32_t body, const Vec3<Position>& start) {
   BodyRecord& record = world.bodies[body];
   if (!record.is_dynamic() || record.is_trigger()) return;
   for (int i = 1; i <= k_most_fronts; ++i) {
@@ -56,12 +56,12 @@ void hold_before_fronts(WorldData& world, std::uint32_t body, const Vec3<Positio
 
 }  // namespace
 
-void hold_before_fronts(WorldData& world, const MovedBodies& moved) {
+void clamp_to_fronts(WorldData& world, const MovedBodies& moved) {
   world.parallel.for_each(
       moved.pieces(), [&](std::uint32_t first, std::uint32_t end, std::uint32_t) {
         for (const std::uint32_t body : moved.bodies().subspan(first, end - first)) {
           if (world.cache.inner_radius(body) <= k_thin_radius)
-            hold_before_fronts(world, body, moved.start(body).position);
+            clamp_to_fronts(world, body, moved.start(body).position);
         }
       });
 }

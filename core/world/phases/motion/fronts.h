@@ -8,6 +8,6 @@
 namespace lockstone {
 
 /// Moves each thin body that passed a front back before it.
-void hold_before_fronts(WorldData& world, const MovedBodies& moved);
+void clamp_to_fronts(WorldData& world, const MovedBodies& moved);
 
 }  // namespace lockstone

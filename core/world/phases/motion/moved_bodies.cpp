@@ -49,7 +49,7 @@ void MovedBodies::refresh_piece(std::uint32_t first, std::uint32_t end,
     world_.cache.refresh_turned(body, world_.bodies[body]);
     const Bounds bounds = world_.bounds_of(body);
     any = any || bounds != world_.broad_phase.bounds(body);
-    leaves_fat_box_[i] = world_.broad_phase.follow(body, bounds) ? 0 : 1;
+    leaves_fat_box_[i] = world_.broad_phase.update(body, bounds) ? 0 : 1;
   }
   if (any) changed.store(true, std::memory_order_relaxed);
 }

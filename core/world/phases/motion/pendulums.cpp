@@ -21,21 +21,21 @@ Pendulums::Pendulums(WorldData& world, const TickContacts& found)
 }
 
 void Pendulums::find() {
-  for (const Pendulum& swing : pendulums_)
-    place_of_[swing.body] = 0;
+  for (const Pendulum& pendulum : pendulums_)
+    place_of_[pendulum.body] = 0;
   pendulums_.clear();
   for (const JointLink& link : world_.joint_graph.awake_links()) {
     if (world_.bodies[link.body_a].is_static() != world_.bodies[link.body_b].is_static())
       look_for(link);
   }
   if (pendulums_.empty()) return;
-  // Only marks of bodies that may swing are read.
-  for (const Pendulum& swing : pendulums_)
-    touches_[swing.body] = 0;
+  // Only marks of bodies that may be pendulums are read.
+  for (const Pendulum& pendulum : pendulums_)
+    touches_[pendulum.body] = 0;
   for (const ContactRecord& record : found_.records) {
     if (!record.is_trigger()) touches_[record.body_a] = touches_[record.body_b] = 1;
   }
-  std::erase_if(pendulums_, [&](const Pendulum& swing) { return touches_[swing.body] != 0; });
+  std::erase_if(pendulums_, [&](const Pendulum& pendulum) { return touches_[pendulum.body] != 0; });
   for (std::size_t i = 0; i < pendulums_.size(); ++i)
     place_of_[pendulums_[i].body] = static_cast<std::uint32_t>(i + 1);
   solved_joints_.clear();
@@ -50,18 +50,18 @@ void Pendulums::look_for(const JointLink& link) {
   const BodyRecord& record = world_.bodies[body];
   if (!record.is_dynamic() || record.locks != 0 || !is_point(world_.joints[link.joint])) return;
   if (world_.joint_graph.neighbours(body).size() != 1) return;
-  const Pendulum swing{link.joint, body, is_first};
-  if (can_step_about_pivot(record, world_.cache.rotation(body), pivot_of(swing),
+  const Pendulum pendulum{link.joint, body, is_first};
+  if (can_step_about_pivot(record, world_.cache.rotation(body), pivot_of(pendulum),
                            world_.header.gravity, world_.time_step))
-    pendulums_.push_back(swing);
+    pendulums_.push_back(pendulum);
 }
 
-Pivot Pendulums::pivot_of(const Pendulum& swing) const {
-  const JointRecord& joint = world_.joints[swing.joint];
-  const std::uint32_t other = swing.is_first ? joint.body_b : joint.body_a;
-  const Vec3<Length>& held = swing.is_first ? joint.anchor_b : joint.anchor_a;
-  return {world_.bodies[other].position + arm_of(world_.cache.rotation(other), held),
-          swing.is_first ? joint.anchor_a : joint.anchor_b};
+Pivot Pendulums::pivot_of(const Pendulum& pendulum) const {
+  const JointRecord& joint = world_.joints[pendulum.joint];
+  const std::uint32_t other = pendulum.is_first ? joint.body_b : joint.body_a;
+  const Vec3<Length>& anchor = pendulum.is_first ? joint.anchor_b : joint.anchor_a;
+  return {world_.bodies[other].position + arm_of(world_.cache.rotation(other), anchor),
+          pendulum.is_first ? joint.anchor_a : joint.anchor_b};
 }
 
 // The joints that the solver gets.
@@ -72,17 +72,17 @@ std::span<const JointLink> Pendulums::joints_to_solve() const {
 
 // Returns the number of turns about an axis.
 std::uint32_t Pendulums::run(std::uint32_t body) {
-  const Pendulum& swing = pendulums_[place_of_[body] - 1];
+  const Pendulum& pendulum = pendulums_[place_of_[body] - 1];
   const PivotStep step =
-      step_about_pivot(world_.bodies[swing.body], world_.cache.rotation(swing.body),
-                       pivot_of(swing), world_.header.gravity, world_.time_step);
-  JointRecord& joint = world_.joints[swing.joint];
+      step_about_pivot(world_.bodies[pendulum.body], world_.cache.rotation(pendulum.body),
+                       pivot_of(pendulum), world_.header.gravity, world_.time_step);
+  JointRecord& joint = world_.joints[pendulum.joint];
   for (std::size_t i = 0; i < k_joint_axes; ++i)
     joint.axes[i].impulse = joint.axes[i].drive_impulse = {};
   for (int i = 0; i < 3; ++i) {
     const std::int64_t part = raw::round_shift(step.impulse[i].raw, 12);
     joint.axes[static_cast<std::size_t>(i)].impulse.raw =
-        raw::saturate<std::int32_t>(swing.is_first ? -part : part);
+        raw::saturate<std::int32_t>(pendulum.is_first ? -part : part);
   }
   return step.axis_turns;
 }

@@ -34,7 +34,7 @@ class Pendulums {
     bool is_first = false;  // of the joint's bodies
   };
   void look_for(const JointLink& link);
-  [[nodiscard]] Pivot pivot_of(const Pendulum& swing) const;
+  [[nodiscard]] Pivot pivot_of(const Pendulum& pendulum) const;
 
   WorldData& world_;
   const TickContacts& found_;

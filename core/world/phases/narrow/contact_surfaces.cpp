@@ -32,8 +32,8 @@ std::int64_t cross(const Vec3<Unit>& n, const std::int64_t (&x)[3], int i) {
 // themselves up to one radian. From substep to substep the drive gains n × u·θ/substeps: the mean
 // alone would ask friction for the whole tick's turn in the first substep. `about` is the rate of
 // turning, 1/s, Q20; `speed` is u, m/s, Q20, of which no more counts than a drive holds.
-void follow_arc(std::int64_t about, const std::int64_t (&speed)[3], const Vec3<Unit>& normal,
-                const WorldDef& def, std::int32_t sign, ContactSurface& surface) {
+void add_arc(std::int64_t about, const std::int64_t (&speed)[3], const Vec3<Unit>& normal,
+             const WorldDef& def, std::int32_t sign, ContactSurface& surface) {
   constexpr std::int64_t k_one = 1 << 24, k_most = 8 * k_one;
   const std::int64_t angle =
       std::clamp(raw::round_divide(about * 16, std::int64_t{def.tick_rate}), -k_most, k_most);
@@ -81,7 +81,7 @@ void add_arc(const BodyRecord& body, const Vec3<Length>& arm, std::int32_t sign,
   std::int64_t along[3];
   for (int i = 0; i < 3; ++i)
     along[i] = speed_around(turning, arm, i);
-  follow_arc(about, along, normal, def, sign, surface);
+  add_arc(about, along, normal, def, sign, surface);
 }
 
 bool is_round(const BodyRecord& body) {
@@ -111,7 +111,7 @@ void add_drive(const WorldData& world, std::uint32_t body, const Vec3<Length>& a
   }
   const std::int64_t about = raw::round_shift(dot(turning, normal).raw, Unit::frac_bits);
   surface.twist_drive.raw = raw::saturate<std::int32_t>(surface.twist_drive.raw + sign * about);
-  follow_arc(about, speed, normal, world.def, sign, surface);
+  add_arc(about, speed, normal, world.def, sign, surface);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/world/data/world_data.h"
-#include "core/world/phases/narrow/narrow_slots.h"
+#include "core/world/phases/narrow/manifold_ids.h"
 #include "core/world/phases/narrow/separating_axes.h"
 #include "core/world/phases/step_records.h"
 #include "core/world/phases/tick_contacts.h"
@@ -26,7 +26,7 @@ struct NarrowData {
   WorldData& world;
   TickContacts& found;
   std::span<const Pair> pairs;             // of the tick, ascending
-  NarrowSlots slots;                       // gives out manifold ids
+  ManifoldIds ids;                         // gives out manifold ids
   std::vector<FoundContacts> of_pair;      // by pair
   std::vector<ContactOrigin> origins;      // by manifold id
   ManifoldNotes notes;                     // of this tick
@@ -35,10 +35,10 @@ struct NarrowData {
   SeparatingAxes separating_axes;
 };
 
-/// Where pairs are collided whose bodies may drift from their contact poses: faces and edges of
-/// boxes stay where they are while their bodies drift; round shapes touch elsewhere at once, and
-/// are soon collided.
-[[nodiscard]] inline bool is_found_at_contact_poses(const WorldData& world, const Pair& pair) {
+/// Where pairs are collided whose bodies may move away from their recycling poses: faces and edges
+/// of boxes stay where they are while their bodies move so little; round shapes touch elsewhere at
+/// once, and are soon collided.
+[[nodiscard]] inline bool is_found_at_recycling_poses(const WorldData& world, const Pair& pair) {
   constexpr auto k_box = static_cast<std::uint8_t>(ShapeKind::box);
   return world.bodies[pair.a].shape_kind == k_box && world.bodies[pair.b].shape_kind == k_box;
 }
@@ -49,9 +49,9 @@ struct NarrowData {
   return asset == nullptr || asset->polytope() != nullptr;
 }
 
-/// From A's contact pose to B's.
-[[nodiscard]] inline Vec3<Length> contact_offset(const BodyRecord& a, const BodyRecord& b) {
-  return saturated<Length>(contact_position(b) - contact_position(a));
+/// From A's recycling pose to B's.
+[[nodiscard]] inline Vec3<Length> recycling_offset(const BodyRecord& a, const BodyRecord& b) {
+  return saturated<Length>(recycling_position(b) - recycling_position(a));
 }
 
 }  // namespace lockstone

@@ -53,9 +53,9 @@ NarrowPhase::NarrowPhase(WorldData& world, TickContacts& found) : data_(world, f
 
 void NarrowPhase::make_room() {
   const auto has_triangles = [](const AssetPtr& asset) { return asset->mesh_kernels() != nullptr; };
-  data_.slots.prepare(data_.world.def.contact_capacity, data_.world.parallel.workers(),
-                      std::ranges::any_of(data_.world.assets->all(), has_triangles));
-  const std::size_t most = data_.slots.capacity();
+  data_.ids.prepare(data_.world.def.contact_capacity, data_.world.parallel.workers(),
+                    std::ranges::any_of(data_.world.assets->all(), has_triangles));
+  const std::size_t most = data_.ids.capacity();
   if (data_.origins.size() >= most) return;
   data_.origins.resize(most);
   data_.found.manifolds.resize(most);
@@ -81,9 +81,9 @@ void NarrowPhase::run(std::span<const Pair> pairs, StepReport& report) {
   data_.of_pair.resize(pairs.size());
   data_.separating_axes.begin(pairs.size());
   if (!collide_side_by_side()) collide_one_by_one();
-  if (data_.slots.has_overflowed()) report.status = Status::capacity_exhausted;
-  data_.found.has_elastic = data_.slots.has_elastic();
-  if (data_.slots.has_seams()) remove_seams(data_);
+  if (data_.ids.has_overflowed()) report.status = Status::capacity_exhausted;
+  data_.found.has_elastic = data_.ids.has_elastic();
+  if (data_.ids.has_seams()) remove_seams(data_);
   number_contacts(report);
 }
 
@@ -91,10 +91,10 @@ bool NarrowPhase::meet(const Pair& pair) {
   WorldData& world = data_.world;
   const BodyRecord &a = world.bodies[pair.a], &b = world.bodies[pair.b];
   if (a.is_trigger() || b.is_trigger()) return false;
-  if (is_found_at_contact_poses(world, pair)) {
+  if (is_found_at_recycling_poses(world, pair)) {
     const Shape shape_a = a.shape(), shape_b = b.shape();
-    return collide({shape_a, world.cache.contact_rotations()[pair.a]},
-                   {shape_b, world.cache.contact_rotations()[pair.b]}, contact_offset(a, b),
+    return collide({shape_a, world.cache.recycling_rotations()[pair.a]},
+                   {shape_b, world.cache.recycling_rotations()[pair.b]}, recycling_offset(a, b),
                    margin_of(pair))
                .count > 0;
   }
@@ -105,19 +105,19 @@ bool NarrowPhase::meet(const Pair& pair) {
 
 // Returns whether all manifolds found room.
 bool NarrowPhase::collide_side_by_side() {
-  data_.slots.begin(data_.world.parallel.workers(), !data_.world.profiler.times_pairs());
+  data_.ids.begin(data_.world.parallel.workers(), !data_.world.profiler.times_pairs());
   data_.world.parallel.for_each({static_cast<std::uint32_t>(data_.pairs.size()), k_pair_grain,
                                  data_.world.profiler.times_pairs()},
                                 [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
-                                  collide_piece(first, end, data_.slots.scratch(worker));
+                                  collide_piece(first, end, data_.ids.scratch(worker));
                                 });
-  return !data_.slots.is_out_of_slots();
+  return !data_.ids.is_out_of_ids();
 }
 
 // Ids are given out in the order of the pairs, so that the last pairs are those that find none.
 void NarrowPhase::collide_one_by_one() {
-  data_.slots.begin(1, false);
-  collide_piece(0, static_cast<std::uint32_t>(data_.pairs.size()), data_.slots.scratch(0));
+  data_.ids.begin(1, false);
+  collide_piece(0, static_cast<std::uint32_t>(data_.pairs.size()), data_.ids.scratch(0));
 }
 
 // Old contacts are sorted by key and pairs are too, so that one pass carries records over.
@@ -155,7 +155,7 @@ bool NarrowPhase::look_for_seam(std::uint32_t pair, bool beside_static) {
   const Pair& both = data_.pairs[pair];
   const bool goes_on = beside_static && pair > 0 && data_.pairs[pair - 1].a == both.a;
   if (data_.world.bodies[both.b].moves()) return goes_on;
-  if (goes_on || !has_one_piece(data_.world, both.b)) data_.slots.note_seams();
+  if (goes_on || !has_one_piece(data_.world, both.b)) data_.ids.note_seams();
   return true;
 }
 
@@ -198,14 +198,14 @@ void NarrowPhase::number_contacts(StepReport& report) {
           loop == 0 ? count(begin, stop) : number(begin, stop);
         }
       });
-  if (data_.slots.taken() > data_.found.records.size()) report.status = Status::capacity_exhausted;
+  if (data_.ids.taken() > data_.found.records.size()) report.status = Status::capacity_exhausted;
 }
 
 // A record keeps the impulses and the touching flag of the tick before.
 void NarrowPhase::number_contacts_of(std::uint32_t pair) {
   const FoundContacts& of_pair = data_.of_pair[pair];
   for (std::uint32_t i = 0; i < of_pair.count; ++i) {
-    const std::uint32_t id = of_pair.slot + i;
+    const std::uint32_t id = of_pair.first_id + i;
     const ContactOrigin& origin = data_.origins[id];
     const Pair& both = data_.pairs[pair];
     ContactRecord& record = data_.found.records[of_pair.index + i];

@@ -30,7 +30,7 @@ class NarrowPhase {
   void forget() { data_.separating_axes.forget(); }
 
   /// Scratch that other phases may use between runs.
-  [[nodiscard]] PairScratch& scratch() { return data_.slots.scratch(0); }
+  [[nodiscard]] PairScratch& scratch() { return data_.ids.scratch(0); }
   /// Whether shapes with triangles exist.
   [[nodiscard]] bool knows_triangles() { return scratch().triangles != nullptr; }
 

@@ -33,26 +33,27 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
     return;
   }
   const Length margin = margin_of(world_, pair);
-  const bool may_drift = is_found_at_contact_poses(world_, pair);
+  const bool is_recycled = is_found_at_recycling_poses(world_, pair);
   // Where it stays if the pair is to wait.
   ManifoldInput& input = scratch_.boxes.entries[scratch_.boxes.batch.size()].input;
-  if (may_drift) {
+  if (is_recycled) {
     input.margin = margin;
-    input.pose_a = key_of_contact_pose(world_.cache.contact_pose_number(pair.a));
-    input.pose_b = key_of_contact_pose(world_.cache.contact_pose_number(pair.b));
+    input.pose_a = key_of_recycling_pose(world_.cache.recycling_pose_number(pair.a));
+    input.pose_b = key_of_recycling_pose(world_.cache.recycling_pose_number(pair.b));
   } else {
     read_poses(pair, margin, input);
   }
   const std::uint32_t known = remembered_manifold(before);
-  const bool is_known = known != NarrowSlots::k_none &&
-                        (may_drift ? data_.notes_before.inputs[known].has_same_poses(input)
-                                   : data_.notes_before.inputs[known] == input);
+  const bool is_known = known != ManifoldIds::k_none &&
+                        (is_recycled ? data_.notes_before.inputs[known].has_same_poses(input)
+                                     : data_.notes_before.inputs[known] == input);
   if (is_known) {
     timer.found(1, 1);
     return add_known(index, known, input, before);
   }
-  if (may_drift) input.offset = rounded<Position>(contact_offset(a, b));
-  if (may_drift || are_primitives(pair)) return collide_primitives(index, before, last_axis, timer);
+  if (is_recycled) input.offset = rounded<Position>(recycling_offset(a, b));
+  if (is_recycled || are_primitives(pair))
+    return collide_primitives(index, before, last_axis, timer);
   const PlacedShape shape_a = world_.placed(pair.a), shape_b = world_.placed(pair.b);
   if (last_axis != Vec3<Unit>{} && separated_along(shape_a, shape_b, margin, last_axis)) {
     data_.separating_axes.note(index, pair, last_axis);
@@ -62,7 +63,7 @@ void PairCollider::collide(std::uint32_t index, std::span<const ContactRecord> b
   collide_bodies(shape_a, shape_b, margin, scratch_.triangles.get(), parts);
   if (parts.count == 0) data_.separating_axes.note(index, pair, parts.separating_axis);
   timer.found(parts.count);
-  if (parts.overflowed) data_.slots.note_overflow();
+  if (parts.overflowed) data_.ids.note_overflow();
   add_contacts(index, {parts.begin(), parts.end()}, input, before);
 }
 
@@ -96,18 +97,18 @@ int PairCollider::collide_alone(std::uint32_t index, const ManifoldInput& input,
                                 std::span<const ContactRecord> before) {
   const Pair pair = data_.pairs[index];
   const Shape shape_a = world_.bodies[pair.a].shape(), shape_b = world_.bodies[pair.b].shape();
-  const std::uint32_t id = data_.slots.take(scratch_, 1);
-  Manifold& manifold = id == NarrowSlots::k_none ? scratch_.part_contacts.contacts.front().manifold
+  const std::uint32_t id = data_.ids.take(scratch_, 1);
+  Manifold& manifold = id == ManifoldIds::k_none ? scratch_.part_contacts.contacts.front().manifold
                                                  : data_.found.manifolds[id];
   const std::vector<Mat3>& turned = rotations_of(pair);
   lockstone::collide({shape_a, turned[pair.a]}, {shape_b, turned[pair.b]},
                      saturated<Length>(input.offset), input.margin, manifold);
   if (manifold.count == 0) {
     data_.separating_axes.note(index, pair, manifold.normal);
-    NarrowSlots::give_back(scratch_, id);
+    ManifoldIds::release(scratch_, id);
     return 0;
   }
-  if (id != NarrowSlots::k_none) fill_single(index, id, input, before);
+  if (id != ManifoldIds::k_none) fill_single(index, id, input, before);
   return 1;
 }
 
@@ -120,20 +121,20 @@ void PairCollider::collide_waiting() {
       collide_alone(entry.index, entry.input, entry.before);
       continue;
     }
-    const std::uint32_t id = data_.slots.take(scratch_, 1);
-    if (id == NarrowSlots::k_none) continue;
+    const std::uint32_t id = data_.ids.take(scratch_, 1);
+    if (id == ManifoldIds::k_none) continue;
     batch.write(i, data_.found.manifolds[id]);
     fill_single(entry.index, id, entry.input, entry.before);
   }
   batch.clear();
 }
 
-// `known`: the manifold of a tick ago. The drift of the bodies since that manifold was found is
-// added to it.
+// `known`: the manifold of a tick ago. The pose delta of the bodies since that manifold was found
+// is added to it.
 void PairCollider::add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
                              std::span<const ContactRecord> before) {
-  const std::uint32_t id = data_.slots.take(scratch_, 1);
-  if (id == NarrowSlots::k_none) return;
+  const std::uint32_t id = data_.ids.take(scratch_, 1);
+  if (id == ManifoldIds::k_none) return;
   Manifold& manifold = data_.found.manifolds[id];
   manifold = data_.manifolds_before[known];
   for (std::size_t i = 0; i < k_max_manifold_points; ++i)
@@ -160,15 +161,15 @@ void PairCollider::fill(std::uint32_t id, const ContactKey& key, const Surface* 
   data_.notes.inputs[id] = input;
   for (std::size_t i = 0; i < k_max_manifold_points; ++i)
     data_.notes.separations[id][i] = data_.found.manifolds[id].points[i].separation;
-  shift_by_drift({key.body_a, key.body_b}, data_.found.manifolds[id]);
+  shift_by_pose_delta({key.body_a, key.body_b}, data_.found.manifolds[id]);
   find_surface(world_, {key.body_a, key.body_b}, surface_a, surface_b, data_.found.manifolds[id],
                data_.found.surfaces[id]);
-  if (data_.found.surfaces[id].restitution > Coefficient{}) data_.slots.note_elastic();
+  if (data_.found.surfaces[id].restitution > Coefficient{}) data_.ids.note_elastic();
 }
 
-void PairCollider::shift_by_drift(const Pair& pair, Manifold& manifold) const {
-  if (!is_found_at_contact_poses(world_, pair)) return;
-  const PoseDelta &a = world_.cache.drift(pair.a), &b = world_.cache.drift(pair.b);
+void PairCollider::shift_by_pose_delta(const Pair& pair, Manifold& manifold) const {
+  if (!is_found_at_recycling_poses(world_, pair)) return;
+  const PoseDelta &a = world_.cache.pose_delta(pair.a), &b = world_.cache.pose_delta(pair.b);
   if (!a.is_none() || !b.is_none()) shift_separations(a, b, manifold);
 }
 
@@ -184,18 +185,18 @@ bool PairCollider::are_primitives(const Pair& pair) const {
 
 // The manifold of a tick ago: only of pairs with a single contact, which parts 0 and 0 name.
 std::uint32_t PairCollider::remembered_manifold(std::span<const ContactRecord> before) const {
-  if (!world_.contacts.remembers_manifolds() || before.size() != 1) return NarrowSlots::k_none;
+  if (!world_.contacts.remembers_manifolds() || before.size() != 1) return ManifoldIds::k_none;
   const ContactRecord& record = before.front();
   const bool is_single = record.part_a == 0 && record.part_b == 0 &&
                          has_one_piece(world_, record.body_a) &&
                          has_one_piece(world_, record.body_b);
   return is_single ? world_.contacts.manifold_ids()[world_.contacts.index_of(record)]
-                   : NarrowSlots::k_none;
+                   : ManifoldIds::k_none;
 }
 
 void PairCollider::add_trigger(std::uint32_t index, std::span<const ContactRecord> before) {
-  const std::uint32_t id = data_.slots.take(scratch_, 1);
-  if (id == NarrowSlots::k_none) return;
+  const std::uint32_t id = data_.ids.take(scratch_, 1);
+  if (id == ManifoldIds::k_none) return;
   data_.of_pair[index] = {id, 1};
   data_.origins[id] = {
       0, 0, before.empty() ? ContactOrigin::k_new : world_.contacts.index_of(before.front()), true};
@@ -210,8 +211,8 @@ void PairCollider::add_contacts(std::uint32_t index, std::span<const PartContact
                                 const ManifoldInput& input, std::span<const ContactRecord> before) {
   if (parts.empty()) return;
   const auto count = static_cast<std::uint32_t>(parts.size());
-  const std::uint32_t first = data_.slots.take(scratch_, count);
-  if (first == NarrowSlots::k_none) return;
+  const std::uint32_t first = data_.ids.take(scratch_, count);
+  if (first == ManifoldIds::k_none) return;
   const Pair pair = data_.pairs[index];
   data_.of_pair[index] = {first, count};
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -223,8 +224,8 @@ void PairCollider::add_contacts(std::uint32_t index, std::span<const PartContact
 }
 
 const std::vector<Mat3>& PairCollider::rotations_of(const Pair& pair) const {
-  return is_found_at_contact_poses(world_, pair) ? world_.cache.contact_rotations()
-                                                 : world_.cache.rotations();
+  return is_found_at_recycling_poses(world_, pair) ? world_.cache.recycling_rotations()
+                                                   : world_.cache.rotations();
 }
 
 }  // namespace lockstone

@@ -45,7 +45,7 @@ class PairCollider {
   void fill(std::uint32_t id, const ContactKey& key, const Surface* surface_a,
             const Surface* surface_b, const ManifoldInput& input,
             std::span<const ContactRecord> before);
-  void shift_by_drift(const Pair& pair, Manifold& manifold) const;
+  void shift_by_pose_delta(const Pair& pair, Manifold& manifold) const;
 
   NarrowData& data_;
   WorldData& world_;

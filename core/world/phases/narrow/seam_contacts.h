@@ -13,7 +13,7 @@ namespace lockstone {
 struct SeamContact {
   static constexpr std::uint32_t k_none = 0xffffffff;
 
-  std::uint32_t slot = 0;
+  std::uint32_t id = 0;
   std::uint32_t other = 0;    ///< the static body
   Vec3<Unit> normal{};        ///< away from it
   Displacement separation{};  ///< the least

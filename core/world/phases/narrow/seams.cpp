@@ -71,14 +71,14 @@ class SeamSearch {
   void list_contacts_of(std::uint32_t pair);
   void judge(SeamContact& contact);
   void drop_ghosts(std::uint32_t pair);
-  void move_slot(std::uint32_t from, std::uint32_t to);
+  void move_manifold(std::uint32_t from, std::uint32_t to);
   [[nodiscard]] bool is_static(std::uint32_t pair) const;
   [[nodiscard]] TouchedPoint point_of(const SeamContact& contact, int point) const;
   [[nodiscard]] const std::optional<FaceOfShape>& face_of(SeamContact& contact) const;
   [[nodiscard]] bool is_covered(const SeamContact& contact) const;
   [[nodiscard]] bool is_covered(const SeamContact& contact, const TouchedPoint& at) const;
   [[nodiscard]] std::uint32_t part_of(const SeamContact& contact) const {
-    return data_.origins[contact.slot].part_b;
+    return data_.origins[contact.id].part_b;
   }
 
   NarrowData& data_;
@@ -121,10 +121,10 @@ void SeamSearch::list_contacts_of(std::uint32_t pair) {
   const FoundContacts& of_pair = data_.of_pair[pair];
   for (std::uint32_t i = 0; i < of_pair.count; ++i) {
     if (found_.count == SeamContacts::k_capacity) return;
-    const std::uint32_t slot = of_pair.slot + i;
-    const Manifold& manifold = data_.found.manifolds[slot];
-    found_.contacts[found_.count++] = {slot, data_.pairs[pair].b, -manifold.normal,
-                                       least_of(data_.notes.separations[slot], manifold.count)};
+    const std::uint32_t id = of_pair.first_id + i;
+    const Manifold& manifold = data_.found.manifolds[id];
+    found_.contacts[found_.count++] = {id, data_.pairs[pair].b, -manifold.normal,
+                                       least_of(data_.notes.separations[id], manifold.count)};
   }
 }
 
@@ -132,12 +132,12 @@ void SeamSearch::list_contacts_of(std::uint32_t pair) {
 TouchedPoint SeamSearch::point_of(const SeamContact& contact, int point) const {
   const auto at = static_cast<std::size_t>(point);
   const BodyRecord& record = world_.bodies[body_];
-  const Vec3<Length>& anchor = data_.found.manifolds[contact.slot].points[at].anchor_a;
-  const Displacement separation = data_.notes.separations[contact.slot][at];
+  const Vec3<Length>& anchor = data_.found.manifolds[contact.id].points[at].anchor_a;
+  const Displacement separation = data_.notes.separations[contact.id][at];
   const bool halves = separation.raw < 0 && !is_round(record.shape().kind);
   const Displacement way = halves ? separation / 2 : separation;
-  const bool may_drift = is_found_at_contact_poses(world_, {body_, contact.other});
-  const Vec3<Position> centre = may_drift ? contact_position(record) : record.position;
+  const bool is_recycled = is_found_at_recycling_poses(world_, {body_, contact.other});
+  const Vec3<Position> centre = is_recycled ? recycling_position(record) : record.position;
   return {centre + anchor - rounded<Position>(contact.normal * way), contact.normal};
 }
 
@@ -157,7 +157,7 @@ void SeamSearch::judge(SeamContact& contact) {
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     SeamContact& keeper = all[i];
     if (&keeper == &contact || are_alike(keeper.normal, contact.normal)) continue;
-    if (data_.origins[keeper.slot].part_a != data_.origins[contact.slot].part_a) continue;
+    if (data_.origins[keeper.id].part_a != data_.origins[contact.id].part_a) continue;
     const std::optional<FaceOfShape>& face = face_of(keeper);
     if (!face || !is_below({shape, part_of(contact)}, at, *face)) continue;
     if (contact.ghost_of == SeamContact::k_none || keeps_better(all, i, contact.ghost_of))
@@ -169,9 +169,9 @@ void SeamSearch::judge(SeamContact& contact) {
 
 // The points that are farther apart than the nearest are there because slanted faces were clipped.
 bool SeamSearch::is_covered(const SeamContact& contact) const {
-  for (int i = 0; i < data_.found.manifolds[contact.slot].count; ++i) {
+  for (int i = 0; i < data_.found.manifolds[contact.id].count; ++i) {
     const Displacement separation =
-        data_.notes.separations[contact.slot][static_cast<std::size_t>(i)];
+        data_.notes.separations[contact.id][static_cast<std::size_t>(i)];
     if (separation > contact.separation + k_slant) continue;
     if (!is_covered(contact, point_of(contact, i))) return false;
   }
@@ -194,25 +194,25 @@ bool SeamSearch::is_covered(const SeamContact& contact, const TouchedPoint& at) 
   return false;
 }
 
-// The contacts that stay move up to the pair's first slots.
+// The contacts that stay move up to the pair's first ids.
 void SeamSearch::drop_ghosts(std::uint32_t pair) {
   FoundContacts& of_pair = data_.of_pair[pair];
-  const auto is_ghost = [&](std::uint32_t slot) {
-    const auto at = std::ranges::find(found_.all(), slot, &SeamContact::slot);
+  const auto is_ghost = [&](std::uint32_t id) {
+    const auto at = std::ranges::find(found_.all(), id, &SeamContact::id);
     return at != found_.all().end() && at->ghost_of != SeamContact::k_none;
   };
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < of_pair.count; ++i) {
-    const std::uint32_t from = of_pair.slot + i, to = of_pair.slot + kept;
+    const std::uint32_t from = of_pair.first_id + i, to = of_pair.first_id + kept;
     if (is_ghost(from)) continue;
     ++kept;
-    if (from != to) move_slot(from, to);
+    if (from != to) move_manifold(from, to);
   }
-  data_.slots.note_dropped(of_pair.count - kept);
+  data_.ids.note_dropped(of_pair.count - kept);
   of_pair.count = kept;
 }
 
-void SeamSearch::move_slot(std::uint32_t from, std::uint32_t to) {
+void SeamSearch::move_manifold(std::uint32_t from, std::uint32_t to) {
   data_.origins[to] = data_.origins[from];
   data_.found.manifolds[to] = data_.found.manifolds[from];
   data_.notes.inputs[to] = data_.notes.inputs[from];
@@ -229,7 +229,7 @@ void remove_seams(NarrowData& data) {
                                [&](std::uint32_t first, std::uint32_t end, std::uint32_t worker) {
                                  for (std::uint32_t i = first; i < end; ++i) {
                                    if (i > 0 && pairs[i - 1].a == pairs[i].a) continue;
-                                   SeamSearch(data, i, data.slots.scratch(worker).seams).run();
+                                   SeamSearch(data, i, data.ids.scratch(worker).seams).run();
                                  }
                                });
 }

@@ -59,7 +59,7 @@ void DesyncResponse::condemn(std::uint8_t slot) {
   seat.expelled = true;
   seat.rejoin_key = 0;
   seat.reserved_until_us = std::min(seat.reserved_until_us, match.now_us);
-  data_.offenders.bar(seat.identity, slot);
+  data_.offenders.ban(seat.identity, slot);
   ++data_.counters.expelled;
 }
 

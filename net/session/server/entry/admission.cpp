@@ -73,7 +73,7 @@ Refusal Admission::judge_hello(const Peer& peer, const Hello& hello) const {
 Refusal Admission::judge_seats(const Peer& peer) const {
   const std::uint8_t wanted = wanted_slot(peer);
   // By its token, or, without one, by the seat that it asks for.
-  if (data_.offenders.is_barred(peer.identity, wanted)) {
+  if (data_.offenders.is_banned(peer.identity, wanted)) {
     return {RefuseReason::expelled, RefuseField::none, 0, 0};
   }
   if (wanted == k_spectator_slot) return spectators_.judge();
@@ -101,7 +101,7 @@ std::uint8_t Admission::slot_for(const Peer& peer) const {
   for (std::uint8_t slot = 0; slot < count; ++slot) {
     const Seat& seat = data_.roster.seat(slot);
     const bool open = seat.peer == nullptr && data_.match.now_us >= seat.reserved_until_us &&
-                      !data_.offenders.is_barred(peer.identity, slot);
+                      !data_.offenders.is_banned(peer.identity, slot);
     if (open && (wanted == k_any_slot || wanted == slot)) return slot;
   }
   return k_no_slot;

@@ -32,7 +32,7 @@ void Departures::expel(std::uint8_t slot, LeaveReason reason) {
   Seat& seat = data_.roster.seat(slot);
   if (!seat.expelled) ++data_.counters.expelled;
   seat.expelled = true;
-  data_.offenders.bar(seat.identity, slot);
+  data_.offenders.ban(seat.identity, slot);
   seat.rejoin_key = 0;
   if (seat.peer != nullptr) drop(*seat.peer, reason);
 }

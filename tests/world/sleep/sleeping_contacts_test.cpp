@@ -1,10 +1,11 @@
+#include "core/world/state/sleeping_contacts.h"
+
 #include <map>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/world/state/record_hash.h"
-#include "core/world/state/sleeping_contacts.h"
 #include "tests/support/random.h"
 
 namespace lockstone {
@@ -27,7 +28,7 @@ bool has(const ContactRecord& record, std::uint32_t body) {
   return record.body_a == body || record.body_b == body;
 }
 
-void expect_equal(const FrozenContacts& contacts, const Model& model) {
+void expect_equal(const SleepingContacts& contacts, const Model& model) {
   std::vector<ContactRecord> expected, found;
   std::uint64_t hash = 0;
   for (const auto& [key, record] : model) {
@@ -40,9 +41,9 @@ void expect_equal(const FrozenContacts& contacts, const Model& model) {
   ASSERT_EQ(contacts.hash(), hash);
 }
 
-TEST(FrozenContacts, HoldsTheEntriesOfAMap) {
+TEST(SleepingContacts, HoldsTheEntriesOfAMap) {
   test::Random random;
-  FrozenContacts contacts(k_bodies, 512);
+  SleepingContacts contacts(k_bodies, 512);
   Model model;
   for (int i = 0; i < 4000; ++i) {
     const auto body = static_cast<std::uint32_t>(random.between(0, k_bodies - 1));

@@ -1,4 +1,4 @@
-// Where the narrow phase leaves contacts: slots that workers take side by side.
+// The ids of the tick's manifolds, which workers take side by side.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace lockstone {
 
-/// An orientation; or the number of a body's contact pose, which tells as much.
+/// An orientation; or the number of a body's recycling pose, which tells as much.
 struct PoseKey {
   std::int32_t x = 0, y = 0, z = 0, w = 0;
 
@@ -32,7 +32,7 @@ struct PoseKey {
 }
 
 /// No orientation has components as large.
-[[nodiscard]] constexpr PoseKey key_of_contact_pose(std::uint32_t number) {
+[[nodiscard]] constexpr PoseKey key_of_recycling_pose(std::uint32_t number) {
   return {static_cast<std::int32_t>(number), std::numeric_limits<std::int32_t>::max(), 0, 0};
 }
 
@@ -43,14 +43,14 @@ struct ManifoldInput {
   Length margin{};
 
   friend bool operator==(const ManifoldInput&, const ManifoldInput&) = default;
-  /// Where poses tell all: contact poses do.
+  /// Where poses tell all: recycling poses do.
   [[nodiscard]] bool has_same_poses(const ManifoldInput& other) const {
     return pose_a == other.pose_a && pose_b == other.pose_b && margin == other.margin;
   }
 };
 
-/// The separations of a manifold at the poses where it was found, before the drift of its bodies is
-/// added (contact_pose.h).
+/// The separations of a manifold at the poses where it was found, before the pose deltas of its
+/// bodies are added (recycling_pose.h).
 using FoundSeparations = std::array<Displacement, k_max_manifold_points>;
 
 /// Box pairs that wait for others to be collided with them.
@@ -72,14 +72,14 @@ struct alignas(64) PairScratch {
   std::unique_ptr<TriangleScratch> triangles;  // null when no asset has triangles
   WaitingBoxes boxes;
   SeamContacts seams;               // of the body at hand
-  std::uint32_t next = 0, end = 0;  // slots at hand
-  std::uint32_t taken = 0;          // slots that hold a contact
+  std::uint32_t next = 0, end = 0;  // ids at hand
+  std::uint32_t taken = 0;          // ids that hold a contact
 };
 
-/// One worker gets slots one after the other, until all contacts that a world has room for are
+/// One worker gets ids one after the other, until all contacts that a world has room for are
 /// there. Several get them by blocks, of which the last is left half empty, so that they may run
-/// out of slots before; the caller then begins again with one.
-class NarrowSlots {
+/// out of ids before; the caller then begins again with one.
+class ManifoldIds {
  public:
   static constexpr std::uint32_t k_none = 0xffffffff;
 
@@ -97,11 +97,11 @@ class NarrowSlots {
   [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
   [[nodiscard]] PairScratch& scratch(std::uint32_t worker) { return *scratch_[worker]; }
 
-  /// `with_batches`: pairs may wait for others, so that slots are not given out in their order.
+  /// `with_batches`: pairs may wait for others, so that ids are not given out in their order.
   void begin(std::uint32_t workers, bool with_batches) {
     block_ = workers > 1 ? k_block : 1;
     used_ = 0;
-    out_of_slots_ = overflowed_ = has_elastic_ = has_seams_ = false;
+    out_of_ids_ = overflowed_ = has_elastic_ = has_seams_ = false;
     dropped_ = 0;
     for (const std::unique_ptr<PairScratch>& scratch : scratch_) {
       scratch->next = scratch->end = scratch->taken = 0;
@@ -109,18 +109,18 @@ class NarrowSlots {
     }
   }
 
-  /// The first of `count` slots in a row, or k_none.
+  /// The first of `count` ids in a row, or k_none.
   std::uint32_t take(PairScratch& scratch, std::uint32_t count) {
     scratch.taken += count;
     if (scratch.end - scratch.next < count) {
       const std::uint32_t size = std::max(block_, count);
       // Nobody asks on once it is known that there is no more, so that the number does not wrap.
-      if (out_of_slots_.load(std::memory_order_relaxed)) return k_none;
+      if (out_of_ids_.load(std::memory_order_relaxed)) return k_none;
       scratch.next = used_.fetch_add(size, std::memory_order_relaxed);
       scratch.end = scratch.next + size;
       if (scratch.end > capacity_) {
         scratch.next = scratch.end = 0;
-        out_of_slots_.store(true, std::memory_order_relaxed);
+        out_of_ids_.store(true, std::memory_order_relaxed);
         return k_none;
       }
     }
@@ -129,15 +129,15 @@ class NarrowSlots {
     return first;
   }
 
-  /// Takes back the last slot that `take` gave, or the request for one.
-  static void give_back(PairScratch& scratch, std::uint32_t slot) {
+  /// Takes back the last id that `take` gave, or the request for one.
+  static void release(PairScratch& scratch, std::uint32_t id) {
     --scratch.taken;
-    if (slot != k_none) --scratch.next;
+    if (id != k_none) --scratch.next;
   }
 
-  [[nodiscard]] bool is_out_of_slots() const { return out_of_slots_; }
+  [[nodiscard]] bool is_out_of_ids() const { return out_of_ids_; }
 
-  /// Contacts since `begin`, those without a slot included, those dropped not.
+  /// Contacts since `begin`, those without an id included, those dropped not.
   [[nodiscard]] std::uint32_t taken() const {
     std::uint32_t sum = 0;
     for (const std::unique_ptr<PairScratch>& scratch : scratch_)
@@ -145,7 +145,7 @@ class NarrowSlots {
     return sum - dropped_;
   }
 
-  /// For contacts that turned out to be none; their slots stay taken.
+  /// For contacts that turned out to be none; their ids stay taken.
   void note_dropped(std::uint32_t count) {
     if (count != 0) dropped_.fetch_add(count, std::memory_order_relaxed);
   }
@@ -176,7 +176,7 @@ class NarrowSlots {
   std::uint32_t capacity_ = 0;
   std::uint32_t block_ = 1;
   std::atomic<std::uint32_t> used_{0};
-  std::atomic<bool> out_of_slots_{false};
+  std::atomic<bool> out_of_ids_{false};
   std::atomic<bool> overflowed_{false};
   std::atomic<bool> has_elastic_{false};
   std::atomic<bool> has_seams_{false};

@@ -1,9 +1,10 @@
-// Half a drift, a push, half a drift: a body by itself, without contacts, on joints that only lock.
+// Position Verlet, half a move, a push, half a move: a body by itself, without contacts, on joints
+// that only lock.
 //
 // Positions first go half a substep, then gravity pushes, and so on, with half a substep at the
-// end: one drift more in a tick than where half a push comes first. With E = p²/2 + V the energy
+// end: one move more in a tick than where half a push comes first. With E = p²/2 + V the energy
 // that the step keeps differs from that of the body by h²·(p⁴/24 − p²V″/24 + V′²/12), p⁴ by the
-// chord of a drift: for a pendulum from 90° a constant. With half a push first it is h²·(p⁴/24 +
+// chord of a move: for a pendulum from 90° a constant. With half a push first it is h²·(p⁴/24 +
 // p²V″/12 − V′²/24). Modified equations: E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical
 // Integration", IX. Chains of such bodies fly apart where they are pulled hard.
 
@@ -16,7 +17,7 @@
 
 namespace lockstone {
 
-bool ClusterStages::can_drift_first(const JointCluster& cluster) {
+bool ClusterStages::can_move_first(const JointCluster& cluster) {
   const JointGroup& group = system_.groups_of(cluster)[0];
   if (cluster.body_count != 1 || !group.is_direct || !group.only_locks || system_.is_stiff(group))
     return false;
@@ -41,16 +42,16 @@ void ClusterStages::set_rate(const JointCluster& cluster, std::int64_t rate) {
 
 // Half a push first after all.
 void ClusterStages::stay(JointCluster& cluster) {
-  cluster.drifts_first = false;
+  cluster.moves_first = false;
   set_rate(cluster, system_.step.substep_rate());
   for (const std::uint32_t body : system_.bodies_of(cluster))
-    system_.bodies[body].drifts_first = false;
+    system_.bodies[body].moves_first = false;
   for (LinkedJoint& joint : system_.joints_of(cluster))
     load_impulses(joint, 29);
 }
 
 // Nothing of this is replayed.
-void ClusterStages::drift_first(JointRun run, JointCluster& cluster) {
+void ClusterStages::move_first(JointRun run, JointCluster& cluster) {
   LKS_ASSERT(cluster.group_count == 1 && cluster.body_count == 1);
   run.before = {};
   set_rate(cluster, std::int64_t{2} * system_.step.substep_rate());
