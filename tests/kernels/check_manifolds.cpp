@@ -123,7 +123,7 @@ struct SceneMaker {
     in.scale_b = k_one >> random.between(0, 5);
     in.bias_rate = fixed(0, 1 << 25);
     in.keep = fixed(k_one / 2, k_one);
-    in.load = fixed(0, 1 << 18);
+    in.mean_impulse = fixed(0, 1 << 18);
     in.inertia_a = 1 << random.between(0, 12);
     in.inertia_b = 1 << random.between(0, 12);
     in.inverse_scale_a = fixed_a ? 0 : 1 << random.between(0, 18);

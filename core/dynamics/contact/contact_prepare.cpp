@@ -112,7 +112,7 @@ bool fill_points(const ContactInput& in, PrepareInput& out) {
   }
   for (std::size_t i = count; i < lanes::k_block_points; ++i)
     kept = kept && in.record.points[i] == ContactPointRecord{};
-  out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
+  out.mean_impulse = std::clamp(in.record.mean_impulse.raw, 0, lanes::k_most_impulse);
   if (fresh != 0 && left > 0) share_out(left, fresh, out);
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];

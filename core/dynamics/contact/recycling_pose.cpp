@@ -20,9 +20,9 @@ constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
 std::int64_t way_of(const BodyRecord& body, int axis) {
   const std::int64_t now = body.position[axis].raw;
   const auto steps = static_cast<std::uint32_t>(now >> k_place_shift) -
-                     static_cast<std::uint32_t>(body.contact_place[axis].raw);
-  const std::int64_t rest = now & ((std::int64_t{1} << k_place_shift) - 1);
-  return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + rest;
+                     static_cast<std::uint32_t>(body.recycling_place[axis].raw);
+  const std::int64_t remainder = now & ((std::int64_t{1} << k_place_shift) - 1);
+  return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + remainder;
 }
 
 // A state in which somebody flipped a bit may have its recycling pose anywhere, for a tick.
@@ -50,15 +50,15 @@ bool is_near_recycling_pose(const BodyRecord& body, int delta) {
   const std::int64_t turn = std::int64_t{1}
                             << std::max(Unit::frac_bits - 1 + exponent - body.scale_exponent, 0);
   return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
-         is_turned_within(turn, body.orientation, body.contact_orientation);
+         is_turned_within(turn, body.orientation, body.recycling_orientation);
 }
 
 void set_recycling_pose(BodyRecord& body) {
   for (int i = 0; i < 3; ++i) {
     const std::int64_t steps = raw::round_shift(body.position[i].raw, k_place_shift);
-    body.contact_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
+    body.recycling_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
   }
-  body.contact_orientation = body.orientation;
+  body.recycling_orientation = body.orientation;
 }
 
 PoseDelta pose_delta_of(const BodyRecord& body) {
@@ -67,7 +67,7 @@ PoseDelta pose_delta_of(const BodyRecord& body) {
     delta.way[static_cast<std::size_t>(i)] =
         static_cast<std::int32_t>(within_bits(way_of(body, i), 25));
   }
-  const Quat& then = body.contact_orientation;
+  const Quat& then = body.recycling_orientation;
   if (body.orientation == then) return delta;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
   const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 22);

@@ -45,12 +45,12 @@ void take_over(const ContactRun& run, ProximalContact& contact) {
                    block.tangent_mass[0][lane],
                    block.tangent_mass[1][lane],
                    block.twist_row[1][lane],
-                   block.rest[lane],
+                   block.mean_part[lane],
                    block.soft[lane]};
   for (std::size_t i = 0; i < contact.points; ++i)
     block.points[i].impulse[lane] = 0;
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
-  block.rest[lane] = 0;
+  block.mean_part[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;
   block.friction[lane] = 0;
   block.twist[lane] = pack(0, contact.radius);
@@ -335,7 +335,7 @@ void end(const ContactRun& run, const IslandView& island) {
     block.tangent_mass[0][lane] = contact.words[2];
     block.tangent_mass[1][lane] = contact.words[3];
     block.twist_row[1][lane] = contact.words[4];
-    block.rest[lane] = contact.words[5];
+    block.mean_part[lane] = contact.words[5];
     block.soft[lane] = contact.words[6];
   }
 }

@@ -31,7 +31,7 @@ std::int64_t within_word(std::int64_t x) {
 }
 
 // As `within_word`, and notes where it had to: `excess` is 0 as long as all words fit.
-std::int64_t held(std::int64_t x, std::int64_t& excess) {
+std::int64_t clamped(std::int64_t x, std::int64_t& excess) {
   const std::int64_t result = within_word(x);
   excess |= result ^ x;
   return result;
@@ -279,8 +279,9 @@ void BodyFactor::solve_down(const Plan& plan, bool& fits) {
     BodyVector& x = rows[k];
     std::array<std::int64_t, k_side> sums{};
     for (std::size_t j = 0; j < k_side; ++j) {
-      const std::int64_t rest = held(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
-      x[j] = held(times_pivot(column, j, rest), excess);
+      const std::int64_t remainder =
+          clamped(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
+      x[j] = clamped(times_pivot(column, j, remainder), excess);
       for (std::size_t i = j + 1; i < k_side; ++i)
         sums[i] += diagonal.words[j][i] * x[j];
     }
@@ -306,8 +307,8 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
       std::int64_t sum = 0;
       for (std::size_t j = i + 1; j < k_side; ++j)
         sum += diagonal.words[i][j] * x[j];
-      const std::int64_t rest = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
-      x[i] = held(times_pivot(column, i, held(rest, excess)), excess);
+      const std::int64_t remainder = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
+      x[i] = clamped(times_pivot(column, i, clamped(remainder, excess)), excess);
     }
   }
   fits = fits && excess == 0;
@@ -327,7 +328,7 @@ void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
   }
   std::int64_t excess = 0;
   for (std::size_t i = 0; i < k_side; ++i)
-    words[i] = held(raw::scale_saturating(words[i], -scale), excess);
+    words[i] = clamped(raw::scale_saturating(words[i], -scale), excess);
   fits = fits && excess == 0;
 }
 

@@ -220,16 +220,16 @@ void InitialWarmStart::propagate(const ContactRun& run, const Support& support, 
     }
   }
   if (!support.is_new || contact.count == 0) return;
-  const std::int64_t load = raw::round_divide(sum, contact.count);
-  LKS_ASSERT(load >= 0 && load <= lanes::k_most_impulse);
-  block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
-  mean_impulses_[support.link] = static_cast<std::int32_t>(load);
+  const std::int64_t mean = raw::round_divide(sum, contact.count);
+  LKS_ASSERT(mean >= 0 && mean <= lanes::k_most_impulse);
+  block.mean_part[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * mean;
+  mean_impulses_[support.link] = static_cast<std::int32_t>(mean);
 }
 
 void InitialWarmStart::store(const SupportGraph& order, std::span<ContactRecord> records) const {
   for (std::size_t i = 0; i < mean_impulses_.size(); ++i)
     if (mean_impulses_[i] != k_no_impulse)
-      records[order.links()[i].record].load.raw = mean_impulses_[i];
+      records[order.links()[i].record].mean_impulse.raw = mean_impulses_[i];
 }
 
 }  // namespace lockstone

@@ -61,7 +61,7 @@ struct alignas(64) ManifoldBlock {
   Point points[k_block_points];
   // Read by iterations without friction.
   BlockWord soft{};  // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
-  BlockWord rest{};  // (1 − κ)·load, which a soft row adds; m/s, Q50
+  BlockWord mean_part{};  // (1 − κ)·mean impulse, which a soft row adds; m/s, Q50
 
   BlockWord mass_01{}, mass_23{};  // 1 / (the response of each point to itself), Q30; 0: no point
   BlockWord used{};                // 0 in a lane without a manifold
@@ -114,7 +114,7 @@ struct alignas(16) PrepareInput {
   std::int32_t scale_a = 0, scale_b = 0;  // ℓ/s, Q30
   std::int32_t bias_rate = 0;             // as in ManifoldBlock::soft
   std::int32_t keep = 1 << 30;
-  std::int32_t load = 0;                      // m/s, Q20
+  std::int32_t mean_impulse = 0;              // m/s, Q20
   std::int32_t count = 0;                     // of points
   std::int32_t inertia_a = 1, inertia_b = 1;  // 2^(12 − pair's exponent + body's), 1 … 2^12
   std::int32_t inverse_scale_a = 0, inverse_scale_b = 0;  // 2^11/s, 1 … 2^18; 0: cannot turn

@@ -25,7 +25,7 @@ struct SourcePoints {
 /// The sources of as many manifolds.
 struct SourceLanes {
   Vector normal, friction;
-  Lanes twist, load, coefficient, soft;
+  Lanes twist, mean_impulse, coefficient, soft;
   Lanes one_over_count, count;
   Lanes impulse[4];
   Tensor inertia_a, inertia_b;  // Q(shift)

@@ -112,7 +112,8 @@ HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSide
   store(pack(sides.turn_a, sides.turn_b), &out.gain_turn[lane]);
   store(pack(in.share_b, in.coefficient), &out.share[lane]);
   store(in.soft, &out.soft[lane]);
-  store(multiply(subtract(broadcast(k_one), upper(in.soft)), in.load), &out.rest[lane]);
+  store(multiply(subtract(broadcast(k_one), upper(in.soft)), in.mean_impulse),
+        &out.mean_part[lane]);
   store(pack(axes.n.x, axes.n.y), &out.axes[0][lane]);
   store(pack(axes.n.z, axes.t.x), &out.axes[1][lane]);
   store(pack(axes.t.y, axes.t.z), &out.axes[2][lane]);

@@ -19,7 +19,7 @@ PlacedShape BodyCache::placed(std::uint32_t body, const BodyRecord& record) cons
 
 void BodyCache::refresh(std::uint32_t body, const BodyRecord& record) {
   rotations_[body] = to_matrix(record.orientation);
-  recycling_rotations_[body] = to_matrix(record.contact_orientation);
+  recycling_rotations_[body] = to_matrix(record.recycling_orientation);
   ++recycling_pose_numbers_[body];
   refresh_turned(body, record);
 }
@@ -29,21 +29,21 @@ void BodyCache::refresh_shape(std::uint32_t body, const BodyRecord& record) {
 }
 
 void BodyCache::refresh_turned(std::uint32_t body, const BodyRecord& record) {
-  if (record.contact_orientation == record.orientation)
+  if (record.recycling_orientation == record.orientation)
     recycling_rotations_[body] = rotations_[body];
   pose_deltas_[body] = pose_delta_of(record);
   if (assets_[body] != nullptr) frames_[body] = shape_frame(assets_[body], rotations_[body]);
 }
 
 void BodyCache::refresh_contact_rotation(std::uint32_t body, const BodyRecord& record) {
-  recycling_rotations_[body] = to_matrix(record.contact_orientation);
+  recycling_rotations_[body] = to_matrix(record.recycling_orientation);
 }
 
 void BodyCache::renew_recycling_pose(std::uint32_t body, BodyRecord& record) {
-  const Vec3<Length> place = record.contact_place;
-  const Quat orientation = record.contact_orientation;
+  const Vec3<Length> place = record.recycling_place;
+  const Quat orientation = record.recycling_orientation;
   set_recycling_pose(record);
-  if (record.contact_place != place || record.contact_orientation != orientation)
+  if (record.recycling_place != place || record.recycling_orientation != orientation)
     ++recycling_pose_numbers_[body];
 }
 

@@ -2,7 +2,7 @@
 //
 // A body is awake or asleep by a flag of its record. A pair of bodies is looked at while one of the
 // two is awake; contacts between bodies of which none is awake sleep, as they are, until one
-// wakes. All but the flags and the notes of rest is derived.
+// wakes. All but the flags and the pose of rest is derived.
 
 #include "core/world/sleep/island_sleep.h"
 

@@ -57,9 +57,9 @@ TEST(BodyName, StandsInTheLinesOfItsContactsAndJoints) {
       yard.world, {.shape = Shape::box(0.5_m, 0.5_m, 0.5_m), .position = {1.5_m, 0.49_m, {}}});
   (void)yard.world.step();
   EXPECT_EQ(name_in_line(yard, "joint", "user_data"), "0-1");
-  EXPECT_EQ(name_in_line(yard, "contact", "load"), "2-0");
+  EXPECT_EQ(name_in_line(yard, "contact", "mean_impulse"), "2-0");
   ASSERT_EQ(yard.world.set_name(other, "barrel"), Status::ok);
-  EXPECT_EQ(name_in_line(yard, "contact", "load"), "2 barrel-0");
+  EXPECT_EQ(name_in_line(yard, "contact", "mean_impulse"), "2 barrel-0");
   ASSERT_EQ(yard.world.set_name(yard.crate, "crate"), Status::ok);
   EXPECT_EQ(name_in_line(yard, "joint", "user_data"), "0-1 crate");
   ASSERT_EQ(yard.world.set_name(yard.floor, "floor"), Status::ok);
@@ -144,7 +144,7 @@ TEST(Difference, ShowsQuantitiesInTheirUnits) {
 
 TEST(Difference, ShowsBitsThatMeanSomethingElseWithoutAUnit) {
   Yard yard;
-  for (const char* field : {"note_a.x", "note_b.y", "note_c", "contact_place.z"})
+  for (const char* field : {"union_a.x", "union_b.y", "union_c", "recycling_place.z"})
     EXPECT_EQ(line_after_flip(yard, "body", 1, field).find('('), std::string::npos) << field;
 }
 

@@ -42,7 +42,7 @@ void prefetch(const T& object) {
 }
 
 // Of a point, as the record has it.
-std::int64_t mean_impulse(const ContactRecord& record) {
+std::int64_t impulse_of_point(const ContactRecord& record) {
   LKS_ASSERT(record.count <= lanes::k_block_points);
   std::int64_t sum = 0;
   for (const ContactPointRecord& point : record.points)
@@ -50,12 +50,12 @@ std::int64_t mean_impulse(const ContactRecord& record) {
   return raw::round_shift(sum * k_one_over_q28[record.count], 28);
 }
 
-// The mean impulse (`load`) follows the impulses over 2^shift ticks, where the initial warm start
+// `mean_impulse` follows the impulses over 2^shift ticks, where the initial warm start
 // gave one. If other contacts learned theirs while bodies settle, these would tremble on.
 void update_mean(std::int64_t now, int shift, ContactRecord& record) {
-  const std::int64_t mean = record.load.raw;
+  const std::int64_t mean = record.mean_impulse.raw;
   if (mean == 0) return;
-  record.load.raw = static_cast<std::int32_t>(mean + raw::round_shift(now - mean, shift));
+  record.mean_impulse.raw = static_cast<std::int32_t>(mean + raw::round_shift(now - mean, shift));
 }
 
 // The points of a contact that are not those of the tick before.
@@ -84,7 +84,7 @@ ContactConstraints::ContactConstraints(const TimeStep& step, std::size_t body_ca
     : parts_(parts),
       softness_(ContactSoftness::of(step)),
       params_(solver_params(step)),
-      load_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
+      mean_shift_(static_cast<int>(std::bit_width(static_cast<std::uint32_t>(step.tick_rate))) + 2),
       layout_(body_capacity, contact_capacity) {
   const std::size_t most = ConstraintLayout::most_blocks(contact_capacity);
   blocks_.reserve(most);
@@ -258,7 +258,7 @@ std::uint32_t ContactConstraints::store(std::size_t color, std::size_t first, st
     ContactRecord& record = target.records[contact.record];
     if (has_points_[i] == 0) name_points(target.manifolds[contact.manifold], record);
     clamped += store_contact(place, record);
-    update_mean(mean_impulse(record), load_shift_, record);
+    update_mean(impulse_of_point(record), mean_shift_, record);
     target.approaches[contact.record].raw = approach_of(place);
     if (record.is_touching())
       motion.note_push(contact, unit_normal_of(blocks_[place.block()], place.lane()));

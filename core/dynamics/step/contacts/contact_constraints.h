@@ -91,7 +91,7 @@ class ContactConstraints {
   Parts parts_;
   ContactSoftness softness_;
   lanes::SolverParams params_;
-  int load_shift_;  // a contact's mean impulse follows its impulses over 2^this ticks: four to
+  int mean_shift_;  // a contact's mean impulse follows its impulses over 2^this ticks: four to
                     // eight seconds
   ConstraintLayout layout_;
   const lanes::ManifoldKernels* kernels_ = nullptr;  // for as many contacts as a colour has at most

@@ -29,7 +29,7 @@ void ContactList::find_sides(const ContactScene& scene, std::int64_t bearing_imp
     sides = {side_of(record.body_a), side_of(record.body_b)};
     LKS_ASSERT(sides.a.is_dynamic() || sides.b.is_dynamic());
     if (record.count == 0 && sides.a.is_dynamic() && sides.b.is_dynamic()) sides.a.mark();
-    if (std::int64_t{record.load.raw} * record.count > bearing_impulse) sides.b.mark();
+    if (std::int64_t{record.mean_impulse.raw} * record.count > bearing_impulse) sides.b.mark();
   }
 }
 

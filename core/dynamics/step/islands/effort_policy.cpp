@@ -144,7 +144,8 @@ bool EffortPolicy::rests(const lanes::BodyVelocity& row, const SolverBody& body)
 bool EffortPolicy::is_rigid(const ContactScene& scene, const SolverBodies& bodies,
                             const ContactRef& contact) const {
   const ContactRecord& record = scene.records[contact.record];
-  if (std::int64_t{record.load.raw} * record.count * k_rigid_part <= bearing_impulse_) return false;
+  if (std::int64_t{record.mean_impulse.raw} * record.count * k_rigid_part <= bearing_impulse_)
+    return false;
   const Manifold& manifold = scene.manifolds[contact.manifold];
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
     const std::int64_t off =
