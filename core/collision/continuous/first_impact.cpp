@@ -110,7 +110,7 @@ constexpr int k_half_depth = 4;
 constexpr int k_last_depth = 7;
 
 // Nothing passes a triangle from its front: a shape that has sunk in beside it, and is nearest to a
-// rim from below, is held by the front as well.
+// rim from below, is stopped by the front as well.
 Vec3<Unit> crossing_from_front(const Piece& b, const Vec3<Unit>& crossing) {
   if (!b.triangle.is_triangle || crossing == Vec3<Unit>{}) return crossing;
   const Vec3<Unit> front = rotate(b.rotation, b.polytope->faces.front().normal);

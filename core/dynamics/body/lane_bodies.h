@@ -20,8 +20,8 @@ inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits
            both(r.y.y, r.y.z), both(r.z.x, r.z.y), both(r.z.z, {})}};
 }
 
-/// Eight steps of the velocities that rows can read, 7.6 µm/s: a body held by contacts trembles by
-/// so much.
+/// Eight steps of the velocities that rows can read, 7.6 µm/s: a body supported by contacts
+/// trembles by so much.
 inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_bits - 20);
 
 [[nodiscard]] constexpr bool is_below(std::int64_t x, std::int64_t bound) {

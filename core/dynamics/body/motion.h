@@ -93,7 +93,7 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
 }
 
 /// Moves a body by its travel in the solver, m: `displacement` of its centre, and `turned` of its
-/// surface (rotation vector · 2^scale_exponent) with its geometry held fixed. The body turns
+/// surface (rotation vector · 2^scale_exponent) with its geometry fixed. The body turns
 /// freely with the mean angular momentum of the tick. Returns as `fly`. `body` has its new spin
 /// already. Impulses without torque about the old axis of a thin body have none about its new one.
 std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,

@@ -50,7 +50,7 @@ inline int write_gain(const Vec3<Velocity>& gain, Vec3<Unit>& mantissa) {
   return exponent;
 }
 
-/// Adds, each component held within ±k_most_gain, to a relative error of 2^-30.
+/// Adds, each component clamped to ±k_most_gain, to a relative error of 2^-30.
 inline void add_gain(BodyRecord& body, const TickGain& gain) {
   TickGain sum = tick_gain_of(body);
   const auto add = [&](Velocity& to, Velocity x) {

@@ -89,7 +89,7 @@ void begin_rows(const PreparedRows& prepared, std::int64_t weight, ProximalConta
   }
 }
 
-// Joints may hold bodies where they overlap, and then no impulses part them: they would grow
+// Joints may fasten bodies where they overlap, and then no impulses part them: they would grow
 // without limit. The deeper a point overlaps, the softer its row, and the more of its impulse it
 // forgets.
 void soften(std::int64_t overlap, const ProximalRow& row, std::size_t i, Problem& problem) {

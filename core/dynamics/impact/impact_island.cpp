@@ -42,7 +42,7 @@ struct Fall {
     return static_cast<std::int64_t>(isqrt(static_cast<std::uint64_t>(square)));
   }
 
-  // When it does, Q30; beyond 2 it is held.
+  // When it does, Q30; clamped to 2.
   [[nodiscard]] std::int64_t fraction(std::int64_t at_speed) const {
     LKS_ASSERT(at_speed >= 0);
     constexpr std::int64_t k_late = std::int64_t{2} << 30;

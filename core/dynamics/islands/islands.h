@@ -1,4 +1,4 @@
-// Islands: bodies that hold on to each other, directly or through others.
+// Islands: bodies that are connected to each other, directly or through others.
 //
 // Union-find with path halving (R. Tarjan, J. van Leeuwen, "Worst-case analysis of set union
 // algorithms", 1984). The root of an island is its least body, so that nothing depends on the order

@@ -144,7 +144,7 @@ class RowWriter {
     return shifted(angle, -place_.exponent);
   }
 
-  /// Three locks along the axes of the world, which hold the anchors together.
+  /// Three locks along the axes of the world, which keep the anchors together.
   void lock_point(const JointArms& arms) {
     if (errors_ != nullptr) {
       for (int i = 0; i < 3; ++i)

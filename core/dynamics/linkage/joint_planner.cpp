@@ -15,7 +15,7 @@ namespace {
 // two ropes flew apart.
 constexpr std::uint32_t k_most_loops = 2;
 
-// Whether the coloured balls can hold a body at this anchor: one that is pushed along every axis
+// Whether the coloured balls can fasten a body at this anchor: one that is pushed along every axis
 // with the anchor within the range of its format, or one that stands still.
 bool fits_ball(const LinkedBody& body, const Vec3<Length>& anchor) {
   if (!body.pushed) return !body.record->moves();
@@ -219,7 +219,7 @@ bool JointPlanner::is_pressed(const JointGroup& group) const {
   return touches && pulled;
 }
 
-// Balls that nothing limits or drives, on bodies that a ball can hold.
+// Balls that nothing limits or drives, on bodies that a ball can fasten.
 bool JointPlanner::fits_net(const AddedJoint& added) const {
   const JointRecord& joint = *added.record;
   return is_point(joint) && fits_ball(system_.bodies[added.a], joint.anchor_a) &&

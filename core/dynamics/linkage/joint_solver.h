@@ -4,7 +4,7 @@
 //
 // | part | job |
 // |---|---|
-// | `LinkedBodies` | finds the bodies that joints hold |
+// | `LinkedBodies` | finds the bodies that joints connect |
 // | `JointPlanner` | decides which joints are solved together, and how |
 // | `JointSystem` | the data that all parts share: joints, bodies, groups, clusters |
 // | `ClusterStages` | the stages of a substep for one cluster |

@@ -50,13 +50,13 @@ class SupportGraph {
   }
 
   /// Finds which bodies stand, over others, on something immovable. `carries(link, upper)` tells
-  /// whether a link may hold up its upper body.
+  /// whether a link may support its upper body.
   template <class Carries>
   void find(const ContactRun& run, const Carries& carries) {
     find_uppers(run);
     is_supported_.assign(run.bodies.size(), 0);
     order_.clear();
-    const auto hold = [&](std::uint32_t link, std::uint32_t lower) {
+    const auto add_if_supported = [&](std::uint32_t link, std::uint32_t lower) {
       const std::uint32_t body = upper_[link];
       if (body == 0 || lower_of(link) != lower || is_supported_[body] != 0) return;
       if (!carries(links_[link], body)) return;
@@ -64,10 +64,10 @@ class SupportGraph {
       order_.push_back(body);
     };
     for (std::uint32_t i = 0; i < links_.size(); ++i)
-      hold(i, 0);
+      add_if_supported(i, 0);
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (const std::uint32_t link : by_body_.at(order_[i]))
-        hold(link, order_[i]);
+        add_if_supported(link, order_[i]);
     find_order();
   }
 

@@ -62,7 +62,7 @@ Vec3<To> over_a_tick(const Vec3<From>& force, int tick_rate) {
   return {impulse(force.x), impulse(force.y), impulse(force.z)};
 }
 
-// A vector of 64 bits along world axes; beyond 2^60 it is held.
+// A vector of 64 bits along world axes; clamped to 2^60.
 template <class T>
 Vec3<T> turned(const Mat3& rotation, const Vec3<T>& v) {
   constexpr std::int64_t k_bound = std::int64_t{1} << 60;

@@ -2,7 +2,7 @@
 //
 // The scheme is RATTLE: impulses at the beginning of the substep such that locks hold at its end,
 // and at the end such that they do not open (H. C. Andersen, "Rattle: a velocity version of the
-// Shake algorithm", 1983). A body by itself that only locks hold moves half a substep first
+// Shake algorithm", 1983). A body by itself that only locks fasten moves half a substep first
 // (cluster_moves_first.cpp).
 #pragma once
 

@@ -13,8 +13,8 @@
 namespace lockstone {
 namespace {
 
-// In a tick a cluster may gain 2^-this of its kinetic energy: where steps hold the joints, whose
-// errors come and go, and where they do not.
+// In a tick a cluster may gain 2^-this of its kinetic energy: where steps keep the joints closed,
+// whose errors come and go, and where they do not.
 constexpr int k_free_gain_shift = 6, k_rough_gain_shift = 10;
 
 // Less than this, twice for each mass, is rounding: (0.1 mm/s)², Q32.

@@ -183,7 +183,7 @@ void LockSolver::solve_positions(const JointRun& run, const JointCluster& cluste
   const bool holds = find_positions(run, group) <= k_lost;
   if (holds && !(was_open && closes_too_fast(run, system_, cluster))) return;
   restore(run, group);
-  hold_roughly(run, cluster, group);
+  lock_roughly(run, cluster, group);
   group.is_rough = true;
 }
 
@@ -199,7 +199,7 @@ std::int64_t LockSolver::find_positions(const JointRun& run, JointGroup& group) 
 // Where the method does not converge: velocities such that locks do not open, which is a projection
 // and gives no energy, and then close by a quarter of their openings, as far as the energy of that
 // is small.
-void LockSolver::hold_roughly(const JointRun& run, const JointCluster& cluster, JointGroup& group) {
+void LockSolver::lock_roughly(const JointRun& run, const JointCluster& cluster, JointGroup& group) {
   for (const std::uint32_t index : system_.joints_of(group))
     linearize(system_, system_.joints[index]);
   group.is_factored = group.is_fresh = false;
@@ -256,12 +256,12 @@ void LockSolver::lock_speeds(const JointRun& run, const JointCluster& cluster) {
         solve_limits(run, system_.step, joint, false);
     }
     for (JointGroup& group : system_.groups_of(cluster))
-      hold_speed(run, group, i);
+      lock_speed(run, group, i);
   }
 }
 
 // The locks of a group. A factor of earlier rows is kept while it converges.
-void LockSolver::hold_speed(const JointRun& run, JointGroup& group, int pass) {
+void LockSolver::lock_speed(const JointRun& run, JointGroup& group, int pass) {
   if (pass == 0) group.fresh_solves = 0;
   const bool loops = group.has_solved_loops();
   const std::int64_t slow = loops ? k_slow_loop : k_slow_tree;

@@ -59,8 +59,8 @@ class LockSolver {
   void factor(const JointRun& run, JointGroup& group, bool ahead);
   void solve(const JointRun& run, JointGroup& group, bool positions);
   [[nodiscard]] std::int64_t find_positions(const JointRun& run, JointGroup& group);
-  void hold_roughly(const JointRun& run, const JointCluster& cluster, JointGroup& group);
-  void hold_speed(const JointRun& run, JointGroup& group, int pass);
+  void lock_roughly(const JointRun& run, const JointCluster& cluster, JointGroup& group);
+  void lock_speed(const JointRun& run, JointGroup& group, int pass);
 
   JointSystem& system_;
   TreeLocks& trees_;

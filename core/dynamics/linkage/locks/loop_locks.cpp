@@ -12,7 +12,7 @@ namespace lockstone {
 namespace {
 
 // Of times in a solve that motors are found to push harder than they may.
-constexpr int k_most_holds = 3;
+constexpr int k_most_bound_rounds = 3;
 
 bool is_left_out(const LinkedJoint& joint, std::size_t row) {
   LKS_ASSERT(row < joint.rows.count);
@@ -173,7 +173,7 @@ std::int64_t LoopLocks::motor_impulse(const JointGroup& group, std::uint32_t pla
 // Motors that would have to push harder than they may push as hard as they may, and the other rows
 // are solved again: impulses of locks against the whole push would turn the motor back. Returns
 // whether there are such motors.
-bool LoopLocks::hold_motors(const JointRun& run, const JointGroup& group, bool positions) {
+bool LoopLocks::bound_motors(const JointRun& run, const JointGroup& group, bool positions) {
   bool holds = false;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
@@ -212,7 +212,7 @@ void LoopLocks::solve(const JointRun& run, JointGroup& group, bool positions) {
   if (mark_left_out(run, group) || !system_.has_factor(group)) factor(run, group, false);
   complete_errors(run, group, positions);
   loops_->solve(group.loops);
-  for (int i = 0; i < k_most_holds && hold_motors(run, group, positions); ++i) {
+  for (int i = 0; i < k_most_bound_rounds && bound_motors(run, group, positions); ++i) {
     make_factor(group, false);
     loops_->solve(group.loops);
   }

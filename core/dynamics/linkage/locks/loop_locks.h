@@ -53,7 +53,7 @@ class LoopLocks {
   void add_speeds(const JointRun& run, const JointGroup& group, int sign);
   [[nodiscard]] std::int64_t motor_impulse(const JointGroup& group, std::uint32_t place,
                                            std::size_t row, bool positions);
-  [[nodiscard]] bool hold_motors(const JointRun& run, const JointGroup& group, bool positions);
+  [[nodiscard]] bool bound_motors(const JointRun& run, const JointGroup& group, bool positions);
   void apply(const JointRun& run, const JointGroup& group, bool positions);
 
   JointSystem& system_;

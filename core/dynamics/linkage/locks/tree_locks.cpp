@@ -173,7 +173,7 @@ void TreeLocks::plan_single(JointGroup& group) {
   group.column = factor_.first();
 }
 
-// The responses of the locks of p to impulses on those of q, through the bodies that both hold.
+// The responses of the locks of p to impulses on those of q, through the bodies that both connect.
 void TreeLocks::fill_block(const LinkedJoint& p, const LinkedJoint& q, std::int64_t* block) const {
   const std::span<const LinkedBody> bodies = system_.bodies;
   std::fill_n(block, p.rows.locks * q.rows.locks, 0);

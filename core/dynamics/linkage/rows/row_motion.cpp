@@ -46,7 +46,7 @@ inline void add_velocity(BodyVelocity& body, const RawVec3& velocity, const RawV
   body.spin = next_spin;
 }
 
-// The change between velocities held within bounds; contacts may push velocities out of them.
+// The change between velocities clamped to bounds; contacts may push velocities out of them.
 std::int64_t gain(std::int64_t before, std::int64_t after) {
   return bounded(after, k_row_bound) - bounded(before, k_row_bound);
 }
@@ -77,7 +77,7 @@ void add_point(Side side, std::span<const JointRow> rows, const RowImpulses& jum
   about_y.add(z[1], jumps[2]), about_y.add(x[1], jumps[0]);
   about_z.add(x[2], jumps[0]), about_z.add(y[2], jumps[1]);
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::int64_t along = side.linear(rows[i])[i];  // 1, −1 or held
+    const std::int64_t along = side.linear(rows[i])[i];  // 1, −1, or 0 along a locked axis
     LKS_ASSERT(along == 0 || magnitude(along) == static_cast<std::uint64_t>(k_one));
     velocity[i] = along == 0 ? 0 : along < 0 ? -jumps[i] : jumps[i];
   }

@@ -22,7 +22,7 @@ InverseResponse inverse_response(std::int64_t response) {
 }
 
 // Along an axis that is locked a body neither moves nor responds.
-void hold(const LinkedBody& body, RawVec3& linear) {
+void clear_locked_axes(const LinkedBody& body, RawVec3& linear) {
   if (!body.pushed || (body.record->locks & k_lock_moving) == 0) return;
   for (int axis = 0; axis < 3; ++axis)
     if (body.record->is_locked(axis)) linear[static_cast<std::size_t>(axis)] = 0;
@@ -71,8 +71,8 @@ void find_responses(const JointSystem& system, LinkedJoint& joint, std::size_t r
   const InverseInertia& inertia_b = ahead ? b.inertia_ahead : b.inverse_inertia;
   for (std::size_t i = 0; i < rows; ++i) {
     JointRow& row = joint.rows.rows[i];
-    hold(a, row.linear_a);
-    hold(b, row.linear_b);
+    clear_locked_axes(a, row.linear_a);
+    clear_locked_axes(b, row.linear_b);
     row.response_a = response_of(inertia_a, row.angular_a);
     row.response_b = response_of(inertia_b, row.angular_b);
     if (row.kind == RowKind::lock) continue;  // solved by the factor

@@ -1,5 +1,5 @@
-// The joints of one tick, the bodies that they hold, and the groups in which they are solved: the
-// data that all parts of the joint solver share.
+// The joints of one tick, the bodies that they connect, and the groups in which they are solved:
+// the data that all parts of the joint solver share.
 //
 // A *cluster* is all joints connected by bodies that impulses move, without those left to the
 // coloured balls. No two clusters share such a body, so that they can be solved side by side. A
@@ -42,7 +42,7 @@ struct JointGroup {
   bool is_factored : 1 = false;
   bool is_fresh : 1 = false;      // and so for the present rows
   bool turns_fast : 1 = false;    // in this tick a factor of earlier rows did not serve
-  bool is_rough : 1 = false;      // a step of this tick did not hold the joints
+  bool is_rough : 1 = false;      // a step of this tick left the joints open
   std::int16_t fresh_solves = 0;  // for velocities, with a factor of the present rows
   int exponent = 0;               // least of its rows
   std::int64_t speed = 0;         // greatest of its locks, as last found, Q50

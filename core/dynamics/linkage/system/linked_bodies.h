@@ -1,4 +1,4 @@
-// Finds the bodies that joints hold in a tick, by their number in the world.
+// Finds the bodies that joints connect in a tick, by their number in the world.
 #pragma once
 
 #include <cstdint>

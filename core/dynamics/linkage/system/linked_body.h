@@ -1,5 +1,5 @@
-// A body that joints hold, during one tick: its pose, its inertia, and the velocities that the
-// stages of a substep note for it.
+// A body that joints connect to others, during one tick: its pose, its inertia, and the velocities
+// that the stages of a substep note for it.
 //
 // A link that its joints pull hard may be taken to be heavier to turn than it is
 // (`pulled_links.h`): then no principal moment is below `least_inertia`, and its spin in the rows
@@ -28,7 +28,7 @@ struct LinkedBody {
   bool centred = false;            // velocity Verlet: half a push, a move, half a push
   bool moves_first = false;        // position Verlet: half a move, a push, half a move
 
-  // The joints that hold it.
+  // Its joints.
   std::uint32_t first_joint = 0;  // in JointSystem::by_body
   std::uint32_t joint_count = 0;
   std::uint32_t local = 0;  // number in its group

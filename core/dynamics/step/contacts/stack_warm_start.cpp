@@ -38,7 +38,7 @@ void StackWarmStart::find(const ContactScene& scene, const ContactRun& run, Para
   }
 }
 
-// Neither joints nor locked axes hold it.
+// It has neither joints nor locked axes.
 bool StackWarmStart::is_free(BodyRef body) const {
   if (body.is_standing()) return true;
   const std::uint32_t number = body.number();

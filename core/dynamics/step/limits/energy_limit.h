@@ -1,9 +1,9 @@
 // Limits the energy of islands that have both joints and contacts.
 //
-// Contacts and joints of an island may work against each other: joints that hold bodies where they
-// overlap, or links that turn faster than the substep resolves while something presses them. So the
-// energy of such an island is checked in each substep. Its gain in a tick, besides the work of
-// gravity and forces and beyond a small part, is taken away from all of its bodies alike; and
+// Contacts and joints of an island may work against each other: joints that fasten bodies where
+// they overlap, or links that turn faster than the substep resolves while something presses them.
+// So the energy of such an island is checked in each substep. Its gain in a tick, besides the work
+// of gravity and forces and beyond a small part, is taken away from all of its bodies alike; and
 // positions do not move with velocities of much more energy than those before them.
 #pragma once
 

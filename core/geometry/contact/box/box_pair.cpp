@@ -80,7 +80,7 @@ struct EdgeBounds {
     for (unsigned left = open; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       // Of nearly parallel edges the product's length is next to nothing, and so is `rough`: the
-      // threshold times the length must be held against it, or times more than the length where
+      // threshold times the length must be compared with it, or times more than the length where
       // the threshold is negative.
       const std::size_t i = k / 3, j = k % 3;
       const std::int64_t width = b_sizes[j][k_next[i]] + b_sizes[j][k_after_next[i]];

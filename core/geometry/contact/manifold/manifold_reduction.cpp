@@ -99,7 +99,7 @@ void take_extreme(Selection& selection) {
   selection.take(best);
 }
 
-/// The widest support is worth nothing if the deepest vertex is not held.
+/// The widest support is worth nothing without the deepest vertex.
 void include_deepest(Selection& selection) {
   int deepest = 0;
   for (int i = 1; i < selection.size(); ++i) {

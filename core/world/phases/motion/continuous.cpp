@@ -175,9 +175,9 @@ void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
   if (!world_.joint_graph.neighbours(body).empty()) return sweep_joined(body, report);
   Sweep motion = motion_in_tick(body);
   Mat3 rotation = world_.cache.rotation(body);
-  Unit done{};                    // of the tick
-  Transform held = motion.start;  // at the last impact, with `met`
-  Unit held_since{};
+  Unit done{};                         // of the tick
+  Transform last_pose = motion.start;  // at the last impact, with `met`
+  Unit last_fraction{};
   std::uint32_t met = body;
   for (int i = 0; i < k_max_impacts; ++i) {
     const NextImpact next = find_impact(body, motion, done);
@@ -186,7 +186,7 @@ void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
     if (!next.impact.hit) return;
     ++report.impacts;
     if (i > 0 && next.body == met && carries(met)) {
-      stop_at(record, carried(held, motion_of(met, held_since)), rotation);
+      stop_at(record, carried(last_pose, motion_of(met, last_fraction)), rotation);
       resolve(body, next, k_whole_tick);
       return push_out(body, met);
     }
@@ -194,8 +194,8 @@ void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
     const Unit left = k_whole_tick - done;
     done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
     resolve(body, next, done);
-    held = pose_of(record);
-    held_since = done;
+    last_pose = pose_of(record);
+    last_fraction = done;
     met = next.body;
     const bool last = i + 1 == k_max_impacts;
     if (last) return;
