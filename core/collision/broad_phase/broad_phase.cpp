@@ -182,6 +182,7 @@ std::span<const Pair> BroadPhase::find_pairs(Parallel& parallel) {
   }
   release_touched();
   changed_ = false;
+  LKS_ASSERT(std::ranges::is_sorted(pairs_.pairs()));
   return pairs_.pairs();
 }
 
@@ -189,6 +190,7 @@ std::span<const Pair> BroadPhase::find_pairs(Parallel& parallel) {
 // them is touched.
 template <class Emit>
 bool BroadPhase::search(Emit&& emit) {
+  LKS_ASSERT(touched_.size() <= body_limit_);
   effort_.searched = static_cast<std::uint32_t>(touched_.size());
   const auto keep = [&](std::uint32_t one, std::uint32_t other) {
     const ProxyTraits& traits = proxies_[one].traits;

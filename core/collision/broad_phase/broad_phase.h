@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include <lockstone/assert.h>
 #include <lockstone/collision.h>
 
 #include "core/base/parallel.h"
@@ -84,6 +85,7 @@ class BroadPhase {
  private:
   template <class Test, class Visit>
   void traverse_some(std::uint32_t mask, bool with_dynamic, Test&& test, Visit&& visit) const {
+    LKS_ASSERT(body_limit_ <= proxies_.size() && body_limit_ <= bounds_.size());
     const auto look = [&](std::uint32_t body) {
       const Proxy& proxy = proxies_[body];
       const bool asked = proxy.present && (with_dynamic || !proxy.traits.is_dynamic) &&

@@ -33,9 +33,11 @@ class ThinPieces final : public PieceVisitor {
     const Vec3<Position> end = to_world(a_.end, to_local(a_.start, middle));
     const PointWay way{saturated<Length>(to_local(mesh_, middle)),
                        saturated<Length>(to_local(mesh_, end))};
+    LKS_ASSERT(mesh_.asset != nullptr);
     const Asset& asset = *mesh_.asset;
     const FrontCrossing crossing = asset.mesh_kernels()->first_crossing(asset, way);
     if (!crossing.found || (best_.found && crossing.fraction >= best_.fraction)) return;
+    LKS_ASSERT(crossing.fraction >= Unit{} && crossing.fraction <= Unit::from_integer(1));
     best_ = {true, crossing.fraction, push_of(crossing), middle - end};
   }
 

@@ -139,6 +139,7 @@ class PiecesOfB final : public PieceVisitor {
     const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
     const Hit hit = depth_ == ImpactDepth::half ? meet(swept_b) : meet_soon(swept_b);
     if (hit.time == k_never || (best_.hit && hit.time >= best_.fraction)) return;
+    LKS_ASSERT(hit.time >= Unit{} && hit.time <= Unit::from_integer(1));
     const Vec3<Unit> crossing = crossing_from_front(b, hit.crossing);
     best_ = {true, hit.time, a_.part, b.part, crossing};
   }
@@ -225,6 +226,7 @@ class TouchingPiecesOfB final : public PieceVisitor {
     const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
     const TimeOfImpact found = time_of_impact(swept_a, swept_b, k_touch_limits);
     touched_ = found.state != TimeOfImpactState::separated;
+    LKS_ASSERT(!touched_ || found.fraction <= Unit::from_integer(1));
   }
 
   [[nodiscard]] bool touched() const { return touched_; }

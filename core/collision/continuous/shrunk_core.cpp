@@ -37,6 +37,7 @@ ShrunkCore::ShrunkCore(const Piece& piece, Length depth, Unit share) : shape(pie
 }
 
 void ShrunkCore::shorten(Unit share) {
+  LKS_ASSERT(share > Unit{} && share <= Unit::from_integer(1));
   if (!is_polytope) {
     shape.size = geometry::traits_of(shape).shortened(shape.size, share);
     return;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/solver_body.h"
 #include "core/dynamics/state/body_record.h"
@@ -86,6 +88,7 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
   const std::int64_t x = read(spin_q50[0]), y = read(spin_q50[1]), z = read(spin_q50[2]);
   // Q22 · Q(30 − exponent), to Q32.
   const int shift = 20 - m.exponent;
+  LKS_ASSERT(m.exponent >= 0 && m.exponent <= 20);
   const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     return raw::round_shift(a * x + b * y + c * z, shift);
   };

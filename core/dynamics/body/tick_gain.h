@@ -61,6 +61,7 @@ inline void add_gain(BodyRecord& body, const TickGain& gain) {
     add(sum.spin[i], gain.spin[i]);
   }
   const int exponent = write_gain(sum.velocity, body.union_a);
+  LKS_ASSERT(exponent >= 0 && exponent <= k_most_gain_exponent);
   body.union_c.raw = exponent | write_gain(sum.spin, body.union_b) << k_gain_exponent_bits;
   body.flags = static_cast<std::uint8_t>(body.flags | k_body_pushed);
   body.rest_ticks = 0;

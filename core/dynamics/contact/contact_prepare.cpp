@@ -135,6 +135,7 @@ void fill_rolling(const ContactInput& in, int scale_exponent, PrepareInput& out)
   out.rolling_limit = raw::saturate<std::int32_t>(
       raw::scale_binary(std::int64_t{in.surface.rolling_arm.raw}, 8 - scale_exponent));
   if (out.rolling_limit == 0) return;
+  LKS_ASSERT(out.rolling_limit > 0);
   const Vec3<SolverVelocity>& rolling = in.record.rolling_impulse;
   out.rolling = {rolling.x.raw, rolling.y.raw, rolling.z.raw};
 }
@@ -215,6 +216,7 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Prepar
 
 void across(const lanes::ManifoldBlock& block, std::size_t lane, std::int64_t word,
             Vec3<SolverVelocity>& out) {
+  LKS_ASSERT(lane < lanes::k_block_lanes);
   const auto low = [](std::int64_t x) { return static_cast<std::int32_t>(x); };
   const auto high = [](std::int64_t x) { return static_cast<std::int32_t>(x >> 32); };
   const std::int64_t along_t = static_cast<std::int32_t>(word),

@@ -57,6 +57,7 @@ void set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
 
 void measure_speeds(const ContactRun& run, const PreparedRows& prepared,
                     const ProximalContact& contact, lanes::ProximalBlock& problem) {
+  LKS_ASSERT(contact.points <= contact.rows && contact.rows <= k_contact_rows);
   Motion start, gained;
   const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
                             RawVec3& gained_spin, std::int64_t sign) {

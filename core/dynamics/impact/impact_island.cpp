@@ -7,6 +7,7 @@
 
 #include "core/dynamics/body/motion.h"
 #include "core/dynamics/impact/impact_response.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/math/roots.h"
 #include "core/math/trig.h"
 
@@ -107,11 +108,13 @@ PairImpact impact_of_balls(const ImpactPair& pair, const Vec3<Velocity>& gain, c
       offset[axis].raw += raw::round_divide(times(twice, t).raw, 2 * step.tick_rate);
     }
     const Balls balls = balls_at(pair, offset);
+    LKS_ASSERT(geometry::is_unit(balls.normal));
     const Velocity closing = along(v + gained, balls.normal);
     const Fall fall{balls.gap, way(closing, step), way(along(gain, balls.normal), step)};
     const std::int64_t speed = fall.speed();
     if (speed < 0) return {};
     const std::int64_t further = fall.fraction(speed);
+    LKS_ASSERT(further >= 0);
     impact.fraction += further;
     impact.speed = -closing;
     if (impact.fraction > limit.raw) return {};
@@ -136,6 +139,7 @@ std::array<Fall, k_max_manifold_points> falls_of(const ImpactPair& pair, const G
   std::array<Fall, k_max_manifold_points> falls{};
   const Vec3<Velocity> wa = surface_of(*pair.a), wb = surface_of(*pair.b);
   const Manifold& manifold = *pair.manifold;
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
     const ManifoldPoint& point = manifold.points[i];
     const Vec3<Velocity> apart =
@@ -156,6 +160,7 @@ PairImpact impact_of_points(const ImpactPair& pair, const Gaps& gaps, const Vec3
     if (speed < 0) continue;
     const std::int64_t fraction = falls[i].fraction(speed);
     if (fraction >= first.fraction) continue;
+    LKS_ASSERT(fraction >= 0);
     const std::int64_t per_second = speed * step.tick_rate;
     first = {true, fraction, Velocity::from_raw(per_second * 256)};
   }
@@ -165,6 +170,7 @@ PairImpact impact_of_points(const ImpactPair& pair, const Gaps& gaps, const Vec3
 // On the way for a fraction of the tick, as in flight.
 void integrate_ballistic(BodyRecord& body, const Vec3<Velocity>& gain, Unit fraction,
                          const TimeStep& step) {
+  LKS_ASSERT(fraction >= Unit{} && fraction <= Unit::from_integer(1) && step.tick_rate > 0);
   const Vec3<Velocity> w = surface_of(body);
   RotationVector turn;
   for (int i = 0; i < 3; ++i) {
@@ -192,6 +198,7 @@ Manifold touching_balls(const ImpactPair& pair) {
     manifold.points[0].anchor_a[i].raw = arm(*pair.a);
     manifold.points[0].anchor_b[i].raw = -arm(*pair.b);
   }
+  LKS_ASSERT(geometry::is_unit(manifold.normal));
   return manifold;
 }
 
@@ -269,6 +276,7 @@ void ImpactIsland::run() {
 
 void ImpactIsland::advance(Unit fraction) {
   if (fraction == Unit{}) return;
+  LKS_ASSERT(contact_count_ <= contacts_.size() && flyer_count_ <= flyers_.size());
   for (Contact& contact : std::span(contacts_).first(contact_count_)) {
     if (are_balls(contact.pair)) continue;
     const Vec3<Velocity> gain = gain_of(contact.flyer_b) - gain_of(contact.flyer_a);

@@ -7,6 +7,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/motion.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/math/block_float.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
@@ -68,6 +69,7 @@ struct Side {
 
   // α (u·u + (r̄ × u) · M (r̄ × u)), 32 bits; u·u without locked axes
   [[nodiscard]] std::int64_t compliance(const Vec3<Unit>& arm, const Vec3<Unit>& u) const {
+    LKS_ASSERT(share >= Unit{} && share <= Unit::from_integer(1) && geometry::is_unit(u));
     std::int64_t free = std::int64_t{share.raw} * 4;
     for (int i = 0; i < 3; ++i) {
       if (!body.record.is_locked(i)) continue;
@@ -128,6 +130,7 @@ class ImpactSolver {
  public:
   ImpactSolver(const Side& a, const Side& b, const ImpactContact& contact)
       : a_(a), b_(b), contact_(contact), normal_(contact.manifold.normal) {
+    LKS_ASSERT(geometry::is_unit(normal_));
     for (int i = 0; i < contact.manifold.count; ++i) {
       const ManifoldPoint& from = contact.manifold.points[static_cast<std::size_t>(i)];
       Point& point = points_[static_cast<std::size_t>(i)];
@@ -151,6 +154,7 @@ class ImpactSolver {
       set_motion(b_, before_b);
       start_again(attempt + 2 == k_attempts);
     }
+    LKS_ASSERT(greatest_approach_ >= Velocity{});
     return greatest_approach_;
   }
 

@@ -30,6 +30,7 @@ std::int32_t impulse_of(const JointRecord& record, std::size_t axis) {
 }
 
 void empty_lane(std::size_t lane, BallBlock& block) {
+  LKS_ASSERT(lane < lanes::k_block_lanes);
   block.body_a[lane] = block.body_b[lane] = 0;
   for (lanes::BlockWord& word : block.anchor)
     word[lane] = 0;

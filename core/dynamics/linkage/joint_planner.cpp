@@ -4,6 +4,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/joint/joint_numbers.h"
 #include "core/dynamics/linkage/rows/joint_drives.h"
 #include "core/dynamics/linkage/rows/pulled_links.h"
@@ -58,6 +59,8 @@ std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_co
   for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
     if (system_.added[i].joint == AddedJoint::k_in_balls) in_balls_.push_back(i);
   }
+  LKS_ASSERT(system_.order.size() <= system_.added.size());
+  LKS_ASSERT(system_.group_bodies.size() <= system_.bodies.size());
   return in_balls_;
 }
 
@@ -119,6 +122,7 @@ void JointPlanner::find_group(std::uint32_t root) {
 void JointPlanner::plan_group(JointGroup group) {
   std::reverse(system_.order.begin() + group.first, system_.order.end());
   const std::span<const std::uint32_t> joints = system_.joints_of(group);
+  LKS_ASSERT(joints.size() == group.count);
   for (std::uint32_t k = 0; k < group.count; ++k)
     system_.added[joints[k]].place = k;
   // The pushed bodies of a tree on the ground are as many as its joints.
@@ -134,6 +138,7 @@ void JointPlanner::plan_group(JointGroup group) {
 // index.
 void JointPlanner::plan_singles(const JointGroup& group) {
   std::vector<std::uint32_t>& order = system_.order;
+  LKS_ASSERT(group.first + group.count <= order.size());
   const auto begin = order.begin() + group.first, end = begin + group.count;
   const auto rest = std::partition(begin, end, [&](std::uint32_t index) {
     AddedJoint& added = system_.added[index];
@@ -178,6 +183,7 @@ void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_grou
 
 void JointPlanner::make_joint(AddedJoint& added) {
   added.joint = static_cast<std::uint32_t>(system_.joints.size());
+  LKS_ASSERT(is_reserved(system_.joints, system_.joints.size() + 1));
   LinkedJoint& joint = system_.joints.emplace_back();
   joint.record = added.record;
   joint.a = added.a;

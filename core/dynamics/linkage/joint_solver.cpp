@@ -45,6 +45,7 @@ void JointSolver::add(const JointRecord& record, const Side& a, const Side& b) {
 }
 
 void JointSolver::begin(const JointRun& run) {
+  LKS_ASSERT(system_.joints.size() <= system_.added.size());
   const RoundDivisor rate(system_.step.substep_rate());
   for (LinkedBody& body : system_.bodies) {
     body.centred = body.pushed && !body.in_balls && !body.touches && !body.is_among_contacts;

@@ -103,6 +103,7 @@ std::size_t BodyFactor::find_order(const Plan& plan, std::size_t& blocks) {
     products += (1 + count) * (1 + count);
     blocks += count;
   }
+  LKS_ASSERT(order_.size() == plan.bodies);
   return products;
 }
 
@@ -191,6 +192,7 @@ void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, st
 }
 
 void BodyFactor::add(std::uint32_t block, const Rows& x, const Rows& y) {
+  LKS_ASSERT(block < blocks_.size() && x.count == y.count && x.count <= k_most_rows);
   std::int64_t sums[k_side][k_side] = {};
   for (std::size_t r = 0; r < x.count; ++r) {
     const RowSide &row = *x.rows[r], &column = *y.rows[r];
@@ -211,6 +213,7 @@ void BodyFactor::scale(const Plan& plan) {
     std::int64_t most = 0;
     for (std::size_t i = 0; i < k_side; ++i)
       most = std::max(most, blocks_[plan.first_block + k].words[i][i]);
+    LKS_ASSERT(most > 0);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
     columns_[plan.first_column + k].scale = (width - k_matrix_sum_bits + 1) >> 1;
   }
@@ -271,6 +274,7 @@ void BodyFactor::factor(const Plan& plan) {
 
 void BodyFactor::solve_down(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   BodyVector* const rows = x_.data() + plan.first_column;
   std::int64_t excess = 0;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
@@ -294,6 +298,7 @@ void BodyFactor::solve_down(const Plan& plan, bool& fits) {
 
 void BodyFactor::solve_up(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   BodyVector* const rows = x_.data() + plan.first_column;
   std::int64_t excess = 0;
   for (std::uint32_t k = plan.bodies; k-- > 0;) {

@@ -65,6 +65,7 @@ void InitialWarmStart::find(SupportGraph& order, const ContactRun& run,
                             std::span<BodyVelocity> warm, Parallel& parallel) {
   order.find(run,
              [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
+  LKS_ASSERT(warm.size() >= run.bodies.size());
   mean_impulses_.assign(order.links().size(), k_no_impulse);
   order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
     Supports& supports = supports_[worker];
@@ -82,6 +83,7 @@ void InitialWarmStart::find(SupportGraph& order, const ContactRun& run,
 // the middle best. A body that tips over has no supports.
 void InitialWarmStart::support_body(const SolverBody& body, const BodyVelocity& warm,
                                     Supports& supports) {
+  LKS_ASSERT(body.is_pushed());
   BodyVelocity row = warm;
   for (std::size_t i = 0; i < 3; ++i) {
     row.velocity[i] += body.gain[i] * k_to_row;
@@ -117,6 +119,7 @@ void InitialWarmStart::gather(const SupportGraph& order, const ContactRun& run, 
                               Supports& supports) {
   supports.clear();
   order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
+    LKS_ASSERT(number < order.links().size());
     if (supports.size() == k_most_supports) return;
     Support& support = supports.emplace_back();
     support.contact = {link};

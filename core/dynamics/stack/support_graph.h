@@ -68,6 +68,7 @@ class SupportGraph {
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (const std::uint32_t link : by_body_.at(order_[i]))
         add_if_supported(link, order_[i]);
+    LKS_ASSERT(order_.size() < is_supported_.size());
     find_order();
   }
 
@@ -78,6 +79,7 @@ class SupportGraph {
   /// theirs.
   template <class Visit>
   void descend(Parallel& parallel, std::span<lanes::BodyVelocity> rows, const Visit& visit) {
+    LKS_ASSERT(rows.size() >= is_supported_.size());
     propagated_.assign(links_.size(), {});
     parallel.run_all(rounds_, [&](std::size_t round, std::uint32_t first, std::uint32_t end,
                                   std::uint32_t worker) {

@@ -18,6 +18,7 @@
 namespace lockstone {
 
 bool ClusterStages::can_move_first(const JointCluster& cluster) {
+  LKS_ASSERT(!system_.groups_of(cluster).empty());
   const JointGroup& group = system_.groups_of(cluster)[0];
   if (cluster.body_count != 1 || !group.is_direct || !group.only_locks || system_.is_stiff(group))
     return false;
@@ -30,6 +31,7 @@ bool ClusterStages::can_move_first(const JointCluster& cluster) {
 }
 
 void ClusterStages::set_rate(const JointCluster& cluster, std::int64_t rate) {
+  LKS_ASSERT(rate > 0);
   const RoundDivisor divisor(rate);
   for (const std::uint32_t index : system_.bodies_of(cluster)) {
     LinkedBody& body = system_.bodies[index];

@@ -44,6 +44,7 @@ bool turns_fast(const JointRun& run, const JointSystem& system, const JointGroup
   const std::int64_t most = std::int64_t{system.step.substep_rate()} << 25;  // rad/s, Q32
   return std::ranges::any_of(system.bodies_of(group), [&](std::uint32_t index) {
     const LinkedBody& body = system.bodies[index];
+    LKS_ASSERT(body.pushed);
     const Vec3<Velocity> surface = motion_of(body, run.rows[body.solver]).surface;
     std::uint64_t size = 0;
     for (int i = 0; i < 3; ++i)
@@ -55,6 +56,7 @@ bool turns_fast(const JointRun& run, const JointSystem& system, const JointGroup
 }  // namespace
 
 void ClusterStages::begin(JointCluster& cluster) {
+  LKS_ASSERT(!system_.joints_of(cluster).empty());
   const bool only_locks = std::ranges::all_of(
       system_.joints_of(cluster),
       [](const LinkedJoint& joint) { return lockstone::only_locks(*joint.record); });
@@ -92,6 +94,7 @@ void ClusterStages::warm_start(const JointRun& run, JointCluster& cluster) {
 }
 
 void ClusterStages::solve(const JointRun& run, const JointCluster& cluster) {
+  LKS_ASSERT(!system_.groups_of(cluster).empty());
   begin_pushes(run, system_, system_.bodies_of(cluster));
   bool is_solved = false;
   for (int pass = 0; pass < k_drive_passes; ++pass) {
@@ -118,6 +121,7 @@ bool ClusterStages::solve_locks(const JointRun& run, const JointCluster& cluster
   bool is_solved = false;
   for (JointGroup& group : system_.groups_of(cluster)) {
     is_solved = false;
+    LKS_ASSERT(group.count > 0);
     if (!group.is_direct) {
       locks_.close_a_quarter(run, group);
     } else if (again && !system_.is_stiff(group)) {

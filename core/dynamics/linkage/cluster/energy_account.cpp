@@ -23,6 +23,7 @@ constexpr std::int64_t k_rounding_energy = 43;
 }  // namespace
 
 void EnergyAccount::open(JointCluster& cluster) {
+  LKS_ASSERT(cluster.body_count > 0 && cluster.joint_count > 0);
   const auto stands = [&](std::uint32_t index) {
     return system_.bodies[index].pushed || system_.bodies[index].solver == 0;
   };
@@ -58,6 +59,7 @@ void EnergyAccount::find_heaviest_body(JointCluster& cluster) {
     LinkedBody& body = system_.bodies[index];
     if (body.pushed) body.mass = quotient(cluster.unit, body.record->inverse_mass_value());
   }
+  LKS_ASSERT(cluster.unit.mantissa > 0);
 }
 
 void EnergyAccount::begin(const JointRun& run, JointCluster& cluster) {
@@ -87,6 +89,7 @@ void EnergyAccount::limit_warm_start(const JointRun& run, const JointCluster& cl
   const EnergyPath path = energy_path(run, system_, cluster, &LinkedBody::unpushed);
   if (path.gain() <= path.first / 4 + k_rounding_energy) return;
   const std::int32_t share = share_of(-(path.linear / 2), path.square);
+  LKS_ASSERT(share >= 0 && share <= 1 << k_share_bits);
   go_part(run, system_, cluster, &LinkedBody::unpushed, share);
   for (LinkedJoint& joint : system_.joints_of(cluster))
     for (std::int64_t& impulse : joint.locks)
@@ -130,6 +133,7 @@ void EnergyAccount::settle(const JointRun& run, JointCluster& cluster) {
   cluster.energy = sum_over(system_, cluster, [&](const LinkedBody& body) {
     return energy_of(motion_of(body, run.rows[body.solver]));
   });
+  LKS_ASSERT(cluster.energy >= -k_rounding_energy);
   cluster.knows_energy = true;
   const std::int64_t work = sum_over(system_, cluster, [&](const LinkedBody& body) {
     ProductSum twice;  // by half a substep's rate
@@ -161,6 +165,7 @@ void EnergyAccount::return_gain(const JointRun& run, const JointCluster& cluster
     if (body.pushed) std::swap(body.saved_row, run.rows[body.solver]);
   }
   const EnergyPath path = energy_path(run, system_, cluster, &LinkedBody::saved_row);
+  LKS_ASSERT(path.first >= -k_rounding_energy && path.square >= -k_rounding_energy);
   const std::int64_t allowed = raw::saturating_add(cluster.energy, -cluster.gained);
   if (path.first > allowed) {
     go_part(run, system_, cluster, &LinkedBody::saved_row, 0);

@@ -74,6 +74,7 @@ void find_errors(const JointPlace& place, JointRows& rows) {
       rows.rows[r].error = gap[r];
     return;
   }
+  LKS_ASSERT(rows.locks <= rows.count);
   const LockErrors ahead = lock_errors(place);
   for (std::size_t r = 0; r < ahead.count && ahead.count == rows.locks; ++r)
     rows.rows[r].error = ahead.errors[r];
@@ -134,6 +135,7 @@ std::int64_t LockSolver::set_speed_errors(const JointRun& run, const JointGroup&
   for (std::uint32_t k = 0; k < group.count; ++k) {
     const LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
     const std::span<std::int64_t> errors = errors_at(group, k);
+    LKS_ASSERT(errors.size() >= joint.rows.locks);
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const JointRow& row = joint.rows.rows[r];
       std::int64_t error = row_speed(run, joint, row);
@@ -214,6 +216,7 @@ void LockSolver::lock_roughly(const JointRun& run, const JointCluster& cluster, 
 // rounding does, the check after it is skipped.
 std::int64_t LockSolver::close(const JointRun& run, JointGroup& group, bool turn) {
   const bool loops = group.has_solved_loops();
+  LKS_ASSERT(group.is_direct && group.count > 0);
   const std::int64_t rounding = group.only_locks ? k_rounding : k_pushed_rounding;
   const std::int64_t enough = loops ? k_loop_rounding : rounding;
   const std::int64_t expected = group.only_locks ? k_noise : k_pushed_rounding;
@@ -262,6 +265,7 @@ void LockSolver::lock_speeds(const JointRun& run, const JointCluster& cluster) {
 
 // The locks of a group. A factor of earlier rows is kept while it converges.
 void LockSolver::lock_speed(const JointRun& run, JointGroup& group, int pass) {
+  LKS_ASSERT(pass >= 0 && pass < k_most_velocity_solves);
   if (pass == 0) group.fresh_solves = 0;
   const bool loops = group.has_solved_loops();
   const std::int64_t slow = loops ? k_slow_loop : k_slow_tree;

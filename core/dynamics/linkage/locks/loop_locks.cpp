@@ -23,6 +23,7 @@ bool is_left_out(const LinkedJoint& joint, std::size_t row) {
 std::uint32_t rows_left_out(const JointRun& run, const LinkedJoint& joint) {
   static_assert(k_max_joint_rows <= 32);
   std::uint32_t bits = 0;
+  LKS_ASSERT(joint.rows.locks <= joint.rows.count && joint.rows.count <= k_max_joint_rows);
   for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
     const JointRow& row = joint.rows.rows[r];
     const JointDrive& drive = joint.drives[row.axis];
@@ -60,6 +61,7 @@ void LoopLocks::clear() {
 bool LoopLocks::plan(JointGroup& group) {
   if (loops_ == nullptr) return false;
   const std::span<const std::uint32_t> bodies = system_.bodies_of(group);
+  LKS_ASSERT(group.body_count == bodies.size());
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
     system_.bodies[bodies[i]].local = i;
   const auto end_of = [this](std::uint32_t index) -> ProximalLocks::End {
@@ -136,6 +138,7 @@ std::int64_t LoopLocks::motor_error(const JointRun& run, const JointGroup& group
   std::int64_t greatest = 0;
   for (const std::uint32_t index : system_.joints_of(group)) {
     const LinkedJoint& joint = system_.joints[index];
+    LKS_ASSERT(joint.rows.locks <= joint.rows.count);
     for (std::size_t r = joint.rows.locks; r < joint.rows.count; ++r) {
       const JointRow& row = joint.rows.rows[r];
       if (row.kind != RowKind::drive || is_left_out(joint, r)) continue;
@@ -174,6 +177,7 @@ std::int64_t LoopLocks::motor_impulse(const JointGroup& group, std::uint32_t pla
 // are solved again: impulses of locks against the whole push would turn the motor back. Returns
 // whether there are such motors.
 bool LoopLocks::bound_motors(const JointRun& run, const JointGroup& group, bool positions) {
+  LKS_ASSERT(group.has_solved_loops());
   bool holds = false;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
@@ -209,6 +213,7 @@ void LoopLocks::apply(const JointRun& run, const JointGroup& group, bool positio
 }
 
 void LoopLocks::solve(const JointRun& run, JointGroup& group, bool positions) {
+  LKS_ASSERT(group.has_solved_loops());
   if (mark_left_out(run, group) || !system_.has_factor(group)) factor(run, group, false);
   complete_errors(run, group, positions);
   loops_->solve(group.loops);

@@ -127,6 +127,7 @@ void add_shared(const LinkedJoint& p, const LinkedJoint& q, const SharedBody& bo
   if (is_only_a_point(p) && is_only_a_point(q))
     return add_shared_points(p, q, shared, is_diagonal, block);
   const std::size_t columns = q.rows.locks;
+  LKS_ASSERT(p.rows.locks <= k_joint_axes && columns <= k_joint_axes);
   for (std::size_t r = 0; r < p.rows.locks; ++r) {
     const JointRow& x = p.rows.rows[r];
     for (std::size_t s = 0; s < (is_diagonal ? r + 1 : columns); ++s) {
@@ -176,6 +177,7 @@ void TreeLocks::plan_single(JointGroup& group) {
 // The responses of the locks of p to impulses on those of q, through the bodies that both connect.
 void TreeLocks::fill_block(const LinkedJoint& p, const LinkedJoint& q, std::int64_t* block) const {
   const std::span<const LinkedBody> bodies = system_.bodies;
+  LKS_ASSERT(p.rows.locks <= k_joint_axes && q.rows.locks <= k_joint_axes);
   std::fill_n(block, p.rows.locks * q.rows.locks, 0);
   if (p.a == q.a) add_shared(p, q, {bodies[p.a], true, true}, block);
   if (p.a == q.b) add_shared(p, q, {bodies[p.a], true, false}, block);
@@ -226,6 +228,7 @@ void TreeLocks::solve(const JointRun& run, JointGroup& group, bool positions) {
   for (std::uint32_t k = 0; k < group.count; ++k) {
     LinkedJoint& joint = system_.joints[system_.joints_of(group)[k]];
     const std::span<const std::int64_t> solution = errors(group, k);
+    LKS_ASSERT(solution.size() >= joint.rows.locks);
     RowImpulses impulses;
     for (std::size_t r = 0; r < joint.rows.locks; ++r) {
       const int shift = 4 - joint.scales[r] - group.exponent;

@@ -108,6 +108,7 @@ void limit_closing(const JointRun& run, JointSystem& system, const JointCluster&
   const EnergyPath path = energy_path(run, system, cluster, &LinkedBody::saved_row);
   if (path.gain() <= k_closing_energy) return;
   const std::int32_t share = greatest_share(path.square, path.linear, k_closing_energy);
+  LKS_ASSERT(share >= 0 && share <= 1 << k_share_bits);
   go_part(run, system, cluster, &LinkedBody::saved_row, share);
   for (LinkedJoint& joint : system.joints_of(cluster)) {
     for (std::size_t i = 0; i < k_joint_axes; ++i) {

@@ -95,6 +95,7 @@ std::int64_t spring_impulse(const JointRun& run, const LinkedJoint& joint, std::
 
 void set_drives(const JointSystem& system, LinkedJoint& joint) {
   const std::int64_t rate = system.step.substep_rate();
+  LKS_ASSERT(rate > 0);
   for (std::size_t i = 0; i < k_joint_axes; ++i) {
     const JointAxisRecord& axis = joint.record->axes[i];
     JointDrive& drive = joint.drives[i];
@@ -144,6 +145,7 @@ bool solve_drives(const JointRun& run, LinkedJoint& joint, bool motors) {
       change = impulse_for(missing_speed(run, joint, row), joint.inverse_responses[i]);
     }
     std::int64_t& total = joint.driven[row.axis];
+    LKS_ASSERT(bound >= 0);
     const std::int64_t after = bounded(total + bounded(change, k_row_bound), bound);
     push(run, joint, i, after - total);
     pushed = pushed || after != total;
@@ -160,6 +162,7 @@ void solve_springs_later(const JointRun& run, LinkedJoint& joint) {
     std::int64_t& total = joint.driven_later[row.axis];
     total = 0;
     if (drive.after.share == 0) continue;
+    LKS_ASSERT(drive.after.share > 0 && drive.after.share <= 1 << 30);
     const std::int64_t bound = drive.bound == 0 ? k_row_bound : drive.bound;
     total =
         bounded(spring_impulse(run, joint, i, true), product_rounded(bound, drive.after.share, 30));
@@ -183,6 +186,7 @@ bool solve_limits(const JointRun& run, const TimeStep& step, LinkedJoint& joint,
     std::int64_t& stored = joint.locks[row.axis];
     const std::int64_t total = row.flipped ? -stored : stored;
     const std::int64_t miss = row_speed(run, joint, row) + limit_speed(step, row, positions);
+    LKS_ASSERT(joint.inverse_responses[i].mantissa >= 0);
     const std::int64_t change = impulse_for(-miss, joint.inverse_responses[i]);
     const std::int64_t after =
         std::clamp(total + bounded(change, k_row_bound), std::int64_t{0}, k_row_bound);

@@ -31,6 +31,7 @@ void add_pull(JointSystem& system, const LinkedJoint& joint, bool moves_first) {
   };
   const auto pull =
       static_cast<std::int64_t>(norm(total(0) >> 20, total(1) >> 20, total(2) >> 20));  // Q30
+  LKS_ASSERT(pull >= 0);
   const auto add = [&](std::uint32_t body, const MassShare& share, std::int64_t lever) {
     if (share.mantissa == 0) return;
     add_pull(system.bodies[body], product_rounded(pull, share.mantissa, share.shift), lever);
@@ -93,6 +94,7 @@ void find_pulled_links(JointSystem& system) {
   for (std::uint32_t i = 0; i < system.bodies.size(); ++i) {
     LinkedBody& body = system.bodies[i];
     body.lever_inertia = lever_inertia(system, i);
+    LKS_ASSERT(body.lever_inertia >= 0);
     body.pulled = body.pushed && body.record->rotates() &&
                   needed_inertia(system, body) > swung_inertia(body) / 8;
   }
@@ -135,6 +137,7 @@ std::int64_t lever_inertia(const JointSystem& system, std::uint32_t index) {
     return within * within;
   };
   const std::int64_t whole = square(sum[0]) + square(sum[1]) + square(sum[2]);  // m², Q40
+  LKS_ASSERT(whole >= 0);
   const int shift = Length::frac_bits * 2 - 30 + 2 * body.record->scale_exponent;
   const auto scaled = [&](std::int64_t x, int by) {
     return by >= 0 ? raw::round_shift(x, by) : std::min(x, k_product_bound >> -by) << -by;

@@ -146,6 +146,7 @@ template <class Side>
 void push_side(const JointRun& run, const LinkedJoint& joint, const RowRange& range,
                const RowImpulses& impulses, std::uint32_t solver, const MassShare& share,
                Side side) {
+  LKS_ASSERT(range.first <= range.end && range.end <= joint.rows.rows.size());
   if (share.mantissa == 0) return;
   RowImpulses jumps;  // of the body's own velocity
   RawVec3 velocity, spin;

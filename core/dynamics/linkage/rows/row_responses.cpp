@@ -32,6 +32,7 @@ void clear_locked_axes(const LinkedBody& body, RawVec3& linear) {
 
 JointPlace place_of(const JointSystem& system, const LinkedJoint& joint, const JointPose& a,
                     const JointPose& b) {
+  LKS_ASSERT(joint.a < system.bodies.size() && joint.b < system.bodies.size());
   return {*joint.record,
           joint.frames,
           a,
@@ -48,6 +49,7 @@ void linearize(const JointSystem& system, LinkedJoint& joint) {
             RowParts::all, joint.rows);
   find_responses(system, joint, joint.rows.count, false);
   const std::int64_t most = raw::round_divide(k_close_way, system.step.substep_rate());
+  LKS_ASSERT(joint.rows.locks <= joint.rows.count && most > 0);
   for (std::size_t r = 0; r < joint.rows.locks; ++r) {
     const std::int64_t open = joint.rows.rows[r].error;
     joint.left_open[r] = open - bounded(open, most);

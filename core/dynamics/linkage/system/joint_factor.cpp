@@ -203,6 +203,7 @@ void JointFactor::divide_rows(const Column& column, std::int64_t* b, std::uint32
                               Entries& entries) const {
   for (std::uint32_t c = 0; c < n; ++c) {
     const Reciprocal& inverse = reciprocals_[column.first_row + c];
+    LKS_ASSERT(inverse.mantissa >= 0);
     const int shift = inverse.shift + k_matrix_bits - k_factor_bits;
     for (std::uint32_t at = c; at < rows * n; at += n) {
       entries[at] = b[at];
@@ -268,6 +269,7 @@ void JointFactor::solve(std::uint32_t first, std::uint32_t count) {
 // Forward substitution: subtracts the terms of one joint's rows from its own and from those below.
 template <class Size>
 void JointFactor::substitute(std::uint32_t first, const Column& column, Size n) {
+  LKS_ASSERT(n <= k_factor_rows);
   std::int64_t* y = rhs_.data() + column.first_row;
   const std::int64_t* d = values_.data() + column.diagonal;
   for (std::uint32_t r = 1; r < n; ++r)
@@ -283,6 +285,7 @@ void JointFactor::substitute(std::uint32_t first, const Column& column, Size n) 
 
 template <class Size>
 void JointFactor::substitute_back(std::uint32_t first, const Column& column, Size n) {
+  LKS_ASSERT(n <= k_factor_rows);
   std::int64_t* y = rhs_.data() + column.first_row;
   const std::int64_t* d = values_.data() + column.diagonal;
   std::array<ProductSum, k_factor_rows> sums;

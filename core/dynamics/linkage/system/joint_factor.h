@@ -151,6 +151,7 @@ bool JointFactor::plan(std::uint32_t count, const Neighbours& neighbours, const 
     }
     fits = plan_column(k, count, rows(k), most_rows);
   }
+  LKS_ASSERT(columns_.size() - first_ <= count);
   if (fits) return true;
   columns_.resize(first_);
   blocks_.resize(blocks);

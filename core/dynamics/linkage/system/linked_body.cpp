@@ -72,6 +72,7 @@ LinkedBody linked_body(const BodyRecord& record, const Mat3& rotation, std::uint
   body.solver = solver;
   body.scale = record.scale_exponent;
   body.pushed = solver != 0 && record.is_dynamic();
+  LKS_ASSERT(!body.pushed || record.inverse_mass > 0);
   return body;
 }
 

@@ -41,6 +41,7 @@ void set_masses(LinkedJoint& joint, const LinkedBody& a, const LinkedBody& b) {
   joint.share_a = mass_share(inverse_a, joint.inverse_mass);
   joint.share_b = mass_share(inverse_b, joint.inverse_mass);
   joint.exponent = angular_exponent(*a.record, *b.record);
+  LKS_ASSERT(joint.share_a.mantissa >= 0 && joint.share_b.mantissa >= 0);
   joint.lever_a = size_of(record.anchor_a);
   joint.lever_b = size_of(record.anchor_b);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/step/input/contact_params.h"
@@ -135,6 +137,7 @@ void ContactConstraints::prepare(const ContactScene& scene, std::size_t color, s
 // Contacts of a colour lie far apart in memory.
 const ContactRef* ContactConstraints::look_ahead(std::size_t lane,
                                                  std::span<const ContactRecord> records) const {
+  LKS_ASSERT(lane < layout_.lane_count());
   const auto contact_at = [this](std::size_t index) -> const ContactRef* {
     const ContactLane place{static_cast<std::uint32_t>(index)};
     const bool has_contact = index < layout_.lane_count() && layout_.has_contact(place);
@@ -150,6 +153,7 @@ const ContactRef* ContactConstraints::look_ahead(std::size_t lane,
 std::uint32_t ContactConstraints::fill_block(const ContactScene& scene, std::size_t block,
                                              Scratch& scratch) {
   std::uint32_t points = 0;
+  LKS_ASSERT(block < blocks_.size());
   lanes::PrepareInputs& inputs = scratch.inputs;
   for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
     const ContactLane place{static_cast<std::uint32_t>(block * k_block_lanes + lane)};
@@ -178,7 +182,9 @@ void ContactConstraints::fill_lane(const ContactScene& scene, ContactLane place,
   const ContactRef& contact = parts_.contacts[layout_.contact_at(place)];
   const ContactRecord& record = scene.records[contact.record];
   const Manifold& manifold = scene.manifolds[contact.manifold];
+  LKS_ASSERT(record.count <= lanes::k_block_points);
   const ContactSurface& surface = scene.surfaces[contact.manifold];
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= static_cast<int>(lanes::k_block_points));
   const auto side = [&](BodyRef ref, std::uint32_t body, SolverBody& fixed) -> const SolverBody& {
     if (!ref.is_standing()) return constants[ref.number()];
     fixed.scale_exponent = scene.bodies[body].scale_exponent;
@@ -222,6 +228,7 @@ void ContactConstraints::relax(std::size_t color, std::size_t first, std::size_t
 
 void ContactConstraints::bounce(std::size_t color, std::size_t first, std::size_t end) {
   const std::size_t begin = layout_.blocks_of(color).first;
+  LKS_ASSERT(first <= end && end <= layout_.blocks_of(color).count);
   for (std::size_t block = begin + first; block < begin + end; ++block) {
     const lanes::BlockWord& restitution = restitution_[block];
     if (std::all_of(restitution.begin(), restitution.end(), [](auto e) { return e == 0; }))
@@ -235,6 +242,7 @@ void ContactConstraints::bounce(std::size_t color, std::size_t first, std::size_
 // The bodies of blocks of one colour, which no other block of it names.
 void ContactConstraints::apply_axis_locks(std::size_t first, std::size_t end) {
   if (!parts_.bodies.has_axis_locks()) return;
+  LKS_ASSERT(first <= end && end <= blocks_.size());
   for (std::size_t i = first * k_block_lanes; i < end * k_block_lanes; ++i) {
     const ContactLane place{static_cast<std::uint32_t>(i)};
     if (!layout_.has_contact(place)) continue;
@@ -247,6 +255,7 @@ void ContactConstraints::apply_axis_locks(std::size_t first, std::size_t end) {
 std::uint32_t ContactConstraints::store(std::size_t color, std::size_t first, std::size_t end,
                                         const StoreTarget& target, SolvedMotion& motion) const {
   const std::size_t begin = layout_.blocks_of(color).first;
+  LKS_ASSERT(first <= end && end <= layout_.blocks_of(color).count);
   std::uint32_t clamped = 0;
   for (std::size_t i = (begin + first) * k_block_lanes; i < (begin + end) * k_block_lanes; ++i) {
     const ContactLane place{static_cast<std::uint32_t>(i)};
@@ -258,6 +267,13 @@ std::uint32_t ContactConstraints::store(std::size_t color, std::size_t first, st
     ContactRecord& record = target.records[contact.record];
     if (has_points_[i] == 0) name_points(target.manifolds[contact.manifold], record);
     clamped += store_contact(place, record);
+    LKS_ASSERT(std::ranges::all_of(record.points, [](const ContactPointRecord& point) {
+      return point.normal_impulse.raw >= 0;
+    }));
+    LKS_ASSERT(record.count <= lanes::k_block_points);
+    LKS_ASSERT(std::ranges::all_of(
+        std::span(record.points).subspan(record.count),
+        [](const ContactPointRecord& point) { return point == ContactPointRecord{}; }));
     update_mean(impulse_of_point(record), mean_shift_, record);
     target.approaches[contact.record].raw = approach_of(place);
     if (record.is_touching())

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 #include "core/dynamics/body/motion.h"
+#include "core/geometry/distance/manifold_checks.h"
 
 namespace lockstone {
 namespace {
@@ -57,6 +60,7 @@ void SolvedMotion::PushAxis::add(const Vec3<Unit>& n) {
 // in the tick, taken back, makes that the mean of beginning and end: friction and gravity along a
 // surface act to second order. Along the normal, contacts have placed the body, and it stays.
 Vec3<Velocity> SolvedMotion::half_step_back(std::uint32_t number, const BodyRecord& body) const {
+  LKS_ASSERT(number > 0 && number < axes_.size());
   const PushAxis& axis = axes_[number];
   if (axis.mixed) return {};
   Vec3<Velocity> gain = from_row(bodies_.rows()[number].velocity) - body.velocity;
@@ -65,6 +69,7 @@ Vec3<Velocity> SolvedMotion::half_step_back(std::uint32_t number, const BodyReco
       return Velocity::from_raw(raw::multiply_shift(v.raw, u.raw, Unit::frac_bits));
     };
     const Vec3<Unit>& n = axis.normal;
+    LKS_ASSERT(geometry::is_unit(n));
     const Velocity along = times(gain.x, n.x) + times(gain.y, n.y) + times(gain.z, n.z);
     for (int i = 0; i < 3; ++i)
       gain[i] -= times(along, n[i]);

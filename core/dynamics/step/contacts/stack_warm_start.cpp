@@ -1,5 +1,7 @@
 #include "core/dynamics/step/contacts/stack_warm_start.h"
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/step/input/contact_params.h"
 #include "core/dynamics/step/islands/effort_policy.h"
 
@@ -52,6 +54,7 @@ void StackWarmStart::add_supports(const ContactScene& scene, const Takes& takes)
   supports_.clear();
   parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
     if (!takes(contact) || !is_touching(scene.manifolds[contact.manifold])) return;
+    LKS_ASSERT(contact.record < scene.records.size());
     const ContactPair pair{parts_.layout.lane_of(id), parts_.bodies.pushed_number(contact.a),
                            parts_.bodies.pushed_number(contact.b)};
     const ContactSurface& surface = scene.surfaces[contact.manifold];

@@ -1,5 +1,7 @@
 #include "core/dynamics/step/input/contact_list.h"
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 
 namespace lockstone {
@@ -21,6 +23,9 @@ void ContactList::find_sides(const ContactScene& scene, std::int64_t bearing_imp
   for (std::size_t i = first; i < end; ++i) {
     const ContactRecord& record = scene.records[i];
     Sides& sides = sides_[i];
+    LKS_ASSERT(record.body_a < scene.bodies.size() && record.body_b < scene.bodies.size());
+    LKS_ASSERT(record.is_trigger() || scene.manifold_ids[i] < scene.manifolds.size());
+    LKS_ASSERT(record.count <= record.points.size());
     sides = {};
     if (record.is_trigger() || scene.surfaces[scene.manifold_ids[i]].bounces) continue;
     const auto side_of = [&](std::uint32_t body) -> BodySide {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/motion.h"
@@ -44,6 +46,7 @@ void repeat_component(std::int64_t& now, std::int64_t& before) {
 SolverBodies::SolverBodies(const TimeStep& step, std::size_t body_capacity,
                            std::size_t contact_capacity, std::size_t joint_capacity)
     : step_(step), number_of_(body_capacity) {
+  LKS_ASSERT(body_capacity <= std::size_t{1} << 29);
   const std::size_t most_numbers = body_capacity + contact_capacity + 1;
   const std::size_t most_rows = most_numbers + joint_capacity;
   sides_.reserve(most_numbers);
@@ -93,7 +96,9 @@ void SolverBodies::fill(const ContactScene& scene, std::size_t first, std::size_
 }
 
 void SolverBodies::fill_numbered(const ContactScene& scene, std::size_t number) {
+  LKS_ASSERT(number > 0 && number < sides_.size() && number < constants_.size());
   const std::uint32_t body = sides_[number].body();
+  LKS_ASSERT(body < scene.bodies.size());
   const BodyRecord& record = scene.bodies[body];
   SolverBody& constants = constants_[number];
   constants = solver_body(record, scene.rotations[body], scene.gravity, step_);

@@ -1,5 +1,9 @@
 #include "core/dynamics/step/input/tick_joints.h"
 
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 
 namespace lockstone {
@@ -19,6 +23,8 @@ void TickJoints::gather(const ContactScene& scene) {
   if (scene.joint_links.empty() && solver_->empty()) return;
   solver_->clear();
   for (const JointLink& link : scene.joint_links) {
+    LKS_ASSERT(link.joint < scene.joints.size());
+    LKS_ASSERT(link.body_a < scene.bodies.size() && link.body_b < scene.bodies.size());
     const auto side = [&](std::uint32_t body) -> JointSolver::Side {
       const BodyRecord& record = scene.bodies[body];
       std::uint32_t number = bodies_.number_of(body);
@@ -38,6 +44,7 @@ void TickJoints::gather_balls(const ContactScene& scene) {
   const std::span<const std::uint32_t> coloured = solver_->plan(first_without_contacts_);
   balls_.clear(coloured.empty() ? 0 : bodies_.count());
   for (const std::uint32_t i : coloured) {
+    LKS_ASSERT(i < scene.joint_links.size());
     const JointLink& link = scene.joint_links[i];
     const auto end = [&](std::uint32_t body) -> ColouredBalls::End {
       const std::uint32_t number = bodies_.number_of(body);
@@ -73,6 +80,8 @@ ColouredBallsRun TickJoints::balls_run() {
 void TickJoints::store(std::span<const JointLink> links, std::span<JointRecord> joints,
                        Parallel& parallel) const {
   if (links.empty()) return;
+  LKS_ASSERT(std::ranges::all_of(
+      links, [&](const JointLink& link) { return link.joint < joints.size(); }));
   constexpr std::uint32_t k_lane_grain = 64;
   if (solver_->has_own()) {
     for (std::size_t i = 0; i < links.size(); ++i)

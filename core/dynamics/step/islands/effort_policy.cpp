@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/problem/body_factor.h"
 #include "core/dynamics/step/input/contact_params.h"
@@ -97,8 +99,10 @@ void EffortPolicy::mark_iterated(const ContactScene& scene, const SolverBodies& 
   };
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     IslandTally& tally = islands.tally(contact);
+    LKS_ASSERT(scene.surfaces[contact.manifold].rolling_arm >= Length{});
     const bool rolls = scene.surfaces[contact.manifold].rolling_arm != Length{};
     const std::int32_t share = lesser_share(mass(contact.a), mass(contact.b));
+    LKS_ASSERT(share >= 0);
     if (rolls || share < k_least_share) tally.iterates_only = true;
     tally.is_uneven = tally.is_uneven || share < k_uneven_share;
   });
@@ -116,6 +120,7 @@ void EffortPolicy::mark_loose(const ContactScene& scene, const SolverBodies& bod
   for (std::uint32_t index = 1; index < islands.count(); ++index) {
     IslandTally& island = islands.tally(index);
     if (!island.may_be_loose()) continue;
+    LKS_ASSERT(island.bodies > 0);
     for (std::int32_t& component : island.velocity)
       component /= static_cast<std::int32_t>(island.bodies);
   }
@@ -144,6 +149,7 @@ bool EffortPolicy::rests(const lanes::BodyVelocity& row, const SolverBody& body)
 bool EffortPolicy::is_rigid(const ContactScene& scene, const SolverBodies& bodies,
                             const ContactRef& contact) const {
   const ContactRecord& record = scene.records[contact.record];
+  LKS_ASSERT(record.count <= k_max_manifold_points);
   if (std::int64_t{record.mean_impulse.raw} * record.count * k_rigid_part <= bearing_impulse_)
     return false;
   const Manifold& manifold = scene.manifolds[contact.manifold];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 IslandBuilder::IslandBuilder(std::size_t body_capacity, std::size_t contact_capacity)
@@ -15,6 +17,7 @@ void IslandBuilder::build(const ContactScene& scene, const SolverBodies& bodies,
     ++own.contacts;
     own.fresh += contacts.is_new(contact) ? 1U : 0U;
     own.bearing += contacts.is_bearing(contact) ? 1U : 0U;
+    LKS_ASSERT(own.fresh <= own.contacts && own.bearing <= own.contacts);
   });
   mark_pinched(scene, contacts);
 }
@@ -32,6 +35,7 @@ void IslandBuilder::join(const ContactScene& scene, const SolverBodies& bodies,
       islands_.join(contact.a.number(), contact.b.number());
   });
   for (const JointLink& link : scene.joint_links) {
+    LKS_ASSERT(link.body_a != link.body_b);
     if (scene.bodies[link.body_a].is_dynamic() && scene.bodies[link.body_b].is_dynamic())
       islands_.join(bodies.number_of(link.body_a), bodies.number_of(link.body_b));
   }
@@ -60,6 +64,7 @@ void IslandBuilder::mark_pinched(const ContactScene& scene, const ContactList& c
   contacts.for_each([&](ContactId, const ContactRef& contact) {
     const ImmovablePush push = push_of(scene, contact);
     if (push.island == 0) return;
+    LKS_ASSERT(push.body < scene.bodies.size() && push.island < islands_.count());
     const BodyRecord& holder = scene.bodies[push.body];
     if (holder.velocity != Vec3<Velocity>{} || holder.spin != Vec3<Velocity>{})
       pinched_.add_moving(push);
@@ -88,6 +93,7 @@ void IslandBuilder::find_energy_sources(const ContactScene& scene, const SolverB
       tally(contact).is_fed = true;
   });
   for (const JointLink& link : scene.joint_links) {
+    LKS_ASSERT(link.joint < scene.joints.size());
     const auto& axes = scene.joints[link.joint].axes;
     const bool is_fed = std::ranges::any_of(axes, &JointAxisRecord::is_driven) ||
                         moves(link.body_a) || moves(link.body_b);

@@ -1,5 +1,7 @@
 #include "core/dynamics/step/islands/island_lists.h"
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 
 namespace lockstone {
@@ -34,6 +36,7 @@ void IslandLists::build(const ContactScene& scene, const SolverBodies& bodies,
   for (std::uint32_t number = bodies.count(); number-- > 1;) {
     const std::uint32_t island = islands.of(BodyRef::numbered(number));
     if (island == 0) continue;
+    LKS_ASSERT(island < islands.count());
     ++islands.tally(island).bodies;
     push_front(bodies_, island, number);
   }
@@ -41,6 +44,7 @@ void IslandLists::build(const ContactScene& scene, const SolverBodies& bodies,
     push_front(contacts_, islands.of(contacts[{i}]), i);
   for (std::uint32_t i = joints; i-- > 0;) {
     const std::uint32_t island = islands.of(scene, bodies, scene.joint_links[i]);
+    LKS_ASSERT(island < islands.count());
     ++islands.tally(island).joints;
     push_front(joints_, island, i);
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/impact/impact_response.h"
 #include "core/math/product_sum.h"
 
@@ -54,6 +56,7 @@ void BallImpacts::find(const ContactScene& scene) {
   });
   parts_.contacts.for_each([&](ContactId id, const ContactRef& contact) {
     const ContactRecord& record = scene.records[contact.record];
+    LKS_ASSERT(record.body_a < scene.bodies.size() && record.body_b < scene.bodies.size());
     const BodyRecord &a = scene.bodies[record.body_a], &b = scene.bodies[record.body_b];
     const bool are_balls = (a.is_ball() || !a.is_dynamic()) && (b.is_ball() || !b.is_dynamic());
     if (are_balls && scene.surfaces[contact.manifold].restitution > Coefficient{} &&
@@ -83,6 +86,7 @@ bool BallImpacts::meets(const ContactRef& contact) const {
 void BallImpacts::push(BodyRef body, const BodyRecord& before, const BodyRecord& after) {
   const std::uint32_t number = parts_.bodies.pushed_number(body);
   if (number == 0) return;
+  LKS_ASSERT(number < parts_.bodies.count());
   const auto add = [](std::int64_t& row, Velocity by) {
     const std::int64_t change = std::clamp(by.raw, -k_most_change, k_most_change);
     row = std::clamp(row, -k_most_row, k_most_row) + (change << k_row_bits_more);
@@ -99,6 +103,7 @@ void BallImpacts::push(BodyRef body, const BodyRecord& before, const BodyRecord&
 
 // A body's record with the motion that it has now.
 BodyRecord BallImpacts::body_now(BodyRef ref, std::uint32_t body) const {
+  LKS_ASSERT(body < scene_.bodies.size());
   BodyRecord copy = scene_.bodies[body];
   const std::uint32_t number = parts_.bodies.pushed_number(ref);
   if (number == 0) return copy;
@@ -115,6 +120,7 @@ void BallImpacts::respond(ContactId id) {
   const ContactRef& contact = parts_.contacts[id];
   const ContactRecord& record = scene_.records[contact.record];
   const ContactSurface& surface = scene_.surfaces[contact.manifold];
+  LKS_ASSERT(scene_.manifolds[contact.manifold].count == 1);
   const BodyRecord a = body_now(contact.a, record.body_a);
   const BodyRecord b = body_now(contact.b, record.body_b);
   BodyRecord after_a = a, after_b = b;

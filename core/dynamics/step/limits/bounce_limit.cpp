@@ -1,5 +1,7 @@
 #include "core/dynamics/step/limits/bounce_limit.h"
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 #include "core/dynamics/body/energy.h"
 #include "core/dynamics/body/motion.h"
@@ -52,6 +54,7 @@ void BounceLimit::note_gain(std::uint32_t number, const BodyRecord& body, const 
 }
 
 BounceLimit::Bounce BounceLimit::bounce_of(std::uint32_t number, const BodyRecord& body) const {
+  LKS_ASSERT(number > 0 && number < bodies_.count());
   const auto read = [](const auto& v) {
     const auto part = [](std::int64_t x) {
       return Velocity::from_raw(x >> (lanes::k_velocity_bits - lanes::k_grid_bits));
@@ -82,6 +85,7 @@ void BounceLimit::sum_gains() {
   gains_.assign(islands_.count(), {});
   for (std::uint32_t i = 1; i < bodies_.count(); ++i) {
     const std::uint32_t island = islands_.all().of(i);
+    LKS_ASSERT(island < gains_.size());
     const IslandTally& tally = islands_.tally(island);
     const SolverBody& constants = bodies_.constants()[i];
     if (!tally.may_bounce || tally.is_fed || !constants.is_pushed()) continue;
@@ -116,6 +120,7 @@ void BounceLimit::sum_bounces(std::span<const BodyRecord> bodies) {
 void BounceLimit::scale(std::span<BodyRecord> bodies, Velocity speed_limit) {
   for_gaining([&](std::uint32_t i, const IslandGain& gain) {
     BodyRecord& body = bodies[bodies_.side(i).body()];
+    LKS_ASSERT(gain.share >= 0 && gain.share <= 1 << Unit::frac_bits);
     const Bounce bounce = bounce_of(i, body);
     for (int axis = 0; axis < 3; ++axis) {
       const auto part = [&](Velocity v) { return times(v, Unit::from_raw(gain.share)); };

@@ -56,11 +56,13 @@ void EnergyLimit::begin(const Bodies& all) {
   starts_.resize(all.numbers.count());
   islands_.assign(all.islands.count(), {});
   for (std::uint32_t i = 1; i < all.numbers.count(); ++i) {
+    LKS_ASSERT(all.islands.of(i) < islands_.size());
     const IslandTally& tally = all.islands.tally(all.islands.of(i));
     if (all.islands.of(i) == 0 || !tally.has_joints || tally.contacts == 0 || tally.is_fed)
       continue;
     Island& island = islands_[all.islands.of(i)];
     const BlockFloat inverse = all.bodies[i].inverse_mass;
+    LKS_ASSERT(inverse.mantissa >= 0);
     if (inverse.mantissa == 0) continue;
     const bool is_heavier = ratio(inverse, island.unit) < Unit::from_raw(1 << 29);
     if (island.unit == BlockFloat{} || is_heavier) island.unit = inverse;
@@ -118,6 +120,7 @@ void EnergyLimit::take(Island& island, std::int64_t excess) {
 
 void EnergyLimit::scale(const Bodies& all) {
   for_watched(all, [&](std::uint32_t i, const Island& island, BlockFloat) {
+    LKS_ASSERT(island.share >= 0 && island.share <= 1 << k_share_bits);
     if (island.share == 1 << k_share_bits) return;
     const auto shrink = [&](std::int64_t& now, std::int64_t& before) {
       const std::int64_t change =

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/box/box_polygon.h"
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/contact/manifold/contact_tolerances.h"
@@ -51,6 +53,7 @@ bool BoxBatch::takes(const Shape& a, const Shape& b, const Vec3<Length>& offset)
 
 void BoxBatch::add(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                    Length margin) {
+  LKS_ASSERT(size_ < k_capacity && takes(a.shape, b.shape, offset));
   const bool flip = box_belongs_first(b, a, offset);
   const PosedShape& first = flip ? b : a;
   const PosedShape& second = flip ? a : b;
@@ -74,6 +77,7 @@ void BoxBatch::collide() {
 }
 
 void BoxBatch::settle(std::size_t pair) {
+  LKS_ASSERT(pair < size_);
   const FaceMeeting& face = meetings_[pair];
   lanes::FourPoints& points = points_[pair];
   counts_[pair] = 0;
@@ -91,10 +95,12 @@ void BoxBatch::settle(std::size_t pair) {
     points[i] = {v.at[0], v.at[1], v.at[2], face.common | chosen.edges[i]};
   }
   if (apart && !reaches(points, chosen.count, face.separation)) return;
+  LKS_ASSERT(chosen.count > 0 && chosen.count <= k_max_manifold_points);
   counts_[pair] = static_cast<std::uint8_t>(chosen.count);
 }
 
 void BoxBatch::write(std::size_t pair, Manifold& out) const {
+  LKS_ASSERT(pair < size_ && is_settled(pair));
   const std::array<std::int64_t, 6>& axes = meetings_[pair].axes;
   const auto low = [](std::int64_t x) { return Unit::from_raw(static_cast<std::int32_t>(x)); };
   const Vec3<Unit> up{low(axes[3]), low(axes[3] >> 32), low(axes[4])};

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/numeric/q50.h"
 
@@ -72,6 +74,7 @@ struct Slab {
 
   /// The part of the polygon that is within.
   void clip(const ClipPolygon& polygon, ClipPolygon& result) const {
+    LKS_ASSERT(polygon.count > 0 && half > 0);
     Fine least = polygon[0].at[Axis], most = least;
     for (int i = 1; i < polygon.count; ++i) {
       least = std::min(least, polygon[i].at[Axis]);
@@ -123,7 +126,9 @@ struct Slab {
   /// inside.
   void add_cut(const ClipVertex& inside, const ClipVertex& outside, int side, std::uint32_t edge,
                ClipPolygon& result) const {
+    LKS_ASSERT(side == 1 || side == -1);
     const std::uint64_t share = cut_share(depth(side, inside), -depth(side, outside));
+    LKS_ASSERT(share <= std::uint64_t{1} << 32);
     const auto cut = [&](std::size_t axis) {
       return inside.at[axis] + part_of(raw::subtract(outside.at[axis], inside.at[axis]), share);
     };

@@ -1,7 +1,10 @@
 #include "core/geometry/contact/box/box_corner.h"
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/box/box_segment.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/roots.h"
@@ -20,6 +23,7 @@ struct SupportEdge {
 /// The edge along `axis` that reaches farthest towards `normal`; a tie takes the positive side.
 SupportEdge support_edge(const PosedShape& box, const RawVec& centre, int axis,
                          const Vec3<Unit>& normal) {
+  LKS_ASSERT(axis >= 0 && axis < 3 && is_unit(normal));
   SupportEdge result{{centre, box.rotation.column(axis), box.shape.size[axis]},
                      static_cast<std::uint32_t>(axis) << 2};
   for (int k = 1; k < 3; ++k) {
@@ -86,12 +90,14 @@ NearestCorner nearest_vertex(const BoxPair& pair) {
   NearestCorner best;
   find_nearest(best, true, pair.centre_in_a, edges_b, pair.half_a);
   find_nearest(best, false, -pair.centre_in_b, edges_a, pair.half_b);
+  LKS_ASSERT(!best.found || (best.index >= 0 && best.index < 8));
   return best;
 }
 
 }  // namespace
 
 EdgeContact edge_contact(const BoxPair& pair, const EdgeAxis& axis) {
+  LKS_ASSERT(axis.found && is_unit(axis.normal));
   const SupportEdge a = support_edge(pair.a, {}, axis.axis_a, axis.normal);
   const SupportEdge b = support_edge(pair.b, fine(pair.offset), axis.axis_b, -axis.normal);
   const ClosestParameters at = closest_parameters(a.segment, b.segment);
@@ -101,6 +107,7 @@ EdgeContact edge_contact(const BoxPair& pair, const EdgeAxis& axis) {
   const Witnesses witnesses{point_at(a.segment, at.on_a), point_at(b.segment, at.on_b)};
   add_point(result.manifold, witnesses, pair.offset, axis.separation, pair.margin,
             k_edge_bits | a.index << 4 | b.index);
+  LKS_ASSERT(result.manifold.count <= 1);
   return result;
 }
 
@@ -113,6 +120,7 @@ Manifold vertex_manifold(const BoxPair& pair) {
   const Direction d = direction(gap.x, gap.y, gap.z);
   const auto distance = static_cast<Fine>(d.length);
   manifold.normal = best.of_b ? d.unit : -d.unit;
+  LKS_ASSERT(is_unit(manifold.normal) && distance > 0);
   if (!keeps(distance, pair.margin)) return manifold;
   const RawVec tip = rotate(rotation, best.point);
   const RawVec foot = rotate(rotation, best.point - best.gap);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/box/box_polygon.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 
 namespace lockstone::geometry {
@@ -45,6 +48,7 @@ struct FaceFrame {
         height(fine(reference.shape.size[face.axis])),
         step_j(face_of_b ? 1 : 3),
         step_i(face_of_b ? 3 : 1) {
+    LKS_ASSERT(face.axis >= 0 && face.axis < 3 && (face.sign == 1 || face.sign == -1));
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3<Unit>& of_b_axis = boxes.b_in_a[j];
       lanes[3 * j] = of_b_axis.x.raw;
@@ -109,6 +113,7 @@ FaceMeeting meeting_of(const FaceFrame& frame) {
   const int reference = frame.axis * 2 + (frame.sign < 0 ? 1 : 0);
   const int incident = axis * 2 + (sign < 0 ? 1 : 0);
   meeting.common = 1 << 13 | (frame.of_b ? 1 << 12 : 0) | reference << 9 | incident << 6;
+  LKS_ASSERT(meeting.half_x > 0 && meeting.half_y > 0 && meeting.height > 0);
   return meeting;
 }
 
@@ -132,6 +137,7 @@ class FacePoints {
 
   void add(const ClipVertex& v, std::uint32_t feature, Manifold& out) const {
     if (!frame_.is_small) return add_large(v, feature, out);
+    LKS_ASSERT(out.count < k_max_manifold_points);
     ManifoldPoint& point = out.points[static_cast<std::size_t>(out.count++)];
     point.separation = to_separation(v.at[2]);
     point.feature = feature;
@@ -207,6 +213,7 @@ bool face_manifold(const BoxPair& pair, const FaceAxis& face, bool of_b, bool fl
     for (std::size_t i = 0; i < chosen.count; ++i)
       points.add(*chosen.vertices[i], common | chosen.edges[i], out);
   }
+  LKS_ASSERT(is_manifold(out));
   std::fill(out.points.begin() + out.count, out.points.end(), ManifoldPoint{});
   if (kept.count == 0 || wanted < 0) return false;
   if (wanted == 0) return share_vertex(polygon, meeting);

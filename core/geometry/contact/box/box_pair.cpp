@@ -3,6 +3,9 @@
 
 #include <bit>
 
+#include <lockstone/assert.h>
+
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/roots.h"
 
@@ -74,6 +77,7 @@ struct EdgeBounds {
  private:
   /// Which of the axes are nearly parallel edges' that are still certainly not above the threshold.
   [[nodiscard]] unsigned short_of(Fine threshold, unsigned open) const {
+    LKS_ASSERT(open >> 9 == 0);
     const Fine below = std::min(threshold, Fine{0});
     const Fine allowance = slack();
     unsigned result = 0;
@@ -126,6 +130,7 @@ EdgeAxis edge_axis(const BoxPair& pair, int i, int j) {
 
 BoxPair make_box_pair(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                       Length margin) {
+  LKS_ASSERT(a.shape.kind == ShapeKind::box && b.shape.kind == ShapeKind::box);
   BoxPair pair{a,
                b,
                offset,
@@ -173,6 +178,7 @@ EdgeAxis best_edge(const BoxPair& pair, Fine threshold) {
     threshold = candidate.separation;
     left &= bounds.may_exceed(threshold) | 1U << k;
   }
+  LKS_ASSERT(!best.found || (best.separation == threshold && is_unit(best.normal)));
   return best;
 }
 

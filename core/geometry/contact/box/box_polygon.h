@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/box/box_clip.h"
 #include "core/geometry/contact/manifold/manifold_reduction.h"
 #include "core/geometry/distance/contact_point.h"
@@ -21,6 +23,7 @@ struct Clipping {
   ClipPolygon polygons[2];
 
   const ClipPolygon& clip(const FaceMeeting& face) {
+    LKS_ASSERT(face.half_x > 0 && face.half_y > 0);
     fill_corners(face);
     std::size_t used = 0;
     const Slab<0> across_x{face.half_x, snap_across(face, 0)};
@@ -79,6 +82,7 @@ struct Clipping {
 /// The point times `weight`, and the radius: in 2^-24 m, of boxes below 32 m.
 [[nodiscard]] inline bool holds_ball(const FaceMeeting& face, std::int64_t x, std::int64_t y,
                                      std::int64_t z, std::int64_t weight, std::int64_t radius) {
+  LKS_ASSERT(weight > 0 && radius > 0);
   constexpr int shift = k_fine_bits - 24;
   const auto least = [&](std::int64_t half) { return weight * (half - radius); };
   const std::int64_t rise = -z / 2;
@@ -100,6 +104,7 @@ struct Clipping {
 /// eighth of the way to it from the deepest of them. Of boxes below 32 m only.
 [[nodiscard]] inline bool share_ball(const ClipPolygon& polygon, const FaceMeeting& face,
                                      Fine diameter) {
+  LKS_ASSERT(polygon.count > 0 && diameter > 0);
   constexpr int shift = k_fine_bits - 24;
   const std::int64_t radius = (diameter >> (shift + 1)) + 1;
   const std::int64_t count = polygon.count;
@@ -137,6 +142,7 @@ struct KeptVertices {
       count += keeps(v.at[2], margin) ? 1 : 0;
       edge_in = v.edge;
     }
+    LKS_ASSERT(count <= polygon.count);
     if (count < 4) keys[static_cast<std::size_t>(count)] = k_none;
   }
 
@@ -179,6 +185,7 @@ struct ChosenVertices {
       reduce(polygon, kept);
       return;
     }
+    LKS_ASSERT(count > 0);
     for (std::size_t i = 0; i < count; ++i) {
       vertices[i] = &kept.vertex(polygon, i);
       edges[i] = kept.keys[i] >> 3;
@@ -198,6 +205,7 @@ struct ChosenVertices {
     count =
         static_cast<std::size_t>(kept.repeats() ? reduce_to_four(all, k_fine_per_length)
                                                 : reduce_sorted_to_four(all, k_fine_per_length));
+    LKS_ASSERT(count > 0 && count <= k_max_manifold_points);
     for (std::size_t i = 0; i < count; ++i) {
       reduced[i] = {{faces[i].x, faces[i].y, faces[i].z}, 0};
       vertices[i] = &reduced[i];

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_tolerances.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/roots.h"
 
@@ -28,6 +31,7 @@ Fine crossing_parameter(const LocalSegment& segment, int axis, Fine bound) {
 }
 
 Breakpoints breakpoints_of(const LocalSegment& segment) {
+  LKS_ASSERT(segment.half >= 0 && is_unit(segment.axis));
   Breakpoints result;
   result.add(-segment.half);
   result.add(segment.half);
@@ -36,6 +40,7 @@ Breakpoints breakpoints_of(const LocalSegment& segment) {
     result.add(crossing_parameter(segment, axis, -segment.box_half[axis]));
     result.add(crossing_parameter(segment, axis, segment.box_half[axis]));
   }
+  LKS_ASSERT(result.count <= static_cast<int>(result.at.size()));
   std::sort(result.at.begin(), result.at.begin() + result.count);
   return result;
 }
@@ -80,6 +85,7 @@ OverlapAxis overlap_on_face(const LocalSegment& segment, int axis) {
 
 /// The segment is a point on this axis. Precondition: `cross` is not zero.
 OverlapAxis overlap_on_cross(const LocalSegment& segment, int k, const Vec3<Unit>& cross) {
+  LKS_ASSERT(k >= 0 && k < 3 && cross != Vec3<Unit>{});
   const Fine centre = dot(segment.centre, cross);
   Fine reach = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -91,6 +97,7 @@ OverlapAxis overlap_on_cross(const LocalSegment& segment, int k, const Vec3<Unit
   result.axis = k;
   result.normal = signed_axis(direction_of(cross), sign_of(centre));
   result.separation = clamped_ratio(overlap, Unit::frac_bits, length_of(cross), Fine{1} << 61);
+  LKS_ASSERT(is_unit(result.normal));
   return result;
 }
 
@@ -107,6 +114,7 @@ RawVec excess_of(const RawVec& point, const RawVec& box_half) {
 
 Fine nearest_to_box(const LocalSegment& segment) {
   const Breakpoints points = breakpoints_of(segment);
+  LKS_ASSERT(points.count >= 2);
   // The slope rises along the segment: find where it is last negative and first positive.
   int before = -1;
   Fine slope_before = 0;
@@ -127,6 +135,7 @@ Fine nearest_to_box(const LocalSegment& segment) {
 }
 
 Interval beside_face(const LocalSegment& segment, int face_axis) {
+  LKS_ASSERT(face_axis >= 0 && face_axis < 3);
   Interval result{-segment.half, segment.half};
   for (int axis = 0; axis < 3; ++axis) {
     if (axis == face_axis) continue;
@@ -158,6 +167,7 @@ OverlapAxis least_overlap(const LocalSegment& segment) {
     best = candidate;
     threshold = candidate.separation;
   }
+  LKS_ASSERT(is_unit(best.normal));
   return best;
 }
 

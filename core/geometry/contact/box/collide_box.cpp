@@ -1,6 +1,8 @@
 // Box against box: the choice among face, edge and vertex contacts.
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/box/box_corner.h"
 #include "core/geometry/contact/box/box_face.h"
 #include "core/geometry/contact/box/box_pair.h"
@@ -49,6 +51,7 @@ struct BoxMeeting {
 /// No axis separates the boxes, and a face is preferred: `out` is the manifold on the reference.
 /// Where they overlap only beside the face, two edges meet after all.
 void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
+  LKS_ASSERT(meeting.faces.separation() <= 0);
   if (touches(out)) return;
   const EdgeAxis edge = best_edge(meeting.pair, -k_any_separation);
   if (edge.found && meeting.take_edges(edge, out)) return;
@@ -66,6 +69,7 @@ void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
 /// involve a vertex.
 void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
   const Fine separation = edge.found ? edge.separation : meeting.faces.separation();
+  LKS_ASSERT(separation > 0);
   if (!keeps(separation, meeting.pair.margin)) return meeting.part_by(edge.normal, out);
   meeting.on_reference(out);
   if (attains(out, separation)) return;
@@ -91,6 +95,7 @@ void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>&
   faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
 
   const Fine separation = faces.separation();
+  LKS_ASSERT(faces.a.separation <= separation && faces.b.separation <= separation);
   if (separation > 0) {
     meeting.on_reference(out);
     if (attains(out, separation)) return;

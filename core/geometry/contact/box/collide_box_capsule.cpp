@@ -1,10 +1,13 @@
 // Box against capsule. Apart: the point of the core nearest to the box. A core inside the box: the
 // axis of least overlap. Where a face meets the side, the core is clipped against the face's side
 // planes and gives two points.
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/box/box_segment.h"
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/roots.h"
@@ -57,6 +60,7 @@ bool is_steep(const BoxCapsule& pair, int axis) {
 }
 
 Manifold face_manifold(const BoxCapsule& pair, int axis, int sign, const Interval& beside) {
+  LKS_ASSERT(axis >= 0 && axis < 3 && (sign == 1 || sign == -1));
   Manifold manifold;
   manifold.normal = unit_axis(signed_axis(pair.box.rotation.column(axis), sign));
   const bool low_is_deeper = sign * pair.local.axis[axis].raw > 0;
@@ -68,6 +72,7 @@ Manifold face_manifold(const BoxCapsule& pair, int axis, int sign, const Interva
     add_face_point(manifold, pair, axis, sign, beside.high, face_feature(axis, sign, 1));
   }
   if (manifold.count == 0) return {};
+  LKS_ASSERT(is_manifold(manifold));
   return manifold;
 }
 
@@ -83,6 +88,7 @@ int facing_axis(const RawVec& gap) {
 }
 
 Manifold nearest_point(const BoxCapsule& pair, Fine s, const RawVec& gap) {
+  LKS_ASSERT(gap != RawVec{} && magnitude_of(s) <= pair.local.half);
   const RawVec world_gap = rotate(pair.box.rotation, gap);
   const Direction d = direction(world_gap.x, world_gap.y, world_gap.z);
   Manifold manifold;
@@ -103,6 +109,7 @@ bool attains_face(const BoxCapsule& pair, int axis, int sign, const Interval& be
 }
 
 Manifold collide_apart(const BoxCapsule& pair, Fine s, const RawVec& gap) {
+  LKS_ASSERT(!is_negligible(gap));
   const auto distance = static_cast<Fine>(norm(gap.x, gap.y, gap.z));
   if (!keeps(distance - fine(pair.radius), pair.margin)) {
     const RawVec world_gap = rotate(pair.box.rotation, gap);
@@ -130,6 +137,7 @@ Segment support_edge(const BoxCapsule& pair, int axis, const Vec3<Unit>& local_n
 }
 
 Manifold edge_manifold(const BoxCapsule& pair, const OverlapAxis& overlap) {
+  LKS_ASSERT(overlap.is_edge && is_unit(overlap.normal));
   const RawVec n = rotate(pair.box.rotation,
                           RawVec{overlap.normal.x.raw, overlap.normal.y.raw, overlap.normal.z.raw});
   const Segment edge = support_edge(pair, overlap.axis, overlap.normal);
@@ -158,6 +166,7 @@ Manifold collide_inside(const BoxCapsule& pair) {
 
 Manifold collide_box_capsule(const PosedShape& box, const PosedShape& capsule,
                              const Vec3<Length>& offset, Length margin) {
+  LKS_ASSERT(box.shape.kind == ShapeKind::box && capsule.shape.kind == ShapeKind::capsule);
   const Vec3<Unit>& axis = capsule.rotation.y;
   const BoxCapsule pair{box,
                         offset,

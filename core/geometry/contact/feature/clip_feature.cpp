@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/numeric/normals.h"
 #include "core/math/int128.h"
 
@@ -31,7 +33,7 @@ using CutPolygon = std::array<CutVertex, k_most_reduced>;
 
 /// Where the segment from v to w crosses a line; heights above the line have different signs.
 CutVertex crossing(const CutVertex& v, const CutVertex& w, std::int64_t height_v,
-                    std::int64_t height_w) {
+                   std::int64_t height_w) {
   const std::int64_t whole = height_v - height_w;
   const auto part = [&](std::int64_t from, std::int64_t to) {
     const Int128 step = multiply_wide(to - from, height_v);
@@ -49,6 +51,7 @@ class Clipper {
     const std::int64_t dx = q.x - p.x, dy = q.y - p.y;
     if (dx == 0 && dy == 0) return;
     const auto height = [&](const CutVertex& v) { return dx * (v.y - p.y) - dy * (v.x - p.x); };
+    LKS_ASSERT(count_ <= static_cast<int>(polygon_.size()));
     CutPolygon before;
     std::copy_n(polygon_.begin(), count_, before.begin());
     const int count = count_;
@@ -93,6 +96,7 @@ ClipFrame frame_on(const ContactFeature& face) {
 
 void clip(const ContactFeature& face, const ClipFrame& frame, const ContactFeature& other,
           const RawVec& offset, ClippedFeature& out) {
+  LKS_ASSERT(face.is_flat && face.count > 2 && other.count > 0);
   std::int64_t most = 1;
   const auto of = [](const ContactFeature& feature, int i) -> const FeaturePoint& {
     return feature.points[static_cast<std::size_t>(i)];
@@ -104,6 +108,7 @@ void clip(const ContactFeature& face, const ClipFrame& frame, const ContactFeatu
   // A coordinate is at most √3 times the greatest: it fits 30 bits.
   const int shift =
       std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most))) - 28);
+  LKS_ASSERT(most >> shift < std::int64_t{1} << 28);
   CutPolygon polygon;
   for (int i = 0; i < other.count; ++i) {
     const RawVec p = of(other, i).at + offset - frame.origin;
@@ -115,7 +120,7 @@ void clip(const ContactFeature& face, const ClipFrame& frame, const ContactFeatu
   const auto corner = [&](int i) {
     const RawVec p = of(face, i).at - frame.origin;
     return CutCorner{raw::round_shift(dot(p, frame.u), shift),
-                      raw::round_shift(dot(p, frame.v), shift)};
+                     raw::round_shift(dot(p, frame.v), shift)};
   };
   for (int i = 0; i < face.count && other.count > 1; ++i)
     clipper.cut(corner(i), corner(i + 1 < face.count ? i + 1 : 0), static_cast<std::uint32_t>(i));
@@ -125,6 +130,7 @@ void clip(const ContactFeature& face, const ClipFrame& frame, const ContactFeatu
     const std::int64_t unit = std::int64_t{1} << shift;
     out.vertices[static_cast<std::size_t>(i)] = {v.x * unit, v.y * unit, v.z, v.id};
   }
+  LKS_ASSERT(out.count <= static_cast<int>(out.vertices.size()));
   out.shift = shift;
 }
 

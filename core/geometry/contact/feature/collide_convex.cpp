@@ -6,11 +6,14 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/feature/clip_feature.h"
 #include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/epa/epa.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -97,6 +100,7 @@ bool find_side_axis(const ConvexMeeting& pair, ConvexAxis& found) {
   if (!is_at_side(pair.a, shape_a, gap.normal, gap.on_a, separation) ||
       !is_at_side(pair.b, shape_b, gap.normal, gap.on_b - between, separation))
     return false;
+  LKS_ASSERT(is_unit(gap.normal));
   found = axis_of(gap, separation, query);
   return true;
 }
@@ -106,6 +110,7 @@ bool find_side_axis(const ConvexMeeting& pair, ConvexAxis& found) {
 /// The manifold from the face of one shape to the feature of the other, the normal from A to B.
 Manifold on_face(const ConvexMeeting& pair, const ContactFeature& face, const ContactFeature& other,
                  bool face_is_a) {
+  LKS_ASSERT(face.is_flat && is_unit(face.normal));
   const ClipFrame frame = frame_on(face);
   ClippedFeature clipped;
   const RawVec between = fine(pair.offset);
@@ -125,6 +130,7 @@ Manifold on_face(const ConvexMeeting& pair, const ContactFeature& face, const Co
     const Witnesses at = face_is_a ? Witnesses{on_face, on_other} : Witnesses{on_other, on_face};
     add_convex_point(pair, manifold, at, v.z, v.feature);
   }
+  LKS_ASSERT(is_manifold(manifold));
   return manifold;
 }
 
@@ -151,6 +157,7 @@ bool find_face_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
     bool is_a;
     Fine separation = -k_any_separation;
   };
+  LKS_ASSERT(is_unit(axis.normal));
   FaceChoice of_a{shown.a, shown.b, true}, of_b{shown.b, shown.a, false};
   for (FaceChoice* choice : {&of_a, &of_b}) {
     if (!choice->face.is_flat) continue;
@@ -200,6 +207,7 @@ bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
     add_convex_point(pair, found, at, gap - fine(shown.a.radius) - fine(shown.b.radius),
                      t == low ? 1 : 2);
   }
+  LKS_ASSERT(is_manifold(found));
   return attains(found, axis.separation);
 }
 
@@ -239,10 +247,12 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
   if (axis.separation > fine(margin) + k_face_slack) return separated_by(axis.normal);
   find_feature(a, axis.normal, shown.a);
   find_feature(b, -axis.normal, shown.b);
+  LKS_ASSERT(shown.a.count > 0 && shown.b.count > 0);
   Manifold manifold;
   if (find_face_manifold(pair, axis, shown, manifold)) return manifold;
   if (find_edge_manifold(pair, axis, shown, manifold)) return manifold;
   manifold = single_point(pair, axis);
+  LKS_ASSERT(is_manifold(manifold));
   return manifold.count > 0 ? manifold : Manifold{};
 }
 

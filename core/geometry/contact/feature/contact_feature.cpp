@@ -1,6 +1,9 @@
 #include "core/geometry/contact/feature/contact_feature.h"
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/convex/shape_traits.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 
 namespace lockstone::geometry {
@@ -10,12 +13,14 @@ namespace {
 constexpr std::int64_t k_steep = std::int64_t{1} << 55;
 
 void polytope_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  LKS_ASSERT(shape.polytope != nullptr && is_unit(n));
   const Polytope& p = *shape.polytope;
   const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
   const int face = p.one_sided ? 0 : most_opposed_face(p, support_of(p, local).vertex, -local);
   const PolytopeFace& f = p.faces[static_cast<std::size_t>(face)];
   out.is_flat = true;
   out.normal = unit_axis(lockstone::rotate(shape.rotation, f.normal));
+  LKS_ASSERT(f.edge_count >= 3 && is_unit(out.normal));
   for (int i = 0; i < f.edge_count; ++i) {
     const int edge = f.first_edge + i;
     out.add(rotate(shape.rotation, fine(start_of(p, edge))),
@@ -24,6 +29,7 @@ void polytope_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeatu
 }
 
 void box_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  LKS_ASSERT(is_unit(n));
   const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
   int axis = 0;
   for (int i = 1; i < 3; ++i)
@@ -55,6 +61,7 @@ void ball_swept_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFea
     const bool hidden = count == 2 && magnitude_of(lean) > k_steep && (vertex.y > 0) != (lean > 0);
     if (!hidden) out.add(rotate(shape.rotation, vertex), static_cast<std::uint32_t>(i));
   }
+  LKS_ASSERT(out.count > 0);
 }
 
 }  // namespace

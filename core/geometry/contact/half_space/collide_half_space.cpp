@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/contact/feature/contact_feature.h"
 #include "core/geometry/contact/half_space/plane_meeting.h"
@@ -9,6 +11,7 @@
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -44,6 +47,7 @@ Manifold manifold_of(const PlaneMeeting& plane, LowPolygon& polygon) {
   std::copy(all.begin(), all.end(), before.begin());
   const int near = drop_far_vertices(all, plane.margin);
   const int kept = reduce_to_four(all.first(static_cast<std::size_t>(near)), polygon.shift);
+  LKS_ASSERT(kept <= near && near <= polygon.count);
   Manifold manifold;
   manifold.normal = plane.normal;
   for (int k = 0; k < kept; ++k) {
@@ -53,6 +57,7 @@ Manifold manifold_of(const PlaneMeeting& plane, LowPolygon& polygon) {
       ++i;
     add_below(manifold, plane, fine(plane.offset) + polygon.points[i], v.z, v.feature);
   }
+  LKS_ASSERT(is_manifold(manifold));
   return manifold;
 }
 
@@ -78,6 +83,7 @@ void box_face(const PlaneMeeting& plane, const Vec3<Unit>& u, const Vec3<Unit>& 
     }
     polygon.add(plane, u, v, point, i);
   }
+  LKS_ASSERT(polygon.count == 4);
 }
 
 /// Likewise of a polytope.
@@ -87,6 +93,7 @@ void polytope_face(const PlaneMeeting& plane, const Vec3<Unit>& u, const Vec3<Un
   const Vec3<Unit> n = rotate_inverse(plane.b.rotation, plane.normal);
   const int face = most_opposed_face(p, support_of(p, -n).vertex, n);
   const PolytopeFace& f = p.faces[static_cast<std::size_t>(face)];
+  LKS_ASSERT(f.edge_count >= 3);
   for (int i = 0; i < f.edge_count; ++i) {
     const int edge = f.first_edge + i;
     polygon.add(plane, u, v, rotate(plane.b.rotation, fine(start_of(p, edge))),
@@ -129,6 +136,7 @@ Manifold below_capsule(const PlaneMeeting& plane) {
     add_below(manifold, plane, pole, plane.centre_height + dot(end, plane.normal) - fine(radius),
               sign < 0 ? 0 : 1);
   }
+  LKS_ASSERT(is_manifold(manifold));
   return manifold;
 }
 
@@ -137,6 +145,7 @@ Manifold below_box(const PlaneMeeting& plane) {
 }
 
 Manifold below_points(const PlaneMeeting& plane, const ContactFeature& feature) {
+  LKS_ASSERT(feature.count > 0);
   const auto add_points = [&feature](const PlaneMeeting& at, const Vec3<Unit>& u,
                                      const Vec3<Unit>& v, LowPolygon& polygon) {
     for (int i = 0; i < feature.count; ++i) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/numeric/normals.h"
 
 namespace lockstone::geometry {
 
 bool attains(const Manifold& manifold, Fine separation) {
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   const std::int64_t least = to_separation(separation - k_agreement).raw;
   const std::int64_t most = to_separation(separation + k_face_slack).raw;
   std::int64_t deepest = most + 1;

@@ -4,6 +4,8 @@
 #include <array>
 #include <tuple>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/distance/contact_point.h"
 
 namespace lockstone::geometry {
@@ -72,6 +74,7 @@ struct Selection {
   /// Takes the vertex with the highest positive score, if any.
   template <class Score>
   void take_best(Score score) {
+    LKS_ASSERT(count < 4);
     int best = -1;
     std::int64_t best_score = 0;
     for (int i = 0; i < size(); ++i) {
@@ -101,6 +104,7 @@ void take_extreme(Selection& selection) {
 
 /// The widest support is worth nothing without the deepest vertex.
 void include_deepest(Selection& selection) {
+  LKS_ASSERT(selection.count > 0 && selection.count <= 4);
   int deepest = 0;
   for (int i = 1; i < selection.size(); ++i) {
     if (selection.height(i) < selection.height(deepest)) deepest = i;
@@ -121,6 +125,7 @@ void include_deepest(Selection& selection) {
 }
 
 void select_four(Selection& selection) {
+  LKS_ASSERT(selection.size() > 4);
   take_extreme(selection);
   const Flat first = selection.chosen(0);
   selection.take_best([&](const Flat& p) { return square(p - first); });
@@ -133,6 +138,7 @@ void select_four(Selection& selection) {
     selection.take_best([&](const Flat& p) { return triangle.area_added_by(p); });
   }
   include_deepest(selection);
+  LKS_ASSERT(selection.count > 0 && selection.count <= 4);
 }
 
 /// The lowest of repeated features first.

@@ -1,7 +1,10 @@
 #include "core/geometry/contact/manifold/nearest_manifold.h"
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/epa/epa.h"
+#include "core/geometry/distance/manifold_checks.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -30,6 +33,7 @@ Manifold nearest_manifold(const PosedShape& a, const PosedShape& b, const Vec3<L
     add_point_on(b.shape, manifold, {geometry::fine(deep.point_a), on_b}, offset,
                  -fine_of(deep.depth), margin, k_nearest_feature);
   }
+  LKS_ASSERT(is_unit(manifold.normal) && manifold.count <= 1);
   return manifold;
 }
 

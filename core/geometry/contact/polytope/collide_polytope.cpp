@@ -1,6 +1,8 @@
 // Polytope against polytope or box: the choice among face, edge and vertex contacts.
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/contact/manifold/nearest_manifold.h"
@@ -9,6 +11,7 @@
 #include "core/geometry/contact/polytope/polytope_face.h"
 #include "core/geometry/contact/polytope/polytope_point.h"
 #include "core/geometry/convex/polytope_box.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -76,6 +79,7 @@ struct CrossedEdges {
 
 /// One point between two edges, square to both.
 CrossedEdges edge_manifold(const PolytopePair& pair, const EdgeSupport& edge) {
+  LKS_ASSERT(edge.found && edge.edge_a < 1 << 10 && edge.edge_b < 1 << 10);
   const Segment a = edge_segment(pair.from_a.own, edge.edge_a, pair.rotation_a, {});
   const Segment b = edge_segment(pair.from_b.own, edge.edge_b, pair.rotation_b, fine(pair.offset));
   const ClosestParameters at = closest_parameters(a, b);
@@ -104,6 +108,7 @@ struct NearestVertex {
 
 void find_nearest_vertex(const PolytopeView& view, const FaceSupport& face, bool of_b,
                          NearestVertex& best) {
+  LKS_ASSERT(face.face < static_cast<int>(view.own.faces.size()));
   const int count = static_cast<int>(view.other.vertices.size());
   for (int i = 0; i < count; ++i) {
     const RawVec point = view.to_own(view.other.vertices[static_cast<std::size_t>(i)]);
@@ -142,6 +147,7 @@ Manifold vertex_manifold(const Meeting& meeting) {
   manifold.normal = best.of_b ? d.unit : -d.unit;
   const Witnesses witnesses =
       best.of_b ? Witnesses{foot, foot + gap} : Witnesses{centre + foot + gap, centre + foot};
+  LKS_ASSERT(is_unit(manifold.normal) && d.length > 0);
   add_point(
       manifold, witnesses, pair.offset, static_cast<Fine>(d.length), pair.margin,
       k_hull_vertex_bits | (best.of_b ? k_hull_of_b : 0) | static_cast<std::uint32_t>(best.vertex));
@@ -167,6 +173,7 @@ bool may_stand_for(Fine separation, Fine best) {
 /// No axis separates. Where the polytopes overlap only beside the face, two edges meet after all,
 /// or the other face does.
 Manifold collide_overlapping(const Meeting& meeting) {
+  LKS_ASSERT(meeting.separation() <= 0);
   const Manifold on_reference = reference_manifold(meeting);
   if (touches(on_reference)) return on_reference;
   const EdgeSupport edge = best_edge(meeting.pair, -k_any_separation, meeting.toward_front,
@@ -195,6 +202,7 @@ bool is_nearest(const Meeting& meeting, const Manifold& manifold, Fine plane, Fi
 /// a face nor two crossing edges involves a vertex.
 Manifold collide_apart(const Meeting& meeting, const EdgeSupport& edge) {
   const Fine separation = edge.found ? edge.separation : meeting.separation();
+  LKS_ASSERT(separation > 0);
   if (!keeps(separation, meeting.pair.margin)) {
     return edge.found ? separated_by(lockstone::rotate(meeting.pair.rotation_a, edge.normal))
                       : Manifold{};
@@ -247,11 +255,13 @@ Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePa
   const Facing own{-toward_front.direction, toward_front.limit};  // n · front ≥ −limit
   meeting.a = best_face(pair.from_a, own, enough, meeting.of_b_points);
   if (!keeps(meeting.a.separation, pair.margin)) {
+    LKS_ASSERT(meeting.a.face >= 0);
     const auto& face = pair.from_a.own.faces[static_cast<std::size_t>(meeting.a.face)];
     return separated_by(lockstone::rotate(pair.rotation_a, face.normal));
   }
   meeting.b = best_face(pair.from_b, any, enough, meeting.of_a);
   if (!keeps(meeting.b.separation, pair.margin)) {
+    LKS_ASSERT(meeting.b.face >= 0);
     const auto& face = pair.from_b.own.faces[static_cast<std::size_t>(meeting.b.face)];
     return separated_by(-lockstone::rotate(pair.rotation_b, face.normal));
   }
@@ -263,6 +273,7 @@ Manifold collide_pair(const PosedShape& a, const PosedShape& b, const PolytopePa
 Manifold collide_front(const PosedShape& a, const PosedShape& b, const PolytopePair& pair) {
   const PolytopeView& view = pair.from_a;
   const PolytopeFace& front = view.own.faces[0];
+  LKS_ASSERT(view.own.one_sided && is_unit(front.normal));
   const RawVec centre = view.to_own(view.other.interior);
   if (height_above(front, split(centre)) < 0) return {};
   const Vec3<Unit> n = front.normal;
@@ -286,6 +297,7 @@ Manifold collide_views(const PosedShape& a, const PosedShape& b, const PolytopeP
 
 Manifold collide_polytopes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                            Length margin) {
+  LKS_ASSERT(a.polytope != nullptr && (b.polytope != nullptr || b.shape.kind == ShapeKind::box));
   if (b.polytope != nullptr) {
     return collide_views(
         a, b, make_polytope_pair(*a.polytope, a.rotation, *b.polytope, b.rotation, offset, margin));

@@ -3,12 +3,15 @@
 // side planes and gives two points. GJK and EPA decide the cases that these features do not prove.
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_choice.h"
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/contact/manifold/nearest_manifold.h"
 #include "core/geometry/contact/polytope/polytope_collide.h"
 #include "core/geometry/contact/polytope/polytope_segment.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -67,6 +70,7 @@ bool is_steep(const PolytopeCapsule& pair, int face) {
 }
 
 Manifold face_manifold(const PolytopeCapsule& pair, int face, const BesideFace& beside) {
+  LKS_ASSERT(face >= 0 && face < static_cast<int>(pair.local.polytope.faces.size()));
   Manifold manifold;
   manifold.normal = unit_axis(lockstone::rotate(pair.polytope.rotation, pair.face(face).normal));
   const bool low_is_deeper = slope_over(pair, face) > 0;
@@ -79,6 +83,7 @@ Manifold face_manifold(const PolytopeCapsule& pair, int face, const BesideFace& 
 }
 
 Manifold manifold_at(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
+  LKS_ASSERT(nearest.found && magnitude_of(nearest.s) <= pair.local.half);
   const RawVec gap = rotate(pair.polytope.rotation, nearest.gap);
   const Direction d = direction(gap.x, gap.y, gap.z);
   Manifold manifold;
@@ -91,6 +96,7 @@ Manifold manifold_at(const PolytopeCapsule& pair, const SegmentNearest& nearest)
 
 /// The face that a gap points at within 1/64, or −1.
 int facing_face(const PolytopeCapsule& pair, const RawVec& gap) {
+  LKS_ASSERT(gap != RawVec{});
   const Vec3<Unit> n = direction_of(gap.x, gap.y, gap.z);
   std::int64_t most = (std::int64_t{1} << 60) - (std::int64_t{1} << 47);  // the cosine, 1 − 2^-13
   int best = -1;
@@ -111,6 +117,7 @@ bool attains_face(const PolytopeCapsule& pair, int face, const BesideFace& besid
 }
 
 Manifold collide_apart(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
+  LKS_ASSERT(!is_negligible(nearest.gap));
   const int face = facing_face(pair, nearest.gap);
   if (face < 0 || is_steep(pair, face)) return manifold_at(pair, nearest);
   const BesideFace beside = beside_face(pair.local, face);
@@ -122,6 +129,7 @@ Manifold collide_apart(const PolytopeCapsule& pair, const SegmentNearest& neares
 }
 
 Manifold edge_manifold(const PolytopeCapsule& pair, const SegmentEdge& best) {
+  LKS_ASSERT(best.found && is_unit(best.normal));
   const Segment edge = edge_segment(pair.local.polytope, best.edge, pair.polytope.rotation, {});
   const Segment core{fine(pair.offset), pair.axis, pair.half_height};
   const ClosestParameters at = closest_parameters(edge, core);
@@ -150,6 +158,7 @@ bool pushes_forward(const PolytopeCapsule& pair, const Manifold& manifold) {
 /// The core meets the polytope, or only its plane when that is flat and the core lies in it: a face
 /// whose plane the core reaches beside it, or the least way out, unless that leads out at the back.
 Manifold collide_inside(const PolytopeCapsule& pair, const SegmentFace& face) {
+  LKS_ASSERT(face.face >= 0);
   const BesideFace beside = beside_face(pair.local, face.face);
   const bool is_beside = beside.low <= beside.high;
   const auto height = [&](Fine s) { return height_at(pair, face.face, s); };
@@ -177,6 +186,7 @@ bool is_proven(const PolytopeCapsule& pair, const SegmentNearest& nearest) {
 
 Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& capsule,
                                   const Vec3<Length>& offset, Length margin) {
+  LKS_ASSERT(polytope.polytope != nullptr && capsule.shape.kind == ShapeKind::capsule);
   const Polytope& p = *polytope.polytope;
   const RawVec centre = to_local(polytope.rotation, offset);
   if (p.one_sided && height_above(p.faces[0], split(centre)) < 0) return {};
@@ -195,6 +205,7 @@ Manifold collide_polytope_capsule(const PosedShape& polytope, const PosedShape& 
   SegmentHeights heights;
   measure(pair.local, heights);
   const SegmentFace face = best_face(pair.local, heights);
+  LKS_ASSERT(face.face >= 0 && face.face < static_cast<int>(p.faces.size()));
   if (face.separation > limit) {
     const PolytopeFace& parting = p.faces[static_cast<std::size_t>(face.face)];
     return separated_by(lockstone::rotate(polytope.rotation, parting.normal));

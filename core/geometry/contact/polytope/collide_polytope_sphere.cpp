@@ -1,9 +1,12 @@
 // Polytope against sphere: the nearest point of the polytope, or the face of least depth. Beside
 // the faces of an uneven polytope GJK finds it.
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/nearest_manifold.h"
 #include "core/geometry/contact/polytope/polytope_collide.h"
 #include "core/geometry/contact/polytope/polytope_point.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -12,6 +15,7 @@ namespace {
 
 /// A flat polytope lets a centre in its plane leave by the face that sees it, the first of equals.
 int face_of(const Polytope& polytope, const NearestPoint& at, const SplitVec& centre) {
+  LKS_ASSERT(!polytope.faces.empty() && at.face < static_cast<int>(polytope.faces.size()));
   if (at.face >= 0) return at.face;
   int best = 0;
   Fine highest = height_above(polytope.faces[0], centre);
@@ -28,6 +32,7 @@ int face_of(const Polytope& polytope, const NearestPoint& at, const SplitVec& ce
 
 Manifold collide_polytope_sphere(const PosedShape& polytope, const PosedShape& sphere,
                                  const Vec3<Length>& offset, Length margin) {
+  LKS_ASSERT(polytope.polytope != nullptr && sphere.shape.kind == ShapeKind::sphere);
   const Polytope& p = *polytope.polytope;
   const Length radius = sphere.shape.size.x;
   const RawVec centre = to_local(polytope.rotation, offset);
@@ -49,6 +54,7 @@ Manifold collide_polytope_sphere(const PosedShape& polytope, const PosedShape& s
     manifold.normal = d.unit;
     distance = static_cast<Fine>(d.length);
   }
+  LKS_ASSERT(is_unit(manifold.normal));
   const RawVec on_sphere = fine(offset) - along(manifold.normal, radius);
   add_round_point(manifold, {on_polytope, on_sphere}, offset, distance - fine(radius), margin, 0);
   return manifold.count > 0 ? manifold : Manifold{};

@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 
+#include <lockstone/assert.h>
+
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/math/roots.h"
 
 namespace lockstone::geometry {
@@ -87,6 +90,7 @@ void collect_edges(const Polytope& own, const Witness& witness, Fine threshold, 
       const std::size_t edge = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
       const HalfEdge& half = own.edges[edge];
       if (faces.share(half.face, own.edges[half.twin].face)) continue;
+      LKS_ASSERT(edge < own.edges.size() && list.count < static_cast<int>(list.at.size()));
       list.at[static_cast<std::size_t>(list.count++)] = static_cast<std::uint16_t>(edge);
     }
   }
@@ -132,6 +136,7 @@ struct EdgeSearch {
   EdgeSupport best{};
 
   void look_at(int edge_a, int edge_b, const Vec3<Unit>& normal) {
+    LKS_ASSERT(is_unit(normal));
     const PolytopeView& view = pair.from_a;
     const RawVec gap =
         view.to_own_coarse(start_of(view.other, edge_b)) - lanes_of(start_of(view.own, edge_a));
@@ -177,6 +182,7 @@ EdgeSupport best_edge(const PolytopePair& pair, Fine threshold, const Facing& fr
       search.look_at(edge_a, edge_b, signed_axis(direction_of(k.x, k.y, k.z), sign));
     }
   }
+  LKS_ASSERT(!search.best.found || search.best.separation > threshold);
   return search.best;
 }
 

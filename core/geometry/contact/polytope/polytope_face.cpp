@@ -5,10 +5,13 @@
 #include <bit>
 #include <span>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/contact/manifold/manifold_reduction.h"
 #include "core/geometry/contact/polytope/polytope_edges.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/clip_edge.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
@@ -81,6 +84,7 @@ struct ReferenceFrame {
 /// Square to the face's normal and to its first edge. Edges of merged faces may lean on the normal:
 /// one that leans by more than 60° is passed over.
 Vec3<Unit> inward_axis(const Polytope& own, const PolytopeFace& face) {
+  LKS_ASSERT(face.edge_count >= 3);
   RawVec inward;
   for (int i = 0; i < face.edge_count; ++i) {
     const RawVec edge = lanes_of(edge_vector(own, face.first_edge + i));
@@ -96,6 +100,7 @@ ReferenceFrame make_frame(const PolytopeFaceMeeting& meeting, int incident) {
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const Vec3<Unit> v = inward_axis(view.own, face);
   const Vec3<Unit> u = rounded<Unit>(cross(v, face.normal));
+  LKS_ASSERT(is_unit(u) && is_unit(v));
   ReferenceFrame frame{meeting,
                        face,
                        u,
@@ -154,6 +159,7 @@ void incident_polygon(const ReferenceFrame& frame, int incident, IncidentPolygon
   const Polytope& other = frame.meeting.view.other;
   const PolytopeFace& face = other.faces[static_cast<std::size_t>(incident)];
   polygon.count = 0;
+  LKS_ASSERT(face.edge_count >= 3 && face.edge_count <= k_capacity);
   for (int i = 0; i < face.edge_count; ++i) {
     const int edge = face.first_edge + i;
     const Vec3<Length>& p = start_of(other, edge);
@@ -208,11 +214,13 @@ bool add_shift(Shift& moved, Fine x, Fine y) {
 /// Returns whether it did.
 bool snap(const ReferenceFrame& frame, const Side& side, std::int64_t excess,
           IncidentVertex& vertex) {
+  LKS_ASSERT(excess > 0);
   const Fine rough = magnitude_of(side.dx) + magnitude_of(side.dy);
   const Fine reach = k_snap >> frame.shift;
   if (excess > reach * rough) return false;
   const auto square = static_cast<std::uint64_t>(side.dx * side.dx + side.dy * side.dy);
   const auto length = static_cast<std::int64_t>(isqrt_rounded(square));
+  LKS_ASSERT(length > 0);
   const std::int64_t distance = excess / length;
   if (distance >= reach) return false;
   const Fine way = distance << frame.shift;  // at most 2^35
@@ -245,6 +253,7 @@ bool is_outside(const ReferenceFrame& frame, const Side& side, const IncidentPol
 /// side.
 bool measure(const ReferenceFrame& frame, const Side& side, IncidentPolygon& polygon,
              Excesses& excesses) {
+  LKS_ASSERT(polygon.count > 0);
   if (!is_outside(frame, side, polygon, excesses)) return false;
   const auto measured = std::span(excesses).first(static_cast<std::size_t>(polygon.count));
   const bool inside = std::ranges::any_of(measured, [](std::int64_t e) { return e < 0; });
@@ -258,6 +267,7 @@ bool measure(const ReferenceFrame& frame, const Side& side, IncidentPolygon& pol
 
 IncidentVertex cut(const IncidentVertex& inside, std::int64_t depth, const IncidentVertex& outside,
                    std::int64_t excess, std::uint32_t label) {
+  LKS_ASSERT(depth > 0 && excess > 0);
   const std::uint64_t share = share_inside(depth, excess);
   const auto lane = [share](std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(cut_between(a, b, share));
@@ -301,6 +311,7 @@ std::array<Side, 4> bounds_of(const ReferenceFrame& frame, const Outline& outlin
     low = std::min(low, frame.lattice(p.y));
     high = std::max(high, frame.lattice(p.y));
   }
+  LKS_ASSERT(left <= right && low <= high && left > -far && right < far);
   constexpr std::int64_t around = 4;
   constexpr std::uint32_t label = k_bounds_label;
   return {{{left, low - around, 1, 0, label},
@@ -314,6 +325,7 @@ std::array<Side, 4> bounds_of(const ReferenceFrame& frame, const Outline& outlin
 /// not beyond the bounds.
 const IncidentPolygon& clip_to_sides(const ReferenceFrame& frame, const Outline& outline,
                                      IncidentPolygon& polygon, IncidentPolygon& spare) {
+  LKS_ASSERT(frame.shift >= 0);
   Excesses excesses;
   IncidentPolygon* from = &polygon;
   IncidentPolygon* to = &spare;
@@ -342,6 +354,7 @@ std::uint32_t feature_of(const ReferenceFrame& frame, std::uint32_t edge_in,
 }
 
 void add_face_point(Manifold& manifold, const ReferenceFrame& frame, const FaceVertex& v) {
+  LKS_ASSERT(manifold.count < k_max_manifold_points);
   const PolytopeFaceMeeting& meeting = frame.meeting;
   const Vec3<Unit>& n = frame.face.normal;
   const Fine lift = frame.face.offset - lockstone::dot(frame.corner, n).raw;
@@ -369,12 +382,14 @@ Manifold manifold_of(const ReferenceFrame& frame, const IncidentPolygon& polygon
   manifold.normal = unit_axis(lockstone::rotate(frame.meeting.view.rotation, frame.face.normal));
   for (const FaceVertex& v : used())
     add_face_point(manifold, frame, v);
+  LKS_ASSERT(is_manifold(manifold));
   return manifold;
 }
 
 }  // namespace
 
 Manifold face_manifold(const PolytopeFaceMeeting& meeting) {
+  LKS_ASSERT(meeting.face.face >= 0 && meeting.face.support >= 0);
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const int incident =
@@ -390,6 +405,7 @@ Manifold face_manifold(const PolytopeFaceMeeting& meeting) {
 }
 
 Manifold support_manifold(const PolytopeFaceMeeting& meeting) {
+  LKS_ASSERT(meeting.face.face >= 0 && meeting.face.support >= 0);
   const PolytopeView& view = meeting.view;
   const PolytopeFace& face = view.own.faces[static_cast<std::size_t>(meeting.face.face)];
   const Vec3<Length>& vertex = view.other.vertices[static_cast<std::size_t>(meeting.face.support)];

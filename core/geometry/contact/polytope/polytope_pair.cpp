@@ -1,5 +1,7 @@
 #include "core/geometry/contact/polytope/polytope_pair.h"
 
+#include <lockstone/assert.h>
+
 namespace lockstone::geometry {
 namespace {
 
@@ -33,6 +35,7 @@ struct FaceSearch {
   }
 
   void look_at(int face) {
+    LKS_ASSERT(face >= 0 && face < static_cast<int>(view.own.faces.size()));
     const PolytopeFace& f = view.own.faces[static_cast<std::size_t>(face)];
     const Vec3<Unit> n = view.to_other(f.normal);
     const Fine base = dot(view.origin, f.normal) - f.offset;
@@ -128,6 +131,7 @@ FaceSupport best_face(const PolytopeView& view, const Facing& facing, Fine enoug
     if (height + k_witness_slack < search.best.separation || search.is_worse(face)) return;
     if (facing.allows(view.own.faces[static_cast<std::size_t>(face)].normal)) search.look_at(face);
   });
+  LKS_ASSERT(search.best.face >= 0 && search.best.support >= 0);
   return search.best;
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_tolerances.h"
 #include "core/geometry/contact/polytope/polytope_edges.h"
 #include "core/geometry/numeric/segment.h"
@@ -36,6 +38,7 @@ RawVec without(const RawVec& v, const Vec3<Length>& way, std::int64_t share) {
 /// The gap from the nearest point of an edge to `point`. Products of lanes of 30 bits; of greater
 /// ones, cut to 30 bits first, a second step restores the precision that the cut lost.
 RawVec gap_to_edge(const Polytope& polytope, int edge, const RawVec& point) {
+  LKS_ASSERT(edge >= 0 && edge < static_cast<int>(polytope.edges.size()));
   const Vec3<Length> way = edge_vector(polytope, edge);
   const RawVec to_point = point - fine(start_of(polytope, edge));
   const RawVec lanes = lanes_of(way);
@@ -102,6 +105,7 @@ Fine height_above(const PolytopeFace& face, const SplitVec& point) {
 
 bool is_beside(const Polytope& polytope, int face, const RawVec& point) {
   const PolytopeFace& f = polytope.faces[static_cast<std::size_t>(face)];
+  LKS_ASSERT(face >= 0 && f.edge_count >= 3);
   const RawVec n = lanes_of(f.normal);
   for (int i = 0; i < f.edge_count; ++i) {
     const int edge = f.first_edge + i;
@@ -115,6 +119,7 @@ bool is_beside(const Polytope& polytope, int face, const RawVec& point) {
 }
 
 NearestPoint nearest_point(const Polytope& polytope, const RawVec& point, Fine limit) {
+  LKS_ASSERT(!polytope.faces.empty());
   const SplitVec position = split(point);
   Heights heights;
   std::size_t highest = 0;
@@ -135,6 +140,7 @@ NearestPoint nearest_point(const Polytope& polytope, const RawVec& point, Fine l
   if (edge.edge < 0)  // only rounding hides the edges of a face that the point is not beside
     return on_face(polytope, static_cast<int>(highest), height, point, true);
   const auto distance = static_cast<Fine>(norm(edge.gap.x, edge.gap.y, edge.gap.z));
+  LKS_ASSERT(distance >= 0);
   if (distance > limit) return {};
   return {true, false, -1, point - edge.gap, edge.gap, distance};
 }

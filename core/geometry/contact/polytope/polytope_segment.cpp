@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/manifold/contact_tolerances.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
@@ -77,6 +80,7 @@ void try_vertex(const Segment& core, const Vec3<Length>& vertex, Fine limit, Seg
 /// however near they are; else an end of the edge is nearest.
 void try_edge(const PolytopeSegment& segment, const Segment& core, int edge, int sign, Fine limit,
               SegmentNearest& best) {
+  LKS_ASSERT(sign == 1 || sign == -1);
   const Polytope& p = segment.polytope;
   const Segment side = edge_segment(p, edge, k_identity, {});
   const ClosestParameters closest = closest_parameters(side, core);
@@ -91,6 +95,7 @@ void try_edge(const PolytopeSegment& segment, const Segment& core, int edge, int
   const Fine outward = dot(point_at(core, closest.on_b) - point, n);
   if (outward < -k_agreement || outward > limit) return;  // the far side of the polytope, or far
   const Fine distance = std::max(outward, Fine{0});
+  LKS_ASSERT(magnitude_of(closest.on_b) <= segment.half);
   take_nearer(best, {true, closest.on_b, point, along(n, distance), distance});
 }
 
@@ -115,6 +120,7 @@ SidePlane side_plane(const PolytopeSegment& segment, const PolytopeFace& face, i
 /// −beyond / slope as a length: the slope has 30 fraction bits of the axis, `beyond` is fine.
 /// Clamped to ±half.
 Fine crossing_parameter(const SidePlane& side, Fine half) {
+  LKS_ASSERT(half >= 0 && side.slope != Int128{});
   UInt128 size = magnitude(side.beyond);
   UInt128 divisor = magnitude(side.slope);
   // The quotient times 2^30: bring the divisor to 63 bits and the numerator along.
@@ -134,6 +140,7 @@ Fine crossing_parameter(const SidePlane& side, Fine half) {
 }  // namespace
 
 void measure(const PolytopeSegment& segment, SegmentHeights& heights) {
+  LKS_ASSERT(segment.half >= 0 && is_unit(segment.axis));
   const SplitVec first = split(segment.at(-segment.half));
   const SplitVec last = split(segment.at(segment.half));
   for (std::size_t i = 0; i < segment.polytope.faces.size(); ++i) {
@@ -176,11 +183,13 @@ SegmentEdge best_edge(const PolytopeSegment& segment, const SegmentHeights& heig
     best = {true, edge, normal, separation};
     threshold = separation;
   }
+  LKS_ASSERT(!best.found || (best.separation == threshold && is_unit(best.normal)));
   return best;
 }
 
 BesideFace beside_face(const PolytopeSegment& segment, int face) {
   const PolytopeFace& f = segment.polytope.faces[static_cast<std::size_t>(face)];
+  LKS_ASSERT(f.edge_count >= 3);
   BesideFace result{-segment.half, segment.half};
   for (int i = 0; i < f.edge_count; ++i) {
     const SidePlane side = side_plane(segment, f, f.first_edge + i);
@@ -221,6 +230,7 @@ SegmentNearest nearest_to_segment(const PolytopeSegment& segment, const SegmentH
     if (sign != 0 && may_be_nearest(heights, faces, found))
       try_edge(segment, core, edge, sign, limit, best);
   }
+  LKS_ASSERT(!best.found || magnitude_of(best.s) <= segment.half);
   return best;
 }
 

@@ -1,7 +1,10 @@
 // Capsule against capsule. Two points along nearly parallel sides, after the idea of clipping one
 // core against the end planes of the other (Box3D, b3CollideCapsules).
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/roots.h"
@@ -47,6 +50,7 @@ CoreContact closest_cores(const CorePair& pair) {
   const Fine distance = at.crossing ? dot(pair.b.centre, square) : 0;
   contact.normal = signed_axis(square, sign_of(distance));
   contact.distance = magnitude_of(distance);
+  LKS_ASSERT(contact.distance >= 0 && is_unit(contact.normal));
   return contact;
 }
 
@@ -68,6 +72,7 @@ Overlap overlap_of(const CorePair& pair) {
 /// some length, and so little divergence across the normal that both points stay within 1/1000 of
 /// the smaller radius of the surfaces.
 bool lies_along(const CorePair& pair, const CoreContact& contact, const Overlap& overlap) {
+  LKS_ASSERT(is_unit(contact.normal) && pair.radii > 0);
   const RawVec k = cross_of(pair.a.axis, pair.b.axis);
   const auto sine = static_cast<Fine>(norm(k.x, k.y, k.z) >> 30);             // 30 fraction bits
   const std::int64_t lean = lockstone::dot(contact.normal, pair.a.axis).raw;  // 60 fraction bits
@@ -82,6 +87,7 @@ bool lies_along(const CorePair& pair, const CoreContact& contact, const Overlap&
 
 Manifold collide_capsules(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
                           Length margin) {
+  LKS_ASSERT(a.shape.kind == ShapeKind::capsule && b.shape.kind == ShapeKind::capsule);
   const Length radius_a = a.shape.size.x;
   const Length radius_b = b.shape.size.x;
   const CorePair pair{core_segment(a.shape, a.rotation, {}),
@@ -106,6 +112,7 @@ Manifold collide_capsules(const PosedShape& a, const PosedShape& b, const Vec3<L
     add_point(manifold, inflate(on_a, radius_a, on_b, radius_b, contact.normal), offset, separation,
               margin, feature++);
   }
+  LKS_ASSERT(is_manifold(manifold));
   return manifold;
 }
 

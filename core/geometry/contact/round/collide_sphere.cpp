@@ -1,6 +1,9 @@
 // Pairs with a sphere: the closest point of the other shape's core, and the direction to it.
+#include <lockstone/assert.h>
+
 #include "core/geometry/contact/collide_pairs.h"
 #include "core/geometry/distance/contact_point.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/segment.h"
 #include "core/math/roots.h"
@@ -54,6 +57,7 @@ Manifold sphere_inside_box(const PosedShape& box, const RawVec& centre, Length r
   manifold.normal = unit_axis(signed_axis(box.rotation.column(face.axis), face.sign));
   RawVec on_box = centre;
   on_box[face.axis] -= face.sign * face.distance;
+  LKS_ASSERT(is_unit(manifold.normal) && face.distance <= 0);
   const RawVec on_sphere = fine(offset) - along(manifold.normal, radius);
   add_round_point(manifold, {rotate(box.rotation, on_box), on_sphere}, offset,
                   face.distance - fine(radius), margin, 0);
@@ -72,6 +76,7 @@ Manifold collide_spheres(const PosedShape& a, const PosedShape& b, const Vec3<Le
 
 Manifold collide_capsule_sphere(const PosedShape& capsule, const PosedShape& sphere,
                                 const Vec3<Length>& offset, Length margin) {
+  LKS_ASSERT(capsule.shape.kind == ShapeKind::capsule && sphere.shape.kind == ShapeKind::sphere);
   const Segment core = core_segment(capsule.shape, capsule.rotation, {});
   const RawVec centre = fine(offset);
   const RawVec closest = point_at(core, closest_parameter(core, centre));
@@ -84,6 +89,7 @@ Manifold collide_capsule_sphere(const PosedShape& capsule, const PosedShape& sph
 
 Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,
                             const Vec3<Length>& offset, Length margin) {
+  LKS_ASSERT(box.shape.kind == ShapeKind::box && sphere.shape.kind == ShapeKind::sphere);
   const RawVec half = half_extents(box.shape);
   const Length radius = sphere.shape.size.x;
   const RawVec centre = to_local(box.rotation, offset);
@@ -94,6 +100,7 @@ Manifold collide_box_sphere(const PosedShape& box, const PosedShape& sphere,
   const SphereGap world_gap = gap_of(rotate(box.rotation, gap), k_concentric_normal);
   Manifold manifold;
   manifold.normal = world_gap.normal;
+  LKS_ASSERT(is_unit(manifold.normal));
   add_round_point(manifold,
                   {rotate(box.rotation, closest), fine(offset) - along(world_gap.normal, radius)},
                   offset, world_gap.distance - fine(radius), margin, 0);
