@@ -24,6 +24,12 @@ struct Answers {
   [[nodiscard]] double least() const;
 };
 
+/// Whether the depth is only known to separate: rims have more vertices than EPA has room for.
+[[nodiscard]] bool is_depth_a_bound(const Pair& pair, const Penetration& found);
+
+/// How far rims, polygons of 2^15 vertices about axes of 30 bits, may be off their circles.
+[[nodiscard]] double rim_slack(const Pair& pair);
+
 /// 2 µm and 13e-9 of the sizes, which are seven steps of the lattice: the error bound of depths.
 /// Distances err by at most 2 µm.
 [[nodiscard]] double tolerance(const Pair& pair);
