@@ -101,42 +101,52 @@ TEST(RecyclingPose, IsNearWithinAPartOfASmallBody) {
   }
 }
 
-// Boxes that stand on each other, leaning by a hundredth or less: the same points, found where the
-// bodies are now, are as far apart as those that followed. A corner that an edge cuts off moves
-// along the face, which counts times the faces' lean.
-TEST(RecyclingPose, SeparationsFollow) {
-  Dice dice;
-  int met = 0;
-  for (int round = 0; round < 20000; ++round) {
-    BodyRecord a = random_box(dice), b = random_box(dice);
+// Boxes that stand on each other, leaning by a hundredth or less.
+struct LeaningBoxes {
+  explicit LeaningBoxes(Dice& dice) : a(random_box(dice)), b(random_box(dice)) {
     a.orientation = b.orientation = {};
     set_recycling_pose(a);
     const double height = std::ldexp(double{1} * (a.size.y + b.size.y).raw, -Length::frac_bits);
     b.position = {position(dice.uniform(-0.2, 0.2)), position(height + dice.uniform(-0.001, 0.001)),
                   position(dice.uniform(-0.2, 0.2))};
-    const double lean = dice.uniform(0, 0.01), about = dice.uniform(-3.2, 3.2);
+    lean = dice.uniform(0, 0.01);
+    const double about = dice.uniform(-3.2, 3.2);
     b.orientation = test::quat(lean / 2 * std::cos(about), 0, lean / 2 * std::sin(about), 1);
     set_recycling_pose(b);
+  }
+
+  [[nodiscard]] Manifold collide() const {
     const Shape shape_a = a.shape(), shape_b = b.shape();
-    const auto found = [&](const BodyRecord& first, const BodyRecord& second) {
-      const Mat3 turned_a = to_matrix(first.orientation), turned_b = to_matrix(second.orientation);
-      return collide({shape_a, turned_a}, {shape_b, turned_b},
-                     saturated<Length>(second.position - first.position), metres(0.02));
-    };
-    Manifold followed = found(a, b);
-    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), a);
-    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), b);
-    shift_separations(pose_delta_of(a), pose_delta_of(b), followed);
-    const Manifold now = found(a, b);
+    const Mat3 turned_a = to_matrix(a.orientation), turned_b = to_matrix(b.orientation);
+    return lockstone::collide({shape_a, turned_a}, {shape_b, turned_b},
+                              saturated<Length>(b.position - a.position), metres(0.02));
+  }
+
+  BodyRecord a, b;
+  double lean;
+};
+
+// The same points, found where the bodies are now, are as far apart as those that followed. A
+// corner that an edge cuts off moves along the face, which counts times the faces' lean.
+TEST(RecyclingPose, SeparationsFollow) {
+  Dice dice;
+  int met = 0;
+  for (int round = 0; round < 20000; ++round) {
+    LeaningBoxes boxes(dice);
+    Manifold followed = boxes.collide();
+    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), boxes.a);
+    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), boxes.b);
+    shift_separations(pose_delta_of(boxes.a), pose_delta_of(boxes.b), followed);
+    const Manifold now = boxes.collide();
+    // Half a step of lengths counts twice, and of separations.
+    const double allowed = 2e-6 + 3 * k_hair * boxes.lean + 4 * k_hair * k_hair;
     for (int i = 0; i < now.count; ++i) {
       const ManifoldPoint& point = now.points[static_cast<std::size_t>(i)];
       const auto same = std::ranges::find(followed.points, point.feature, &ManifoldPoint::feature);
       if (same == followed.points.end()) continue;
       ++met;
-      // Half a step of lengths counts twice, and of separations.
       EXPECT_NEAR(static_cast<double>(real(same->separation)),
-                  static_cast<double>(real(point.separation)),
-                  2e-6 + 3 * k_hair * lean + 4 * k_hair * k_hair)
+                  static_cast<double>(real(point.separation)), allowed)
           << round;
     }
   }

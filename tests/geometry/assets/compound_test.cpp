@@ -74,49 +74,65 @@ TEST(Compound, CentreLiesWhereTheWeightIs) {
   EXPECT_EQ(solid_of(built).centre, (Vec3<Length>{3_m, {}, {}}));
 }
 
-// Σ over the children of I + m·d², turned: the sum is done in double and rotated back.
+std::vector<CompoundChild> random_boxes(test::Random& random) {
+  const auto between = [&](std::int64_t least, std::int64_t most) {
+    return Length::from_raw(static_cast<std::int32_t>(random.between(least, most)));
+  };
+  const auto size = [&] { return between(1 << 15, 1 << 20); };
+  const auto place = [&] { return between(-(1 << 21), 1 << 21); };
+  std::vector<CompoundChild> children(static_cast<std::size_t>(random.between(2, 6)));
+  for (CompoundChild& box : children) {
+    const Length sx = size(), sy = size(), sz = size();
+    const Length px = place(), py = place(), pz = place();
+    box = child(Shape::box(sx, sy, sz), {px, py, pz});
+  }
+  return children;
+}
+
+// In double, at density 1.
+struct RealSums {
+  double mass = 0;
+  double centre[3] = {};
+  double trace = 0;  ///< of the inertia by unit of mass, which does not turn
+
+  explicit RealSums(const std::vector<CompoundChild>& boxes) {
+    for (const CompoundChild& box : boxes)
+      mass += volume(box);
+    for (const CompoundChild& box : boxes)
+      for (int i = 0; i < 3; ++i)
+        centre[i] += volume(box) / mass * to_double(box.position[i]);
+    for (const CompoundChild& box : boxes) {
+      for (int i = 0; i < 3; ++i) {
+        const double d = to_double(box.position[i]) - centre[i];
+        const double h = to_double(box.shape.size[i]);
+        trace += 2 * volume(box) / mass * (d * d + h * h / 3);
+      }
+    }
+  }
+
+ private:
+  static double volume(const CompoundChild& box) {
+    const Vec3<Length>& half = box.shape.size;
+    return 8 * to_double(half.x) * to_double(half.y) * to_double(half.z);
+  }
+};
+
+// Σ over the children of I + m·d².
 TEST(Compound, MomentsFollowTheParallelAxes) {
   test::Random random(test::run_seed());
   for (int run = 0; run < 200; ++run) {
-    std::vector<CompoundChild> children;
-    const int count = static_cast<int>(random.between(2, 6));
-    for (int i = 0; i < count; ++i) {
-      const auto size = [&] {
-        return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 15, 1 << 20)));
-      };
-      const auto place = [&] {
-        return Length::from_raw(static_cast<std::int32_t>(random.between(-(1 << 21), 1 << 21)));
-      };
-      const Length sx = size(), sy = size(), sz = size();
-      const Length px = place(), py = place(), pz = place();
-      children.push_back(child(Shape::box(sx, sy, sz), {px, py, pz}));
-    }
+    SCOPED_TRACE(run);
+    const std::vector<CompoundChild> children = random_boxes(random);
+    const RealSums sums(children);
     const CompoundResult built = Compound::build(children);
     const geometry::Solid& solid = solid_of(built);
-    double mass = 0, centre[3] = {}, trace = 0;
-    for (const CompoundChild& c : children) {
-      const double m =
-          8 * to_double(c.shape.size.x) * to_double(c.shape.size.y) * to_double(c.shape.size.z);
-      mass += m;
-      for (int i = 0; i < 3; ++i)
-        centre[i] += m * to_double(c.position[i]);
-    }
-    for (const CompoundChild& c : children) {
-      const double m =
-          8 * to_double(c.shape.size.x) * to_double(c.shape.size.y) * to_double(c.shape.size.z);
-      for (int i = 0; i < 3; ++i) {
-        const double d = to_double(c.position[i]) - centre[i] / mass;
-        const double h = to_double(c.shape.size[i]);
-        trace += 2 * m * (d * d + h * h / 3) / mass;  // the trace does not turn
-      }
-    }
     const double scale = std::ldexp(1, 2 * solid.scale_exponent);
-    const double sum =
+    const double trace =
         to_double(solid.inertia.x) + to_double(solid.inertia.y) + to_double(solid.inertia.z);
-    EXPECT_NEAR(value(solid.volume) / mass, 1, 1e-8);
-    EXPECT_NEAR(sum * scale / trace, 1, 1e-6) << "run " << run;
+    EXPECT_NEAR(value(solid.volume) / sums.mass, 1, 1e-8);
+    EXPECT_NEAR(trace * scale / sums.trace, 1, 1e-6);
     for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(to_double(solid.centre[i]), centre[i] / mass, 1e-6);
+      EXPECT_NEAR(to_double(solid.centre[i]), sums.centre[i], 1e-6);
   }
 }
 

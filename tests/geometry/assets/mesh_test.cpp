@@ -153,37 +153,54 @@ TEST(Mesh, KeepsATriangleOfTheLeastArea) {
   ASSERT_EQ(parts.size(), 1U);
 }
 
-TEST(Mesh, RefusesWithAReason) {
-  const Triangles good = cube(1);
+TEST(Mesh, OfNothingIsRefused) {
   EXPECT_EQ(mesh_fault_of({}), MeshFault::empty);
-  Triangles bad = good;
+}
+
+TEST(Mesh, WithAnIndexOutOfRangeIsRefusedAndNamesTheTriangle) {
+  Triangles bad = cube(1);
   bad.triangles[7].b = 8;
-  MeshResult result = Mesh::build(bad.def());
+  const MeshResult result = Mesh::build(bad.def());
+  EXPECT_FALSE(result.ok());
   EXPECT_EQ(result.fault, MeshFault::index_out_of_range);
   EXPECT_EQ(result.index, 7U);
-  EXPECT_FALSE(result.ok());
-  bad = good;
+}
+
+TEST(Mesh, WithACoordinateOutOfRangeIsRefusedAndNamesTheVertex) {
+  Triangles bad = cube(1);
   bad.vertices[3].z = k_max_asset_coordinate + Length::from_raw(1);
-  result = Mesh::build(bad.def());
+  const MeshResult result = Mesh::build(bad.def());
   EXPECT_EQ(result.fault, MeshFault::coordinate_out_of_range);
   EXPECT_EQ(result.index, 3U);
+}
+
+TEST(Mesh, WithAnInvalidOptionIsRefused) {
+  const Triangles good = cube(1);
   MeshDef def = good.def();
   def.weld_tolerance = Length::from_raw(-1);
   EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_option);
   def = good.def();
   def.flat_angle = Angle::from_integer(2);
   EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_option);
+}
+
+TEST(Mesh, WithASurfaceOutOfRangeOrAnInvalidOneIsRefused) {
+  const Triangles good = cube(1);
   const std::vector<std::uint8_t> indices(12, 1);
-  const std::vector<Surface> surfaces(1);
-  def = good.def();
+  const std::vector<Surface> one(1);
+  MeshDef def = good.def();
   def.triangle_surfaces = indices;
-  def.surfaces = surfaces;
+  def.surfaces = one;
   EXPECT_EQ(mesh_fault_of(def), MeshFault::surface_out_of_range);
   const std::vector<Surface> slippery(2, Surface{Coefficient::from_raw(-1), {}});
   def.surfaces = slippery;
   EXPECT_EQ(mesh_fault_of(def), MeshFault::invalid_surface);
+}
+
+TEST(Mesh, WithTooManyTrianglesIsRefused) {
+  const Triangles good = cube(1);
   const std::vector<TriangleIndices> many(k_max_mesh_triangles + 1);
-  def = good.def();
+  MeshDef def = good.def();
   def.triangles = many;
   EXPECT_EQ(mesh_fault_of(def), MeshFault::too_many);
   EXPECT_EQ(to_string(MeshFault::too_many), "too many triangles, vertices or surfaces");
@@ -304,36 +321,59 @@ TEST(Mesh, ShowsEveryPartWhoseBoundsARayMeets) {
   }
 }
 
-TEST(Mesh, ShowsTrianglesAsPolytopesOfTwoFaces) {
-  class Check final : public geometry::PartVisitor {
-   public:
+// Calls `check` with the polytope of each triangle of a random mesh.
+template <class Check>
+void for_random_triangles(const Check& check) {
+  struct Visitor final : geometry::PartVisitor {
+    explicit Visitor(const Check& visited) : check(visited) {}
     void visit(const geometry::Part& part) override {
-      const geometry::Polytope& p = *part.polytope;
-      ASSERT_EQ(p.vertices.size(), 3U);
-      ASSERT_EQ(p.faces.size(), 2U);
-      ASSERT_EQ(p.edges.size(), 6U);
       EXPECT_EQ(part.shape.kind, ShapeKind::hull);
-      for (std::uint16_t e = 0; e < 6; ++e) {
-        const geometry::HalfEdge& edge = p.edges[e];
-        const geometry::HalfEdge& twin = p.edges[edge.twin];
-        EXPECT_EQ(twin.twin, e);
-        EXPECT_NE(twin.face, edge.face);
-        EXPECT_EQ(p.edges[next_edge(p, e)].origin, twin.origin);
-      }
-      for (const geometry::PolytopeFace& face : p.faces) {
-        std::int64_t greatest = std::numeric_limits<std::int64_t>::min();
-        for (const Vec3<Length>& v : p.vertices)
-          greatest = std::max(greatest, dot(face.normal, v).raw);
-        EXPECT_EQ(face.offset, greatest);
-      }
-      const RealVec a = real(p.vertices[0]);
-      const RealVec n = cross(real(p.vertices[1]) - a, real(p.vertices[2]) - a);
-      EXPECT_NEAR(static_cast<double>(norm(real(p.faces[0].normal) - n * (1 / norm(n)))), 0, 2e-9);
+      check(*part.polytope);
     }
-  } check;
+    const Check& check;
+  } visitor(check);
   Dice dice;
   const auto mesh = built(random_triangles(dice, 200, 500, 10).def());
-  mesh->visit_parts(mesh->bounds(), check);
+  mesh->visit_parts(mesh->bounds(), visitor);
+}
+
+TEST(Mesh, ShowsTrianglesAsPolytopesOfTwoFaces) {
+  for_random_triangles([](const geometry::Polytope& p) {
+    ASSERT_EQ(p.vertices.size(), 3U);
+    ASSERT_EQ(p.faces.size(), 2U);
+    ASSERT_EQ(p.edges.size(), 6U);
+  });
+}
+
+TEST(Mesh, EdgesOfAShownTriangleHaveTheirTwinOnTheOtherFace) {
+  for_random_triangles([](const geometry::Polytope& p) {
+    for (std::uint16_t e = 0; e < 6; ++e) {
+      const geometry::HalfEdge& edge = p.edges[e];
+      const geometry::HalfEdge& twin = p.edges[edge.twin];
+      EXPECT_EQ(twin.twin, e);
+      EXPECT_NE(twin.face, edge.face);
+      EXPECT_EQ(p.edges[next_edge(p, e)].origin, twin.origin);
+    }
+  });
+}
+
+TEST(Mesh, FacesOfAShownTriangleLieAsHighAsItsHighestVertex) {
+  for_random_triangles([](const geometry::Polytope& p) {
+    for (const geometry::PolytopeFace& face : p.faces) {
+      std::int64_t greatest = std::numeric_limits<std::int64_t>::min();
+      for (const Vec3<Length>& v : p.vertices)
+        greatest = std::max(greatest, dot(face.normal, v).raw);
+      EXPECT_EQ(face.offset, greatest);
+    }
+  });
+}
+
+TEST(Mesh, TheFirstFaceOfAShownTriangleHasItsNormal) {
+  for_random_triangles([](const geometry::Polytope& p) {
+    const RealVec a = real(p.vertices[0]);
+    const RealVec n = cross(real(p.vertices[1]) - a, real(p.vertices[2]) - a);
+    EXPECT_NEAR(static_cast<double>(norm(real(p.faces[0].normal) - n * (1 / norm(n)))), 0, 2e-9);
+  });
 }
 
 }  // namespace

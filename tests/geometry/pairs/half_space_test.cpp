@@ -184,46 +184,75 @@ RealRayHit reference_ray(const RealSolid& solid, const RealVec& o, const RealVec
   return {true, std::max<Real>(enter, 0)};
 }
 
-TEST(RayPolytope, AgreesWithPlanesInLongDouble) {
-  Dice dice;
-  int hits = 0;
-  for (int i = 0; i < 5000; ++i) {
+// A ray at a random polytope, and where it meets one a little smaller and one a little larger.
+struct PolytopeRay {
+  explicit PolytopeRay(Dice& dice) {
     const double size = std::exp(dice.uniform(std::log(0.01), std::log(500)));
     const auto polytope = random_polytope(dice, size);
     const PosedShape posed{
         {ShapeKind::hull, {}, {1}}, to_matrix(dice.orientation()), &polytope->view()};
-    const RealSolid solid = real_solid(posed, {});
+    solid = real_solid(posed, {});
     const Vec3<Length> origin = metres(dice.direction() * dice.uniform(0, 2 * size));
     const RealVec target = dice.direction() * (size * dice.uniform(0, 0.7));
-    const Vec3<Length> way = metres((target - real(origin)) * dice.uniform(0.5, 1.4));
-    const ShapeRayHit found = cast_ray(posed, origin, way);
-    const Real slack = 4e-6L + 4e-9L * size;
-    const RealRayHit small = reference_ray(solid, real(origin), real(way), -slack);
-    const RealRayHit large = reference_ray(solid, real(origin), real(way), slack);
-    const bool at_an_end = small.fraction < 1e-6L || small.fraction > 1 - 1e-6L;
-    if (small.hit && !(solid.faces.size() == 2 && at_an_end)) {
-      ASSERT_TRUE(found.hit);
+    const Vec3<Length> translation = metres((target - real(origin)) * dice.uniform(0.5, 1.4));
+    found = cast_ray(posed, origin, translation);
+    way = real(translation);
+    slack = 4e-6L + 4e-9L * size;
+    small = reference_ray(solid, real(origin), way, -slack);
+    large = reference_ray(solid, real(origin), way, slack);
+  }
+
+  [[nodiscard]] bool is_flat() const { return solid.faces.size() == 2; }
+  [[nodiscard]] bool ends_at_the_surface() const {
+    return small.fraction < 1e-6L || small.fraction > 1 - 1e-6L;
+  }
+
+  RealSolid solid;
+  RealVec way;
+  Real slack;
+  ShapeRayHit found;
+  RealRayHit small, large;
+};
+
+TEST(RayPolytope, HitsWherePlanesInLongDoubleSaySo) {
+  Dice dice;
+  int hits = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const PolytopeRay ray(dice);
+    hits += ray.found.hit ? 1 : 0;
+    if (ray.small.hit && !(ray.is_flat() && ray.ends_at_the_surface())) {
+      ASSERT_TRUE(ray.found.hit);
     }
-    if (!large.hit) {
-      ASSERT_FALSE(found.hit);
+    if (!ray.large.hit) {
+      ASSERT_FALSE(ray.found.hit);
     }
-    if (!found.hit) continue;
-    ++hits;
-    if (solid.faces.size() == 2) {
-      const Real rise = std::fabs(dot(real(way), solid.normals[0]));
-      ASSERT_NEAR(static_cast<double>(real(found.fraction) * rise),
-                  static_cast<double>(large.fraction * rise), static_cast<double>(2 * slack));
-      continue;
-    }
-    ASSERT_GE(static_cast<double>(real(found.fraction)),
-              static_cast<double>(large.fraction) - 1e-8);
-    if (small.hit) {
-      ASSERT_LE(static_cast<double>(real(found.fraction)),
-                static_cast<double>(small.fraction) + 1e-8);
-    }
-    EXPECT_EQ(found.fraction.raw == 0, found.normal == Vec3<Unit>{});
   }
   EXPECT_GT(hits, 1000);
+}
+
+TEST(RayPolytope, EntersASolidBetweenASmallerAndALargerOne) {
+  Dice dice;
+  for (int i = 0; i < 5000; ++i) {
+    const PolytopeRay ray(dice);
+    if (!ray.found.hit || ray.is_flat()) continue;
+    const auto fraction = static_cast<double>(real(ray.found.fraction));
+    ASSERT_GE(fraction, static_cast<double>(ray.large.fraction) - 1e-8);
+    if (ray.small.hit) {
+      ASSERT_LE(fraction, static_cast<double>(ray.small.fraction) + 1e-8);
+    }
+    EXPECT_EQ(ray.found.fraction.raw == 0, ray.found.normal == Vec3<Unit>{});
+  }
+}
+
+TEST(RayPolytope, MeetsAFlatOneAtItsPlane) {
+  Dice dice;
+  for (int i = 0; i < 5000; ++i) {
+    const PolytopeRay ray(dice);
+    if (!ray.found.hit || !ray.is_flat()) continue;
+    const Real rise = std::fabs(dot(ray.way, ray.solid.normals[0]));
+    ASSERT_NEAR(static_cast<double>(real(ray.found.fraction) * rise),
+                static_cast<double>(ray.large.fraction * rise), static_cast<double>(2 * ray.slack));
+  }
 }
 
 TEST(RayPolytope, MeetsATriangleWithinItsEdgesAndAOneSidedOneFromTheFront) {

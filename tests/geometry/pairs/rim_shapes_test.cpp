@@ -132,39 +132,70 @@ TEST(RimShapes, AreWithinTheirBoundsAndNearlyTouchThem) {
   }
 }
 
-TEST(RimShapes, RaysEnterWhereTheSurfaceIs) {
-  Dice dice;
-  int hits = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Shape shape = random_rim_shape(dice, 0.05, 20);
+// A ray at a random cylinder or cone, in the shape's frame.
+struct RimRay {
+  explicit RimRay(Dice& dice) : shape(random_rim_shape(dice, 0.05, 20)), rims(shape) {
     const Mat3 rotation = to_matrix(dice.orientation());
     const Real size = real(bounding_radius(shape));
     const RealVec from = dice.direction() * (size * static_cast<Real>(dice.uniform(0.1, 4)));
     const RealVec to = dice.direction() * (size * static_cast<Real>(dice.uniform(0, 1)));
     const Vec3<Length> origin = metres(from), way = metres((to - from) * 2);
-    const ShapeRayHit hit = cast_ray(shape, rotation, origin, way);
-    const RealRims rims(shape);
-    const RealVec start = in_frame(rotation, real(origin)), step = in_frame(rotation, real(way));
-    const Real slack = 4 * k_micrometre + size * 1e-8L;
-    if (!hit.hit) {
-      for (int k = 0; k <= 64; ++k)
-        ASSERT_GT(rims.beyond(start + step * (Real{1} * k / 64)), -slack) << describe(shape);
-      continue;
-    }
+    hit = cast_ray(shape, rotation, origin, way);
+    start = in_frame(rotation, real(origin));
+    step = in_frame(rotation, real(way));
+    normal = in_frame(rotation, real(hit.normal));
+    slack = 4 * k_micrometre + size * 1e-8L;
+  }
+
+  [[nodiscard]] RealVec at(Real fraction) const { return start + step * fraction; }
+  /// Of the hit.
+  [[nodiscard]] Real fraction() const { return real(hit.fraction); }
+  [[nodiscard]] bool begins_inside() const { return hit.hit && hit.fraction == Unit{}; }
+
+  Shape shape;
+  RealRims rims;
+  ShapeRayHit hit;
+  RealVec start, step, normal;
+  Real slack;
+};
+
+TEST(RimShapes, RaysThatMissStayOutside) {
+  Dice dice;
+  for (int i = 0; i < 20000; ++i) {
+    const RimRay ray(dice);
+    for (int k = 0; k <= 64 && !ray.hit.hit; ++k)
+      ASSERT_GT(ray.rims.beyond(ray.at(Real{1} * k / 64)), -ray.slack) << describe(ray.shape);
+  }
+}
+
+TEST(RimShapes, RaysEnterWhereTheSurfaceIs) {
+  Dice dice;
+  int hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const RimRay ray(dice);
+    if (!ray.hit.hit) continue;
     ++hits;
-    const Real f = real(hit.fraction);
-    if (hit.fraction == Unit{}) {
-      ASSERT_LE(rims.beyond(start), slack);
+    if (ray.begins_inside()) {
+      ASSERT_LE(ray.rims.beyond(ray.start), ray.slack);
       continue;
     }
-    ASSERT_LE(std::fabs(rims.beyond(start + step * f)), slack + norm(step) * 2e-9L)
-        << describe(shape);
+    const Real f = ray.fraction();
+    ASSERT_LE(std::fabs(ray.rims.beyond(ray.at(f))), ray.slack + norm(ray.step) * 2e-9L)
+        << describe(ray.shape);
     for (int k = 0; k < 32; ++k)
-      ASSERT_GT(rims.beyond(start + step * (f * k / 32)), -slack) << describe(shape);
-    const RealVec n = in_frame(rotation, real(hit.normal));
-    ASSERT_LE(rims.reach(n) - dot(n, start + step * f), slack * 20) << describe(shape);
+      ASSERT_GT(ray.rims.beyond(ray.at(f * k / 32)), -ray.slack) << describe(ray.shape);
   }
   EXPECT_GT(hits, 5000);
+}
+
+TEST(RimShapes, NormalsOfRaysAreThoseOfAPlaneThatTheShapeLiesBelow) {
+  Dice dice;
+  for (int i = 0; i < 20000; ++i) {
+    const RimRay ray(dice);
+    if (!ray.hit.hit || ray.begins_inside()) continue;
+    const Real height = dot(ray.normal, ray.at(ray.fraction()));
+    ASSERT_LE(ray.rims.reach(ray.normal) - height, ray.slack * 20) << describe(ray.shape);
+  }
 }
 
 struct RimPair {

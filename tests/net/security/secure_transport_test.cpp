@@ -79,40 +79,53 @@ struct Pair {
   std::vector<TransportEvent> server_events;
 };
 
-TEST(SecureTransport, AnswersTokensThatAreNotGoodWithTheReason) {
-  TestRandom random(8);
-  const ConnectToken good = token_for(0, random);
-  const SecureServerOptions options = server_options();
-  EXPECT_EQ(Pair().answer_to(good, options), RefuseReason::none);
+// A server and a token of its backend, which each test spoils in one way.
+class TokenAnswer : public testing::Test {
+ protected:
+  [[nodiscard]] RefuseReason answer() { return Pair().answer_to(token, server); }
 
-  ConnectToken altered = good;
-  altered.sealed[40] ^= std::byte{1};
-  EXPECT_EQ(Pair().answer_to(altered, options), RefuseReason::token_refused);
+  TestRandom random{8};
+  ConnectToken token = token_for(0, random);
+  SecureServerOptions server = server_options();
+};
 
-  SecureServerOptions other_key = options;
-  other_key.backend_key.bytes[0] ^= std::byte{1};
-  EXPECT_EQ(Pair().answer_to(good, other_key), RefuseReason::token_refused);
+TEST_F(TokenAnswer, ToAGoodTokenIsNone) {
+  EXPECT_EQ(answer(), RefuseReason::none);
+}
 
-  SecureServerOptions other_match = options;
-  ++other_match.match;
-  EXPECT_EQ(Pair().answer_to(good, other_match), RefuseReason::wrong_match);
+TEST_F(TokenAnswer, ToAnAlteredTokenIsRefusal) {
+  token.sealed[40] ^= std::byte{1};
+  EXPECT_EQ(answer(), RefuseReason::token_refused);
+}
 
-  SecureServerOptions later = options;
-  later.unix_us_at_zero += 3600 * k_second_us;
-  EXPECT_EQ(Pair().answer_to(good, later), RefuseReason::token_expired);
+TEST_F(TokenAnswer, OfAServerWithAnotherBackendKeyIsRefusal) {
+  server.backend_key.bytes[0] ^= std::byte{1};
+  EXPECT_EQ(answer(), RefuseReason::token_refused);
+}
 
-  ConnectToken longer = good;  // the client cannot write itself more time
-  longer.grant.expires_unix_s += 3600;
-  EXPECT_EQ(Pair().answer_to(longer, options), RefuseReason::token_refused);
+TEST_F(TokenAnswer, OfAnotherMatchNamesTheMatch) {
+  ++server.match;
+  EXPECT_EQ(answer(), RefuseReason::wrong_match);
+}
 
+TEST_F(TokenAnswer, AnHourLaterIsExpiry) {
+  server.unix_us_at_zero += 3600 * k_second_us;
+  EXPECT_EQ(answer(), RefuseReason::token_expired);
+}
+
+TEST_F(TokenAnswer, ToAClientThatWritesItselfMoreTimeIsRefusal) {
+  token.grant.expires_unix_s += 3600;
+  EXPECT_EQ(answer(), RefuseReason::token_refused);
+}
+
+TEST_F(TokenAnswer, DependsOnTheServersThatTheTokenNames) {
   TokenGrant grant = grant_for(0);
   ASSERT_TRUE(grant.servers.add(ServerAddress::from_text("10.0.0.1:7").value()));
-  const ConnectToken for_one = issue_token(backend_key(), grant, random).value();
-  SecureServerOptions elsewhere = options;
-  ASSERT_TRUE(elsewhere.own_addresses.add(ServerAddress::from_text("10.0.0.1:8").value()));
-  EXPECT_EQ(Pair().answer_to(for_one, elsewhere), RefuseReason::wrong_server);
-  ASSERT_TRUE(elsewhere.own_addresses.add(grant.servers.entries[0]));
-  EXPECT_EQ(Pair().answer_to(for_one, elsewhere), RefuseReason::none);
+  token = issue_token(backend_key(), grant, random).value();
+  ASSERT_TRUE(server.own_addresses.add(ServerAddress::from_text("10.0.0.1:8").value()));
+  EXPECT_EQ(answer(), RefuseReason::wrong_server);
+  ASSERT_TRUE(server.own_addresses.add(grant.servers.entries[0]));
+  EXPECT_EQ(answer(), RefuseReason::none);
 }
 
 TEST(SecureTransport, AStolenSealWithoutItsKeysDoesNotConnect) {

@@ -122,30 +122,38 @@ TEST(Push, MovesABodyNoFartherInATickThanTwiceTheSpeedLimitDoes) {
   }
 }
 
-// Everything else that adds up: velocities at their limits, gravity, belts and motors.
-TEST(Drive, OfTheGreatestSizeStaysWithinRange) {
-  Thrown thrown(Shape::box(0.1_m, 0.2_m, 0.1_m), 10);
-  World& world = thrown.world;
-  const BodyHandle ground = world.body_at(0), other = world.body_at(2);
-  const auto fast = SolverVelocity::from_integer(500);
-  const auto turning = Rate::from_integer(500);
-  JointDef motor = JointDef::of(JointKind::six_axis, thrown.body, other);
+JointDef greatest_motor(BodyHandle a, BodyHandle b) {
+  JointDef motor = JointDef::of(JointKind::six_axis, a, b);
   for (std::size_t i = 0; i < 3; ++i) {
     motor.linear[i].speed = SolverVelocity::max();
     motor.linear[i].max_effort.raw = std::int64_t{1} << 56;
     motor.angular[i].speed = Rate::min();
     motor.angular[i].max_effort.raw = std::int64_t{1} << 56;
   }
-  ASSERT_TRUE(world.create_joint(motor).ok());
-  const std::vector<Command> drives = {
-      SetSurfaceMotion{ground, {{fast, -fast, fast}, {turning, turning, -turning}}},
-      SetGravity{same(Acceleration::from_integer(1000))},
-      SetGravityScale{thrown.body, Number::from_integer(100)},
-      SetGravityScale{other, Number::from_integer(-100)},
-      SetVelocity{thrown.body, same(k_speed_limit)},
-      SetVelocity{other, same(-k_speed_limit)},
-      SetAngularVelocity{thrown.body, same(AngularVelocity::from_integer(900))},
-      SetAngularVelocity{other, same(AngularVelocity::from_integer(-900))}};
+  return motor;
+}
+
+// Gravity, a belt, and velocities of two bodies away from each other.
+std::vector<Command> greatest_drives(BodyHandle ground, BodyHandle one, BodyHandle other) {
+  const auto fast = SolverVelocity::from_integer(500);
+  const auto turning = Rate::from_integer(500);
+  return {SetSurfaceMotion{ground, {{fast, -fast, fast}, {turning, turning, -turning}}},
+          SetGravity{same(Acceleration::from_integer(1000))},
+          SetGravityScale{one, Number::from_integer(100)},
+          SetGravityScale{other, Number::from_integer(-100)},
+          SetVelocity{one, same(k_speed_limit)},
+          SetVelocity{other, same(-k_speed_limit)},
+          SetAngularVelocity{one, same(AngularVelocity::from_integer(900))},
+          SetAngularVelocity{other, same(AngularVelocity::from_integer(-900))}};
+}
+
+// Everything else that adds up: velocities at their limits, gravity, belts and motors.
+TEST(Drive, OfTheGreatestSizeStaysWithinRange) {
+  Thrown thrown(Shape::box(0.1_m, 0.2_m, 0.1_m), 10);
+  World& world = thrown.world;
+  const BodyHandle other = world.body_at(2);
+  ASSERT_TRUE(world.create_joint(greatest_motor(thrown.body, other)).ok());
+  const auto drives = greatest_drives(world.body_at(0), thrown.body, other);
   for (int tick = 0; tick < 60; ++tick) {
     for (const Command& drive : drives)
       ASSERT_EQ(world.apply(drive), Status::ok) << drive.index();

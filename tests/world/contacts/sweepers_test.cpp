@@ -230,6 +230,15 @@ struct Side {
   }
 };
 
+// Whether a body that both sides of a paddle's tick show near the same arm went through it.
+bool is_through(const Side& before, const Side& now) {
+  const auto is_at_the_arm = [](const Side& side) {
+    return !side.is_beside && side.along > 0.2 && side.along < 1.95;
+  };
+  return before.is_first_arm == now.is_first_arm && is_at_the_arm(before) && is_at_the_arm(now) &&
+         before.ahead > 0 && now.ahead < 0;
+}
+
 TEST_F(Sweepers, NothingPassesAThinPaddleThatTurns) {
   for (int run = 0; run < test::share_of(600); ++run) {
     World world = make_world();
@@ -256,10 +265,7 @@ TEST_F(Sweepers, NothingPassesAThinPaddleThatTurns) {
     for (int tick = 0; tick < 60; ++tick) {
       (void)world.step();
       const Side now(world, paddle, body);
-      const bool faces = before.is_first_arm == now.is_first_arm && !before.is_beside &&
-                         !now.is_beside && before.along < 1.95 && now.along < 1.95 &&
-                         before.along > 0.2 && now.along > 0.2;
-      ASSERT_FALSE(faces && before.ahead > 0 && now.ahead < 0)
+      ASSERT_FALSE(is_through(before, now))
           << "run " << run << " tick " << tick << " along " << now.along;
       before = now;
     }

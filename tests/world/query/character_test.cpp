@@ -123,33 +123,40 @@ TEST(Character, PushesBodiesInItsWay) {
   EXPECT_GT(metres(walk.position.x), 3);
 }
 
-// A room of random boxes: wherever it walks, it is never inside anything.
+// A room of up to 60 turned boxes; none is where the character begins.
+void fill_room(test::Random& random, Walk& walk) {
+  const auto place = [&] {
+    return Position::from_raw(random.between(-(std::int64_t{6} << 32), std::int64_t{6} << 32));
+  };
+  const auto size = [&] {
+    return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 17, 1 << 20)));
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Position x = place(), z = place();
+    // A turned box reaches 1.42 m, the character 0.3 m.
+    if (metres(abs(x)) < 1.8 && metres(abs(z)) < 1.8) continue;
+    const Length sx = size(), sy = size(), sz = size();
+    const Angle turn = Angle::from_raw(static_cast<std::int32_t>(random.between(0, 1 << 29)));
+    walk.add_box({x, {}, z}, {sx, sy, sz}, from_axis_angle({{}, Unit::from_integer(1), {}}, turn));
+  }
+}
+
+Vec3<Length> random_motion(test::Random& random) {
+  Vec3<Length> motion;
+  motion.x.raw = static_cast<std::int32_t>(random.between(-(1 << 17), 1 << 17));
+  motion.z.raw = static_cast<std::int32_t>(random.between(-(1 << 17), 1 << 17));
+  motion.y.raw = -(1 << 14);
+  return motion;
+}
+
 TEST(Character, NeverEndsInsideAnything) {
   test::Random random(test::run_seed());
   for (int run = 0; run < 20; ++run) {
     Walk walk;
-    for (int i = 0; i < 60; ++i) {
-      const auto place = [&] {
-        return Position::from_raw(random.between(-(std::int64_t{6} << 32), std::int64_t{6} << 32));
-      };
-      const Position x = place(), z = place();
-      // A turned box reaches 1.42 m, the character .3 m: none is where it begins.
-      if (metres(abs(x)) < 1.8 && metres(abs(z)) < 1.8) continue;
-      const auto size = [&] {
-        return Length::from_raw(static_cast<std::int32_t>(random.between(1 << 17, 1 << 20)));
-      };
-      const Length sx = size(), sy = size(), sz = size();
-      const Angle turn = Angle::from_raw(static_cast<std::int32_t>(random.between(0, 1 << 29)));
-      walk.add_box({x, {}, z}, {sx, sy, sz},
-                   from_axis_angle({{}, Unit::from_integer(1), {}}, turn));
-    }
+    fill_room(random, walk);
     Vec3<Length> motion;
     for (int tick = 0; tick < 200; ++tick) {
-      if (tick % 20 == 0) {
-        motion.x.raw = static_cast<std::int32_t>(random.between(-(1 << 17), 1 << 17));
-        motion.z.raw = static_cast<std::int32_t>(random.between(-(1 << 17), 1 << 17));
-        motion.y.raw = -(1 << 14);
-      }
+      if (tick % 20 == 0) motion = random_motion(random);
       walk.go(motion, 1);
       BodyHandle found[4];
       const Shape inner = Shape::capsule(walk.def.half_height, walk.def.radius - 0.001_m);

@@ -132,50 +132,64 @@ TEST(Queries, AnswerTheSameFromBothBroadPhases) {
   EXPECT_GT(hits, 0);
 }
 
-// Asked by two threads at once, and each by itself.
-TEST(Queries, InBatchesAnswerAsOneByOne) {
+Vec3<Position> random_place(test::Random& random) {
+  const auto place = [&] { return Position::from_ratio(random.between(-500, 500), 100); };
+  const Position x = place(), y = place(), z = place();
+  return {x, y, z};
+}
+
+Vec3<Length> random_way(test::Random& random) {
+  const auto reach = [&] { return Length::from_ratio(random.between(-800, 800), 100); };
+  const Length x = reach(), y = reach(), z = reach();
+  return {x, y, z};
+}
+
+// Asked by two threads at once, and each ray by itself.
+TEST(Queries, OfManyRaysAnswerAsOneByOne) {
   const World world = world_in_motion(BroadPhaseKind::tree);
   test::Random random;
   std::vector<Ray> rays(300);
-  std::vector<ShapeCast> casts(100);
-  const auto place = [&] { return Position::from_ratio(random.between(-500, 500), 100); };
-  const auto reach = [&] { return Length::from_ratio(random.between(-800, 800), 100); };
   for (Ray& ray : rays) {
-    for (int i = 0; i < 3; ++i) {
-      ray.origin[i] = place();
-      ray.translation[i] = reach();
-    }
+    ray.origin = random_place(random);
+    ray.translation = random_way(random);
   }
-  for (ShapeCast& cast : casts) {
-    cast.shape = Shape::box(0.1_m, 0.3_m, 0.2_m);
-    for (int i = 0; i < 3; ++i) {
-      cast.start.position[i] = place();
-      cast.translation[i] = reach();
-    }
-  }
-  std::vector<RayHit> rays_met(rays.size()), again(rays.size());
-  std::vector<ShapeHit> casts_met(casts.size());
+  std::vector<RayHit> met(rays.size()), again(rays.size());
   std::thread other([&] { world.cast_rays(rays, again); });
-  world.cast_rays(rays, rays_met);
-  world.cast_shapes(casts, casts_met);
+  world.cast_rays(rays, met);
   other.join();
   int hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RayHit one = world.cast_ray(rays[i].origin, rays[i].translation);
     hits += one.body.is_null() ? 0 : 1;
-    for (const RayHit& met : {rays_met[i], again[i]}) {
-      ASSERT_EQ(met.body, one.body);
-      ASSERT_EQ(met.fraction, one.fraction);
-      ASSERT_EQ(met.point, one.point);
+    for (const RayHit& hit : {met[i], again[i]}) {
+      ASSERT_EQ(hit.body, one.body);
+      ASSERT_EQ(hit.fraction, one.fraction);
+      ASSERT_EQ(hit.point, one.point);
     }
   }
   EXPECT_GT(hits, 0);
+}
+
+TEST(Queries, OfManyCastsAnswerAsOneByOne) {
+  const World world = world_in_motion(BroadPhaseKind::tree);
+  test::Random random;
+  std::vector<ShapeCast> casts(100);
+  for (ShapeCast& cast : casts) {
+    cast.shape = Shape::box(0.1_m, 0.3_m, 0.2_m);
+    cast.start.position = random_place(random);
+    cast.translation = random_way(random);
+  }
+  std::vector<ShapeHit> met(casts.size());
+  world.cast_shapes(casts, met);
+  int hits = 0;
   for (std::size_t i = 0; i < casts.size(); ++i) {
     const ShapeHit one = world.cast_shape(casts[i]);
-    ASSERT_EQ(casts_met[i].body, one.body);
-    ASSERT_EQ(casts_met[i].fraction, one.fraction);
-    ASSERT_EQ(casts_met[i].point, one.point);
+    hits += one.body.is_null() ? 0 : 1;
+    ASSERT_EQ(met[i].body, one.body);
+    ASSERT_EQ(met[i].fraction, one.fraction);
+    ASSERT_EQ(met[i].point, one.point);
   }
+  EXPECT_GT(hits, 0);
 }
 
 World world_of_three() {
