@@ -111,7 +111,8 @@ bool shows_base(const Sizes& size, const Vec3<Unit>& n) {
 Vec3<Unit> cone_face_along(const Sizes& size, const Vec3<Unit>& axis) {
   if (shows_base(size, axis)) return -Mat3{}.y;
   const SideNormal side = cone_side(size);
-  const Vec3<Unit> flat = direction_of(axis.x.raw, 0, axis.z.raw);
+  Vec3<Unit> flat = direction_of(axis.x.raw, 0, axis.z.raw);
+  if (flat == Vec3<Unit>{}) flat.x = Unit::from_integer(1);  // at the apex all sides are alike
   return {rounded<Unit>(flat.x * side.out), side.up, rounded<Unit>(flat.z * side.out)};
 }
 

@@ -3,6 +3,7 @@
 #include "core/geometry/dispatch/raycast.h"
 #include "core/geometry/distance/epa/epa.h"
 #include "core/geometry/distance/gjk/gjk.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/distance/motion/shape_cast.h"
 #include "tests/geometry/scene.h"
 
@@ -195,6 +196,19 @@ TEST(RimShapes, NormalsOfRaysAreThoseOfAPlaneThatTheShapeLiesBelow) {
     if (!ray.hit.hit || ray.begins_inside()) continue;
     const Real height = dot(ray.normal, ray.at(ray.fraction()));
     ASSERT_LE(ray.rims.reach(ray.normal) - height, ray.slack * 20) << describe(ray.shape);
+  }
+}
+
+// Also along the axis, where no side is nearer than the others.
+TEST(RimShapes, FacesHaveUnitNormals) {
+  Dice dice;
+  for (int i = 0; i < 2000; ++i) {
+    const Shape shape = random_rim_shape(dice, 0.05, 20);
+    const auto is_unit = [&](const Vec3<Unit>& axis) {
+      return geometry::is_unit(geometry::traits_of(shape).face_along(shape.size, axis));
+    };
+    ASSERT_TRUE(is_unit(Mat3{}.y) && is_unit(-Mat3{}.y)) << describe(shape);
+    ASSERT_TRUE(is_unit(to_matrix(dice.orientation()).x)) << describe(shape);
   }
 }
 
