@@ -57,7 +57,7 @@ Manifold sphere_inside_box(const PosedShape& box, const RawVec& centre, Length r
   manifold.normal = unit_axis(signed_axis(box.rotation.column(face.axis), face.sign));
   RawVec on_box = centre;
   on_box[face.axis] -= face.sign * face.distance;
-  LKS_ASSERT(is_unit(manifold.normal) && face.distance <= 0);
+  LKS_ASSERT(is_unit(manifold.normal) && face.axis >= 0 && face.axis < 3);
   const RawVec on_sphere = fine(offset) - along(manifold.normal, radius);
   add_round_point(manifold, {rotate(box.rotation, on_box), on_sphere}, offset,
                   face.distance - fine(radius), margin, 0);
