@@ -122,7 +122,7 @@ const ProximalKernels& proximal_kernels() {
   return *current().proximal;
 }
 
-void solve_contact_rows(std::span<RowBody> bodies, std::span<ContactBlock> blocks) {
+void solve_contact_rows(std::span<BodyVelocity> bodies, std::span<ContactBlock> blocks) {
   current().solve_contact_rows(bodies.data(), blocks.data(), blocks.size());
 }
 

@@ -14,7 +14,7 @@ StepReport World::Impl::step() {
   solve_contacts(report);
   mover.run(report);
   continuous.run(report);
-  mover.renew_contact_poses();
+  mover.renew_recycling_poses();
   refresh_moved();
   find_events();
   joint_registry.mark_awake();

@@ -204,7 +204,7 @@ bool World::touching(BodyHandle a, BodyHandle b) const {
     return same && contact.is_touching();
   };
   bool found = std::ranges::any_of(impl_->contacts.active(), is_theirs);
-  impl_->contacts.frozen().for_each_of(
+  impl_->contacts.sleeping().for_each_of(
       a.index, [&](const ContactRecord& contact) { found = found || is_theirs(contact); });
   return found;
 }

@@ -20,9 +20,9 @@ class RateLimit {
     last_us_ = now_us;
     // Longer than this fills any bucket.
     room_ = std::min(full_, room_ + std::min(passed_us, k_longest_us) * per_second_);
-    const std::uint64_t price = std::uint64_t{units} * k_second_us;
-    if (price > room_) return false;
-    room_ -= price;
+    const std::uint64_t cost = std::uint64_t{units} * k_second_us;
+    if (cost > room_) return false;
+    room_ -= cost;
     return true;
   }
 

@@ -18,15 +18,15 @@ class OffenderList {
 
   OffenderList() { entries_.reserve(k_capacity); }
 
-  [[nodiscard]] bool is_barred(const PeerIdentity& who, std::uint8_t slot) const {
+  [[nodiscard]] bool is_banned(const PeerIdentity& who, std::uint8_t slot) const {
     const Entry* entry = find(key_of(who, slot));
-    return entry != nullptr && entry->barred;
+    return entry != nullptr && entry->banned;
   }
   [[nodiscard]] bool was_resynced(const PeerIdentity& who, std::uint8_t slot) const {
     const Entry* entry = find(key_of(who, slot));
     return entry != nullptr && entry->resynced;
   }
-  void bar(const PeerIdentity& who, std::uint8_t slot) { entry_of(who, slot).barred = true; }
+  void ban(const PeerIdentity& who, std::uint8_t slot) { entry_of(who, slot).banned = true; }
   void note_resync(const PeerIdentity& who, std::uint8_t slot) {
     entry_of(who, slot).resynced = true;
   }
@@ -40,7 +40,7 @@ class OffenderList {
   };
   struct Entry {
     Key key;
-    bool barred = false;
+    bool banned = false;
     bool resynced = false;
   };
 

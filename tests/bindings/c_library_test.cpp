@@ -40,53 +40,70 @@ TEST(CLibrary, ItsVersionsAreThoseOfTheCore) {
   EXPECT_STREQ(lks_version(), LOCKSTONE_VERSION);
 }
 
-TEST(CLibrary, EnumeratorsHaveTheNumbersOfTheCore) {
-  const auto same = [](int number, auto enumerator) {
-    EXPECT_EQ(number, static_cast<int>(enumerator)) << to_string(enumerator);
-  };
+template <class Enumerator>
+void expect_same(int number, Enumerator enumerator) {
+  EXPECT_EQ(number, static_cast<int>(enumerator)) << to_string(enumerator);
+}
+
+TEST(CLibrary, StatusesHaveTheNamesOfTheCore) {
   for (int i = LKS_OK; i <= LKS_NOT_FOUND; ++i)
     EXPECT_EQ(lks_status_name(i), std::string(to_string(static_cast<Status>(i))));
-  same(LKS_CAPSULE, ShapeKind::capsule);
-  same(LKS_BOX, ShapeKind::box);
-  same(LKS_HULL, ShapeKind::hull);
-  same(LKS_HALF_SPACE, ShapeKind::half_space);
-  same(LKS_MESH, ShapeKind::mesh);
-  same(LKS_HEIGHT_FIELD, ShapeKind::height_field);
-  same(LKS_COMPOUND, ShapeKind::compound);
-  same(LKS_CYLINDER, ShapeKind::cylinder);
-  same(LKS_CONE, ShapeKind::cone);
-  same(LKS_STATIC, MotionType::static_body);
-  same(LKS_KINEMATIC, MotionType::kinematic);
-  same(LKS_DYNAMIC, MotionType::dynamic);
-  same(LKS_FRAME_BODY, Frame::body);
-  same(LKS_COMBINE_AVERAGE, CombineRule::average);
-  same(LKS_COMBINE_GEOMETRIC_MEAN, CombineRule::geometric_mean);
-  same(LKS_COMBINE_MINIMUM, CombineRule::minimum);
-  same(LKS_COMBINE_MULTIPLY, CombineRule::multiply);
-  same(LKS_COMBINE_MAXIMUM, CombineRule::maximum);
-  same(LKS_JOINT_DISTANCE, JointKind::distance);
-  same(LKS_JOINT_BALL, JointKind::ball);
-  same(LKS_JOINT_HINGE, JointKind::hinge);
-  same(LKS_JOINT_SLIDER, JointKind::slider);
-  same(LKS_JOINT_WELD, JointKind::weld);
-  same(LKS_JOINT_WHEEL, JointKind::wheel);
-  same(LKS_JOINT_MOTOR, JointKind::motor);
-  same(LKS_JOINT_SIX_AXIS, JointKind::six_axis);
-  same(LKS_JOINT_PULLEY, JointKind::pulley);
-  same(LKS_JOINT_GEAR, JointKind::gear);
-  same(LKS_JOINT_RACK, JointKind::rack);
-  same(LKS_AXIS_LOCKED, AxisMode::locked);
-  same(LKS_AXIS_FREE, AxisMode::free);
-  same(LKS_AXIS_LIMITED, AxisMode::limited);
-  same(LKS_CONTACT_END, EventKind::contact_end);
-  same(LKS_TRIGGER_ENTER, EventKind::trigger_enter);
-  same(LKS_TRIGGER_STAY, EventKind::trigger_stay);
-  same(LKS_TRIGGER_EXIT, EventKind::trigger_exit);
-  same(LKS_IMPACT, EventKind::impact);
-  same(LKS_SLEEP, EventKind::sleep);
-  same(LKS_LOG_DIVERGED, replay::VerifyOutcome::diverged);
-  same(LKS_LOG_CORRUPT, replay::VerifyOutcome::corrupt);
-  same(LKS_LOG_INCOMPATIBLE, replay::VerifyOutcome::incompatible);
+}
+
+TEST(CLibrary, ShapesHaveTheNumbersOfTheCore) {
+  expect_same(LKS_CAPSULE, ShapeKind::capsule);
+  expect_same(LKS_BOX, ShapeKind::box);
+  expect_same(LKS_HULL, ShapeKind::hull);
+  expect_same(LKS_HALF_SPACE, ShapeKind::half_space);
+  expect_same(LKS_MESH, ShapeKind::mesh);
+  expect_same(LKS_HEIGHT_FIELD, ShapeKind::height_field);
+  expect_same(LKS_COMPOUND, ShapeKind::compound);
+  expect_same(LKS_CYLINDER, ShapeKind::cylinder);
+  expect_same(LKS_CONE, ShapeKind::cone);
+}
+
+TEST(CLibrary, SettingsOfBodiesHaveTheNumbersOfTheCore) {
+  expect_same(LKS_STATIC, MotionType::static_body);
+  expect_same(LKS_KINEMATIC, MotionType::kinematic);
+  expect_same(LKS_DYNAMIC, MotionType::dynamic);
+  expect_same(LKS_FRAME_BODY, Frame::body);
+  expect_same(LKS_COMBINE_AVERAGE, CombineRule::average);
+  expect_same(LKS_COMBINE_GEOMETRIC_MEAN, CombineRule::geometric_mean);
+  expect_same(LKS_COMBINE_MINIMUM, CombineRule::minimum);
+  expect_same(LKS_COMBINE_MULTIPLY, CombineRule::multiply);
+  expect_same(LKS_COMBINE_MAXIMUM, CombineRule::maximum);
+}
+
+TEST(CLibrary, JointsHaveTheNumbersOfTheCore) {
+  expect_same(LKS_JOINT_DISTANCE, JointKind::distance);
+  expect_same(LKS_JOINT_BALL, JointKind::ball);
+  expect_same(LKS_JOINT_HINGE, JointKind::hinge);
+  expect_same(LKS_JOINT_SLIDER, JointKind::slider);
+  expect_same(LKS_JOINT_WELD, JointKind::weld);
+  expect_same(LKS_JOINT_WHEEL, JointKind::wheel);
+  expect_same(LKS_JOINT_MOTOR, JointKind::motor);
+  expect_same(LKS_JOINT_SIX_AXIS, JointKind::six_axis);
+  expect_same(LKS_JOINT_PULLEY, JointKind::pulley);
+  expect_same(LKS_JOINT_GEAR, JointKind::gear);
+  expect_same(LKS_JOINT_RACK, JointKind::rack);
+  expect_same(LKS_AXIS_LOCKED, AxisMode::locked);
+  expect_same(LKS_AXIS_FREE, AxisMode::free);
+  expect_same(LKS_AXIS_LIMITED, AxisMode::limited);
+}
+
+TEST(CLibrary, EventsHaveTheNumbersOfTheCore) {
+  expect_same(LKS_CONTACT_END, EventKind::contact_end);
+  expect_same(LKS_TRIGGER_ENTER, EventKind::trigger_enter);
+  expect_same(LKS_TRIGGER_STAY, EventKind::trigger_stay);
+  expect_same(LKS_TRIGGER_EXIT, EventKind::trigger_exit);
+  expect_same(LKS_IMPACT, EventKind::impact);
+  expect_same(LKS_SLEEP, EventKind::sleep);
+}
+
+TEST(CLibrary, OutcomesOfVerifyingHaveTheNumbersOfTheLibrary) {
+  expect_same(LKS_LOG_DIVERGED, replay::VerifyOutcome::diverged);
+  expect_same(LKS_LOG_CORRUPT, replay::VerifyOutcome::corrupt);
+  expect_same(LKS_LOG_INCOMPATIBLE, replay::VerifyOutcome::incompatible);
 }
 
 TEST(CLibrary, WholeNumbersConvertAsRatiosOfTheCore) {

@@ -50,9 +50,14 @@ TEST_F(CommandsThroughC, PushesGiveTheSameState) {
                 lks_apply_torque(twin_, box, &raw_torque, f), "torque");
     step(20);
   }
+}
+
+TEST_F(CommandsThroughC, APushFarFromTheBodyIsRefusedAlike) {
+  const lks_i64x3 impulse = c::raw_of(k_impulse);
   const lks_i32x3 far{INT32_MAX, 0, 0};
   expect_same(world_->apply(ApplyImpulseAt{box_, k_impulse, {Length::max(), {}, {}}, Frame::world}),
-              lks_apply_impulse_at(twin_, box, &impulse, &far, LKS_FRAME_WORLD), "too far");
+              lks_apply_impulse_at(twin_, c::id_of(box_), &impulse, &far, LKS_FRAME_WORLD),
+              "too far");
 }
 
 TEST_F(CommandsThroughC, MotionsGiveTheSameState) {
@@ -108,6 +113,21 @@ TEST_F(CommandsThroughC, SettingsGiveTheSameState) {
   expect_same(world_->apply(SetAllowSleep{box_, false}), lks_set_allow_sleep(twin_, box, 0),
               "allow sleep");
   step(20);
+}
+
+TEST_F(CommandsThroughC, AViewShowsTheBodyAsTheCoreDoes) {
+  const Surface surface{
+      0.9_r, 0.25_r, 0.01_r, CombineRule::minimum, CombineRule::average, CombineRule::multiply, 77};
+  const lks_surface raw_surface = c::raw_of(surface);
+  const lks_body box = c::id_of(box_);
+  expect_same(world_->apply(SetMaterial{box_, surface}), lks_set_material(twin_, box, &raw_surface),
+              "material");
+  expect_same(world_->apply(SetAxisLocks{box_, {.move_z = true, .turn_x = true}}),
+              lks_set_axis_locks(twin_, box, LKS_LOCK_MOVE_Z | LKS_LOCK_TURN_X), "locks");
+  expect_same(world_->apply(SetUserData{box_, 1234}), lks_set_user_data(twin_, box, 1234), "data");
+  expect_same(world_->apply(SetAllowSleep{box_, false}), lks_set_allow_sleep(twin_, box, 0),
+              "allow sleep");
+  step(20);
   const BodyView view = world_->body(box_);
   lks_body_view raw{};
   raw.size = sizeof raw;
@@ -133,7 +153,9 @@ TEST_F(CommandsThroughC, SleepAndGravityGiveTheSameState) {
   step(5);
 }
 
-TEST_F(CommandsThroughC, ABodyOfEveryFieldIsTheSame) {
+// A definition whose every field has another value than the default, except for those of triggers
+// and of static bodies.
+BodyDef full_body_def() {
   BodyDef def{.motion = MotionType::dynamic, .shape = Shape::box(0.5_m, 0.5_m, 0.5_m)};
   def.position = {-5_m, 4_m, 0_m};
   def.orientation = from_axis_angle({{}, {}, Unit::from_integer(1)}, 20_deg);
@@ -157,8 +179,13 @@ TEST_F(CommandsThroughC, ABodyOfEveryFieldIsTheSame) {
   def.speed_limit = {40_mps, AngularVelocity::from_integer(20)};
   def.allow_sleep = false;
   def.user_data = 42;
+  return def;
+}
+
+// The same for C.
+lks_body_def full_raw_def(const BodyDef& def) {
   lks_body_def raw;
-  ASSERT_EQ(lks_body_def_init(&raw, sizeof raw), LKS_OK);
+  EXPECT_EQ(lks_body_def_init(&raw, sizeof raw), LKS_OK);
   raw.shape = c::raw_of(def.shape);
   raw.position = c::raw_of(def.position);
   raw.orientation = c::raw_of(def.orientation);
@@ -175,7 +202,18 @@ TEST_F(CommandsThroughC, ABodyOfEveryFieldIsTheSame) {
   raw.speed_limit = def.speed_limit.linear.raw;
   raw.angular_speed_limit = def.speed_limit.angular.raw;
   raw.user_data = 42;
-  add(def, raw);
+  return raw;
+}
+
+TEST_F(CommandsThroughC, ABodyOfEveryFieldIsTheSame) {
+  const BodyDef def = full_body_def();
+  add(def, full_raw_def(def));
+  step(30);
+}
+
+TEST_F(CommandsThroughC, AStaticTriggerOfEveryFieldIsTheSame) {
+  BodyDef def = full_body_def();
+  lks_body_def raw = full_raw_def(def);
   def.motion = MotionType::static_body;
   def.is_trigger = true;
   def.surface_motion.velocity.x = 1_mps;
@@ -186,9 +224,16 @@ TEST_F(CommandsThroughC, ABodyOfEveryFieldIsTheSame) {
   step(30);
 }
 
-TEST_F(CommandsThroughC, JointsOfEveryKindGiveTheSameState) {
-  std::vector<JointHandle> joints;
-  for (std::uint32_t kind = LKS_JOINT_DISTANCE; kind <= LKS_JOINT_RACK; ++kind) {
+// Two bodies of their own and a joint of this kind between them.
+class JointsThroughC : public CommandsThroughC {
+ protected:
+  void SetUp() override {
+    CommandsThroughC::SetUp();
+    for (std::uint32_t kind = LKS_JOINT_DISTANCE; kind <= LKS_JOINT_RACK; ++kind)
+      add_joint(kind);
+  }
+
+  void add_joint(std::uint32_t kind) {
     const int place = 30 + 6 * static_cast<int>(kind);
     const BodyHandle a = add(MotionType::dynamic, Shape::sphere(1_m), place, 10);
     const BodyHandle b = add(MotionType::dynamic, Shape::box(1_m, 0.5_m, 1_m), place + 2, 10);
@@ -215,11 +260,19 @@ TEST_F(CommandsThroughC, JointsOfEveryKindGiveTheSameState) {
     expect_same(made.status(), lks_create_joint(twin_, &raw, &id), "create joint");
     ASSERT_TRUE(made.ok()) << kind;
     EXPECT_EQ(id, c::id_of(made.value()));
-    joints.push_back(made.value());
+    joints_.push_back(made.value());
     step(3);
   }
-  ASSERT_EQ(joints.size(), 11U);
-  for (const JointHandle joint : joints) {
+
+  std::vector<JointHandle> joints_;
+};
+
+TEST_F(JointsThroughC, OfEveryKindGiveTheSameState) {
+  EXPECT_EQ(joints_.size(), 11U);
+}
+
+TEST_F(JointsThroughC, ViewsShowTheJointAsTheCoreDoes) {
+  for (const JointHandle joint : joints_) {
     const JointView view = world_->joint(joint);
     lks_joint_view raw{};
     raw.size = sizeof raw;
@@ -229,23 +282,30 @@ TEST_F(CommandsThroughC, JointsOfEveryKindGiveTheSameState) {
     EXPECT_EQ(c::vec<Force>(raw.force), view.force);
     EXPECT_EQ(raw.user_data, view.user_data);
   }
+}
+
+TEST_F(JointsThroughC, AxesAreSetAlike) {
   const LinearAxis spring{.target = 1_m, .hertz = Number::from_integer(3)};
   const lks_axis raw_spring{LKS_AXIS_FREE,        0, 0, Length(1_m).raw, 0, 3 << LKS_NUMBER_BITS,
                             1 << LKS_NUMBER_BITS, 0, 0};
   const AngularAxis motor{.speed = Rate::from_integer(2), .max_effort = 80_Nm};
   const lks_axis raw_motor{
       LKS_AXIS_FREE, 0, 0, 0, 2 << LKS_RATE_BITS, 0, 1 << LKS_NUMBER_BITS, 0, Torque(80_Nm).raw};
-  for (std::size_t i = 0; i < joints.size(); ++i) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
     const auto axis = static_cast<std::uint8_t>(i % 3);
-    const lks_joint id = c::id_of(joints[i]);
-    expect_same(world_->apply(SetLinearAxis{joints[i], axis, spring}),
+    const lks_joint id = c::id_of(joints_[i]);
+    expect_same(world_->apply(SetLinearAxis{joints_[i], axis, spring}),
                 lks_set_linear_axis(twin_, id, axis, &raw_spring), "linear axis");
-    expect_same(world_->apply(SetAngularAxis{joints[i], axis, motor}),
+    expect_same(world_->apply(SetAngularAxis{joints_[i], axis, motor}),
                 lks_set_angular_axis(twin_, id, axis, &raw_motor), "angular axis");
   }
   step(10);
-  expect_same(world_->apply(DestroyJoint{joints[0]}), lks_destroy_joint(twin_, c::id_of(joints[0])),
-              "destroy joint");
+}
+
+TEST_F(JointsThroughC, AreDestroyedAlike) {
+  expect_same(world_->apply(DestroyJoint{joints_[0]}),
+              lks_destroy_joint(twin_, c::id_of(joints_[0])), "destroy joint");
+  step(10);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <lockstone/mesh.h>
 
 #include "core/collision/narrow_phase/collide_bodies.h"
-#include "tests/geometry/asset_parts.h"
+#include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::test {
 namespace {

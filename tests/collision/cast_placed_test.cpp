@@ -11,8 +11,8 @@
 #include <lockstone/mesh.h>
 
 #include "core/collision/narrow_phase/pieces.h"
-#include "core/geometry/distance/shape_cast.h"
-#include "tests/geometry/asset_parts.h"
+#include "core/geometry/distance/motion/shape_cast.h"
+#include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <lockstone/hull.h>
 
-#include "tests/geometry/asset_parts.h"
+#include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <lockstone/literals.h>
 #include <lockstone/testing/floating.h>
 
-#include "core/geometry/distance/time_of_impact.h"
+#include "core/geometry/distance/motion/time_of_impact.h"
 #include "tests/support/random.h"
 
 namespace lockstone {

@@ -4,6 +4,7 @@
 #include "core/dynamics/problem/body_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -198,44 +199,57 @@ TEST(RowScale, MultipliesAndInvertsWithinTwoStepsOfItsMantissa) {
   }
 }
 
-// C·Cᵀ = M, also where an axis is locked.
+using RealMatrix = std::array<std::array<double, 3>, 3>;
+
+RealMatrix times_transpose(const RealMatrix& a) {
+  RealMatrix m{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k)
+        m[r][c] += a[r][k] * a[c][k];
+  return m;
+}
+
+// B·Bᵀ of a lower triangle B, so that it is positive; often an axis is locked.
+RealMatrix random_inertia(test::Random& random) {
+  RealMatrix b{};
+  const auto locked = static_cast<std::size_t>(random.between(0, 3));
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c <= r; ++c) {
+      if (r == locked || c == locked) continue;
+      const std::int64_t least = r == c ? 50 : -500;
+      b[r][c] = static_cast<double>(random.between(least, 500)) / 1000;
+    }
+  }
+  return times_transpose(b);
+}
+
+InverseInertia raw_of(const RealMatrix& m, int exponent) {
+  const auto raw = [](double x) {
+    return static_cast<std::int32_t>(std::lround(std::ldexp(x, 30)));
+  };
+  return {raw(m[0][0]), raw(m[1][1]), raw(m[2][2]), raw(m[0][1]),
+          raw(m[0][2]), raw(m[1][2]), exponent};
+}
+
+RealMatrix real(const InertiaRoot& root) {
+  RealMatrix c{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t k = 0; k < 3; ++k)
+      c[r][k] = std::ldexp(static_cast<double>(root.c[r][k]), root.shift - 30);
+  return c;
+}
+
+// C·Cᵀ = M.
 TEST(InertiaRoot, SquaredIsTheInertia) {
   test::Random random;
   for (int i = 0; i < 2000; ++i) {
-    // M = B·Bᵀ of a lower triangle B, so that it is positive.
-    double b[3][3] = {};
-    const int locked = static_cast<int>(random.between(0, 3));
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c <= r; ++c)
-        if (r != locked && c != locked)
-          b[r][c] =
-              static_cast<double>(r == c ? random.between(50, 500) : random.between(-500, 500)) /
-              1000;
-    double m[3][3] = {};
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        for (int k = 0; k < 3; ++k)
-          m[r][c] += b[r][k] * b[c][k];
-    const auto raw = [](double x) {
-      return static_cast<std::int32_t>(std::lround(std::ldexp(x, 30)));
-    };
-    InverseInertia inertia{raw(m[0][0]),
-                           raw(m[1][1]),
-                           raw(m[2][2]),
-                           raw(m[0][1]),
-                           raw(m[0][2]),
-                           raw(m[1][2]),
-                           static_cast<int>(random.between(0, 12))};
-    const InertiaRoot root = inertia_root(inertia);
-    const double scale = std::ldexp(1.0, root.shift - 30);
+    const RealMatrix m = random_inertia(random);
+    const int exponent = static_cast<int>(random.between(0, 12));
+    const RealMatrix square = times_transpose(real(inertia_root(raw_of(m, exponent))));
     for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t c = 0; c < 3; ++c) {
-        double square = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-          square +=
-              scale * scale * static_cast<double>(root.c[r][k]) * static_cast<double>(root.c[c][k]);
-        EXPECT_NEAR(std::ldexp(square, -inertia.exponent), m[r][c], 2e-5);
-      }
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(std::ldexp(square[r][c], -exponent), m[r][c], 2e-5);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/step/constraint_layout.h"
+#include "core/dynamics/step/contacts/constraint_layout.h"
 
 #include <set>
 

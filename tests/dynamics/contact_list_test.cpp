@@ -1,4 +1,4 @@
-#include "core/dynamics/step/contact_list.h"
+#include "core/dynamics/step/input/contact_list.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(ContactList, MarksNewContactsOfTwoDynamicBodiesAndBearingOnes) {
   scene.add_contact(box, lid).count = 0;
   ContactRecord& bearing = scene.add_contact(box, lid);
   bearing.count = 2;
-  bearing.load.raw = 51;
+  bearing.mean_impulse.raw = 51;
   scene.gather(100);
   EXPECT_FALSE(scene.contacts.is_new(scene.contacts[{0}]));
   EXPECT_TRUE(scene.contacts.is_new(scene.contacts[{1}]));

@@ -1,8 +1,8 @@
-#include "core/dynamics/step/effort_policy.h"
+#include "core/dynamics/step/islands/effort_policy.h"
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/step/contact_params.h"
+#include "core/dynamics/step/input/contact_params.h"
 
 namespace lockstone {
 namespace {
@@ -13,7 +13,7 @@ EffortPolicy policy(std::size_t contacts) {
 
 TEST(EffortPolicy, ConvergesIslandsUpToItsSize) {
   const EffortPolicy effort = policy(100);
-  IslandLoad island;
+  IslandTally island;
   island.bodies = 10;
   EXPECT_FALSE(effort.may_converge(island));  // no contacts: joints alone do it
   island.contacts = 60;
@@ -25,7 +25,7 @@ TEST(EffortPolicy, ConvergesIslandsUpToItsSize) {
 
 TEST(EffortPolicy, ConvergesNeitherPinchedIslandsNorThoseLeftToIterations) {
   const EffortPolicy effort = policy(100);
-  IslandLoad island;
+  IslandTally island;
   island.bodies = island.contacts = 1;
   EXPECT_TRUE(effort.may_converge(island));
   island.is_pinched = true;
@@ -36,7 +36,7 @@ TEST(EffortPolicy, ConvergesNeitherPinchedIslandsNorThoseLeftToIterations) {
 }
 
 TEST(EffortPolicy, CallsAPileLooseFromWhenAQuarterIsStirredUntilHalfIsNot) {
-  IslandLoad island;
+  IslandTally island;
   island.bodies = 100;
   island.stirred = 25;
   EXPECT_FALSE(EffortPolicy::is_loose_pile(island));
@@ -50,7 +50,7 @@ TEST(EffortPolicy, CallsAPileLooseFromWhenAQuarterIsStirredUntilHalfIsNot) {
 }
 
 TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
-  IslandLoad island;
+  IslandTally island;
   island.bodies = island.stirred = 24;
   EXPECT_TRUE(EffortPolicy::is_loose_pile(island));
   --island.bodies;
@@ -61,7 +61,7 @@ TEST(EffortPolicy, CallsNoIslandWithoutJointsLooseThatIsSmallOrUneven) {
 }
 
 TEST(EffortPolicy, CallsNoIslandWithJointsLooseThatIsSmallUnevenOrCarried) {
-  IslandLoad island;
+  IslandTally island;
   island.joints = 1;
   island.bodies = island.stirred = 8;
   island.least_share = (1 << 30) / 32;
@@ -77,7 +77,7 @@ TEST(EffortPolicy, CallsNoIslandWithJointsLooseThatIsSmallUnevenOrCarried) {
 }
 
 TEST(EffortPolicy, ConvergesNoLoosePile) {
-  IslandLoad island;
+  IslandTally island;
   island.bodies = island.contacts = 30;
   EXPECT_TRUE(policy(100).may_converge(island));
   island.is_loose = true;

@@ -1,10 +1,10 @@
-#include "core/dynamics/step/island_builder.h"
+#include "core/dynamics/step/islands/island_builder.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/dynamics/step/island_lists.h"
+#include "core/dynamics/step/islands/island_lists.h"
 #include "tests/dynamics/tick_scene.h"
 
 namespace lockstone {
@@ -35,10 +35,10 @@ TEST(IslandBuilder, CountsTheContactsOfEachIsland) {
   TickScene scene;
   make_two_islands(scene);
   scene.islands.build(scene.get(), scene.bodies, scene.contacts);
-  EXPECT_EQ(scene.islands.load(scene.contacts[{0}]).contacts, 2U);
-  EXPECT_EQ(scene.islands.load(scene.contacts[{0}]).fresh, 1U);
-  EXPECT_EQ(scene.islands.load(scene.contacts[{1}]).contacts, 1U);
-  EXPECT_EQ(scene.islands.load(scene.contacts[{1}]).fresh, 0U);
+  EXPECT_EQ(scene.islands.tally(scene.contacts[{0}]).contacts, 2U);
+  EXPECT_EQ(scene.islands.tally(scene.contacts[{0}]).fresh, 1U);
+  EXPECT_EQ(scene.islands.tally(scene.contacts[{1}]).contacts, 1U);
+  EXPECT_EQ(scene.islands.tally(scene.contacts[{1}]).fresh, 0U);
 }
 
 TEST(IslandBuilder, JoinsBodiesByJoints) {
@@ -68,8 +68,8 @@ TEST(IslandBuilder, FindsIslandsThatAMovingBodyPressesAgainstAnother) {
   TickScene moving, resting;
   make_press(moving, true);
   make_press(resting, false);
-  EXPECT_TRUE(moving.islands.load(moving.contacts[{0}]).is_pinched);
-  EXPECT_FALSE(resting.islands.load(resting.contacts[{0}]).is_pinched);
+  EXPECT_TRUE(moving.islands.tally(moving.contacts[{0}]).is_pinched);
+  EXPECT_FALSE(resting.islands.tally(resting.contacts[{0}]).is_pinched);
 }
 
 TEST(PinchedIslands, NeedAnotherBodyAndAnOppositePush) {
@@ -95,7 +95,7 @@ TEST(IslandLists, HaveTheItemsOfEachIslandInTheirOrder) {
   lists.for_contacts(island, [&](ContactId contact) { contacts.push_back(contact.value); });
   EXPECT_EQ(bodies, (std::vector<std::uint32_t>{1, 3}));
   EXPECT_EQ(contacts, (std::vector<std::uint32_t>{0, 2}));
-  EXPECT_EQ(scene.islands.load(island).bodies, 2U);
+  EXPECT_EQ(scene.islands.tally(island).bodies, 2U);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(Islands, AreNumberedByTheirLeastBodyWhateverTheOrder) {
     islands.begin(bodies);
     for (const Join& join : joins)
       islands.join(join.a, join.b);
-    islands.hold(held);
+    islands.mark_active(held);
     const std::vector<std::uint32_t> expected = roots_by_spreading(joins);
     std::uint32_t count = 0;
     for (const std::uint32_t body : bodies)
@@ -55,7 +55,7 @@ TEST(Islands, AreNumberedByTheirLeastBodyWhateverTheOrder) {
     EXPECT_EQ(islands.settle(bodies), count);
     for (const std::uint32_t body : bodies) {
       ASSERT_EQ(islands.root(body), expected[body]);
-      ASSERT_EQ(islands.is_held(body), expected[body] == expected[held]);
+      ASSERT_EQ(islands.is_active(body), expected[body] == expected[held]);
     }
   }
 }

@@ -1,6 +1,6 @@
 // Block-sparse LDL: plans without fill, solutions of random systems, rows that say the same twice.
 
-#include "core/dynamics/linkage/joint_factor.h"
+#include "core/dynamics/linkage/system/joint_factor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/joint/joint_numbers.h"
-#include "core/dynamics/linkage/cluster_energy.h"
-#include "core/dynamics/linkage/joint_drives.h"
-#include "core/dynamics/linkage/pulled_links.h"
-#include "core/dynamics/linkage/row_motion.h"
+#include "core/dynamics/linkage/rows/cluster_energy.h"
+#include "core/dynamics/linkage/rows/joint_drives.h"
+#include "core/dynamics/linkage/rows/pulled_links.h"
+#include "core/dynamics/linkage/rows/row_motion.h"
 #include "tests/dynamics/joint_scene.h"
 #include "tests/support/random.h"
 
@@ -80,7 +80,7 @@ TEST(RowMotion, ChangesOfAStageAlsoGoToTheSubstepsBeginning) {
   test::Random random(1);
   stir(scene, random);
   const std::span<const std::uint32_t> bodies = scene.system.bodies_of(scene.system.clusters[0]);
-  const std::vector<lanes::RowBody> old = scene.rows;
+  const std::vector<lanes::BodyVelocity> old = scene.rows;
   begin_pushes(scene.run(), scene.system, bodies);
   push(scene.run(), scene.system.joints[0], 0, 3, {1 << 20, 2 << 20, 3 << 20});
   end_pushes(scene.run(), scene.system, bodies);
@@ -252,7 +252,7 @@ TEST(ClusterEnergy, PathLeadsFromNotedVelocitiesToThePresentOnes) {
   EXPECT_NEAR(static_cast<double>(path.first), static_cast<double>(first), 64);
   EXPECT_NEAR(static_cast<double>(path.first + path.gain()), static_cast<double>(energy()), 64);
 
-  const std::vector<lanes::RowBody> whole = scene.rows;
+  const std::vector<lanes::BodyVelocity> whole = scene.rows;
   go_part(scene.run(), scene.system, cluster, &LinkedBody::saved_row, 1 << k_share_bits);
   EXPECT_EQ(scene.rows, whole);
   go_part(scene.run(), scene.system, cluster, &LinkedBody::saved_row, 0);

@@ -33,7 +33,7 @@ TEST(JointPlanner, ChainIsOneDirectGroup) {
   EXPECT_FALSE(group.has_solved_loops());
   EXPECT_EQ(group.count, 7U);
   EXPECT_EQ(group.body_count, 8U);
-  EXPECT_TRUE(scene.in_net.empty());
+  EXPECT_TRUE(scene.in_balls.empty());
 }
 
 TEST(JointPlanner, TreeIsEliminatedFromItsLeaves) {
@@ -107,13 +107,13 @@ TEST(JointPlanner, BallsOfManyLoopsAreLeftToTheNet) {
     if (i < 12) scene.ball(i, i + 4);
   }
   scene.plan();
-  EXPECT_EQ(scene.in_net.size(), 24U);
+  EXPECT_EQ(scene.in_balls.size(), 24U);
   EXPECT_TRUE(scene.system.clusters.empty());
 
   // One that also locks a turn is not a ball: it is a group of its own.
   scene.joints[5].modes[3] = static_cast<std::uint8_t>(AxisMode::locked);
   scene.plan();
-  EXPECT_EQ(scene.in_net.size(), 23U);
+  EXPECT_EQ(scene.in_balls.size(), 23U);
   ASSERT_EQ(scene.system.clusters.size(), 1U);
   EXPECT_EQ(scene.system.groups.size(), 1U);
   EXPECT_FALSE(scene.system.groups[0].is_direct);

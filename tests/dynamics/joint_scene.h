@@ -8,11 +8,11 @@
 #include <lockstone/joint.h>
 
 #include "core/dynamics/linkage/joint_planner.h"
-#include "core/dynamics/linkage/joint_system.h"
-#include "core/dynamics/linkage/linked_bodies.h"
-#include "core/dynamics/linkage/loop_locks.h"
-#include "core/dynamics/linkage/row_responses.h"
-#include "core/dynamics/linkage/tree_locks.h"
+#include "core/dynamics/linkage/locks/loop_locks.h"
+#include "core/dynamics/linkage/locks/tree_locks.h"
+#include "core/dynamics/linkage/rows/row_responses.h"
+#include "core/dynamics/linkage/system/joint_system.h"
+#include "core/dynamics/linkage/system/linked_bodies.h"
 
 namespace lockstone::test {
 
@@ -72,7 +72,7 @@ class JointScene {
       added.a = gather(joint.body_a);
       added.b = gather(joint.body_b);
     }
-    in_net = planner.plan(first_without_contacts);
+    in_balls = planner.plan(first_without_contacts);
     solver_bodies.resize(records.size() + 1);
     rows.resize(records.size() + 1);
     before.resize(records.size() + 1);
@@ -93,7 +93,7 @@ class JointScene {
   [[nodiscard]] JointRun run() { return {solver_bodies, rows, before, inertias, places}; }
 
   /// The velocity of a body, m/s, Q50.
-  [[nodiscard]] lanes::RowBody& row(std::uint32_t body) { return rows[body + 1]; }
+  [[nodiscard]] lanes::BodyVelocity& row(std::uint32_t body) { return rows[body + 1]; }
 
   JointSystem system;
   LinkedBodies bodies;
@@ -102,10 +102,10 @@ class JointScene {
   JointPlanner planner;
   std::deque<BodyRecord> records;
   std::deque<JointRecord> joints;
-  std::span<const std::uint32_t> in_net;
+  std::span<const std::uint32_t> in_balls;
   std::vector<SolverBody> solver_bodies;
-  std::vector<lanes::RowBody> rows, before;
-  std::vector<lanes::SourceBody> inertias;
+  std::vector<lanes::BodyVelocity> rows, before;
+  std::vector<lanes::BodyInertia> inertias;
   std::vector<lanes::BodyPlace> places;
 
  private:

@@ -138,8 +138,8 @@ TEST(PivotIntegrator, TakesForcesForGravity) {
   for (int tick = 0; tick < 120; ++tick) {
     add_gain(pulled.body, {{{}, Velocity::from_ratio(-981, 6000), {}}, {}});
     pulled.go();
-    pulled.body.note_a = pulled.body.note_b = {};
-    pulled.body.note_c = {};
+    pulled.body.union_a = pulled.body.union_b = {};
+    pulled.body.union_c = {};
     pulled.body.flags = 0;
     falling.go();
   }

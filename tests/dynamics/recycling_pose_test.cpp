@@ -1,4 +1,4 @@
-// Contacts of bodies that hardly move: how far they may drift, and how separations follow.
+// Contacts of bodies that hardly move: how far they may move, and how separations follow.
 
 #include "core/dynamics/contact/recycling_pose.h"
 
@@ -26,7 +26,7 @@ BodyRecord random_box(Dice& dice) {
   body.shape_kind = static_cast<std::uint8_t>(ShapeKind::box);
   body.size = metres(dice.uniform(0.2, 0.6), dice.uniform(0.2, 0.6), dice.uniform(0.2, 0.6));
   body.orientation = dice.orientation();
-  set_contact_pose(body);
+  set_recycling_pose(body);
   return body;
 }
 
@@ -53,32 +53,32 @@ TEST(RecyclingPose, IsNearWithinTheFinestDistance) {
   Dice dice;
   for (int round = 0; round < 2000; ++round) {
     const BodyRecord still = random_box(dice);
-    EXPECT_TRUE(is_near_contact_pose(still));
-    EXPECT_TRUE(drift_of(still).is_none());
+    EXPECT_TRUE(is_near_recycling_pose(still));
+    EXPECT_TRUE(pose_delta_of(still).is_none());
     BodyRecord body = still;
     move(dice, 0.99 * k_hair, 0.99 * k_hair, body);
-    EXPECT_TRUE(is_near_contact_pose(body));
+    EXPECT_TRUE(is_near_recycling_pose(body));
     BodyRecord far = still;
     move(dice, 1.01 * k_hair, 0, far);
-    EXPECT_FALSE(is_near_contact_pose(far));
+    EXPECT_FALSE(is_near_recycling_pose(far));
     BodyRecord turned = still;
     move(dice, 0, 1.01 * k_hair, turned);
-    EXPECT_FALSE(is_near_contact_pose(turned));
-    set_contact_pose(turned);
-    EXPECT_TRUE(is_near_contact_pose(turned));
+    EXPECT_FALSE(is_near_recycling_pose(turned));
+    set_recycling_pose(turned);
+    EXPECT_TRUE(is_near_recycling_pose(turned));
   }
 }
 
 // Large stacks, which are rebalanced, follow more closely.
 TEST(RecyclingPose, IsNearWithinAsMuchAsAsked) {
   Dice dice;
-  for (const int drift : {k_fine_drift, k_coarse_drift}) {
-    const double most = std::ldexp(1.0, drift);
+  for (const int delta : {k_fine_delta, k_coarse_delta}) {
+    const double most = std::ldexp(1.0, delta);
     BodyRecord near = random_box(dice), far = near;
     move(dice, 0.99 * most, 0.99 * most, near);
-    EXPECT_TRUE(is_near_contact_pose(near, drift));
+    EXPECT_TRUE(is_near_recycling_pose(near, delta));
     move(dice, 1.01 * most, 0, far);
-    EXPECT_FALSE(is_near_contact_pose(far, drift));
+    EXPECT_FALSE(is_near_recycling_pose(far, delta));
   }
 }
 
@@ -93,50 +93,60 @@ TEST(RecyclingPose, IsNearWithinAPartOfASmallBody) {
     const double way = std::max(bound, 1.0 / 524288);  // two steps of lengths
     BodyRecord near = body, far = body, turned = body;
     move(dice, 0.99 * way, 0, near);
-    EXPECT_TRUE(is_near_contact_pose(near)) << exponent;
+    EXPECT_TRUE(is_near_recycling_pose(near)) << exponent;
     move(dice, 1.01 * way, 0, far);
-    EXPECT_FALSE(is_near_contact_pose(far)) << exponent;
+    EXPECT_FALSE(is_near_recycling_pose(far)) << exponent;
     move(dice, 0, 1.2 * bound / scale, turned);
-    EXPECT_FALSE(is_near_contact_pose(turned)) << exponent;
+    EXPECT_FALSE(is_near_recycling_pose(turned)) << exponent;
   }
 }
 
-// Boxes that stand on each other, leaning by a hundredth or less: the same points, found where the
-// bodies are now, are as far apart as those that followed. A corner that an edge cuts off moves
-// along the face, which counts times the faces' lean.
+// Boxes that stand on each other, leaning by a hundredth or less.
+struct LeaningBoxes {
+  explicit LeaningBoxes(Dice& dice) : a(random_box(dice)), b(random_box(dice)) {
+    a.orientation = b.orientation = {};
+    set_recycling_pose(a);
+    const double height = std::ldexp(double{1} * (a.size.y + b.size.y).raw, -Length::frac_bits);
+    b.position = {position(dice.uniform(-0.2, 0.2)), position(height + dice.uniform(-0.001, 0.001)),
+                  position(dice.uniform(-0.2, 0.2))};
+    lean = dice.uniform(0, 0.01);
+    const double about = dice.uniform(-3.2, 3.2);
+    b.orientation = test::quat(lean / 2 * std::cos(about), 0, lean / 2 * std::sin(about), 1);
+    set_recycling_pose(b);
+  }
+
+  [[nodiscard]] Manifold collide() const {
+    const Shape shape_a = a.shape(), shape_b = b.shape();
+    const Mat3 turned_a = to_matrix(a.orientation), turned_b = to_matrix(b.orientation);
+    return lockstone::collide({shape_a, turned_a}, {shape_b, turned_b},
+                              saturated<Length>(b.position - a.position), metres(0.02));
+  }
+
+  BodyRecord a, b;
+  double lean;
+};
+
+// The same points, found where the bodies are now, are as far apart as those that followed. A
+// corner that an edge cuts off moves along the face, which counts times the faces' lean.
 TEST(RecyclingPose, SeparationsFollow) {
   Dice dice;
   int met = 0;
   for (int round = 0; round < 20000; ++round) {
-    BodyRecord a = random_box(dice), b = random_box(dice);
-    a.orientation = b.orientation = {};
-    set_contact_pose(a);
-    const double height = std::ldexp(double{1} * (a.size.y + b.size.y).raw, -Length::frac_bits);
-    b.position = {position(dice.uniform(-0.2, 0.2)), position(height + dice.uniform(-0.001, 0.001)),
-                  position(dice.uniform(-0.2, 0.2))};
-    const double lean = dice.uniform(0, 0.01), about = dice.uniform(-3.2, 3.2);
-    b.orientation = test::quat(lean / 2 * std::cos(about), 0, lean / 2 * std::sin(about), 1);
-    set_contact_pose(b);
-    const Shape shape_a = a.shape(), shape_b = b.shape();
-    const auto found = [&](const BodyRecord& first, const BodyRecord& second) {
-      const Mat3 turned_a = to_matrix(first.orientation), turned_b = to_matrix(second.orientation);
-      return collide({shape_a, turned_a}, {shape_b, turned_b},
-                     saturated<Length>(second.position - first.position), metres(0.02));
-    };
-    Manifold followed = found(a, b);
-    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), a);
-    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), b);
-    shift_separations(drift_of(a), drift_of(b), followed);
-    const Manifold now = found(a, b);
+    LeaningBoxes boxes(dice);
+    Manifold followed = boxes.collide();
+    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), boxes.a);
+    move(dice, dice.uniform(0, k_hair), dice.uniform(0, k_hair), boxes.b);
+    shift_separations(pose_delta_of(boxes.a), pose_delta_of(boxes.b), followed);
+    const Manifold now = boxes.collide();
+    // Half a step of lengths counts twice, and of separations.
+    const double allowed = 2e-6 + 3 * k_hair * boxes.lean + 4 * k_hair * k_hair;
     for (int i = 0; i < now.count; ++i) {
       const ManifoldPoint& point = now.points[static_cast<std::size_t>(i)];
       const auto same = std::ranges::find(followed.points, point.feature, &ManifoldPoint::feature);
       if (same == followed.points.end()) continue;
       ++met;
-      // Half a step of lengths counts twice, and of separations.
       EXPECT_NEAR(static_cast<double>(real(same->separation)),
-                  static_cast<double>(real(point.separation)),
-                  2e-6 + 3 * k_hair * lean + 4 * k_hair * k_hair)
+                  static_cast<double>(real(point.separation)), allowed)
           << round;
     }
   }

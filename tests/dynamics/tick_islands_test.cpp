@@ -41,41 +41,41 @@ TEST(TickIslands, ForgetTheTickBefore) {
   TickIslands islands = islands_of(2);
   islands.join(1, 2);
   islands.settle();
-  islands.load(islands.of(1)).contacts = 7;
+  islands.tally(islands.of(1)).contacts = 7;
   islands.clear();
   islands.add_body(true);
   islands.add_body(true);
   islands.settle();
   EXPECT_NE(islands.of(1), islands.of(2));
-  EXPECT_EQ(islands.load(islands.of(1)).contacts, 0U);
+  EXPECT_EQ(islands.tally(islands.of(1)).contacts, 0U);
 }
 
-TEST(IslandLoad, HasFewLoadsUpToItsBudget) {
-  IslandLoad load;
-  for (std::uint32_t i = 0; i < IslandLoad::k_most_overloaded; ++i)
-    load.overloaded.raise();
-  EXPECT_TRUE(load.few_are_overloaded());
-  load.overloaded.raise();
-  EXPECT_FALSE(load.few_are_overloaded());
+TEST(IslandTally, HasFewLoadsUpToItsBudget) {
+  IslandTally tally;
+  for (std::uint32_t i = 0; i < IslandTally::k_most_overloaded; ++i)
+    tally.overloaded.raise();
+  EXPECT_TRUE(tally.few_are_overloaded());
+  tally.overloaded.raise();
+  EXPECT_FALSE(tally.few_are_overloaded());
 }
 
-TEST(IslandLoad, IsAStackBeyondItsBudgetOfBearingContacts) {
-  IslandLoad load{.bearing = IslandLoad::k_most_bearing, .overloaded = 0};
-  EXPECT_FALSE(load.is_stack());
-  ++load.bearing;
-  EXPECT_TRUE(load.is_stack());
-  load.is_converged = true;
-  EXPECT_FALSE(load.is_stack());
+TEST(IslandTally, IsAStackBeyondItsBudgetOfBearingContacts) {
+  IslandTally tally{.bearing = IslandTally::k_most_bearing, .overloaded = 0};
+  EXPECT_FALSE(tally.is_stack());
+  ++tally.bearing;
+  EXPECT_TRUE(tally.is_stack());
+  tally.is_converged = true;
+  EXPECT_FALSE(tally.is_stack());
 }
 
-TEST(IslandLoad, NeedsAnInitialWarmStartWhereManyAreOverloadedAndAQuarterIsNew) {
-  IslandLoad load{.contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = 200};
-  EXPECT_TRUE(load.needs_initial_warm_start());
-  load.fresh = 249;
-  EXPECT_FALSE(load.needs_initial_warm_start());
-  load = {
-      .contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = IslandLoad::k_most_overloaded};
-  EXPECT_FALSE(load.needs_initial_warm_start());
+TEST(IslandTally, NeedsAnInitialWarmStartWhereManyAreOverloadedAndAQuarterIsNew) {
+  IslandTally tally{.contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = 200};
+  EXPECT_TRUE(tally.needs_initial_warm_start());
+  tally.fresh = 249;
+  EXPECT_FALSE(tally.needs_initial_warm_start());
+  tally = {
+      .contacts = 1000, .fresh = 250, .bearing = 0, .overloaded = IslandTally::k_most_overloaded};
+  EXPECT_FALSE(tally.needs_initial_warm_start());
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/dynamics/step/contact_list.h"
-#include "core/dynamics/step/contact_scene.h"
-#include "core/dynamics/step/island_builder.h"
-#include "core/dynamics/step/solver_bodies.h"
+#include "core/dynamics/step/input/contact_list.h"
+#include "core/dynamics/step/input/contact_scene.h"
+#include "core/dynamics/step/input/solver_bodies.h"
+#include "core/dynamics/step/islands/island_builder.h"
 
 namespace lockstone {
 
@@ -22,7 +22,7 @@ class TickScene {
   std::uint32_t add_body(MotionType motion) {
     BodyRecord& body = bodies_.emplace_back();
     body.motion = static_cast<std::uint8_t>(motion);
-    body.orientation = body.contact_orientation = Quat{};
+    body.orientation = body.recycling_orientation = Quat{};
     return static_cast<std::uint32_t>(bodies_.size() - 1);
   }
   BodyRecord& body(std::uint32_t index) { return bodies_[index]; }

@@ -7,7 +7,7 @@
 
 #include <lockstone/assert.h>
 
-#include "net/transport/enet_commands.h"
+#include "net/transport/enet/enet_commands.h"
 #include "tests/fuzz/target.h"
 
 namespace lockstone::fuzz {

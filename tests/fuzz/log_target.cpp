@@ -11,7 +11,7 @@
 #include <lockstone/replay/signature.h>
 #include <lockstone/replay/verifier.h>
 
-#include "replay/header_codec.h"
+#include "replay/codec/header_codec.h"
 #include "tests/fuzz/target.h"
 #include "tests/replay/log_tools.h"
 

@@ -6,9 +6,9 @@
 #include <lockstone/assert.h>
 #include <lockstone/net/transport_sim.h>
 
-#include "net/transport/enet_datagram.h"
+#include "net/transport/enet/enet_datagram.h"
 #include "tests/fuzz/target.h"
-#include "tests/net/secure_fixture.h"
+#include "tests/net/security/secure_fixture.h"
 
 namespace lockstone::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "net/security/token_seal.h"
 #include "tests/fuzz/target.h"
-#include "tests/net/secure_fixture.h"
+#include "tests/net/security/secure_fixture.h"
 
 namespace lockstone::fuzz {
 namespace {

@@ -4,7 +4,7 @@
 #include <lockstone/mesh.h>
 
 #include "core/geometry/mesh_contact/front_crossing_search.h"
-#include "tests/geometry/asset_parts.h"
+#include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::geometry {
 namespace {
@@ -55,9 +55,9 @@ TEST(FrontCrossing, IsFoundAtCorners) {
 TEST(FrontCrossing, NothingNearerThanTheGuardIsLeft) {
   const AssetPtr mesh = Mesh::build(test::grid(3, 3, 1.0, [](int, int) { return 0.0; }).def()).mesh;
   Vec3<Length> from = metres(0.7, 0.1, 0.4), to = metres(0.9, 0, 1.3);
-  to.y = k_front_guard;
+  to.y = k_front_margin;
   EXPECT_FALSE(first_front_crossing(*mesh, {from, to}).found);
-  to.y = k_front_guard - Length::from_raw(1);
+  to.y = k_front_margin - Length::from_raw(1);
   const FrontCrossing crossing = first_front_crossing(*mesh, {from, to});
   EXPECT_TRUE(crossing.found);
   EXPECT_EQ(crossing.height, fine(to.y));

@@ -6,7 +6,7 @@
 
 #include "core/geometry/dispatch/polytope_kernels.h"
 #include "core/geometry/distance/contact_point.h"
-#include "tests/geometry/asset_parts.h"
+#include "tests/geometry/assets/asset_parts.h"
 
 namespace lockstone::test {
 namespace {

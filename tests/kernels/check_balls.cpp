@@ -17,9 +17,9 @@ constexpr std::int32_t k_rate = 240;
 
 // The inputs and outputs of a tick.
 struct Scene {
-  std::vector<SourceBody> inertias;
+  std::vector<BodyInertia> inertias;
   std::vector<BodyPlace> places, later;
-  std::vector<RowBody> bodies, warm;
+  std::vector<BodyVelocity> bodies, warm;
   std::vector<BallBlock> blocks;
 
   friend bool operator==(const Scene& a, const Scene& b) {
@@ -40,7 +40,7 @@ struct SceneMaker {
     return scalar::pack(first, operand_in(low, high));
   }
 
-  void fill(RowBody& body) {
+  void fill(BodyVelocity& body) {
     constexpr std::int64_t k_bound = std::int64_t{1} << 52;
     for (std::int64_t& x : body.velocity)
       x = wild ? word(random) : random.between(-k_bound, k_bound);
@@ -60,7 +60,7 @@ struct SceneMaker {
       place.words[3 + i] = wild ? word(random) : turn[i];
   }
 
-  void fill(SourceBody& body) {
+  void fill(BodyInertia& body) {
     for (std::size_t i = 0; i < 6; ++i)
       body.inertia[i] =
           static_cast<std::int32_t>(operand_in(i < 3 ? k_one / 2 : -k_one / 4, i < 3 ? k_one : 1));
@@ -99,8 +99,8 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
     BallBlock& block = scene.blocks[i / k_block_lanes];
     const std::size_t lane = i % k_block_lanes;
     maker.fill(block, lane);
-    block.body_a[lane] = row_body_offset(next);
-    block.body_b[lane] = row_body_offset(next + 1);
+    block.body_a[lane] = body_velocity_offset(next);
+    block.body_b[lane] = body_velocity_offset(next + 1);
   }
   return scene;
 }
@@ -108,10 +108,10 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
 void run(const BallKernels& kernels, Scene& scene) {
   BallBlock* blocks = scene.blocks.data();
   const std::size_t count = scene.blocks.size();
-  const SourceBody* inertias = scene.inertias.data();
+  const BodyInertia* inertias = scene.inertias.data();
   kernels.begin(blocks, count, scene.places.data(), inertias, scene.warm.data(), k_rate);
   kernels.lift(scene.bodies.data(), blocks, count);
-  kernels.follow(scene.bodies.data(), scene.warm.data(), blocks, count, scene.later.data(),
+  kernels.update(scene.bodies.data(), scene.warm.data(), blocks, count, scene.later.data(),
                  inertias, k_rate);
   kernels.relax(scene.bodies.data(), blocks, count);
 }

@@ -17,7 +17,7 @@ namespace {
 using lockstone::test::Random;
 
 struct Rows {
-  std::vector<RowBody> bodies;
+  std::vector<BodyVelocity> bodies;
   std::vector<ContactBlock> blocks;
 
   friend bool operator==(const Rows&, const Rows&) = default;
@@ -33,7 +33,7 @@ struct RowMaker {
   std::int64_t share() { return wild ? operand(random) : random.between(0, 1 << 30); }
   std::int64_t impulse() { return wild ? operand(random) : random.between(0, 1 << 22); }
 
-  void fill(RowBody& body) {
+  void fill(BodyVelocity& body) {
     for (std::int64_t& x : body.velocity)
       x = velocity();
     for (std::int64_t& x : body.spin)
@@ -52,8 +52,8 @@ struct RowMaker {
   }
 
   void fill(ContactBlock& block, std::size_t lane, std::uint32_t a, std::uint32_t b) {
-    block.body_a[lane] = row_body_offset(a);
-    block.body_b[lane] = row_body_offset(b);
+    block.body_a[lane] = body_velocity_offset(a);
+    block.body_b[lane] = body_velocity_offset(b);
     block.shift[lane] = random.between(1, 30);
     block.half[lane] = std::int64_t{1} << (block.shift[lane] - 1);
     for (int i = 0; i < 3; ++i) {

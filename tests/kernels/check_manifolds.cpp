@@ -19,9 +19,9 @@ constexpr std::int32_t k_one = 1 << 30;
 struct Scene {
   std::vector<ManifoldGeometry> geometry;
   std::vector<PrepareInputs> sources;  // they point into the geometry, of the first copy
-  std::vector<SourceBody> inertias;
+  std::vector<BodyInertia> inertias;
   std::vector<BlockWord> restitution;
-  std::vector<RowBody> bodies, warm;
+  std::vector<BodyVelocity> bodies, warm;
   std::vector<DeltaPose> travel;
   std::vector<ManifoldBlock> blocks;
   std::vector<ManifoldApproach> approaches;
@@ -43,7 +43,7 @@ struct SceneMaker {
   std::int64_t velocity() { return wild ? word(random) : random.between(-(1LL << 52), 1LL << 52); }
   std::int64_t travel() { return wild ? word(random) : random.between(-(1LL << 38), 1LL << 38); }
 
-  void fill(RowBody& body) {
+  void fill(BodyVelocity& body) {
     for (std::int64_t& x : body.velocity)
       x = velocity();
     for (std::int64_t& x : body.spin)
@@ -64,7 +64,7 @@ struct SceneMaker {
   }
 
   // Of bodies named by plain manifolds M is a number.
-  void fill(SourceBody& body, bool plain) {
+  void fill(BodyInertia& body, bool plain) {
     for (std::size_t i = 0; i < 6; ++i)
       body.inertia[i] = small(i < 3 ? 1 : -k_one / 4, k_one);
     if (plain) body.inertia = {body.inertia[0], body.inertia[0], body.inertia[0], 0, 0, 0};
@@ -123,7 +123,7 @@ struct SceneMaker {
     in.scale_b = k_one >> random.between(0, 5);
     in.bias_rate = fixed(0, 1 << 25);
     in.keep = fixed(k_one / 2, k_one);
-    in.load = fixed(0, 1 << 18);
+    in.mean_impulse = fixed(0, 1 << 18);
     in.inertia_a = 1 << random.between(0, 12);
     in.inertia_b = 1 << random.between(0, 12);
     in.inverse_scale_a = fixed_a ? 0 : 1 << random.between(0, 18);
@@ -201,8 +201,8 @@ Scene make_scene(std::size_t blocks, bool wild, Random& random) {
     }
     maker.fill(scene.geometry[i], sources.lanes[lane], plain[i]);
     sources.geometry[lane] = scene.geometry[i].data();
-    sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : row_body_offset(next);
-    sources.body_b[lane] = row_body_offset(next + 1);
+    sources.body_a[lane] = sources.lanes[lane].scale_a == 0 ? 0 : body_velocity_offset(next);
+    sources.body_b[lane] = body_velocity_offset(next + 1);
     sources.lanes[lane].is_elastic = elastic[i] ? 1 : 0;
     scene.restitution[i / k_block_lanes][lane] = elastic[i] ? k_one / 2 : 0;
   }

@@ -110,9 +110,10 @@ Step changes_step() {
           }};
 }
 
-Step follow_step(int shift) {
-  return {"follow", [shift](const ProximalKernels& kernels, Scene& scene) {
-            kernels.follow(scene.blocks.data(), scene.blocks.size(), scene.bodies.data(), shift);
+Step update_step(int shift) {
+  return {"update_residuals", [shift](const ProximalKernels& kernels, Scene& scene) {
+            kernels.update_residuals(scene.blocks.data(), scene.blocks.size(), scene.bodies.data(),
+                                     shift);
           }};
 }
 
@@ -127,7 +128,7 @@ std::string check_phase(const Scene& start, Random& random) {
                         right_sides_step(drop),
                         propose_step(drop),
                         changes_step(),
-                        follow_step(static_cast<int>(random.between(-16, 62)))};
+                        update_step(static_cast<int>(random.between(-16, 62)))};
   std::string report;
   Scene scene = start;
   for (const Step& step : steps) {

@@ -63,6 +63,7 @@ class Function:
     def __init__(self, name, first_line):
         self.name, self.first_line = name, first_line
         self.lines = self.nesting = 0
+        self.body = []  # rows between the braces that are not blank
         self.is_table = False
 
 
@@ -90,7 +91,7 @@ def functions_of(text):
             if kind == "function":
                 blank = len(head) - len(head.lstrip())
                 current = Function(name_of(head), line - head[blank:].count("\n"))
-                current.depth = len(scopes)
+                current.depth, current.brace_line = len(scopes), line
             elif current:
                 inner = sum(scope[0] in ("control", "lambda") for scope in scopes[current.depth:])
                 current.nesting = max(current.nesting, inner)
@@ -100,6 +101,7 @@ def functions_of(text):
             start = head_start if kind in ("value", "lambda") else position + 1
             if current and len(scopes) < current.depth:
                 body = [row for row in rows[current.first_line:line - 1] if row.strip()]
+                current.body = [row for row in rows[current.brace_line:line - 1] if row.strip()]
                 current.is_table = 2 * sum(bool(_TABLE_ROW.match(row)) for row in body) > len(body)
                 current.lines = line - current.first_line + 1
                 found.append(current)

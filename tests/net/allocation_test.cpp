@@ -9,7 +9,7 @@
 #include <lockstone/net/client.h>
 #include <lockstone/net/server.h>
 
-#include "tests/net/secure_fixture.h"
+#include "tests/net/security/secure_fixture.h"
 #include "tools/toy/toy_simulation.h"
 
 namespace {

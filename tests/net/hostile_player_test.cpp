@@ -207,24 +207,24 @@ TEST(OffenderList, KnowsAnAccountInAnySeatAndAStrangerByItsSeat) {
   const PeerIdentity account{true, 1, 77, 2};
   const PeerIdentity nameless{true, 1, 0, 2};
   const PeerIdentity stranger;
-  list.bar(account, 2);
-  EXPECT_TRUE(list.is_barred(account, 5));
-  EXPECT_FALSE(list.is_barred(nameless, 2));
-  list.bar(nameless, 2);
-  EXPECT_TRUE(list.is_barred(nameless, 2));
-  EXPECT_FALSE(list.is_barred(nameless, 3));
-  EXPECT_FALSE(list.is_barred(stranger, 2));
-  list.bar(stranger, 2);
-  EXPECT_TRUE(list.is_barred(stranger, 2));
+  list.ban(account, 2);
+  EXPECT_TRUE(list.is_banned(account, 5));
+  EXPECT_FALSE(list.is_banned(nameless, 2));
+  list.ban(nameless, 2);
+  EXPECT_TRUE(list.is_banned(nameless, 2));
+  EXPECT_FALSE(list.is_banned(nameless, 3));
+  EXPECT_FALSE(list.is_banned(stranger, 2));
+  list.ban(stranger, 2);
+  EXPECT_TRUE(list.is_banned(stranger, 2));
   EXPECT_FALSE(list.was_resynced(account, 2));
 }
 
 TEST(OffenderList, GrowsNoFurtherThanItsCapacity) {
   OffenderList list;
   for (std::uint64_t player = 1; player <= 3 * OffenderList::k_capacity; ++player)
-    list.bar({true, 1, player, 0}, 0);
-  EXPECT_FALSE(list.is_barred({true, 1, 1, 0}, 0));
-  EXPECT_TRUE(list.is_barred({true, 1, 3 * OffenderList::k_capacity, 0}, 0));
+    list.ban({true, 1, player, 0}, 0);
+  EXPECT_FALSE(list.is_banned({true, 1, 1, 0}, 0));
+  EXPECT_TRUE(list.is_banned({true, 1, 3 * OffenderList::k_capacity, 0}, 0));
 }
 
 }  // namespace

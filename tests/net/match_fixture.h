@@ -11,7 +11,7 @@
 #include <lockstone/net/transport_secure.h>
 #include <lockstone/net/transport_sim.h>
 
-#include "tests/net/secure_fixture.h"
+#include "tests/net/security/secure_fixture.h"
 #include "tools/simnet/lying_transport.h"
 #include "tools/toy/toy_simulation.h"
 

@@ -1,12 +1,12 @@
 // The parts of a server, each alone.
 #include <gtest/gtest.h>
 
-#include "net/session/server/departures.h"
-#include "net/session/server/dumps.h"
-#include "net/session/server/keyframe_store.h"
-#include "net/session/server/resume_wait.h"
-#include "net/session/server/roster.h"
-#include "net/session/server/tick_schedule.h"
+#include "net/session/server/data/keyframe_store.h"
+#include "net/session/server/data/resume_wait.h"
+#include "net/session/server/data/roster.h"
+#include "net/session/server/data/tick_schedule.h"
+#include "net/session/server/desync/dumps.h"
+#include "net/session/server/leaving/departures.h"
 #include "tests/net/match_fixture.h"
 
 namespace lockstone::net::test {
@@ -221,7 +221,7 @@ TEST(Departures, ReserveTheSeatOfALostPlayerAndNotThatOfAnExpelledOne) {
   server.departures.expel(1, LeaveReason::malformed);
   EXPECT_EQ(expelled.rejoin_key, 0U);
   EXPECT_LE(expelled.reserved_until_us, server.data.match.now_us);
-  EXPECT_TRUE(server.data.offenders.is_barred(expelled.identity, 1));
+  EXPECT_TRUE(server.data.offenders.is_banned(expelled.identity, 1));
   EXPECT_EQ(server.data.counters.expelled, 1U);
 }
 

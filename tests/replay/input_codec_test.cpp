@@ -1,4 +1,4 @@
-#include "replay/input_codec.h"
+#include "replay/codec/input_codec.h"
 
 #include <random>
 #include <vector>
@@ -7,7 +7,7 @@
 
 #include <lockstone/replay/format.h>
 
-#include "replay/header_codec.h"
+#include "replay/codec/header_codec.h"
 #include "tests/support/random.h"
 
 namespace lockstone::replay {

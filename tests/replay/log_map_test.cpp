@@ -6,7 +6,7 @@
 #include <lockstone/replay/log_reader.h>
 #include <lockstone/replay/seek.h>
 
-#include "replay/index_codec.h"
+#include "replay/codec/index_codec.h"
 #include "tests/replay/log_tools.h"
 #include "tests/support/random.h"
 

@@ -1,8 +1,8 @@
-#include "replay/log_order.h"
+#include "replay/chunks/log_order.h"
 
 #include <gtest/gtest.h>
 
-#include "replay/chunk_chain.h"
+#include "replay/chunks/chunk_chain.h"
 
 namespace lockstone::replay {
 namespace {

@@ -10,7 +10,7 @@
 #include <lockstone/replay/recorder.h>
 #include <lockstone/replay/verifier.h>
 
-#include "replay/header_codec.h"
+#include "replay/codec/header_codec.h"
 #include "tools/toy/toy_simulation.h"
 
 namespace lockstone::test {

@@ -7,7 +7,7 @@
 #include <lockstone/replay/log_reader.h>
 #include <lockstone/replay/transcript.h>
 
-#include "replay/sha256.h"
+#include "replay/bytes/sha256.h"
 #include "tests/replay/log_tools.h"
 
 namespace lockstone::test {

@@ -1,4 +1,4 @@
-#include "replay/utf8.h"
+#include "replay/bytes/utf8.h"
 
 #include <array>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include <lockstone/game_library.h>
 
-#include "tools/lockstone/logs/hash_compare.h"
+#include "tools/lockstone/logs/state/hash_compare.h"
 #include "tools/tool/game_loader.h"
 #include "tools/tool/games.h"
 #include "tools/toy/toy_simulation.h"

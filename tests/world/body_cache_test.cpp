@@ -20,13 +20,11 @@ class BodyCacheTest : public ::testing::Test {
     record.size = {1_m, 2_m, 3_m};
     record.position = {7_m, 8_m, 9_m};
     turn(1_deg);
-    set_contact_pose(record);
+    set_recycling_pose(record);
     cache.refresh_shape(k_body, record);
     cache.refresh(k_body, record);
   }
-  void turn(Angle angle) {
-    record.orientation = from_axis_angle({Unit{}, 1_r, Unit{}}, angle);
-  }
+  void turn(Angle angle) { record.orientation = from_axis_angle({Unit{}, 1_r, Unit{}}, angle); }
   void write_rotation() { cache.rotations_out()[k_body] = to_matrix(record.orientation); }
 
   BodyRecord record;
@@ -46,26 +44,26 @@ TEST_F(BodyCacheTest, PlacesAShapeWithoutAnAssetAtTheBody) {
 }
 
 TEST_F(BodyCacheTest, HasNoDriftAtTheContactPose) {
-  EXPECT_TRUE(cache.drift(k_body).is_none());
+  EXPECT_TRUE(cache.pose_delta(k_body).is_none());
 }
 
 TEST_F(BodyCacheTest, KeepsTheRotationOfAContactPoseThatTheBodyLeft) {
-  const Mat3 at_contact = cache.contact_rotations()[k_body];
+  const Mat3 at_contact = cache.recycling_rotations()[k_body];
   turn(1.01_deg);
   write_rotation();
   cache.refresh_turned(k_body, record);
-  EXPECT_EQ(cache.contact_rotations()[k_body], at_contact);
-  EXPECT_FALSE(cache.drift(k_body).is_none());
+  EXPECT_EQ(cache.recycling_rotations()[k_body], at_contact);
+  EXPECT_FALSE(cache.pose_delta(k_body).is_none());
 }
 
 TEST_F(BodyCacheTest, RenumbersAContactPoseOnlyWhenItChanges) {
-  const std::uint32_t number = cache.contact_pose_number(k_body);
-  cache.take_contact_pose(k_body, record);
-  EXPECT_EQ(cache.contact_pose_number(k_body), number);
+  const std::uint32_t number = cache.recycling_pose_number(k_body);
+  cache.renew_recycling_pose(k_body, record);
+  EXPECT_EQ(cache.recycling_pose_number(k_body), number);
   turn(1.01_deg);
   write_rotation();
-  cache.take_contact_pose(k_body, record);
-  EXPECT_NE(cache.contact_pose_number(k_body), number);
+  cache.renew_recycling_pose(k_body, record);
+  EXPECT_NE(cache.recycling_pose_number(k_body), number);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace lockstone::fuzz {
 namespace {
 
-constexpr std::array<std::string_view, k_kinds> k_names{"sphere", "capsule",  "box",
-                                                        "hull",   "triangle", "half-space"};
+constexpr std::array<std::string_view, k_kinds> k_names{
+    "sphere", "capsule", "box", "hull", "triangle", "half-space", "cylinder", "cone"};
 
 std::vector<Real3> own_core(const Body& body) {
   if (body.polytope != nullptr) {
@@ -19,6 +19,8 @@ std::vector<Real3> own_core(const Body& body) {
     return core;
   }
   const Real3 size = real(body.shape.size);
+  if (body.kind == Kind::cylinder) return {};
+  if (body.kind == Kind::cone) return {{0, size.y * 3 / 4, 0}};
   if (body.kind == Kind::capsule) return {{0, -size.y, 0}, {0, size.y, 0}};
   if (body.kind != Kind::box) return {{}};
   std::vector<Real3> core;
@@ -26,6 +28,21 @@ std::vector<Real3> own_core(const Body& body) {
     core.push_back({(i & 1) != 0 ? size.x : -size.x, (i & 2) != 0 ? size.y : -size.y,
                     (i & 4) != 0 ? size.z : -size.z});
   return core;
+}
+
+std::vector<Circle> rims_of(const Body& body) {
+  const Real3 size = real(body.shape.size), axis = direction_of(real(body.rotation.y));
+  const auto at = [&](double height) {
+    return Circle{turn(body.rotation, {0, height, 0}), axis, size.x};
+  };
+  if (body.kind == Kind::cylinder) return {at(-size.y), at(size.y)};
+  if (body.kind == Kind::cone) return {at(-size.y / 4)};
+  return {};
+}
+
+double reach_of(const Circle& rim, const Real3& direction) {
+  const Real3 aside = direction - rim.axis * dot(direction, rim.axis);
+  return dot(rim.centre, direction) + rim.radius * norm(aside);
 }
 
 std::string text_of(const Vec3<Length>& v) {
@@ -61,7 +78,10 @@ std::optional<Kind> kind_named(std::string_view name) {
 }
 
 bool do_meet(Kind a, Kind b) {
-  return std::min(a, b) < Kind::triangle;
+  const auto is_solid = [](Kind kind) {
+    return kind != Kind::triangle && kind != Kind::half_space;
+  };
+  return is_solid(a) || is_solid(b);
 }
 
 void Body::turn_to(const Mat3& to) {
@@ -69,12 +89,15 @@ void Body::turn_to(const Mat3& to) {
   core = own_core(*this);
   for (Real3& p : core)
     p = turn(rotation, p);
+  rims = rims_of(*this);
 }
 
 double Body::reach(const Real3& direction) const {
   double most = -1e30;
   for (const Real3& p : core)
     most = std::max(most, dot(p, direction));
+  for (const Circle& rim : rims)
+    most = std::max(most, reach_of(rim, direction));
   return most + radius;
 }
 
@@ -82,6 +105,8 @@ double Body::size() const {
   double most = 0;
   for (const Real3& p : core)
     most = std::max(most, norm(p));
+  for (const Circle& rim : rims)
+    most = std::max(most, std::hypot(norm(rim.centre), rim.radius));
   return most + radius;
 }
 

@@ -1,5 +1,5 @@
 #include "core/geometry/dispatch/raycast.h"
-#include "core/geometry/distance/shape_cast.h"
+#include "core/geometry/distance/motion/shape_cast.h"
 #include "tools/fuzz/pair_checks.h"
 #include "tools/fuzz/surface.h"
 
@@ -16,7 +16,7 @@ struct Cast {
     return real(pair.cast_from) + real(pair.way) * fraction;
   }
   /// Of the plane and the fraction, whose step is 2^-30 of the way.
-  [[nodiscard]] double slack() const { return 2 * k_micrometre; }
+  [[nodiscard]] double slack() const { return 2 * k_micrometre + rim_slack(pair); }
   /// Of depths: 13e-9 of the sizes and the way more.
   [[nodiscard]] double depth_slack() const {
     const double far = norm(real(pair.cast_from)) + norm(real(pair.way));
@@ -70,7 +70,8 @@ void check_ray_at(const Body& body, const Vec3<Length>& origin, const Vec3<Lengt
                   Verdict& verdict) {
   const ShapeRayHit hit = cast_ray(body.posed(), origin, way);
   const Real3 o = real(origin), t = real(way);
-  const double allowed = 2 * k_micrometre + std::ldexp(norm(t), -30) + 4e-9 * body.size();
+  const double allowed =
+      2 * k_micrometre + std::ldexp(norm(t), -30) + 4e-9 * body.size() + 6e-9 * body.rim_radius();
   if (!hit.hit) {
     verdict.require(Check::ray_miss, !is_entered(body, o, t, allowed));
     return;

@@ -14,7 +14,7 @@ struct FuzzOptions {
   std::uint64_t first = 0;  ///< index
   std::uint64_t count = 100'000;
   int threads = 1;
-  std::vector<Kind> kinds;  ///< empty: all
+  std::vector<Kind> kinds;  ///< empty: `all_kinds`
 };
 
 struct PairFailure {
@@ -30,7 +30,7 @@ struct FuzzReport {
   std::vector<PairFailure> failures;  ///< by index
 };
 
-/// All kinds.
+/// All kinds whose pairs keep every bound: cylinders and cones are drawn when they are asked for.
 [[nodiscard]] std::vector<Kind> all_kinds();
 
 /// The same report whatever the number of threads.

@@ -31,7 +31,7 @@ void check_apart(const Pair& pair, const Answers& answers, Verdict& verdict) {
 // Points may be less deep than the shapes along the normal, where those beside the face are cut
 // off.
 void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
-  if (leans_back(pair, real(answers.deep.normal))) return;
+  if (leans_back(pair, real(answers.deep.normal)) || is_depth_a_bound(pair, answers.deep)) return;
   const double depth = real(answers.deep.depth);
   const double excess = std::min(-answers.least(), -k_deepest) - depth;
   verdict.measure(Check::overlap, std::max(0.0, excess), choice_slack(pair, 0) + preferred(depth));
@@ -54,7 +54,8 @@ double surface_slack(const Pair& pair) {
 
 // How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.
 double share_of_a(const Pair& pair) {
-  const bool round_a = pair.a.radius > 0, round_b = pair.b.radius > 0;
+  const bool round_a = pair.a.radius > 0 || pair.a.has_rims();
+  const bool round_b = pair.b.radius > 0 || pair.b.has_rims();
   if (round_a == round_b) return 0.5;
   return round_a ? 0 : 1;
 }

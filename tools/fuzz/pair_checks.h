@@ -1,8 +1,8 @@
 // Checks that must hold of every pair of shapes.
 #pragma once
 
-#include "core/geometry/distance/epa.h"
-#include "core/geometry/distance/gjk.h"
+#include "core/geometry/distance/epa/epa.h"
+#include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/distance/manifold.h"
 #include "tools/fuzz/pair_source.h"
 #include "tools/fuzz/verdict.h"
@@ -23,6 +23,12 @@ struct Answers {
   /// The least separation of the manifold's points.
   [[nodiscard]] double least() const;
 };
+
+/// Whether the depth is only known to separate: rims have more vertices than EPA has room for.
+[[nodiscard]] bool is_depth_a_bound(const Pair& pair, const Penetration& found);
+
+/// How far rims, polygons of 2^15 vertices about axes of 30 bits, may be off their circles.
+[[nodiscard]] double rim_slack(const Pair& pair);
 
 /// 2 µm and 13e-9 of the sizes, which are seven steps of the lattice: the error bound of depths.
 /// Distances err by at most 2 µm.

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/geometry/distance/gjk.h"
+#include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/numeric/normals.h"
 
 namespace lockstone::fuzz {
@@ -54,6 +54,8 @@ Body random_body(HullPool& pool, Dice& dice, Kind kind, const Sizes& sizes, std:
   if (kind == Kind::sphere) body.shape = Shape::sphere(x);
   if (kind == Kind::capsule) body.shape = Shape::capsule(y, x);
   if (kind == Kind::box) body.shape = Shape::box(x, dice.chance(4) ? x : y, dice.chance(4) ? y : z);
+  if (kind == Kind::cylinder) body.shape = Shape::cylinder(y, x);
+  if (kind == Kind::cone) body.shape = Shape::cone(y, x);
   if (kind == Kind::half_space) body.shape = Shape::half_space();
   if (kind == Kind::hull) {
     const std::uint64_t built = std::min(k_hull_pool, 64 + index / 64);
@@ -84,6 +86,11 @@ Real3 some_normal(Dice& dice, const Body& body) {
   if (body.kind == Kind::box)
     return real(body.rotation.column(static_cast<int>(dice.between(0, 2)))) *
            (dice.chance(2) ? -1 : 1);
+  if (body.has_rims()) {
+    const Real3 axis = real(body.rotation.y);
+    if (dice.chance(2)) return direction_of(axis) * (dice.chance(2) ? -1 : 1);
+    return direction_of(cross(axis, dice.direction()));
+  }
   if (body.polytope == nullptr) return dice.direction();
   const auto last = static_cast<std::int64_t>(body.polytope->faces.size()) - 1;
   const auto face = static_cast<std::size_t>(dice.between(0, last));

@@ -15,14 +15,21 @@
 
 namespace lockstone::fuzz {
 
-enum class Kind : std::uint8_t { sphere, capsule, box, hull, triangle, half_space };
-inline constexpr int k_kinds = 6;
+enum class Kind : std::uint8_t { sphere, capsule, box, hull, triangle, half_space, cylinder, cone };
+inline constexpr int k_kinds = 8;
 
 [[nodiscard]] std::string_view name_of(Kind kind);
 [[nodiscard]] std::optional<Kind> kind_named(std::string_view name);
 
 /// Whether the two ever meet: flat and unbounded ones do not meet each other.
 [[nodiscard]] bool do_meet(Kind a, Kind b);
+
+/// A rim of a cylinder or a cone: a circle about an axis of norm 1, in world axes.
+struct Circle {
+  Real3 centre;
+  Real3 axis;
+  double radius = 0;
+};
 
 /// A shape in its place, with its core in real numbers.
 struct Body {
@@ -32,12 +39,17 @@ struct Body {
   std::shared_ptr<const Hull> hull;
   std::unique_ptr<geometry::TrianglePolytope> triangle;  ///< owns the arrays of the polytope
   const geometry::Polytope* polytope = nullptr;
-  std::vector<Real3> core;  ///< vertices in world axes, ordered as those of `ConvexCore`
-  double radius = 0;        ///< around the core
-  double unevenness = 0;    ///< how far vertices lie below the faces they are of, at most
+  std::vector<Real3> core;  ///< vertices in world axes, ordered as those of `ConvexCore`; of a cone
+                            ///< its apex, of a cylinder none
+  std::vector<Circle> rims;
+  double radius = 0;      ///< around the core
+  double unevenness = 0;  ///< how far vertices lie below the faces they are of, at most
 
   [[nodiscard]] PosedShape posed() const { return {shape, rotation, polytope}; }
   [[nodiscard]] bool is_one_sided() const { return kind == Kind::triangle; }
+  [[nodiscard]] bool has_rims() const { return !rims.empty(); }
+  /// Of the rims, 0 without.
+  [[nodiscard]] double rim_radius() const { return rims.empty() ? 0 : rims.front().radius; }
   /// Sets the rotation and the data that depends on it.
   void turn_to(const Mat3& rotation);
   /// The farthest that a vertex and the radius reach along a unit direction.
@@ -62,6 +74,8 @@ struct Pair {
   /// The length that errors scale with: of cores and offset.
   [[nodiscard]] double size() const;
   [[nodiscard]] double radii() const { return a.radius + b.radius; }
+  [[nodiscard]] bool has_rims() const { return a.has_rims() || b.has_rims(); }
+  [[nodiscard]] double rim_radii() const { return a.rim_radius() + b.rim_radius(); }
 };
 
 /// How far the cores, less the radii, are apart along a unit direction from A to B, with B's centre

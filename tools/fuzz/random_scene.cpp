@@ -112,13 +112,15 @@ bool is_never_dynamic(ShapeKind kind) {
          kind == ShapeKind::height_field;
 }
 
-Shape random_shape(Random& random, std::span<const AssetPtr> assets) {
+Shape random_shape(Random& random, std::span<const AssetPtr> assets, bool with_rims) {
   const Length most = Length::from_integer(chance(random, 8) ? 200 : 2);
   const Length x = random_size(random, most);
   const Length y = random_size(random, most);
   const Length z = random_size(random, most);
   if (!assets.empty() && chance(random, 3))
     return assets[random.below(static_cast<std::uint32_t>(assets.size()))]->shape();
+  if (with_rims && chance(random, 3))
+    return chance(random, 2) ? Shape::cylinder(x, y) : Shape::cone(x, y);
   switch (random.below(9)) {
     case 0:
     case 1:
@@ -172,9 +174,10 @@ struct Neighbourhood {
   }
 };
 
-BodyDef random_body(Random& random, const Neighbourhood& around, std::span<const AssetPtr> assets) {
+BodyDef random_body(Random& random, const Neighbourhood& around, std::span<const AssetPtr> assets,
+                    bool with_rims) {
   BodyDef def;
-  def.shape = random_shape(random, assets);
+  def.shape = random_shape(random, assets, with_rims);
   if (chance(random, 5)) def.motion = MotionType::static_body;
   if (chance(random, 8)) def.motion = MotionType::kinematic;
   if (is_never_dynamic(def.shape.kind) && def.motion == MotionType::dynamic)
@@ -320,7 +323,8 @@ Command random_command(const World& world, Random& random) {
 
 }  // namespace
 
-RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index) : seed_(mix(seed) ^ mix(~index)) {
+RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims)
+    : seed_(mix(seed) ^ mix(~index)), with_rims_(with_rims) {
   Random random(seed_);
   def_ = random_def(random);
   assets_ = std::make_shared<const AssetSet>(random_assets(random));
@@ -334,7 +338,7 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
   const Neighbourhood around(random);
   const int bodies = random.between(1, 24);
   for (int i = 0; i < bodies; ++i)
-    (void)world.create_body(random_body(random, around, assets_->all()));
+    (void)world.create_body(random_body(random, around, assets_->all(), with_rims_));
   const int joints = chance(random, 2) ? random.between(1, 20) : 0;
   for (int i = 0; i < joints; ++i)
     (void)world.create_joint(random_joint(world, random));

@@ -16,7 +16,8 @@ namespace lockstone::fuzz {
 /// alone, so that every machine makes the same.
 class RandomScene {
  public:
-  RandomScene(std::uint64_t seed, std::uint64_t index);
+  /// `with_rims`: cylinders and cones too.
+  RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims = true);
 
   /// A world as it begins, on the broad phase given.
   [[nodiscard]] World make(BroadPhaseKind broad_phase) const;
@@ -31,6 +32,7 @@ class RandomScene {
   WorldDef def_;
   std::shared_ptr<const AssetSet> assets_;
   std::uint64_t seed_;
+  bool with_rims_;
 };
 
 }  // namespace lockstone::fuzz

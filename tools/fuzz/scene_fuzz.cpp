@@ -100,7 +100,7 @@ class SceneRun {
 
 void run_scene(const SceneFuzzOptions& options, std::uint64_t index, SceneFuzzReport& report) {
   this_threads_scene = index;
-  const RandomScene scene(options.seed, index);
+  const RandomScene scene(options.seed, index, options.with_rims);
   SceneRun run(scene);
   ++report.scenes;
   for (std::uint32_t tick = 0; tick < options.ticks; ++tick) {

@@ -74,6 +74,46 @@ double outside_polytope(const Body& body, const Real3& point) {
   return least;
 }
 
+// The profile of a cylinder or a cone in a plane through its axis: x away from the axis, y along
+// it.
+struct Profile {
+  double x;
+  double y;
+};
+
+double to_side(const Profile& p, const Profile& a, const Profile& b) {
+  return point_to_segment({p.x, p.y, 0}, {a.x, a.y, 0}, {b.x, b.y, 0});
+}
+
+// The least distance from the sides of the profile, negative inside.
+double outside_rims(const Body& body, const Real3& point) {
+  const Circle& base = body.rims.front();
+  const double y = dot(point, base.axis), x = norm(point - base.axis * y);
+  const Profile p{x, y}, foot{0, dot(base.centre, base.axis)}, low{base.radius, foot.y};
+  if (body.kind == Kind::cone) {
+    const Profile apex{0, dot(body.core.front(), base.axis)};
+    const double least = std::min(to_side(p, foot, low), to_side(p, low, apex));
+    const double across = (apex.x - low.x) * (y - low.y) - (apex.y - low.y) * (x - low.x);
+    return y > low.y && across > 0 ? -least : least;
+  }
+  const Profile high{base.radius, -low.y}, top{0, high.y};
+  const double least =
+      std::min({to_side(p, foot, low), to_side(p, low, high), to_side(p, high, top)});
+  return x < base.radius && std::abs(y) < high.y ? -least : least;
+}
+
+// The distance from a convex body is convex along a segment.
+bool are_rims_entered(const Body& body, const Real3& from, const Real3& way, double depth) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 100; ++i) {
+    const double first = low + (high - low) / 3, second = high - (high - low) / 3;
+    const bool falls =
+        outside_rims(body, from + way * first) > outside_rims(body, from + way * second);
+    (falls ? low : high) = falls ? first : second;
+  }
+  return outside_rims(body, from + way * ((low + high) / 2)) < -depth;
+}
+
 double segment_to_segment(const Real3& a, const Real3& u, const Real3& b, const Real3& v) {
   const double ends = std::min({point_to_segment(a, b, b + v), point_to_segment(a + u, b, b + v),
                                 point_to_segment(b, a, a + u), point_to_segment(b + v, a, a + u)});
@@ -119,6 +159,7 @@ bool is_flat_entered(const Body& body, const Real3& from, const Real3& way, doub
 double outside(const Body& body, const Real3& point) {
   if (body.kind == Kind::half_space) return dot(direction_of(real(body.rotation.y)), point);
   if (body.kind == Kind::box) return outside_box(body, point);
+  if (body.has_rims()) return outside_rims(body, point);
   if (body.polytope != nullptr) return outside_polytope(body, point);
   return point_to_segment(point, body.core.front(), body.core.back()) - body.radius;
 }
@@ -133,6 +174,7 @@ bool is_entered(const Body& body, const Real3& from, const Real3& way, double de
     const Real3 &end = body.core.front(), &axis = body.core.back() - end;
     return segment_to_segment(from, way, end, axis) < body.radius - depth;
   }
+  if (body.has_rims()) return are_rims_entered(body, from, way, depth);
   if (body.kind == Kind::triangle) return is_flat_entered(body, from, way, depth);
   Part part;
   for (const Plane& plane : planes_of(body))

@@ -5,7 +5,7 @@
 
 #include <lockstone/net/wire.h>
 
-#include "net/transport/enet_datagram.h"
+#include "net/transport/enet/enet_datagram.h"
 
 namespace lockstone::relay {
 

@@ -6,8 +6,8 @@
 
 #include <lockstone/net/transport_enet.h>
 
-#include "net/transport/enet_commands.h"
-#include "net/transport/enet_datagram.h"
+#include "net/transport/enet/enet_commands.h"
+#include "net/transport/enet/enet_datagram.h"
 #include "tools/relay/attacks.h"
 #include "tools/relay/udp_socket.h"
 

@@ -5,7 +5,7 @@
 
 #include <lockstone/net/client.h>
 
-#include "net/transport/enet_commands.h"
+#include "net/transport/enet/enet_commands.h"
 #include "tools/relay/attacks.h"
 #include "tools/relay/intruder.h"
 

@@ -8,7 +8,7 @@
 #include <lockstone/net/transport_enet.h>
 #include <lockstone/net/transport_secure.h>
 
-#include "net/transport/enet_datagram.h"
+#include "net/transport/enet/enet_datagram.h"
 #include "tools/relay/udp_socket.h"
 
 namespace lockstone::relay {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/geometry/distance/contact_point.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/math/roots.h"
 
 namespace lockstone::render {

@@ -6,7 +6,7 @@
 #include <lockstone/assert.h>
 #include <lockstone/game_library.h>
 
-#include "tools/lockstone/logs/stage_trace.h"
+#include "tools/lockstone/logs/bisect/stage_trace.h"
 #include "tools/tool/games.h"
 
 namespace lockstone {

@@ -11,7 +11,7 @@
 #include <lockstone/game_abi.h>
 #include <lockstone/simulation.h>
 
-#include "tools/lockstone/logs/stage_trace.h"
+#include "tools/lockstone/logs/bisect/stage_trace.h"
 
 namespace lockstone::tool {
 

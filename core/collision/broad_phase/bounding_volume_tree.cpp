@@ -63,6 +63,8 @@ std::uint32_t BoundingVolumeTree::insert(const Bounds& bounds, const Layers& lay
 
 BoundingVolumeTree::Item BoundingVolumeTree::make_leaf(const Bounds& bounds, const Layers& layers,
                                                        std::uint32_t body) {
+  LKS_ASSERT(bounds.lower.x <= bounds.upper.x && bounds.lower.y <= bounds.upper.y &&
+             bounds.lower.z <= bounds.upper.z);
   const std::uint32_t leaf = allocate();
   nodes_[leaf].bounds = bounds;
   nodes_[leaf].layers = layers;
@@ -212,6 +214,7 @@ bool BoundingVolumeTree::is_valid() const {
 }
 
 bool BoundingVolumeTree::is_valid_below(std::uint32_t index) const {
+  LKS_ASSERT(index < nodes_.size());
   const Node& node = nodes_[index];
   if (node.is_leaf()) return node.height == 0;
   const Node& a = nodes_[node.child[0]];

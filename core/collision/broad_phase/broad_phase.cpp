@@ -103,7 +103,7 @@ void BroadPhase::clear() {
   changed_ = true;
 }
 
-bool BroadPhase::follow(std::uint32_t body, const Bounds& bounds) {
+bool BroadPhase::update(std::uint32_t body, const Bounds& bounds) {
   LKS_ASSERT(has(body));
   const Bounds& fat = proxies_[body].fat;
   if (bounds_[body] == bounds) return true;
@@ -118,7 +118,7 @@ void BroadPhase::set(std::uint32_t body, const Bounds& bounds, const ProxyTraits
   if (proxy.present && proxy.traits == traits) {
     if (bounds_[body] == bounds) return;
     changed_ = true;
-    if (follow(body, bounds)) return;
+    if (update(body, bounds)) return;
     const Bounds before = bounds_[body];
     bounds_[body] = bounds;
     proxy.fat = traits.moves ? fattened(before, bounds) : bounds;
@@ -182,6 +182,7 @@ std::span<const Pair> BroadPhase::find_pairs(Parallel& parallel) {
   }
   release_touched();
   changed_ = false;
+  LKS_ASSERT(std::ranges::is_sorted(pairs_.pairs()));
   return pairs_.pairs();
 }
 
@@ -189,6 +190,7 @@ std::span<const Pair> BroadPhase::find_pairs(Parallel& parallel) {
 // them is touched.
 template <class Emit>
 bool BroadPhase::search(Emit&& emit) {
+  LKS_ASSERT(touched_.size() <= body_limit_);
   effort_.searched = static_cast<std::uint32_t>(touched_.size());
   const auto keep = [&](std::uint32_t one, std::uint32_t other) {
     const ProxyTraits& traits = proxies_[one].traits;

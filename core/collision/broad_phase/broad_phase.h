@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include <lockstone/assert.h>
 #include <lockstone/collision.h>
 
 #include "core/base/parallel.h"
@@ -41,7 +42,7 @@ class BroadPhase {
   /// Sets the bounds of a body that is present, as `set` with the same traits does, if nothing else
   /// has to change for that; otherwise does nothing and returns false. Calls for different bodies
   /// may go on at the same time; `note_change` must follow if any of the bounds were new.
-  [[nodiscard]] bool follow(std::uint32_t body, const Bounds& bounds);
+  [[nodiscard]] bool update(std::uint32_t body, const Bounds& bounds);
   void note_change() { changed_ = true; }
 
   [[nodiscard]] bool has(std::uint32_t body) const { return proxies_[body].present; }
@@ -84,6 +85,7 @@ class BroadPhase {
  private:
   template <class Test, class Visit>
   void traverse_some(std::uint32_t mask, bool with_dynamic, Test&& test, Visit&& visit) const {
+    LKS_ASSERT(body_limit_ <= proxies_.size() && body_limit_ <= bounds_.size());
     const auto look = [&](std::uint32_t body) {
       const Proxy& proxy = proxies_[body];
       const bool asked = proxy.present && (with_dynamic || !proxy.traits.is_dynamic) &&

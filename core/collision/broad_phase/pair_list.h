@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 #include "core/collision/broad_phase/pair.h"
 
 namespace lockstone {
@@ -39,12 +41,14 @@ class PairList {
   /// For pairs in any order, with `sort` after the last. Once full, the list is a heap whose front
   /// is the last pair in order, the first to go.
   void offer(const Pair& pair) {
+    LKS_ASSERT(pair.a != pair.b);
     if (pairs_.size() < capacity_) {
       pairs_.push_back(pair);
       return;
     }
     if (!overflowed_) std::make_heap(pairs_.begin(), pairs_.end());
     overflowed_ = true;
+    LKS_ASSERT(pairs_.size() == capacity_);
     if (pair > pairs_.front()) return;
     std::pop_heap(pairs_.begin(), pairs_.end());
     pairs_.back() = pair;

@@ -32,6 +32,7 @@ void SweepAndPrune::clear() {
 
 void SweepAndPrune::refresh(std::span<const std::uint32_t> touched, std::span<const Proxy> proxies,
                             std::span<const std::uint8_t> is_touched) {
+  LKS_ASSERT(axis_ >= 0 && axis_ < 3);
   if (touched.empty()) return;
   const bool concerned[] = {concerns(Listed::standing, touched, proxies),
                             concerns(Listed::moving, touched, proxies)};
@@ -106,6 +107,7 @@ void SweepAndPrune::sort(std::vector<Entry>& list) {
       return;
     }
   }
+  LKS_ASSERT(std::is_sorted(list.begin(), list.end()));
 }
 
 // The axis along which the moving bodies are spread farthest, by the mean distance from the mean:

@@ -7,9 +7,12 @@
 // each other on any axis, whether the boxes come close or not, and cannot be made again in one go.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <lockstone/assert.h>
 
 #include "core/collision/broad_phase/proxy.h"
 
@@ -103,6 +106,8 @@ class SweepAndPrune {
   template <class Emit>
   static bool begin_within(const std::vector<Entry>& outer, const std::vector<Entry>& inner,
                            Emit&& emit) {
+    LKS_ASSERT(std::is_sorted(outer.begin(), outer.end()) &&
+               std::is_sorted(inner.begin(), inner.end()));
     std::size_t first = 0;
     for (const Entry& one : outer) {
       while (first < inner.size() && inner[first] < one)

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 #include "core/collision/broad_phase/bounding_volume_tree.h"
 #include "core/collision/broad_phase/proxy.h"
 
@@ -39,6 +41,7 @@ class TreeSearch {
     bool goes_on = true;
     for (const std::uint32_t body : touched) {
       const Proxy& proxy = proxies[body];
+      LKS_ASSERT(body < is_touched.size() && is_touched[body] != 0);
       if (!proxy.present) continue;
       const Layers layers = layers_of(proxy.traits.filter);
       const auto test = [&](const Bounds& other, const Layers& others) {

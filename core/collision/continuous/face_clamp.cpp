@@ -13,7 +13,7 @@ using geometry::FrontCrossing;
 using geometry::PointWay;
 
 // How far before the front it is left: surely before it in the next tick.
-constexpr Length k_front_gap = geometry::k_front_guard * 4;
+constexpr Length k_front_gap = geometry::k_front_margin * 4;
 
 Vec3<Position> to_local(const PlacedShape& placed, const Vec3<Position>& point) {
   return rotate_inverse(placed.rotation, point - placed.origin);
@@ -33,9 +33,11 @@ class ThinPieces final : public PieceVisitor {
     const Vec3<Position> end = to_world(a_.end, to_local(a_.start, middle));
     const PointWay way{saturated<Length>(to_local(mesh_, middle)),
                        saturated<Length>(to_local(mesh_, end))};
+    LKS_ASSERT(mesh_.asset != nullptr);
     const Asset& asset = *mesh_.asset;
     const FrontCrossing crossing = asset.mesh_kernels()->first_crossing(asset, way);
     if (!crossing.found || (best_.found && crossing.fraction >= best_.fraction)) return;
+    LKS_ASSERT(crossing.fraction >= Unit{} && crossing.fraction <= Unit::from_integer(1));
     best_ = {true, crossing.fraction, push_of(crossing), middle - end};
   }
 

@@ -10,7 +10,7 @@
 
 namespace lockstone {
 
-/// Pieces whose inner radius is at most this are held. Thicker pieces do not sink as far:
+/// Pieces whose inner radius is at most this are clamped. Thicker pieces do not sink as far:
 /// continuous collision stops those that move farther than half their inner radius in a tick, and
 /// contacts push out the others.
 inline constexpr Length k_thin_radius = Length::from_ratio(1, 50);

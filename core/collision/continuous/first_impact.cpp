@@ -110,7 +110,7 @@ constexpr int k_half_depth = 4;
 constexpr int k_last_depth = 7;
 
 // Nothing passes a triangle from its front: a shape that has sunk in beside it, and is nearest to a
-// rim from below, is held by the front as well.
+// rim from below, is stopped by the front as well.
 Vec3<Unit> crossing_from_front(const Piece& b, const Vec3<Unit>& crossing) {
   if (!b.triangle.is_triangle || crossing == Vec3<Unit>{}) return crossing;
   const Vec3<Unit> front = rotate(b.rotation, b.polytope->faces.front().normal);
@@ -137,21 +137,22 @@ class PiecesOfB final : public PieceVisitor {
     if (is_behind(middle_of(a_), b)) return;
     const PieceSweep sweep_b(b, motion_b_);
     const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
-    const Meeting meeting = depth_ == ImpactDepth::half ? meet(swept_b) : meet_soon(swept_b);
-    if (meeting.time == k_never || (best_.hit && meeting.time >= best_.fraction)) return;
-    const Vec3<Unit> crossing = crossing_from_front(b, meeting.crossing);
-    best_ = {true, meeting.time, a_.part, b.part, crossing};
+    const Hit hit = depth_ == ImpactDepth::half ? meet(swept_b) : meet_soon(swept_b);
+    if (hit.time == k_never || (best_.hit && hit.time >= best_.fraction)) return;
+    LKS_ASSERT(hit.time >= Unit{} && hit.time <= Unit::from_integer(1));
+    const Vec3<Unit> crossing = crossing_from_front(b, hit.crossing);
+    best_ = {true, hit.time, a_.part, b.part, crossing};
   }
 
  private:
   static constexpr Unit k_never = Unit::max();
 
-  struct Meeting {
+  struct Hit {
     Unit time = k_never;
     Vec3<Unit> crossing{};
   };
 
-  [[nodiscard]] Meeting meet(const SweptShape& b) const {
+  [[nodiscard]] Hit meet(const SweptShape& b) const {
     const Unit half = time_at(k_half_depth, b);
     if (half == k_never) return {};
     const Unit deep = half > Unit{} ? half : time_at(k_last_depth, b);
@@ -166,7 +167,7 @@ class PiecesOfB final : public PieceVisitor {
   }
 
   // As soon as A sinks an eighth deeper than it is.
-  [[nodiscard]] Meeting meet_soon(const SweptShape& b) const {
+  [[nodiscard]] Hit meet_soon(const SweptShape& b) const {
     for (int depth = 1; depth <= k_last_depth; ++depth) {
       const Unit time = time_at(depth, b);
       if (time == k_never) return {};
@@ -179,7 +180,7 @@ class PiecesOfB final : public PieceVisitor {
 
   // The moment at which the middle of A, deep in B from the beginning, runs into it too: or a rod
   // would pass through a wall that its tip was in.
-  [[nodiscard]] Meeting cross(const SweptShape& b) const {
+  [[nodiscard]] Hit cross(const SweptShape& b) const {
     for (const int share : {4, 2, 1}) {
       const TimeOfImpact found = find(k_last_depth, b, Unit::from_ratio(share, 8));
       if (found.state == TimeOfImpactState::separated) return {};
@@ -196,7 +197,7 @@ class PiecesOfB final : public PieceVisitor {
 
   [[nodiscard]] TimeOfImpact find(int depth, const SweptShape& b, Unit share) const {
     LKS_ASSERT(depth >= 0 && depth <= k_last_depth);
-    const ErodedShape core(a_, inner_radius_ / 8 * depth, share);
+    const ShrunkCore core(a_, inner_radius_ / 8 * depth, share);
     const SweptShape a{core.shape, sweep_a_.sweep, core.polytope_or_null(), sweep_a_.origin};
     return time_of_impact(a, b, limits_);
   }
@@ -225,6 +226,7 @@ class TouchingPiecesOfB final : public PieceVisitor {
     const SweptShape swept_b{b.shape, sweep_b.sweep, b.polytope, sweep_b.origin};
     const TimeOfImpact found = time_of_impact(swept_a, swept_b, k_touch_limits);
     touched_ = found.state != TimeOfImpactState::separated;
+    LKS_ASSERT(!touched_ || found.fraction <= Unit::from_integer(1));
   }
 
   [[nodiscard]] bool touched() const { return touched_; }

@@ -8,7 +8,7 @@
 #include <lockstone/shape.h>
 
 #include "core/collision/narrow_phase/placed_shape.h"
-#include "core/geometry/distance/time_of_impact.h"
+#include "core/geometry/distance/motion/time_of_impact.h"
 
 namespace lockstone {
 

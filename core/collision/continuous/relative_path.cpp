@@ -44,18 +44,18 @@ Metres norm_of(const RawVec& v) {
 Position relative_way(const Sweep& a, const Sweep& b, Length radius) {
   LKS_ASSERT(radius >= Length{});
   const RawVec turn_a = raws(a.rotation), turn_b = raws(b.rotation);
-  RawVec drift = raws(a.translation) - raws(b.translation);
+  RawVec translation = raws(a.translation) - raws(b.translation);
   Metres bend = 0;
   if (turn_b != RawVec{}) {
     if (!is_small(turn_b)) return Position::max();
     const Metres angle = norm_of(turn_b);  // below 1 rad
     LKS_ASSERT(angle < Metres{1} << geometry::k_metre_bits);
-    bend = times(norm_of(drift), angle / 4) * 2 + k_way_rounding;
-    drift = drift - cross(turn_b, raws(a.start.position - b.start.position));
+    bend = times(norm_of(translation), angle / 4) * 2 + k_way_rounding;
+    translation = translation - cross(turn_b, raws(a.start.position - b.start.position));
   }
   const Metres turned =
       raw::multiply_shift(norm_of(turn_a - turn_b), radius.raw, Length::frac_bits);
-  return Position::from_raw(norm_of(drift) + bend + turned + k_way_rounding);
+  return Position::from_raw(norm_of(translation) + bend + turned + k_way_rounding);
 }
 
 }  // namespace lockstone

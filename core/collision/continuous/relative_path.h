@@ -1,7 +1,7 @@
 // How far a body goes as another body in motion sees it.
 #pragma once
 
-#include "core/geometry/distance/separating_motion.h"
+#include "core/geometry/distance/motion/separating_motion.h"
 
 namespace lockstone {
 

@@ -26,17 +26,18 @@ Length inner_radius_of(const Piece& piece) {
   return piece.polytope != nullptr ? inner_radius_of(*piece.polytope) : inner_radius(piece.shape);
 }
 
-ErodedShape::ErodedShape(const Piece& piece, Length depth, Unit share) : shape(piece.shape) {
+ShrunkCore::ShrunkCore(const Piece& piece, Length depth, Unit share) : shape(piece.shape) {
   LKS_ASSERT(depth >= Length{} && share > Unit{} && share <= Unit::from_integer(1));
   if (piece.polytope != nullptr) {
-    erode_vertices(*piece.polytope, depth);
+    move_vertices_inward(*piece.polytope, depth);
   } else {
-    shape.size = geometry::traits_of(shape).eroded(shape.size, depth);
+    shape.size = geometry::traits_of(shape).shrunk(shape.size, depth);
   }
   if (share != Unit::from_integer(1)) shorten(share);
 }
 
-void ErodedShape::shorten(Unit share) {
+void ShrunkCore::shorten(Unit share) {
+  LKS_ASSERT(share > Unit{} && share <= Unit::from_integer(1));
   if (!is_polytope) {
     shape.size = geometry::traits_of(shape).shortened(shape.size, share);
     return;
@@ -47,7 +48,7 @@ void ErodedShape::shorten(Unit share) {
   }
 }
 
-void ErodedShape::erode_vertices(const geometry::Polytope& full, Length depth) {
+void ShrunkCore::move_vertices_inward(const geometry::Polytope& full, Length depth) {
   LKS_ASSERT(full.vertices.size() <= vertices_.size());
   std::array<geometry::RawVec, geometry::k_max_polytope_vertices> normals{};
   for (const geometry::HalfEdge& edge : full.edges) {

@@ -12,10 +12,10 @@ namespace lockstone {
 /// each vertex goes inward by that much along the mean normal of its faces; the faces are not to be
 /// used. Then it is shortened by the factor `share` about its middle; a round shape keeps its
 /// radius.
-struct ErodedShape {
-  ErodedShape(const Piece& piece, Length depth, Unit share = Unit::from_integer(1));
-  ErodedShape(const ErodedShape&) = delete;
-  ErodedShape& operator=(const ErodedShape&) = delete;
+struct ShrunkCore {
+  ShrunkCore(const Piece& piece, Length depth, Unit share = Unit::from_integer(1));
+  ShrunkCore(const ShrunkCore&) = delete;
+  ShrunkCore& operator=(const ShrunkCore&) = delete;
 
   Shape shape;
   geometry::Polytope polytope{};  ///< only of polytopes
@@ -26,7 +26,7 @@ struct ErodedShape {
   }
 
  private:
-  void erode_vertices(const geometry::Polytope& full, Length depth);
+  void move_vertices_inward(const geometry::Polytope& full, Length depth);
   void shorten(Unit share);
 
   std::array<Vec3<Length>, geometry::k_max_polytope_vertices> vertices_;

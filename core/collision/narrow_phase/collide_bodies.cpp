@@ -120,6 +120,7 @@ constexpr Position k_farthest_plane = Position::from_integer(1500);
 PlacedShape met_near(const PlacedShape& placed, const Vec3<Position>& point) {
   PlacedShape near = brought_near(placed, point);
   if (placed.shape.kind != ShapeKind::half_space) return near;
+  LKS_ASSERT(placed.asset == nullptr);
   const Position height = rotate_inverse(placed.rotation, point - near.origin).y;
   const Position excess = height - clamp(height, -k_farthest_plane, k_farthest_plane);
   if (excess == Position{}) return near;

@@ -103,6 +103,7 @@ WorldBox world_box(const PlacedShape& placed) {
                                : turned_box(placed, placed.asset->bounds());
   }
   const Vec3<Position> reach = rounded<Position>(world_half_extents(placed.shape, placed.rotation));
+  LKS_ASSERT(reach.x >= Position{} && reach.y >= Position{} && reach.z >= Position{});
   return {placed.origin - reach, placed.origin + reach};
 }
 

@@ -7,6 +7,7 @@
 #include "core/collision/narrow_phase/pieces.h"
 #include "core/geometry/convex/polytope.h"
 #include "core/geometry/convex/shape_traits.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/geometry/numeric/q50.h"
 
 namespace lockstone {
@@ -34,6 +35,7 @@ Vec3<Length> local_point(const Piece& piece, const Vec3<Position>& point) {
 /// Within a prism as deep as `k_triangle_depth` behind the front.
 bool is_in_triangle(const geometry::Polytope& triangle, const Vec3<Length>& point) {
   const geometry::PolytopeFace& front = triangle.faces.front();
+  LKS_ASSERT(front.edge_count == 3);
   const Fine height = lockstone::dot(front.normal, point).raw - front.offset;
   if (height > fine(k_seam_width) || height < -fine(k_triangle_depth)) return false;
   for (int i = 0; i < 3; ++i) {
@@ -78,6 +80,7 @@ Fine rise_above(const Piece& piece, const TouchedPoint& at) {
 
 /// The outward normal of the face that looks most along the axis, both in the piece's frame.
 Vec3<Unit> face_along(const Piece& piece, const Vec3<Unit>& axis) {
+  LKS_ASSERT(geometry::is_unit(axis));
   if (piece.triangle.is_triangle) return piece.polytope->faces.front().normal;
   if (piece.polytope != nullptr) {
     const geometry::PolytopeFace* best = &piece.polytope->faces.front();
@@ -134,6 +137,7 @@ std::optional<FaceOfShape> touched_face(const TouchedPart& touched, const Touche
     if (cosine < best) return;
     best = cosine;
     const Vec3<Unit> outward = rotate(piece.rotation, normal);
+    LKS_ASSERT(geometry::is_unit(outward));
     const Fine height = rise_above(piece, {at.point, outward});
     constexpr int k_bits = geometry::k_fine_bits - Position::frac_bits;
     const geometry::RawVec way = geometry::shifted(geometry::along(outward, height), k_bits);

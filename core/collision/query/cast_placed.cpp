@@ -4,8 +4,9 @@
 
 #include <lockstone/assert.h>
 
-#include "core/geometry/distance/gjk.h"
-#include "core/geometry/distance/shape_cast.h"
+#include "core/geometry/distance/gjk/gjk.h"
+#include "core/geometry/distance/manifold_checks.h"
+#include "core/geometry/distance/motion/shape_cast.h"
 #include "core/math/int128.h"
 
 namespace lockstone {
@@ -85,6 +86,7 @@ class CastPieces final : public geometry::WayPartVisitor {
             : lockstone::cast_shape(piece.posed(), shape_.posed(), offset, translation_, limit_);
     if (!hit.hit || hit.fraction > limit_) return;
     if (best_.hit && hit.fraction == best_.fraction && piece.part > best_.part) return;
+    LKS_ASSERT(hit.fraction.raw >= 0 && (hit.overlapping || geometry::is_unit(hit.normal)));
     best_ = {true, piece.part, hit.fraction, hit.normal,
              piece.origin + rounded<Position>(hit.point_a)};
     limit_ = hit.fraction;
@@ -119,6 +121,7 @@ class NearestPiece final : public geometry::NearPartVisitor {
     const Length distance = saturated<Length>(found.distance);
     if (distance > reach_) return;
     if (best_.found && distance == best_.distance && piece.part > best_.part) return;
+    LKS_ASSERT(distance >= Length{});
     best_ = {true, piece.part, distance,
              found.overlapping ? point_ : piece.origin + rounded<Position>(found.point_a)};
     reach_ = distance;

@@ -84,6 +84,7 @@ struct Turning {
   std::uint32_t turns = 0;
 
   void turn(int axis, const TurnRate& rate) {
+    LKS_ASSERT(axis >= 0 && axis < 3);
     const auto i = static_cast<std::size_t>(axis), j = (i + 1) % 3, k = (i + 2) % 3;
     const std::int64_t angle = rate.angle(momentum[i]);
     if (angle == 0) return;
@@ -204,6 +205,8 @@ FreeTurn FreeRotor::turn(const Quat& orientation, const Mat3& rotation,
   const std::array<std::int64_t, 3> scaled = {raw::scale_binary(spin.x.raw, -exponent),
                                               raw::scale_binary(spin.y.raw, -exponent),
                                               raw::scale_binary(spin.z.raw, -exponent)};
+  LKS_ASSERT(std::ranges::all_of(
+      scaled, [](std::int64_t x) { return magnitude(x) <= std::uint64_t{1} << k_momentum_bits; }));
   Turning turning;
   for (int i = 0; i < 3; ++i) {
     const Vec3<Unit>& axis = rotation.column(i);

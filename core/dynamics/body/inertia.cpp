@@ -73,6 +73,7 @@ PrincipalInverse principal_inverse(const Vec3<Unit>& moments) {
   for (std::size_t k = 0; k < 3; ++k) {
     result.raw[k] = static_cast<std::int32_t>(raw::round_shift(inverse[k], result.exponent));
   }
+  LKS_ASSERT(result.raw[0] >= 0 && result.raw[1] >= 0 && result.raw[2] >= 0);
   return result;
 }
 
@@ -99,6 +100,7 @@ InverseInertia inverse_inertia(const PrincipalInverse& inverse, const Mat3& rota
   m.exponent = inverse.exponent;
   m.xx = entry(sum[0]), m.yy = entry(sum[1]), m.zz = entry(sum[2]);
   m.xy = entry(sum[3]), m.xz = entry(sum[4]), m.yz = entry(sum[5]);
+  LKS_ASSERT(m.xx >= 0 && m.yy >= 0 && m.zz >= 0 && m.exponent >= 0);
   return m;
 }
 
@@ -131,6 +133,7 @@ Vec3<Velocity> spin_of(const BodyRecord& body, const Mat3& rotation,
                        const Vec3<Velocity>& surface_velocity) {
   if (!body.rotates() || body.is_static()) return {};
   if (!body.is_dynamic()) return surface_velocity;
+  LKS_ASSERT(body.inertia.x > Unit{} && body.inertia.y > Unit{} && body.inertia.z > Unit{});
   const auto unlocked = [&](Vec3<Velocity> v) {
     for (int i = 0; i < 3; ++i)
       if (body.is_turn_locked(i)) v[i] = {};

@@ -10,7 +10,7 @@ namespace lockstone {
 /// From the Q32 of velocities to the Q50 of rows.
 inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits;
 
-[[nodiscard]] inline lanes::SourceBody source_body(const InverseInertia& m) {
+[[nodiscard]] inline lanes::BodyInertia body_inertia(const InverseInertia& m) {
   return {{m.xx, m.yy, m.zz, m.xy, m.xz, m.yz}};
 }
 
@@ -20,8 +20,8 @@ inline constexpr int k_grid_to_row = lanes::k_velocity_bits - lanes::k_grid_bits
            both(r.y.y, r.y.z), both(r.z.x, r.z.y), both(r.z.z, {})}};
 }
 
-/// Eight steps of the velocities that rows can read, 7.6 µm/s: a body held by contacts trembles by
-/// so much.
+/// Eight steps of the velocities that rows can read, 7.6 µm/s: a body supported by contacts
+/// trembles by so much.
 inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_bits - 20);
 
 [[nodiscard]] constexpr bool is_below(std::int64_t x, std::int64_t bound) {
@@ -29,23 +29,23 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
 }
 
 /// Whether all components of its motion are.
-[[nodiscard]] inline bool is_below(const lanes::RowBody& row, std::int64_t bound) {
+[[nodiscard]] inline bool is_below(const lanes::BodyVelocity& row, std::int64_t bound) {
   return is_below(row.velocity[0], bound) && is_below(row.velocity[1], bound) &&
          is_below(row.velocity[2], bound) && is_below(row.spin[0], bound) &&
          is_below(row.spin[1], bound) && is_below(row.spin[2], bound);
 }
 
 /// A body that only trembles counts as still.
-[[nodiscard]] inline bool is_still(const lanes::RowBody& row) {
+[[nodiscard]] inline bool is_still(const lanes::BodyVelocity& row) {
   return is_below(row, k_tremble);
 }
 
 /// Clears each component below k_tremble, if all are below eight times that: a body that sinks or
 /// rises by a hair on a slope does not creep down meanwhile. Only for bodies that touch one other,
 /// which does not give way: in a pile, the cleared velocities would add up.
-[[nodiscard]] inline lanes::RowBody steadied(const lanes::RowBody& row) {
+[[nodiscard]] inline lanes::BodyVelocity steadied(const lanes::BodyVelocity& row) {
   if (!is_below(row, 8 * k_tremble)) return row;
-  lanes::RowBody result = row;
+  lanes::BodyVelocity result = row;
   for (std::size_t i = 0; i < 3; ++i) {
     if (is_below(row.velocity[i], k_tremble)) result.velocity[i] = 0;
     if (is_below(row.spin[i], k_tremble)) result.spin[i] = 0;
@@ -55,13 +55,14 @@ inline constexpr std::int64_t k_tremble = std::int64_t{8} << (lanes::k_velocity_
 
 /// Whether a body is slower than 2^-shift of the speed that gravity and forces give it in a
 /// substep.
-[[nodiscard]] inline bool is_slower(const lanes::RowBody& row, const SolverBody& body, int shift) {
+[[nodiscard]] inline bool is_slower(const lanes::BodyVelocity& row, const SolverBody& body,
+                                    int shift) {
   return is_below(row, (body.greatest_gain() >> shift) * (std::int64_t{1} << k_grid_to_row));
 }
 
 /// Whether it is slower than 1/4 m/s along each axis, so that contact impulses may be taken for
 /// weight.
-[[nodiscard]] inline bool is_at_rest(const lanes::RowBody& row) {
+[[nodiscard]] inline bool is_at_rest(const lanes::BodyVelocity& row) {
   constexpr std::int64_t k_most = std::int64_t{1} << (lanes::k_velocity_bits - 2);
   return is_below(row.velocity[0], k_most) && is_below(row.velocity[1], k_most) &&
          is_below(row.velocity[2], k_most);

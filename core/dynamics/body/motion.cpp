@@ -7,6 +7,7 @@
 #include "core/dynamics/body/damping.h"
 #include "core/dynamics/body/free_rotation.h"
 #include "core/dynamics/body/tick_gain.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/math/roots.h"
 #include "core/math/rotation_log.h"
 
@@ -40,8 +41,8 @@ void damp(Vec3<Velocity>& v, Rate damping, const TimeStep& step) {
 }
 
 // The way and the velocity of one axis under damping.
-void fly_damped(Position& x, Velocity& v, std::int64_t gain, const Damping& damping,
-                const TimeStep& step) {
+void integrate_damped(Position& x, Velocity& v, std::int64_t gain, const Damping& damping,
+                      const TimeStep& step) {
   const auto times = [](std::int64_t value, std::int32_t factor) {
     return raw::multiply_shift(value, factor, 30);
   };
@@ -112,6 +113,7 @@ void keep_axial_spin(BodyRecord& body, const Mat3& rotation, const Vec3<Velocity
   constexpr int k_ratio = 8;
   const int axis = thin_axis(body, k_ratio);
   if (axis < 0 || body.spin == mean) return;
+  LKS_ASSERT(axis < 3);
   const Vec3<Unit>& before = rotation.column(axis);
   const Vec3<Unit> now = to_matrix(body.orientation).column(axis);
   const Vec3<Velocity> gained = body.spin - mean;
@@ -126,6 +128,7 @@ void keep_axial_spin(BodyRecord& body, const Mat3& rotation, const Vec3<Velocity
 RotationVector with_whole_turns(const RotationVector& theta, const RotationVector& expected) {
   constexpr std::int64_t k_turn = 0x6487ed511;  // 2π, 32 bits
   const Vec3<Unit> axis = direction_of(theta == RotationVector{} ? expected : theta);
+  LKS_ASSERT(geometry::is_unit(axis));
   std::int64_t missing = 0;
   for (int i = 0; i < 3; ++i)
     missing += raw::multiply_shift((expected[i] - theta[i]).raw, axis[i].raw, Unit::frac_bits);
@@ -166,12 +169,12 @@ bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world
   return too_fast || spins_too_fast;
 }
 
-void hold_in_range(Vec3<Velocity>& v) {
+void clamp_speed(Vec3<Velocity>& v) {
   for (int i = 0; i < 3; ++i)
     v[i] = clamp(v[i], -k_speed_limit, k_speed_limit);
 }
 
-void hold_axes(BodyRecord& body) {
+void apply_axis_locks(BodyRecord& body) {
   if (body.locks == 0) return;
   for (int i = 0; i < 3; ++i) {
     if (body.is_locked(i)) body.velocity[i] = {};
@@ -188,11 +191,14 @@ bool limit_position(BodyRecord& body) {
     body.velocity[i] = {};
     limited = true;
   }
+  LKS_ASSERT(body.position.x <= k_world_limit && body.position.y <= k_world_limit &&
+             body.position.z <= k_world_limit);
   return limited;
 }
 
 std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleration>& gravity,
                   const TimeStep& step, std::uint64_t tick) {
+  LKS_ASSERT(body.moves() && step.tick_rate > 0);
   const Vec3<Acceleration> g = gravity_on(body, gravity);
   const auto phase = static_cast<std::int64_t>(tick % static_cast<std::uint64_t>(step.tick_rate));
   const auto in_this_tick = [&](std::int64_t per_second, std::int64_t rate) {
@@ -206,7 +212,7 @@ std::uint32_t fly(BodyRecord& body, const Mat3& rotation, const Vec3<Acceleratio
   for (int i = 0; i < 3; ++i) {
     const std::int64_t gain = in_this_tick(g[i].raw, step.tick_rate) + force[i].raw;
     if (damped) {
-      fly_damped(body.position[i], body.velocity[i], gain, damping, step);
+      integrate_damped(body.position[i], body.velocity[i], gain, damping, step);
       continue;
     }
     // (v + gain/2)·dt
@@ -233,6 +239,7 @@ RotationVector turn_since(const Quat& start, const Mat3& rotation, const BodyRec
                           const TimeStep& step, Unit part) {
   constexpr int k_thin = 64;
   constexpr auto k_surely_nearest = RotationComponent::from_ratio(5, 2);  // less than π
+  LKS_ASSERT(part >= Unit{} && part <= Unit::from_integer(1));
   const RotationVector nearest = rotation_between(start, body.orientation);
   if (!body.rotates() || body.spin == Vec3<Velocity>{}) return nearest;
   const bool thin = thin_axis(body, k_thin) >= 0;
@@ -272,17 +279,19 @@ SolverBody solver_body(const BodyRecord& body, const Mat3& rotation,
         part_of(g[i].raw, step.substep_rate()) + part_of(force[i].raw, step.substeps);
     solver.spin_gain[axis] = part_of(torque[i].raw, step.substeps);
   }
-  solver.held = body.locks & k_lock_moving;
+  solver.locked = body.locks & k_lock_moving;
   solver.inverse_inertia = inverse_inertia(body, rotation);
   solver.inverse_mass = body.inverse_mass_value();
   solver.scale_exponent = body.scale_exponent;
-  solver.is_plain = solver.held == 0 && turns_alike(solver.inverse_inertia);
+  solver.is_plain = solver.locked == 0 && turns_alike(solver.inverse_inertia);
+  LKS_ASSERT(solver.inverse_mass.mantissa >= 0 && (body.is_dynamic() || !solver.is_pushed()));
   return solver;
 }
 
 std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,
                            const Vec3<Velocity>& displacement, const Vec3<Velocity>& turned,
                            const TimeStep& step) {
+  LKS_ASSERT(body.moves());
   for (int i = 0; i < 3; ++i)
     body.position[i].raw += displacement[i].raw;
   if (turned == Vec3<Velocity>{}) return 0;

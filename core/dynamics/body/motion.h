@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/body/inertia.h"
 #include "core/dynamics/body/solver_body.h"
 #include "core/dynamics/state/body_record.h"
@@ -29,11 +31,11 @@ void damp_spin(BodyRecord& body, const TimeStep& step);
 bool limit_speed(BodyRecord& body, const InverseInertia& inertia, Velocity world_limit);
 
 /// Velocity and spin along locked axes are zero.
-void hold_axes(BodyRecord& body);
+void apply_axis_locks(BodyRecord& body);
 
 /// Clamps each component to ±500 m/s, since commands may add up between two ticks. The tick's end
 /// limits the speeds themselves.
-void hold_in_range(Vec3<Velocity>& v);
+void clamp_speed(Vec3<Velocity>& v);
 
 /// Clamps the position to the world, and stops the components of motion out of it. Returns whether
 /// it had to.
@@ -86,6 +88,7 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
   const std::int64_t x = read(spin_q50[0]), y = read(spin_q50[1]), z = read(spin_q50[2]);
   // Q22 · Q(30 − exponent), to Q32.
   const int shift = 20 - m.exponent;
+  LKS_ASSERT(m.exponent >= 0 && m.exponent <= 20);
   const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     return raw::round_shift(a * x + b * y + c * z, shift);
   };
@@ -93,7 +96,7 @@ std::uint32_t turn_in_flight(BodyRecord& body, const Mat3& rotation, const TimeS
 }
 
 /// Moves a body by its travel in the solver, m: `displacement` of its centre, and `turned` of its
-/// surface (rotation vector · 2^scale_exponent) with its geometry held fixed. The body turns
+/// surface (rotation vector · 2^scale_exponent) with its geometry fixed. The body turns
 /// freely with the mean angular momentum of the tick. Returns as `fly`. `body` has its new spin
 /// already. Impulses without torque about the old axis of a thin body have none about its new one.
 std::uint32_t end_substeps(BodyRecord& body, const Mat3& rotation,

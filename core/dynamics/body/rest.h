@@ -6,7 +6,7 @@
 // the moment; and a single rounding decides nothing.
 //
 // Nothing stops a ball that creeps, rolls or spins in a pocket of a pile. So a slow body that keeps
-// others awake which rest is braked, as weakly as a slope that would not hold it from resting.
+// others awake which rest is braked, as weakly as a slope that would not keep it from resting.
 #pragma once
 
 #include <cstdint>

@@ -16,10 +16,10 @@ struct alignas(64) SolverBody {
   InverseInertia inverse_inertia{};
   BlockFloat inverse_mass{};
   std::int32_t scale_exponent = 0;
-  std::uint8_t held = 0;  // bit i: axis i of moving is locked
-  bool is_plain = true;   // nothing is held, and it turns alike about all axes
-  bool is_alone = false;  // touches one body that no impulse moves, and nothing else
-  bool rests = false;     // of a pile, and hardly moves when the tick begins
+  std::uint8_t locked = 0;  // bit i: axis i of moving is locked
+  bool is_plain = true;     // nothing is locked, and it turns alike about all axes
+  bool is_alone = false;    // touches one body that no impulse moves, and nothing else
+  bool rests = false;       // of a pile, and hardly moves when the tick begins
   alignas(64) std::array<std::int64_t, 3> gain{};  // of velocity in a substep, by gravity and
                                                    // forces; Q32
   std::array<std::int64_t, 3> spin_gain{};         // of spin, by torques
@@ -33,7 +33,7 @@ struct alignas(64) SolverBody {
       most = std::max({most, part, -part});
     return most;
   }
-  [[nodiscard]] bool is_held(int axis) const { return (held >> axis & 1) != 0; }
+  [[nodiscard]] bool is_locked(int axis) const { return (locked >> axis & 1) != 0; }
   /// Whether it can turn at all.
   [[nodiscard]] bool turns() const {
     return inverse_inertia.xx != 0 || inverse_inertia.yy != 0 || inverse_inertia.zz != 0;

@@ -1,5 +1,5 @@
 // The velocity and spin that forces give a body in a tick. Few bodies have any, so they are packed
-// into the body's notes: mantissas times 2^exponent in units of Velocity.
+// into the body's union: mantissas times 2^exponent in units of Velocity.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +33,9 @@ inline constexpr int k_gain_exponent_bits = 4;
 
 [[nodiscard]] inline TickGain tick_gain_of(const BodyRecord& body) {
   if (!body.is_pushed()) return {};
-  const std::int32_t exponents = body.note_c.raw;
-  return {read_gain(body.note_a, exponents & k_most_gain_exponent),
-          read_gain(body.note_b, exponents >> k_gain_exponent_bits & k_most_gain_exponent)};
+  const std::int32_t exponents = body.union_c.raw;
+  return {read_gain(body.union_a, exponents & k_most_gain_exponent),
+          read_gain(body.union_b, exponents >> k_gain_exponent_bits & k_most_gain_exponent)};
 }
 
 /// Returns the exponent. The largest mantissa has up to 30 bits.
@@ -50,7 +50,7 @@ inline int write_gain(const Vec3<Velocity>& gain, Vec3<Unit>& mantissa) {
   return exponent;
 }
 
-/// Adds, each component held within ±k_most_gain, to a relative error of 2^-30.
+/// Adds, each component clamped to ±k_most_gain, to a relative error of 2^-30.
 inline void add_gain(BodyRecord& body, const TickGain& gain) {
   TickGain sum = tick_gain_of(body);
   const auto add = [&](Velocity& to, Velocity x) {
@@ -60,8 +60,9 @@ inline void add_gain(BodyRecord& body, const TickGain& gain) {
     add(sum.velocity[i], gain.velocity[i]);
     add(sum.spin[i], gain.spin[i]);
   }
-  const int exponent = write_gain(sum.velocity, body.note_a);
-  body.note_c.raw = exponent | write_gain(sum.spin, body.note_b) << k_gain_exponent_bits;
+  const int exponent = write_gain(sum.velocity, body.union_a);
+  LKS_ASSERT(exponent >= 0 && exponent <= k_most_gain_exponent);
+  body.union_c.raw = exponent | write_gain(sum.spin, body.union_b) << k_gain_exponent_bits;
   body.flags = static_cast<std::uint8_t>(body.flags | k_body_pushed);
   body.rest_ticks = 0;
 }

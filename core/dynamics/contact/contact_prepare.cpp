@@ -81,7 +81,7 @@ std::size_t find_point(const ContactRecord& record, std::size_t like, std::uint3
 // Divides the impulses of points that are gone among the new ones: where boxes fall flush onto each
 // other, points change names from tick to tick, and contacts that forgot their impulses each time
 // would rattle.
-void hand_on(std::int64_t left, std::uint32_t fresh, PrepareInput& out) {
+void share_out(std::int64_t left, std::uint32_t fresh, PrepareInput& out) {
   LKS_ASSERT(left > 0 && fresh != 0);
   const std::int64_t each =
       std::min<std::int64_t>(left / std::popcount(fresh), lanes::k_most_impulse);
@@ -112,8 +112,8 @@ bool fill_points(const ContactInput& in, PrepareInput& out) {
   }
   for (std::size_t i = count; i < lanes::k_block_points; ++i)
     kept = kept && in.record.points[i] == ContactPointRecord{};
-  out.load = std::clamp(in.record.load.raw, 0, lanes::k_most_impulse);
-  if (fresh != 0 && left > 0) hand_on(left, fresh, out);
+  out.mean_impulse = std::clamp(in.record.mean_impulse.raw, 0, lanes::k_most_impulse);
+  if (fresh != 0 && left > 0) share_out(left, fresh, out);
   out.count = in.manifold.count;
   out.one_over_count = k_one_over[count];
   return kept;
@@ -135,14 +135,15 @@ void fill_rolling(const ContactInput& in, int scale_exponent, PrepareInput& out)
   out.rolling_limit = raw::saturate<std::int32_t>(
       raw::scale_binary(std::int64_t{in.surface.rolling_arm.raw}, 8 - scale_exponent));
   if (out.rolling_limit == 0) return;
+  LKS_ASSERT(out.rolling_limit > 0);
   const Vec3<SolverVelocity>& rolling = in.record.rolling_impulse;
   out.rolling = {rolling.x.raw, rolling.y.raw, rolling.z.raw};
 }
 
-// The share of a push along an axis that goes to bodies which are held along it.
-std::int32_t held_along(const ContactInput& in, int axis, std::int32_t share_b) {
-  const std::int64_t a = in.body_a.is_held(axis) ? k_one_q30 - share_b : 0;
-  const std::int64_t b = in.body_b.is_held(axis) ? share_b : 0;
+// The share of a push along an axis that goes to bodies which are locked along it.
+std::int32_t locked_along(const ContactInput& in, int axis, std::int32_t share_b) {
+  const std::int64_t a = in.body_a.is_locked(axis) ? k_one_q30 - share_b : 0;
+  const std::int64_t b = in.body_b.is_locked(axis) ? share_b : 0;
   return static_cast<std::int32_t>(a + b);
 }
 
@@ -205,16 +206,17 @@ bool fill_source(const ContactInput& in, const ContactSoftness& softness, Prepar
   const bool is_driven = (out.drive[0] | out.drive[1] | out.drive[2] | out.twist_drive) != 0;
   const bool is_plain = a.is_plain && b.is_plain && !is_driven && out.rolling_limit == 0;
   out.kind = is_plain ? 0 : lanes::k_special_lane;
-  out.held = {};
+  out.locked = {};
   out.is_elastic = in.surface.restitution.raw != 0 ? 1 : 0;
-  if (a.held == 0 && b.held == 0) return kept;
+  if (a.locked == 0 && b.locked == 0) return kept;
   for (int axis = 0; axis < 3; ++axis)
-    out.held[static_cast<std::size_t>(axis)] = held_along(in, axis, out.share_b);
+    out.locked[static_cast<std::size_t>(axis)] = locked_along(in, axis, out.share_b);
   return kept;
 }
 
 void across(const lanes::ManifoldBlock& block, std::size_t lane, std::int64_t word,
             Vec3<SolverVelocity>& out) {
+  LKS_ASSERT(lane < lanes::k_block_lanes);
   const auto low = [](std::int64_t x) { return static_cast<std::int32_t>(x); };
   const auto high = [](std::int64_t x) { return static_cast<std::int32_t>(x >> 32); };
   const std::int64_t along_t = static_cast<std::int32_t>(word),

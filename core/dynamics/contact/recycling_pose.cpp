@@ -10,22 +10,22 @@
 namespace lockstone {
 namespace {
 
-// Fraction bits of the angles of a drift.
+// Fraction bits of the angles of a pose delta.
 constexpr int k_turn_bits = 34;
 
 // Steps of lengths within those of positions.
 constexpr int k_place_shift = Position::frac_bits - Length::frac_bits;
 
-// From the contact pose's place to the body's, Q32, with the fraction below a step of Length.
+// From the recycling pose's place to the body's, Q32, with the fraction below a step of Length.
 std::int64_t way_of(const BodyRecord& body, int axis) {
   const std::int64_t now = body.position[axis].raw;
   const auto steps = static_cast<std::uint32_t>(now >> k_place_shift) -
-                     static_cast<std::uint32_t>(body.contact_place[axis].raw);
-  const std::int64_t rest = now & ((std::int64_t{1} << k_place_shift) - 1);
-  return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + rest;
+                     static_cast<std::uint32_t>(body.recycling_place[axis].raw);
+  const std::int64_t remainder = now & ((std::int64_t{1} << k_place_shift) - 1);
+  return std::int64_t{static_cast<std::int32_t>(steps)} * (1 << k_place_shift) + remainder;
 }
 
-// A state in which somebody flipped a bit may have its contact pose anywhere, for a tick.
+// A state in which somebody flipped a bit may have its recycling pose anywhere, for a tick.
 std::int64_t within_bits(std::int64_t x, int bits) {
   const std::int64_t most = std::int64_t{1} << bits;
   return std::clamp(x, -most, most);
@@ -33,16 +33,16 @@ std::int64_t within_bits(std::int64_t x, int bits) {
 
 }  // namespace
 
-Vec3<Position> contact_position(const BodyRecord& body) {
+Vec3<Position> recycling_position(const BodyRecord& body) {
   Vec3<Position> place;
   for (int i = 0; i < 3; ++i)
     place[i].raw = body.position[i].raw - way_of(body, i);
   return place;
 }
 
-bool is_near_contact_pose(const BodyRecord& body, int drift) {
-  LKS_ASSERT(drift == k_fine_drift || drift == k_coarse_drift);
-  const int exponent = std::min(drift, body.scale_exponent + drift);
+bool is_near_recycling_pose(const BodyRecord& body, int delta) {
+  LKS_ASSERT(delta == k_fine_delta || delta == k_coarse_delta);
+  const int exponent = std::min(delta, body.scale_exponent + delta);
   // A place is rounded to a step of lengths.
   const std::int64_t way = std::int64_t{1}
                            << std::max(Position::frac_bits + exponent, k_place_shift + 1);
@@ -50,25 +50,25 @@ bool is_near_contact_pose(const BodyRecord& body, int drift) {
   const std::int64_t turn = std::int64_t{1}
                             << std::max(Unit::frac_bits - 1 + exponent - body.scale_exponent, 0);
   return is_within(3, way, [&](int i) { return way_of(body, i); }) &&
-         is_turned_within(turn, body.orientation, body.contact_orientation);
+         is_turned_within(turn, body.orientation, body.recycling_orientation);
 }
 
-void set_contact_pose(BodyRecord& body) {
+void set_recycling_pose(BodyRecord& body) {
   for (int i = 0; i < 3; ++i) {
     const std::int64_t steps = raw::round_shift(body.position[i].raw, k_place_shift);
-    body.contact_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
+    body.recycling_place[i].raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
   }
-  body.contact_orientation = body.orientation;
+  body.recycling_orientation = body.orientation;
 }
 
-PoseDelta drift_of(const BodyRecord& body) {
-  PoseDelta drift;
+PoseDelta pose_delta_of(const BodyRecord& body) {
+  PoseDelta delta;
   for (int i = 0; i < 3; ++i) {
-    drift.way[static_cast<std::size_t>(i)] =
+    delta.way[static_cast<std::size_t>(i)] =
         static_cast<std::int32_t>(within_bits(way_of(body, i), 25));
   }
-  const Quat& then = body.contact_orientation;
-  if (body.orientation == then) return drift;
+  const Quat& then = body.recycling_orientation;
+  if (body.orientation == then) return delta;
   // The vector of now · then*, of which the part then · then* is none. Q60, halved.
   const std::int64_t x = within_bits(std::int64_t{body.orientation.x.raw} - then.x.raw, 22);
   const std::int64_t y = within_bits(std::int64_t{body.orientation.y.raw} - then.y.raw, 22);
@@ -78,17 +78,17 @@ PoseDelta drift_of(const BodyRecord& body) {
                                y * then.w.raw - w * then.y.raw - z * then.x.raw + x * then.z.raw,
                                z * then.w.raw - w * then.z.raw - x * then.y.raw + y * then.x.raw};
   for (std::size_t i = 0; i < 3; ++i)
-    drift.turn[i] =
+    delta.turn[i] =
         static_cast<std::int32_t>(within_bits(raw::round_shift(half[i], 59 - k_turn_bits), 27));
-  return drift;
+  return delta;
 }
 
 void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold) {
   LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   const Vec3<Unit>& n = manifold.normal;
   // n × turn, Q34: n · (turn × r) = r · (n × turn).
-  const auto across = [&](const PoseDelta& drift) -> RawVec3 {
-    const auto& turn = drift.turn;
+  const auto across = [&](const PoseDelta& delta) -> RawVec3 {
+    const auto& turn = delta.turn;
     const auto part = [](std::int64_t x) { return raw::round_shift(x, Unit::frac_bits); };
     return {part(std::int64_t{n.y.raw} * turn[2] - std::int64_t{n.z.raw} * turn[1]),
             part(std::int64_t{n.z.raw} * turn[0] - std::int64_t{n.x.raw} * turn[2]),

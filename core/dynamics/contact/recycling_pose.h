@@ -1,8 +1,8 @@
 // Where a body's contacts are found.
 //
 // Finding the points in which two bodies touch costs as much as solving them, and points that
-// change keep iterations from coming to rest. So manifolds are computed at the contact pose of each
-// body, and reused until the body has drifted too far from it. Meanwhile separations follow to
+// change keep iterations from coming to rest. So manifolds are computed at the recycling pose of
+// each body, and reused until the body has moved too far from it. Meanwhile separations follow to
 // first order, as they do within a tick. Recycling contacts of bodies that hardly move is Box3D's
 // (E. Catto); here the pose is part of the state, so that a manifold follows from the state alone,
 // before and after a load.
@@ -16,7 +16,7 @@
 
 namespace lockstone {
 
-/// How far a body is from its contact pose.
+/// How far a body is from its recycling pose.
 struct PoseDelta {
   std::array<std::int32_t, 3> way{};   // of the centre, m, Q32
   std::array<std::int32_t, 3> turn{};  // rotation vector, rad, Q34
@@ -27,28 +27,28 @@ struct PoseDelta {
   }
 };
 
-/// The centre of the contact pose, of a body that is near it: a multiple of 2^-20 m, so that
+/// The centre of the recycling pose, of a body that is near it: a multiple of 2^-20 m, so that
 /// geometry reads it as it is.
-[[nodiscard]] Vec3<Position> contact_position(const BodyRecord& body);
+[[nodiscard]] Vec3<Position> recycling_position(const BodyRecord& body);
 
-/// How far a body may drift, as powers of two: in large stacks, which are rebalanced to a finer
-/// measure; and in all other islands that iterations solve.
-inline constexpr int k_fine_drift = -14;
-inline constexpr int k_coarse_drift = -9;
+/// How far a body may be from its recycling pose, as powers of two: in large stacks, which are
+/// rebalanced to a finer measure; and in all other islands that iterations solve.
+inline constexpr int k_fine_delta = -14;
+inline constexpr int k_coarse_delta = -9;
 
-/// Whether centre and surface are within 2^drift m of the contact pose, or 2^drift of the body's
+/// Whether centre and surface are within 2^delta m of the recycling pose, or 2^delta of the body's
 /// scale where that is less (the centre, within 2^-19 m at least). Of every stored body it holds
-/// with k_coarse_drift.
-[[nodiscard]] bool is_near_contact_pose(const BodyRecord& body, int drift = k_coarse_drift);
+/// with k_coarse_delta.
+[[nodiscard]] bool is_near_recycling_pose(const BodyRecord& body, int delta = k_coarse_delta);
 
-/// The contact pose is the body's own from now on.
-void set_contact_pose(BodyRecord& body);
+/// The recycling pose is the body's own from now on.
+void set_recycling_pose(BodyRecord& body);
 
-/// Of a body that is near its contact pose.
-[[nodiscard]] PoseDelta drift_of(const BodyRecord& body);
+/// Of a body that is near its recycling pose.
+[[nodiscard]] PoseDelta pose_delta_of(const BodyRecord& body);
 
-/// From separations at the contact poses to those where the bodies are: along the normal, to first
-/// order; the error is below 2^-17 m for bodies of a metre.
+/// From separations at the recycling poses to those where the bodies are: along the normal, to
+/// first order; the error is below 2^-17 m for bodies of a metre.
 void shift_separations(const PoseDelta& a, const PoseDelta& b, Manifold& manifold);
 
 }  // namespace lockstone

@@ -27,8 +27,8 @@ inline constexpr std::int64_t k_to_row = std::int64_t{1} << k_row_shift;
 
 /// The contact solver's data, lent to other solvers.
 struct ContactRun {
-  std::span<lanes::RowBody> rows;
-  std::span<const lanes::RowBody> before;  // as the substep began
+  std::span<lanes::BodyVelocity> rows;
+  std::span<const lanes::BodyVelocity> before;  // as the substep began
   std::span<const SolverBody> bodies;
   std::span<lanes::ManifoldBlock> blocks;
   const lanes::SolverParams& params;

@@ -1,5 +1,7 @@
 #include "core/dynamics/direct/block_solver.h"
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/direct/contact_phases.h"
 #include "core/dynamics/direct/phase_solver.h"
 
@@ -8,9 +10,9 @@ namespace {
 
 // Adds the velocities that the phase gave to bodies to the speeds of the rows.
 void add_to_speeds(const IslandView& island) {
-  lanes::proximal_kernels().follow(island.problems.data(), island.problems.size(),
-                                   island.velocities.data(),
-                                   30 + island.state.bits - k_row_unit_bits);
+  lanes::proximal_kernels().update_residuals(island.problems.data(), island.problems.size(),
+                                             island.velocities.data(),
+                                             30 + island.state.bits - k_row_unit_bits);
 }
 
 }  // namespace
@@ -30,6 +32,7 @@ void BlockSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t
 void BlockSolver::solve(const ContactRun& run, const JointAccess& joints, std::uint32_t index,
                         bool pushes_out) {
   const IslandView island = islands_.view(index);
+  LKS_ASSERT(!island.contacts.empty() || !island.joints.empty());
   if (pushes_out)
     contact_phases::begin_substep(island);
   else

@@ -14,8 +14,8 @@ namespace lockstone::contact_phases {
 namespace {
 
 using namespace proximal;
+using lanes::BodyVelocity;
 using lanes::ManifoldBlock;
-using lanes::RowBody;
 using lanes::scalar::pack;
 using Problem = lanes::ProximalBlock;
 using RowWords = std::array<std::int64_t, k_contact_rows>;
@@ -40,17 +40,19 @@ constexpr std::int64_t k_most_total = std::int64_t{1} << (k_row_impulse_bits + 1
 void take_over(const ContactRun& run, ProximalContact& contact) {
   ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
+  LKS_ASSERT(contact.points <= lanes::k_block_points && contact.points <= contact.rows &&
+             contact.rows <= k_contact_rows);
   contact.words = {block.mass_01[lane],
                    block.mass_23[lane],
                    block.tangent_mass[0][lane],
                    block.tangent_mass[1][lane],
                    block.twist_row[1][lane],
-                   block.rest[lane],
+                   block.mean_part[lane],
                    block.soft[lane]};
   for (std::size_t i = 0; i < contact.points; ++i)
     block.points[i].impulse[lane] = 0;
   block.soft[lane] = low_word(block.soft[lane]) + (std::int64_t{1} << 62);
-  block.rest[lane] = 0;
+  block.mean_part[lane] = 0;
   block.mass_01[lane] = block.mass_23[lane] = 0;
   block.friction[lane] = 0;
   block.twist[lane] = pack(0, contact.radius);
@@ -71,12 +73,14 @@ BlockFloat find_unit(const ContactRun& run, const IslandView& island) {
     take(lockstone::add(run.bodies[contact.a].inverse_mass, run.bodies[contact.b].inverse_mass));
   for (const IslandJoint& joint : island.joints)
     take(joint.inverse_mass);
+  LKS_ASSERT(unit.mantissa > 0);
   return unit;
 }
 
 // Sets the parts of rows that stay for the tick.
 void begin_rows(const PreparedRows& prepared, std::int64_t weight, ProximalContact& contact,
                 Problem& problem) {
+  LKS_ASSERT(weight >= 0 && contact.points <= contact.rows);
   constexpr int k_down = k_row_impulse_bits - k_row_unit_bits;
   for (std::size_t i = 0; i < contact.rows; ++i) {
     ProximalRow& row = contact.all[i];
@@ -89,7 +93,7 @@ void begin_rows(const PreparedRows& prepared, std::int64_t weight, ProximalConta
   }
 }
 
-// Joints may hold bodies where they overlap, and then no impulses part them: they would grow
+// Joints may fasten bodies where they overlap, and then no impulses part them: they would grow
 // without limit. The deeper a point overlaps, the softer its row, and the more of its impulse it
 // forgets.
 void soften(std::int64_t overlap, const ProximalRow& row, std::size_t i, Problem& problem) {
@@ -108,6 +112,7 @@ void set_bias(const ContactRun& run, const ProximalContact& contact, Problem& pr
               bool pushes_out, bool is_jointed) {
   const ManifoldBlock& block = run.blocks[contact.block()];
   const std::size_t lane = contact.lane();
+  LKS_ASSERT(contact.points <= lanes::k_block_points);
   for (std::size_t i = 0; i < contact.points; ++i) {
     const RowScale& to_speed = contact.all[i].to_speed;
     const std::int64_t apart = high_word(block.points[i].separation[lane]) + run.params.overlap;
@@ -142,6 +147,7 @@ bool gain_impulses(int bits, ProximalContact& contact, Problem& problem, RowWord
         impulse == 0 ? 0 : row.total + row.to_impulse.times_word(change, bits - k_row_impulse_bits);
     moved[i] = std::clamp(next, least, k_most_total) - row.total;
     row.total += moved[i];
+    LKS_ASSERT(i >= contact.points || row.total >= 0);
   }
   return changes;
 }
@@ -164,6 +170,7 @@ template <class Sum>
 void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, const RowWords& moved,
                  PhaseGain& a, PhaseGain& b) {
   const std::size_t lane = contact.lane();
+  LKS_ASSERT(contact.rows <= contact.points + 3);
   const auto product = [](std::int64_t x, std::int64_t y) {
     Sum sum;
     sum.add(x, y);
@@ -311,7 +318,7 @@ void give(const ContactRun& run, const IslandView& island) {
                     k_motion_bound);
   };
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    RowBody& row = run.rows[island.bodies[k]];
+    BodyVelocity& row = run.rows[island.bodies[k]];
     for (std::size_t i = 0; i < 3; ++i) {
       add(row.velocity[i], gains[k].velocity[i]);
       add(row.spin[i], gains[k].spin[i]);
@@ -323,6 +330,7 @@ void end(const ContactRun& run, const IslandView& island) {
   for (const ProximalContact& contact : island.contacts) {
     ManifoldBlock& block = run.blocks[contact.block()];
     const std::size_t lane = contact.lane();
+    LKS_ASSERT(contact.rows - contact.points <= 3);
     std::array<std::int64_t, 3> seen{};
     for (std::size_t i = contact.points; i < contact.rows; ++i)
       seen[i - contact.points] =
@@ -335,7 +343,7 @@ void end(const ContactRun& run, const IslandView& island) {
     block.tangent_mass[0][lane] = contact.words[2];
     block.tangent_mass[1][lane] = contact.words[3];
     block.twist_row[1][lane] = contact.words[4];
-    block.rest[lane] = contact.words[5];
+    block.mean_part[lane] = contact.words[5];
     block.soft[lane] = contact.words[6];
   }
 }

@@ -9,8 +9,8 @@ namespace lockstone {
 namespace {
 
 using namespace proximal;
+using lanes::BodyVelocity;
 using lanes::ManifoldBlock;
-using lanes::RowBody;
 
 // Velocity and spin of A and B, Q50.
 struct Motion {
@@ -57,10 +57,11 @@ void set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
 
 void measure_speeds(const ContactRun& run, const PreparedRows& prepared,
                     const ProximalContact& contact, lanes::ProximalBlock& problem) {
+  LKS_ASSERT(contact.points <= contact.rows && contact.rows <= k_contact_rows);
   Motion start, gained;
   const auto add_side = [&](std::uint32_t index, std::uint32_t body, RawVec3& spin,
                             RawVec3& gained_spin, std::int64_t sign) {
-    const RowBody& row = run.rows[index];
+    const BodyVelocity& row = run.rows[index];
     for (std::size_t k = 0; k < 3; ++k) {
       start.along[k] += sign * row.velocity[k];
       spin[k] = row.spin[k];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/base/reserved.h"
 
 namespace lockstone {
@@ -61,6 +63,7 @@ bool IslandPool::fits(const Island& island) const {
 bool IslandPool::plan(Island& island, std::span<const std::uint32_t> bodies,
                       std::span<const ProximalContact> contacts,
                       std::span<const IslandJoint> joints) {
+  LKS_ASSERT(island.bodies == bodies.size() && std::ranges::is_sorted(bodies));
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
     local_[bodies[i]] = i;
   pairs_.clear();
@@ -71,6 +74,7 @@ bool IslandPool::plan(Island& island, std::span<const std::uint32_t> bodies,
     add_pair(contact.a, contact.b);
   for (const IslandJoint& joint : joints)
     add_pair(joint.a, joint.b);
+  LKS_ASSERT(pairs_.size() <= contacts.size() + joints.size());
   return factor_.plan(island.bodies, pairs_, island.plan);
 }
 

@@ -25,7 +25,8 @@ constexpr std::int64_t k_least_joint_change = (std::int64_t{1} << 50) / 10000;
 constexpr std::uint64_t k_far_turned = std::uint64_t{1} << 23;
 
 // √(m/m₀)·(v, Cᵀ·spin), in units of kept quantities.
-BodyVector motion_of(const lanes::RowBody& row, const InertiaRoot& root, const RowScale& mass) {
+BodyVector motion_of(const lanes::BodyVelocity& row, const InertiaRoot& root,
+                     const RowScale& mass) {
   constexpr int k_down = lanes::k_velocity_bits - k_row_unit_bits;
   BodyVector u{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -71,6 +72,7 @@ void set_lock(const ProximalLock& lock, std::size_t lane, ProximalBlock& problem
 // Reads the rows of a joint: those of its limits, then those of its locks.
 void read_joint(std::span<const JointRow> rows, const ProximalJoint& pair, IslandJoint& joint,
                 ProximalBlock& problem) {
+  LKS_ASSERT(rows.size() <= k_max_joint_rows);
   const std::uint32_t a = problem.a, b = problem.b;
   problem = {};
   problem.a = a;
@@ -96,6 +98,7 @@ void read_joint(std::span<const JointRow> rows, const ProximalJoint& pair, Islan
     if (rows[r].kind == RowKind::limit) add(r);
   for (std::size_t r = 0; r < rows.size(); ++r)
     if (rows[r].kind == RowKind::lock) add(r);
+  LKS_ASSERT(problem.points <= problem.rows && problem.rows <= k_contact_rows);
   lanes::proximal_kernels().couple(problem);
 }
 
@@ -108,9 +111,11 @@ void measure_joint(const JointAccess& access, const IslandJoint& joint, Proximal
       return within_row(joint.to_speed[lane].times(speed, 50 - k_row_unit_bits));
     };
     const std::size_t r = joint.rows[lane];
+    LKS_ASSERT(r < rows.size());
     problem.moving[lane] = in_units(access.joints.speed(access.run, joint.joint, r));
     if (lane >= problem.points) continue;
     problem.bias[lane] = in_units(access.joints.limit_speed(rows[r], pushes_out));
+    LKS_ASSERT(rows[r].kind == RowKind::limit);
     const std::int64_t held = access.joints.limit_impulse(joint.joint, r);
     problem.held[lane] = problem.held_centre[lane] =
         within_row(joint.to_impulse[lane].reciprocal().times(held, 50 - k_row_unit_bits));
@@ -192,6 +197,7 @@ void update(const ContactRun& run, const JointAccess& access, const IslandView& 
 
 void give(const JointAccess& access, const IslandView& island) {
   const std::span<const Problem> problems = island.joint_problems();
+  LKS_ASSERT(problems.size() == island.joints.size());
   for (std::size_t i = 0; i < island.joints.size(); ++i) {
     const IslandJoint& joint = island.joints[i];
     const Problem& problem = problems[i];

@@ -77,6 +77,7 @@ void PhaseSolver::scale_warm_start() {
   const int down = k_row_unit_bits - island_.state.bits;
   ProductSum slope, curve;
   for (Problem& problem : island_.problems) {
+    LKS_ASSERT(problem.points <= problem.rows);
     if (problem.has_locks) problem.next = problem.impulse;
     for (std::size_t i = 0; i < problem.rows && !problem.has_locks; ++i) {
       const bool pushes_out = i < problem.points && problem.bias[i] < 0;
@@ -113,6 +114,7 @@ void PhaseSolver::mark_active() {
     word = next;
   };
   for (Problem& problem : island_.problems) {
+    LKS_ASSERT(problem.points <= problem.rows);
     bool pushes = false;
     for (std::size_t i = 0; i < problem.points; ++i) {
       mark(problem.active[i], problem.impulse[i] > 0);
@@ -189,6 +191,7 @@ std::int64_t PhaseSolver::search() const {
       const std::int64_t change = within_units(problem.next[i] - problem.impulse[i]);
       if (change == 0) continue;
       slope.add(change, problem.residual[i]);
+      LKS_ASSERT(problem.give[i] >= 0);
       curve.add(problem.give[i] * change, change);
     }
   }
@@ -246,6 +249,7 @@ bool PhaseSolver::direct_step() {
 bool PhaseSolver::converge(bool scales) {
   fits_ = true;
   const std::span<Problem> problems = island_.problems;
+  LKS_ASSERT(!problems.empty());
   lanes::proximal_kernels().begin_phase(problems.data(), problems.size(),
                                         k_row_unit_bits - island_.state.bits, island_.state.loose);
   std::ranges::fill(island_.velocities, BodyVector{});
@@ -264,6 +268,7 @@ bool PhaseSolver::move_centres() {
   bool moves = false;
   for (Problem& problem : island_.problems) {
     for (std::size_t i = 0; i < problem.points && !moves; ++i) {
+      LKS_ASSERT(problem.give[i] >= 0 && problem.tolerance[i] >= 0);
       const std::int64_t give = problem.give[i] * (problem.impulse[i] - problem.centre[i]);
       moves =
           raw::round_shift(give, 30) > k_most_give * (problem.tolerance[i] >> island_.state.loose);
@@ -277,6 +282,7 @@ bool PhaseSolver::move_centres() {
 
 // Until no row changes, or the steps are used up.
 void PhaseSolver::iterate() {
+  LKS_ASSERT(!island_.state.is_factored || island_.state.was_factored);
   // Resting bodies are solved by the factor at hand: passes alone would leave them creeping.
   mark_active();
   is_solved_ = false;

@@ -7,6 +7,7 @@
 
 #include "core/dynamics/body/motion.h"
 #include "core/dynamics/impact/impact_response.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/math/roots.h"
 #include "core/math/trig.h"
 
@@ -42,7 +43,7 @@ struct Fall {
     return static_cast<std::int64_t>(isqrt(static_cast<std::uint64_t>(square)));
   }
 
-  // When it does, Q30; beyond 2 it is held.
+  // When it does, Q30; clamped to 2.
   [[nodiscard]] std::int64_t fraction(std::int64_t at_speed) const {
     LKS_ASSERT(at_speed >= 0);
     constexpr std::int64_t k_late = std::int64_t{2} << 30;
@@ -74,7 +75,7 @@ Vec3<Velocity> velocity_at(const BodyRecord& body, const Vec3<Velocity>& w, cons
 }
 
 // Two balls are where their centres are; of other shapes the normal stays for the tick.
-bool are_balls(const BouncePair& pair) {
+bool are_balls(const ImpactPair& pair) {
   return pair.a->is_ball() && pair.b->is_ball();
 }
 
@@ -83,7 +84,7 @@ struct Balls {
   std::int64_t gap;  // m, Q24
 };
 
-Balls balls_at(const BouncePair& pair, const Vec3<Position>& offset) {
+Balls balls_at(const ImpactPair& pair, const Vec3<Position>& offset) {
   const auto length = static_cast<std::int64_t>(norm(offset.x.raw, offset.y.raw, offset.z.raw));
   const std::int64_t reach = std::int64_t{pair.a->size.x.raw} + pair.b->size.x.raw;
   const Vec3<Unit> normal =
@@ -92,14 +93,14 @@ Balls balls_at(const BouncePair& pair, const Vec3<Position>& offset) {
 }
 
 // When two balls meet: Newton's method, from one side, since balls are round.
-Meeting meeting_of_balls(const BouncePair& pair, const Vec3<Velocity>& gain, const TimeStep& step,
-                         Unit limit) {
+PairImpact impact_of_balls(const ImpactPair& pair, const Vec3<Velocity>& gain, const TimeStep& step,
+                           Unit limit) {
   constexpr int k_iterations = 6;
   const Vec3<Velocity> v = pair.b->velocity - pair.a->velocity;
   const Vec3<Position> start = pair.b->position - pair.a->position;
-  Meeting meeting;
+  PairImpact impact;
   for (int i = 0; i < k_iterations; ++i) {
-    const Unit t = Unit::from_raw(static_cast<std::int32_t>(meeting.fraction));
+    const Unit t = Unit::from_raw(static_cast<std::int32_t>(impact.fraction));
     const Vec3<Velocity> gained = times(gain, t);
     Vec3<Position> offset = start;
     for (int axis = 0; axis < 3; ++axis) {
@@ -107,18 +108,20 @@ Meeting meeting_of_balls(const BouncePair& pair, const Vec3<Velocity>& gain, con
       offset[axis].raw += raw::round_divide(times(twice, t).raw, 2 * step.tick_rate);
     }
     const Balls balls = balls_at(pair, offset);
+    LKS_ASSERT(geometry::is_unit(balls.normal));
     const Velocity closing = along(v + gained, balls.normal);
     const Fall fall{balls.gap, way(closing, step), way(along(gain, balls.normal), step)};
     const std::int64_t speed = fall.speed();
     if (speed < 0) return {};
     const std::int64_t further = fall.fraction(speed);
-    meeting.fraction += further;
-    meeting.speed = -closing;
-    if (meeting.fraction > limit.raw) return {};
+    LKS_ASSERT(further >= 0);
+    impact.fraction += further;
+    impact.speed = -closing;
+    if (impact.fraction > limit.raw) return {};
     if (further <= 1) break;
   }
-  meeting.meets = true;
-  return meeting;
+  impact.meets = true;
+  return impact;
 }
 
 using Gaps = std::array<std::int64_t, k_max_manifold_points>;
@@ -131,11 +134,12 @@ Gaps gaps_of(const Manifold& manifold) {
 }
 
 // How the points come together; `gain`: of B against A in a tick.
-std::array<Fall, k_max_manifold_points> falls_of(const BouncePair& pair, const Gaps& gaps,
+std::array<Fall, k_max_manifold_points> falls_of(const ImpactPair& pair, const Gaps& gaps,
                                                  const Vec3<Velocity>& gain, const TimeStep& step) {
   std::array<Fall, k_max_manifold_points> falls{};
   const Vec3<Velocity> wa = surface_of(*pair.a), wb = surface_of(*pair.b);
   const Manifold& manifold = *pair.manifold;
+  LKS_ASSERT(manifold.count >= 0 && manifold.count <= k_max_manifold_points);
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
     const ManifoldPoint& point = manifold.points[i];
     const Vec3<Velocity> apart =
@@ -146,16 +150,17 @@ std::array<Fall, k_max_manifold_points> falls_of(const BouncePair& pair, const G
   return falls;
 }
 
-Meeting meeting_of_points(const BouncePair& pair, const Gaps& gaps, const Vec3<Velocity>& gain,
-                          const TimeStep& step, Unit limit) {
+PairImpact impact_of_points(const ImpactPair& pair, const Gaps& gaps, const Vec3<Velocity>& gain,
+                            const TimeStep& step, Unit limit) {
   const auto falls = falls_of(pair, gaps, gain, step);
-  Meeting first;
+  PairImpact first;
   first.fraction = limit.raw + std::int64_t{1};
   for (std::size_t i = 0; i < static_cast<std::size_t>(pair.manifold->count); ++i) {
     const std::int64_t speed = falls[i].speed();
     if (speed < 0) continue;
     const std::int64_t fraction = falls[i].fraction(speed);
     if (fraction >= first.fraction) continue;
+    LKS_ASSERT(fraction >= 0);
     const std::int64_t per_second = speed * step.tick_rate;
     first = {true, fraction, Velocity::from_raw(per_second * 256)};
   }
@@ -163,7 +168,9 @@ Meeting meeting_of_points(const BouncePair& pair, const Gaps& gaps, const Vec3<V
 }
 
 // On the way for a fraction of the tick, as in flight.
-void fly_on(BodyRecord& body, const Vec3<Velocity>& gain, Unit fraction, const TimeStep& step) {
+void integrate_ballistic(BodyRecord& body, const Vec3<Velocity>& gain, Unit fraction,
+                         const TimeStep& step) {
+  LKS_ASSERT(fraction >= Unit{} && fraction <= Unit::from_integer(1) && step.tick_rate > 0);
   const Vec3<Velocity> w = surface_of(body);
   RotationVector turn;
   for (int i = 0; i < 3; ++i) {
@@ -178,7 +185,7 @@ void fly_on(BodyRecord& body, const Vec3<Velocity>& gain, Unit fraction, const T
 }
 
 // The one point where two balls touch.
-Manifold touching_balls(const BouncePair& pair) {
+Manifold touching_balls(const ImpactPair& pair) {
   Manifold manifold;
   manifold.normal = balls_at(pair, pair.b->position - pair.a->position).normal;
   manifold.count = 1;
@@ -191,6 +198,7 @@ Manifold touching_balls(const BouncePair& pair) {
     manifold.points[0].anchor_a[i].raw = arm(*pair.a);
     manifold.points[0].anchor_b[i].raw = -arm(*pair.b);
   }
+  LKS_ASSERT(geometry::is_unit(manifold.normal));
   return manifold;
 }
 
@@ -201,15 +209,15 @@ Vec3<Velocity> gain_in_tick(const BodyRecord& body, const Vec3<Acceleration>& gr
 
 }  // namespace
 
-Meeting next_meeting(const BouncePair& pair, const Vec3<Acceleration>& gravity,
-                     const TimeStep& step, Unit limit) {
+PairImpact next_impact(const ImpactPair& pair, const Vec3<Acceleration>& gravity,
+                       const TimeStep& step, Unit limit) {
   const Vec3<Velocity> gain =
       gain_in_tick(*pair.b, gravity, step) - gain_in_tick(*pair.a, gravity, step);
-  if (are_balls(pair)) return meeting_of_balls(pair, gain, step, limit);
-  return meeting_of_points(pair, gaps_of(*pair.manifold), gain, step, limit);
+  if (are_balls(pair)) return impact_of_balls(pair, gain, step, limit);
+  return impact_of_points(pair, gaps_of(*pair.manifold), gain, step, limit);
 }
 
-void BounceGroup::add(const BouncePair& pair) {
+void ImpactIsland::add(const ImpactPair& pair) {
   LKS_ASSERT(contact_count_ < contacts_.size());
   LKS_ASSERT(pair.a != pair.b);
   Contact& contact = contacts_[contact_count_++];
@@ -220,7 +228,7 @@ void BounceGroup::add(const BouncePair& pair) {
   contact.gap = gaps_of(*pair.manifold);
 }
 
-std::uint8_t BounceGroup::flyer_of(BodyRecord* body) {
+std::uint8_t ImpactIsland::flyer_of(BodyRecord* body) {
   if (!body->is_dynamic()) return k_none;
   const auto end = flyers_.begin() + static_cast<std::ptrdiff_t>(flyer_count_);
   const auto known =
@@ -233,27 +241,27 @@ std::uint8_t BounceGroup::flyer_of(BodyRecord* body) {
   return static_cast<std::uint8_t>(known - flyers_.begin());
 }
 
-Vec3<Velocity> BounceGroup::gain_of(std::uint8_t flyer) const {
+Vec3<Velocity> ImpactIsland::gain_of(std::uint8_t flyer) const {
   return flyer == k_none ? Vec3<Velocity>{} : flyers_[flyer].gain;
 }
 
-Meeting BounceGroup::meeting_of(const Contact& contact, Unit limit) const {
+PairImpact ImpactIsland::impact_of(const Contact& contact, Unit limit) const {
   const Vec3<Velocity> gain = gain_of(contact.flyer_b) - gain_of(contact.flyer_a);
-  if (are_balls(contact.pair)) return meeting_of_balls(contact.pair, gain, step_, limit);
-  return meeting_of_points(contact.pair, contact.gap, gain, step_, limit);
+  if (are_balls(contact.pair)) return impact_of_balls(contact.pair, gain, step_, limit);
+  return impact_of_points(contact.pair, contact.gap, gain, step_, limit);
 }
 
-void BounceGroup::run() {
+void ImpactIsland::run() {
   Unit left = k_whole_tick;
   for (int i = 0; i < k_most_impacts; ++i) {
-    Meeting first;
+    PairImpact first;
     first.fraction = left.raw + std::int64_t{1};
     Contact* next = nullptr;
     for (Contact& contact : std::span(contacts_).first(contact_count_)) {
       if (contact.rests) continue;
-      const Meeting meeting = meeting_of(contact, left);
-      if (!meeting.meets || meeting.fraction >= first.fraction) continue;
-      first = meeting;
+      const PairImpact impact = impact_of(contact, left);
+      if (!impact.meets || impact.fraction >= first.fraction) continue;
+      first = impact;
       next = &contact;
     }
     if (next == nullptr) break;
@@ -266,8 +274,9 @@ void BounceGroup::run() {
   advance(left);
 }
 
-void BounceGroup::advance(Unit fraction) {
+void ImpactIsland::advance(Unit fraction) {
   if (fraction == Unit{}) return;
+  LKS_ASSERT(contact_count_ <= contacts_.size() && flyer_count_ <= flyers_.size());
   for (Contact& contact : std::span(contacts_).first(contact_count_)) {
     if (are_balls(contact.pair)) continue;
     const Vec3<Velocity> gain = gain_of(contact.flyer_b) - gain_of(contact.flyer_a);
@@ -276,11 +285,11 @@ void BounceGroup::advance(Unit fraction) {
       contact.gap[i] = falls[i].after(fraction);
   }
   for (const Flyer& flyer : std::span(flyers_).first(flyer_count_))
-    fly_on(*flyer.body, flyer.gain, fraction, step_);
+    integrate_ballistic(*flyer.body, flyer.gain, fraction, step_);
 }
 
 // A contact that is too slow to bounce again stays closed for the rest of the tick.
-void BounceGroup::answer(Contact& contact, Velocity speed) {
+void ImpactIsland::answer(Contact& contact, Velocity speed) {
   LKS_ASSERT(!contact.rests);
   contact.touched = true;
   contact.rests = speed <= k_least_bounce;

@@ -22,7 +22,7 @@ inline constexpr std::size_t k_most_bounce_contacts = 32;
 inline constexpr Velocity k_least_bounce = Velocity::from_ratio(1, 32);
 
 /// Where two bodies meet.
-struct BouncePair {
+struct ImpactPair {
   BodyRecord* a = nullptr;
   BodyRecord* b = nullptr;
   const Manifold* manifold = nullptr;       ///< of the tick's beginning
@@ -30,24 +30,24 @@ struct BouncePair {
 };
 
 /// When two bodies meet next.
-struct Meeting {
+struct PairImpact {
   bool meets = false;
   std::int64_t fraction = 0;  ///< of the tick, Q30
   Velocity speed{};
 };
 
 /// Within `limit` of the tick, if nothing else happens.
-[[nodiscard]] Meeting next_meeting(const BouncePair& pair, const Vec3<Acceleration>& gravity,
-                                   const TimeStep& step, Unit limit);
+[[nodiscard]] PairImpact next_impact(const ImpactPair& pair, const Vec3<Acceleration>& gravity,
+                                     const TimeStep& step, Unit limit);
 
 /// Takes bodies that meet only each other, and bodies that do not give way, through a tick.
-class BounceGroup {
+class ImpactIsland {
  public:
-  BounceGroup(const Vec3<Acceleration>& gravity, const TimeStep& step)
+  ImpactIsland(const Vec3<Acceleration>& gravity, const TimeStep& step)
       : gravity_(gravity), step_(step) {}
 
   /// At most k_most_bounce_contacts.
-  void add(const BouncePair& pair);
+  void add(const ImpactPair& pair);
 
   /// Moves the dynamic bodies: to the tick's end, from impact to impact. Others are only read.
   void run();
@@ -63,7 +63,7 @@ class BounceGroup {
   };
   static constexpr std::uint8_t k_none = 0xff;
   struct Contact {
-    BouncePair pair;
+    ImpactPair pair;
     std::uint8_t flyer_a = k_none, flyer_b = k_none;
     std::array<std::int64_t, k_max_manifold_points> gap{};  // m, Q24
     bool rests = false;                                     // met too slowly: left alone
@@ -73,7 +73,7 @@ class BounceGroup {
 
   std::uint8_t flyer_of(BodyRecord* body);
   [[nodiscard]] Vec3<Velocity> gain_of(std::uint8_t flyer) const;
-  [[nodiscard]] Meeting meeting_of(const Contact& contact, Unit limit) const;
+  [[nodiscard]] PairImpact impact_of(const Contact& contact, Unit limit) const;
   void advance(Unit fraction);
   void answer(Contact& contact, Velocity speed);
 

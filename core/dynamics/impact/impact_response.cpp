@@ -7,6 +7,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/body/motion.h"
+#include "core/geometry/distance/manifold_checks.h"
 #include "core/math/block_float.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"
@@ -14,7 +15,7 @@
 namespace lockstone {
 namespace {
 
-constexpr int k_sweeps_per_point = 12;
+constexpr int k_passes_per_point = 12;
 
 // Impulses stay below this, m/s: more than any approach asks for where the answer is not absurd.
 constexpr Velocity k_most_impulse = Velocity::from_integer(1 << 20);
@@ -63,11 +64,12 @@ struct Side {
     const Vec3<Velocity> own{times(jump.x, share), times(jump.y, share), times(jump.z, share)};
     body.record.velocity += own;
     if (turns && !(is_ball && along_normal)) body.record.spin += cross_arm(arm, own);
-    hold_axes(body.record);
+    apply_axis_locks(body.record);
   }
 
   // α (u·u + (r̄ × u) · M (r̄ × u)), 32 bits; u·u without locked axes
   [[nodiscard]] std::int64_t compliance(const Vec3<Unit>& arm, const Vec3<Unit>& u) const {
+    LKS_ASSERT(share >= Unit{} && share <= Unit::from_integer(1) && geometry::is_unit(u));
     std::int64_t free = std::int64_t{share.raw} * 4;
     for (int i = 0; i < 3; ++i) {
       if (!body.record.is_locked(i)) continue;
@@ -128,6 +130,7 @@ class ImpactSolver {
  public:
   ImpactSolver(const Side& a, const Side& b, const ImpactContact& contact)
       : a_(a), b_(b), contact_(contact), normal_(contact.manifold.normal) {
+    LKS_ASSERT(geometry::is_unit(normal_));
     for (int i = 0; i < contact.manifold.count; ++i) {
       const ManifoldPoint& from = contact.manifold.points[static_cast<std::size_t>(i)];
       Point& point = points_[static_cast<std::size_t>(i)];
@@ -151,6 +154,7 @@ class ImpactSolver {
       set_motion(b_, before_b);
       start_again(attempt + 2 == k_attempts);
     }
+    LKS_ASSERT(greatest_approach_ >= Velocity{});
     return greatest_approach_;
   }
 
@@ -174,7 +178,7 @@ class ImpactSolver {
   }
 
   void sweep() {
-    for (int i = 0; i < k_sweeps_per_point * contact_.manifold.count; ++i)
+    for (int i = 0; i < k_passes_per_point * contact_.manifold.count; ++i)
       solve(points_[static_cast<std::size_t>(i % contact_.manifold.count)]);
   }
 

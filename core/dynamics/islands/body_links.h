@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <lockstone/assert.h>
+
 namespace lockstone {
 
 /// By body the numbers of its links, ascending. A link has two ends `a` and `b`; end 0 is nobody.
@@ -36,6 +38,7 @@ class BodyLinks {
     for (std::size_t body = body_count; body > 0; --body)
       first_[body] = first_[body - 1];
     first_[0] = 0;
+    LKS_ASSERT(first_[body_count] == total);
   }
 
   [[nodiscard]] std::span<const std::uint32_t> at(std::uint32_t body) const {

@@ -1,4 +1,4 @@
-// Islands: bodies that hold on to each other, directly or through others.
+// Islands: bodies that are connected to each other, directly or through others.
 //
 // Union-find with path halving (R. Tarjan, J. van Leeuwen, "Worst-case analysis of set union
 // algorithms", 1984). The root of an island is its least body, so that nothing depends on the order
@@ -41,11 +41,11 @@ class Islands {
     if (root_b < root_a) parents_[root_a] = root_b;
   }
 
-  /// The island of this body stays awake.
-  void hold(std::uint32_t body) { marks_[body] |= k_held; }
+  /// The island of this body is active: it may not fall asleep.
+  void mark_active(std::uint32_t body) { marks_[body] |= k_active; }
 
   /// The same, because a body that nothing pushes moves it.
-  void drive(std::uint32_t body) { marks_[body] |= k_held | k_driven; }
+  void mark_driven(std::uint32_t body) { marks_[body] |= k_active | k_driven; }
 
   /// A body of this island rests.
   void note_rest(std::uint32_t body) { marks_[body] |= k_rests; }
@@ -61,15 +61,15 @@ class Islands {
     }
     return islands;
   }
-  [[nodiscard]] bool is_held(std::uint32_t body) { return (marks_[root(body)] & k_held) != 0; }
+  [[nodiscard]] bool is_active(std::uint32_t body) { return (marks_[root(body)] & k_active) != 0; }
 
   /// Whether some bodies of the island rest and others keep it awake by themselves.
   [[nodiscard]] bool rests_in_part(std::uint32_t body) {
-    return marks_[root(body)] == (k_held | k_rests);
+    return marks_[root(body)] == (k_active | k_rests);
   }
 
  private:
-  static constexpr std::uint8_t k_held = 1, k_driven = 2, k_rests = 4;
+  static constexpr std::uint8_t k_active = 1, k_driven = 2, k_rests = 4;
 
   std::vector<std::uint32_t> parents_;  // by body
   std::vector<std::uint8_t> marks_;     // by body; after `settle` by root

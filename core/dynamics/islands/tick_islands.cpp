@@ -6,7 +6,7 @@ namespace lockstone {
 
 TickIslands::TickIslands(std::size_t row_capacity, std::size_t body_capacity) {
   parents_.reserve(row_capacity);
-  loads_.reserve(body_capacity + 1);
+  tallies_.reserve(body_capacity + 1);
 }
 
 void TickIslands::clear() {
@@ -21,7 +21,7 @@ void TickIslands::settle() {
     LKS_ASSERT(parent <= body);
     parents_[body] = parent == body ? count++ : parents_[parent];
   }
-  loads_.assign(count, {});
+  tallies_.assign(count, {});
 }
 
 }  // namespace lockstone

@@ -29,7 +29,7 @@ class SharedCount {
 };
 
 /// Counts of one island, and the solver's decisions by them.
-struct IslandLoad {
+struct IslandTally {
   /// With more overloaded contacts an island starts warm: it would settle for long otherwise.
   static constexpr std::uint32_t k_most_overloaded = 8;
   /// With more bearing contacts it is a stack, which is rebalanced: it would bend without.
@@ -102,21 +102,21 @@ class TickIslands {
   void settle();
 
   /// Islands, with the one that is none.
-  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(loads_.size()); }
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(tallies_.size()); }
 
   /// The island of a body, after `settle`.
   [[nodiscard]] std::uint32_t of(std::uint32_t body) const {
     LKS_ASSERT(body < parents_.size());
     return parents_[body];
   }
-  [[nodiscard]] IslandLoad& load(std::uint32_t island) { return loads_[island]; }
-  [[nodiscard]] const IslandLoad& load(std::uint32_t island) const { return loads_[island]; }
+  [[nodiscard]] IslandTally& tally(std::uint32_t island) { return tallies_[island]; }
+  [[nodiscard]] const IslandTally& tally(std::uint32_t island) const { return tallies_[island]; }
 
   /// Whether the test holds for any island.
   template <class Test>
   [[nodiscard]] bool any(Test test) const {
-    for (const IslandLoad& load : loads_)
-      if ((load.*test)()) return true;
+    for (const IslandTally& tally : tallies_)
+      if ((tally.*test)()) return true;
     return false;
   }
 
@@ -130,7 +130,7 @@ class TickIslands {
   }
 
   std::vector<std::uint32_t> parents_;  // by body: one before it, or itself; its island in the end
-  std::vector<IslandLoad> loads_;
+  std::vector<IslandTally> tallies_;
 };
 
 }  // namespace lockstone

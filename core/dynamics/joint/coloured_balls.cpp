@@ -30,6 +30,7 @@ std::int32_t impulse_of(const JointRecord& record, std::size_t axis) {
 }
 
 void empty_lane(std::size_t lane, BallBlock& block) {
+  LKS_ASSERT(lane < lanes::k_block_lanes);
   block.body_a[lane] = block.body_b[lane] = 0;
   for (lanes::BlockWord& word : block.anchor)
     word[lane] = 0;
@@ -42,58 +43,61 @@ void empty_lane(std::size_t lane, BallBlock& block) {
 
 }  // namespace
 
-JointNet::JointNet(std::int32_t substep_rate, std::size_t row_capacity, std::size_t joint_capacity)
+ColouredBalls::ColouredBalls(std::int32_t substep_rate, std::size_t row_capacity,
+                             std::size_t joint_capacity)
     : substep_rate_(substep_rate), graph_(row_capacity, joint_capacity) {
   const std::size_t blocks = (joint_capacity + k_block_lanes - 1) / k_block_lanes;
   // Each colour may leave one block half empty, but none without a joint.
   const std::size_t most = std::min(joint_capacity, blocks + k_graph_colors);
   entries_.reserve(joint_capacity);
   blocks_.reserve(most);
-  slots_.reserve(most * k_block_lanes);
+  lane_entries_.reserve(most * k_block_lanes);
 }
 
-void JointNet::clear(std::uint32_t rows) {
+void ColouredBalls::clear(std::uint32_t rows) {
   entries_.clear();
-  slots_.clear();
+  lane_entries_.clear();
   graph_.clear();
   for (std::uint32_t row = 1; row < rows; ++row)
     graph_.add_body();
   std::fill(std::begin(ranges_), std::end(ranges_), Range{});
 }
 
-void JointNet::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
+void ColouredBalls::add(std::uint32_t link, const JointRecord& record, const End& a, const End& b) {
   LKS_ASSERT(a.pushed || b.pushed);
   graph_.add(a.row, a.pushed, b.row, b.pushed);
   entries_.push_back({link, &record, a, b});
 }
 
-void JointNet::lay_out() {
+void ColouredBalls::lay_out() {
   std::size_t blocks = 0;
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
     ranges_[color] = {blocks, (graph_.count(color) + k_block_lanes - 1) / k_block_lanes};
     blocks += ranges_[color].count;
   }
   kernels_ = &lanes::ball_kernels(graph_.greatest_count());
-  slots_.assign(blocks * k_block_lanes, k_no_joint);
+  lane_entries_.assign(blocks * k_block_lanes, k_no_joint);
   if (blocks_.size() < blocks) blocks_.resize(blocks);  // they only grow
   const std::span<const ConstraintGraph::Place> places = graph_.places();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    std::uint32_t& slot = slots_[ranges_[places[i].color].first * k_block_lanes + places[i].rank];
-    LKS_ASSERT(slot == k_no_joint);
-    slot = static_cast<std::uint32_t>(i);
+    std::uint32_t& lane_index =
+        lane_entries_[ranges_[places[i].color].first * k_block_lanes + places[i].rank];
+    LKS_ASSERT(lane_index == k_no_joint);
+    lane_index = static_cast<std::uint32_t>(i);
   }
 }
 
-const BallKernels& JointNet::kernels_of(std::size_t color) const {
+const BallKernels& ColouredBalls::kernels_of(std::size_t color) const {
   return color == k_overflow_color ? lanes::k_scalar_balls : *kernels_;
 }
 
-void JointNet::fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+void ColouredBalls::fill(const ColouredBallsRun& run, std::size_t color, std::size_t first,
+                         std::size_t end) {
   const BallKernels& kernels = kernels_of(color);
   LKS_ASSERT(first <= end && end <= ranges_[color].count);
   for (std::size_t i = ranges_[color].first + first; i < ranges_[color].first + end; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
-      const std::uint32_t entry = slots_[i * k_block_lanes + lane];
+      const std::uint32_t entry = lane_entries_[i * k_block_lanes + lane];
       if (entry == k_no_joint) {
         empty_lane(lane, blocks_[i]);
       } else {
@@ -105,8 +109,8 @@ void JointNet::fill(const NetRun& run, std::size_t color, std::size_t first, std
 }
 
 // Fills a lane, and writes the places of bodies that are not pushed.
-void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane,
-                         BallBlock& block) {
+void ColouredBalls::fill_lane(const ColouredBallsRun& run, const Entry& entry, std::size_t lane,
+                              BallBlock& block) {
   const JointRecord& joint = *entry.record;
   const auto exponent_of = [&](const End& end) {
     return end.pushed ? run.bodies[end.row].inverse_inertia.exponent : 0;
@@ -119,8 +123,8 @@ void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane
   }
   const int of_a = exponent_of(entry.a), of_b = exponent_of(entry.b), pair = std::max(of_a, of_b);
   LKS_ASSERT(pair - of_a <= k_factor_exponent && pair - of_b <= k_factor_exponent);
-  block.body_a[lane] = lanes::row_body_offset(entry.a.row);
-  block.body_b[lane] = lanes::row_body_offset(entry.b.row);
+  block.body_a[lane] = lanes::body_velocity_offset(entry.a.row);
+  block.body_b[lane] = lanes::body_velocity_offset(entry.b.row);
   for (int axis = 0; axis < 3; ++axis) {
     block.anchor[axis][lane] = pack(joint.anchor_a[axis].raw, joint.anchor_b[axis].raw);
   }
@@ -134,30 +138,33 @@ void JointNet::fill_lane(const NetRun& run, const Entry& entry, std::size_t lane
   block.impulse[1][lane] = impulse_of(joint, 2);
 }
 
-void JointNet::lift(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+void ColouredBalls::solve_positions(const ColouredBallsRun& run, std::size_t color,
+                                    std::size_t first, std::size_t end) {
   LKS_ASSERT(first <= end && end <= ranges_[color].count);
-  kernels_of(color).lift(run.rows, &blocks_[ranges_[color].first + first], end - first);
+  kernels_of(color).solve_positions(run.rows, &blocks_[ranges_[color].first + first], end - first);
 }
 
-void JointNet::relax(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+void ColouredBalls::relax(const ColouredBallsRun& run, std::size_t color, std::size_t first,
+                          std::size_t end) {
   LKS_ASSERT(first <= end && end <= ranges_[color].count);
   kernels_of(color).relax(run.rows, &blocks_[ranges_[color].first + first], end - first);
 }
 
-void JointNet::follow(const NetRun& run, std::size_t color, std::size_t first, std::size_t end) {
+void ColouredBalls::update(const ColouredBallsRun& run, std::size_t color, std::size_t first,
+                           std::size_t end) {
   LKS_ASSERT(first <= end && end <= ranges_[color].count);
-  kernels_of(color).follow(run.rows, run.before, &blocks_[ranges_[color].first + first],
+  kernels_of(color).update(run.rows, run.before, &blocks_[ranges_[color].first + first],
                            end - first, run.places, run.inertias, substep_rate_);
 }
 
-void JointNet::store(std::span<const JointLink> links, std::span<JointRecord> joints,
-                     std::size_t first, std::size_t end) const {
-  for (std::size_t slot = first; slot < end; ++slot) {
-    if (slots_[slot] == k_no_joint) continue;
-    LKS_ASSERT(entries_[slots_[slot]].link < links.size());
-    const BallBlock& block = blocks_[slot / k_block_lanes];
-    const std::size_t lane = slot % k_block_lanes;
-    JointRecord& joint = joints[links[entries_[slots_[slot]].link].joint];
+void ColouredBalls::store(std::span<const JointLink> links, std::span<JointRecord> joints,
+                          std::size_t first, std::size_t end) const {
+  for (std::size_t lane_index = first; lane_index < end; ++lane_index) {
+    if (lane_entries_[lane_index] == k_no_joint) continue;
+    LKS_ASSERT(entries_[lane_entries_[lane_index]].link < links.size());
+    const BallBlock& block = blocks_[lane_index / k_block_lanes];
+    const std::size_t lane = lane_index % k_block_lanes;
+    JointRecord& joint = joints[links[entries_[lane_entries_[lane_index]].link].joint];
     const std::int32_t impulse[] = {low(block.impulse[0][lane]), high(block.impulse[0][lane]),
                                     low(block.impulse[1][lane])};
     for (std::size_t axis = 0; axis < k_joint_axes; ++axis) {

@@ -1,6 +1,6 @@
 // Ball joints of many loops: coloured like contacts, and solved in blocks of eight.
 //
-// A net of joints has too many loops for a direct solve of all its locks. Each substep closes a
+// A mesh of joints has too many loops for a direct solve of all its locks. Each substep closes a
 // part of the openings before positions move, and keeps the rest from opening afterwards. Impulses
 // of the substep before are part of the bodies' warm start.
 #pragma once
@@ -18,18 +18,18 @@
 namespace lockstone {
 
 /// The data of the iterations, by row.
-struct NetRun {
-  lanes::RowBody* rows;
-  lanes::RowBody* before;  // at the beginning of the substep; before the first: warm
-  const lanes::SourceBody* inertias;
+struct ColouredBallsRun {
+  lanes::BodyVelocity* rows;
+  lanes::BodyVelocity* before;  // at the beginning of the substep; before the first: warm
+  const lanes::BodyInertia* inertias;
   const SolverBody* bodies;  // those that are pushed
   lanes::BodyPlace* places;
 };
 
-class JointNet {
+class ColouredBalls {
  public:
   /// No function but this allocates.
-  JointNet(std::int32_t substep_rate, std::size_t row_capacity, std::size_t joint_capacity);
+  ColouredBalls(std::int32_t substep_rate, std::size_t row_capacity, std::size_t joint_capacity);
 
   /// Leaves nothing; bodies are those in rows 0 … rows − 1.
   void clear(std::uint32_t rows);
@@ -58,17 +58,18 @@ class JointNet {
   // Blocks of one colour, counted from its first.
 
   /// Fills them, and adds the velocities that their impulses give to the bodies' warm start.
-  void fill(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
-  void lift(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
-  void relax(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
+  void fill(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
+  void solve_positions(const ColouredBallsRun& run, std::size_t color, std::size_t first,
+                       std::size_t end);
+  void relax(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
   /// After bodies moved; relaxes as well.
-  void follow(const NetRun& run, std::size_t color, std::size_t first, std::size_t end);
+  void update(const ColouredBallsRun& run, std::size_t color, std::size_t first, std::size_t end);
 
   /// Impulses back to the records of `links`, in which `add` counted.
   void store(std::span<const JointLink> links, std::span<JointRecord> joints, std::size_t first,
              std::size_t end) const;
-  [[nodiscard]] std::uint32_t slot_count() const {
-    return static_cast<std::uint32_t>(slots_.size());
+  [[nodiscard]] std::uint32_t lane_count() const {
+    return static_cast<std::uint32_t>(lane_entries_.size());
   }
 
  private:
@@ -85,7 +86,7 @@ class JointNet {
   };
 
   [[nodiscard]] const lanes::BallKernels& kernels_of(std::size_t color) const;
-  static void fill_lane(const NetRun& run, const Entry& entry, std::size_t lane,
+  static void fill_lane(const ColouredBallsRun& run, const Entry& entry, std::size_t lane,
                         lanes::BallBlock& block);
 
   std::int32_t substep_rate_;
@@ -93,7 +94,7 @@ class JointNet {
   std::vector<Entry> entries_;
   Range ranges_[k_graph_colors + 1];
   const lanes::BallKernels* kernels_ = nullptr;  // for as many balls as a colour has at most
-  std::vector<std::uint32_t> slots_;             // by lane of each block: an entry, or k_no_joint
+  std::vector<std::uint32_t> lane_entries_;      // by lane of each block: an entry, or k_no_joint
   std::vector<lanes::BallBlock> blocks_;
 };
 

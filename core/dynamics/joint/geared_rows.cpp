@@ -67,6 +67,7 @@ void fill_distance(RowWriter& rows, const JointArms& arms) {
   if (d.length == 0) return;
   const auto row = [&] { return rows.linear_row(arms, raw_of(d.unit)); };
   const std::int64_t length = bounded_length(d.length);
+  LKS_ASSERT(length >= 0);
   if (rows.is_rigid(0)) {
     const std::int64_t target = rows.value_of(0, rows.place().joint.axes[0].target);
     return rows.push(row, 0, RowKind::lock, length - target);
@@ -79,6 +80,7 @@ void fill_pulley(RowWriter& rows, const JointArms& arms) {
   const Direction a = direction((place.a.position + arms.a) - place.joint.ground_a);
   const Direction b = direction((place.b.position + arms.b) - place.joint.ground_b);
   const std::int64_t ratio = std::int64_t{place.joint.ratio.raw} << 10;
+  LKS_ASSERT(ratio > 0);
   RawVec3 n = raw_of(b.unit);
   for (std::int64_t& x : n)
     x = product_rounded(x, ratio, 30);

@@ -30,7 +30,7 @@ inline constexpr std::int64_t k_close_speed = std::int64_t{8} << 50;
 inline constexpr std::int64_t k_close_way = std::int64_t{8} << 32;
 
 /// Whether both bodies move alike; std::array's comparison calls memcmp.
-[[nodiscard]] inline bool is_alike(const lanes::RowBody& a, const lanes::RowBody& b) {
+[[nodiscard]] inline bool is_alike(const lanes::BodyVelocity& a, const lanes::BodyVelocity& b) {
   std::int64_t differs = 0;
   for (std::size_t i = 0; i < 3; ++i)
     differs |= (a.velocity[i] ^ b.velocity[i]) | (a.spin[i] ^ b.spin[i]);

@@ -110,11 +110,13 @@ class RowWriter {
   /// Adds the rows of one axis, where it stands at `value` (m, Q32).
   template <class Make>
   void add_axis(std::size_t axis, const Make& make, std::int64_t value, bool limits = true) {
+    LKS_ASSERT(axis < k_joint_axes);
     const JointAxisRecord& settings = place_.joint.axes[axis];
     const AxisMode mode = place_.joint.mode(axis);
     const bool soft = mode == AxisMode::locked && settings.is_spring();
     if (is_rigid(axis)) return push(make, axis, RowKind::lock, value);
     if (mode == AxisMode::limited && limits && !is_far(axis)) {
+      LKS_ASSERT(settings.lower <= settings.upper);
       const std::int64_t above = value - value_of(axis, settings.lower);
       if (settings.lower == settings.upper) return push(make, axis, RowKind::lock, above);
       add_limit(axis, make, above, value_of(axis, settings.upper) - value);
@@ -144,7 +146,7 @@ class RowWriter {
     return shifted(angle, -place_.exponent);
   }
 
-  /// Three locks along the axes of the world, which hold the anchors together.
+  /// Three locks along the axes of the world, which keep the anchors together.
   void lock_point(const JointArms& arms) {
     if (errors_ != nullptr) {
       for (int i = 0; i < 3; ++i)
@@ -181,6 +183,7 @@ class RowWriter {
 
   template <class Make>
   void add_limit(std::size_t axis, const Make& make, std::int64_t above, std::int64_t below) {
+    LKS_ASSERT(axis < k_joint_axes);
     if (above <= below) return push(make, axis, RowKind::limit, above);
     const auto opposite = [&] {
       JointRow row = make();

@@ -140,6 +140,7 @@ class SixAxisRows {
     const std::int64_t a = cosine(frame_a_.x, frame_b_.x);
     const std::int64_t angle = std::int64_t{atan2_raw(static_cast<std::int64_t>(d.length), a).raw}
                                << 5;
+    LKS_ASSERT(angle >= 0);
     const std::int64_t left = (std::int64_t{place().joint.axes[4].upper} << 5) - angle;
     if (d.length < std::uint64_t{1} << 16 && a > 0) return;  // no direction, and far from the limit
     const auto row = [&] {
@@ -158,6 +159,7 @@ class SixAxisRows {
 void fill(RowWriter& rows) {
   const JointPlace& place = rows.place();
   const JointRecord& joint = place.joint;
+  LKS_ASSERT(joint.exists());
   JointArms arms{arm_of(place.a.rotation, joint.anchor_a),
                  arm_of(place.b.rotation, joint.anchor_b)};
   arms.gap = (place.b.position + arms.b) - (place.a.position + arms.a);
@@ -222,6 +224,7 @@ RawVec3 point_gap(const JointPlace& place) {
 }
 
 RawVec3 response_of(const InverseInertia& m, const RawVec3& j) {
+  LKS_ASSERT(m.xx >= 0 && m.yy >= 0 && m.zz >= 0 && m.exponent >= 0);
   // With |entries| ≤ 2^30 and levers below 2^31 the sums stay below 3·2^61.
   if (((magnitude(j[0]) | magnitude(j[1]) | magnitude(j[2])) >> 31) == 0) {
     const auto row = [&](std::int64_t a, std::int64_t b, std::int64_t c) {

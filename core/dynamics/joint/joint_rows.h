@@ -1,8 +1,8 @@
 // The rows of a joint: errors and Jacobians from the poses of two bodies.
 //
-// Units: velocities are m/s, Q50, as in `lanes::RowBody`; Jacobians have 30 fraction bits. A row of
-// an angle is an angle times 2^k m, k = `angular_exponent`. An impulse is the pair's velocity jump
-// λ·(1/mA + 1/mB).
+// Units: velocities are m/s, Q50, as in `lanes::BodyVelocity`; Jacobians have 30 fraction bits. A
+// row of an angle is an angle times 2^k m, k = `angular_exponent`. An impulse is the pair's
+// velocity jump λ·(1/mA + 1/mB).
 #pragma once
 
 #include <array>

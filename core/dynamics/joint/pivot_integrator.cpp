@@ -194,6 +194,7 @@ class PivotMotion {
     rotation_ = rotation;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t own = moments_[static_cast<int>(i)].raw;
+      LKS_ASSERT(own > 0);
       inverse_[i] = raw::round_divide(std::int64_t{1} << (30 + k_inverse_moment_bits), own);
     }
     if (inertia.axes == Quat{}) return;
@@ -287,6 +288,7 @@ class PivotMotion {
 
 bool can_step_about_pivot(const BodyRecord& body, const Mat3& rotation, const Pivot& pivot,
                           const Vec3<Acceleration>& gravity, const TimeStep& step) {
+  LKS_ASSERT(body.is_dynamic());
   const Vec3<Position> gap = body.position + arm_of(rotation, pivot.anchor) - pivot.place;
   for (int i = 0; i < 3; ++i)
     if (gap[i].raw > k_most_gap || gap[i].raw < -k_most_gap) return false;
@@ -304,6 +306,7 @@ PivotStep step_about_pivot(BodyRecord& body, const Mat3& rotation, const Pivot& 
   const PivotInertia inertia = inertia_about(body, arm);
   const Pull pull(body, gravity, step);
   const std::int32_t pieces = std::max(pieces_of(pull, arm, inertia.moments, step), 1);
+  LKS_ASSERT(body.is_dynamic() && step.substeps > 0);
   const TickGain gain = tick_gain_of(body);
   Vec3<Velocity> torque = scaled(gain.spin, body.scale_exponent - arm.exponent);
   for (int i = 0; i < 3; ++i)

@@ -90,6 +90,7 @@ SpringTurnRows swing_rows(const Mat3& target, const Mat3& frame_b) {
   rows.axes[1] = {target.y.x.raw, target.y.y.raw, target.y.z.raw};
   rows.axes[2] = {target.z.x.raw, target.z.y.raw, target.z.z.raw};
   const std::int64_t angle = atan2_raw(sine, along).raw;
+  LKS_ASSERT(sine >= 0 && angle >= 0);
   if (sine == 0) {  // at the target, or opposite it, where one side is as good as another
     rows.errors[1] = angle << 5;
     return rows;

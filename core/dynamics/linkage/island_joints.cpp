@@ -6,8 +6,8 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/joint/joint_numbers.h"
-#include "core/dynamics/linkage/joint_drives.h"
-#include "core/dynamics/linkage/row_motion.h"
+#include "core/dynamics/linkage/rows/joint_drives.h"
+#include "core/dynamics/linkage/rows/row_motion.h"
 
 namespace lockstone {
 

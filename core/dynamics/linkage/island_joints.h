@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/dynamics/linkage/joint_run.h"
-#include "core/dynamics/linkage/joint_system.h"
+#include "core/dynamics/linkage/system/joint_run.h"
+#include "core/dynamics/linkage/system/joint_system.h"
 #include "core/dynamics/problem/island_joint.h"
 
 namespace lockstone {

@@ -4,9 +4,10 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/joint/joint_numbers.h"
-#include "core/dynamics/linkage/joint_drives.h"
-#include "core/dynamics/linkage/pulled_links.h"
+#include "core/dynamics/linkage/rows/joint_drives.h"
+#include "core/dynamics/linkage/rows/pulled_links.h"
 
 namespace lockstone {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 // two ropes flew apart.
 constexpr std::uint32_t k_most_loops = 2;
 
-// Whether the coloured balls can hold a body at this anchor: one that is pushed along every axis
+// Whether the coloured balls can fasten a body at this anchor: one that is pushed along every axis
 // with the anchor within the range of its format, or one that stands still.
 bool fits_ball(const LinkedBody& body, const Vec3<Length>& anchor) {
   if (!body.pushed) return !body.record->moves();
@@ -35,7 +36,7 @@ JointPlanner::JointPlanner(JointSystem& system, TreeLocks& trees, LoopLocks& loo
   seen_.reserve(joint_capacity);
   visited_.reserve(body_capacity);
   sorted_.reserve(joint_capacity);
-  in_net_.reserve(joint_capacity);
+  in_balls_.reserve(joint_capacity);
 }
 
 std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_contacts) {
@@ -49,16 +50,18 @@ std::span<const std::uint32_t> JointPlanner::plan(std::uint32_t first_without_co
   system_.clusters.clear();
   system_.order.clear();
   system_.group_bodies.clear();
-  in_net_.clear();
+  in_balls_.clear();
   seen_.assign(system_.added.size(), 0);
   visited_.assign(system_.bodies.size(), 0);
   for (std::uint32_t i = 0; i < system_.bodies.size(); ++i) {
     if (system_.bodies[i].pushed && visited_[i] == 0) find_group(i);
   }
   for (std::uint32_t i = 0; i < system_.added.size(); ++i) {
-    if (system_.added[i].joint == AddedJoint::k_in_net) in_net_.push_back(i);
+    if (system_.added[i].joint == AddedJoint::k_in_balls) in_balls_.push_back(i);
   }
-  return in_net_;
+  LKS_ASSERT(system_.order.size() <= system_.added.size());
+  LKS_ASSERT(system_.group_bodies.size() <= system_.bodies.size());
+  return in_balls_;
 }
 
 // Lists the joints of each pushed body, by index.
@@ -119,6 +122,7 @@ void JointPlanner::find_group(std::uint32_t root) {
 void JointPlanner::plan_group(JointGroup group) {
   std::reverse(system_.order.begin() + group.first, system_.order.end());
   const std::span<const std::uint32_t> joints = system_.joints_of(group);
+  LKS_ASSERT(joints.size() == group.count);
   for (std::uint32_t k = 0; k < group.count; ++k)
     system_.added[joints[k]].place = k;
   // The pushed bodies of a tree on the ground are as many as its joints.
@@ -130,16 +134,18 @@ void JointPlanner::plan_group(JointGroup group) {
   system_.groups.push_back(group);
 }
 
-// Too many joints for one factor: balls go to the net, and each other joint is a group, by index.
+// Too many joints for one factor: balls become coloured balls, and each other joint is a group, by
+// index.
 void JointPlanner::plan_singles(const JointGroup& group) {
   std::vector<std::uint32_t>& order = system_.order;
+  LKS_ASSERT(group.first + group.count <= order.size());
   const auto begin = order.begin() + group.first, end = begin + group.count;
   const auto rest = std::partition(begin, end, [&](std::uint32_t index) {
     AddedJoint& added = system_.added[index];
     added.place = 0;
     if (!fits_net(added)) return false;
-    added.joint = AddedJoint::k_in_net;
-    system_.bodies[added.a].in_net = system_.bodies[added.b].in_net = true;
+    added.joint = AddedJoint::k_in_balls;
+    system_.bodies[added.a].in_balls = system_.bodies[added.b].in_balls = true;
     return true;
   });
   std::sort(rest, end);
@@ -152,11 +158,11 @@ void JointPlanner::plan_singles(const JointGroup& group) {
   }
 }
 
-// Makes the joints that are not in a net, by index.
+// Makes the joints that are not coloured balls, by index.
 void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_group) {
   sorted_.clear();
   for (const std::uint32_t index : system_.joints_of(group)) {
-    if (system_.added[index].joint != AddedJoint::k_in_net) sorted_.push_back(index);
+    if (system_.added[index].joint != AddedJoint::k_in_balls) sorted_.push_back(index);
   }
   if (sorted_.empty()) return;
   std::sort(sorted_.begin(), sorted_.end());
@@ -177,6 +183,7 @@ void JointPlanner::add_cluster(const JointGroup& group, std::uint32_t first_grou
 
 void JointPlanner::make_joint(AddedJoint& added) {
   added.joint = static_cast<std::uint32_t>(system_.joints.size());
+  LKS_ASSERT(is_reserved(system_.joints, system_.joints.size() + 1));
   LinkedJoint& joint = system_.joints.emplace_back();
   joint.record = added.record;
   joint.a = added.a;
@@ -218,7 +225,7 @@ bool JointPlanner::is_pressed(const JointGroup& group) const {
   return touches && pulled;
 }
 
-// Balls that nothing limits or drives, on bodies that a ball can hold.
+// Balls that nothing limits or drives, on bodies that a ball can fasten.
 bool JointPlanner::fits_net(const AddedJoint& added) const {
   const JointRecord& joint = *added.record;
   return is_point(joint) && fits_ball(system_.bodies[added.a], joint.anchor_a) &&

@@ -2,17 +2,17 @@
 //
 // Joints connected by bodies that impulses move form a group. The first of these that fits takes
 // it: the factor of loops (`LoopLocks`), the factor of trees (`TreeLocks`); otherwise ball joints
-// that only lock are left to the coloured balls (`JointNet`), and each other joint is a group of
-// its own. All that follows from the order in which joints were added.
+// that only lock are left to the coloured balls (`ColouredBalls`), and each other joint is a group
+// of its own. All that follows from the order in which joints were added.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/dynamics/linkage/joint_system.h"
-#include "core/dynamics/linkage/loop_locks.h"
-#include "core/dynamics/linkage/tree_locks.h"
+#include "core/dynamics/linkage/locks/loop_locks.h"
+#include "core/dynamics/linkage/locks/tree_locks.h"
+#include "core/dynamics/linkage/system/joint_system.h"
 
 namespace lockstone {
 
@@ -41,10 +41,10 @@ class JointPlanner {
   JointSystem& system_;
   TreeLocks& trees_;
   LoopLocks& loops_;
-  std::vector<std::uint8_t> seen_;     // by added joint
-  std::vector<std::uint8_t> visited_;  // by body
-  std::vector<std::uint32_t> sorted_;  // added joints of the present cluster, by index
-  std::vector<std::uint32_t> in_net_;  // added joints
+  std::vector<std::uint8_t> seen_;       // by added joint
+  std::vector<std::uint8_t> visited_;    // by body
+  std::vector<std::uint32_t> sorted_;    // added joints of the present cluster, by index
+  std::vector<std::uint32_t> in_balls_;  // added joints
 };
 
 }  // namespace lockstone

@@ -6,7 +6,7 @@
 
 #include "core/dynamics/body/lane_bodies.h"
 #include "core/dynamics/body/motion.h"
-#include "core/dynamics/linkage/pulled_links.h"
+#include "core/dynamics/linkage/rows/pulled_links.h"
 
 namespace lockstone {
 
@@ -45,9 +45,10 @@ void JointSolver::add(const JointRecord& record, const Side& a, const Side& b) {
 }
 
 void JointSolver::begin(const JointRun& run) {
+  LKS_ASSERT(system_.joints.size() <= system_.added.size());
   const RoundDivisor rate(system_.step.substep_rate());
   for (LinkedBody& body : system_.bodies) {
-    body.centred = body.pushed && !body.in_net && !body.touches && !body.is_among_contacts;
+    body.centred = body.pushed && !body.in_balls && !body.touches && !body.is_among_contacts;
     body.rate = rate;
   }
   for (JointGroup& group : system_.groups)
@@ -99,7 +100,7 @@ void JointSolver::relax(const JointRun& run, std::size_t first, std::size_t end)
 void JointSolver::place(const JointRun& run, std::size_t first, std::size_t end) const {
   for (std::size_t i = first; i < end; ++i) {
     const LinkedBody& body = system_.bodies[i];
-    if (body.solver == 0 || !body.in_net) continue;
+    if (body.solver == 0 || !body.in_balls) continue;
     run.places[body.solver] = body_place(body.pose.position, body.pose.rotation);
   }
 }
@@ -115,10 +116,11 @@ void JointSolver::move(const JointRun& run, std::size_t first, std::size_t end) 
 
 void JointSolver::store(std::size_t added, JointRecord& record) const {
   const std::uint32_t index = system_.added[added].joint;
-  if (index == k_in_net) return;
+  if (index == k_in_balls) return;
   const LinkedJoint& joint = system_.joints[index];
-  const bool drifts = system_.bodies[joint.a].drifts_first || system_.bodies[joint.b].drifts_first;
-  store_impulses(joint, drifts, record);
+  const bool moves_first =
+      system_.bodies[joint.a].moves_first || system_.bodies[joint.b].moves_first;
+  store_impulses(joint, moves_first, record);
 }
 
 Vec3<Velocity> JointSolver::own_spin(std::uint32_t index, const Vec3<Velocity>& spin,

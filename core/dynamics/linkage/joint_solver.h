@@ -4,7 +4,7 @@
 //
 // | part | job |
 // |---|---|
-// | `LinkedBodies` | finds the bodies that joints hold |
+// | `LinkedBodies` | finds the bodies that joints connect |
 // | `JointPlanner` | decides which joints are solved together, and how |
 // | `JointSystem` | the data that all parts share: joints, bodies, groups, clusters |
 // | `ClusterStages` | the stages of a substep for one cluster |
@@ -22,16 +22,16 @@
 #include <cstdint>
 #include <span>
 
-#include "core/dynamics/linkage/cluster_stages.h"
-#include "core/dynamics/linkage/energy_account.h"
+#include "core/dynamics/linkage/cluster/cluster_stages.h"
+#include "core/dynamics/linkage/cluster/energy_account.h"
 #include "core/dynamics/linkage/island_joints.h"
 #include "core/dynamics/linkage/joint_planner.h"
-#include "core/dynamics/linkage/joint_run.h"
-#include "core/dynamics/linkage/joint_system.h"
-#include "core/dynamics/linkage/linked_bodies.h"
-#include "core/dynamics/linkage/lock_solver.h"
-#include "core/dynamics/linkage/loop_locks.h"
-#include "core/dynamics/linkage/tree_locks.h"
+#include "core/dynamics/linkage/locks/lock_solver.h"
+#include "core/dynamics/linkage/locks/loop_locks.h"
+#include "core/dynamics/linkage/locks/tree_locks.h"
+#include "core/dynamics/linkage/system/joint_run.h"
+#include "core/dynamics/linkage/system/joint_system.h"
+#include "core/dynamics/linkage/system/linked_bodies.h"
 #include "core/dynamics/state/body_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/time_step.h"
@@ -78,8 +78,9 @@ class JointSolver {
   /// After the last substep: spins as they are kept.
   void end(const JointRun& run);
 
-  /// Number of clusters, without joints that are left to a net. No two share a body that is pushed:
-  /// the functions below take a range of clusters, and ranges may be worked at side by side.
+  /// Number of clusters, without joints that are left to the coloured balls. No two share a body
+  /// that is pushed: the functions below take a range of clusters, and ranges may be worked at side
+  /// by side.
   [[nodiscard]] std::uint32_t cluster_count() const {
     return static_cast<std::uint32_t>(system_.clusters.size());
   }
@@ -90,7 +91,7 @@ class JointSolver {
   void solve(const JointRun& run, std::size_t first, std::size_t end);
   void relax(const JointRun& run, std::size_t first, std::size_t end);
 
-  /// Writes where bodies of nets are to `places`, each by itself.
+  /// Writes where bodies of coloured balls are to `places`, each by itself.
   void place(const JointRun& run, std::size_t first, std::size_t end) const;
 
   /// Moves the jointed bodies, as the contact solver moves those without joints: each by itself, in
@@ -100,11 +101,12 @@ class JointSolver {
     return static_cast<std::uint32_t>(system_.bodies.size());
   }
 
-  /// Impulses back to a record, in the order of adding; not of those in a net.
+  /// Impulses back to a record, in the order of adding; not of those among the coloured balls.
   void store(std::size_t added, JointRecord& joint) const;
 
-  /// The number of the joint that was added so; k_in_net of one that is left to a net.
-  static constexpr std::uint32_t k_in_net = AddedJoint::k_in_net;
+  /// The number of the joint that was added so; k_in_balls of one that is left to the coloured
+  /// balls.
+  static constexpr std::uint32_t k_in_balls = AddedJoint::k_in_balls;
   [[nodiscard]] std::uint32_t number_of(std::size_t added) const {
     return system_.added[added].joint;
   }

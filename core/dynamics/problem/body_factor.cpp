@@ -31,7 +31,7 @@ std::int64_t within_word(std::int64_t x) {
 }
 
 // As `within_word`, and notes where it had to: `excess` is 0 as long as all words fit.
-std::int64_t held(std::int64_t x, std::int64_t& excess) {
+std::int64_t clamped(std::int64_t x, std::int64_t& excess) {
   const std::int64_t result = within_word(x);
   excess |= result ^ x;
   return result;
@@ -103,6 +103,7 @@ std::size_t BodyFactor::find_order(const Plan& plan, std::size_t& blocks) {
     products += (1 + count) * (1 + count);
     blocks += count;
   }
+  LKS_ASSERT(order_.size() == plan.bodies);
   return products;
 }
 
@@ -191,6 +192,7 @@ void BodyFactor::add(std::uint32_t block, const RowSide& x, const RowSide& y, st
 }
 
 void BodyFactor::add(std::uint32_t block, const Rows& x, const Rows& y) {
+  LKS_ASSERT(block < blocks_.size() && x.count == y.count && x.count <= k_most_rows);
   std::int64_t sums[k_side][k_side] = {};
   for (std::size_t r = 0; r < x.count; ++r) {
     const RowSide &row = *x.rows[r], &column = *y.rows[r];
@@ -211,6 +213,7 @@ void BodyFactor::scale(const Plan& plan) {
     std::int64_t most = 0;
     for (std::size_t i = 0; i < k_side; ++i)
       most = std::max(most, blocks_[plan.first_block + k].words[i][i]);
+    LKS_ASSERT(most > 0);
     const int width = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most)));
     columns_[plan.first_column + k].scale = (width - k_matrix_sum_bits + 1) >> 1;
   }
@@ -271,6 +274,7 @@ void BodyFactor::factor(const Plan& plan) {
 
 void BodyFactor::solve_down(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   BodyVector* const rows = x_.data() + plan.first_column;
   std::int64_t excess = 0;
   for (std::uint32_t k = 0; k < plan.bodies; ++k) {
@@ -279,8 +283,9 @@ void BodyFactor::solve_down(const Plan& plan, bool& fits) {
     BodyVector& x = rows[k];
     std::array<std::int64_t, k_side> sums{};
     for (std::size_t j = 0; j < k_side; ++j) {
-      const std::int64_t rest = held(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
-      x[j] = held(times_pivot(column, j, rest), excess);
+      const std::int64_t remainder =
+          clamped(x[j] - raw::round_shift(sums[j], k_entry_bits), excess);
+      x[j] = clamped(times_pivot(column, j, remainder), excess);
       for (std::size_t i = j + 1; i < k_side; ++i)
         sums[i] += diagonal.words[j][i] * x[j];
     }
@@ -293,6 +298,7 @@ void BodyFactor::solve_down(const Plan& plan, bool& fits) {
 
 void BodyFactor::solve_up(const Plan& plan, bool& fits) {
   const lanes::ProximalKernels& kernels = lanes::proximal_kernels();
+  LKS_ASSERT(plan.first_column + plan.bodies <= columns_.size());
   BodyVector* const rows = x_.data() + plan.first_column;
   std::int64_t excess = 0;
   for (std::uint32_t k = plan.bodies; k-- > 0;) {
@@ -306,8 +312,8 @@ void BodyFactor::solve_up(const Plan& plan, bool& fits) {
       std::int64_t sum = 0;
       for (std::size_t j = i + 1; j < k_side; ++j)
         sum += diagonal.words[i][j] * x[j];
-      const std::int64_t rest = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
-      x[i] = held(times_pivot(column, i, held(rest, excess)), excess);
+      const std::int64_t remainder = x[i] - sums[i] - raw::round_shift(sum, k_entry_bits);
+      x[i] = clamped(times_pivot(column, i, clamped(remainder, excess)), excess);
     }
   }
   fits = fits && excess == 0;
@@ -327,7 +333,7 @@ void BodyFactor::scale_words(BodyVector& words, int scale, bool& fits) {
   }
   std::int64_t excess = 0;
   for (std::size_t i = 0; i < k_side; ++i)
-    words[i] = held(raw::scale_saturating(words[i], -scale), excess);
+    words[i] = clamped(raw::scale_saturating(words[i], -scale), excess);
   fits = fits && excess == 0;
 }
 

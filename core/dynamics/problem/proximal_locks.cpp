@@ -111,6 +111,7 @@ void ProximalLocks::set_rows(std::uint32_t index, std::uint32_t place,
 }
 
 void ProximalLocks::add_to_factor(const Group& group, const Joint& joint) {
+  LKS_ASSERT(joint.count <= joint.rows.size());
   const bool has_a = joint.a != End::k_unpushed, has_b = joint.b != End::k_unpushed;
   const BodyFactor::Place place =
       has_a && has_b ? factor_.find(group.plan, joint.a, joint.b) : BodyFactor::Place{};
@@ -148,6 +149,7 @@ void ProximalLocks::give(std::uint32_t group, std::uint32_t joint, std::size_t r
 
 // −Jᵀ·r/γ, times 2^-14. Errors are below 2^27 units, so sums of a joint's rows fit.
 void ProximalLocks::add_changes(const Group& group, Joint& joint, int bits) {
+  LKS_ASSERT(joint.count <= joint.rows.size());
   std::array<std::int64_t, 6> a{}, b{};
   for (std::size_t i = 0; i < joint.count; ++i) {
     if (!joint.uses(i)) continue;
@@ -183,6 +185,7 @@ bool ProximalLocks::try_solve(const Group& group, int bits) {
 void ProximalLocks::set_impulses(const Group& group, Joint& joint, int bits) const {
   for (std::size_t i = 0; i < joint.count; ++i) {
     ProximalLock& lock = joint.rows[i];
+    LKS_ASSERT(i < joint.rows.size());
     const std::int64_t error = std::exchange(lock.impulse, 0);
     if (!joint.uses(i)) continue;
     std::int64_t left = error * k_one;

@@ -42,6 +42,7 @@ struct Sides {
 // may be above 1.
 std::array<std::int64_t, 6> scaled_side(const RawVec3& linear, const RawVec3& angular,
                                         const InertiaRoot& root, std::int64_t part) {
+  LKS_ASSERT(part >= -k_whole_q30 && part <= k_whole_q30);
   std::array<std::int64_t, 6> side{};
   if (part == 0) return side;
   std::uint64_t most = 0;
@@ -142,6 +143,7 @@ std::int64_t greatest_length(const Sides& t, const Sides& b) {
   square.add(cross, cross);
   const std::int64_t most =
       raw::round_shift(p + q, 1) + root_of(square.rounded(20)) * (std::int64_t{1} << 10);
+  LKS_ASSERT(p >= 0 && q >= 0 && most >= 0);
   return static_cast<std::int64_t>(
       isqrt128_rounded(multiply_wide(magnitude(most), static_cast<std::uint64_t>(k_whole_q30))));
 }
@@ -201,6 +203,7 @@ std::int64_t part_of(std::int64_t share) {
 }
 
 bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, ProximalLock& lock) {
+  LKS_ASSERT(std::abs(joint.part_a) <= k_whole_q30 && std::abs(joint.part_b) <= k_whole_q30);
   constexpr std::int64_t k_least_length = k_whole_q30 >> 16;
   const Sides sides{scaled_side(row.linear_a, row.angular_a, joint.root_a, joint.part_a),
                     scaled_side(row.linear_b, row.angular_b, joint.root_b, joint.part_b)};
@@ -218,6 +221,7 @@ bool find_proximal_lock(const JointRow& row, const ProximalJoint& joint, Proxima
 }
 
 InertiaRoot inertia_root(const InverseInertia& m) {
+  LKS_ASSERT(m.xx >= 0 && m.yy >= 0 && m.zz >= 0 && m.exponent >= 0);
   InertiaRoot root;
   root.shift = m.exponent >> 1;
   const int odd = m.exponent & 1;

@@ -12,10 +12,10 @@
 namespace lockstone {
 namespace {
 
+using lanes::BodyVelocity;
 using lanes::k_block_lanes;
 using lanes::k_block_points;
 using lanes::ManifoldBlock;
-using lanes::RowBody;
 
 // Most rounds over the supports of one body, of each kind, and the change of an impulse that ends
 // them, Q32: 0.1 µm/s.
@@ -28,7 +28,7 @@ constexpr int k_tipping_shift = 3;
 
 // Along the normal, towards the body that rests: of a point or of all points at once, Q50.
 std::int64_t speed_of(const RawVec3& normal, const RawVec3& response, bool is_b,
-                      const RowBody& body) {
+                      const BodyVelocity& body) {
   ProductSum sum;
   for (std::size_t i = 0; i < 3; ++i) {
     sum.add(normal[i], body.velocity[i]);
@@ -61,15 +61,16 @@ void InitialWarmStart::make_room(std::uint32_t workers) {
     supports_.emplace_back().reserve(k_most_supports);
 }
 
-void InitialWarmStart::find(SupportGraph& order, const ContactRun& run, std::span<RowBody> warm,
-                            Parallel& parallel) {
+void InitialWarmStart::find(SupportGraph& order, const ContactRun& run,
+                            std::span<BodyVelocity> warm, Parallel& parallel) {
   order.find(run,
              [&](const SupportLink&, std::uint32_t body) { return is_at_rest(run.rows[body]); });
+  LKS_ASSERT(warm.size() >= run.bodies.size());
   mean_impulses_.assign(order.links().size(), k_no_impulse);
   order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
     Supports& supports = supports_[worker];
     gather(order, run, body, supports);
-    hold_up(run.bodies[body], warm[body], supports);
+    support_body(run.bodies[body], warm[body], supports);
     for (const Support& support : supports) {
       RowPush to_a, to_b;
       propagate(run, support, to_a, to_b);
@@ -80,8 +81,10 @@ void InitialWarmStart::find(SupportGraph& order, const ContactRun& run, std::spa
 
 // All points of a support push alike as far as that suffices, since iterations keep a pressure in
 // the middle best. A body that tips over has no supports.
-void InitialWarmStart::hold_up(const SolverBody& body, const RowBody& warm, Supports& supports) {
-  RowBody row = warm;
+void InitialWarmStart::support_body(const SolverBody& body, const BodyVelocity& warm,
+                                    Supports& supports) {
+  LKS_ASSERT(body.is_pushed());
+  BodyVelocity row = warm;
   for (std::size_t i = 0; i < 3; ++i) {
     row.velocity[i] += body.gain[i] * k_to_row;
     row.spin[i] += body.spin_gain[i] * k_to_row;
@@ -101,7 +104,8 @@ void InitialWarmStart::hold_up(const SolverBody& body, const RowBody& warm, Supp
 
 // Whether a point opens faster than a part of the weight would close it, so that the body falls.
 // Its push, if propagated, would grow from body to body.
-bool InitialWarmStart::tips(const RowBody& row, const SolverBody& body, const Supports& supports) {
+bool InitialWarmStart::tips(const BodyVelocity& row, const SolverBody& body,
+                            const Supports& supports) {
   const std::int64_t slow = (body.greatest_gain() >> k_tipping_shift) * k_to_row;
   return std::ranges::any_of(supports, [&](const Support& support) {
     for (std::size_t i = 0; i < support.contact.count; ++i)
@@ -115,6 +119,7 @@ void InitialWarmStart::gather(const SupportGraph& order, const ContactRun& run, 
                               Supports& supports) {
   supports.clear();
   order.for_supports(body, [&](const SupportLink& link, std::uint32_t number) {
+    LKS_ASSERT(number < order.links().size());
     if (supports.size() == k_most_supports) return;
     Support& support = supports.emplace_back();
     support.contact = {link};
@@ -156,7 +161,7 @@ void InitialWarmStart::fill(const ContactRun& run, Support& support) {
 }
 
 // Returns the magnitude of the change of each point's impulse, Q32.
-std::int64_t InitialWarmStart::push_together(Support& support, RowBody& body) {
+std::int64_t InitialWarmStart::push_together(Support& support, BodyVelocity& body) {
   const ContactRows& contact = support.contact;
   if (contact.count == 0) return 0;
   const std::int64_t least =
@@ -173,7 +178,7 @@ std::int64_t InitialWarmStart::push_together(Support& support, RowBody& body) {
   return std::abs(each);
 }
 
-std::int64_t InitialWarmStart::push_points(Support& support, RowBody& body) {
+std::int64_t InitialWarmStart::push_points(Support& support, BodyVelocity& body) {
   const ContactRows& contact = support.contact;
   std::int64_t most = 0;
   for (std::size_t i = 0; i < contact.count; ++i) {
@@ -218,16 +223,16 @@ void InitialWarmStart::propagate(const ContactRun& run, const Support& support, 
     }
   }
   if (!support.is_new || contact.count == 0) return;
-  const std::int64_t load = raw::round_divide(sum, contact.count);
-  LKS_ASSERT(load >= 0 && load <= lanes::k_most_impulse);
-  block.rest[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * load;
-  mean_impulses_[support.link] = static_cast<std::int32_t>(load);
+  const std::int64_t mean = raw::round_divide(sum, contact.count);
+  LKS_ASSERT(mean >= 0 && mean <= lanes::k_most_impulse);
+  block.mean_part[lane] = ((std::int64_t{1} << 30) - high_word(block.soft[lane])) * mean;
+  mean_impulses_[support.link] = static_cast<std::int32_t>(mean);
 }
 
 void InitialWarmStart::store(const SupportGraph& order, std::span<ContactRecord> records) const {
   for (std::size_t i = 0; i < mean_impulses_.size(); ++i)
     if (mean_impulses_[i] != k_no_impulse)
-      records[order.links()[i].record].load.raw = mean_impulses_[i];
+      records[order.links()[i].record].mean_impulse.raw = mean_impulses_[i];
 }
 
 }  // namespace lockstone

@@ -34,7 +34,7 @@ class InitialWarmStart {
   /// Of bodies that stand, over others, on something immovable: normal impulses of their supports,
   /// given to the blocks, and the velocities that they give to bodies, added to `warm`. Bodies
   /// faster than 1/4 m/s are left out. `order` has the contacts, and finds the bodies that stand.
-  void find(SupportGraph& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+  void find(SupportGraph& order, const ContactRun& run, std::span<lanes::BodyVelocity> warm,
             Parallel& parallel);
 
   /// To the records of new contacts, with the order of `find`.
@@ -67,14 +67,15 @@ class InitialWarmStart {
   // Of one body.
   using Supports = std::vector<Support>;
 
-  static void hold_up(const SolverBody& body, const lanes::RowBody& warm, Supports& supports);
-  [[nodiscard]] static bool tips(const lanes::RowBody& row, const SolverBody& body,
+  static void support_body(const SolverBody& body, const lanes::BodyVelocity& warm,
+                           Supports& supports);
+  [[nodiscard]] static bool tips(const lanes::BodyVelocity& row, const SolverBody& body,
                                  const Supports& supports);
   static void gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
                      Supports& supports);
   static void fill(const ContactRun& run, Support& support);
-  [[nodiscard]] static std::int64_t push_together(Support& support, lanes::RowBody& body);
-  [[nodiscard]] static std::int64_t push_points(Support& support, lanes::RowBody& body);
+  [[nodiscard]] static std::int64_t push_together(Support& support, lanes::BodyVelocity& body);
+  [[nodiscard]] static std::int64_t push_points(Support& support, lanes::BodyVelocity& body);
   void propagate(const ContactRun& run, const Support& support, RowPush& to_a, RowPush& to_b);
 
   std::vector<Supports> supports_;  // by worker

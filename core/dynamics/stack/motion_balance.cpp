@@ -68,6 +68,7 @@ bool MotionBalance::solve(const Motion6& change, Motion6& x) const {
     bound(x[i]);
   }
   for (std::size_t i = 0; i < 6; ++i) {
+    LKS_ASSERT(over_[i] >= 0);
     x[i] = times_q20(x[i], over_[i]);
     bound(x[i]);
   }

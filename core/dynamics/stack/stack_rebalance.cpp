@@ -11,13 +11,13 @@
 namespace lockstone {
 namespace {
 
+using lanes::BodyVelocity;
 using lanes::k_block_points;
 using lanes::ManifoldBlock;
-using lanes::RowBody;
 
 // A body that stands firm has friction of this part of its push to spare, and is slower than this
 // part of the speed that gravity gives in a substep: 2^-3.
-constexpr int k_firm_shift = 3;
+constexpr int k_reserve_shift = 3;
 
 // Fraction bits of the changes of velocity that are balanced, which are within 1/32 m/s.
 constexpr int k_change_bits = 36;
@@ -52,8 +52,9 @@ bool grips(const ManifoldBlock& block, std::size_t lane) {
     push += impulse;
   }
   if (pushing < 3) return false;
+  LKS_ASSERT(push >= 0);
   const std::int64_t most = product_rounded(push, high_word(block.share[lane]), 30);
-  return is_within_limit(most - (push >> k_firm_shift), low_word(block.friction[lane]),
+  return is_within_limit(most - (push >> k_reserve_shift), low_word(block.friction[lane]),
                          high_word(block.friction[lane]), low_word(block.twist[lane]));
 }
 
@@ -70,7 +71,7 @@ Motion6 column_of(const RawVec3& linear, const RawVec3& turn, std::int64_t share
 }
 
 // The change that stops a body: less the velocity that impulses and its own forces give it, Q36.
-Motion6 change_of(const RowBody& warm, const SolverBody& body) {
+Motion6 change_of(const BodyVelocity& warm, const SolverBody& body) {
   Motion6 change{};
   for (std::size_t i = 0; i < 3; ++i) {
     constexpr int k_shift = lanes::k_velocity_bits - k_change_bits;
@@ -90,11 +91,12 @@ void StackRebalance::make_room(std::uint32_t workers) {
   }
 }
 
-void StackRebalance::find(SupportGraph& order, const ContactRun& run, std::span<RowBody> warm,
+void StackRebalance::find(SupportGraph& order, const ContactRun& run, std::span<BodyVelocity> warm,
                           Parallel& parallel) {
+  LKS_ASSERT(warm.size() >= run.bodies.size());
   order.find(run, [&](const SupportLink& link, std::uint32_t body) {
     if ((link.a == 0 || link.b == 0) && !link.is_on_ground) return false;
-    return is_slower(run.rows[body], run.bodies[body], k_firm_shift) &&
+    return is_slower(run.rows[body], run.bodies[body], k_reserve_shift) &&
            grips(run.blocks[link.block()], link.lane());
   });
   order.descend(parallel, warm, [&](std::uint32_t body, std::uint32_t worker) {
@@ -108,7 +110,7 @@ void StackRebalance::find(SupportGraph& order, const ContactRun& run, std::span<
     }
   });
   for (std::size_t body = 1; body < run.bodies.size(); ++body)
-    if (order.is_held(body)) run.rows[body] = {};
+    if (order.is_supported(body)) run.rows[body] = {};
 }
 
 void StackRebalance::gather(const SupportGraph& order, const ContactRun& run, std::uint32_t body,
@@ -138,6 +140,7 @@ void StackRebalance::add_columns(const ContactRun& run, const Support& support, 
   const std::int64_t scale = is_b ? high_word(block.scale[lane]) : low_word(block.scale[lane]);
   const std::int64_t share_b = low_word(block.share[lane]);
   const std::int64_t share = is_b ? share_b : share_b - (std::int64_t{1} << 30);
+  LKS_ASSERT(share_b >= 0 && share_b <= std::int64_t{1} << 30);
   for (const ManifoldBlock::Point& point : block.points) {
     if (low_word(point.impulse[lane]) <= 0) continue;
     const std::int64_t x = low_word(point.offset[lane]), y = high_word(point.offset[lane]);
@@ -175,6 +178,7 @@ bool StackRebalance::balance(const ContactRun& run, const Motion6& change, Scrat
     if (support.has_friction_rows) support.friction = {next(), next()};
     if (!holds(run, support)) return false;
   }
+  LKS_ASSERT(column == scratch.columns.end());
   return true;
 }
 
@@ -184,6 +188,7 @@ bool StackRebalance::holds(const ContactRun& run, const Support& support) {
   const std::size_t lane = support.pair.lane();
   std::int64_t push = 0;
   for (std::size_t i = 0; i < k_block_points; ++i) {
+    LKS_ASSERT(low_word(block.points[i].impulse[lane]) >= 0);
     const std::int64_t now = low_word(block.points[i].impulse[lane]) + support.points[i];
     if (now < 0 || now > lanes::k_most_impulse) return false;
     push += now;

@@ -27,7 +27,7 @@ class StackRebalance {
   /// `run`. A body stands firm if it is slower than an eighth of the speed that gravity gives in a
   /// substep, and rests by three points or more on the ground or on bodies that stand firm, with
   /// friction of an eighth of the push to spare: enough to stop it in a substep.
-  void find(SupportGraph& order, const ContactRun& run, std::span<lanes::RowBody> warm,
+  void find(SupportGraph& order, const ContactRun& run, std::span<lanes::BodyVelocity> warm,
             Parallel& parallel);
 
  private:

@@ -28,7 +28,7 @@ SupportGraph::SupportGraph(std::size_t body_capacity, std::size_t contact_capaci
     : by_body_(body_capacity, contact_capacity) {
   links_.reserve(contact_capacity);
   upper_.reserve(contact_capacity);
-  is_held_.reserve(body_capacity + 1);
+  is_supported_.reserve(body_capacity + 1);
   carried_.reserve(body_capacity + 1);
   order_.reserve(body_capacity + 1);
   propagated_.reserve(contact_capacity);
@@ -57,16 +57,16 @@ void SupportGraph::find_uppers(const ContactRun& run) {
 // From the top down, beginning with bodies that carry no other. Bodies that carry each other in a
 // ring are left out.
 void SupportGraph::find_order() {
-  carried_.assign(is_held_.size(), 0);
+  carried_.assign(is_supported_.size(), 0);
   for (std::uint32_t i = 0; i < links_.size(); ++i)
     if (rests(i)) ++carried_[lower_of(i)];
   order_.clear();
   const auto add = [&](std::uint32_t body) {
-    if (is_held_[body] == 0 || carried_[body] != 0) return;
-    is_held_[body] = k_visited;
+    if (is_supported_[body] == 0 || carried_[body] != 0) return;
+    is_supported_[body] = k_visited;
     order_.push_back(body);
   };
-  for (std::uint32_t body = 1; body < is_held_.size(); ++body)
+  for (std::uint32_t body = 1; body < is_supported_.size(); ++body)
     add(body);
   round_begins_.clear();
   rounds_.clear();
@@ -85,7 +85,7 @@ void SupportGraph::find_order() {
   }
 }
 
-void SupportGraph::add_propagated(std::uint32_t body, lanes::RowBody& row) const {
+void SupportGraph::add_propagated(std::uint32_t body, lanes::BodyVelocity& row) const {
   for (const std::uint32_t link : by_body_.at(body))
     if (upper_[link] != 0 && upper_[link] != body) propagated_[link].add_to(row);
 }

@@ -13,7 +13,7 @@ namespace lockstone {
 /// Bits of BodyRecord::flags.
 enum BodyFlag : std::uint8_t {
   k_body_trigger = 1,
-  k_body_pushed = 2,  // by forces in this tick: the notes tell how
+  k_body_pushed = 2,  // by forces in this tick: the union tells how
   k_body_bullet = 4,
   k_body_asleep = 8,          // neither moves nor is looked at; its velocities are zero
   k_body_no_sleep = 16,       // never falls asleep
@@ -45,16 +45,17 @@ struct BodyRecord {
   std::uint64_t user_data = 0;
   AssetId asset{};  // Shape::asset
   Quat orientation{{}, {}, {}, {}};
-  Quat contact_orientation{{}, {}, {}, {}};  // and place: where contacts are found, contact_pose.h
-  Vec3<Length> contact_place{};              // low 32 bits
-  Vec3<Length> size{};                       // Shape::size
-  Vec3<Unit> inertia{};                      // principal moments / (mass · s²), each in (0, 1]
-  // One of three. A body that forces push in this tick: the velocities that they give it
+  Quat recycling_orientation{
+      {}, {}, {}, {}};             // and place: where contacts are found, recycling_pose.h
+  Vec3<Length> recycling_place{};  // low 32 bits
+  Vec3<Length> size{};             // Shape::size
+  Vec3<Unit> inertia{};            // principal moments / (mass · s²), each in (0, 1]
+  // A union of three. A body that forces push in this tick: the velocities that they give it
   // (tick_gain.h). Another dynamic body that may fall asleep: the pose at which it began to rest
   // (rest.h). A static or kinematic body: the motion of its surface. Else zero.
-  Vec3<Unit> note_a{};            // force; place, low 32 bits of Length; velocity
-  Vec3<Unit> note_b{};            // torque; x, y, z of the orientation; turning
-  Unit note_c{};                  // exponents; w
+  Vec3<Unit> union_a{};           // force; place, low 32 bits of Length; velocity
+  Vec3<Unit> union_b{};           // torque; x, y, z of the orientation; turning
+  Unit union_c{};                 // exponents; w
   std::int32_t inverse_mass = 0;  // mantissa; the exponent is below
   Number gravity_scale{};
   Rate linear_damping{};
@@ -97,26 +98,26 @@ struct BodyRecord {
   [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
   [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }
 
-  [[nodiscard]] Vec3<Length> rest_position() const { return read<Length>(note_a); }
-  [[nodiscard]] Quat rest_orientation() const { return {note_b.x, note_b.y, note_b.z, note_c}; }
+  [[nodiscard]] Vec3<Length> rest_position() const { return read<Length>(union_a); }
+  [[nodiscard]] Quat rest_orientation() const { return {union_b.x, union_b.y, union_b.z, union_c}; }
   void set_rest(const Vec3<Length>& place, const Quat& turned) {
-    note_a = read<Unit>(place);
-    note_b = {turned.x, turned.y, turned.z};
-    note_c = turned.w;
+    union_a = read<Unit>(place);
+    union_b = {turned.x, turned.y, turned.z};
+    union_c = turned.w;
   }
 
   /// SurfaceMotion about the centre of mass, along the body's axes. Only bodies that are not
   /// dynamic have one.
   [[nodiscard]] bool has_surface_motion() const {
-    return !is_dynamic() && (note_a != Vec3<Unit>{} || note_b != Vec3<Unit>{});
+    return !is_dynamic() && (union_a != Vec3<Unit>{} || union_b != Vec3<Unit>{});
   }
   [[nodiscard]] Vec3<SolverVelocity> surface_velocity() const {
-    return read<SolverVelocity>(note_a);
+    return read<SolverVelocity>(union_a);
   }
-  [[nodiscard]] Vec3<Rate> surface_turning() const { return read<Rate>(note_b); }
+  [[nodiscard]] Vec3<Rate> surface_turning() const { return read<Rate>(union_b); }
   void set_surface_motion(const Vec3<SolverVelocity>& v, const Vec3<Rate>& turning) {
-    note_a = read<Unit>(v);
-    note_b = read<Unit>(turning);
+    union_a = read<Unit>(v);
+    union_b = read<Unit>(turning);
   }
 
   [[nodiscard]] Surface surface() const {
@@ -159,7 +160,7 @@ struct BodyRecord {
 // X: a field in the unit of its type; B: one that holds bits without a unit.
 #define LKS_BODY_FIELDS(X, B) \
   X(position) X(velocity) X(spin) X(user_data) X(asset) X(orientation) \
-  X(contact_orientation) B(contact_place) X(size) X(inertia) B(note_a) B(note_b) B(note_c) X(inverse_mass) \
+  X(recycling_orientation) B(recycling_place) X(size) X(inertia) B(union_a) B(union_b) B(union_c) X(inverse_mass) \
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
   X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
   X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \

@@ -47,7 +47,7 @@ struct ContactRecord {
   Vec3<SolverVelocity> friction_impulse{};  // of all points, in world axes
   Vec3<SolverVelocity> rolling_impulse{};   // torque / ℓ, in world axes
   SolverVelocity twist_impulse{};           // about the normal, at the points' mean radius
-  SolverVelocity load{};                    // mean normal impulse of a point, or 0
+  SolverVelocity mean_impulse{};            // mean normal impulse of a point, or 0
   std::uint16_t count = 0;                  // 0 … 4
   std::uint16_t flags = 0;                  // ContactFlag
 
@@ -73,7 +73,7 @@ constexpr void visit_fields(ContactRecord& record, F&& f) {
   visit_value("friction_impulse", "", record.friction_impulse, f);
   visit_value("rolling_impulse", "", record.rolling_impulse, f);
   visit_value("twist_impulse", "", record.twist_impulse, f);
-  visit_value("load", "", record.load, f);
+  visit_value("mean_impulse", "", record.mean_impulse, f);
   visit_value("count", "", record.count, f);
   visit_value("flags", "", record.flags, f);
 }

@@ -1,4 +1,4 @@
-// Ranges that commands, world definitions and snapshots are all held to.
+// Ranges that commands, world definitions and snapshots all keep to.
 #pragma once
 
 #include <cstdint>

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/math/roots.h"
 
 namespace lockstone {
 namespace {
 
 Coefficient combine(CombineRule rule, Coefficient a, Coefficient b) {
+  LKS_ASSERT(a.raw >= 0 && b.raw >= 0);
   switch (rule) {
     case CombineRule::average:
       return Coefficient::from_raw(

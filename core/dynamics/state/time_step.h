@@ -10,7 +10,7 @@ namespace lockstone {
 /// 2π in Q28, from the digits 6.28318530717958647692: hertz to radians per second.
 inline constexpr std::int64_t k_two_pi_q28 = 1686629713;
 
-/// A number in (0, 1] held with 31 significant bits: mantissa · 2^-shift, mantissa in [2^30, 2^31).
+/// A number in (0, 1] with 31 significant bits: mantissa · 2^-shift, mantissa in [2^30, 2^31).
 struct Factor {
   std::int32_t mantissa = 0;
   int shift = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include <lockstone/assert.h>
+
 #include "core/dynamics/contact/recycling_pose.h"
 
 namespace lockstone {
@@ -33,6 +35,9 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
 ContactSolver::~ContactSolver() = default;
 
 void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
+  LKS_ASSERT(scene.records.size() <= scene.manifold_ids.size());
+  LKS_ASSERT(std::ranges::is_sorted(scene.records, {}, &ContactRecord::key));
+  LKS_ASSERT(std::ranges::is_sorted(scene.joint_links, {}, &JointLink::joint));
   const bool was_idle = tick_.is_idle;
   tick_.is_idle = scene.records.empty() && scene.joint_links.empty();
   if (tick_.is_idle && was_idle) return;
@@ -72,6 +77,7 @@ void ContactSolver::gather(const ContactScene& scene, Parallel& parallel) {
   joints_.reserve_rows();
   motion_.reserve();
   bounce_limit_.reserve();
+  LKS_ASSERT(islands_.count() > 0 && bodies_.row_count() >= bodies_.count());
 }
 
 TickWork ContactSolver::work() const {
@@ -91,6 +97,7 @@ TickWork ContactSolver::work() const {
         static_cast<std::uint32_t>(constraints_.layout().blocks_of(color).count);
     if (!joints_.balls().empty()) work.ball_blocks[color] = joints_.balls().block_count(color);
   }
+  LKS_ASSERT(work.bodies <= work.rows);
   return work;
 }
 
@@ -119,7 +126,8 @@ void ContactSolver::fill_bodies(const ContactScene& scene, std::size_t first, st
   for (std::size_t i = std::max<std::size_t>(first, 1); i < end_of_numbers; ++i) {
     SolverBody& body = bodies_.constants()[i];
     const std::uint32_t island = islands_.all().of(static_cast<std::uint32_t>(i));
-    body.rests = islands_.load(island).is_stack() && EffortPolicy::rests(bodies_.rows()[i], body);
+    LKS_ASSERT(island < islands_.count());
+    body.rests = islands_.tally(island).is_stack() && EffortPolicy::rests(bodies_.rows()[i], body);
   }
 }
 
@@ -150,7 +158,7 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return converged_->solve(constraints_.run(), joints_, first, end,
                                stage.kind == StageKind::push_islands);
     case StageKind::solve_balls:
-      return joints_.balls().lift(joints_.balls_run(), stage.color, first, end);
+      return joints_.balls().solve_positions(joints_.balls_run(), stage.color, first, end);
     case StageKind::solve_joints:
       return joints.solve(joints_.run(), first, end);
     case StageKind::limit_moves:
@@ -162,7 +170,7 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
     case StageKind::relax_joints:
       return joints.relax(joints_.run(), first, end);
     case StageKind::update_balls:
-      return joints_.balls().follow(joints_.balls_run(), stage.color, first, end);
+      return joints_.balls().update(joints_.balls_run(), stage.color, first, end);
     case StageKind::relax_balls:
       return joints_.balls().relax(joints_.balls_run(), stage.color, first, end);
     case StageKind::relax:
@@ -182,6 +190,7 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
 void ContactSolver::store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
                           std::span<SolverVelocity> approaches, Parallel& parallel) {
   if (tick_.is_idle) return;
+  LKS_ASSERT(approaches.size() >= records.size());
   warm_start_.store(records);
   schedule_.plan_store(work());
   const ContactConstraints::StoreTarget target{manifolds, records, approaches};
@@ -201,9 +210,11 @@ const SolverBody* ContactSolver::find(std::uint32_t body) const {
 std::uint32_t ContactSolver::move(const SolverBody& solved, const Mat3& rotation,
                                   BodyRecord& body) {
   const std::uint32_t number = number_of(solved);
+  LKS_ASSERT(number > 0 && number < bodies_.count());
   const JointPose* pose = joints_.solver().find(bodies_.side(number).body());
   if (!constraints_.has_restitution() || !body.is_dynamic())
     return motion_.scatter(number, rotation, pose, body);
+  LKS_ASSERT(body.is_dynamic() && bodies_.side(number).is_dynamic());
   const BodyRecord start = body;
   const std::uint32_t turns = motion_.scatter(number, rotation, pose, body);
   bounce_limit_.note_gain(number, body, start);
@@ -214,14 +225,14 @@ void ContactSolver::limit_bounces(std::span<BodyRecord> bodies, Velocity speed_l
   if (constraints_.has_restitution()) bounce_limit_.limit(bodies, speed_limit);
 }
 
-bool ContactSolver::keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const {
-  const IslandLoad* island = islands_.find(bodies_, body);
+bool ContactSolver::keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const {
+  const IslandTally* island = islands_.find(bodies_, body);
   if (island == nullptr || island->is_converged) return false;
-  return is_near_contact_pose(record, island->is_stack() ? k_fine_drift : k_coarse_drift);
+  return is_near_recycling_pose(record, island->is_stack() ? k_fine_delta : k_coarse_delta);
 }
 
 bool ContactSolver::is_loose(std::uint32_t body) const {
-  const IslandLoad* island = islands_.find(bodies_, body);
+  const IslandTally* island = islands_.find(bodies_, body);
   return island != nullptr && island->is_loose;
 }
 

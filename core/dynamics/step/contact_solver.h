@@ -13,20 +13,20 @@
 #include "core/base/parallel.h"
 #include "core/dynamics/body/solver_body.h"
 #include "core/dynamics/state/time_step.h"
-#include "core/dynamics/step/ball_impacts.h"
-#include "core/dynamics/step/bounce_limit.h"
-#include "core/dynamics/step/contact_constraints.h"
-#include "core/dynamics/step/contact_list.h"
-#include "core/dynamics/step/contact_scene.h"
+#include "core/dynamics/step/contacts/contact_constraints.h"
+#include "core/dynamics/step/contacts/solved_motion.h"
+#include "core/dynamics/step/contacts/stack_warm_start.h"
 #include "core/dynamics/step/converged_islands.h"
-#include "core/dynamics/step/effort_policy.h"
-#include "core/dynamics/step/energy_limit.h"
-#include "core/dynamics/step/island_builder.h"
-#include "core/dynamics/step/solved_motion.h"
-#include "core/dynamics/step/solver_bodies.h"
-#include "core/dynamics/step/stack_warm_start.h"
+#include "core/dynamics/step/input/contact_list.h"
+#include "core/dynamics/step/input/contact_scene.h"
+#include "core/dynamics/step/input/solver_bodies.h"
+#include "core/dynamics/step/input/tick_joints.h"
+#include "core/dynamics/step/islands/effort_policy.h"
+#include "core/dynamics/step/islands/island_builder.h"
+#include "core/dynamics/step/limits/ball_impacts.h"
+#include "core/dynamics/step/limits/bounce_limit.h"
+#include "core/dynamics/step/limits/energy_limit.h"
 #include "core/dynamics/step/substep_schedule.h"
-#include "core/dynamics/step/tick_joints.h"
 
 namespace lockstone {
 
@@ -75,8 +75,8 @@ class ContactSolver {
   }
 
   /// Whether the body's manifolds may stay as they are: its island is left to the iterations, and
-  /// it has not drifted far.
-  [[nodiscard]] bool keeps_contact_pose(std::uint32_t body, const BodyRecord& record) const;
+  /// it has not moved far.
+  [[nodiscard]] bool keeps_recycling_pose(std::uint32_t body, const BodyRecord& record) const;
 
   /// Whether the body is of a loose pile.
   [[nodiscard]] bool is_loose(std::uint32_t body) const;

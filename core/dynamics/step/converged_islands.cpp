@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <lockstone/assert.h>
+
 #include "core/math/roots.h"
 
 namespace lockstone {
@@ -40,12 +42,12 @@ void ConvergedIslands::plan(const ContactScene& scene, const SolverBodies& bodie
   lists_.build(scene, bodies, contacts, islands);
   EffortPolicy::mark_loose(scene, bodies, islands);
   for (std::uint32_t island = 1; island < islands.count(); ++island) {
-    IslandLoad& load = islands.load(island);
-    if (!effort.may_converge(load)) continue;
+    IslandTally& tally = islands.tally(island);
+    if (!effort.may_converge(tally)) continue;
     list(contacts, islands, joints, island);
-    LKS_ASSERT(bodies_.size() == load.bodies && contacts_.size() == load.contacts);
-    load.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
-    if (!load.is_converged) continue;
+    LKS_ASSERT(bodies_.size() == tally.bodies && contacts_.size() == tally.contacts);
+    tally.is_converged = solver_.islands().add(bodies_, contacts_, joints_);
+    if (!tally.is_converged) continue;
     for (const IslandJoint& joint : joints_)
       joints.solver().island_joints().put_among_contacts(joint.joint);
   }
@@ -57,12 +59,14 @@ void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& is
   contacts_.clear();
   joints_.clear();
   lists_.for_bodies(island, [&](std::uint32_t number) { bodies_.push_back(number); });
+  LKS_ASSERT(std::ranges::is_sorted(bodies_));
   const auto pushed = [&](BodyRef body) { return islands.of(body) == 0 ? 0 : body.number(); };
   lists_.for_contacts(island, [&](ContactId id) {
     ProximalContact& contact = contacts_.emplace_back();
     contact.id = id;
     contact.a = pushed(contacts[id].a);
     contact.b = pushed(contacts[id].b);
+    LKS_ASSERT(contact.a != contact.b);
   });
   lists_.for_joints(island, [&](std::uint32_t link) {
     joints_.push_back(joints.solver().island_joints().joint(joints.solver().number_of(link)));
@@ -74,6 +78,7 @@ void ConvergedIslands::begin(const ContactScene& scene, SolverBodies& bodies,
                              const ContactRun& run) {
   for (ProximalContact& contact : solver_.islands().contacts()) {
     const ContactRef& ref = contacts[contact.id];
+    LKS_ASSERT(contact.a < bodies.count() && contact.b < bodies.count());
     const Vec3<SolverVelocity>& arc = scene.surfaces[ref.manifold].arc;
     contact.arc = {arc.x.raw, arc.y.raw, arc.z.raw};
     contact.place = layout.lane_of(contact.id);

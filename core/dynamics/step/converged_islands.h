@@ -7,10 +7,10 @@
 
 #include "core/dynamics/contact/row_geometry.h"
 #include "core/dynamics/direct/block_solver.h"
-#include "core/dynamics/step/constraint_layout.h"
-#include "core/dynamics/step/effort_policy.h"
-#include "core/dynamics/step/island_lists.h"
-#include "core/dynamics/step/tick_joints.h"
+#include "core/dynamics/step/contacts/constraint_layout.h"
+#include "core/dynamics/step/input/tick_joints.h"
+#include "core/dynamics/step/islands/effort_policy.h"
+#include "core/dynamics/step/islands/island_lists.h"
 
 namespace lockstone {
 

@@ -57,6 +57,7 @@ void SubstepSchedule::plan_substeps(const TickWork& work) {
 // joints and contacts such that they stay. Of converged contacts iterations only update the
 // separations, as they relax.
 void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
+  LKS_ASSERT(substep < substeps());
   add_serial(StageKind::note_energies, work.watches_energy);
   add({StageKind::velocities, 0, substep}, work.bodies, k_body_grain);
   add({StageKind::warm_joints}, work.clusters, k_one_grain);

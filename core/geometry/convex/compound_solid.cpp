@@ -43,7 +43,7 @@ RawVec centre_of(const PlacedSolid& placed) {
   const Mat3 axes = to_matrix(placed.orientation);
   const Vec3<Length>& c = placed.solid.centre;
   return fine(placed.position) + along(axes.x, c.x) + along(axes.y, c.y) + along(axes.z, c.z) +
-         rotate(axes, placed.solid.rest);
+         rotate(axes, placed.solid.remainder);
 }
 
 RawVec mean_centre(Solids solids, const Weights& weights) {
@@ -126,7 +126,7 @@ Solid combined(Solids solids) {
     result.centre[axis].raw =
         static_cast<std::int32_t>(raw::round_shift(centre[axis], k_fine_per_length));
   }
-  result.rest = centre - fine(result.centre);
+  result.remainder = centre - fine(result.centre);
   for (const PlacedSolid& solid : solids) {
     const Length distance = distance_up(centre_of(solid) - fine(result.centre));
     result.radius = max(result.radius, distance + solid.solid.radius);

@@ -65,7 +65,7 @@ struct ShapeTraits {
   int (*vertices)(const Sizes& size, std::array<RawVec, 8>& out);
 
   /// Sizes of the shape with its surface deeper by about `depth`, less than the inner radius.
-  Sizes (*eroded)(const Sizes& size, Length depth);
+  Sizes (*shrunk)(const Sizes& size, Length depth);
   /// Sizes of the shape shortened about its middle; a round shape keeps its radius.
   Sizes (*shortened)(const Sizes& size, Unit share);
 

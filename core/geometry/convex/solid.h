@@ -22,7 +22,7 @@ using Moment = Fixed<Scalar, std::int64_t, k_tensor_bits>;
 /// Of uniform density. Lengths err by at most half their last place, moments by 1e-6 relative.
 struct Solid {
   Vec3<Length> centre{};  ///< of mass, in the asset's frame
-  RawVec rest{};          ///< the part of the centre that rounding took, fine
+  RawVec remainder{};     ///< the part of the centre that rounding took, fine
   Quat axes{};            ///< takes the principal axes to the asset's: columns are their directions
   BlockFloat volume{};    ///< m³, relative error ≤ 2^-30
   Vec3<Moment> inertia{};  ///< principal moments / (mass · s²), each in (0, 1]

@@ -14,7 +14,7 @@ namespace {
 using Vertices = std::span<const Vec3<Length>>;
 using Triangles = std::span<const Triangle>;
 
-constexpr int k_rest_bits = 31;
+constexpr int k_remainder_bits = 31;
 
 std::array<RawVec, 3> corners_of(Vertices vertices, const Triangle& t, const Vec3<Length>& apex) {
   return {difference(vertices[t[0]], apex), difference(vertices[t[1]], apex),
@@ -113,13 +113,13 @@ BlockFloat volume_of(const Int128& volume_6) {
 }
 
 /// ∫xy / V about the centre of mass, in squares of the scale 2^scale_bits raw, 60 bits. The apex is
-/// off the centre of mass by `rest`, 31 bits.
+/// off the centre of mass by `remainder`, 31 bits.
 SymMat3<std::int64_t> covariance(const SymMat3<Int192>& moments, const Divisor& divisor,
-                                 const RawVec& rest, int scale_bits) {
+                                 const RawVec& remainder, int scale_bits) {
   const auto entry = [&](const Int192& moment, int i, int j) {
     const std::int64_t about_apex = divisor.quotient(moment, k_tensor_bits - 2 * scale_bits, 20);
-    const int shift = 2 * k_rest_bits - k_tensor_bits + 2 * scale_bits;
-    return about_apex - raw::round_shift(rest[i] * rest[j], shift);
+    const int shift = 2 * k_remainder_bits - k_tensor_bits + 2 * scale_bits;
+    return about_apex - raw::round_shift(remainder[i] * remainder[j], shift);
   };
   return {entry(moments.xx, 0, 0), entry(moments.yy, 1, 1), entry(moments.zz, 2, 2),
           entry(moments.xy, 0, 1), entry(moments.xz, 0, 2), entry(moments.yz, 1, 2)};
@@ -149,16 +149,16 @@ std::optional<Solid> solid_of(Vertices vertices, Triangles triangles) {
   const auto scale_bits = static_cast<int>(std::bit_width(radius - 1));
   solid.scale_exponent = scale_bits - Length::frac_bits;
 
-  RawVec rest;
+  RawVec remainder;
   const FirstMoments about_centre = first_moments(vertices, triangles, solid.centre);
   for (int axis = 0; axis < 3; ++axis) {
     const auto& moment = about_centre.moment_24[static_cast<std::size_t>(axis)];
-    rest[axis] = divisor.quotient(moment, k_rest_bits, 4);
-    solid.rest[axis] = raw::round_shift(rest[axis], k_rest_bits - k_fine_per_length);
+    remainder[axis] = divisor.quotient(moment, k_remainder_bits, 4);
+    solid.remainder[axis] = raw::round_shift(remainder[axis], k_remainder_bits - k_fine_per_length);
   }
   const SymMat3<Int192> moments = second_moments(vertices, triangles, solid.centre);
   const PrincipalAxes principal =
-      principal_axes(inertia_of(covariance(moments, divisor, rest, scale_bits)));
+      principal_axes(inertia_of(covariance(moments, divisor, remainder, scale_bits)));
   const auto& [x, y, z] = principal.moments;
   solid.inertia = {to_moment(x), to_moment(y), to_moment(z)};
   solid.axes = principal.axes;

@@ -1,6 +1,6 @@
 #include "core/geometry/dispatch/polytope_kernels.h"
 
-#include "core/geometry/contact/polytope_collide.h"
+#include "core/geometry/contact/polytope/polytope_collide.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/query/ray_polytope.h"
 

@@ -22,7 +22,7 @@ class CrossingSearch final : public PartVisitor {
     const Vec3<Unit>& normal = part.polytope->faces.front().normal;
     const FacePlane plane(triangle, normal);
     const Fine above = plane.height(from_), end = plane.height(to_);
-    if (above < 0 || end >= fine(k_front_guard)) return;
+    if (above < 0 || end >= fine(k_front_margin)) return;
     const Unit fraction = end < 0 ? rounded(RayRatio{above, above - end}) : k_whole_way;
     if (best_.found && fraction >= best_.fraction) return;
     if (!plane.has_beside(from_ + part_of_way(fraction))) return;

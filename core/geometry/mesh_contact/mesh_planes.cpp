@@ -3,7 +3,7 @@
 #include <optional>
 #include <tuple>
 
-#include "core/geometry/contact/manifold_reduction.h"
+#include "core/geometry/contact/manifold/manifold_reduction.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/mesh_contact/face_plane.h"

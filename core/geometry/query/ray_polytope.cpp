@@ -1,6 +1,6 @@
 #include "core/geometry/query/ray_polytope.h"
 
-#include "core/geometry/contact/polytope_point.h"
+#include "core/geometry/contact/polytope/polytope_point.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/geometry/numeric/ray_ratio.h"
 

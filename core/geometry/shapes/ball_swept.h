@@ -10,7 +10,7 @@ namespace lockstone::geometry {
 [[nodiscard]] BlockFloat ball_swept_volume(const Sizes& size);
 
 /// The radius, less the depth.
-[[nodiscard]] Sizes ball_swept_eroded(const Sizes& size, Length depth);
+[[nodiscard]] Sizes ball_swept_shrunk(const Sizes& size, Length depth);
 
 /// Every direction is that of a face.
 [[nodiscard]] Vec3<Unit> round_face_along(const Sizes& size, const Vec3<Unit>& axis);

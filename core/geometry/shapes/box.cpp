@@ -1,7 +1,7 @@
 // Boxes: the sizes are half extents.
-#include "core/geometry/contact/plane_meeting.h"
+#include "core/geometry/contact/half_space/plane_meeting.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/shapes/shape_table.h"
 #include "core/math/roots.h"
 
@@ -81,7 +81,7 @@ int box_vertices(const Sizes& size, std::array<RawVec, 8>& out) {
   return 8;
 }
 
-Sizes box_eroded(const Sizes& size, Length depth) {
+Sizes box_shrunk(const Sizes& size, Length depth) {
   return {size.x - depth, size.y - depth, size.z - depth};
 }
 
@@ -112,7 +112,7 @@ const ShapeTraits k_box{
     .face_along = box_face_along,
     .vertex_at = box_vertex_at,
     .vertices = box_vertices,
-    .eroded = box_eroded,
+    .shrunk = box_shrunk,
     .shortened = box_shortened,
     .make_core = box_core,
     .below_plane = below_box,

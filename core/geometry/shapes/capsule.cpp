@@ -1,7 +1,7 @@
 // Capsules: size.x is the radius, size.y half the length of the core, along y.
-#include "core/geometry/contact/plane_meeting.h"
+#include "core/geometry/contact/half_space/plane_meeting.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/shapes/ball_swept.h"
 #include "core/geometry/shapes/shape_table.h"
 
@@ -88,7 +88,7 @@ BlockFloat ball_swept_volume(const Sizes& size) {
   return volume_with_factor(capsule_product(size), k_two_thirds_pi, 61);
 }
 
-Sizes ball_swept_eroded(const Sizes& size, Length depth) {
+Sizes ball_swept_shrunk(const Sizes& size, Length depth) {
   return {size.x - depth, size.y, {}};
 }
 
@@ -120,7 +120,7 @@ const ShapeTraits k_capsule{
     .face_along = round_face_along,
     .vertex_at = capsule_vertex_at,
     .vertices = capsule_vertices,
-    .eroded = ball_swept_eroded,
+    .shrunk = ball_swept_shrunk,
     .shortened = capsule_shortened,
     .make_core = capsule_core,
     .below_plane = below_capsule,

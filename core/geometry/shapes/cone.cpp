@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/geometry/contact/collide_convex.h"
+#include "core/geometry/contact/feature/collide_convex.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/shapes/rim_shape.h"
 #include "core/geometry/shapes/shape_table.h"
 #include "core/math/roots.h"
@@ -111,7 +111,8 @@ bool shows_base(const Sizes& size, const Vec3<Unit>& n) {
 Vec3<Unit> cone_face_along(const Sizes& size, const Vec3<Unit>& axis) {
   if (shows_base(size, axis)) return -Mat3{}.y;
   const SideNormal side = cone_side(size);
-  const Vec3<Unit> flat = direction_of(axis.x.raw, 0, axis.z.raw);
+  Vec3<Unit> flat = direction_of(axis.x.raw, 0, axis.z.raw);
+  if (flat == Vec3<Unit>{}) flat.x = Unit::from_integer(1);  // at the apex all sides are alike
   return {rounded<Unit>(flat.x * side.out), side.up, rounded<Unit>(flat.z * side.out)};
 }
 
@@ -128,7 +129,7 @@ Sizes cone_scaled(const Sizes& size, Unit share) {
   return {rounded<Length>(size.x * share), rounded<Length>(size.y * share), {}};
 }
 
-Sizes cone_eroded(const Sizes& size, Length depth) {
+Sizes cone_shrunk(const Sizes& size, Length depth) {
   const Length inner = cone_inner_radius(size);
   const Length left = inner - min(depth, inner);
   return cone_scaled(size, Unit::from_raw(static_cast<std::int32_t>(
@@ -242,7 +243,7 @@ const ShapeTraits k_cone{
     .face_along = cone_face_along,
     .vertex_at = no_vertex_at,
     .vertices = no_vertices,
-    .eroded = cone_eroded,
+    .shrunk = cone_shrunk,
     .shortened = cone_scaled,
     .make_core = cone_core,
     .below_plane = below_feature,

@@ -1,7 +1,7 @@
 // Cylinders: size.x is the radius, size.y half the height, along y.
-#include "core/geometry/contact/collide_convex.h"
+#include "core/geometry/contact/feature/collide_convex.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/query/ray_round.h"
 #include "core/geometry/shapes/rim_shape.h"
 #include "core/geometry/shapes/shape_table.h"
@@ -85,7 +85,7 @@ Shape cylinder_with_round_ends(const Sizes& size) {
   return Shape::capsule(size.y, size.x);
 }
 
-Sizes cylinder_eroded(const Sizes& size, Length depth) {
+Sizes cylinder_shrunk(const Sizes& size, Length depth) {
   return {size.x - depth, size.y - depth, {}};
 }
 
@@ -139,7 +139,7 @@ const ShapeTraits k_cylinder{
     .face_along = cylinder_face_along,
     .vertex_at = no_vertex_at,
     .vertices = no_vertices,
-    .eroded = cylinder_eroded,
+    .shrunk = cylinder_shrunk,
     .shortened = cylinder_shortened,
     .make_core = cylinder_core,
     .below_plane = below_feature,

@@ -1,7 +1,7 @@
 #include "core/geometry/shapes/rim_shape.h"
 
-#include "core/geometry/contact/collide_convex.h"
 #include "core/geometry/contact/collide_pairs.h"
+#include "core/geometry/contact/feature/collide_convex.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/int128.h"
 #include "core/math/roots.h"

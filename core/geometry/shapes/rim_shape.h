@@ -1,8 +1,8 @@
 // Functions that the shapes with rims share: cylinders and cones.
 #pragma once
 
-#include "core/geometry/contact/contact_feature.h"
-#include "core/geometry/contact/plane_meeting.h"
+#include "core/geometry/contact/feature/contact_feature.h"
+#include "core/geometry/contact/half_space/plane_meeting.h"
 #include "core/geometry/convex/shape_traits.h"
 #include "core/geometry/query/ray_hit.h"
 

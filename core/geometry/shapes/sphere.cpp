@@ -1,7 +1,7 @@
 // Spheres: size.x is the radius.
-#include "core/geometry/contact/plane_meeting.h"
+#include "core/geometry/contact/half_space/plane_meeting.h"
 #include "core/geometry/convex/mass_arithmetic.h"
-#include "core/geometry/distance/convex_core.h"
+#include "core/geometry/distance/cores/convex_core.h"
 #include "core/geometry/shapes/ball_swept.h"
 #include "core/geometry/shapes/shape_table.h"
 
@@ -64,7 +64,7 @@ const ShapeTraits k_sphere{
     .face_along = round_face_along,
     .vertex_at = sphere_vertex_at,
     .vertices = sphere_vertices,
-    .eroded = ball_swept_eroded,
+    .shrunk = ball_swept_shrunk,
     .shortened = sphere_shortened,
     .make_core = sphere_core,
     .below_plane = below_sphere,

@@ -71,7 +71,7 @@ struct BodyDef {
   bool fixed_rotation = false;                     ///< never rotates: a character, say
   AxisLocks locks{};                               ///< of a dynamic body
   SpeedLimit speed_limit{};                        ///< at the end of each tick
-  bool is_bullet = false;       ///< never passes through dynamic bodies either, at a price
+  bool is_bullet = false;       ///< never passes through dynamic bodies either, at a cost
   bool allow_sleep = true;      ///< may fall asleep; says nothing of a static body
   std::uint64_t user_data = 0;  ///< the game's own; part of the state
 };

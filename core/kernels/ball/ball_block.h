@@ -7,10 +7,10 @@
 //   vB += αB·(P' − P), vA −= αA·(P' − P), LB += αB·r̄B × (P' − P), LA −= αA·r̄A × (P' − P)
 // Impulses are the pair's velocity jump along the axes of the world.
 //
-// Before positions move, `lift` closes a part of the openings by impulses Q' = Q − K⁻¹·(u + bias),
-// which are taken back afterwards: they are not to be given again in every later substep. Of P an
-// eighth is forgotten each substep, about as much as by Box3D's soft joints; a net whose joints
-// keep all of it shakes itself to pieces.
+// Before positions move, `solve_positions` closes a part of the openings by impulses Q' = Q −
+// K⁻¹·(u + bias), which are taken back afterwards: they are not to be given again in every later
+// substep. Of P an eighth is forgotten each substep, about as much as by Box3D's soft joints; a
+// loop whose joints keep all of it shakes itself to pieces.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ inline constexpr std::int64_t k_most_closing = std::int64_t{4} << 20;
 /// Eight ball joints that share no body, save one that nothing moves (share and inertia zero). A
 /// lane without a joint is zero but for `share`.
 struct alignas(64) BallBlock {
-  std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
+  std::array<std::uint32_t, k_block_lanes> body_a{};  // body_velocity_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
 
   // Fixed for a tick.
@@ -56,8 +56,8 @@ struct alignas(64) BallBlock {
   BlockWord mass[3]{};      // K⁻¹: (xx, yy) (zz, xy) (xz, yz), Q30
   BlockWord bias[2]{};      // speed that closes ¼ of the opening in a substep: (x, y) (z, 0), Q20
 
-  BlockWord impulse[2]{};  // P: (x, y) (z, 0), within ±k_most_impulse; m/s, Q20
-  BlockWord lift[2]{};     // Q, alike
+  BlockWord impulse[2]{};           // P: (x, y) (z, 0), within ±k_most_impulse; m/s, Q20
+  BlockWord position_impulse[2]{};  // Q, alike
 
   friend bool operator==(const BallBlock&, const BallBlock&) = default;
 };
@@ -68,20 +68,20 @@ struct BallKernels {
   /// Computes the rows from the joints' present places, and adds the velocities that their impulses
   /// give the bodies to `warm`.
   void (*begin)(BallBlock* blocks, std::size_t count, const BodyPlace* places,
-                const SourceBody* inertias, RowBody* warm, std::int32_t substep_rate);
+                const BodyInertia* inertias, BodyVelocity* warm, std::int32_t substep_rate);
 
   /// An iteration that closes openings.
-  void (*lift)(RowBody* bodies, BallBlock* blocks, std::size_t count);
+  void (*solve_positions)(BodyVelocity* bodies, BallBlock* blocks, std::size_t count);
 
-  /// Computes the rows again after bodies have moved. Takes the lift back, and keeps seven eighths
-  /// of the impulses as the warm start of the next substep. `before` gains the velocities that the
-  /// old impulses gave along the old arms, less those that the kept ones give along the new arms: a
-  /// substep starts with twice the velocities less `before`. Then as `relax`.
-  void (*follow)(RowBody* bodies, RowBody* before, BallBlock* blocks, std::size_t count,
-                 const BodyPlace* places, const SourceBody* inertias, std::int32_t substep_rate);
+  /// Computes the rows again after bodies have moved. Takes the position impulses back, and keeps
+  /// seven eighths of the impulses as the warm start of the next substep. `before` gains the
+  /// velocities that the old impulses gave along the old arms, less those that the kept ones give
+  /// along the new arms: a substep starts with twice the velocities less `before`. Then as `relax`.
+  void (*update)(BodyVelocity* bodies, BodyVelocity* before, BallBlock* blocks, std::size_t count,
+                 const BodyPlace* places, const BodyInertia* inertias, std::int32_t substep_rate);
 
   /// An iteration that keeps openings as they are.
-  void (*relax)(RowBody* bodies, BallBlock* blocks, std::size_t count);
+  void (*relax)(BodyVelocity* bodies, BallBlock* blocks, std::size_t count);
 };
 
 /// Those of the target in force, or of narrower vectors that hold this many balls at once.

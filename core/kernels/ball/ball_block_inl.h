@@ -21,8 +21,8 @@ struct PlaceLanes {
 
 HWY_INLINE HWY_ATTR void load_places(const BodyPlace* places, const std::uint32_t* index,
                                      PlaceLanes& out) {
-  // Offsets of bodies count words of RowBody; a BodyPlace has as many.
-  static_assert(sizeof(BodyPlace) == sizeof(RowBody));
+  // Offsets of bodies count words of BodyVelocity; a BodyPlace has as many.
+  static_assert(sizeof(BodyPlace) == sizeof(BodyVelocity));
   using At = RecordsAt<const std::int64_t>;
   const std::int64_t* words = places->words.data();
   Lanes word_3, word_4, word_5, word_6, word_7;
@@ -151,7 +151,7 @@ HWY_INLINE HWY_ATTR void store_setup(const Setup& in, const Tensor& mass, std::s
 
 /// Everything that depends on where the bodies are.
 HWY_INLINE HWY_ATTR void place_lanes(BallBlock& block, std::size_t lane, const BodyPlace* places,
-                                     const SourceBody* inertias, std::int32_t substep_rate,
+                                     const BodyInertia* inertias, std::int32_t substep_rate,
                                      Setup& setup) {
   const Lanes share = load(&block.share[lane]), factor = load(&block.factor[lane]);
   const Lanes share_b = share, share_a = subtract(broadcast(k_one), share);
@@ -193,7 +193,7 @@ struct BallPair : BodyPair {
 };
 
 HWY_ATTR inline void begin_balls(BallBlock* blocks, std::size_t count, const BodyPlace* places,
-                                 const SourceBody* inertias, RowBody* warm,
+                                 const BodyInertia* inertias, BodyVelocity* warm,
                                  std::int32_t substep_rate) {
   std::int64_t* words = warm->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
@@ -207,7 +207,7 @@ HWY_ATTR inline void begin_balls(BallBlock* blocks, std::size_t count, const Bod
       bodies.push(load_impulse(block.impulse, lane), load(&block.share[lane]), setup.gain_a,
                   setup.gain_b);
       bodies.store_to(words, block, lane);
-      store_impulse({none, none, none}, block.lift, lane);
+      store_impulse({none, none, none}, block.position_impulse, lane);
     }
   }
 }
@@ -252,19 +252,21 @@ HWY_INLINE HWY_ATTR void relax_ball_lanes(BallBlock& block, std::size_t lane, Ba
   solve_lanes(block, lane, {none, none, none}, bodies, block.impulse);
 }
 
-HWY_ATTR inline void lift_balls(RowBody* bodies, BallBlock* blocks, std::size_t count) {
+HWY_ATTR inline void solve_ball_positions(BodyVelocity* bodies, BallBlock* blocks,
+                                          std::size_t count) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
       BallPair pair{};
       pair.load_from(words, blocks[i], lane);
-      solve_lanes(blocks[i], lane, load_impulse(blocks[i].bias, lane), pair, blocks[i].lift);
+      solve_lanes(blocks[i], lane, load_impulse(blocks[i].bias, lane), pair,
+                  blocks[i].position_impulse);
       pair.store_to(words, blocks[i], lane);
     }
   }
 }
 
-HWY_ATTR inline void relax_balls(RowBody* bodies, BallBlock* blocks, std::size_t count) {
+HWY_ATTR inline void relax_balls(BodyVelocity* bodies, BallBlock* blocks, std::size_t count) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {
@@ -291,9 +293,9 @@ HWY_INLINE HWY_ATTR void renew_impulses(BallBlock& block, std::size_t lane, cons
   store_impulse(kept, block.impulse, lane);
 }
 
-HWY_ATTR inline void follow_balls(RowBody* bodies, RowBody* before, BallBlock* blocks,
+HWY_ATTR inline void update_balls(BodyVelocity* bodies, BodyVelocity* before, BallBlock* blocks,
                                   std::size_t count, const BodyPlace* places,
-                                  const SourceBody* inertias, std::int32_t substep_rate) {
+                                  const BodyInertia* inertias, std::int32_t substep_rate) {
   const Lanes none = broadcast(0);
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {
@@ -305,10 +307,10 @@ HWY_ATTR inline void follow_balls(RowBody* bodies, RowBody* before, BallBlock* b
       renew_impulses(block, lane, old, setup, before->velocity.data());
       BallPair pair{};
       pair.load_from(words, block, lane);
-      const Vector lift = load_impulse(block.lift, lane);
-      pair.push(subtract(Vector{none, none, none}, lift), load(&block.share[lane]), old,
+      const Vector position_impulse = load_impulse(block.position_impulse, lane);
+      pair.push(subtract(Vector{none, none, none}, position_impulse), load(&block.share[lane]), old,
                 upper(old));
-      store_impulse({none, none, none}, block.lift, lane);
+      store_impulse({none, none, none}, block.position_impulse, lane);
       relax_ball_lanes(block, lane, pair);
       pair.store_to(words, block, lane);
     }

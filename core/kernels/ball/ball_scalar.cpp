@@ -4,7 +4,8 @@
 
 namespace lockstone::lanes {
 
-constexpr BallKernels k_scalar_balls{N_SCALAR_TWIN::begin_balls, N_SCALAR_TWIN::lift_balls,
-                                     N_SCALAR_TWIN::follow_balls, N_SCALAR_TWIN::relax_balls};
+constexpr BallKernels k_scalar_balls{N_SCALAR_TWIN::begin_balls,
+                                     N_SCALAR_TWIN::solve_ball_positions,
+                                     N_SCALAR_TWIN::update_balls, N_SCALAR_TWIN::relax_balls};
 
 }  // namespace lockstone::lanes

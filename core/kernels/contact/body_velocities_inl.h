@@ -1,4 +1,4 @@
-// The bodies of as many contacts as there are lanes, read from and written to RowBody records.
+// The bodies of as many contacts as there are lanes, read from and written to BodyVelocity records.
 #if defined(LKS_WIDE_ROW_BODIES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LKS_WIDE_ROW_BODIES_INL_H
 #undef LKS_WIDE_ROW_BODIES_INL_H

@@ -93,7 +93,7 @@ HWY_INLINE HWY_ATTR void solve_two_groups(ContactBlock& block, std::size_t lane,
   next.store_to(bodies);
 }
 
-HWY_ATTR void solve_contact_rows(RowBody* bodies, ContactBlock* blocks, std::size_t count) {
+HWY_ATTR void solve_contact_rows(BodyVelocity* bodies, ContactBlock* blocks, std::size_t count) {
   if (count == 0) return;
   std::int64_t* words = bodies->velocity.data();
   if constexpr (k_lanes == k_block_lanes) {

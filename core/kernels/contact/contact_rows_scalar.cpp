@@ -12,7 +12,7 @@ Lane read_velocity(Lane velocity) {
 }
 
 Lane relative_velocity(const ContactBlock& block, const RowPoint& point, std::size_t lane,
-                       const RowBody& a, const RowBody& b) {
+                       const BodyVelocity& a, const BodyVelocity& b) {
   Lane sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Lane along = read_velocity(scalar::subtract(b.velocity[i], a.velocity[i]));
@@ -24,7 +24,7 @@ Lane relative_velocity(const ContactBlock& block, const RowPoint& point, std::si
 }
 
 void apply(const ContactBlock& block, const RowPoint& point, std::size_t lane, Lane change,
-           RowBody& a, RowBody& b) {
+           BodyVelocity& a, BodyVelocity& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Lane turn_a = scalar::high(point.a[i][lane]);
     const Lane turn_b = scalar::high(point.b[i][lane]);
@@ -35,8 +35,8 @@ void apply(const ContactBlock& block, const RowPoint& point, std::size_t lane, L
   }
 }
 
-void solve_point(const ContactBlock& block, RowPoint& point, std::size_t lane, RowBody& a,
-                 RowBody& b) {
+void solve_point(const ContactBlock& block, RowPoint& point, std::size_t lane, BodyVelocity& a,
+                 BodyVelocity& b) {
   const Lane mass_keep = point.mass_keep[lane];
   const Lane impulse_bias = point.impulse_bias[lane];
   const Lane bias = scalar::high(impulse_bias);
@@ -50,11 +50,11 @@ void solve_point(const ContactBlock& block, RowPoint& point, std::size_t lane, R
 
 }  // namespace
 
-void solve_contact_rows_scalar(RowBody* bodies, ContactBlock* blocks, std::size_t count) {
+void solve_contact_rows_scalar(BodyVelocity* bodies, ContactBlock* blocks, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < k_block_lanes; ++lane) {
-      RowBody& a = bodies[blocks[i].body_a[lane] / row_body_offset(1)];
-      RowBody& b = bodies[blocks[i].body_b[lane] / row_body_offset(1)];
+      BodyVelocity& a = bodies[blocks[i].body_a[lane] / body_velocity_offset(1)];
+      BodyVelocity& b = bodies[blocks[i].body_b[lane] / body_velocity_offset(1)];
       for (RowPoint& point : blocks[i].points)
         solve_point(blocks[i], point, lane, a, b);
     }

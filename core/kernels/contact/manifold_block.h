@@ -24,8 +24,8 @@ namespace lockstone::lanes {
 
 inline constexpr std::size_t k_block_points = 4;
 
-/// Fraction bits of the velocities that impulses leave: the words of a RowBody are multiples of
-/// 2^-32 m/s, so that bodies of equal mass gain and lose exactly the same.
+/// Fraction bits of the velocities that impulses leave: the words of a BodyVelocity are multiples
+/// of 2^-32 m/s, so that bodies of equal mass gain and lose exactly the same.
 inline constexpr int k_grid_bits = 32;
 
 /// The greatest impulse of a point: 2^30 − 1 in Q20, 1024 m/s. Two of them make an operand.
@@ -43,7 +43,7 @@ inline constexpr std::int32_t k_touching_lane = 1 << 8;
 /// holds two operands. `shift` is 16 … 28, and Q(shift) is the format of quantities that grow with
 /// the inverse inertia. In a lane without a manifold `used` is 0, and the rest is meaningless.
 struct alignas(64) ManifoldBlock {
-  std::array<std::uint32_t, k_block_lanes> body_a{};  // row_body_offset of its index
+  std::array<std::uint32_t, k_block_lanes> body_a{};  // body_velocity_offset of its index
   std::array<std::uint32_t, k_block_lanes> body_b{};
 
   // Read by every iteration, in this order: the processor prefetches words read in memory order.
@@ -61,7 +61,7 @@ struct alignas(64) ManifoldBlock {
   Point points[k_block_points];
   // Read by iterations without friction.
   BlockWord soft{};  // low: bias rate, 1/s, Q20; high: share κ of P that a soft row keeps, Q30
-  BlockWord rest{};  // (1 − κ)·load, which a soft row adds; m/s, Q50
+  BlockWord mean_part{};  // (1 − κ)·mean impulse, which a soft row adds; m/s, Q50
 
   BlockWord mass_01{}, mass_23{};  // 1 / (the response of each point to itself), Q30; 0: no point
   BlockWord used{};                // 0 in a lane without a manifold
@@ -114,7 +114,7 @@ struct alignas(16) PrepareInput {
   std::int32_t scale_a = 0, scale_b = 0;  // ℓ/s, Q30
   std::int32_t bias_rate = 0;             // as in ManifoldBlock::soft
   std::int32_t keep = 1 << 30;
-  std::int32_t load = 0;                      // m/s, Q20
+  std::int32_t mean_impulse = 0;              // m/s, Q20
   std::int32_t count = 0;                     // of points
   std::int32_t inertia_a = 1, inertia_b = 1;  // 2^(12 − pair's exponent + body's), 1 … 2^12
   std::int32_t inverse_scale_a = 0, inverse_scale_b = 0;  // 2^11/s, 1 … 2^18; 0: cannot turn
@@ -126,21 +126,21 @@ struct alignas(16) PrepareInput {
   std::int32_t rolling_limit = 0;         // as in ManifoldBlock::turn; without one `rolling` is 0
   std::array<std::int32_t, 3> drive{};    // as in ManifoldBlock, in world axes
   std::int32_t twist_drive = 0;
-  std::array<std::int32_t, 3> held{};  // by world axis: how much of a push axis locks take, Q30
-  std::int32_t is_elastic = 0;         // 1 with restitution
+  std::array<std::int32_t, 3> locked{};  // by world axis: how much of a push axis locks take, Q30
+  std::int32_t is_elastic = 0;           // 1 with restitution
 };
 static_assert(sizeof(PrepareInput) == 144);
 
 /// The inertia of a body for preparation: M = entry · 2^-30 · 2^exponent. The pair gives the
 /// exponent.
-struct alignas(32) SourceBody {
+struct alignas(32) BodyInertia {
   std::array<std::int32_t, 6> inertia{};  // xx, yy, zz, xy, xz, yz
   std::array<std::int32_t, 2> unused{};
 };
 
 /// The manifolds of a block.
 struct PrepareInputs {
-  std::array<std::uint32_t, k_block_lanes> body_a{}, body_b{};  // row_body_offset of the index
+  std::array<std::uint32_t, k_block_lanes> body_a{}, body_b{};  // body_velocity_offset of the index
   std::array<const std::int32_t*, k_block_lanes> geometry{};    // first words of ManifoldGeometry
   std::array<PrepareInput, k_block_lanes> lanes{};
 };
@@ -167,7 +167,7 @@ struct alignas(64) ManifoldApproach {
   friend bool operator==(const ManifoldApproach&, const ManifoldApproach&) = default;
 };
 
-/// The travel of a body since the tick began, as the sum of its `RowBody` at the end of each
+/// The travel of a body since the tick began, as the sum of its `BodyVelocity` at the end of each
 /// substep: velocity and surface velocity, m/s, Q32.
 struct alignas(64) DeltaPose {
   std::array<std::int64_t, 3> velocity{};
@@ -197,21 +197,22 @@ struct SolverParams {
 struct ManifoldKernels {
   /// Fills a block. The impulses to start from are added to `warm`, by body; `bodies` tells the
   /// approach.
-  void (*prepare)(const PrepareInputs& sources, const SourceBody* inertias, const RowBody* bodies,
-                  RowBody* warm, ManifoldBlock& block, ManifoldApproach& approach);
+  void (*prepare)(const PrepareInputs& sources, const BodyInertia* inertias,
+                  const BodyVelocity* bodies, BodyVelocity* warm, ManifoldBlock& block,
+                  ManifoldApproach& approach);
 
   /// An iteration that pushes overlap out, by soft rows: normals only, at the separations that the
   /// last `relax` saw.
-  void (*solve)(RowBody* bodies, ManifoldBlock* blocks, std::size_t count,
+  void (*solve)(BodyVelocity* bodies, ManifoldBlock* blocks, std::size_t count,
                 const SolverParams& rules);
 
   /// An iteration without bias, with friction. Separations are brought up to date first.
-  void (*relax)(RowBody* bodies, const DeltaPose* travel, ManifoldBlock* blocks, std::size_t count,
-                const SolverParams& rules);
+  void (*relax)(BodyVelocity* bodies, const DeltaPose* travel, ManifoldBlock* blocks,
+                std::size_t count, const SolverParams& rules);
 
   /// Points that came in faster than `threshold` (m/s, Q20) and were pushed leave at restitution
   /// (Q30, by lane) times that.
-  void (*bounce)(RowBody* bodies, ManifoldBlock& block, const ManifoldApproach& approach,
+  void (*bounce)(BodyVelocity* bodies, ManifoldBlock& block, const ManifoldApproach& approach,
                  const BlockWord& restitution, std::int32_t threshold);
 };
 

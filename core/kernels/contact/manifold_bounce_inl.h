@@ -45,7 +45,7 @@ HWY_INLINE HWY_ATTR void bounce_lanes(ManifoldBlock& block, std::size_t lane, st
   bodies.store_to(words, block, lane);
 }
 
-HWY_ATTR inline void bounce_manifolds(RowBody* bodies, ManifoldBlock& block,
+HWY_ATTR inline void bounce_manifolds(BodyVelocity* bodies, ManifoldBlock& block,
                                       const ManifoldApproach& approach,
                                       const BlockWord& restitution, std::int32_t threshold) {
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {

@@ -25,14 +25,14 @@ struct SourcePoints {
 /// The sources of as many manifolds.
 struct SourceLanes {
   Vector normal, friction;
-  Lanes twist, load, coefficient, soft;
+  Lanes twist, mean_impulse, coefficient, soft;
   Lanes one_over_count, count;
   Lanes impulse[4];
   Tensor inertia_a, inertia_b;  // Q(shift)
   Vector arm_a, arm_b;          // r̄ of the centre, Q30
   Lanes share_a, share_b, scale_a, scale_b;
   Lanes offset_shift, shift;
-  Vector rolling, drive, held;
+  Vector rolling, drive, locked;
   Lanes rolling_limit, twist_drive;
   Lanes kind;
   Lanes clamped;  // how many arms were
@@ -46,10 +46,10 @@ HWY_INLINE HWY_ATTR void load_operands(const RecordsAt<const std::int32_t>& at, 
 
 /// The part that the operands of one body contribute: M in the pair's format.
 template <bool plain = false>
-HWY_INLINE HWY_ATTR Tensor load_tensor(const SourceBody* inertias, const std::uint32_t* index,
+HWY_INLINE HWY_ATTR Tensor load_tensor(const BodyInertia* inertias, const std::uint32_t* index,
                                        Lanes factor) {
-  // Offsets of bodies count words of RowBody; a SourceBody has as many operands.
-  static_assert(sizeof(SourceBody) == 8 * sizeof(std::int32_t) && row_body_offset(1) == 8);
+  // Offsets of bodies count words of BodyVelocity; a BodyInertia has as many operands.
+  static_assert(sizeof(BodyInertia) == 8 * sizeof(std::int32_t) && body_velocity_offset(1) == 8);
   const RecordsAt<const std::int32_t> at{inertias->inertia.data(), index, 1};
   Lanes xx_yy, zz_xy, xz_yz, none;
   load_operands(at, 0, xx_yy, zz_xy);
@@ -138,7 +138,7 @@ HWY_INLINE HWY_ATTR RecordsAt<const std::int32_t> pieces_of(const PrepareInput* 
 
 template <bool plain>
 HWY_INLINE HWY_ATTR SourceLanes load_source(const PrepareInputs& in, std::size_t lane,
-                                            const SourceBody* inertias, Lanes count,
+                                            const BodyInertia* inertias, Lanes count,
                                             Lanes one_over_count, const SourcePoints& points) {
   const RecordsAt<const std::int32_t> at = pieces_of(&in.lanes[lane]);
   Lanes normal_0, normal_1, friction_0, friction_1, impulses_0, impulses_1, share, scale, soft,

@@ -1,10 +1,10 @@
 // The iteration of manifold_block.h without friction for the target at hand, and code that all
 // iterations share.
-#if defined(LKS_WIDE_MANIFOLD_SWEEP_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LKS_WIDE_MANIFOLD_SWEEP_INL_H
-#undef LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#if defined(LKS_WIDE_MANIFOLD_ITERATE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LKS_WIDE_MANIFOLD_ITERATE_INL_H
+#undef LKS_WIDE_MANIFOLD_ITERATE_INL_H
 #else
-#define LKS_WIDE_MANIFOLD_SWEEP_INL_H
+#define LKS_WIDE_MANIFOLD_ITERATE_INL_H
 #endif
 
 #include "core/kernels/contact/manifold_ahead_inl.h"
@@ -17,15 +17,15 @@ namespace HWY_NAMESPACE {
 
 /// The points of a manifold while they are being solved.
 struct PointLanes {
-  Lanes mass[4];     // Q30, clean; 0: no point
-  Lanes x[4], y[4];  // Q30
-  Lanes speed[4];    // v of each, operand, Q20
-  Lanes bias[4];     // the speed to be added to it, operand, Q20
-  Lanes gap[4];      // the word of separations: above that of `contact_slop` when apart
-  Lanes widest;      // the greatest of them
-  Lanes rest[4];     // (1 − κ)·load, Q50; 0: no point
-  Lanes start[4];    // P at the beginning, clean
-  Lanes impulse[4];  // P
+  Lanes mass[4];       // Q30, clean; 0: no point
+  Lanes x[4], y[4];    // Q30
+  Lanes speed[4];      // v of each, operand, Q20
+  Lanes bias[4];       // the speed to be added to it, operand, Q20
+  Lanes gap[4];        // the word of separations: above that of `contact_slop` when apart
+  Lanes widest;        // the greatest of them
+  Lanes mean_part[4];  // (1 − κ)·mean impulse, Q50; 0: no point
+  Lanes start[4];      // P at the beginning, clean
+  Lanes impulse[4];    // P
 };
 
 /// The greatest word of a separation that counts as touching; its upper half decides.
@@ -82,8 +82,8 @@ HWY_INLINE HWY_ATTR void load_biases(const ManifoldBlock& block, std::size_t lan
       const std::int64_t most = -(std::int64_t{rules.push_out} << 24);
       bias = round_shift_low<24>(max(
           multiply(add(now, broadcast(rules.overlap)), load(&block.soft[lane])), broadcast(most)));
-      points.rest[i] =
-          select_equal(points.mass[i], broadcast(0), broadcast(0), load(&block.rest[lane]));
+      points.mean_part[i] =
+          select_equal(points.mass[i], broadcast(0), broadcast(0), load(&block.mean_part[lane]));
     }
     if constexpr (apart) {
       const Lanes closing = round_shift_unsigned<4>(
@@ -115,8 +115,8 @@ struct HardRow {
   }
 };
 
-/// max(0, κ·(P − m·error) + (1 − κ)·load), unless `apart` and the gap is more than `touching`. The
-/// impulse is 0 where a pull exceeds the point's share of the load.
+/// max(0, κ·(P − m·error) + (1 − κ)·mean), unless `apart` and the gap is more than `touching`. The
+/// impulse is 0 where a pull exceeds the point's share of the mean impulse.
 template <bool apart>
 struct SoftRow {
   Lanes keep, touching;
@@ -126,7 +126,7 @@ struct SoftRow {
     constexpr std::int64_t k_most = std::int64_t{1} << 60;
     const Lanes hard = subtract(shift_left<30>(points.impulse[i]), mass_error);
     const Lanes bounded = round_shift_low<30>(clamp(hard, broadcast(-k_most), broadcast(k_most)));
-    const Lanes soft = multiply_add(points.rest[i], keep, bounded);
+    const Lanes soft = multiply_add(points.mean_part[i], keep, bounded);
     if constexpr (apart) return bounded_impulse(select_less(touching, gap, hard, soft));
     return bounded_impulse(soft);
   }
@@ -243,7 +243,7 @@ HWY_INLINE HWY_ATTR void solve_lanes(ManifoldBlock& block, std::size_t lane, std
   bodies.store_to(words, block, lane);
 }
 
-HWY_ATTR inline void solve_manifolds(RowBody* bodies, ManifoldBlock* blocks, std::size_t count,
+HWY_ATTR inline void solve_manifolds(BodyVelocity* bodies, ManifoldBlock* blocks, std::size_t count,
                                      const SolverParams& rules) {
   std::int64_t* words = bodies->velocity.data();
   for (std::size_t i = 0; i < count; ++i) {

@@ -65,7 +65,7 @@ HWY_INLINE HWY_ATTR CenterResponse center_response(const SourceLanes& in, const 
   add_response(in_axes<plain>(axes, in.inertia_a, in.arm_a, in.share_a, in.scale_a), k);
   add_response(in_axes<plain>(axes, in.inertia_b, in.arm_b, in.share_b, in.scale_b), k);
   finish(axes.by.shift, k);
-  if constexpr (!plain) hold_axes(in.held, axes, k);
+  if constexpr (!plain) apply_axis_locks(in.locked, axes, k);
   return k;
 }
 
@@ -112,7 +112,8 @@ HWY_INLINE HWY_ATTR void store_bodies_of(const SourceLanes& in, const SourceSide
   store(pack(sides.turn_a, sides.turn_b), &out.gain_turn[lane]);
   store(pack(in.share_b, in.coefficient), &out.share[lane]);
   store(in.soft, &out.soft[lane]);
-  store(multiply(subtract(broadcast(k_one), upper(in.soft)), in.load), &out.rest[lane]);
+  store(multiply(subtract(broadcast(k_one), upper(in.soft)), in.mean_impulse),
+        &out.mean_part[lane]);
   store(pack(axes.n.x, axes.n.y), &out.axes[0][lane]);
   store(pack(axes.n.z, axes.t.x), &out.axes[1][lane]);
   store(pack(axes.t.y, axes.t.z), &out.axes[2][lane]);
@@ -413,7 +414,7 @@ HWY_INLINE HWY_ATTR void start_lanes(const SourceLanes& in, const SourceSides<pl
 
 template <bool plain>
 HWY_INLINE HWY_ATTR void prepare_lanes(const PrepareInputs& in, std::size_t lane,
-                                       const SourceBody* inertias, const std::int64_t* words,
+                                       const BodyInertia* inertias, const std::int64_t* words,
                                        std::int64_t* warm, ManifoldBlock& block,
                                        ManifoldApproach& approach) {
   Lanes load_word, one_over_count;
@@ -453,9 +454,9 @@ HWY_INLINE HWY_ATTR void prepare_lanes(const PrepareInputs& in, std::size_t lane
   store_friction_of<plain>(source, lane, axes, tangents, response, quotients, block);
 }
 
-HWY_ATTR inline void prepare_manifolds(const PrepareInputs& in, const SourceBody* inertias,
-                                       const RowBody* bodies, RowBody* warm, ManifoldBlock& block,
-                                       ManifoldApproach& approach) {
+HWY_ATTR inline void prepare_manifolds(const PrepareInputs& in, const BodyInertia* inertias,
+                                       const BodyVelocity* bodies, BodyVelocity* warm,
+                                       ManifoldBlock& block, ManifoldApproach& approach) {
   block.body_a = in.body_a;
   block.body_b = in.body_b;
   for (std::size_t lane = 0; lane < k_block_lanes; lane += k_lanes) {

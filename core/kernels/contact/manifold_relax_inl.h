@@ -177,7 +177,7 @@ HWY_INLINE HWY_ATTR void relax_lanes(ManifoldBlock& block, std::size_t lane, std
   bodies.store_to(words, block, lane);
 }
 
-HWY_ATTR inline void relax_manifolds(RowBody* bodies, const DeltaPose* travel,
+HWY_ATTR inline void relax_manifolds(BodyVelocity* bodies, const DeltaPose* travel,
                                      ManifoldBlock* blocks, std::size_t count,
                                      const SolverParams& rules) {
   std::int64_t* words = bodies->velocity.data();

@@ -111,15 +111,16 @@ HWY_INLINE HWY_ATTR void finish(Lanes shift, CenterResponse& k) {
   k.bb = lower_part(add(k.bb, one));
 }
 
-/// Along an axis that is held a body does not answer: takes uᵀ·H·v from the entry of u and v. H is
+/// Along a locked axis a body does not answer: takes uᵀ·H·v from the entry of u and v. H is
 /// zero but for bodies with axis locks.
-HWY_INLINE HWY_ATTR void hold_axes(const Vector& held, const Axes& axes, CenterResponse& k) {
+HWY_INLINE HWY_ATTR void apply_axis_locks(const Vector& locked, const Axes& axes,
+                                          CenterResponse& k) {
   const Lanes none = broadcast(0);
-  const Lanes sum = add(add(held.x, held.y), held.z);
+  const Lanes sum = add(add(locked.x, locked.y), locked.z);
   if (!any_less(none, sum)) return;
   const auto times_held = [&](const Vector& u) {
     return round_shift_low<30>(
-        Vector{multiply(held.x, u.x), multiply(held.y, u.y), multiply(held.z, u.z)});
+        Vector{multiply(locked.x, u.x), multiply(locked.y, u.y), multiply(locked.z, u.z)});
   };
   const EachShift by = each_shift(subtract(broadcast(60), axes.by.shift));
   const Vector n = times_held(axes.n), t = times_held(axes.t), b = times_held(axes.b);

@@ -130,7 +130,8 @@ struct ProximalKernels {
   /// Adds Jᵀ·(next − impulse). Returns whether these fit.
   bool (*add_changes)(const ProximalBlock* blocks, std::size_t count, BlockWord* sums);
   /// Adds J·u · 2^-shift to kept speeds; −16 ≤ shift ≤ 62.
-  void (*follow)(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies, int shift);
+  void (*update_residuals)(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies,
+                           int shift);
   /// Sets the coupling of the rows.
   void (*couple)(ProximalBlock& block);
   /// Adds Σ weight·Jᵀ·J of the active rows to sums, Q50.

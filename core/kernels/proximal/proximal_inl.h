@@ -108,7 +108,7 @@ HWY_ATTR void begin_phase(ProximalBlock* blocks, std::size_t count, int down, in
 }
 
 /// The rows of a contact while a pass goes over them, one after the other: as one is pushed, the
-/// residuals of all follow by their coupling.
+/// residuals of all are updated by their coupling.
 struct RowPass {
   ProximalBlock& block;
   BlockWord residual{};  // in units of the phase
@@ -271,7 +271,8 @@ HWY_ATTR bool add_changes(const ProximalBlock* blocks, std::size_t count, BlockW
   return all_bits(off) == 0;
 }
 
-HWY_ATTR void follow(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies, int shift) {
+HWY_ATTR void update_residuals(ProximalBlock* blocks, std::size_t count, const BlockWord* bodies,
+                               int shift) {
   constexpr std::int64_t k_most_kept = std::int64_t{1} << 58;
   const Shift rounded(shift > 0 ? shift : 1);
   for (ProximalBlock* block = blocks; block != blocks + count; ++block) {

@@ -7,10 +7,10 @@
 #include <lockstone/status.h>
 
 #include "core/world/commands/joint_registry.h"
+#include "core/world/data/world_data.h"
 #include "core/world/derived/body_names.h"
 #include "core/world/sleep/sleep_flags.h"
 #include "core/world/sleep/waking.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 
@@ -24,7 +24,7 @@ class BodyRegistry {
   Result<BodyHandle> create(const BodyDef& def);
   Status destroy(BodyHandle body);
 
-  /// After `disturb`, when no contact of the body is frozen.
+  /// After `disturb`, when no contact of the body sleeps.
   void drop_contacts_of(std::uint32_t body);
 
   /// For records that were loaded.

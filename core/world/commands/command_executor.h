@@ -6,8 +6,8 @@
 #include <lockstone/world.h>
 
 #include "core/dynamics/body/tick_gain.h"
+#include "core/world/data/world_data.h"
 #include "core/world/phases/step_records.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

@@ -56,7 +56,7 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
   const Transform pose = body_pose(asset, {def.position, def.orientation});
   record.position = pose.position;
   record.orientation = pose.orientation;
-  set_contact_pose(record);
+  set_recycling_pose(record);
   record.user_data = def.user_data;
   record.size = def.shape.size;
   record.asset = def.shape.asset;
@@ -126,8 +126,8 @@ Result<BodyHandle> BodyRegistry::create(const BodyDef& body_def) {
   if (record.moves()) {
     record.velocity = body_def.velocity;
     record.spin = spin_of(record, to_matrix(record.orientation), surface);
-    hold_in_range(record.spin);
-    hold_axes(record);
+    clamp_speed(record.spin);
+    apply_axis_locks(record);
     world_.awake.insert(slot);
   }
   begin_rest(record, flags_.rest_rules());
@@ -181,7 +181,7 @@ Status CommandExecutor::execute(const Teleport& command) {
   record->position = pose.position;
   record->orientation = pose.orientation;
   record->flags &= static_cast<std::uint8_t>(~k_body_loose);
-  set_contact_pose(*record);
+  set_recycling_pose(*record);
   begin_rest(*record, world_.sleep_flags.rest_rules());
   world_.refresh(command.body.index);
   world_.waking.disturb_around(command.body.index);
@@ -196,7 +196,7 @@ Status CommandExecutor::execute(const SetVelocity& command) {
   }
   world_.waking.wake(command.body.index);
   record->velocity = command.velocity;
-  hold_axes(*record);
+  apply_axis_locks(*record);
   world_.refresh(command.body.index);
   return Status::ok;
 }
@@ -211,7 +211,7 @@ Status CommandExecutor::execute(const SetAngularVelocity& command) {
   }
   world_.waking.wake(command.body.index);
   record->spin = spin_of(*record, world_.cache.rotation(command.body.index), surface);
-  hold_in_range(record->spin);
+  clamp_speed(record->spin);
   world_.refresh(command.body.index);
   return Status::ok;
 }

@@ -62,7 +62,7 @@ Vec3<To> over_a_tick(const Vec3<From>& force, int tick_rate) {
   return {impulse(force.x), impulse(force.y), impulse(force.z)};
 }
 
-// A vector of 64 bits along world axes; beyond 2^60 it is held.
+// A vector of 64 bits along world axes; clamped to 2^60.
 template <class T>
 Vec3<T> turned(const Mat3& rotation, const Vec3<T>& v) {
   constexpr std::int64_t k_bound = std::int64_t{1} << 60;
@@ -115,8 +115,8 @@ Status CommandExecutor::push_now(BodyHandle body, const Push& push) {
   BodyRecord& record = *world_.edit(body);
   add_velocity(record.velocity, gain.velocity);
   add_velocity(record.spin, gain.spin);
-  hold_in_range(record.velocity);
-  hold_in_range(record.spin);
+  clamp_speed(record.velocity);
+  clamp_speed(record.spin);
   world_.refresh(body.index);
   return Status::ok;
 }

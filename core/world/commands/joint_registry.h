@@ -9,8 +9,8 @@
 #include <lockstone/status.h>
 
 #include "core/dynamics/state/joint_record.h"
+#include "core/world/data/world_data.h"
 #include "core/world/sleep/waking.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

@@ -125,8 +125,8 @@ Status CommandExecutor::execute(const SetAxisLocks& command) {
       inverse_inertia(*record, world_.cache.rotation(command.body.index)), record->spin);
   record->locks = locked.locks;
   record->spin = spin_of(*record, world_.cache.rotation(command.body.index), turning);
-  hold_in_range(record->spin);
-  hold_axes(*record);
+  clamp_speed(record->spin);
+  apply_axis_locks(*record);
   world_.refresh(command.body.index);
   return Status::ok;
 }

@@ -5,9 +5,9 @@ namespace lockstone {
 BodyCache::BodyCache(std::uint32_t body_capacity)
     : assets_(body_capacity),
       rotations_(body_capacity),
-      contact_rotations_(body_capacity),
-      drifts_(body_capacity),
-      contact_pose_numbers_(body_capacity),
+      recycling_rotations_(body_capacity),
+      pose_deltas_(body_capacity),
+      recycling_pose_numbers_(body_capacity),
       frames_(body_capacity),
       inner_radii_(body_capacity) {}
 
@@ -19,8 +19,8 @@ PlacedShape BodyCache::placed(std::uint32_t body, const BodyRecord& record) cons
 
 void BodyCache::refresh(std::uint32_t body, const BodyRecord& record) {
   rotations_[body] = to_matrix(record.orientation);
-  contact_rotations_[body] = to_matrix(record.contact_orientation);
-  ++contact_pose_numbers_[body];
+  recycling_rotations_[body] = to_matrix(record.recycling_orientation);
+  ++recycling_pose_numbers_[body];
   refresh_turned(body, record);
 }
 
@@ -29,21 +29,22 @@ void BodyCache::refresh_shape(std::uint32_t body, const BodyRecord& record) {
 }
 
 void BodyCache::refresh_turned(std::uint32_t body, const BodyRecord& record) {
-  if (record.contact_orientation == record.orientation) contact_rotations_[body] = rotations_[body];
-  drifts_[body] = drift_of(record);
+  if (record.recycling_orientation == record.orientation)
+    recycling_rotations_[body] = rotations_[body];
+  pose_deltas_[body] = pose_delta_of(record);
   if (assets_[body] != nullptr) frames_[body] = shape_frame(assets_[body], rotations_[body]);
 }
 
 void BodyCache::refresh_contact_rotation(std::uint32_t body, const BodyRecord& record) {
-  contact_rotations_[body] = to_matrix(record.contact_orientation);
+  recycling_rotations_[body] = to_matrix(record.recycling_orientation);
 }
 
-void BodyCache::take_contact_pose(std::uint32_t body, BodyRecord& record) {
-  const Vec3<Length> place = record.contact_place;
-  const Quat orientation = record.contact_orientation;
-  set_contact_pose(record);
-  if (record.contact_place != place || record.contact_orientation != orientation)
-    ++contact_pose_numbers_[body];
+void BodyCache::renew_recycling_pose(std::uint32_t body, BodyRecord& record) {
+  const Vec3<Length> place = record.recycling_place;
+  const Quat orientation = record.recycling_orientation;
+  set_recycling_pose(record);
+  if (record.recycling_place != place || record.recycling_orientation != orientation)
+    ++recycling_pose_numbers_[body];
 }
 
 }  // namespace lockstone

@@ -1,5 +1,6 @@
 // Data of each body that many phases read and that follow from its record: rotation matrices, the
-// asset and its frame, the drift from the contact pose. Derived, so neither saved nor hashed.
+// asset and its frame, the pose delta from the recycling pose. Derived, so neither saved nor
+// hashed.
 #pragma once
 
 #include <cstdint>
@@ -34,13 +35,15 @@ class BodyCache {
   /// The radius of a ball within the shape.
   [[nodiscard]] Length inner_radius(std::uint32_t body) const { return inner_radii_[body]; }
 
-  /// At the contact pose, by body index.
-  [[nodiscard]] const std::vector<Mat3>& contact_rotations() const { return contact_rotations_; }
-  /// From the contact pose.
-  [[nodiscard]] const PoseDelta& drift(std::uint32_t body) const { return drifts_[body]; }
-  /// Another number whenever the contact pose is another.
-  [[nodiscard]] std::uint32_t contact_pose_number(std::uint32_t body) const {
-    return contact_pose_numbers_[body];
+  /// At the recycling pose, by body index.
+  [[nodiscard]] const std::vector<Mat3>& recycling_rotations() const {
+    return recycling_rotations_;
+  }
+  /// From the recycling pose.
+  [[nodiscard]] const PoseDelta& pose_delta(std::uint32_t body) const { return pose_deltas_[body]; }
+  /// Another number whenever the recycling pose is another.
+  [[nodiscard]] std::uint32_t recycling_pose_number(std::uint32_t body) const {
+    return recycling_pose_numbers_[body];
   }
 
   /// The body's shape where it is.
@@ -50,21 +53,21 @@ class BodyCache {
   void refresh(std::uint32_t body, const BodyRecord& record);
   /// After a change of the shape or the asset.
   void refresh_shape(std::uint32_t body, const BodyRecord& record);
-  /// After the body moved, and its rotation was written. A contact pose that the body has left
+  /// After the body moved, and its rotation was written. A recycling pose that the body has left
   /// keeps its rotation.
   void refresh_turned(std::uint32_t body, const BodyRecord& record);
   /// After a load of another pose of the same body, before `refresh_turned`.
   void refresh_contact_rotation(std::uint32_t body, const BodyRecord& record);
-  /// Sets the contact pose to the body's own.
-  void take_contact_pose(std::uint32_t body, BodyRecord& record);
+  /// Sets the recycling pose to the body's own.
+  void renew_recycling_pose(std::uint32_t body, BodyRecord& record);
 
  private:
   // All by body.
   std::vector<const Asset*> assets_;
   std::vector<Mat3> rotations_;
-  std::vector<Mat3> contact_rotations_;
-  std::vector<PoseDelta> drifts_;
-  std::vector<std::uint32_t> contact_pose_numbers_;
+  std::vector<Mat3> recycling_rotations_;
+  std::vector<PoseDelta> pose_deltas_;
+  std::vector<std::uint32_t> recycling_pose_numbers_;
   std::vector<ShapeFrame> frames_;  // kept where an asset is
   std::vector<Length> inner_radii_;
 };

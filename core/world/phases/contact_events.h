@@ -8,9 +8,9 @@
 
 #include <lockstone/event.h>
 
+#include "core/world/data/world_data.h"
 #include "core/world/phases/step_records.h"
 #include "core/world/phases/tick_contacts.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

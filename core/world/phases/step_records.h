@@ -37,9 +37,9 @@ struct PairState {
   std::uint32_t contacts = 0, tag_a = 0, tag_b = 0;  // tags of the fastest contact
 };
 
-/// The contacts that were found of a pair, in slots and in the list of contacts.
+/// The contacts that were found of a pair, in manifold ids and in the list of contacts.
 struct FoundContacts {
-  std::uint32_t slot = 0, count = 0, index = 0;
+  std::uint32_t first_id = 0, count = 0, index = 0;
 };
 
 /// The origin of a new contact: parts, and its record of the tick before.

@@ -1,8 +1,8 @@
 // Sleep: islands at rest leave the tick, and come back when something disturbs them.
 //
 // A body is awake or asleep by a flag of its record. A pair of bodies is looked at while one of the
-// two is awake; contacts between bodies of which none is awake are frozen, as they are, until one
-// wakes. All but the flags and the notes of rest is derived.
+// two is awake; contacts between bodies of which none is awake sleep, as they are, until one
+// wakes. All but the flags and the pose of rest is derived.
 
 #include "core/world/sleep/island_sleep.h"
 
@@ -40,7 +40,7 @@ void IslandSleep::run(StepReport& report) {
     hold_overlapping();
     report.islands = islands_.settle(world_.awake.list());
     for (const std::uint32_t body : world_.awake.list())
-      if (world_.bodies[body].is_dynamic() && !islands_.is_held(body)) to_sleep_.push_back(body);
+      if (world_.bodies[body].is_dynamic() && !islands_.is_active(body)) to_sleep_.push_back(body);
     brake_unrested();
   }
   for (const std::uint32_t body : to_sleep_)
@@ -82,10 +82,10 @@ bool IslandSleep::watch_bodies() {
 // Bodies that overlap deeply are still being pushed out, too slowly for the rest test to see: they
 // must rest longer. At the end of a tick, when each contact has its manifold.
 void IslandSleep::hold_overlapping() {
-  const auto hold = [&](std::uint32_t body) {
+  const auto mark_active = [&](std::uint32_t body) {
     const bool counts = world_.awake.has(body) && world_.bodies[body].is_dynamic();
     if (counts && world_.bodies[body].rest_ticks < flags_.rest_rules().long_ticks())
-      islands_.hold(body);
+      islands_.mark_active(body);
   };
   const std::span<const ContactRecord> active = world_.contacts.active();
   const std::span<const std::uint32_t> ids = world_.contacts.manifold_ids();
@@ -93,8 +93,8 @@ void IslandSleep::hold_overlapping() {
   for (std::size_t i = 0; i < active.size(); ++i) {
     if (ids[i] == ContactLists::k_no_manifold || !has_deep_point(found_.manifolds[ids[i]]))
       continue;
-    hold(active[i].body_a);
-    hold(active[i].body_b);
+    mark_active(active[i].body_a);
+    mark_active(active[i].body_b);
   }
 }
 
@@ -104,22 +104,22 @@ void IslandSleep::join_islands() {
   islands_.begin(all);
   for (const std::uint32_t body : all) {
     if (world_.bodies[body].rest_ticks < flags_.rest_rules().ticks)
-      islands_.hold(body);
+      islands_.mark_active(body);
     else if (world_.bodies[body].is_dynamic())
       islands_.note_rest(body);
   }
-  const auto tie = [&](std::uint32_t a, std::uint32_t b) {
+  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
     if (!world_.awake.has(a) || !world_.awake.has(b)) return;
     const bool a_dynamic = world_.bodies[a].is_dynamic();
     if (a_dynamic && world_.bodies[b].is_dynamic())
       islands_.join(a, b);
     else
-      islands_.drive(a_dynamic ? a : b);
+      islands_.mark_driven(a_dynamic ? a : b);
   };
   for (const ContactRecord& contact : world_.contacts.active())
-    if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
+    if (!contact.is_trigger()) connect(contact.body_a, contact.body_b);
   for (const JointLink& joint : world_.joint_graph.awake_links())
-    tie(joint.body_a, joint.body_b);
+    connect(joint.body_a, joint.body_b);
 }
 
 // Between ticks. Nothing was woken across joints: that is for the next step.

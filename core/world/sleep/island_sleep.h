@@ -8,10 +8,10 @@
 #include <lockstone/world.h>
 
 #include "core/dynamics/islands/islands.h"
+#include "core/world/data/world_data.h"
 #include "core/world/phases/tick_contacts.h"
 #include "core/world/sleep/sleep_flags.h"
 #include "core/world/sleep/waking.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

@@ -7,8 +7,8 @@
 #include <lockstone/event.h>
 
 #include "core/dynamics/body/rest.h"
+#include "core/world/data/world_data.h"
 #include "core/world/derived/index_set.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

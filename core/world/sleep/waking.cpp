@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/world/phases/continuous.h"
+#include "core/world/phases/motion/continuous.h"
 
 namespace lockstone {
 
@@ -78,7 +78,7 @@ void Waking::disturb(std::uint32_t body) {
     wake(body);
     return;
   }
-  world_.contacts.frozen().for_each_of(body, [&](const ContactRecord& record) {
+  world_.contacts.sleeping().for_each_of(body, [&](const ContactRecord& record) {
     list(record.body_a == body ? record.body_b : record.body_a);
   });
   for (const std::uint32_t other : world_.joint_graph.neighbours(body))

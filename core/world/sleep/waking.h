@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/dynamics/state/joint_record.h"
+#include "core/world/data/world_data.h"
 #include "core/world/phases/tick_contacts.h"
 #include "core/world/sleep/sleep_flags.h"
-#include "core/world/world_data.h"
 
 namespace lockstone {
 

@@ -3,7 +3,7 @@
 namespace lockstone {
 
 ContactLists::ContactLists(std::uint32_t body_capacity, std::uint32_t contact_capacity)
-    : store_(contact_capacity), frozen_(body_capacity, contact_capacity) {
+    : store_(contact_capacity), sleeping_(body_capacity, contact_capacity) {
   manifold_ids_.reserve(contact_capacity);
 }
 

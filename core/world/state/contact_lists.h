@@ -11,7 +11,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/state/contact_record.h"
-#include "core/world/sleep/sleeping_contacts.h"
+#include "core/world/state/sleeping_contacts.h"
 
 namespace lockstone {
 
@@ -27,12 +27,12 @@ class ContactLists {
 
   /// Contacts with an awake body, by key.
   [[nodiscard]] std::span<const ContactRecord> active() const { return {store_.data(), active_}; }
-  [[nodiscard]] const FrozenContacts& frozen() const { return frozen_; }
-  /// Active and frozen ones.
-  [[nodiscard]] std::uint32_t count() const { return active_ + frozen_.count(); }
-  /// The number of active contacts that fit beside the frozen ones.
+  [[nodiscard]] const SleepingContacts& sleeping() const { return sleeping_; }
+  /// Active and sleeping ones.
+  [[nodiscard]] std::uint32_t count() const { return active_ + sleeping_.count(); }
+  /// The number of active contacts that fit beside the sleeping ones.
   [[nodiscard]] std::uint32_t active_capacity() const {
-    return static_cast<std::uint32_t>(store_.size()) - frozen_.count();
+    return static_cast<std::uint32_t>(store_.size()) - sleeping_.count();
   }
 
   /// The place of an active contact in `active()`.
@@ -46,7 +46,7 @@ class ContactLists {
   template <class Visit>
   void for_each(std::uint32_t body_limit, Visit&& visit) const {
     std::span<const ContactRecord> ahead = active();
-    frozen_.for_each(body_limit, [&](const ContactRecord& record) {
+    sleeping_.for_each(body_limit, [&](const ContactRecord& record) {
       for (; !ahead.empty() && ahead.front().key() < record.key(); ahead = ahead.subspan(1))
         visit(ahead.front());
       visit(record);
@@ -73,7 +73,7 @@ class ContactLists {
   /// Takes the contacts of a sleeping body out and hands each to `take(record)`.
   template <class Take>
   void thaw_all_of(std::uint32_t body, Take&& take) {
-    frozen_.remove_all_of(body, take);
+    sleeping_.remove_all_of(body, take);
   }
   /// Adds contacts, sorted by key, to the active ones. Their manifolds are not remembered.
   void merge(std::span<const ContactRecord> thawed);
@@ -82,7 +82,7 @@ class ContactLists {
   template <class IsAwake>
   void freeze(IsAwake&& is_awake) {
     for (std::size_t i = active_; i-- > 0;)
-      if (!has_awake(store_[i], is_awake)) frozen_.add(store_[i]);
+      if (!has_awake(store_[i], is_awake)) sleeping_.add(store_[i]);
     std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < active_; ++i) {
       if (!has_awake(store_[i], is_awake)) continue;
@@ -97,7 +97,7 @@ class ContactLists {
   /// Replaces both lists by the contacts of a loaded state, by key.
   template <class IsAwake>
   void adopt(std::span<const ContactRecord> all, IsAwake&& is_awake) {
-    frozen_.clear();
+    sleeping_.clear();
     adopt_all_active(all);
     freeze(is_awake);
   }
@@ -106,8 +106,8 @@ class ContactLists {
     write(0, all);
     active_ = static_cast<std::uint32_t>(all.size());
   }
-  /// Replaces the active list by those of `all` that have an awake body; the others are the frozen
-  /// ones already.
+  /// Replaces the active list by those of `all` that have an awake body; the others are the
+  /// sleeping ones already.
   template <class IsAwake>
   void adopt_active(std::span<const ContactRecord> all, IsAwake&& is_awake) {
     active_ = 0;
@@ -121,7 +121,7 @@ class ContactLists {
     if (is_active(record))
       f(store_[index_of(record)]);
     else
-      frozen_.change(record, f);
+      sleeping_.change(record, f);
   }
 
  private:
@@ -135,7 +135,7 @@ class ContactLists {
 
   std::vector<ContactRecord> store_;  // the first `active_` are the active ones
   std::uint32_t active_ = 0;
-  FrozenContacts frozen_;
+  SleepingContacts sleeping_;
   std::vector<std::uint32_t> manifold_ids_;  // by active contact
   bool remembers_manifolds_ = false;
 };

@@ -5,6 +5,7 @@
 
 #include "core/world/state/record_fields.h"
 #include "core/world/state/snapshot_format.h"
+#include "core/world/world_impl.h"
 
 namespace lockstone {
 namespace {

@@ -129,22 +129,22 @@ void StateLoader::take_contacts() {
   const std::span<const ContactRecord> all = world_.found.records;
   const auto is_awake = [&](std::uint32_t body) { return world_.awake.has(body); };
   const bool any_asleep = world_.sleep_flags.asleep_count() != 0;
-  if (!any_asleep && world_.contacts.frozen().count() == 0)
+  if (!any_asleep && world_.contacts.sleeping().count() == 0)
     world_.contacts.adopt_all_active(all);
-  else if (any_asleep && are_frozen(all))
+  else if (any_asleep && are_sleeping(all))
     world_.contacts.adopt_active(all, is_awake);
   else
     world_.contacts.adopt(all, is_awake);
 }
 
-// Whether those of bodies of which none is awake are the frozen ones.
-bool StateLoader::are_frozen(std::span<const ContactRecord> all) const {
+// Whether those of bodies of which none is awake are the sleeping ones.
+bool StateLoader::are_sleeping(std::span<const ContactRecord> all) const {
   bool same = true;
   const auto skip = [&] {
     while (!all.empty() && is_awake_pair(world_, all.front()))
       all = all.subspan(1);
   };
-  world_.contacts.frozen().for_each(world_.def.body_capacity, [&](const ContactRecord& record) {
+  world_.contacts.sleeping().for_each(world_.def.body_capacity, [&](const ContactRecord& record) {
     if (!same) return;
     skip();
     same = !all.empty() && same_bytes(all.front(), record);

@@ -50,11 +50,11 @@ bool has_valid_limits(const BodyRecord& record) {
 // it may be longer than commands allow.
 bool has_valid_notes(const BodyRecord& record) {
   constexpr int k_exponent_bits = 2 * k_gain_exponent_bits;
-  if (!record.is_dynamic()) return !record.is_pushed() && record.note_c == Unit{};
+  if (!record.is_dynamic()) return !record.is_pushed() && record.union_c == Unit{};
   if (!record.is_pushed()) return true;
   const TickGain gain = tick_gain_of(record);
   return !record.is_asleep() && record.rest_ticks == 0 &&
-         record.note_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
+         record.union_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
          is_within(gain.spin, k_most_gain);
 }
 
@@ -69,11 +69,11 @@ bool has_known_shape(const BodyRecord& record, const Asset* asset) {
 bool has_zero_rest(const BodyRecord& record) {
   const bool notes_something_else = !record.is_dynamic() || record.is_pushed();
   const bool none =
-      record.note_a == Vec3<Unit>{} && record.note_b == Vec3<Unit>{} && record.note_c == Unit{};
+      record.union_a == Vec3<Unit>{} && record.union_b == Vec3<Unit>{} && record.union_c == Unit{};
   return (notes_something_else || none) && record.rest_ticks == 0;
 }
 
-// A sleeping body stands still, and only a body that may fall asleep by resting has notes of its
+// A sleeping body stands still, and only a body that may fall asleep by resting has a pose of its
 // rest.
 bool has_valid_sleep(const BodyRecord& record) {
   const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
@@ -130,7 +130,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (!consistent) return Status::malformed;
   const bool in_world = is_within(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation) &&
-                        has_unit_norm(record.contact_orientation) && record.reserved == 0;
+                        has_unit_norm(record.recycling_orientation) && record.reserved == 0;
   return in_world ? Status::ok : Status::malformed;
 }
 
@@ -207,7 +207,7 @@ Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     const BodyRecord record = body(i);
     if (validate(record, *assets_) != Status::ok) return Status::malformed;
-    if (record.exists() && !is_near_contact_pose(record)) return Status::malformed;
+    if (record.exists() && !is_near_recycling_pose(record)) return Status::malformed;
   }
   return Status::ok;
 }

@@ -5,9 +5,9 @@
 
 #include <lockstone/bytes.h>
 #include <lockstone/status.h>
+#include <lockstone/world.h>
 
 #include "core/world/state/stores.h"
-#include "core/world/world_impl.h"
 
 namespace lockstone {
 

@@ -41,7 +41,7 @@ StateHash World::hash() const {
   StateHash hash;
   hash.header = hash_record(world.header, 0);
   world.visit(BodyStore{}, [&](auto bodies) { hash.bodies = world.hashes.bodies.sum(bodies); });
-  hash.contacts = world.contacts.frozen().hash() + hash_contacts(world.contacts.active());
+  hash.contacts = world.contacts.sleeping().hash() + hash_contacts(world.contacts.active());
   world.visit(JointStore{}, [&](auto joints) { hash.joints = world.hashes.joints.sum(joints); });
   hash.hashed = 1 + world.hashes.bodies.hashed() +
                 static_cast<std::uint32_t>(world.contacts.active().size()) +

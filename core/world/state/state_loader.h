@@ -33,7 +33,7 @@ class StateLoader {
   [[nodiscard]] bool take_joints(std::uint32_t limit, State& state);
   void take_contacts();
   void rebuild_from(std::span<const ContactRecord> contacts);
-  [[nodiscard]] bool are_frozen(std::span<const ContactRecord> all) const;
+  [[nodiscard]] bool are_sleeping(std::span<const ContactRecord> all) const;
 
   World::Impl& world_;
 };

@@ -89,10 +89,10 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     if (world_.cache.rotation(i) != to_matrix(body.orientation))
       return {"the rotation of a body", i};
     if (world_.broad_phase.bounds(i) != world_.bounds_of(i)) return {"the bounds of a body", i};
-    if (!is_near_contact_pose(body)) return {"the contact pose of a body", i};
-    if (world_.cache.contact_rotations()[i] != to_matrix(body.contact_orientation))
-      return {"the rotation of a contact pose", i};
-    if (world_.cache.drift(i) != drift_of(body)) return {"the drift of a body", i};
+    if (!is_near_recycling_pose(body)) return {"the recycling pose of a body", i};
+    if (world_.cache.recycling_rotations()[i] != to_matrix(body.recycling_orientation))
+      return {"the rotation of a recycling pose", i};
+    if (world_.cache.pose_delta(i) != pose_delta_of(body)) return {"the pose delta of a body", i};
   }
   if (awake_count != world_.awake.count()) return {"the number of awake bodies", awake_count};
   if (sleepers != world_.sleep_flags.asleep_count())
@@ -100,7 +100,7 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
   return {};
 }
 
-// Frozen are those contacts of which no body is awake.
+// Those contacts sleep of which no body is awake.
 WorldFault StateValidator::fault_of_derived_contacts() const {
   const auto is_active = [&](const ContactRecord& record) {
     return world_.awake.has(record.body_a) || world_.awake.has(record.body_b);
@@ -108,7 +108,7 @@ WorldFault StateValidator::fault_of_derived_contacts() const {
   if (!std::ranges::all_of(world_.contacts.active(), is_active))
     return {"an active contact of sleepers"};
   WorldFault fault;
-  world_.contacts.frozen().for_each(world_.header.body_limit, [&](const ContactRecord& record) {
+  world_.contacts.sleeping().for_each(world_.header.body_limit, [&](const ContactRecord& record) {
     if (is_active(record)) fault = {"a sleeping contact of a body that is awake", record.body_a};
     const WorldFault own = fault_of_contacts({&record, 1});
     if (own) fault = own;

@@ -6,21 +6,21 @@
 
 #include <lockstone/net/server.h>
 
-#include "net/session/server/admission.h"
-#include "net/session/server/departures.h"
-#include "net/session/server/desync_cases.h"
-#include "net/session/server/desync_response.h"
-#include "net/session/server/dumps.h"
-#include "net/session/server/entry_states.h"
-#include "net/session/server/input_intake.h"
-#include "net/session/server/laggards.h"
-#include "net/session/server/match_end.h"
-#include "net/session/server/player_entry.h"
-#include "net/session/server/server_data.h"
-#include "net/session/server/spectators.h"
-#include "net/session/server/state_comparison.h"
-#include "net/session/server/tick_confirmer.h"
-#include "net/session/server/tick_sender.h"
+#include "net/session/server/comparison/desync_response.h"
+#include "net/session/server/comparison/state_comparison.h"
+#include "net/session/server/data/server_data.h"
+#include "net/session/server/data/tick_sender.h"
+#include "net/session/server/desync/desync_cases.h"
+#include "net/session/server/desync/dumps.h"
+#include "net/session/server/entry/admission.h"
+#include "net/session/server/entry/entry_states.h"
+#include "net/session/server/entry/player_entry.h"
+#include "net/session/server/entry/spectators.h"
+#include "net/session/server/leaving/departures.h"
+#include "net/session/server/leaving/match_end.h"
+#include "net/session/server/ticks/input_intake.h"
+#include "net/session/server/ticks/laggards.h"
+#include "net/session/server/ticks/tick_confirmer.h"
 
 namespace lockstone::net {
 

@@ -118,7 +118,7 @@ struct Family {
 
 /// In the order of the table.
 [[nodiscard]] const std::vector<Family>& families();
-/// One island each, with fixed numbers, whose price a tick is told by itself.
+/// One island each, with fixed numbers, whose cost a tick is told by itself.
 [[nodiscard]] const std::vector<Family>& single_islands();
 
 /// Among both.

@@ -1,4 +1,4 @@
-// Islands by themselves, with fixed numbers: the price of one of each kind.
+// Islands by themselves, with fixed numbers: the cost of one of each kind.
 #include <cmath>
 
 #include "tools/bench/general/maker.h"

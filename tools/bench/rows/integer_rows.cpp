@@ -30,8 +30,8 @@ void set_point(const ScenePoint& from, std::size_t lane, lanes::RowPoint& to) {
 }
 
 void set_contact(const SceneContact& from, std::size_t lane, lanes::ContactBlock& to) {
-  to.body_a[lane] = lanes::row_body_offset(from.body_a);
-  to.body_b[lane] = lanes::row_body_offset(from.body_b);
+  to.body_a[lane] = lanes::body_velocity_offset(from.body_a);
+  to.body_b[lane] = lanes::body_velocity_offset(from.body_b);
   to.shift[lane] = k_shift;
   to.half[lane] = std::int64_t{1} << (k_shift - 1);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -18,7 +18,7 @@ struct IntegerRows {
   /// Of all velocities and impulses.
   [[nodiscard]] std::uint64_t hash() const;
 
-  std::vector<lanes::RowBody> bodies;
+  std::vector<lanes::BodyVelocity> bodies;
   std::vector<lanes::ContactBlock> blocks;
   std::size_t colour_blocks;
 };

@@ -8,7 +8,7 @@
 #include <lockstone/load_asset.h>
 
 #include "tools/lockstone/assets/asset_info.h"
-#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/accuracy/accuracy.h"
-#include "tools/lockstone/bench/bench_front.h"
-#include "tools/lockstone/bench/bench_pages.h"
+#include "tools/lockstone/bench/print/bench_front.h"
+#include "tools/lockstone/bench/print/bench_pages.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "tools/lockstone/bench/bench_general_print.h"
+#include "tools/lockstone/bench/print/bench_general_print.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 

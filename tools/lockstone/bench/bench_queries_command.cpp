@@ -7,7 +7,7 @@
 
 #include "tools/bench/queries/query_run.h"
 #include "tools/bench/support/measure.h"
-#include "tools/lockstone/bench/bench_names.h"
+#include "tools/lockstone/bench/print/bench_names.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"

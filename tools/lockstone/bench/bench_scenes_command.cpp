@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/bench/neutral/scene_json.h"
-#include "tools/lockstone/bench/bench_front.h"
+#include "tools/lockstone/bench/print/bench_front.h"
 #include "tools/lockstone/commands.h"
 
 namespace lockstone::tool {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "tools/bench/support/measure.h"
-#include "tools/lockstone/bench/bench_instructions.h"
-#include "tools/lockstone/bench/bench_speed_print.h"
+#include "tools/lockstone/bench/print/bench_instructions.h"
+#include "tools/lockstone/bench/print/bench_speed_print.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/options.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/stability/stability.h"
-#include "tools/lockstone/bench/bench_pages.h"
+#include "tools/lockstone/bench/print/bench_pages.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/bisect.h"
+#include "tools/lockstone/logs/bisect/bisect.h"
 #include "tools/lockstone/logs/log_commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"

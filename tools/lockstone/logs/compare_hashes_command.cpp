@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/hash_compare.h"
-#include "tools/lockstone/logs/hash_file.h"
 #include "tools/lockstone/logs/log_commands.h"
+#include "tools/lockstone/logs/state/hash_compare.h"
+#include "tools/lockstone/logs/state/hash_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/tool_command.h"

@@ -8,8 +8,8 @@
 #include <lockstone/replay/log_compare.h>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/logs/log_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/tool_command.h"

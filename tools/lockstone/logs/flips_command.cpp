@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/canonical_bytes.h"
-#include "tools/lockstone/logs/canonical_fields.h"
 #include "tools/lockstone/logs/log_commands.h"
+#include "tools/lockstone/logs/state/canonical_bytes.h"
+#include "tools/lockstone/logs/state/canonical_fields.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/start_match.h"

@@ -17,11 +17,11 @@
 #include <lockstone/replay/snapshot_file.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/canonical_bytes.h"
-#include "tools/lockstone/logs/flipping_simulation.h"
-#include "tools/lockstone/logs/hash_file.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/state/canonical_bytes.h"
+#include "tools/lockstone/logs/state/flipping_simulation.h"
+#include "tools/lockstone/logs/state/hash_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/lockstone/support/options.h"

@@ -10,9 +10,9 @@
 #include <lockstone/replay/recorder.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/flipping_simulation.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/state/flipping_simulation.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/tool/start_match.h"
 #include "tools/tool/tool_command.h"

@@ -9,9 +9,9 @@
 #include <lockstone/replay/snapshot_file.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/canonical_bytes.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/state/canonical_bytes.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/tool_command.h"

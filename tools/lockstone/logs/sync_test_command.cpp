@@ -10,7 +10,7 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/logs/sync_test.h"
+#include "tools/lockstone/logs/state/sync_test.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/start_match.h"

@@ -8,9 +8,9 @@
 #include <lockstone/replay/seek.h>
 
 #include "tools/lockstone/commands.h"
+#include "tools/lockstone/logs/bisect/trace.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/logs/log_commands.h"
-#include "tools/lockstone/logs/log_file.h"
-#include "tools/lockstone/logs/trace.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/tool_command.h"

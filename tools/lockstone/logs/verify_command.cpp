@@ -16,7 +16,7 @@
 #include <lockstone/replay/verifier.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/tool/tool_command.h"

@@ -16,7 +16,7 @@
 #include <lockstone/net/transport_secure.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/flipping_simulation.h"
+#include "tools/lockstone/logs/state/flipping_simulation.h"
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/match/servers.h"
 #include "tools/lockstone/support/build_text.h"

@@ -17,7 +17,7 @@
 #include <lockstone/world.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/resume.h"
+#include "tools/lockstone/logs/file/resume.h"
 #include "tools/lockstone/match/journal.h"
 #include "tools/lockstone/match/match_log.h"
 #include "tools/lockstone/match/secrets.h"

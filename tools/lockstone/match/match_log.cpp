@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/lockstone/logs/log_file.h"
-#include "tools/lockstone/logs/resume.h"
+#include "tools/lockstone/logs/file/log_file.h"
+#include "tools/lockstone/logs/file/resume.h"
 #include "tools/lockstone/match/match_host.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/tool/games.h"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/log_file.h"
+#include "tools/lockstone/logs/file/log_file.h"
 #include "tools/lockstone/match/journal.h"
 #include "tools/lockstone/match/match_host.h"
 #include "tools/lockstone/match/match_options.h"

@@ -14,7 +14,7 @@
 #include <lockstone/thread_pool.h>
 
 #include "tools/lockstone/commands.h"
-#include "tools/lockstone/logs/sync_test.h"
+#include "tools/lockstone/logs/state/sync_test.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
 #include "tools/lockstone/support/options.h"

@@ -1,0 +1,100 @@
+#include "core/dynamics/linkage/rows/row_responses.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <lockstone/assert.h>
+
+#include "core/dynamics/joint/joint_numbers.h"
+#include "core/math/product_sum.h"
+#include "core/math/reciprocal.h"
+
+namespace lockstone {
+namespace {
+
+// 1/x of a response in Q30, to multiply a velocity with; 0 of one that is hardly there.
+InverseResponse inverse_response(std::int64_t response) {
+  if (response < 16) return {};
+  const int zeros = std::countl_zero(static_cast<std::uint64_t>(response));
+  const std::uint64_t mantissa = reciprocal_q124(static_cast<std::uint64_t>(response) << zeros);
+  LKS_ASSERT(mantissa >> 63 == 0);
+  return {static_cast<std::int64_t>(mantissa), 60 + 64 - zeros - 30};
+}
+
+// Along an axis that is locked a body neither moves nor responds.
+void clear_locked_axes(const LinkedBody& body, RawVec3& linear) {
+  if (!body.pushed || (body.record->locks & k_lock_moving) == 0) return;
+  for (int axis = 0; axis < 3; ++axis)
+    if (body.record->is_locked(axis)) linear[static_cast<std::size_t>(axis)] = 0;
+}
+
+}  // namespace
+
+JointPlace place_of(const JointSystem& system, const LinkedJoint& joint, const JointPose& a,
+                    const JointPose& b) {
+  LKS_ASSERT(joint.a < system.bodies.size() && joint.b < system.bodies.size());
+  return {*joint.record,
+          joint.frames,
+          a,
+          b,
+          system.bodies[joint.a].scale,
+          system.bodies[joint.b].scale,
+          joint.exponent,
+          joint.far,
+          joint.holds_a_point};
+}
+
+void linearize(const JointSystem& system, LinkedJoint& joint) {
+  fill_rows(place_of(system, joint, system.bodies[joint.a].pose, system.bodies[joint.b].pose),
+            RowParts::all, joint.rows);
+  find_responses(system, joint, joint.rows.count, false);
+  const std::int64_t most = raw::round_divide(k_close_way, system.step.substep_rate());
+  LKS_ASSERT(joint.rows.locks <= joint.rows.count && most > 0);
+  for (std::size_t r = 0; r < joint.rows.locks; ++r) {
+    const std::int64_t open = joint.rows.rows[r].error;
+    joint.left_open[r] = open - bounded(open, most);
+  }
+}
+
+void linearize(JointSystem& system, const JointCluster& cluster) {
+  for (LinkedJoint& joint : system.joints_of(cluster))
+    linearize(system, joint);
+  for (JointGroup& group : system.groups_of(cluster)) {
+    group.is_fresh = false;
+    group.is_factored = group.is_factored && group.is_direct;
+  }
+}
+
+void find_responses(const JointSystem& system, LinkedJoint& joint, std::size_t rows, bool ahead) {
+  LKS_ASSERT(rows <= joint.rows.count);
+  const LinkedBody& a = system.bodies[joint.a];
+  const LinkedBody& b = system.bodies[joint.b];
+  const InverseInertia& inertia_a = ahead ? a.inertia_ahead : a.inverse_inertia;
+  const InverseInertia& inertia_b = ahead ? b.inertia_ahead : b.inverse_inertia;
+  for (std::size_t i = 0; i < rows; ++i) {
+    JointRow& row = joint.rows.rows[i];
+    clear_locked_axes(a, row.linear_a);
+    clear_locked_axes(b, row.linear_b);
+    row.response_a = response_of(inertia_a, row.angular_a);
+    row.response_b = response_of(inertia_b, row.angular_b);
+    if (row.kind == RowKind::lock) continue;  // solved by the factor
+    std::int64_t response = 0;
+    const auto add_side = [&](const LinkedBody& body, const MassShare& share, std::int64_t self) {
+      if (body.pushed) response += product_rounded(self, share.mantissa, share.shift);
+    };
+    add_side(a, joint.share_a, self_response(row.linear_a, row.angular_a, row.response_a));
+    add_side(b, joint.share_b, self_response(row.linear_b, row.angular_b, row.response_b));
+    joint.inverse_responses[i] = inverse_response(std::min(response, k_product_bound));
+  }
+}
+
+std::int64_t self_response(const RawVec3& linear, const RawVec3& angular, const RawVec3& response) {
+  ProductSum sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.add(linear[i], linear[i]);
+    sum.add(angular[i], response[i]);
+  }
+  return sum.rounded(30);
+}
+
+}  // namespace lockstone

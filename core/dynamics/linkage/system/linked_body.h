@@ -1,0 +1,83 @@
+// A body that joints connect to others, during one tick: its pose, its inertia, and the velocities
+// that the stages of a substep note for it.
+//
+// A link that its joints pull hard may be taken to be heavier to turn than it is
+// (`pulled_links.h`): then no principal moment is below `least_inertia`, and its spin in the rows
+// of the solver belongs to that inertia.
+#pragma once
+
+#include <cstdint>
+
+#include "core/dynamics/body/principal_inverse.h"
+#include "core/dynamics/joint/joint_rows.h"
+#include "core/dynamics/linkage/system/joint_run.h"
+#include "core/dynamics/state/body_record.h"
+#include "core/math/block_float.h"
+#include "core/math/round_divisor.h"
+
+namespace lockstone {
+
+struct LinkedBody {
+  const BodyRecord* record = nullptr;
+  std::uint32_t solver = 0;        // number in the contact solver, 0 for a body that does not move
+  int scale = 0;                   // exponent
+  bool pushed = false;             // impulses change its velocity
+  bool touches = false;            // has contacts
+  bool is_among_contacts = false;  // its joints are in the problem of its island's contacts
+  bool in_balls = false;           // a joint of it is left to the coloured balls
+  bool centred = false;            // velocity Verlet: half a push, a move, half a push
+  bool moves_first = false;        // position Verlet: half a move, a push, half a move
+
+  // Its joints.
+  std::uint32_t first_joint = 0;  // in JointSystem::by_body
+  std::uint32_t joint_count = 0;
+  std::uint32_t local = 0;  // number in its group
+
+  // Where it is, and where it will be after the substep with its present velocity.
+  JointPose pose;
+  JointPose after;
+  lanes::BodyVelocity looked{};  // the velocity that `after` was found with
+  bool has_looked = false;
+  RoundDivisor rate{};  // 1 / the time that it moves for
+
+  // How heavy it is to turn.
+  std::int64_t least_inertia = 0;  // Q30: a power of two, or 0 for its own inertia
+  PrincipalInverse principal{};    // if it has such
+  bool has_principal = false;
+  InverseInertia inverse_inertia{};
+  InverseInertia inertia_ahead{};  // half a substep on, as far as is known
+
+  // How hard its joints pull it.
+  std::int64_t pull = 0;           // sum of impulses at levers, per mass and scale, Q30
+  std::int64_t lever_inertia = 0;  // Q30: m·d² of its anchors, besides its own inertia
+  bool pulled = false;             // an eighth as hard as needs more inertia
+
+  // Velocities and energies noted by stages of the substep.
+  lanes::BodyVelocity unpushed{};  // as the present stage found it
+  lanes::BodyVelocity saved_row{};
+  lanes::BodyVelocity start{};  // of the substep
+  Vec3<Position> start_position{};
+  InverseInertia start_inertia{};  // and where it was then
+  Mat3 start_rotation{};
+  bool starts_heavier = false;  // to turn than it is
+  BlockFloat mass{};            // as a part of that of its cluster's heaviest body
+};
+
+/// A body as a tick finds it.
+[[nodiscard]] LinkedBody linked_body(const BodyRecord& record, const Mat3& rotation,
+                                     std::uint32_t solver);
+
+/// Raises the principal moments to at least this (Q30; 0, or a power of two), or lowers them again.
+/// Keeps the angular velocity.
+void set_least_inertia(const JointRun& run, LinkedBody& body, std::int64_t least);
+
+/// Where the body will be after the substep with its present velocity.
+[[nodiscard]] JointPose pose_after(const JointRun& run, LinkedBody& body);
+
+/// Finds that pose, unless it is known already for this velocity.
+void look_ahead(const JointRun& run, LinkedBody& body);
+
+/// Moves the body by a substep: to the pose where it was last seen, if its velocity is the same.
+void move_body(const JointRun& run, LinkedBody& body);
+
+}  // namespace lockstone

@@ -1,0 +1,76 @@
+// Decides how much the solver does for an island or a contact: every limit stands here or in
+// `IslandTally`, and counts within one island.
+#pragma once
+
+#include <cstdint>
+
+#include "core/dynamics/state/time_step.h"
+#include "core/dynamics/step/input/contact_list.h"
+#include "core/dynamics/step/input/contact_scene.h"
+#include "core/dynamics/step/input/solver_bodies.h"
+#include "core/dynamics/step/input/tick_joints.h"
+#include "core/dynamics/step/islands/island_builder.h"
+
+namespace lockstone {
+
+class EffortPolicy {
+ public:
+  /// `converged_contacts`: no island with more contacts and joints is solved to convergence.
+  EffortPolicy(const TimeStep& step, std::size_t converged_contacts);
+
+  /// At the beginning of a tick.
+  void begin(const Vec3<Acceleration>& gravity);
+
+  /// The mean impulse of all points of a contact from which on it is bearing, m/s, Q20: between
+  /// bodies of equal mass 2½ times the impulse of gravity in a substep.
+  [[nodiscard]] std::int64_t bearing_impulse() const { return bearing_impulse_; }
+
+  /// The contacts and joints of an island that is solved to convergence, at most; 0: none is.
+  [[nodiscard]] std::uint32_t most_island_contacts() const { return most_island_contacts_; }
+
+  /// Marks islands that iterations alone can solve: those with coloured ball joints, locked axes,
+  /// rolling resistance or masses of two bodies that are too uneven.
+  static void mark_iterated(const ContactScene& scene, const SolverBodies& bodies,
+                            const ContactList& contacts, const TickJoints& joints,
+                            IslandBuilder& islands);
+
+  /// Whether an island that may be loose is a loose pile: more than a quarter of its bodies differ
+  /// from their mean velocity by 1/4 m/s, or more than half of them were in one in the last tick.
+  /// Iterations bring such a pile to rest sooner, at a tenth of the cost.
+  [[nodiscard]] static bool is_loose_pile(const IslandTally& island);
+
+  /// Marks loose piles, once the counts of islands are known.
+  static void mark_loose(const ContactScene& scene, const SolverBodies& bodies,
+                         IslandBuilder& islands);
+
+  /// Whether an island, whose counts are known, may be solved to convergence.
+  [[nodiscard]] bool may_converge(const IslandTally& island) const;
+
+  /// Whether stacks are rebalanced in a tick.
+  [[nodiscard]] static bool rebalances(std::uint64_t tick) { return tick % k_rebalance_ticks == 0; }
+
+  /// Whether a body of a stack hardly moves: it may stand on rigid contacts.
+  [[nodiscard]] static bool rests(const lanes::BodyVelocity& row, const SolverBody& body);
+
+  /// Whether a contact of a stack bears, and lies where it comes to rest: it is rigid, since a
+  /// stack would bend by a spring there. Other contacts stay springs, since a spring damps a body
+  /// that rattles.
+  [[nodiscard]] bool is_rigid(const ContactScene& scene, const SolverBodies& bodies,
+                              const ContactRef& contact) const;
+
+  /// Whether the lighter body, at rest, gains more from the contact than gravity and forces give
+  /// it; or has just been put there, so that nobody knows yet. `share_b`: B's part of the pair's
+  /// inverse mass, Q30.
+  [[nodiscard]] static bool is_overloaded(const ContactScene& scene, const SolverBodies& bodies,
+                                          const ContactRef& contact, std::int64_t share_b);
+
+ private:
+  // From one rebalance of a stack to the next.
+  static constexpr std::uint64_t k_rebalance_ticks = 64;
+
+  TimeStep step_;
+  std::uint32_t most_island_contacts_;
+  std::int64_t bearing_impulse_ = 0;
+};
+
+}  // namespace lockstone

@@ -1,0 +1,119 @@
+// Box against box: the choice among face, edge and vertex contacts.
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
+#include "core/geometry/contact/box/box_corner.h"
+#include "core/geometry/contact/box/box_face.h"
+#include "core/geometry/contact/box/box_pair.h"
+#include "core/geometry/contact/collide_pairs.h"
+#include "core/geometry/contact/manifold/contact_choice.h"
+#include "core/geometry/contact/manifold/contact_tolerances.h"
+#include "core/geometry/contact/manifold/nearest_manifold.h"
+
+namespace lockstone::geometry {
+namespace {
+
+struct FaceChoice {
+  FaceAxis a;
+  FaceAxis b;
+  bool b_is_reference = false;
+
+  /// Of the better of the two.
+  [[nodiscard]] Fine separation() const { return std::max(a.separation, b.separation); }
+};
+
+/// Two boxes, the choice between their faces, and which way round the manifold is wanted. Functions
+/// that fill a manifold overwrite all of it.
+struct BoxMeeting {
+  const BoxPair& pair;
+  FaceChoice faces;
+  bool flip;  ///< whether the manifold is that of B and A
+
+  bool on_face_of(bool of_b, Fine wanted, Manifold& out) const {
+    return face_manifold(pair, of_b ? faces.b : faces.a, of_b, flip, wanted, out);
+  }
+  void on_reference(Manifold& out) const { (void)on_face_of(faces.b_is_reference, -1, out); }
+  void on_other(Manifold& out) const { (void)on_face_of(!faces.b_is_reference, -1, out); }
+  void take(const Manifold& found, Manifold& out) const { out = flip ? flipped(found) : found; }
+  void part_by(const Vec3<Unit>& axis, Manifold& out) const { take(separated_by(axis), out); }
+  void take_nearest(Manifold& out) const {
+    take(nearest_manifold(pair.a, pair.b, pair.offset, pair.margin), out);
+  }
+  /// Whether the contact of two edges is there.
+  [[nodiscard]] bool take_edges(const EdgeAxis& edge, Manifold& out) const {
+    const EdgeContact contact = edge_contact(pair, edge);
+    if (contact.crossing) take(contact.manifold, out);
+    return contact.crossing;
+  }
+};
+
+/// No axis separates the boxes, and a face is preferred: `out` is the manifold on the reference.
+/// Where they overlap only beside the face, two edges meet after all.
+void collide_overlapping(const BoxMeeting& meeting, Manifold& out) {
+  LKS_ASSERT(meeting.faces.separation() <= 0);
+  if (touches(out)) return;
+  const EdgeAxis edge = best_edge(meeting.pair, -k_any_separation);
+  if (edge.found && meeting.take_edges(edge, out)) return;
+  const FaceChoice& faces = meeting.faces;
+  const Fine other = std::min(faces.a.separation, faces.b.separation);
+  if (other >= edge_threshold(faces.separation())) {
+    meeting.on_other(out);
+    if (touches(out)) return;
+  }
+  meeting.take_nearest(out);
+}
+
+/// The boxes are apart: the separation of the first manifold that attains the distance is it.
+/// A face or an edge attains its axis' separation, which no distance is below; all other cases
+/// involve a vertex.
+void collide_apart(const BoxMeeting& meeting, const EdgeAxis& edge, Manifold& out) {
+  const Fine separation = edge.found ? edge.separation : meeting.faces.separation();
+  LKS_ASSERT(separation > 0);
+  if (!keeps(separation, meeting.pair.margin)) return meeting.part_by(edge.normal, out);
+  meeting.on_reference(out);
+  if (attains(out, separation)) return;
+  meeting.on_other(out);
+  if (attains(out, separation)) return;
+  if (edge.found && meeting.take_edges(edge, out)) return;
+  meeting.take(vertex_manifold(meeting.pair), out);
+}
+
+}  // namespace
+
+void collide_boxes(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
+                   Length margin, bool flip, Manifold& out) {
+  const BoxPair pair = make_box_pair(a, b, offset, margin);
+  BoxMeeting meeting{pair, {}, flip};
+  FaceChoice& faces = meeting.faces;
+  faces.a = best_face_of_a(pair);
+  if (!keeps(faces.a.separation, margin))
+    return meeting.part_by(signed_axis(a.rotation.column(faces.a.axis), faces.a.sign), out);
+  faces.b = best_face_of_b(pair);
+  if (!keeps(faces.b.separation, margin))
+    return meeting.part_by(signed_axis(b.rotation.column(faces.b.axis), faces.b.sign), out);
+  faces.b_is_reference = faces.b.separation > second_face_threshold(faces.a.separation);
+
+  const Fine separation = faces.separation();
+  LKS_ASSERT(faces.a.separation <= separation && faces.b.separation <= separation);
+  if (separation > 0) {
+    meeting.on_reference(out);
+    if (attains(out, separation)) return;
+    return collide_apart(meeting, best_edge(pair, separation), out);
+  }
+  // For a box that lies on a face, the polygon mostly shows that the boxes overlap along every axis
+  // by too much for an edge.
+  const Fine threshold = std::min(edge_threshold(separation), Fine{0});
+  const Fine wanted = threshold < 0 ? -threshold + k_agreement : 0;
+  const bool shallow = -separation <= pair.half_a[faces.a.axis] / 8;
+  if (shallow && meeting.on_face_of(faces.b_is_reference, wanted, out)) return;
+  const EdgeAxis edge = best_edge(pair, threshold);
+  if (!edge.found) {
+    if (!shallow) meeting.on_reference(out);
+    return collide_overlapping(meeting, out);
+  }
+  if (edge.separation > 0) return collide_apart(meeting, edge, out);
+  if (!meeting.take_edges(edge, out)) meeting.take_nearest(out);
+}
+
+}  // namespace lockstone::geometry

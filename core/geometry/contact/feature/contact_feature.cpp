@@ -1,0 +1,85 @@
+#include "core/geometry/contact/feature/contact_feature.h"
+
+#include <lockstone/assert.h>
+
+#include "core/geometry/convex/shape_traits.h"
+#include "core/geometry/distance/manifold_checks.h"
+#include "core/geometry/numeric/normals.h"
+
+namespace lockstone::geometry {
+namespace {
+
+/// A segment that leans more than this towards n shows its end alone: 1/32.
+constexpr std::int64_t k_steep = std::int64_t{1} << 55;
+
+void polytope_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  LKS_ASSERT(shape.polytope != nullptr && is_unit(n));
+  const Polytope& p = *shape.polytope;
+  const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
+  const int face = p.one_sided ? 0 : most_opposed_face(p, support_of(p, local).vertex, -local);
+  const PolytopeFace& f = p.faces[static_cast<std::size_t>(face)];
+  out.is_flat = true;
+  out.normal = unit_axis(lockstone::rotate(shape.rotation, f.normal));
+  LKS_ASSERT(f.edge_count >= 3 && is_unit(out.normal));
+  for (int i = 0; i < f.edge_count; ++i) {
+    const int edge = f.first_edge + i;
+    out.add(rotate(shape.rotation, fine(start_of(p, edge))),
+            p.edges[static_cast<std::size_t>(edge)].origin);
+  }
+}
+
+void box_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  LKS_ASSERT(is_unit(n));
+  const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (abs(local[i]) > abs(local[axis])) axis = i;
+  const int sign = sign_of(local[axis].raw);
+  const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+  out.is_flat = true;
+  out.normal = unit_axis(signed_axis(shape.rotation.column(axis), sign));
+  constexpr std::array<std::array<int, 2>, 4> k_corners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+  for (const auto& [along_first, along_second] : k_corners) {
+    const int turned = along_first * sign;  // seen from the other side, the order is the other
+    RawVec corner = along(shape.rotation.column(axis), shape.shape.size[axis] * sign);
+    corner = corner + along(shape.rotation.column(first), shape.shape.size[first] * turned);
+    corner = corner + along(shape.rotation.column(second), shape.shape.size[second] * along_second);
+    const unsigned id = (sign > 0 ? 1U << axis : 0U) | (turned > 0 ? 1U << first : 0U) |
+                        (along_second > 0 ? 1U << second : 0U);
+    out.add(corner, id);
+  }
+}
+
+/// Of a sphere or a capsule.
+void ball_swept_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  std::array<RawVec, 8> vertices;
+  const int count = traits_of(shape.shape).vertices(shape.shape.size, vertices);
+  out.radius = shape.shape.size.x;
+  const std::int64_t lean = lockstone::dot(shape.rotation.y, n).raw;
+  for (int i = 0; i < count; ++i) {
+    const RawVec& vertex = vertices[static_cast<std::size_t>(i)];
+    const bool hidden = count == 2 && magnitude_of(lean) > k_steep && (vertex.y > 0) != (lean > 0);
+    if (!hidden) out.add(rotate(shape.rotation, vertex), static_cast<std::uint32_t>(i));
+  }
+  LKS_ASSERT(out.count > 0);
+}
+
+}  // namespace
+
+void find_feature(const PosedShape& shape, const Vec3<Unit>& n, ContactFeature& out) {
+  out.count = 0;
+  out.is_flat = false;
+  out.radius = {};
+  if (shape.polytope != nullptr) return polytope_feature(shape, n, out);
+  const ShapeTraits& traits = traits_of(shape.shape);
+  if (traits.find_feature != nullptr) return traits.find_feature(shape, n, out);
+  return traits.has_core_radius ? ball_swept_feature(shape, n, out) : box_feature(shape, n, out);
+}
+
+Fine reach_along(const PosedShape& shape, const Vec3<Unit>& n) {
+  const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
+  if (shape.polytope != nullptr) return support_of(*shape.polytope, local).height;
+  return traits_of(shape.shape).reach(shape.shape.size, local);
+}
+
+}  // namespace lockstone::geometry

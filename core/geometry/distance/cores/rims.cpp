@@ -1,0 +1,73 @@
+#include "core/geometry/distance/cores/rims.h"
+
+#include "core/geometry/numeric/wide_vectors.h"
+#include "core/math/trig.h"
+
+namespace lockstone::geometry {
+namespace {
+
+constexpr std::int64_t k_steps = std::int64_t{1} << k_rim_bits;
+constexpr std::int64_t k_full_turn = 843314857;  // 2π, 27 fraction bits
+static_assert(Angle::frac_bits == 27);
+
+RawVec raws_of(const Vec3<Unit>& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
+
+/// Turned into (−π, π].
+Angle wrapped(std::int64_t angle) {
+  angle %= k_full_turn;
+  if (angle > k_full_turn / 2) angle -= k_full_turn;
+  if (angle <= -k_full_turn / 2) angle += k_full_turn;
+  return Angle::from_raw(static_cast<std::int32_t>(angle));
+}
+
+}  // namespace
+
+RawVec rim_point(const Rims& rims, int rim, Angle angle, Fine radius) {
+  const SinCos turn = sin_cos(angle);
+  return rims.centres[static_cast<std::size_t>(rim)] + along(rims.u, scaled(radius, turn.cos.raw)) +
+         along(rims.v, scaled(radius, turn.sin.raw));
+}
+
+RawVec rim_point(const Rims& rims, int index) {
+  const int rim = index >> k_rim_bits;
+  const Length radius = rims.radii[static_cast<std::size_t>(rim)];
+  std::int64_t step = index & (k_steps - 1);
+  if (step > k_steps / 2) step -= k_steps;
+  return rim_point(rims, rim, wrapped(raw::round_shift(step * k_full_turn, k_rim_bits)),
+                   fine(radius));
+}
+
+Angle rim_angle(const Rims& rims, const RawVec& direction) {
+  const WideVec flat{wide_dot(direction, raws_of(rims.u)), wide_dot(direction, raws_of(rims.v)),
+                     Int128{}};
+  const RawVec cut = truncated(flat, 62);
+  return atan2_raw(cut.y, cut.x);
+}
+
+std::uint16_t farthest_rim_vertex(const Rims& rims, const RawVec& direction) {
+  const std::int64_t turns = std::int64_t{rim_angle(rims, direction).raw} * k_steps;
+  const std::int64_t step = round_divide(Int128::from(turns), k_full_turn) & (k_steps - 1);
+  int best = 0;
+  Int128 greatest{};
+  for (int rim = 0; rim < rims.count; ++rim) {
+    const bool is_point = rims.radii[static_cast<std::size_t>(rim)] == Length{};
+    const int index = rim << k_rim_bits | (is_point ? 0 : static_cast<int>(step));
+    const Int128 product = wide_dot(direction, rim_point(rims, index));
+    if (rim != 0 && product <= greatest) continue;
+    greatest = product;
+    best = index;
+  }
+  return static_cast<std::uint16_t>(best);
+}
+
+RawVec around_rim(const Rims& rims, int rim, Angle angle, int side) {
+  // 1 / cos(π/32) and four steps for the rounding of sine and cosine, 30 fraction bits
+  constexpr std::int32_t k_outward = 1078937206;
+  const Fine radius = fine(rims.radii[static_cast<std::size_t>(rim)]);
+  const std::int64_t turned = (2 * side + 1) * k_full_turn / (2 * k_rim_sides);
+  return rim_point(rims, rim, wrapped(angle.raw + turned), scaled(radius, k_outward));
+}
+
+}  // namespace lockstone::geometry

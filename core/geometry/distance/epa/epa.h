@@ -1,0 +1,42 @@
+// How deep two convex shapes overlap, and which way is out.
+#pragma once
+
+#include "core/geometry/distance/gjk/gjk.h"
+
+namespace lockstone {
+
+struct Penetration {
+  bool overlapping = false;  ///< the shapes share a point; else the rest is zero
+  Position depth{};          ///< m
+  Vec3<Unit> normal{};       ///< from A to B: moving B by depth along it separates the shapes
+  Vec3<Length> point_a{};    ///< deepest points: on A's surface, from A's centre, world axes
+  Vec3<Length> point_b{};    ///< on B's surface, from B's centre
+  bool exact = true;         ///< false when the search ran out of room: `depth` still separates
+};
+
+/// The least translation that separates the shapes. Takes the shapes of `distance`, with the same
+/// bounds on the offset, and mirrored bit for bit for exchanged arguments. Error ≤ 2 µm and 30e-9
+/// of the sizes, 16 steps of the lattice; ten million random pairs stayed below 13e-9. Of equal
+/// ways out the first found. Cores that overlap in a flat difference (crossing segments, a point on
+/// a segment) have depth zero along its normal, away from A's centre; concentric points separate
+/// upwards.
+[[nodiscard]] Penetration penetration(const PosedShape& a, const PosedShape& b,
+                                      const Vec3<Length>& offset);
+
+namespace geometry {
+
+/// The depth of overlapping cores. `normal` points from A to B, and the points are the deepest
+/// ones: on_b = on_a − normal · distance.
+struct CoreOverlap {
+  CoreGap gap{};
+  bool exact = true;
+};
+
+/// Of cores that `query` found to overlap: the nearest face of the hull of B − A on the lattice.
+/// Every step adds a vertex of that hull; after 124 of them the nearest plane that supports it so
+/// far stands, which separates, if not by the least way. Of cores with rims, a plane within 256
+/// steps of the hull counts as supporting it.
+[[nodiscard]] CoreOverlap core_overlap(const GapQuery& query);
+
+}  // namespace geometry
+}  // namespace lockstone

@@ -1,0 +1,204 @@
+#include "core/geometry/distance/gjk/fine_closest.h"
+
+#include <limits>
+
+#include "core/geometry/distance/gjk/fine_features.h"
+#include "core/geometry/numeric/wide_vectors.h"
+#include "core/math/roots.h"
+
+namespace lockstone::geometry {
+namespace {
+
+constexpr int k_max_steps = 32;
+
+/// The point nearest to the origin of the span of one to three vertices of B − A, if it lies
+/// within.
+struct Candidate {
+  bool is_within = false;
+  Simplex simplex{};
+  RawVec normal{};  ///< from the origin to the point, of any length
+  Fine distance = 0;
+  RawVec on_a{};
+  RawVec on_b{};
+};
+
+Candidate with_points(Candidate candidate, const FineFeatures& features) {
+  candidate.is_within = true;
+  candidate.on_a = blend(features, features.a);
+  candidate.on_b = blend(features, features.b);
+  return candidate;
+}
+
+Candidate of_vertex_or_edge(const FinePair& pair, const Simplex& simplex) {
+  Candidate candidate{false, simplex};
+  FineFeatures features = features_of(pair, simplex);
+  if (simplex.count == 2) {
+    weigh_edge(features);
+    if (features.weight[1] == 0 || features.weight[1] == k_whole) return candidate;
+  }
+  candidate.normal = blend(features, features.difference);
+  candidate.distance =
+      static_cast<Fine>(norm(candidate.normal.x, candidate.normal.y, candidate.normal.z));
+  return with_points(candidate, features);
+}
+
+Candidate of_triangle(const FinePair& pair, const Simplex& simplex) {
+  Candidate candidate{false, simplex};
+  FineFeatures features = features_of(pair, simplex);
+  const RawVec p = features.difference[1] - features.difference[0];
+  const RawVec q = features.difference[2] - features.difference[0];
+  RawVec normal = truncated(wide_cross(p, q), 61);
+  const auto length = static_cast<std::int64_t>(norm(normal.x, normal.y, normal.z));
+  if (length < std::int64_t{1} << 40) return candidate;  // a sliver: its edges will do
+  Fine distance = round_divide(wide_dot(normal, features.difference[0]), length);
+  if (distance < 0) {
+    normal = -normal;
+    distance = -distance;
+  }
+  if (!weigh_foot(features, scaled_by_ratio(normal, distance, length), normal)) return candidate;
+  candidate.normal = normal;
+  candidate.distance = distance;
+  return with_points(candidate, features);
+}
+
+Simplex subset(const Simplex& all, unsigned mask) {
+  Simplex part;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i)
+    if ((mask >> i & 1) != 0)
+      part.vertices[static_cast<std::size_t>(part.count++)] = all.vertices[i];
+  return part;
+}
+
+/// Of the direction's length.
+Fine height_along(const RawVec& direction, const Int128& product) {
+  return round_divide(product,
+                      static_cast<std::int64_t>(norm(direction.x, direction.y, direction.z)));
+}
+
+/// The least height of vertices along a candidate's normal: that of the nearest point only for the
+/// candidate that holds it, and less for all others.
+Fine least_height(const FinePair& pair, const Simplex& all, const RawVec& normal) {
+  const RawVec direction = truncated(normal, 61);
+  Fine least = std::numeric_limits<Fine>::max();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(all.count); ++i) {
+    const RawVec a = vertex_of(pair.a, all.vertices[i].a);
+    const RawVec b = vertex_of(pair.b, all.vertices[i].b) + pair.offset;
+    least = std::min(least, height_along(direction, wide_dot(direction, b - a)));
+  }
+  return least;
+}
+
+/// The nearest points and the highest plane met so far: bounds of the distance from both sides.
+struct Bounds {
+  Candidate nearest{};
+  RawVec normal{};  ///< of the highest plane
+  Fine height = std::numeric_limits<Fine>::min();
+
+  void take_points(const Candidate& candidate) {
+    if (!nearest.is_within || candidate.distance < nearest.distance) nearest = candidate;
+  }
+  void take_plane(const RawVec& direction, Fine least_height) {
+    if (least_height <= height) return;
+    height = least_height;
+    normal = direction;
+  }
+  [[nodiscard]] bool meet() const {
+    return nearest.is_within && height >= nearest.distance - k_proof;
+  }
+};
+
+/// Of all vertices, edges and triangles the one whose plane separates most, the first of equals:
+/// distances would tell less, because beside a giant they hardly change where normals do.
+Candidate nearest_of(const FinePair& pair, const Simplex& all, Bounds& bounds) {
+  Candidate best;
+  Fine highest = std::numeric_limits<Fine>::min();
+  const unsigned masks = std::min(1U << all.count, 15U);
+  for (unsigned mask = 1; mask < masks; ++mask) {
+    const Simplex part = subset(all, mask);
+    const Candidate candidate =
+        part.count == 3 ? of_triangle(pair, part) : of_vertex_or_edge(pair, part);
+    if (!candidate.is_within || candidate.normal == RawVec{}) continue;
+    bounds.take_points(candidate);
+    const Fine height = least_height(pair, all, candidate.normal);
+    if (height <= highest) continue;
+    best = candidate;
+    highest = height;
+  }
+  return best;
+}
+
+struct Extreme {
+  std::uint16_t vertex = 0;
+  Int128 product{};
+};
+
+/// The vertex greatest along a direction whose lanes fit 61 bits, about the core's reference.
+Extreme greatest_along(const ConvexCore& core, const RawVec& direction) {
+  Extreme best;
+  if (core.rims.count != 0) {
+    best.vertex = farthest_rim_vertex(core.rims, direction);
+    best.product = wide_dot(direction, vertex_of(core, best.vertex));
+    return best;
+  }
+  const int count = vertex_count(core);
+  for (int i = 0; i < count; ++i) {
+    const Int128 product = wide_dot(direction, vertex_of(core, i));
+    if (i == 0 || product > best.product) best = {static_cast<std::uint16_t>(i), product};
+  }
+  return best;
+}
+
+struct LeastVertex {
+  DifferenceVertex vertex{};
+  Fine height = 0;  ///< along the direction
+};
+
+LeastVertex least_vertex(const FinePair& pair, const RawVec& direction) {
+  const Extreme a = greatest_along(pair.a, direction);
+  const Extreme b = greatest_along(pair.b, -direction);
+  const Int128 product = wide_dot(direction, pair.offset) - a.product - b.product;
+  return {{{}, a.vertex, b.vertex}, height_along(direction, product)};
+}
+
+bool has(const Simplex& simplex, const DifferenceVertex& vertex) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex.count); ++i)
+    if (simplex.vertices[i].a == vertex.a && simplex.vertices[i].b == vertex.b) return true;
+  return false;
+}
+
+FineClosest closest_of(const Candidate& nearest, const RawVec& n, bool apart) {
+  return {{direction_of(n.x, n.y, n.z), nearest.distance, nearest.on_a, nearest.on_b},
+          nearest.simplex,
+          apart};
+}
+
+/// The points lie along the normal. Of another plane that proves a distance d within ε they would
+/// be aside by up to √(2εd), which beside a giant is millimetres.
+FineClosest proven(const Candidate& candidate) {
+  return closest_of(candidate, candidate.normal, true);
+}
+
+FineClosest of_bounds(const Bounds& bounds) {
+  if (!bounds.nearest.is_within) return {};
+  return closest_of(bounds.nearest, bounds.normal, bounds.meet() || bounds.height > 0);
+}
+
+}  // namespace
+
+FineClosest fine_closest(const FinePair& pair, const Simplex& start) {
+  Bounds bounds;
+  Simplex simplex = start;
+  for (int step = 0; step < k_max_steps; ++step) {
+    const Candidate candidate = nearest_of(pair, simplex, bounds);
+    if (!candidate.is_within) break;
+    const LeastVertex least = least_vertex(pair, truncated(candidate.normal, 61));
+    if (least.height >= candidate.distance - k_proof) return proven(candidate);
+    bounds.take_plane(candidate.normal, least.height);
+    if (has(candidate.simplex, least.vertex)) break;
+    simplex = candidate.simplex;
+    simplex.vertices[static_cast<std::size_t>(simplex.count++)] = least.vertex;
+  }
+  return of_bounds(bounds);
+}
+
+}  // namespace lockstone::geometry

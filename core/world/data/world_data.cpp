@@ -1,0 +1,109 @@
+#include "core/world/data/world_data.h"
+
+namespace lockstone {
+namespace {
+
+// How far a body goes in one tick, along one axis.
+Position travel(Velocity v, const TimeStep& step) {
+  return Position::from_raw(step.tick.times(v.raw));
+}
+
+}  // namespace
+
+WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets)
+    : def(definition),
+      assets(std::move(known_assets)),
+      time_step(TimeStep::of(definition.tick_rate, definition.substeps)),
+      bodies(definition.body_capacity),
+      contacts(definition.body_capacity, definition.contact_capacity),
+      joints(definition.joint_capacity),
+      awake(definition.body_capacity),
+      triggers(definition.body_capacity),
+      joint_graph(definition.body_capacity, definition.joint_capacity),
+      cache(definition.body_capacity),
+      broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
+      hashes{RecordHashes<BodyRecord, k_body_domain>(definition.body_capacity),
+             RecordHashes<JointRecord, k_joint_domain>(definition.joint_capacity)} {
+  header.gravity = definition.gravity;
+}
+
+const BodyRecord* WorldData::find(BodyHandle body) const {
+  if (body.is_null() || body.index >= header.body_limit) return nullptr;
+  const BodyRecord& record = bodies[body.index];
+  return record.exists() && record.generation == body.generation ? &record : nullptr;
+}
+
+BodyRecord* WorldData::edit(BodyHandle body) {
+  if (find(body) == nullptr) return nullptr;
+  hashes.bodies.mark(body.index);
+  return &bodies[body.index];
+}
+
+const JointRecord* WorldData::find(JointHandle joint) const {
+  if (joint.is_null() || joint.index >= header.joint_limit) return nullptr;
+  const JointRecord& record = joints[joint.index];
+  return record.exists() && record.generation == joint.generation ? &record : nullptr;
+}
+
+JointRecord* WorldData::edit(JointHandle joint) {
+  if (find(joint) == nullptr) return nullptr;
+  hashes.joints.mark(joint.index);
+  return &joints[joint.index];
+}
+
+std::uint32_t WorldData::body_count() const {
+  const auto end = bodies.begin() + header.body_limit;
+  return static_cast<std::uint32_t>(
+      std::count_if(bodies.begin(), end, [](const BodyRecord& body) { return body.exists(); }));
+}
+
+Bounds WorldData::bounds_of(std::uint32_t body) const {
+  const BodyRecord& record = bodies[body];
+  const WorldBox box = world_box(placed(body));
+  Bounds bounds;
+  for (int i = 0; i < 3; ++i) {
+    const Position margin = rounded<Position>(k_contact_margin / 2);
+    const Position swept = travel(record.velocity[i], time_step);
+    bounds.lower[i] = round_down(box.lower[i] - margin + min(swept, Position{}));
+    bounds.upper[i] = round_up(box.upper[i] + margin + max(swept, Position{}));
+  }
+  return bounds;
+}
+
+void WorldData::refresh(std::uint32_t body) {
+  LKS_ASSERT(bodies[body].exists());
+  cache.refresh(body, bodies[body]);
+  refresh_bounds(body);
+}
+
+void WorldData::refresh_bounds(std::uint32_t body) {
+  const BodyRecord& record = bodies[body];
+  cache.refresh_shape(body, record);
+  if (triggers.has(body) != record.is_trigger()) triggers.flip(body);
+  broad_phase.set(body, bounds_of(body),
+                  {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
+                   record.is_asleep()});
+}
+
+Pair WorldData::pair_of(std::uint32_t a, std::uint32_t b) const {
+  const bool a_moves = bodies[a].moves(), b_moves = bodies[b].moves();
+  const bool swap = a_moves == b_moves ? a > b : b_moves;
+  return swap ? Pair{b, a} : Pair{a, b};
+}
+
+std::optional<Pair> WorldData::exempt_pair(const JointRecord& joint) const {
+  if (joint.collides()) return {};
+  return pair_of(joint.body_a, joint.body_b);
+}
+
+bool WorldData::are_joined(std::uint32_t a, std::uint32_t b) const {
+  return joint_graph.is_exempt(pair_of(a, b));
+}
+
+bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
+  const BodyRecord& obstacle = bodies[other];
+  return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
+         !are_joined(body, other);
+}
+
+}  // namespace lockstone

@@ -1,0 +1,57 @@
+// The data of the narrow phase that its parts share: the pairs of a tick, where their contacts are
+// kept, and the tick before as far as it is remembered.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/world/data/world_data.h"
+#include "core/world/phases/narrow/manifold_ids.h"
+#include "core/world/phases/narrow/separating_axes.h"
+#include "core/world/phases/step_records.h"
+#include "core/world/phases/tick_contacts.h"
+
+namespace lockstone {
+
+/// The inputs of manifolds and the separations found, by manifold id.
+struct ManifoldNotes {
+  std::vector<ManifoldInput> inputs;
+  std::vector<FoundSeparations> separations;
+};
+
+struct NarrowData {
+  NarrowData(WorldData& of, TickContacts& contacts) : world(of), found(contacts) {}
+
+  WorldData& world;
+  TickContacts& found;
+  std::span<const Pair> pairs;             // of the tick, ascending
+  ManifoldIds ids;                         // gives out manifold ids
+  std::vector<FoundContacts> of_pair;      // by pair
+  std::vector<ContactOrigin> origins;      // by manifold id
+  ManifoldNotes notes;                     // of this tick
+  ManifoldNotes notes_before;              // of the tick before
+  std::vector<Manifold> manifolds_before;  // by manifold id of the tick before
+  SeparatingAxes separating_axes;
+};
+
+/// Where pairs are collided whose bodies may move away from their recycling poses: faces and edges
+/// of boxes stay where they are while their bodies move so little; round shapes touch elsewhere at
+/// once, and are soon collided.
+[[nodiscard]] inline bool is_found_at_recycling_poses(const WorldData& world, const Pair& pair) {
+  constexpr auto k_box = static_cast<std::uint8_t>(ShapeKind::box);
+  return world.bodies[pair.a].shape_kind == k_box && world.bodies[pair.b].shape_kind == k_box;
+}
+
+/// Whether the body has one part, 0: no compound and no mesh.
+[[nodiscard]] inline bool has_one_piece(const WorldData& world, std::uint32_t body) {
+  const Asset* asset = world.cache.asset(body);
+  return asset == nullptr || asset->polytope() != nullptr;
+}
+
+/// From A's recycling pose to B's.
+[[nodiscard]] inline Vec3<Length> recycling_offset(const BodyRecord& a, const BodyRecord& b) {
+  return saturated<Length>(recycling_position(b) - recycling_position(a));
+}
+
+}  // namespace lockstone

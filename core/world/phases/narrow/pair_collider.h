@@ -1,0 +1,55 @@
+// Collides pairs one after the other, or keeps their manifolds of the tick before.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/world/phases/narrow/narrow_data.h"
+
+namespace lockstone {
+
+/// One worker's part of the narrow phase. Box pairs may wait for others, to be collided with them:
+/// `finish` collides the last ones.
+class PairCollider {
+ public:
+  PairCollider(NarrowData& data, PairScratch& scratch)
+      : data_(data), world_(data.world), scratch_(scratch) {}
+
+  /// `before`: the records of this pair a tick ago. `last_axis` parted the pair then, unless it is
+  /// zero.
+  void collide(std::uint32_t index, std::span<const ContactRecord> before,
+               const Vec3<Unit>& last_axis);
+  void finish() {
+    if (scratch_.boxes.batch.size() > 0) collide_waiting();
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t remembered_manifold(std::span<const ContactRecord> before) const;
+  void read_poses(const Pair& pair, Length margin, ManifoldInput& input) const;
+  [[nodiscard]] bool are_primitives(const Pair& pair) const;
+  [[nodiscard]] bool is_bounded_primitive(std::uint32_t body) const;
+  [[nodiscard]] const std::vector<Mat3>& rotations_of(const Pair& pair) const;
+  void collide_primitives(std::uint32_t index, std::span<const ContactRecord> before,
+                          const Vec3<Unit>& last_axis, PairTimer& timer);
+  int collide_alone(std::uint32_t index, const ManifoldInput& input,
+                    std::span<const ContactRecord> before);
+  void collide_waiting();
+  void add_known(std::uint32_t index, std::uint32_t known, const ManifoldInput& input,
+                 std::span<const ContactRecord> before);
+  void add_contacts(std::uint32_t index, std::span<const PartContact> parts,
+                    const ManifoldInput& input, std::span<const ContactRecord> before);
+  void add_trigger(std::uint32_t index, std::span<const ContactRecord> before);
+  void fill_single(std::uint32_t index, std::uint32_t id, const ManifoldInput& input,
+                   std::span<const ContactRecord> before);
+  void fill(std::uint32_t id, const ContactKey& key, const Surface* surface_a,
+            const Surface* surface_b, const ManifoldInput& input,
+            std::span<const ContactRecord> before);
+  void shift_by_pose_delta(const Pair& pair, Manifold& manifold) const;
+
+  NarrowData& data_;
+  WorldData& world_;
+  PairScratch& scratch_;
+};
+
+}  // namespace lockstone

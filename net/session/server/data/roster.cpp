@@ -1,0 +1,87 @@
+#include "net/session/server/data/roster.h"
+
+#include <algorithm>
+
+#include <lockstone/assert.h>
+
+namespace lockstone::net {
+namespace {
+
+constexpr std::size_t k_input_ring_ticks = 4 * k_input_window_ticks;
+
+}  // namespace
+
+void Follower::await_state(std::uint64_t oldest_ticks) {
+  loading = true;
+  offered = false;
+  oldest_entry = oldest_ticks;
+}
+
+void Follower::begin_snapshot(std::uint64_t ticks, bool is_keyframe) {
+  LKS_ASSERT(loading && !offered);
+  offered = true;
+  keyframed = is_keyframe;
+  snapshot_sent = 0;
+  ticks_received = ticks;
+}
+
+void Seat::occupy(Peer& player, std::int64_t now_us) {
+  LKS_ASSERT(peer == nullptr);
+  static_cast<Follower&>(*this) = {};
+  peer = &player;
+  last_sent_us = now_us;
+  condemned = false;
+  expelled = false;
+  dump_bytes_allowed = 0;
+  hashes_since_us = now_us;
+}
+
+Roster::Roster(const SimulationInfo& info, std::size_t spectators)
+    : seats_(info.player_count), watchers_(spectators) {
+  for (Seat& place : seats_)
+    place.inputs = TickRing(k_input_ring_ticks, info.input_bytes);
+}
+
+std::uint16_t Roster::present_mask() const {
+  unsigned mask = 0;
+  for (std::size_t slot = 0; slot < seats_.size(); ++slot) {
+    if (seats_[slot].peer != nullptr) mask |= 1U << slot;
+  }
+  return static_cast<std::uint16_t>(mask);
+}
+
+std::uint16_t Roster::active_mask() const {
+  unsigned mask = 0;
+  for (std::size_t slot = 0; slot < seats_.size(); ++slot) {
+    if (seats_[slot].peer != nullptr && seats_[slot].active_tick != k_never) mask |= 1U << slot;
+  }
+  return static_cast<std::uint16_t>(mask);
+}
+
+Follower* Roster::follower_of(const Peer& peer) {
+  if (is_slot(peer.slot)) return &seats_[peer.slot];
+  const auto found = std::find_if(watchers_.begin(), watchers_.end(),
+                                  [&](const Watcher& watcher) { return watcher.peer == &peer; });
+  return found == watchers_.end() ? nullptr : &*found;
+}
+
+Watcher* Roster::free_watcher() {
+  const auto found = std::find_if(watchers_.begin(), watchers_.end(),
+                                  [](const Watcher& watcher) { return watcher.peer == nullptr; });
+  return found == watchers_.end() ? nullptr : &*found;
+}
+
+std::size_t Roster::watching() const {
+  return static_cast<std::size_t>(
+      std::count_if(watchers_.begin(), watchers_.end(),
+                    [](const Watcher& watcher) { return watcher.peer != nullptr; }));
+}
+
+void Roster::forget(const Peer& peer) {
+  if (is_slot(peer.slot)) seats_[peer.slot].peer = nullptr;
+  for (Watcher& watcher : watchers_) {
+    if (watcher.peer == &peer) watcher.peer = nullptr;
+  }
+}
+
+}  // namespace lockstone::net

@@ -1,0 +1,203 @@
+// The rules and the bots: players move, carry, score, fall and return.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/arena/arena_match.h"
+#include "tools/arena/level.h"
+#include "tools/arena/motion.h"
+#include "tools/arena/tags.h"
+
+namespace lockstone::arena::test {
+namespace {
+
+/// A match of one player whose input the test writes.
+class Solo {
+ public:
+  explicit Solo(const ArenaConfig& config) : simulation(config) {}
+
+  void play(int ticks, const Input& input, InputOrigin origin = InputOrigin::received) {
+    for (int i = 0; i < ticks; ++i) {
+      TickInputs inputs;
+      input.encode(inputs.bytes(0));
+      inputs.set_origin(0, origin);
+      simulation.step(inputs.view(1));
+    }
+  }
+  [[nodiscard]] const PlayerRecord& player() const { return simulation.arena().state.players[0]; }
+  [[nodiscard]] World& world() { return simulation.arena_for_tests().world; }
+  [[nodiscard]] Vec3<Position> place() { return world().position(player().body); }
+  void put(BodyHandle body, std::int64_t x_mm, std::int64_t y_mm, std::int64_t z_mm) {
+    const Vec3<Position> at{millimetres(x_mm), millimetres(y_mm), millimetres(z_mm)};
+    ASSERT_EQ(world().apply(Teleport{body, at, Quat{}}), Status::ok);
+    ASSERT_EQ(world().apply(SetVelocity{body, {}}), Status::ok);
+  }
+
+  ArenaSimulation simulation;
+};
+
+constexpr ArenaConfig k_alone{
+    .seed = 1, .loose_bodies = 0, .players = 1, .variant = Variant::empty};
+constexpr ArenaConfig k_with_crate{
+    .seed = 1, .loose_bodies = 1, .players = 1, .variant = Variant::empty};
+
+TEST(ArenaRules, APlayerWalksWhereTheStickPoints) {
+  Solo solo(k_alone);
+  solo.play(90, {});
+  const Vec3<Position> before = solo.place();
+  solo.play(60, {.move_x = -127});
+  const Vec3<Position> after = solo.place();
+  EXPECT_LT(after.x, before.x - millimetres(4500));
+  EXPECT_LT(abs(after.z - before.z), millimetres(50));
+}
+
+TEST(ArenaRules, AnAbsentPlayerStandsStill) {
+  Solo solo(k_alone);
+  solo.play(90, {.move_x = 127}, InputOrigin::absent);
+  const Vec3<Position> before = solo.place();
+  solo.play(60, {.move_x = 127, .buttons = k_jump}, InputOrigin::absent);
+  EXPECT_LT(abs(solo.place().x - before.x), millimetres(5));
+  EXPECT_LT(abs(solo.place().y - before.y), millimetres(5));
+}
+
+TEST(ArenaRules, APlayerJumpsFromTheGroundOnly) {
+  Solo solo(k_alone);
+  solo.play(90, {});
+  const Position ground = solo.place().y;
+  Position top = ground;
+  for (int i = 0; i < 60; ++i) {
+    solo.play(1, {.buttons = k_jump});
+    top = max(top, solo.place().y);
+  }
+  EXPECT_GT(top, ground + millimetres(1000));
+  EXPECT_LT(top, ground + millimetres(2000));
+}
+
+TEST(ArenaRules, ACarriedCrateIsThrownIntoTheGoalForAPoint) {
+  Solo solo(k_with_crate);
+  solo.play(60, {});
+  const BodyHandle crate = solo.simulation.arena().level.loose[0];
+  solo.put(solo.player().body, 10'000, 900, 0);
+  solo.put(crate, 11'200, 500, 0);
+  solo.play(2, {});
+  solo.play(40, {.buttons = k_grab});
+  EXPECT_EQ(solo.player().held, crate);
+  EXPECT_GT(solo.world().position(crate).y, millimetres(900));
+  solo.play(120, {});
+  EXPECT_TRUE(solo.player().held.is_null());
+  EXPECT_EQ(solo.player().score, 1);
+  EXPECT_EQ(solo.simulation.arena().state.game.goals, 1U);
+  EXPECT_EQ(tag_of(solo.world(), crate).owner, 0);
+}
+
+TEST(ArenaRules, APushMovesTheBodyInFront) {
+  Solo solo(k_with_crate);
+  solo.play(60, {});
+  const BodyHandle crate = solo.simulation.arena().level.loose[0];
+  solo.put(solo.player().body, 0, 900, 0);
+  solo.put(crate, 0, 500, 1200);
+  solo.play(2, {});
+  solo.play(30, {.yaw = 16384, .buttons = k_push});
+  EXPECT_GT(solo.world().position(crate).z, millimetres(1800));
+  EXPECT_EQ(tag_of(solo.world(), crate).owner, 1);
+}
+
+TEST(ArenaRules, ASnowballMelts) {
+  Solo solo(k_alone);
+  solo.play(60, {});
+  const std::uint32_t bodies = solo.world().body_count();
+  solo.play(1, {.buttons = k_shoot});
+  EXPECT_EQ(solo.world().body_count(), bodies + 1);
+  solo.play(250, {});
+  EXPECT_EQ(solo.world().body_count(), bodies);
+}
+
+TEST(ArenaRules, WhoFallsLosesAPointAndReturns) {
+  Solo solo(k_alone);
+  solo.put(solo.player().body, 30'000, 1000, 0);
+  solo.play(150, {});
+  EXPECT_EQ(solo.player().score, -1);
+  EXPECT_EQ(solo.simulation.arena().state.game.falls, 1U);
+  solo.play(120, {});
+  EXPECT_EQ(solo.player().respawn_ticks, 0);
+  EXPECT_GT(solo.place().y, Position{});
+}
+
+TEST(ArenaIntegers, HeadingsAgreeWithTheirDirections) {
+  for (int yaw = -32768; yaw < 32768; yaw += 97) {
+    const Vec3<Unit> direction = direction_of(static_cast<std::int16_t>(yaw));
+    const int back = yaw_of(direction.x.raw, direction.z.raw);
+    const auto error = static_cast<std::int16_t>(static_cast<std::uint16_t>(back - yaw));
+    EXPECT_LE(std::abs(error), 55) << yaw;  // 0.3°
+  }
+}
+
+TEST(ArenaIntegers, SpeedsAreShortenedToTheLimit) {
+  const SolverVelocity limit = SolverVelocity::from_integer(6);
+  const Vec3<SolverVelocity> fast{
+      SolverVelocity::from_integer(300), SolverVelocity::from_integer(-400), {}};
+  const Vec3<SolverVelocity> slow = shortened(fast, limit);
+  EXPECT_NEAR(slow.x.raw, SolverVelocity::from_ratio(36, 10).raw, 400);
+  EXPECT_NEAR(slow.y.raw, SolverVelocity::from_ratio(-48, 10).raw, 400);
+  EXPECT_EQ(shortened(slow, SolverVelocity::from_integer(7)), slow);
+}
+
+/// The deeds of the bots in one match.
+struct Deeds {
+  std::set<std::uint64_t> inputs;
+  std::uint8_t buttons = 0;
+  std::int64_t farthest = 0;  // squared, see squared_raw
+};
+
+TEST(ArenaBots, MovePressEverythingAndScore) {
+  ArenaSimulation simulation({.seed = 2});
+  std::array<Deeds, 4> deeds{};
+  for (int tick = 0; tick < 1800; ++tick) {
+    step_with_bots(simulation, 2);
+    for (std::size_t slot = 0; slot < deeds.size(); ++slot) {
+      const Input input = bot_input(simulation.arena(), 2, slot);
+      deeds[slot].inputs.insert(static_cast<std::uint16_t>(input.yaw) | std::uint64_t{input.buttons}
+                                                                            << 16);
+      deeds[slot].buttons |= input.buttons;
+      const BodyHandle body = simulation.arena().state.players[slot].body;
+      const std::int64_t way =
+          squared_raw(offset_between(spawn_point(slot), simulation.arena().world.position(body)));
+      deeds[slot].farthest = std::max(deeds[slot].farthest, way);
+    }
+  }
+  std::int32_t points = 0;
+  for (std::size_t slot = 0; slot < deeds.size(); ++slot) {
+    EXPECT_GT(deeds[slot].inputs.size(), 100U);
+    EXPECT_EQ(deeds[slot].buttons & (k_jump | k_push | k_grab), k_jump | k_push | k_grab);
+    EXPECT_GT(deeds[slot].farthest, squared_raw({millimetres_long(6000), {}, {}}));
+    points += simulation.arena().state.players[slot].score;
+  }
+  EXPECT_GT(simulation.arena().state.game.goals, 3U);
+  EXPECT_GT(points, 5);
+}
+
+TEST(ArenaBots, PlayTheSameOnTheSameView) {
+  ArenaSimulation a({}), b({});
+  for (int tick = 0; tick < 100; ++tick)
+    step_with_bots(a);
+  ASSERT_EQ(b.load(SnapshotKind::canonical, saved(a, SnapshotKind::canonical)), Status::ok);
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    std::array<std::byte, k_input_bytes> here{}, there{};
+    bot_input(a.arena(), 1, slot).encode(here);
+    bot_input(b.arena(), 1, slot).encode(there);
+    EXPECT_EQ(here, there);
+  }
+}
+
+TEST(Arena, HoldsSixteenPlayers) {
+  ArenaSimulation simulation({.seed = 4, .loose_bodies = 216, .players = 16});
+  for (int tick = 0; tick < 400; ++tick)
+    step_with_bots(simulation);
+  EXPECT_EQ(simulation.last_report().status, Status::ok);
+  for (std::size_t slot = 0; slot < 16; ++slot) {
+    EXPECT_TRUE(simulation.arena().world.exists(simulation.arena().state.players[slot].body));
+  }
+}
+
+}  // namespace
+}  // namespace lockstone::arena::test

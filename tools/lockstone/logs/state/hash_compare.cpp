@@ -1,0 +1,156 @@
+#include "tools/lockstone/logs/state/hash_compare.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <lockstone/replay/snapshot_file.h>
+
+#include "tools/lockstone/support/console.h"
+
+namespace lockstone::tool {
+namespace {
+
+constexpr const char* k_ends = "ends";
+
+using Chain = std::map<std::uint64_t, std::string>;
+
+std::string hash_at(const LogHashes& file, std::uint64_t tick) {
+  const auto found = file.hashes.find(tick);
+  return found == file.hashes.end() ? k_ends : found->second;
+}
+
+// The lowest tick at which the chains are not equal.
+std::optional<std::uint64_t> parting(const Chain& here, const Chain& there) {
+  auto a = here.begin(), b = there.begin();
+  for (; a != here.end() && b != there.end(); ++a, ++b)
+    if (*a != *b) return std::min(a->first, b->first);
+  if (a != here.end()) return a->first;
+  if (b != there.end()) return b->first;
+  return std::nullopt;
+}
+
+void group_at(const std::vector<LogHashes>& files, std::uint64_t tick, HashComparison& result) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string hash = hash_at(files[i], tick);
+    const auto same = [&](const HashGroup& group) { return group.hash == hash; };
+    const auto found = std::ranges::find_if(result.groups, same);
+    if (found != result.groups.end()) {
+      found->files.push_back(i);
+    } else {
+      result.groups.push_back({{i}, hash});
+    }
+  }
+  std::ranges::stable_sort(result.groups, std::greater<>(),
+                           [](const HashGroup& group) { return group.files.size(); });
+}
+
+// The first part that differs, in the first state at or after the tick whose parts both have.
+void find_part(const LogHashes& here, const LogHashes& there, std::uint64_t after,
+               HashComparison& result) {
+  for (auto at = here.parts.lower_bound(after); at != here.parts.end(); ++at) {
+    const auto other = there.parts.find(at->first);
+    if (other == there.parts.end()) continue;
+    for (const auto& [name, hash] : at->second) {
+      const auto found = other->second.find(name);
+      if (found != other->second.end() && found->second == hash) continue;
+      result.part = name;
+      result.part_tick = at->first;
+      return;
+    }
+  }
+  result.note = "no hashes of parts after this tick in both";
+}
+
+std::optional<std::vector<std::byte>> bytes_of(const std::string& digits) {
+  std::vector<std::byte> bytes;
+  const auto value = [](char digit) {
+    return digit >= '0' && digit <= '9'   ? digit - '0'
+           : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10
+                                          : -1;
+  };
+  if (digits.empty() || digits.size() % 2 != 0) return std::nullopt;
+  for (std::size_t i = 0; i < digits.size(); i += 2) {
+    const int high = value(digits[i]), low = value(digits[i + 1]);
+    if (high < 0 || low < 0) return std::nullopt;
+    bytes.push_back(static_cast<std::byte>(high * 16 + low));
+  }
+  return bytes;
+}
+
+std::optional<std::vector<std::byte>> read_state(const std::string& folder, std::uint64_t tick) {
+  const std::optional<std::string> text = read_file(state_file(folder, tick));
+  if (!text) return std::nullopt;
+  auto unpacked = replay::unpack_snapshot(std::as_bytes(std::span(*text)));
+  if (!unpacked.ok()) return std::nullopt;
+  return std::move(unpacked).value();
+}
+
+// The first field that differs, in the first state at or after the tick that both kept.
+void find_field(const LogHashes& here, const LogHashes& there, std::uint64_t after,
+                const Games& games, HashComparison& result) {
+  const auto note = [&](const std::string& why) {
+    result.note += (result.note.empty() ? "" : "; ") + why;
+  };
+  if (here.states.empty() || there.states.empty())
+    return note("states were not kept: `hash --states` lets this name the field");
+  const GameDef* game = games.find(here.game);
+  if (game == nullptr) return note("the game '" + here.game + "' is not known here: use --game");
+  const auto config = bytes_of(here.config);
+  const auto simulation = config ? game->make(*config) : Status::malformed;
+  if (!simulation) return note("the game refuses the configuration in " + here.path);
+  for (auto at = here.hashes.lower_bound(after); at != here.hashes.end(); ++at) {
+    const auto ours = read_state(here.states, at->first);
+    const auto theirs = ours ? read_state(there.states, at->first) : std::nullopt;
+    if (!theirs) continue;
+    const StateDifference difference = simulation.value()->describe(*ours, *theirs);
+    if (!difference.differs) continue;
+    result.field = difference;
+    result.field_tick = at->first;
+    return;
+  }
+  note("no state after this tick was kept by both");
+}
+
+// "body 17, velocity.y: 0x… in A, 0x… in B".
+std::string in_groups(const StateDifference& difference) {
+  constexpr std::string_view k_here = " here, ", k_there = " there";
+  std::string line = difference.to_line();
+  if (line.ends_with(k_there)) line.replace(line.size() - k_there.size(), k_there.size(), " in B");
+  const std::size_t here = line.rfind(k_here);
+  if (here != std::string::npos) line.replace(here, k_here.size(), " in A, ");
+  return line;
+}
+
+}  // namespace
+
+std::string HashComparison::to_line() const {
+  if (same()) return fmt::format("all equal, {} ticks", ticks);
+  std::string line = fmt::format("tick {}", first_tick);
+  if (!part.empty()) line += fmt::format(", part {} (state at {})", part, part_tick);
+  if (field) line += fmt::format(", {} (state at {})", in_groups(*field), field_tick);
+  return line;
+}
+
+HashComparison compare_log_hashes(const std::vector<LogHashes>& files, const Games& games) {
+  HashComparison result;
+  std::optional<std::uint64_t> first;
+  for (const LogHashes& file : files) {
+    const auto tick = parting(files.front().hashes, file.hashes);
+    if (tick) first = first ? std::min(*first, *tick) : *tick;
+  }
+  const Chain& chain = files.front().hashes;
+  const std::uint64_t after = first.value_or(chain.rbegin()->first);
+  group_at(files, after, result);
+  const auto end = first ? chain.lower_bound(after) : chain.end();
+  result.ticks = static_cast<std::uint64_t>(std::distance(chain.begin(), end));
+  if (!first) return result;
+  result.first_tick = after == 0 ? 0 : after - 1;
+  const LogHashes& here = files[result.groups[0].files.front()];
+  const LogHashes& there = files[result.groups[1].files.front()];
+  find_part(here, there, after, result);
+  find_field(here, there, after, games, result);
+  return result;
+}
+
+}  // namespace lockstone::tool
