@@ -110,7 +110,7 @@ void run(const BallKernels& kernels, Scene& scene) {
   const std::size_t count = scene.blocks.size();
   const BodyInertia* inertias = scene.inertias.data();
   kernels.begin(blocks, count, scene.places.data(), inertias, scene.warm.data(), k_rate);
-  kernels.lift(scene.bodies.data(), blocks, count);
+  kernels.solve_positions(scene.bodies.data(), blocks, count);
   kernels.update(scene.bodies.data(), scene.warm.data(), blocks, count, scene.later.data(),
                  inertias, k_rate);
   kernels.relax(scene.bodies.data(), blocks, count);

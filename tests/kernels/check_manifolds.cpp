@@ -110,7 +110,7 @@ struct SceneMaker {
       in.twist_drive = small(-(1 << 22), 1 << 22);
     }
     if (random.next() % 4 != 0) return;
-    in.held[random.next() % 3] = fixed_a ? k_one : fixed(0, k_one);
+    in.locked[random.next() % 3] = fixed_a ? k_one : fixed(0, k_one);
   }
 
   void fill(ManifoldGeometry& geometry, PrepareInput& in, bool plain) {

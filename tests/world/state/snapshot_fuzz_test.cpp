@@ -92,7 +92,8 @@ TEST(CanonicalSnapshot, OneFlippedBitThatIsLetInLives) {
     EXPECT_NE(world.hash().total, source.hash().total);
     expect_lives(world);
   }
-  EXPECT_GT(accepted, k_rounds / 4);  // velocities, impulses, user data: most bits make another good world
+  EXPECT_GT(accepted,
+            k_rounds / 4);  // velocities, impulses, user data: most bits make another good world
 }
 
 }  // namespace

@@ -204,8 +204,8 @@ TEST(CanonicalSnapshot, RefusesAnotherConfiguration) {
 }
 
 TEST(CanonicalSnapshot, WithARightChecksumButImpossibleValuesIsRefused) {
-  // Overwrites every byte in turn (with sanitizers one of three: the first, middle and last bytes of
-  // fields take turns) with 0xff and checksums again; an accepted state must be steppable.
+  // Overwrites every byte in turn (with sanitizers one of three: the first, middle and last bytes
+  // of fields take turns) with 0xff and checksums again; an accepted state must be steppable.
   constexpr std::size_t k_stride = LKS_SANITIZED ? 3 : 1;
   World world = test::make_world();
   test::add_ground(world);
