@@ -13,7 +13,7 @@
 namespace lockstone {
 namespace {
 
-// A cluster may gain, and regain of what it lost, 2^-this of its kinetic energy.
+// A cluster may gain 2^-this of its kinetic energy, and regain as much after a loss.
 constexpr int k_gain_shift = 10;
 
 // In a tick the account forgets 2^-this of itself: half in three seconds.

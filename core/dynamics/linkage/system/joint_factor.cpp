@@ -15,7 +15,7 @@ namespace lockstone {
 namespace {
 
 // Room for joints of six rows with four neighbours each, or of three with sixteen.
-constexpr std::size_t k_values_per_joint = 160;
+constexpr std::size_t k_values_per_joint = 152;
 constexpr std::size_t k_blocks_per_joint = 8;
 
 // A group may have this many blocks a joint: trees and small loops do.
@@ -273,18 +273,21 @@ int JointFactor::solve(std::uint32_t first, std::uint32_t count) {
   const std::size_t begin = columns_[first].first_row, size = last.first_row + last.rows - begin;
   const std::span<std::int64_t> rhs = std::span(rhs_).subspan(begin, size);
   const std::span<std::int64_t> given = std::span(given_).subspan(begin, size);
-  std::ranges::copy(rhs, given.begin());
+  std::copy(rhs.begin(), rhs.end(), given.begin());
   int lost = 0;
   for (int i = 1; !try_solve(first, count) && i < k_most_tries; ++i) {
     lost += k_fewer_bits;
-    std::ranges::transform(given, rhs.begin(),
-                           [&](std::int64_t x) { return raw::round_shift(x, lost); });
+    for (std::size_t k = 0; k < size; ++k)
+      rhs[k] = raw::round_shift(given[k], lost);
   }
+  LKS_ASSERT(lost < k_fewer_bits * k_most_tries);
   return lost;
 }
 
 // Returns whether the solution fits.
 bool JointFactor::try_solve(std::uint32_t first, std::uint32_t count) {
+  LKS_ASSERT(std::ranges::all_of(columns(first, count),
+                                 [](const Column& column) { return column.count <= column.rows; }));
   bool fits = true;
   for (std::uint32_t k = 0; k < count; ++k) {
     const Column& column = columns_[first + k];
