@@ -34,6 +34,16 @@ void IslandPool::clear() {
   gains_.clear();
   roots_.clear();
   factor_.clear();
+  was_full_ = false;
+}
+
+PoolUse IslandPool::pool_use() const {
+  PoolUse use = factor_.pool_use();
+  use.add(bodies_.size(), capacity_.bodies);
+  use.add(problems_.size(), capacity_.problems);
+  use.add(joints_.size(), capacity_.joints);
+  if (was_full_) use.note_exhausted();
+  return use;
 }
 
 IslandPool::Island IslandPool::place(std::size_t bodies, std::size_t contacts,
@@ -79,6 +89,7 @@ bool IslandPool::add(std::span<const std::uint32_t> bodies,
                      std::span<const IslandJoint> joints) {
   LKS_ASSERT(!bodies.empty() && !contacts.empty());
   Island island = place(bodies.size(), contacts.size(), joints.size());
+  was_full_ = was_full_ || !fits(island);
   if (!fits(island) || !plan(island, bodies, contacts, joints)) return false;
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());

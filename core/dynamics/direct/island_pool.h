@@ -82,6 +82,8 @@ class IslandPool {
                          std::span<const IslandJoint> joints);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
+  /// Of all islands since `clear`.
+  [[nodiscard]] PoolUse pool_use() const;
   [[nodiscard]] IslandView view(std::uint32_t island);
   [[nodiscard]] BodyFactor& factor() { return factor_; }
 
@@ -121,6 +123,7 @@ class IslandPool {
   std::vector<std::uint32_t> local_;  // by number in the solver: the order in its island
   std::vector<BodyFactor::Pair> pairs_;
   BodyFactor factor_;
+  bool was_full_ = false;  // an island found no room
 };
 
 }  // namespace lockstone

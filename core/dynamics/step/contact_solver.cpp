@@ -230,8 +230,17 @@ EnergyLimit::Bodies ContactSolver::energy_bodies() {
           bodies_.before(), islands_.all(),      joints_.solver()};
 }
 
-std::uint32_t ContactSolver::energy_limits() const {
-  return energy_limit_.count() + joints_.solver().energy_limits();
+SolverCounts ContactSolver::counts() const {
+  const ConstraintGraph& graph = constraints_.layout().graph();
+  SolverCounts counts{contacts_.size(),
+                      constraints_.points(),
+                      graph.colors(),
+                      graph.count(k_overflow_color),
+                      tick_.saturations,
+                      energy_limit_.count() + joints_.solver().energy_limits(),
+                      joints_.solver().pool_use()};
+  if (converged_ != nullptr) counts.pools.add(converged_->pool_use());
+  return counts;
 }
 
 }  // namespace lockstone

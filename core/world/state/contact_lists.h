@@ -67,6 +67,20 @@ class ContactLists {
   /// The first `ids.size()` written contacts become the active ones. Swaps their ids in.
   void replace(std::vector<std::uint32_t>& ids);
 
+  /// Drops the active contacts for which `keeps(record)` is false.
+  template <class Keeps>
+  void keep_active(Keeps&& keeps) {
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < active_; ++i) {
+      if (!keeps(store_[i])) continue;
+      store_[kept] = store_[i];
+      if (remembers_manifolds_) manifold_ids_[kept] = manifold_ids_[i];
+      ++kept;
+    }
+    active_ = kept;
+    if (remembers_manifolds_) manifold_ids_.resize(kept);
+  }
+
   /// Drops the active contacts of a body.
   void drop_active_of(std::uint32_t body);
 
@@ -83,15 +97,7 @@ class ContactLists {
   void freeze(IsAwake&& is_awake) {
     for (std::size_t i = active_; i-- > 0;)
       if (!has_awake(store_[i], is_awake)) frozen_.add(store_[i]);
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < active_; ++i) {
-      if (!has_awake(store_[i], is_awake)) continue;
-      store_[kept] = store_[i];
-      if (remembers_manifolds_) manifold_ids_[kept] = manifold_ids_[i];
-      ++kept;
-    }
-    active_ = kept;
-    if (remembers_manifolds_) manifold_ids_.resize(kept);
+    keep_active([&](const ContactRecord& record) { return has_awake(record, is_awake); });
   }
 
   /// Replaces both lists by the contacts of a loaded state, by key.

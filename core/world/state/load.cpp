@@ -182,14 +182,14 @@ void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
   world_.joint_registry.rebuild();
 }
 
-namespace {
-
-Status load_native(World::Impl& world, ByteView bytes) {
-  const Result<NativeState<WorldStores>> state = NativeState<WorldStores>::open(bytes, world.def);
+Status StateLoader::load_native(ByteView bytes) {
+  const Result<NativeState<WorldStores>> state = NativeState<WorldStores>::open(bytes, world_.def);
   if (!state.ok()) return state.status();
-  StateLoader(world).load(state.value().header, state.value());
+  load(state.value().header, state.value());
   return Status::ok;
 }
+
+namespace {
 
 Status load_canonical(World::Impl& world, ByteView bytes) {
   const Result<SnapshotView> view = SnapshotView::open(bytes, world.def, *world.assets);
@@ -203,7 +203,8 @@ Status load_canonical(World::Impl& world, ByteView bytes) {
 }  // namespace
 
 Status World::load(SnapshotKind kind, ByteView bytes) {
-  return kind == SnapshotKind::native ? load_native(*impl_, bytes) : load_canonical(*impl_, bytes);
+  return kind == SnapshotKind::native ? StateLoader(*impl_).load_native(bytes)
+                                      : load_canonical(*impl_, bytes);
 }
 
 Status World::load_delta(ByteView base, ByteView delta) {

@@ -22,6 +22,9 @@ class StateLoader {
   template <class State>
   void load(const WorldHeader& header, State&& state);
 
+  /// Loads a native snapshot.
+  Status load_native(ByteView bytes);
+
   /// Derives everything from the records again, and forgets all notes of the last tick.
   void rebuild();
 
