@@ -37,13 +37,18 @@ void IslandPool::clear() {
   was_full_ = false;
 }
 
-PoolUse IslandPool::pool_use() const {
-  PoolUse use = factor_.pool_use();
-  use.add(bodies_.size(), capacity_.bodies);
-  use.add(problems_.size(), capacity_.problems);
-  use.add(joints_.size(), capacity_.joints);
-  if (was_full_) use.note_exhausted();
-  return use;
+PoolShare IslandPool::share(std::uint32_t index) const {
+  const Island& island = islands_[index];
+  const std::uint32_t end = index + 1 < islands_.size() ? islands_[index + 1].plan.first_target
+                                                        : factor_.target_count();
+  return {island.bodies, island.contacts + island.joints, island.joints, island.plan.blocks,
+          end - island.plan.first_target};
+}
+
+PoolShare IslandPool::room() const {
+  const auto narrow = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
+  return {narrow(capacity_.bodies), narrow(capacity_.problems), narrow(capacity_.joints),
+          narrow(factor_.block_capacity()), narrow(factor_.target_capacity())};
 }
 
 IslandPool::Island IslandPool::place(std::size_t bodies, std::size_t contacts,

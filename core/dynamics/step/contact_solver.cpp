@@ -239,8 +239,20 @@ SolverCounts ContactSolver::counts() const {
                       tick_.saturations,
                       energy_limit_.count() + joints_.solver().energy_limits(),
                       joints_.solver().pool_use()};
-  if (converged_ != nullptr) counts.pools.add(converged_->pool_use());
+  if (converged_ != nullptr && converged_->pool().was_full()) counts.pools.note_exhausted();
   return counts;
+}
+
+void ContactSolver::list_shares(std::vector<IslandShare>& to) const {
+  to.clear();
+  if (converged_ == nullptr || tick_.is_idle) return;
+  const IslandPool& pool = converged_->pool();
+  for (std::uint32_t island = 0; island < pool.count(); ++island)
+    to.push_back({bodies_.side(pool.first_body(island)).body(), pool.share(island)});
+}
+
+PoolShare ContactSolver::room() const {
+  return converged_ == nullptr ? PoolShare{} : converged_->pool().room();
 }
 
 }  // namespace lockstone

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/base/parallel.h"
 #include "core/base/pool_use.h"
@@ -39,7 +40,7 @@ struct SolverCounts {
   std::uint32_t overflow_contacts = 0;  ///< that found no colour
   std::uint32_t saturations = 0;        ///< values that were clamped to their range
   std::uint32_t energy_limits = 0;      ///< times that an island gave back energy
-  PoolUse pools;                        ///< that the islands share
+  PoolUse pools;                        ///< of joints; exhausted if any pool was
 };
 
 class ContactSolver {
@@ -94,6 +95,10 @@ class ContactSolver {
   [[nodiscard]] bool is_loose(std::uint32_t body) const;
 
   [[nodiscard]] SolverCounts counts() const;
+  /// Lists the places of converged islands in their pools.
+  void list_shares(std::vector<IslandShare>& to) const;
+  /// The room of these pools.
+  [[nodiscard]] PoolShare room() const;
 
  private:
   struct Tick {

@@ -24,7 +24,8 @@ class ConvergedIslands {
 
   [[nodiscard]] std::uint32_t count() const { return solver_.count(); }
 
-  [[nodiscard]] PoolUse pool_use() const { return solver_.islands().pool_use(); }
+  /// Their places in pools.
+  [[nodiscard]] const IslandPool& pool() const { return solver_.islands(); }
 
   /// Contacts of all these islands.
   [[nodiscard]] std::size_t contact_count() { return solver_.islands().contacts().size(); }

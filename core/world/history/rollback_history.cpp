@@ -37,6 +37,7 @@ struct RollbackHistory::Impl {
   void begin();
   void note_groups();
   [[nodiscard]] PoolUse pools_in_use() const;
+  [[nodiscard]] bool add_known_shares(const TickMemory& known);
   void remember(const StepReport& report, const PoolUse& pools);
 };
 
@@ -83,6 +84,7 @@ StepReport RollbackHistory::Impl::compute_all() {
   const std::vector<JointEvent>& joint_events = world.joint_registry.events();
   fresh.joint_events.assign(joint_events.begin(), joint_events.end());
   fresh.pairs.assign(world.pairs.begin(), world.pairs.end());
+  world.solver.list_shares(fresh.shares);
   remember(report, pools_in_use());
   return report;
 }
@@ -97,7 +99,7 @@ std::optional<StepReport> RollbackHistory::Impl::recall_some(const TickMemory& k
   computed.bring_back_others(world);
   const PoolUse pools = known.pools.beside(pools_in_use());
   const bool holds = report.status == Status::ok && !pools.is_exhausted() &&
-                     !world.moved.has_lost_looks() &&
+                     add_known_shares(known) && !world.moved.has_lost_looks() &&
                      computed.kept_to_themselves(world, fresh.before, world.moved.looks()) &&
                      write_next_state(world, computed, known, fresh);
   if (!holds) {
@@ -141,11 +143,22 @@ void RollbackHistory::Impl::note_groups() {
   fresh.islands = groups.count_awake(fresh.groups, [](std::uint32_t) { return true; });
 }
 
-// Of all pools that islands share, and of the places for contacts.
+// Of all pools that islands share but those of converged ones, and of the places for contacts.
 PoolUse RollbackHistory::Impl::pools_in_use() const {
   PoolUse pools = world.solver.counts().pools;
   pools.add(world.narrow.found_at_first(), world.def.contact_capacity);
   return pools;
+}
+
+// Of converged islands, those of the computed bodies and of the others. Whether all found room.
+bool RollbackHistory::Impl::add_known_shares(const TickMemory& known) {
+  world.solver.list_shares(fresh.shares);
+  for (const IslandShare& each : known.shares)
+    if (!computed.has(each.body)) fresh.shares.push_back(each);
+  PoolShare sum;
+  for (const IslandShare& each : fresh.shares)
+    sum.add(each.share);
+  return sum.fits(world.solver.room());
 }
 
 void RollbackHistory::Impl::remember(const StepReport& report, const PoolUse& pools) {

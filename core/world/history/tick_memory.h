@@ -13,6 +13,7 @@
 
 #include "core/base/pool_use.h"
 #include "core/collision/broad_phase/pair.h"
+#include "core/dynamics/direct/pool_share.h"
 #include "core/world/state/delta.h"
 #include "core/world/state/stores.h"
 #include "core/world/world_data.h"
@@ -61,7 +62,8 @@ struct TickMemory {
   std::vector<Pair> pairs;             // whose bounds overlapped
   std::vector<std::uint32_t> groups;   // by body: the least body of its group (island_groups.h)
   std::vector<std::uint32_t> lookers;  // bodies whose paths were held against others
-  PoolUse pools;                       // of the whole tick, at most
+  std::vector<IslandShare> shares;     // of converged islands in their pools
+  PoolUse pools;                       // of the whole tick in all other pools, at most
   std::uint32_t islands = 0;           // groups with an awake body
   bool had_sleepers = false;           // when it began
 };
