@@ -104,13 +104,13 @@ class ContactLists {
   template <class IsAwake>
   void adopt(std::span<const ContactRecord> all, IsAwake&& is_awake) {
     frozen_.clear();
-    adopt_all_active(all);
+    std::ranges::copy(all, make_active(static_cast<std::uint32_t>(all.size())).begin());
     freeze(is_awake);
   }
-  /// Makes all of them active: those of a state in which nothing sleeps.
-  void adopt_all_active(std::span<const ContactRecord> all) {
-    write(0, all);
-    active_ = static_cast<std::uint32_t>(all.size());
+  /// Makes so many contacts active, those of a state in which nothing sleeps; to be filled.
+  [[nodiscard]] std::span<ContactRecord> make_active(std::uint32_t count) {
+    active_ = count;
+    return {store_.data(), count};
   }
   /// Replaces the active list by those of `all` that have an awake body; the others are the frozen
   /// ones already.

@@ -34,6 +34,7 @@ class StateLoader {
   [[nodiscard]] bool take_body(std::uint32_t body, const BodyRecord& record);
   template <class State>
   [[nodiscard]] bool take_joints(std::uint32_t limit, State& state);
+  [[nodiscard]] bool none_sleeps() const;
   void take_contacts();
   void rebuild_from(std::span<const ContactRecord> contacts);
   [[nodiscard]] bool are_frozen(std::span<const ContactRecord> all) const;
