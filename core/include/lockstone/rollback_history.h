@@ -16,7 +16,7 @@
 
 namespace lockstone {
 
-/// The bounds of RollbackHistory's ticks.
+/// The most ticks that a RollbackHistory keeps.
 inline constexpr std::uint32_t k_max_history_ticks = 256;
 
 /// Steps a world, and remembers its last ticks. Derived: it is neither saved nor hashed, and may be
@@ -24,10 +24,11 @@ inline constexpr std::uint32_t k_max_history_ticks = 256;
 /// one that is not, always.
 class RollbackHistory {
  public:
-  /// Keeps `ticks` ticks, 1 … k_max_history_ticks, of `world`, which must outlive this; moving the
-  /// world is allowed. No function but this allocates. A tick takes the bytes of two native
-  /// snapshots, and of events and pairs; `bytes_max` bounds all.
-  RollbackHistory(World& world, std::uint32_t ticks);
+  /// Keeps `ticks` ticks, at most k_max_history_ticks, of `world`, which must outlive this; moving
+  /// the world is allowed. With 0 it only steps the world, and takes no memory. No function but
+  /// this allocates. A tick takes the bytes of two native snapshots, and of events and pairs;
+  /// `bytes_max` bounds all.
+  explicit RollbackHistory(World& world, std::uint32_t ticks = 0);
   ~RollbackHistory();
   RollbackHistory(RollbackHistory&&) noexcept;
   RollbackHistory& operator=(RollbackHistory&&) noexcept;
@@ -50,7 +51,8 @@ class RollbackHistory {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  World::Impl* world_;
+  std::unique_ptr<Impl> impl_;  // null without memory
 };
 
 }  // namespace lockstone

@@ -27,7 +27,7 @@ class ComputedBodies {
   /// Of a pair of bodies, a contact, or a joint: whether its results are computed.
   [[nodiscard]] bool has_any(std::uint32_t a, std::uint32_t b) const { return has(a) || has(b); }
   /// Nothing differs: all results are known.
-  [[nodiscard]] bool are_none() const { return !all_ && count_ == 0; }
+  [[nodiscard]] bool are_none() const { return !all_ && count_ == 0 && !changes_.any(); }
   /// So many that it is quicker to compute all.
   [[nodiscard]] bool are_most() const { return all_ || count_ > most_; }
 

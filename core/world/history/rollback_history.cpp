@@ -169,26 +169,31 @@ void RollbackHistory::Impl::remember(const StepReport& report, const PoolUse& po
 }
 
 RollbackHistory::RollbackHistory(World& world, std::uint32_t ticks)
-    : impl_(std::make_unique<Impl>(*world.impl_, std::clamp(ticks, 1U, k_max_history_ticks))) {}
+    : world_(world.impl_.get()) {
+  LKS_ASSERT(ticks <= k_max_history_ticks);
+  if (ticks != 0) impl_ = std::make_unique<Impl>(*world_, std::min(ticks, k_max_history_ticks));
+}
 
 RollbackHistory::~RollbackHistory() = default;
 RollbackHistory::RollbackHistory(RollbackHistory&&) noexcept = default;
 RollbackHistory& RollbackHistory::operator=(RollbackHistory&&) noexcept = default;
 
 StepReport RollbackHistory::step() {
-  return impl_->step();
+  return impl_ == nullptr ? world_->step() : impl_->step();
 }
 
 void RollbackHistory::forget() {
+  if (impl_ == nullptr) return;
   for (TickMemory& memory : impl_->memories)
     memory.is_known = false;
 }
 
 std::size_t RollbackHistory::bytes_max() const {
-  return (impl_->memories.size() + 1) * TickMemory::bytes_max(impl_->world.def);
+  return impl_ == nullptr ? 0 : (impl_->memories.size() + 1) * TickMemory::bytes_max(impl_->world.def);
 }
 
 bool RollbackHistory::flip_bit(std::uint64_t tick, Side side, std::size_t bit) {
+  if (impl_ == nullptr) return false;
   TickMemory& memory = impl_->memory_of(tick);
   if (!memory.is_known || memory.tick != tick) return false;
   StateCopy& state = side == Side::before ? memory.before : memory.after;

@@ -28,7 +28,7 @@ void StateChanges::find(const WorldData& world, const NativeState<WorldStores>& 
     is_end_[body] = 0;
   bodies_.clear();
   ends_.clear();
-  concern_all_ =
+  any_ = concern_all_ =
       world.header.tick != before.header.tick || world.header.gravity != before.header.gravity;
   if (concern_all_) return;
   find_bodies(world, before);
@@ -42,6 +42,7 @@ void StateChanges::find_bodies(const WorldData& world, const NativeState<WorldSt
   for (std::uint32_t i = 0; i < end; ++i) {
     const BodyRecord& now = world.bodies[i];
     if (i < known ? is_same<BodyStore>(now, before, i) : now == BodyRecord{}) continue;
+    any_ = true;
     bodies_.push_back(i);
     is_changed_[i] = 1;
   }
@@ -79,6 +80,7 @@ void StateChanges::find_joints(const WorldData& world, const NativeState<WorldSt
   for (std::uint32_t i = 0; i < end; ++i) {
     const JointRecord& now = world.joints[i];
     if (i < known ? is_same<JointStore>(now, before, i) : now == JointRecord{}) continue;
+    any_ = true;
     if (now.exists()) add_ends(world, now);
     JointRecord old;
     if (i < known) before.read<JointStore>(i, old);
@@ -91,6 +93,7 @@ void StateChanges::add_ends(const WorldData& world, const Record& record) {
   const auto reaches = [&](std::uint32_t body) {
     return has(body) || links_others(world.bodies[body]);
   };
+  any_ = true;
   concern_all_ = concern_all_ || (!reaches(record.body_a) && !reaches(record.body_b));
   add_end(record.body_a);
   add_end(record.body_b);

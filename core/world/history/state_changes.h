@@ -22,6 +22,9 @@ class StateChanges {
   /// contact or a joint of bodies that stand still.
   [[nodiscard]] bool concern_all() const { return concern_all_; }
 
+  /// Whether any record differs, be it that of an empty slot.
+  [[nodiscard]] bool any() const { return any_; }
+
   /// Bodies whose records differ, by index; also those that came or went.
   [[nodiscard]] std::span<const std::uint32_t> bodies() const { return bodies_; }
   [[nodiscard]] bool has(std::uint32_t body) const { return is_changed_[body] != 0; }
@@ -37,7 +40,7 @@ class StateChanges {
   void add_ends(const WorldData& world, const Record& record);
   void add_end(std::uint32_t body);
 
-  bool concern_all_ = false;
+  bool concern_all_ = false, any_ = false;
   std::vector<std::uint32_t> bodies_, ends_;
   std::vector<std::uint8_t> is_changed_, is_end_;  // by body
 };
