@@ -23,7 +23,7 @@ class PoolUse {
 
   [[nodiscard]] bool is_exhausted() const { return parts_ > k_full; }
 
-  /// An upper bound of what both use together: exhausted unless both surely fit.
+  /// An upper bound of the places of both together: exhausted unless both surely fit.
   [[nodiscard]] PoolUse beside(const PoolUse& other) const {
     PoolUse both;
     both.parts_ = parts_ + other.parts_;

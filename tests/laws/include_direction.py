@@ -18,7 +18,7 @@ FLOORS = {
     "collision": ["broad_phase", "narrow_phase", "continuous", "query"],
     "dynamics": ["state", "body", "islands", "contact", "joint", "stack", "problem", "linkage", "direct",
                  "impact", "step"],
-    "world": ["derived", "state", "commands", "phases", "sleep", "debug", "query", ""],
+    "world": ["derived", "state", "commands", "phases", "sleep", "debug", "query", "history", ""],
 }
 MODULES = list(FLOORS)
 # Its folders share the world's one class, so their order is not checked.
@@ -35,7 +35,7 @@ PUBLIC_MODULES = {
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "joint.h"],
-    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
+    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "rollback_history.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"

@@ -201,6 +201,30 @@ TEST(RollbackHistory, GivesTheSameStatesWhenContactsFindNoRoom) {
   }
 }
 
+TEST(RollbackHistory, KnowsTheGenerationsOfEmptySlots) {
+  Twins pair;
+  const Bytes start = native(pair.rolled);
+  pair.step_rolled(4);
+  ASSERT_EQ(pair.rolled.load(SnapshotKind::native, start), Status::ok);
+  const JointDef def =
+      JointDef::of(JointKind::ball, top_of(pair.rolled, 0), top_of(pair.rolled, 1));
+  for (World* world : {&pair.plain, &pair.rolled}) {
+    const Result<JointHandle> joint = world->create_joint(def);
+    ASSERT_TRUE(joint.ok());
+    ASSERT_EQ(world->apply(DestroyJoint{joint.value()}), Status::ok);
+  }
+  pair.step_both(4);
+}
+
+TEST(RollbackHistory, StepsAWorldWithoutMemory) {
+  World plain = make_stacks(), stepped = make_stacks();
+  RollbackHistory history(stepped);
+  EXPECT_EQ(history.bytes_max(), 0U);
+  EXPECT_EQ(history.step(), plain.step());
+  EXPECT_EQ(native(stepped), native(plain));
+  history.forget();
+}
+
 TEST(RollbackHistory, ComputesEverythingOnceItForgets) {
   Twins pair;
   const Bytes start = native(pair.rolled);
@@ -230,8 +254,8 @@ TEST(RollbackHistory, StaysWithAWorldThatMoves) {
   EXPECT_EQ(moved.tick(), 11U);
 }
 
-// The control: what a history remembers is what comes out. A check against a full simulation finds
-// a flipped bit of an output; a flipped bit of an input only costs time.
+// The control: a check against a full simulation finds a flipped bit of an output; a flipped bit of
+// an input only costs time.
 TEST(RollbackHistory, GivesAnotherStateWhenAnOutputIsFlipped) {
   Twins pair;
   const Bytes start = native(pair.rolled);

@@ -39,16 +39,16 @@ void IslandPool::clear() {
 
 PoolShare IslandPool::share(std::uint32_t index) const {
   const Island& island = islands_[index];
-  const std::uint32_t end = index + 1 < islands_.size() ? islands_[index + 1].plan.first_target
-                                                        : factor_.target_count();
+  const std::size_t end = index + 1 < islands_.size() ? islands_[index + 1].plan.first_target
+                                                      : factor_.sizes().targets;
   return {island.bodies, island.contacts + island.joints, island.joints, island.plan.blocks,
-          end - island.plan.first_target};
+          static_cast<std::uint32_t>(end - island.plan.first_target)};
 }
 
 PoolShare IslandPool::room() const {
   const auto narrow = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
   return {narrow(capacity_.bodies), narrow(capacity_.problems), narrow(capacity_.joints),
-          narrow(factor_.block_capacity()), narrow(factor_.target_capacity())};
+          narrow(factor_.sizes().most_blocks), narrow(factor_.sizes().most_targets)};
 }
 
 IslandPool::Island IslandPool::place(std::size_t bodies, std::size_t contacts,

@@ -58,11 +58,10 @@ class BodyFactor {
 
   /// Of all islands planned since `clear`.
   [[nodiscard]] PoolUse pool_use() const;
-  [[nodiscard]] std::uint32_t target_count() const {
-    return static_cast<std::uint32_t>(targets_.size());
-  }
-  [[nodiscard]] std::size_t block_capacity() const { return block_capacity_; }
-  [[nodiscard]] std::size_t target_capacity() const { return target_capacity_; }
+  struct Sizes {
+    std::size_t targets, most_blocks, most_targets;
+  };
+  [[nodiscard]] Sizes sizes() const { return {targets_.size(), block_capacity_, target_capacity_}; }
 
   /// The block of bodies a ≠ b, and whether a's rows are its rows.
   struct Place {

@@ -5,7 +5,7 @@
 // history keeps the states before and after the last ticks. Where a tick is stepped again, it
 // compares the state with the one before that tick, byte for byte; islands that nothing different
 // can reach take their results from memory, and only the others are computed. Nothing is tracked
-// from command to command, and what the game does between steps needs no rules.
+// from command to command, and a game may do anything between steps.
 #pragma once
 
 #include <cstddef>

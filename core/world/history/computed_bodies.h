@@ -40,8 +40,8 @@ class ComputedBodies {
   [[nodiscard]] std::span<const Pair> take_pairs(std::span<const Pair> all);
   [[nodiscard]] std::span<const Pair> all_pairs() const { return all_pairs_; }
 
-  /// Whether a tick of the computed bodies alone was what the whole tick would have been for them:
-  /// it wrote no other body or joint, and no path led to a body that was left out.
+  /// Whether a tick of the computed bodies alone moved them as the whole tick would have done: it
+  /// wrote no other body or joint, and no path led to a body that was left out.
   [[nodiscard]] bool kept_to_themselves(const WorldData& world, const StateCopy& before,
                                         std::span<const Pair> looks) const;
 

@@ -22,13 +22,13 @@ TickMemory::TickMemory(const WorldDef& def) : before(state_bytes(def)), after(st
   pairs.reserve(def.pair_capacity);
   groups.reserve(def.body_capacity);
   shares.reserve(def.body_capacity);
-  lookers.reserve(MovedBodies::k_looks_a_body * def.body_capacity);
+  lookers.reserve(MovedBodies::most_looks(def));
 }
 
 std::size_t TickMemory::bytes_max(const WorldDef& def) {
   return sizeof(TickMemory) + 2 * state_bytes(def) + most_events(def) * sizeof(ContactEvent) +
          def.joint_capacity * sizeof(JointEvent) + def.pair_capacity * sizeof(Pair) +
-         (1 + MovedBodies::k_looks_a_body) * def.body_capacity * sizeof(std::uint32_t) +
+         (def.body_capacity + MovedBodies::most_looks(def)) * sizeof(std::uint32_t) +
          def.body_capacity * sizeof(IslandShare);
 }
 

@@ -68,7 +68,7 @@ struct TickMemory {
   bool had_sleepers = false;           // when it began
 };
 
-/// Whether a body hands on, to all bodies that it meets, that something is different with it: all
+/// Whether a difference of a body may reach the bodies that it meets, and theirs reach it: of all
 /// that can move in a tick. The motion of a kinematic body depends, in its last bits, on whether it
 /// touches anything.
 [[nodiscard]] inline bool links_others(const BodyRecord& body) {

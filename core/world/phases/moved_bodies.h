@@ -16,7 +16,9 @@ namespace lockstone {
 class MovedBodies {
  public:
   /// Places for looks, of all bodies together.
-  static constexpr std::size_t k_looks_a_body = 4;
+  [[nodiscard]] static std::size_t most_looks(const WorldDef& def) {
+    return std::size_t{4} * def.body_capacity;
+  }
 
   /// No function but this allocates. `world` outlives this.
   explicit MovedBodies(WorldData& world);
@@ -47,7 +49,7 @@ class MovedBodies {
   /// that its path was examined at all. Not from two threads at once.
   void note_look(std::uint32_t body, std::uint32_t other) {
     if (!world_.bodies[other].moves()) return;
-    has_lost_looks_ = has_lost_looks_ || looks_.size() == looks_.capacity();
+    has_lost_looks_ = has_lost_looks_ || looks_.size() == most_looks(world_.def);
     if (!has_lost_looks_) looks_.push_back({body, other});
   }
   /// First the body that looked.

@@ -118,7 +118,7 @@ class Match {
  private:
   void go_back() { (void)world_.load(SnapshotKind::native, start_); }
 
-  // The guess is that nobody pushes: what the history remembers.
+  // The guess is that nobody pushes; the history remembers that.
   void step_on_guess() {
     for (int tick = 0; tick < options_.ticks; ++tick)
       (void)history_.step();
