@@ -73,8 +73,8 @@ void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullp
 }
 
 TEST(RollbackHistory, AllocatesNothingAfterCreation) {
-  World world = test::make_world(
-      {.body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
+  World world =
+      test::make_world({.body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
   test::fill_with_random_bodies(world, 1, 150);
   RollbackHistory history(world, 4);
   std::vector<std::byte> start(world.snapshot_bytes_max(SnapshotKind::native));

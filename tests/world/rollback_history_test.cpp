@@ -28,9 +28,9 @@ World make_stacks(WorldDef def = {.body_capacity = 64,
   test::add_ground(world);
   for (std::uint32_t i = 0; i < k_stacks * k_boxes; ++i) {
     const auto place = static_cast<std::int64_t>(i / k_boxes), height = std::int64_t{i % k_boxes};
-    test::add(world, test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m),
-                                        Position::from_integer(4 * place),
-                                        Position::from_ratio(2 * height + 1, 2), {}));
+    test::add(world,
+              test::dynamic_body(Shape::box(0.5_m, 0.5_m, 0.5_m), Position::from_integer(4 * place),
+                                 Position::from_ratio(2 * height + 1, 2), {}));
   }
   test::step(world, 10);
   return world;
@@ -47,16 +47,15 @@ Bytes native(const World& world) {
 // A world that goes back with a history, and one that never does.
 class Twins {
  public:
-  explicit Twins(World (*make)() = [] { return make_stacks(); }, std::uint32_t ticks = 8)
+  explicit Twins(
+      World (*make)() = [] { return make_stacks(); }, std::uint32_t ticks = 8)
       : plain(make()), rolled(make()), history(rolled, ticks) {}
 
   void step_rolled(int ticks) {
     for (int i = 0; i < ticks; ++i)
       last = history.step();
   }
-  void both(const Command& command) {
-    EXPECT_EQ(plain.apply(command), rolled.apply(command));
-  }
+  void both(const Command& command) { EXPECT_EQ(plain.apply(command), rolled.apply(command)); }
   void step_both(int ticks = 1) {
     for (int i = 0; i < ticks; ++i) {
       (void)plain.step();
@@ -102,7 +101,8 @@ TEST(RollbackHistory, ComputesTheIslandThatACommandTouched) {
 }
 
 TEST(RollbackHistory, ComputesBothIslandsOnceTheyMeet) {
-  Twins pair(+[] { return make_stacks(); }, 64);
+  Twins pair(
+      +[] { return make_stacks(); }, 64);
   const Bytes start = native(pair.rolled);
   pair.step_rolled(60);
   ASSERT_EQ(pair.rolled.load(SnapshotKind::native, start), Status::ok);
@@ -146,10 +146,8 @@ TEST(RollbackHistory, FindsOutThatABulletReachesAnIslandThatIsFarFromIt) {
 
 TEST(RollbackHistory, KnowsFallingAsleepAndWaking) {
   Twins pair(+[] {
-    World world = make_stacks({.body_capacity = 64,
-                               .pair_capacity = 1024,
-                               .contact_capacity = 512,
-                               .sleep_ms = 200});
+    World world = make_stacks(
+        {.body_capacity = 64, .pair_capacity = 1024, .contact_capacity = 512, .sleep_ms = 200});
     return world;
   });
   std::uint32_t recalled = 0;

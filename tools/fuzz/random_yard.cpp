@@ -81,7 +81,8 @@ void add_chain(World& world, const Place& at, Random& random) {
     place.x += millimetres(400 * (i + 1));
     const BodyHandle link =
         scenes::add(world, scenes::loose(Shape::box(0.2_m, 0.1_m, 0.1_m), place));
-    JointDef joint = JointDef::of(chance(random, 2) ? JointKind::ball : JointKind::hinge, last, link);
+    JointDef joint =
+        JointDef::of(chance(random, 2) ? JointKind::ball : JointKind::hinge, last, link);
     joint.frame_a.position.x = 0.2_m;
     joint.frame_b.position.x = -0.2_m;
     if (chance(random, 8)) joint.break_force = Force::from_integer(random.between(1, 500));

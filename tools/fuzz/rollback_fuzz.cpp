@@ -44,9 +44,7 @@ class Source {
   [[nodiscard]] World make() const {
     return yard_ ? yard_->make() : scene_->make(BroadPhaseKind::tree);
   }
-  void drive(World& world) const {
-    yard_ ? yard_->drive(world) : scene_->drive(world);
-  }
+  void drive(World& world) const { yard_ ? yard_->drive(world) : scene_->drive(world); }
   [[nodiscard]] Command other_command(const World& world, Random& random) const {
     return yard_ ? RandomYard::push(world, random) : random_command(world, random);
   }

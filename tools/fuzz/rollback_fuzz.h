@@ -27,8 +27,8 @@ struct RollbackFuzzReport {
   std::uint64_t ticks = 0;             ///< stepped with a history
   std::uint64_t computed_islands = 0;  ///< summed over the ticks
   std::uint64_t recalled_islands = 0;
-  std::uint64_t partial_ticks = 0;  ///< in which some were computed and some recalled
-  std::uint64_t whole_ticks = 0;    ///< in which all were recalled
+  std::uint64_t partial_ticks = 0;        ///< in which some were computed and some recalled
+  std::uint64_t whole_ticks = 0;          ///< in which all were recalled
   std::vector<RollbackFailure> failures;  ///< by index
 };
 

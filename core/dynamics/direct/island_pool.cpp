@@ -39,8 +39,8 @@ void IslandPool::clear() {
 
 PoolShare IslandPool::share(std::uint32_t index) const {
   const Island& island = islands_[index];
-  const std::size_t end = index + 1 < islands_.size() ? islands_[index + 1].plan.first_target
-                                                      : factor_.sizes().targets;
+  const std::size_t end =
+      index + 1 < islands_.size() ? islands_[index + 1].plan.first_target : factor_.sizes().targets;
   return {island.bodies, island.contacts + island.joints, island.joints, island.plan.blocks,
           static_cast<std::uint32_t>(end - island.plan.first_target)};
 }

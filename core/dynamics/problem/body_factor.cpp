@@ -138,8 +138,8 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
   std::size_t blocks = 0;
   const std::size_t products = find_order(plan, blocks);
   const bool is_small = products <= k_most_products;
-  const bool has_room = blocks_.size() + blocks <= block_capacity_ &&
-                        targets_.size() + products <= target_capacity_;
+  const bool has_room =
+      blocks_.size() + blocks <= block_capacity_ && targets_.size() + products <= target_capacity_;
   was_full_ = was_full_ || (is_small && !has_room);
   if (!is_small || !has_room) {
     places_.resize(plan.first_column);

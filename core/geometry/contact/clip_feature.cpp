@@ -31,7 +31,7 @@ using CutPolygon = std::array<CutVertex, k_most_reduced>;
 
 /// Where the segment from v to w crosses a line; heights above the line have different signs.
 CutVertex crossing(const CutVertex& v, const CutVertex& w, std::int64_t height_v,
-                    std::int64_t height_w) {
+                   std::int64_t height_w) {
   const std::int64_t whole = height_v - height_w;
   const auto part = [&](std::int64_t from, std::int64_t to) {
     const Int128 step = multiply_wide(to - from, height_v);
@@ -115,7 +115,7 @@ void clip(const ContactFeature& face, const ClipFrame& frame, const ContactFeatu
   const auto corner = [&](int i) {
     const RawVec p = of(face, i).at - frame.origin;
     return CutCorner{raw::round_shift(dot(p, frame.u), shift),
-                      raw::round_shift(dot(p, frame.v), shift)};
+                     raw::round_shift(dot(p, frame.v), shift)};
   };
   for (int i = 0; i < face.count && other.count > 1; ++i)
     clipper.cut(corner(i), corner(i + 1 < face.count ? i + 1 : 0), static_cast<std::uint32_t>(i));

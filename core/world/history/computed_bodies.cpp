@@ -20,9 +20,7 @@ bool is_unchanged(const typename Store::Record& now, const NativeState<WorldStor
 }  // namespace
 
 ComputedBodies::ComputedBodies(const WorldDef& def)
-    : changes_(def.body_capacity),
-      is_computed_(def.body_capacity),
-      is_reached_(def.body_capacity) {
+    : changes_(def.body_capacity), is_computed_(def.body_capacity), is_reached_(def.body_capacity) {
   left_out_.reserve(def.body_capacity);
   pairs_.reserve(def.pair_capacity);
 }
@@ -153,9 +151,8 @@ bool ComputedBodies::kept_to_themselves(const WorldData& world, const StateCopy&
     const bool is_computed = joint.exists() && has_any(joint.body_a, joint.body_b);
     if (!is_computed && !is_unchanged<JointStore>(world.joints[i], start, i)) return false;
   }
-  return std::ranges::none_of(looks, [&](const Pair& look) {
-    return !has(look.b) && links_others(world.bodies[look.b]);
-  });
+  return std::ranges::none_of(
+      looks, [&](const Pair& look) { return !has(look.b) && links_others(world.bodies[look.b]); });
 }
 
 }  // namespace lockstone

@@ -1,11 +1,11 @@
 // Steps a world, and remembers its last ticks.
 
-#include <lockstone/rollback_history.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include <lockstone/rollback_history.h>
 
 #include "core/world/history/computed_bodies.h"
 #include "core/world/history/island_groups.h"
@@ -115,8 +115,8 @@ std::optional<StepReport> RollbackHistory::Impl::recall_some(const TickMemory& k
   for (std::uint32_t body = 0; body < known.groups.size(); ++body)
     if (!computed.has(body)) groups.join(body, known.groups[body]);
   note_groups();
-  report.computed_islands = groups.count_awake(
-      fresh.groups, [&](std::uint32_t body) { return computed.has(body); });
+  report.computed_islands =
+      groups.count_awake(fresh.groups, [&](std::uint32_t body) { return computed.has(body); });
   report.recalled_islands = fresh.islands - report.computed_islands;
   report.asleep_bodies = world.sleep_flags.asleep_count();
   fresh.pairs.assign(computed.all_pairs().begin(), computed.all_pairs().end());
@@ -168,8 +168,7 @@ void RollbackHistory::Impl::remember(const StepReport& report, const PoolUse& po
   std::swap(fresh, memory_of(fresh.tick));
 }
 
-RollbackHistory::RollbackHistory(World& world, std::uint32_t ticks)
-    : world_(world.impl_.get()) {
+RollbackHistory::RollbackHistory(World& world, std::uint32_t ticks) : world_(world.impl_.get()) {
   LKS_ASSERT(ticks <= k_max_history_ticks);
   if (ticks != 0) impl_ = std::make_unique<Impl>(*world_, std::min(ticks, k_max_history_ticks));
 }
@@ -189,7 +188,8 @@ void RollbackHistory::forget() {
 }
 
 std::size_t RollbackHistory::bytes_max() const {
-  return impl_ == nullptr ? 0 : (impl_->memories.size() + 1) * TickMemory::bytes_max(impl_->world.def);
+  return impl_ == nullptr ? 0
+                          : (impl_->memories.size() + 1) * TickMemory::bytes_max(impl_->world.def);
 }
 
 bool RollbackHistory::flip_bit(std::uint64_t tick, Side side, std::size_t bit) {

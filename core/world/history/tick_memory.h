@@ -24,8 +24,7 @@ namespace lockstone {
 class StateCopy {
  public:
   /// No function but this allocates. Pages that no state needs are never touched.
-  explicit StateCopy(std::size_t capacity)
-      : bytes_(new std::byte[capacity]), capacity_(capacity) {}
+  explicit StateCopy(std::size_t capacity) : bytes_(new std::byte[capacity]), capacity_(capacity) {}
 
   void save(const WorldData& world) {
     size_ = write_native<WorldStores>(world, out());

@@ -1,5 +1,5 @@
-// The bodies that move in a tick, where they were before, and the bodies that they were held against
-// on their paths.
+// The bodies that move in a tick, where they were before, and the bodies that they were held
+// against on their paths.
 #pragma once
 
 #include <atomic>

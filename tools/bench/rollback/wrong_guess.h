@@ -25,8 +25,8 @@ struct WrongGuess {
   double history_us = 0;
   std::uint64_t computed = 0;  ///< islands, summed over the ticks of one rollback
   std::uint64_t recalled = 0;
-  std::uint64_t hash = 0;    ///< after the last tick
-  bool are_equal = true;     ///< both ways came to the same hash, always
+  std::uint64_t hash = 0;  ///< after the last tick
+  bool are_equal = true;   ///< both ways came to the same hash, always
 
   [[nodiscard]] double ratio() const { return full_us == 0 ? 0 : history_us / full_us; }
 };

@@ -240,8 +240,9 @@ int run(const RollbackOptions& options) {
 void add_bench_rollback_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<RollbackOptions>();
   CLI::App* command =
-      bench.add_subcommand("rollback", "Native snapshots, and ticks simulated again, with a history "
-                                       "and without");
+      bench.add_subcommand("rollback",
+                           "Native snapshots, and ticks simulated again, with a history "
+                           "and without");
   command->add_option("--bodies", options->bodies, "Number of boxes in a pit")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000));

@@ -64,9 +64,9 @@ void print_guesses(const bench::WrongGuessReport& report, int ticks) {
 }
 
 nlohmann::ordered_json guesses_json(const bench::WrongGuessReport& report) {
-  nlohmann::ordered_json json{
-      {"bodies", report.bodies},   {"islands", report.islands}, {"contacts", report.contacts},
-      {"load_us", report.load_us}, {"save_us", report.save_us}, {"hash_us", report.hash_us}};
+  nlohmann::ordered_json json{{"bodies", report.bodies},     {"islands", report.islands},
+                              {"contacts", report.contacts}, {"load_us", report.load_us},
+                              {"save_us", report.save_us},   {"hash_us", report.hash_us}};
   for (std::size_t stage = 0; stage < k_step_stages; ++stage)
     json["stage_us"][name_of(static_cast<StepStage>(stage))] = report.stage_us[stage];
   for (const bench::WrongGuess& guess : report.guesses) {
