@@ -199,6 +199,62 @@ TEST(RollbackHistory, GivesTheSameStatesWhenContactsFindNoRoom) {
   }
 }
 
+// A static ledge, and a box that falls past it or onto it; beside the stacks, so that others are
+// recalled.
+constexpr Vec3<Position> k_under_box{-8_m, 1_m, {}}, k_elsewhere{-8_m, 1_m, 30_m};
+
+World make_ledge(const Vec3<Position>& place) {
+  World world = make_stacks();
+  BodyDef ledge = test::dynamic_body(Shape::box(1_m, 0.1_m, 1_m), place.x, place.y, place.z);
+  ledge.motion = MotionType::static_body;
+  test::add(world, ledge);
+  test::add(world, test::dynamic_body(Shape::box(0.2_m, 0.2_m, 0.2_m), -8_m, 2_m, {}));
+  return world;
+}
+
+// Goes ahead without the command, back, and on with it before tick `when`.
+void expect_seen(World (*make)(), int when, const Command& command) {
+  SCOPED_TRACE(when);
+  Twins pair(make);
+  pair.step_both(when);
+  const Bytes start = native(pair.rolled);
+  pair.step_rolled(8);
+  ASSERT_EQ(pair.rolled.load(SnapshotKind::native, start), Status::ok);
+  pair.both(command);
+  pair.step_both(8);
+  EXPECT_GT(pair.last.recalled_islands, 0U);
+}
+
+TEST(RollbackHistory, ComputesABodyWhoseLedgeIsGone) {
+  const auto make = +[] { return make_ledge(k_under_box); };
+  const BodyHandle ledge{1 + k_stacks * k_boxes, 1};
+  for (int when = 0; when < 40; ++when)
+    expect_seen(make, when, Teleport{ledge, k_elsewhere, {}});
+}
+
+TEST(RollbackHistory, ComputesABodyThatALedgeIsPutUnder) {
+  const auto make = +[] { return make_ledge(k_elsewhere); };
+  const BodyHandle ledge{1 + k_stacks * k_boxes, 1};
+  for (int when = 0; when < 40; ++when)
+    expect_seen(make, when, Teleport{ledge, k_under_box, {}});
+}
+
+TEST(RollbackHistory, ComputesABodyThatHangsOnAMovedHook) {
+  const auto make = +[] {
+    World world = make_ledge(k_under_box);
+    const BodyHandle hook = world.body_at(1 + k_stacks * k_boxes);
+    const BodyHandle bob =
+        test::add(world, test::dynamic_body(Shape::sphere(0.2_m), -8_m, 1_m, 4_m));
+    JointDef joint = JointDef::of(JointKind::distance, hook, bob);
+    joint.linear[0].upper = 5_m;
+    EXPECT_TRUE(world.create_joint(joint).ok());
+    return world;
+  };
+  const BodyHandle hook{1 + k_stacks * k_boxes, 1};
+  for (int when = 0; when < 20; ++when)
+    expect_seen(make, when, Teleport{hook, {-8_m, 1_m, -1_m}, {}});
+}
+
 TEST(RollbackHistory, KnowsTheGenerationsOfEmptySlots) {
   Twins pair;
   const Bytes start = native(pair.rolled);
