@@ -104,7 +104,8 @@ class ContactLists {
   template <class IsAwake>
   void adopt(std::span<const ContactRecord> all, IsAwake&& is_awake) {
     frozen_.clear();
-    std::ranges::copy(all, make_active(static_cast<std::uint32_t>(all.size())).begin());
+    const auto count = static_cast<std::uint32_t>(all.size());
+    std::copy(all.begin(), all.end(), make_active(count).begin());
     freeze(is_awake);
   }
   /// Makes so many contacts active, those of a state in which nothing sleeps; to be filled.
