@@ -245,8 +245,8 @@ TEST(RollbackHistory, ComputesABodyThatHangsOnAMovedHook) {
     const BodyHandle hook = world.body_at(1 + k_stacks * k_boxes);
     const BodyHandle bob =
         test::add(world, test::dynamic_body(Shape::sphere(0.2_m), -8_m, 1_m, 4_m));
-    JointDef joint = JointDef::of(JointKind::distance, hook, bob);
-    joint.linear[0].upper = 4.1_m;
+    JointDef joint = JointDef::of(JointKind::ball, hook, bob);
+    joint.frame_a.position.z = 4_m;
     EXPECT_TRUE(world.create_joint(joint).ok());
     return world;
   };
