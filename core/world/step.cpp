@@ -1,13 +1,15 @@
 // The tick.
 
+#include "core/world/history/computed_bodies.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 
-StepReport World::Impl::step() {
+StepReport World::Impl::step(ComputedBodies* only) {
   StepReport report;
   trace.begin_step();
-  find_pairs(report);
+  moved.forget_looks();
+  find_pairs(report, only);
   narrow.run(pairs, report);
   bounces.find();
   pendulums.find();
@@ -27,12 +29,13 @@ StepReport World::Impl::step() {
 }
 
 // Sleeping bodies that will be met wake first: then there are more pairs.
-void World::Impl::find_pairs(StepReport& report) {
+void World::Impl::find_pairs(StepReport& report, ComputedBodies* only) {
   const StageTimer timer(profiler, StepStage::find_pairs);
   do {
     waking.wake_joined();
     list_awake_joints();
     pairs = broad_phase.find_pairs(parallel);
+    if (only != nullptr) pairs = only->take_pairs(pairs);
   } while (wake_met());
   report.pairs = static_cast<std::uint32_t>(pairs.size());
   if (broad_phase.overflowed()) report.status = Status::capacity_exhausted;
@@ -71,14 +74,15 @@ void World::Impl::solve_contacts(StepReport& report) {
     solver.store(found.manifolds, found.records, found.approach_speeds, parallel);
     solver.store_joints(links, joints, parallel);
   }
-  report.contacts = solver.contacts() + static_cast<std::uint32_t>(bounces.contacts().size());
-  report.contact_points = solver.points();
+  const SolverCounts counts = solver.counts();
+  report.contacts = counts.contacts + static_cast<std::uint32_t>(bounces.contacts().size());
+  report.contact_points = counts.points;
   for (const BouncingContact& each : bounces.contacts())
     report.contact_points += static_cast<std::uint32_t>(found.manifold_of(each.contact).count);
-  report.colors = solver.graph().colors();
-  report.overflow_contacts = solver.graph().count(k_overflow_color);
-  report.saturations += solver.saturations();
-  report.energy_limits = solver.energy_limits();
+  report.colors = counts.colors;
+  report.overflow_contacts = counts.overflow_contacts;
+  report.saturations += counts.saturations;
+  report.energy_limits = counts.energy_limits;
 }
 
 void World::Impl::refresh_moved() {

@@ -69,7 +69,7 @@ World::Impl::Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> kn
       solver(time_step, definition.body_capacity, definition.contact_capacity,
              definition.joint_capacity, definition.converged_contacts),
       continuous(*this, moved, narrow, waking, passes),
-      passes(*this, found, continuous),
+      passes(*this, found, continuous, moved),
       mover(*this, moved, solver, bounces, pendulums, continuous, sleep_flags.rest_rules()),
       events(*this, found),
       island_sleep(*this, sleep_flags, waking, islands, found),

@@ -23,7 +23,7 @@ FLOORS = {
                  "linkage/rows", "linkage/locks", "linkage/cluster", "linkage", "direct", "impact",
                  "step/input", "step/islands", "step/contacts", "step/limits", "step"],
     "world": ["derived", "debug", "state", "data", "phases", "sleep", "phases/narrow", "phases/motion",
-              "commands", "query", ""],
+              "commands", "query", "history", ""],
     "net": ["wire", "security", "transport", "transport/udp", "transport/enet", "session",
             "session/client", "session/server/data", "session/server/desync", "session/server/leaving",
             "session/server/entry", "session/server/ticks", "session/server/comparison", "session/server"],
@@ -45,7 +45,7 @@ PUBLIC_MODULES = {
                  "mesh.h", "shape.h"],
     "collision": ["collision.h"],
     "dynamics": ["body.h", "joint.h"],
-    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
+    "world": ["character.h", "command.h", "debug_draw.h", "event.h", "profile.h", "query.h", "rollback_history.h", "simulation.h", "simulation_fields.h", "snapshot.h", "world.h"],
 }
 # For tools and tests only, so it sees everything and no library may include it.
 TESTING = "core/include/lockstone/testing/"

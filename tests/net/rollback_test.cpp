@@ -1,3 +1,5 @@
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "tests/net/match_fixture.h"
@@ -124,6 +126,72 @@ ClientFailure failure_of_sync_test(bool forgets) {
 TEST(Rollback, SyncTestFindsAFieldThatASnapshotForgets) {
   EXPECT_EQ(failure_of_sync_test(true), ClientFailure::not_deterministic);
   EXPECT_EQ(failure_of_sync_test(false), ClientFailure::none);
+}
+
+// A toy that repeats ticks from memory. Where it is `faulty`, a remembered tick is wrong.
+class RememberingToy final : public toy::ToySimulation {
+ public:
+  RememberingToy(const toy::ToyConfig& config, bool faulty)
+      : ToySimulation(config), faulty_(faulty) {}
+
+  void keep_history(std::uint32_t ticks) override { kept_ = ticks; }
+  void forget_history() override {
+    known_.clear();
+    ++forgotten;
+  }
+  void step(std::span<const PlayerInput> inputs) override {
+    const bool is_known = kept_ != 0 && !known_.insert(tick()).second;
+    ToySimulation::step(inputs);
+    if (is_known && faulty_) ToySimulation::step(inputs);
+  }
+  [[nodiscard]] std::uint32_t kept() const { return kept_; }
+
+  int forgotten = 0;
+
+ private:
+  bool faulty_;
+  std::uint32_t kept_ = 0;
+  std::set<std::uint64_t> known_;
+};
+
+// A client beside a match that plays alone, with `keep_history` as given.
+ClientFailure failure_of_history(bool keeps, bool faulty) {
+  MatchOptions options = predicting_match(24);
+  options.server.start_players = 1;
+  Match match(options);
+  for (Match::Player& player : match.players)
+    player.paused = true;
+  SimTransport& transport = match.network.add_endpoint();
+  ClientConfig config = options.client;
+  config.insecure = true;
+  config.sync_test = true;
+  config.keep_history = keeps;
+  const RememberingToy* game = nullptr;
+  ClientParts parts;
+  parts.transport = &transport;
+  parts.connection = match.network.connect(transport, match.server_transport, {});
+  parts.factory = [&](ByteView bytes) -> Result<std::unique_ptr<Simulation>> {
+    const Result<toy::ToyConfig> read = toy::ToyConfig::decode(bytes);
+    if (!read.ok()) return read.status();
+    auto made = std::make_unique<RememberingToy>(read.value(), faulty);
+    game = made.get();
+    return std::unique_ptr<Simulation>(std::move(made));
+  };
+  parts.inputs = match.players[1].inputs.get();
+  const auto client = std::move(Client::create(config, std::move(parts)).client);
+  for (int i = 0; i < 500; ++i) {
+    client->update(match.now_us);
+    match.step();
+  }
+  EXPECT_EQ(game->kept(), keeps ? 10U : 0U);
+  EXPECT_GT(game->forgotten, 0);
+  return client->failure();
+}
+
+TEST(Rollback, SyncTestComparesAHistoryWithAFullSimulation) {
+  EXPECT_EQ(failure_of_history(true, false), ClientFailure::none);
+  EXPECT_EQ(failure_of_history(true, true), ClientFailure::not_deterministic);
+  EXPECT_EQ(failure_of_history(false, true), ClientFailure::none);
 }
 
 }  // namespace

@@ -180,9 +180,13 @@ class State(Case):
 
     def test_rollback_is_measured(self):
         figures = json.loads(self.expect(OK, "bench", "rollback", "--bodies", 60, "--settle", 30,
-                                         "--repeats", 3, "--json").stdout)
+                                         "--repeats", 3, "--guess-repeats", 1, "--ticks", 2, "--json").stdout)
         self.assertLessEqual(figures["bytes_per_body"], 256)
         self.assertLessEqual(figures["bytes_per_contact"], 96)
+        guesses = figures["wrong_guesses"]["guesses"]
+        self.assertEqual([guess["touched_islands"] for guess in guesses], [0, 1, 2, 8, 40])
+        self.assertEqual([guess["computed_islands"] for guess in guesses], [0, 2, 4, 16, 80])
+        self.assertTrue(all(guess["equal"] for guess in guesses))
 
 
 class Usage(Case):

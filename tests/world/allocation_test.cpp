@@ -11,6 +11,7 @@
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
 #include <lockstone/mesh.h>
+#include <lockstone/rollback_history.h>
 #include <lockstone/thread_pool.h>
 
 #include "core/geometry/assets/asset_frame.h"
@@ -69,6 +70,27 @@ void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullp
     ASSERT_FALSE(world.find_fault());
   }
   EXPECT_EQ(g_allocations, before);
+}
+
+TEST(RollbackHistory, AllocatesNothingAfterCreation) {
+  World world =
+      test::make_world({.body_capacity = 512, .pair_capacity = 8192, .contact_capacity = 4096});
+  test::fill_with_random_bodies(world, 1, 150);
+  RollbackHistory history(world, 4);
+  std::vector<std::byte> start(world.snapshot_bytes_max(SnapshotKind::native));
+  const std::size_t before = g_allocations;
+  std::uint64_t recalled = 0;
+  for (std::uint32_t round = 0; round < 60; ++round) {
+    const std::size_t size = world.save(SnapshotKind::native, start);
+    for (int tick = 0; tick < 4; ++tick)
+      (void)history.step();
+    ASSERT_EQ(world.load(SnapshotKind::native, ByteView(start).first(size)), Status::ok);
+    (void)world.apply(SetVelocity{world.body_at(1 + round), {{}, 3_mps, {}}});
+    for (int tick = 0; tick < 2; ++tick)
+      recalled += history.step().recalled_islands;
+  }
+  EXPECT_EQ(g_allocations, before);
+  EXPECT_GT(recalled, 0U);
 }
 
 TEST(World, AllocatesNothingAfterCreation) {

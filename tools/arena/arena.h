@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include <lockstone/rollback_history.h>
 #include <lockstone/world.h>
 
 #include "tools/arena/config.h"
@@ -25,6 +26,7 @@ struct Arena {
   World world;
   Level level;
   GameState state;
+  RollbackHistory history{world};  // steps the world
 };
 
 /// Ends a command whose status the rules do not need: it is the same on every peer, and a command

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include <lockstone/rollback_history.h>
 #include <lockstone/simulation.h>
 #include <lockstone/world.h>
 
@@ -22,6 +23,10 @@ class ArenaSimulation final : public Simulation {
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override;
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
   Status load(SnapshotKind kind, ByteView bytes) override;
+  void keep_history(std::uint32_t ticks) override {
+    arena_.history = RollbackHistory(arena_.world, ticks);
+  }
+  void forget_history() override { arena_.history.forget(); }
   [[nodiscard]] std::uint64_t hash() const override;
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override;

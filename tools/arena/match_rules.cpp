@@ -167,7 +167,7 @@ StepReport advance(Arena& arena, std::span<const PlayerInput> inputs) {
     control_player(arena, slot, inputs[slot]);
   }
   drive_machines(arena);
-  const StepReport report = arena.world.step();
+  const StepReport report = arena.history.step();
   score_events(arena);
   retire(arena);
   return report;

@@ -16,10 +16,6 @@ using namespace lockstone::literals;
 using arena::mix;
 using arena::Random;
 
-bool chance(Random& random, std::uint32_t one_in) {
-  return random.below(one_in) == 0;
-}
-
 template <class T, std::size_t Count>
 const T& pick(Random& random, const std::array<T, Count>& choices) {
   return choices[random.below(Count)];
@@ -229,9 +225,6 @@ AngularAxis random_angular(Random& random) {
   return axis;
 }
 
-BodyHandle any_body(const World& world, Random& random) {
-  return world.body_limit() == 0 ? BodyHandle{} : world.body_at(random.below(world.body_limit()));
-}
 JointHandle any_joint(const World& world, Random& random) {
   return world.joint_limit() == 0 ? JointHandle{}
                                   : world.joint_at(random.below(world.joint_limit()));
@@ -307,6 +300,8 @@ Command random_setting(BodyHandle body, Random& random) {
   }
 }
 
+}  // namespace
+
 Command random_command(const World& world, Random& random) {
   const std::uint32_t kind = random.below(10);
   if (kind == 0) return CreateJoint{random_joint(world, random)};
@@ -320,8 +315,6 @@ Command random_command(const World& world, Random& random) {
   if (body.is_null()) return WakeBody{body};
   return kind < 7 ? random_push(world, body, random) : random_setting(body, random);
 }
-
-}  // namespace
 
 RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims)
     : seed_(mix(seed) ^ mix(~index)), with_rims_(with_rims) {

@@ -35,4 +35,17 @@ class RandomScene {
   bool with_rims_;
 };
 
+/// Once in so many times.
+[[nodiscard]] inline bool chance(arena::Random& random, std::uint32_t one_in) {
+  return random.below(one_in) == 0;
+}
+
+/// Null when it hits an empty slot.
+[[nodiscard]] inline BodyHandle any_body(const World& world, arena::Random& random) {
+  return world.body_limit() == 0 ? BodyHandle{} : world.body_at(random.below(world.body_limit()));
+}
+
+/// A command for a world as it stands, from sensible to absurd. The world may refuse it.
+[[nodiscard]] Command random_command(const World& world, arena::Random& random);
+
 }  // namespace lockstone::fuzz

@@ -43,6 +43,7 @@ std::vector<CommandGroup> all_commands() {
   faults.commands.insert(faults.commands.begin(), add_plain<add_bench_command>);
   faults.commands.push_back(add_plain<add_fuzz_pairs_command>);
   faults.commands.push_back(add_plain<add_fuzz_scene_command>);
+  faults.commands.push_back(add_plain<add_fuzz_rollback_command>);
   return {scenes, matches, log_commands(), {"Assets", {add_plain<add_asset_command>}}, faults};
 }
 

@@ -55,7 +55,7 @@ std::size_t SceneSimulation::part_hashes(std::span<PartHash, k_max_state_parts> 
 void SceneSimulation::step(std::span<const PlayerInput> inputs) {
   LKS_CHECK(inputs.size() == 1);
   if (scene_.drive != nullptr) scene_.drive(world_, seed_);
-  last_report_ = world_.step();
+  last_report_ = history_.step();
   if (scene_.observe != nullptr) scene_.observe(world_);
 }
 

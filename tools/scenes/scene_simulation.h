@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 
+#include <lockstone/rollback_history.h>
 #include <lockstone/simulation.h>
 #include <lockstone/world.h>
 
@@ -37,6 +38,8 @@ class SceneSimulation final : public Simulation {
     return world_.save(kind, out);
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return world_.load(kind, bytes); }
+  void keep_history(std::uint32_t ticks) override { history_ = RollbackHistory(world_, ticks); }
+  void forget_history() override { history_.forget(); }
   [[nodiscard]] std::uint64_t hash() const override { return world_.hash().total; }
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override {
@@ -51,6 +54,7 @@ class SceneSimulation final : public Simulation {
   const Scene& scene_;
   std::uint64_t seed_;
   World world_;
+  RollbackHistory history_{world_};
   SimulationInfo info_;
   StepReport last_report_{};
 };

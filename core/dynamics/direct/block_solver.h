@@ -23,6 +23,7 @@ class BlockSolver {
 
   /// The islands of the tick. All are added before `begin`.
   [[nodiscard]] IslandPool& islands() { return islands_; }
+  [[nodiscard]] const IslandPool& islands() const { return islands_; }
   [[nodiscard]] std::uint32_t count() const { return islands_.count(); }
 
   /// Once blocks are prepared: takes contacts over from the iterations. `weight` is gravity's gain

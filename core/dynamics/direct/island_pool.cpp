@@ -36,6 +36,21 @@ void IslandPool::clear() {
   gains_.clear();
   roots_.clear();
   factor_.clear();
+  was_full_ = false;
+}
+
+PoolShare IslandPool::share(std::uint32_t index) const {
+  const Island& island = islands_[index];
+  const std::size_t end =
+      index + 1 < islands_.size() ? islands_[index + 1].plan.first_target : factor_.sizes().targets;
+  return {island.bodies, island.contacts + island.joints, island.joints, island.plan.blocks,
+          static_cast<std::uint32_t>(end - island.plan.first_target)};
+}
+
+PoolShare IslandPool::room() const {
+  const auto narrow = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
+  return {narrow(capacity_.bodies), narrow(capacity_.problems), narrow(capacity_.joints),
+          narrow(factor_.sizes().most_blocks), narrow(factor_.sizes().most_targets)};
 }
 
 IslandPool::Island IslandPool::place(std::size_t bodies, std::size_t contacts,
@@ -83,6 +98,7 @@ bool IslandPool::add(std::span<const std::uint32_t> bodies,
                      std::span<const IslandJoint> joints) {
   LKS_ASSERT(!bodies.empty() && !contacts.empty());
   Island island = place(bodies.size(), contacts.size(), joints.size());
+  was_full_ = was_full_ || !fits(island);
   if (!fits(island) || !plan(island, bodies, contacts, joints)) return false;
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());

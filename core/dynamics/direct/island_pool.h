@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/dynamics/direct/pool_share.h"
 #include "core/dynamics/problem/body_factor.h"
 #include "core/dynamics/problem/island_joint.h"
 #include "core/dynamics/problem/proximal_rows.h"
@@ -82,6 +83,15 @@ class IslandPool {
                          std::span<const IslandJoint> joints);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(islands_.size()); }
+  /// The number of an island's first body in the solver.
+  [[nodiscard]] std::uint32_t first_body(std::uint32_t island) const {
+    return bodies_[islands_[island].first_body];
+  }
+  [[nodiscard]] PoolShare share(std::uint32_t island) const;
+  /// The room that all islands share.
+  [[nodiscard]] PoolShare room() const;
+  /// Whether an island found no room since `clear`.
+  [[nodiscard]] bool was_full() const { return was_full_ || factor_.pool_use().is_exhausted(); }
   [[nodiscard]] IslandView view(std::uint32_t island);
   [[nodiscard]] BodyFactor& factor() { return factor_; }
 
@@ -121,6 +131,7 @@ class IslandPool {
   std::vector<std::uint32_t> local_;  // by number in the solver: the order in its island
   std::vector<BodyFactor::Pair> pairs_;
   BodyFactor factor_;
+  bool was_full_ = false;
 };
 
 }  // namespace lockstone

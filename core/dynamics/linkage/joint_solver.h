@@ -123,6 +123,13 @@ class JointSolver {
   /// Where a body of the world is now; null when no joint holds it.
   [[nodiscard]] const JointPose* find(std::uint32_t body) const;
 
+  /// Of the factors of the tick.
+  [[nodiscard]] PoolUse pool_use() const {
+    PoolUse use = trees_.pool_use();
+    use.add(loops_.pool_use());
+    return use;
+  }
+
   /// Times that a cluster returned energy.
   [[nodiscard]] std::uint32_t energy_limits() const { return account_.returns(); }
 

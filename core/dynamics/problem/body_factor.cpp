@@ -66,6 +66,7 @@ void BodyFactor::clear() {
   below_.clear();
   blocks_.clear();
   targets_.clear();
+  was_full_ = false;
 }
 
 // The body of least degree, the first of equals: its neighbours become neighbours of each other.
@@ -122,7 +123,9 @@ void BodyFactor::add_columns(const Plan& plan) {
 }
 
 bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& plan) {
-  if (bodies > k_most_bodies || columns_.size() + bodies > x_.size()) return false;
+  if (bodies > k_most_bodies) return false;
+  was_full_ = was_full_ || columns_.size() + bodies > x_.size();
+  if (columns_.size() + bodies > x_.size()) return false;
   plan = {static_cast<std::uint32_t>(columns_.size()), bodies,
           static_cast<std::uint32_t>(blocks_.size()), 0,
           static_cast<std::uint32_t>(targets_.size())};
@@ -135,8 +138,11 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
   }
   std::size_t blocks = 0;
   const std::size_t products = find_order(plan, blocks);
-  if (products > k_most_products || blocks_.size() + blocks > block_capacity_ ||
-      targets_.size() + products > target_capacity_) {
+  const bool is_small = products <= k_most_products;
+  const bool has_room =
+      blocks_.size() + blocks <= block_capacity_ && targets_.size() + products <= target_capacity_;
+  was_full_ = was_full_ || (is_small && !has_room);
+  if (!is_small || !has_room) {
     places_.resize(plan.first_column);
     return false;
   }
@@ -145,6 +151,15 @@ bool BodyFactor::plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& p
   add_columns(plan);
   add_targets(plan);
   return true;
+}
+
+PoolUse BodyFactor::pool_use() const {
+  PoolUse use;
+  use.add(columns_.size(), x_.size());
+  use.add(blocks_.size(), block_capacity_);
+  use.add(targets_.size(), target_capacity_);
+  if (was_full_) use.note_exhausted();
+  return use;
 }
 
 std::uint32_t BodyFactor::find_block(const Plan& plan, std::uint32_t row,

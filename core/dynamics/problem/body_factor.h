@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/pool_use.h"
 #include "core/kernels/proximal/proximal_block.h"
 
 namespace lockstone {
@@ -54,6 +55,13 @@ class BodyFactor {
   /// for each of the pairs. False if it would be too large; then nothing has been planned.
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   [[nodiscard]] bool plan(std::uint32_t bodies, std::span<const Pair> pairs, Plan& plan);
+
+  /// Of all islands planned since `clear`.
+  [[nodiscard]] PoolUse pool_use() const;
+  struct Sizes {
+    std::size_t targets, most_blocks, most_targets;
+  };
+  [[nodiscard]] Sizes sizes() const { return {targets_.size(), block_capacity_, target_capacity_}; }
 
   /// The block of bodies a ≠ b, and whether a's rows are its rows.
   struct Place {
@@ -124,6 +132,7 @@ class BodyFactor {
   std::array<std::uint32_t, k_most_bodies> degrees_{};
   std::vector<BodyVector> x_;  // by place, island by island
   std::size_t block_capacity_, target_capacity_;
+  bool was_full_ = false;  // an island found no room
 };
 
 }  // namespace lockstone

@@ -39,6 +39,9 @@ class ProximalLocks {
   void begin_group();
   void add_joint(const End& a, const End& b);
 
+  /// Of all groups since `clear`.
+  [[nodiscard]] PoolUse pool_use() const { return factor_.pool_use(); }
+
   /// Ends it: bodies are named 0 … bodies − 1. Returns its number, or k_too_large; then it has not
   /// been planned.
   static constexpr std::uint32_t k_too_large = 0xffffffff;

@@ -241,8 +241,29 @@ EnergyLimit::Bodies ContactSolver::energy_bodies() {
           bodies_.before(), islands_.all(),      joints_.solver()};
 }
 
-std::uint32_t ContactSolver::energy_limits() const {
-  return energy_limit_.count() + joints_.solver().energy_limits();
+SolverCounts ContactSolver::counts() const {
+  const ConstraintGraph& graph = constraints_.layout().graph();
+  SolverCounts counts{contacts_.size(),
+                      constraints_.points(),
+                      graph.colors(),
+                      graph.count(k_overflow_color),
+                      tick_.saturations,
+                      energy_limit_.count() + joints_.solver().energy_limits(),
+                      joints_.solver().pool_use()};
+  if (converged_ != nullptr && converged_->pool().was_full()) counts.pools.note_exhausted();
+  return counts;
+}
+
+void ContactSolver::list_shares(std::vector<IslandShare>& to) const {
+  to.clear();
+  if (converged_ == nullptr || tick_.is_idle) return;
+  const IslandPool& pool = converged_->pool();
+  for (std::uint32_t island = 0; island < pool.count(); ++island)
+    to.push_back({bodies_.side(pool.first_body(island)).body(), pool.share(island)});
+}
+
+PoolShare ContactSolver::room() const {
+  return converged_ == nullptr ? PoolShare{} : converged_->pool().room();
 }
 
 }  // namespace lockstone

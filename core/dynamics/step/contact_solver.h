@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/base/parallel.h"
+#include "core/base/pool_use.h"
 #include "core/dynamics/body/solver_body.h"
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/step/contacts/contact_constraints.h"
@@ -29,6 +31,17 @@
 #include "core/dynamics/step/substep_schedule.h"
 
 namespace lockstone {
+
+/// Counts of a tick.
+struct SolverCounts {
+  std::uint32_t contacts = 0;
+  std::uint32_t points = 0;
+  std::uint32_t colors = 0;
+  std::uint32_t overflow_contacts = 0;  ///< that found no colour
+  std::uint32_t saturations = 0;        ///< values that were clamped to their range
+  std::uint32_t energy_limits = 0;      ///< times that an island gave back energy
+  PoolUse pools;                        ///< of joints; exhausted if any pool was
+};
 
 class ContactSolver {
  public:
@@ -81,13 +94,11 @@ class ContactSolver {
   /// Whether the body is of a loose pile.
   [[nodiscard]] bool is_loose(std::uint32_t body) const;
 
-  [[nodiscard]] std::uint32_t contacts() const { return contacts_.size(); }
-  [[nodiscard]] std::uint32_t points() const { return constraints_.points(); }
-  [[nodiscard]] const ConstraintGraph& graph() const { return constraints_.layout().graph(); }
-  /// Times that an island gave back energy in the tick.
-  [[nodiscard]] std::uint32_t energy_limits() const;
-  /// Values that were clamped to their range.
-  [[nodiscard]] std::uint32_t saturations() const { return tick_.saturations; }
+  [[nodiscard]] SolverCounts counts() const;
+  /// Lists the places of converged islands in their pools.
+  void list_shares(std::vector<IslandShare>& to) const;
+  /// The room of these pools.
+  [[nodiscard]] PoolShare room() const;
 
  private:
   struct Tick {

@@ -24,6 +24,9 @@ class ConvergedIslands {
 
   [[nodiscard]] std::uint32_t count() const { return solver_.count(); }
 
+  /// Their places in pools.
+  [[nodiscard]] const IslandPool& pool() const { return solver_.islands(); }
+
   /// Contacts of all these islands.
   [[nodiscard]] std::size_t contact_count() { return solver_.islands().contacts().size(); }
 

@@ -114,6 +114,14 @@ class Simulation {
   /// Replaces the whole state. On any status but ok the old state is untouched.
   virtual Status load(SnapshotKind kind, ByteView bytes) = 0;
 
+  /// From here on remembers the last `ticks` ticks, so that stepping them again costs as much as
+  /// differs (RollbackHistory); 0, as at first: none. No result depends on it. May allocate. A
+  /// client that predicts asks for it; a simulation may do nothing.
+  virtual void keep_history(std::uint32_t /*ticks*/) {}
+
+  /// Forgets the remembered ticks: the next steps simulate in full.
+  virtual void forget_history() {}
+
   /// A hash over everything that can change the future.
   [[nodiscard]] virtual std::uint64_t hash() const = 0;
 

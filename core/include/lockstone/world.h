@@ -59,7 +59,8 @@ struct WorldDef {
 /// (`AssetSet::hash`, 0 for none): peers compare it before they play.
 [[nodiscard]] std::uint64_t config_hash(const WorldDef& def, std::uint64_t assets = 0);
 
-/// Counters of one step. They cost nothing and are the same on every peer.
+/// Counters of one step. They cost nothing and are the same on every peer; where a RollbackHistory
+/// recalls islands, `status` and `asleep_bodies` still are.
 struct StepReport {
   Status status = Status::ok;       ///< capacity_exhausted: pairs were left out, alike everywhere
   std::uint32_t moving_bodies = 0;  ///< awake, dynamic or kinematic
@@ -77,6 +78,9 @@ struct StepReport {
   std::uint32_t saturations = 0;        ///< values clamped to their range
   std::uint32_t energy_limits = 0;      ///< times that an island gave back energy that its joints
                                         ///< had added, by substep
+  std::uint32_t computed_islands = 0;   ///< by a RollbackHistory alone: groups of bodies that could
+                                        ///< reach each other and were stepped
+  std::uint32_t recalled_islands = 0;   ///< and those whose results came from memory
 
   friend bool operator==(const StepReport&, const StepReport&) = default;
 };
@@ -337,6 +341,7 @@ class World {
 
  private:
   friend class CommandExplainer;
+  friend class RollbackHistory;
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <lockstone/event.h>
@@ -36,6 +37,9 @@ class JointRegistry {
   /// Joints that broke in the last step.
   [[nodiscard]] const std::vector<JointEvent>& events() const { return events_; }
   void clear_events() { events_.clear(); }
+  void set_events(std::span<const JointEvent> events) {
+    events_.assign(events.begin(), events.end());
+  }
 
  private:
   WorldData& world_;

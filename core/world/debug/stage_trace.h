@@ -21,6 +21,8 @@ class StageTrace {
   /// Validates the data of each stage from now on, or no longer.
   void validate(bool on);
 
+  [[nodiscard]] bool is_on() const { return takes_digests_ || validates_; }
+
   /// Before the first stage of a step.
   void begin_step();
   /// Of the last step.

@@ -35,7 +35,9 @@ void BodyCache::refresh_turned(std::uint32_t body, const BodyRecord& record) {
   if (assets_[body] != nullptr) frames_[body] = shape_frame(assets_[body], rotations_[body]);
 }
 
+// `refresh_turned` copies the rotation of a body that has not left the pose.
 void BodyCache::refresh_contact_rotation(std::uint32_t body, const BodyRecord& record) {
+  if (record.recycling_orientation == record.orientation) return;
   recycling_rotations_[body] = to_matrix(record.recycling_orientation);
 }
 

@@ -67,6 +67,20 @@ class ContactLists {
   /// The first `ids.size()` written contacts become the active ones. Swaps their ids in.
   void replace(std::vector<std::uint32_t>& ids);
 
+  /// Drops the active contacts for which `keeps(record)` is false.
+  template <class Keeps>
+  void keep_active(Keeps&& keeps) {
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < active_; ++i) {
+      if (!keeps(store_[i])) continue;
+      store_[kept] = store_[i];
+      if (remembers_manifolds_) manifold_ids_[kept] = manifold_ids_[i];
+      ++kept;
+    }
+    active_ = kept;
+    if (remembers_manifolds_) manifold_ids_.resize(kept);
+  }
+
   /// Drops the active contacts of a body.
   void drop_active_of(std::uint32_t body);
 
@@ -83,28 +97,21 @@ class ContactLists {
   void freeze(IsAwake&& is_awake) {
     for (std::size_t i = active_; i-- > 0;)
       if (!has_awake(store_[i], is_awake)) sleeping_.add(store_[i]);
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < active_; ++i) {
-      if (!has_awake(store_[i], is_awake)) continue;
-      store_[kept] = store_[i];
-      if (remembers_manifolds_) manifold_ids_[kept] = manifold_ids_[i];
-      ++kept;
-    }
-    active_ = kept;
-    if (remembers_manifolds_) manifold_ids_.resize(kept);
+    keep_active([&](const ContactRecord& record) { return has_awake(record, is_awake); });
   }
 
   /// Replaces both lists by the contacts of a loaded state, by key.
   template <class IsAwake>
   void adopt(std::span<const ContactRecord> all, IsAwake&& is_awake) {
     sleeping_.clear();
-    adopt_all_active(all);
+    const auto count = static_cast<std::uint32_t>(all.size());
+    std::copy(all.begin(), all.end(), make_active(count).begin());
     freeze(is_awake);
   }
-  /// Makes all of them active: those of a state in which nothing sleeps.
-  void adopt_all_active(std::span<const ContactRecord> all) {
-    write(0, all);
-    active_ = static_cast<std::uint32_t>(all.size());
+  /// Makes so many contacts active, those of a state in which nothing sleeps; to be filled.
+  [[nodiscard]] std::span<ContactRecord> make_active(std::uint32_t count) {
+    active_ = count;
+    return {store_.data(), count};
   }
   /// Replaces the active list by those of `all` that have an awake body; the others are the
   /// sleeping ones already.

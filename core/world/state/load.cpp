@@ -48,11 +48,18 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
   const bool same_bodies = take_bodies(loaded.body_limit, state);
   const bool same_links = take_joints(loaded.joint_limit, state);
   world_.header = loaded;
-  world_.found.records.resize(world_.header.contact_count);
-  for (std::uint32_t i = 0; i < world_.header.contact_count; ++i)
-    state.template read<ContactStore>(i, world_.found.records[i]);
-  if (world_.is_derived_stale) return rebuild_from(world_.found.records);
-  take_contacts();
+  const auto read_contacts = [&](std::span<ContactRecord> to) {
+    for (std::uint32_t i = 0; i < to.size(); ++i)
+      state.template read<ContactStore>(i, to[i]);
+  };
+  if (none_sleeps() && !world_.is_derived_stale) {
+    read_contacts(world_.contacts.make_active(loaded.contact_count));
+  } else {
+    world_.found.records.resize(loaded.contact_count);
+    read_contacts(world_.found.records);
+    if (world_.is_derived_stale) return rebuild_from(world_.found.records);
+    take_contacts();
+  }
   world_.refresh_moved();
   world_.broad_phase.settle();
   world_.joint_graph.forget_awake_list();
@@ -83,12 +90,14 @@ bool StateLoader::take_bodies(std::uint32_t limit, State& state) {
 
 bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   const bool same = record.exists() && same_make(world_.bodies[body], record);
+  const bool same_contact_turn =
+      world_.bodies[body].recycling_orientation == record.recycling_orientation;
   world_.bodies[body] = record;
   world_.hashes.bodies.mark(body);
   if (world_.is_derived_stale) return same;
   world_.sleep_flags.note_loaded(body);
   if (same) {
-    world_.cache.refresh_contact_rotation(body, record);
+    if (!same_contact_turn) world_.cache.refresh_contact_rotation(body, record);
     world_.moved.add(body);
     return true;
   }
@@ -124,14 +133,16 @@ bool StateLoader::take_joints(std::uint32_t limit, State& state) {
   return same;
 }
 
+// Neither now nor before the load.
+bool StateLoader::none_sleeps() const {
+  return world_.sleep_flags.asleep_count() == 0 && world_.contacts.sleeping().count() == 0;
+}
+
 // From the records that the tick's contacts hold. Those of sleeping bodies are mostly unchanged.
 void StateLoader::take_contacts() {
   const std::span<const ContactRecord> all = world_.found.records;
   const auto is_awake = [&](std::uint32_t body) { return world_.awake.has(body); };
-  const bool any_asleep = world_.sleep_flags.asleep_count() != 0;
-  if (!any_asleep && world_.contacts.sleeping().count() == 0)
-    world_.contacts.adopt_all_active(all);
-  else if (any_asleep && are_sleeping(all))
+  if (are_sleeping(all))
     world_.contacts.adopt_active(all, is_awake);
   else
     world_.contacts.adopt(all, is_awake);
@@ -182,14 +193,14 @@ void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
   world_.joint_registry.rebuild();
 }
 
-namespace {
-
-Status load_native(World::Impl& world, ByteView bytes) {
-  const Result<NativeState<WorldStores>> state = NativeState<WorldStores>::open(bytes, world.def);
+Status StateLoader::load_native(ByteView bytes) {
+  const Result<NativeState<WorldStores>> state = NativeState<WorldStores>::open(bytes, world_.def);
   if (!state.ok()) return state.status();
-  StateLoader(world).load(state.value().header, state.value());
+  load(state.value().header, state.value());
   return Status::ok;
 }
+
+namespace {
 
 Status load_canonical(World::Impl& world, ByteView bytes) {
   const Result<SnapshotView> view = SnapshotView::open(bytes, world.def, *world.assets);
@@ -203,7 +214,8 @@ Status load_canonical(World::Impl& world, ByteView bytes) {
 }  // namespace
 
 Status World::load(SnapshotKind kind, ByteView bytes) {
-  return kind == SnapshotKind::native ? load_native(*impl_, bytes) : load_canonical(*impl_, bytes);
+  return kind == SnapshotKind::native ? StateLoader(*impl_).load_native(bytes)
+                                      : load_canonical(*impl_, bytes);
 }
 
 Status World::load_delta(ByteView base, ByteView delta) {

@@ -22,6 +22,9 @@ class StateLoader {
   template <class State>
   void load(const WorldHeader& header, State&& state);
 
+  /// Loads a native snapshot.
+  Status load_native(ByteView bytes);
+
   /// Derives everything from the records again, and forgets all notes of the last tick.
   void rebuild();
 
@@ -31,6 +34,7 @@ class StateLoader {
   [[nodiscard]] bool take_body(std::uint32_t body, const BodyRecord& record);
   template <class State>
   [[nodiscard]] bool take_joints(std::uint32_t limit, State& state);
+  [[nodiscard]] bool none_sleeps() const;
   void take_contacts();
   void rebuild_from(std::span<const ContactRecord> contacts);
   [[nodiscard]] bool are_sleeping(std::span<const ContactRecord> all) const;

@@ -15,6 +15,8 @@ void Prediction::reserve(bool keeps_states) {
                      data_.game.simulation->snapshot_bytes_max(SnapshotKind::native));
   guesses_ = TickRing(guessed, data_.game.shape.record_bytes());
   guess_hashes_.resize(guessed);
+  if (data_.config.keep_history)
+    data_.game.simulation->keep_history(static_cast<std::uint32_t>(guessed));
 }
 
 void Prediction::restart(std::uint64_t ticks) {
@@ -129,14 +131,22 @@ bool Prediction::passes_sync_test() {
   const bool kept = states_.has(from) && data_.ticks.has(from);
   if (back == 0 || sync_tested_ == stepped || !kept) return true;
   sync_tested_ = stepped;
+  data_.game.simulation->forget_history();
+  if (!repeats(from)) return false;  // in full
+  if (data_.config.keep_history && !repeats(from)) return false;
+  head_ = stepped;
+  keep_state();
+  return true;
+}
+
+// Steps the confirmed ticks from `from` on again. Whether they come to the same states.
+bool Prediction::repeats(std::uint64_t from) {
   Simulation& simulation = *data_.game.simulation;
   LKS_CHECK(simulation.load(SnapshotKind::native, states_.find(from)) == Status::ok);
-  for (std::uint64_t tick = from; tick < stepped; ++tick) {
+  for (std::uint64_t tick = from; tick < data_.progress.stepped; ++tick) {
     simulation.step(RecordInputs(data_.ticks.find(tick), data_.game.shape).view());
     if (simulation.hash() != data_.progress.hashes.at(tick)) return false;
   }
-  head_ = stepped;
-  keep_state();
   return true;
 }
 

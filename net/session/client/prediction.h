@@ -42,8 +42,8 @@ class Prediction {
   /// Goes back to the last confirmed tick.
   void drop_guesses();
 
-  /// Steps the last confirmed ticks again, from a kept state, if that is due. False: the hashes are
-  /// not those that the ticks had.
+  /// Steps the last confirmed ticks again, from a kept state, if that is due: in full, and then
+  /// from the history of that. False: the hashes are not those that the ticks had.
   [[nodiscard]] bool passes_sync_test();
 
   /// The canonical form of the state that was kept after this many ticks. Returns its size; 0: not
@@ -52,6 +52,7 @@ class Prediction {
 
  private:
   void keep_state();
+  [[nodiscard]] bool repeats(std::uint64_t from);
   [[nodiscard]] std::uint64_t step(ByteView record);
   [[nodiscard]] bool guessed_right() const;
   void roll_back(std::uint64_t tick);

@@ -7,6 +7,7 @@
 
 #include <lockstone/hash.h>
 #include <lockstone/literals.h>
+#include <lockstone/rollback_history.h>
 #include <lockstone/world.h>
 
 using namespace lockstone;
@@ -44,7 +45,7 @@ class RollingGame final : public Simulation {
   // Inputs become commands, in slot order; then the world steps.
   void step(std::span<const PlayerInput> inputs) override {
     for (std::size_t slot = 0; slot < inputs.size(); ++slot) act(slot, inputs[slot].bytes);
-    (void)world_.step();
+    (void)history_.step();
   }
 
   // State: the data of the rules, then the world. Nothing that changes the future may be missing
@@ -67,6 +68,10 @@ class RollingGame final : public Simulation {
     return status;
   }
   std::uint64_t hash() const override { return hash_jumps(world_.hash().total); }
+
+  // For clients that predict: a tick that is stepped again costs as much as differs.
+  void keep_history(std::uint32_t ticks) override { history_ = RollbackHistory(world_, ticks); }
+  void forget_history() override { history_.forget(); }
 
   // To locate differences: first the part of the state, then, for people, the field.
   std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override {
@@ -110,6 +115,7 @@ class RollingGame final : public Simulation {
 
   std::uint8_t players_;
   World world_;
+  RollbackHistory history_{world_};  // steps it
   std::array<BodyHandle, k_max_players> balls_{};  // follows from the construction: not state
   std::array<std::uint32_t, k_max_players> jumps_{};
 };

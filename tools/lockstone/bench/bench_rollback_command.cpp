@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench/speed/speed_scene.h"
+#include "tools/lockstone/bench/bench_rollback_guesses.h"
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/lockstone/support/json_text.h"
@@ -23,6 +24,7 @@ struct RollbackOptions {
   int ticks = 8;
   int repeats = 30;
   int settle = 120;
+  int guess_repeats = 5;
   bool json = false;
 };
 
@@ -42,16 +44,6 @@ struct Figures {
   double load_delta_us = 0;
   std::uint64_t hash = 0;
   bool repeated = true;  // each repeat came to the same hash
-};
-
-// A goal for one figure.
-struct Goal {
-  const char* name;
-  double figure;
-  double at_most;
-  const char* unit;
-
-  [[nodiscard]] bool met() const { return figure <= at_most; }
 };
 
 constexpr std::uint32_t k_goal_bodies = 800;
@@ -189,7 +181,8 @@ Figures measure(const RollbackOptions& options) {
   return figures;
 }
 
-nlohmann::ordered_json to_json(const RollbackOptions& options, const Figures& f) {
+nlohmann::ordered_json to_json(const RollbackOptions& options, const Figures& f,
+                               const bench::WrongGuessReport& guesses) {
   nlohmann::ordered_json json{{"bodies", f.bodies},
                               {"contacts", f.contacts},
                               {"snapshot_bytes", f.bytes},
@@ -204,21 +197,13 @@ nlohmann::ordered_json to_json(const RollbackOptions& options, const Figures& f)
                               {"save_delta_us", f.save_delta_us},
                               {"load_delta_us", f.load_delta_us},
                               {"final_hash", hash_text(f.hash)}};
-  for (const Goal& goal : goals_of(options, f)) {
-    json["goals"].push_back({{"name", goal.name},
-                             {"figure", goal.figure},
-                             {"at_most", goal.at_most},
-                             {"unit", goal.unit},
-                             {"met", goal.met()}});
-  }
+  for (const Goal& goal : goals_of(options, f))
+    json["goals"].push_back(goal_json(goal));
+  if (!guesses.guesses.empty()) json["wrong_guesses"] = guesses_json(guesses);
   return json;
 }
 
 void print(const RollbackOptions& options, const Figures& f) {
-  if (options.json) {
-    write_json(to_json(options, f));
-    return;
-  }
   fmt::print("{} bodies, {} touching pairs, medians of {}\n", f.bodies, f.contacts,
              options.repeats);
   fmt::print("snapshot     {:>9} bytes: {:.0f} a body, {:.0f} a touching pair, {} for all\n",
@@ -231,16 +216,21 @@ void print(const RollbackOptions& options, const Figures& f) {
   fmt::print("save delta   {:>9.1f} us\n", f.save_delta_us);
   fmt::print("load delta   {:>9.1f} us\n", f.load_delta_us);
   fmt::print("final hash   {}\n", hash_text(f.hash));
-  for (const Goal& goal : goals_of(options, f)) {
-    fmt::print("{:<7} {:<10} {:>7.1f} of at most {:.0f} {}\n", goal.met() ? "met" : "MISSED",
-               goal.name, goal.figure, goal.at_most, goal.unit);
-  }
+  print_goals(goals_of(options, f));
 }
 
 int run(const RollbackOptions& options) {
   const Figures figures = measure(options);
-  print(options, figures);
-  if (figures.repeated) return k_ok;
+  bench::WrongGuessReport guesses;
+  if (options.guess_repeats > 0)
+    guesses = bench::measure_wrong_guesses({options.ticks, options.guess_repeats});
+  if (options.json) {
+    write_json(to_json(options, figures, guesses));
+  } else {
+    print(options, figures);
+    if (!guesses.guesses.empty()) print_guesses(guesses, options.ticks);
+  }
+  if (figures.repeated && are_equal(guesses)) return k_ok;
   complain("a tick simulated again came to another hash");
   return k_different;
 }
@@ -250,7 +240,9 @@ int run(const RollbackOptions& options) {
 void add_bench_rollback_command(CLI::App& bench, int& exit_code) {
   auto options = std::make_shared<RollbackOptions>();
   CLI::App* command =
-      bench.add_subcommand("rollback", "Native snapshots and ticks simulated again");
+      bench.add_subcommand("rollback",
+                           "Native snapshots, and ticks simulated again, with a history "
+                           "and without");
   command->add_option("--bodies", options->bodies, "Number of boxes in a pit")
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000));
@@ -261,6 +253,11 @@ void add_bench_rollback_command(CLI::App& bench, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000));
   command->add_option("--settle", options->settle, "Ticks before")->capture_default_str();
+  command
+      ->add_option("--guess-repeats", options->guess_repeats,
+                   "Timed repeats of wrong guesses; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -15,5 +15,8 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
 void add_fuzz_scene_command(CLI::App& app, int& exit_code) {
   add_absent_command(app, exit_code, "fuzz-scene", k_no_bench);
 }
+void add_fuzz_rollback_command(CLI::App& app, int& exit_code) {
+  add_absent_command(app, exit_code, "fuzz-rollback", k_no_bench);
+}
 
 }  // namespace lockstone::tool

@@ -22,6 +22,11 @@ class LoopLocks {
 
   void clear();
 
+  /// Of all groups planned since `clear`.
+  [[nodiscard]] PoolUse pool_use() const {
+    return loops_ == nullptr ? PoolUse{} : loops_->pool_use();
+  }
+
   /// Plans the factor of a group whose joints are not made yet. False if it is too large.
   [[nodiscard]] bool plan(JointGroup& group);
 

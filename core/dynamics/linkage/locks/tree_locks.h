@@ -21,6 +21,9 @@ class TreeLocks {
 
   void clear() { factor_.clear(); }
 
+  /// Of all groups planned since `clear`.
+  [[nodiscard]] PoolUse pool_use() const { return factor_.pool_use(); }
+
   /// Plans the factor of a group whose joints are not made yet. False if it would fill in too much,
   /// or there is no room; then nothing has been planned.
   [[nodiscard]] bool plan(JointGroup& group);

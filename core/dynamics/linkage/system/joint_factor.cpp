@@ -107,6 +107,15 @@ void JointFactor::clear() {
   rhs_.clear();
   given_.clear();
   reciprocals_.clear();
+  was_full_ = false;
+}
+
+PoolUse JointFactor::pool_use() const {
+  PoolUse use;
+  use.add(blocks_.size(), block_capacity_);
+  use.add(values_.size(), value_capacity_);
+  if (was_full_) use.note_exhausted();
+  return use;
 }
 
 // The column of joint k from `found_`.
@@ -123,15 +132,19 @@ bool JointFactor::plan_column(std::uint32_t k, std::uint32_t count, std::uint32_
   column.first_row = static_cast<std::uint32_t>(rhs_.size());
   std::size_t values = values_.size() + std::size_t{rows} * rows;
   const std::size_t group_blocks = blocks_.size() - first_block_;
-  if (group_blocks + found_.size() > k_most_blocks_per_joint * count + 64 ||
-      blocks_.size() + found_.size() > block_capacity_) {
+  if (group_blocks + found_.size() > k_most_blocks_per_joint * count + 64) return false;
+  if (blocks_.size() + found_.size() > block_capacity_) {
+    was_full_ = true;
     return false;
   }
   for (const std::uint32_t row : found_) {
     blocks_.push_back({row, static_cast<std::uint32_t>(values)});
     values += most_rows * rows;
   }
-  if (values > value_capacity_) return false;
+  if (values > value_capacity_) {
+    was_full_ = true;
+    return false;
+  }
   values_.resize(values);
   rhs_.resize(rhs_.size() + rows);
   given_.resize(rhs_.size());

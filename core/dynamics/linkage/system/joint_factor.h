@@ -13,6 +13,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/pool_use.h"
 #include "core/dynamics/state/joint_record.h"
 
 namespace lockstone {
@@ -40,6 +41,9 @@ class JointFactor {
   template <class Neighbours, class Rows>
   bool plan(std::uint32_t count, const Neighbours& neighbours, const Rows& rows,
             std::size_t most_rows = k_joint_axes);
+
+  /// Of all groups planned since `clear`.
+  [[nodiscard]] PoolUse pool_use() const;
 
   /// Where the group planned last begins; its columns follow one another.
   [[nodiscard]] std::uint32_t first() const { return first_; }
@@ -116,6 +120,7 @@ class JointFactor {
   std::uint32_t first_ = 0;
   std::size_t first_block_ = 0;  // of the group being planned
   std::size_t value_capacity_, block_capacity_;
+  bool was_full_ = false;  // a group found no room
 };
 
 template <class Fill>

@@ -318,10 +318,16 @@ void ContinuousCollision::visit_obstacles(std::uint32_t body, const Sweep& motio
   const auto visit = [&](std::uint32_t other) {
     const bool considered =
         other != body && (record.is_bullet() || !world_.bodies[other].is_dynamic());
-    if (considered && !is_sweeper(other) && world_.is_obstacle(body, other)) f(other);
+    if (!considered || is_sweeper(other) || !world_.is_obstacle(body, other)) return;
+    moved_.note_look(body, other);
+    f(other);
   };
-  for (const Sweeper& each : sweepers_)
-    if (overlap(way, each.way) && world_.is_obstacle(body, each.body)) f(each.body);
+  moved_.note_look(body, body);
+  for (const Sweeper& each : sweepers_) {
+    if (!overlap(way, each.way) || !world_.is_obstacle(body, each.body)) continue;
+    moved_.note_look(body, each.body);
+    f(each.body);
+  }
   if (record.is_bullet())
     world_.broad_phase.traverse(k_every_category, test, visit);
   else

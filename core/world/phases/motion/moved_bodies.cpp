@@ -9,6 +9,7 @@ namespace lockstone {
 MovedBodies::MovedBodies(WorldData& world)
     : world_(world), starts_(world.def.body_capacity), leaves_fat_box_(world.def.body_capacity) {
   bodies_.reserve(world.def.body_capacity);
+  looks_.reserve(most_looks(world.def));
 }
 
 void MovedBodies::list_awake() {

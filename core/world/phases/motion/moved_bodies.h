@@ -1,4 +1,5 @@
-// The bodies that move in a tick, and where they were before.
+// The bodies that move in a tick, where they were before, and the bodies that they were held
+// against on their paths.
 #pragma once
 
 #include <atomic>
@@ -14,6 +15,11 @@ namespace lockstone {
 
 class MovedBodies {
  public:
+  /// Places for looks, of all bodies together.
+  [[nodiscard]] static std::size_t most_looks(const WorldDef& def) {
+    return std::size_t{4} * def.body_capacity;
+  }
+
   /// No function but this allocates. `world` outlives this.
   explicit MovedBodies(WorldData& world);
 
@@ -34,6 +40,23 @@ class MovedBodies {
     starts_[body] = {world_.bodies[body].position, world_.bodies[body].orientation};
   }
 
+  /// Begins a tick's list of looks.
+  void forget_looks() {
+    looks_.clear();
+    has_lost_looks_ = false;
+  }
+  /// Notes that the path of one body was held against another body that may move; against itself:
+  /// that its path was examined at all. Not from two threads at once.
+  void note_look(std::uint32_t body, std::uint32_t other) {
+    if (!world_.bodies[other].moves()) return;
+    has_lost_looks_ = has_lost_looks_ || looks_.size() == most_looks(world_.def);
+    if (!has_lost_looks_) looks_.push_back({body, other});
+  }
+  /// First the body that looked.
+  [[nodiscard]] std::span<const Pair> looks() const { return looks_; }
+  /// Whether there were more looks than places for them.
+  [[nodiscard]] bool has_lost_looks() const { return has_lost_looks_; }
+
   /// Derives rotations, bounds and places in the broad phase of the listed bodies again.
   void refresh();
 
@@ -44,6 +67,8 @@ class MovedBodies {
   std::vector<std::uint32_t> bodies_;
   std::vector<Transform> starts_;             // by body
   std::vector<std::uint8_t> leaves_fat_box_;  // by place in `bodies_`
+  std::vector<Pair> looks_;
+  bool has_lost_looks_ = false;
 };
 
 }  // namespace lockstone

@@ -25,8 +25,8 @@ Sweep first_part(const Sweep& motion, Unit fraction) {
 }  // namespace
 
 TriggerPasses::TriggerPasses(WorldData& world, const TickContacts& found,
-                             const ContinuousCollision& continuous)
-    : world_(world), found_(found), continuous_(continuous) {
+                             const ContinuousCollision& continuous, MovedBodies& moved)
+    : world_(world), found_(found), continuous_(continuous), moved_(moved) {
   passes_.reserve(world.def.body_capacity);
 }
 
@@ -47,8 +47,10 @@ void TriggerPasses::note(std::uint32_t body, const Sweep& motion, Unit done, Uni
   if (world_.triggers.count() == 0) return;
   const Sweep first = first_part(motion, fraction);
   const Bounds way = continuous_.bounds_on_way(body, first);
+  moved_.note_look(body, body);
   const auto look_at = [&](std::uint32_t other) {
     if (other == body || !senses(body, other)) return;
+    moved_.note_look(body, other);
     note_pair({body, other}, first, first_part(continuous_.motion_of(other, done), fraction));
   };
   // Each pair of movers once: a body that is followed looks for the sweepers itself.

@@ -10,6 +10,7 @@
 #include "core/collision/broad_phase/pair.h"
 #include "core/collision/continuous/first_impact.h"
 #include "core/world/data/world_data.h"
+#include "core/world/phases/motion/moved_bodies.h"
 #include "core/world/phases/tick_contacts.h"
 
 namespace lockstone {
@@ -19,7 +20,8 @@ class ContinuousCollision;
 class TriggerPasses {
  public:
   /// No function but this allocates. All outlive this.
-  TriggerPasses(WorldData& world, const TickContacts& found, const ContinuousCollision& continuous);
+  TriggerPasses(WorldData& world, const TickContacts& found, const ContinuousCollision& continuous,
+                MovedBodies& moved);
 
   /// Forgets the passes of the tick before.
   void begin();
@@ -40,6 +42,7 @@ class TriggerPasses {
   WorldData& world_;
   const TickContacts& found_;
   const ContinuousCollision& continuous_;
+  MovedBodies& moved_;
   std::vector<Pair> passes_;
   bool overflowed_ = false;
 };

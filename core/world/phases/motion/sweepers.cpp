@@ -29,13 +29,15 @@ void ContinuousCollision::list_sweepers() {
     if ((far_movers_[body] & k_sweeper) != 0)
       sweepers_.push_back({body, bounds_on_way(body, motion_in_tick(body))});
   for (const Sweeper& each : sweepers_) {
+    moved_.note_look(each.body, each.body);
     if (world_.bodies[each.body].is_trigger()) continue;
     world_.broad_phase.traverse(
         k_every_category, [&](const Bounds& bounds) { return overlap(each.way, bounds); },
         [&](std::uint32_t other) {
           const BodyRecord& record = world_.bodies[other];
-          if (record.is_dynamic() && record.is_awake() && !record.is_trigger())
-            far_movers_[other] |= k_swept_over;
+          if (!record.is_dynamic() || !record.is_awake() || record.is_trigger()) return;
+          moved_.note_look(each.body, other);
+          far_movers_[other] |= k_swept_over;
         });
   }
 }
@@ -63,6 +65,7 @@ void ContinuousCollision::find_struck(std::uint32_t sweeper) {
                                 world_.time_step, k_whole_tick)};
   const Bounds way = bounds_on_way(sweeper, motion);
   const Shape shape = end.shape();
+  moved_.note_look(sweeper, sweeper);
   world_.broad_phase.traverse(
       k_every_category, [&](const Bounds& bounds) { return overlap(way, bounds); },
       [&](std::uint32_t other) {
@@ -71,6 +74,7 @@ void ContinuousCollision::find_struck(std::uint32_t sweeper) {
         if (!sleeps || !world_.is_obstacle(other, sweeper) ||
             struck_.size() == world_.def.body_capacity)
           return;
+        moved_.note_look(sweeper, other);
         const Shape shape_of_other = record.shape();
         const Sweep still{{record.position, record.orientation}, {}, {}};
         const bool hit = first_impact({shape_of_other, world_.cache.asset(other), still},

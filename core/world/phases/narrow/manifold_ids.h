@@ -138,11 +138,13 @@ class ManifoldIds {
   [[nodiscard]] bool is_out_of_ids() const { return out_of_ids_; }
 
   /// Contacts since `begin`, those without an id included, those dropped not.
-  [[nodiscard]] std::uint32_t taken() const {
+  [[nodiscard]] std::uint32_t taken() const { return taken_at_first() - dropped_; }
+  /// The same with those dropped.
+  [[nodiscard]] std::uint32_t taken_at_first() const {
     std::uint32_t sum = 0;
     for (const std::unique_ptr<PairScratch>& scratch : scratch_)
       sum += scratch->taken;
-    return sum - dropped_;
+    return sum;
   }
 
   /// For contacts that turned out to be none; their ids stay taken.

@@ -29,6 +29,9 @@ class NarrowPhase {
   /// Forgets all about the tick before.
   void forget() { data_.separating_axes.forget(); }
 
+  /// Contacts that the last run found, those included that were dropped again.
+  [[nodiscard]] std::uint32_t found_at_first() const { return data_.ids.taken_at_first(); }
+
   /// Scratch that other phases may use between runs.
   [[nodiscard]] PairScratch& scratch() { return data_.ids.scratch(0); }
   /// Whether shapes with triangles exist.

@@ -57,7 +57,10 @@ struct ClientConfig {
   /// Rollback: ticks stepped beyond the confirmed ones, on guesses; 0 … 15. 0: lockstep.
   std::uint8_t prediction_ticks = 0;
   std::uint8_t prediction_delay_ticks = 0;  ///< own inputs show that much later, and fewer guesses
-  bool sync_test = false;  ///< roll back every tick, step it again and compare; for tests
+  /// Rollback: the simulation remembers the ticks that may be stepped again.
+  bool keep_history = true;
+  /// Roll back every tick; step it again in full, and from the history; compare: for tests.
+  bool sync_test = false;
   std::size_t max_snapshot_bytes = 64 << 20;  ///< a bigger simulation keeps no snapshots
   Timeouts timeouts;
 };

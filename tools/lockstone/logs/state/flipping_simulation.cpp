@@ -48,6 +48,8 @@ class FlippingSimulation final : public Simulation {
     return inner_->save(kind, out);
   }
   Status load(SnapshotKind kind, ByteView bytes) override { return inner_->load(kind, bytes); }
+  void keep_history(std::uint32_t ticks) override { inner_->keep_history(ticks); }
+  void forget_history() override { inner_->forget_history(); }
   [[nodiscard]] std::uint64_t hash() const override { return inner_->hash(); }
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override {
     return inner_->part_hashes(out);
