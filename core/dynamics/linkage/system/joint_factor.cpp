@@ -27,7 +27,7 @@ constexpr std::int64_t k_least_pivot = std::int64_t{1} << (k_matrix_bits - 24);
 constexpr std::uint64_t k_solution_bound = std::uint64_t{1} << 56;
 
 // Bits that a solution loses where it would not fit, and how often.
-constexpr int k_fewer_bits = 12, k_most_tries = 4;
+constexpr int k_lost_bits = 12, k_most_tries = 4;
 
 // x ← x − part, clamped, since the factors of a matrix that is nearly singular have no bound.
 // Returns whether it fits.
@@ -289,11 +289,11 @@ int JointFactor::solve(std::uint32_t first, std::uint32_t count) {
   std::copy(rhs.begin(), rhs.end(), given.begin());
   int lost = 0;
   for (int i = 1; !try_solve(first, count) && i < k_most_tries; ++i) {
-    lost += k_fewer_bits;
+    lost += k_lost_bits;
     for (std::size_t k = 0; k < size; ++k)
       rhs[k] = raw::round_shift(given[k], lost);
   }
-  LKS_ASSERT(lost < k_fewer_bits * k_most_tries);
+  LKS_ASSERT(lost < k_lost_bits * k_most_tries);
   return lost;
 }
 
