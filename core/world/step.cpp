@@ -1,11 +1,11 @@
 // The tick.
 
-#include "core/world/history/computed_bodies.h"
+#include "core/world/phases/pair_filter.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
 
-StepReport World::Impl::step(ComputedBodies* only) {
+StepReport World::Impl::step(PairFilter* only) {
   StepReport report;
   trace.begin_step();
   moved.forget_looks();
@@ -29,7 +29,7 @@ StepReport World::Impl::step(ComputedBodies* only) {
 }
 
 // Sleeping bodies that will be met wake first: then there are more pairs.
-void World::Impl::find_pairs(StepReport& report, ComputedBodies* only) {
+void World::Impl::find_pairs(StepReport& report, PairFilter* only) {
   const StageTimer timer(profiler, StepStage::find_pairs);
   do {
     waking.wake_joined();

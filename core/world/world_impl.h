@@ -28,14 +28,14 @@
 
 namespace lockstone {
 
-class ComputedBodies;
+class PairFilter;
 
 /// Phases are built from the data that they read and write and from the phases that they call.
 struct World::Impl : WorldData {
   [[gnu::cold]] Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
-  /// One tick; with `only` of these bodies, as if there were no others that move.
-  StepReport step(ComputedBodies* only = nullptr);
+  /// One tick; with `only` of the bodies of these pairs, as if there were no others that move.
+  StepReport step(PairFilter* only = nullptr);
   /// Makes room for as many workers as `parallel` has.
   void make_room();
   /// Derives the data of the moved bodies' poses again.
@@ -71,7 +71,7 @@ struct World::Impl : WorldData {
   StageTrace trace;
 
  private:
-  void find_pairs(StepReport& report, ComputedBodies* only);
+  void find_pairs(StepReport& report, PairFilter* only);
   [[nodiscard]] bool wake_met();
   void solve_contacts(StepReport& report);
   void find_events();

@@ -5,6 +5,7 @@
 
 #include <lockstone/assert.h>
 
+#include "core/base/reserved.h"
 #include "core/dynamics/contact/recycling_pose.h"
 
 namespace lockstone {
@@ -250,6 +251,7 @@ SolverCounts ContactSolver::counts() const {
                       tick_.saturations,
                       energy_limit_.count() + joints_.solver().energy_limits(),
                       joints_.solver().pool_use()};
+  LKS_ASSERT(graph.count(k_overflow_color) <= contacts_.size());
   if (converged_ != nullptr && converged_->pool().was_full()) counts.pools.note_exhausted();
   return counts;
 }
@@ -258,8 +260,11 @@ void ContactSolver::list_shares(std::vector<IslandShare>& to) const {
   to.clear();
   if (converged_ == nullptr || tick_.is_idle) return;
   const IslandPool& pool = converged_->pool();
-  for (std::uint32_t island = 0; island < pool.count(); ++island)
+  LKS_ASSERT(is_reserved(to, pool.count()));
+  for (std::uint32_t island = 0; island < pool.count(); ++island) {
+    LKS_ASSERT(pool.first_body(island) != 0);
     to.push_back({bodies_.side(pool.first_body(island)).body(), pool.share(island)});
+  }
 }
 
 PoolShare ContactSolver::room() const {

@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "core/collision/broad_phase/pair.h"
+#include "core/world/data/world_data.h"
 #include "core/world/history/state_changes.h"
 #include "core/world/history/tick_memory.h"
-#include "core/world/data/world_data.h"
+#include "core/world/phases/pair_filter.h"
 
 namespace lockstone {
 
 /// Chosen before the tick: bodies that differ from the remembered ones, those whose bounds they
 /// overlap, now or then, and all of their groups. Bodies that looked along their paths in that tick
 /// are always computed, since they may now find others there.
-class ComputedBodies {
+class ComputedBodies final : public PairFilter {
  public:
   /// No function but this allocates.
   explicit ComputedBodies(const WorldDef& def);
@@ -37,7 +38,7 @@ class ComputedBodies {
   void bring_back_others(WorldData& world);
 
   /// The pairs of computed bodies. Keeps all of them, as long as those stay valid.
-  [[nodiscard]] std::span<const Pair> take_pairs(std::span<const Pair> all);
+  [[nodiscard]] std::span<const Pair> take_pairs(std::span<const Pair> all) override;
   [[nodiscard]] std::span<const Pair> all_pairs() const { return all_pairs_; }
 
   /// Whether a tick of the computed bodies alone moved them as the whole tick would have done: it

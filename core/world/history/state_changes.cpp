@@ -94,6 +94,10 @@ void StateChanges::add_ends(const WorldData& world, const Record& record) {
     return has(body) || links_others(world.bodies[body]);
   };
   any_ = true;
+  if (std::max(record.body_a, record.body_b) >= is_end_.size()) {  // of damaged memory
+    concern_all_ = true;
+    return;
+  }
   concern_all_ = concern_all_ || (!reaches(record.body_a) && !reaches(record.body_b));
   add_end(record.body_a);
   add_end(record.body_b);

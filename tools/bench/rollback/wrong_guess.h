@@ -1,4 +1,4 @@
-// The price of a rollback by the part of the world that the wrong guess touched: ticks stepped
+// The cost of a rollback by the part of the world that the wrong guess touched: ticks stepped
 // again in full, and by a history that recalls the untouched islands.
 #pragma once
 
