@@ -34,7 +34,7 @@ class PairFilter;
 struct World::Impl : WorldData {
   [[gnu::cold]] Impl(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
-  /// One tick; with `only` of the bodies of these pairs, as if there were no others that move.
+  /// One tick. With `only`, a tick of the bodies whose pairs it takes, as if no others moved.
   StepReport step(PairFilter* only = nullptr);
   /// Makes room for as many workers as `parallel` has.
   void make_room();

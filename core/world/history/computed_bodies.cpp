@@ -1,20 +1,12 @@
 #include "core/world/history/computed_bodies.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace lockstone {
 namespace {
 
 bool has_triangles(const Asset* asset) {
   return asset != nullptr && asset->mesh_kernels() != nullptr;
-}
-
-template <class Store>
-bool is_unchanged(const typename Store::Record& now, const NativeState<WorldStores>& before,
-                  std::uint32_t index) {
-  const ByteView all = before.records.bytes_of<Store>();
-  return std::memcmp(&now, all.data() + index * sizeof(now), sizeof(now)) == 0;
 }
 
 }  // namespace
@@ -144,12 +136,12 @@ bool ComputedBodies::kept_to_themselves(const WorldData& world, const StateCopy&
                                         std::span<const Pair> looks) const {
   const NativeState<WorldStores> start = before.open(world.def);
   for (std::uint32_t i = 0; i < world.header.body_limit; ++i)
-    if (!has(i) && !is_unchanged<BodyStore>(world.bodies[i], start, i)) return false;
+    if (!has(i) && !is_same<BodyStore>(world.bodies[i], start, i)) return false;
   JointRecord joint;
   for (std::uint32_t i = 0; i < world.header.joint_limit; ++i) {
     start.read<JointStore>(i, joint);
     const bool is_computed = joint.exists() && has_any(joint.body_a, joint.body_b);
-    if (!is_computed && !is_unchanged<JointStore>(world.joints[i], start, i)) return false;
+    if (!is_computed && !is_same<JointStore>(world.joints[i], start, i)) return false;
   }
   return std::ranges::none_of(
       looks, [&](const Pair& look) { return !has(look.b) && links_others(world.bodies[look.b]); });

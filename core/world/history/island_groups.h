@@ -12,8 +12,8 @@
 
 #include "core/collision/broad_phase/pair.h"
 #include "core/dynamics/islands/islands.h"
-#include "core/world/history/tick_memory.h"
 #include "core/world/data/world_data.h"
+#include "core/world/history/tick_memory.h"
 
 namespace lockstone {
 

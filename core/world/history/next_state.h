@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "core/world/data/world_data.h"
 #include "core/world/history/computed_bodies.h"
 #include "core/world/history/tick_memory.h"
-#include "core/world/data/world_data.h"
 
 namespace lockstone {
 

@@ -1,20 +1,8 @@
 #include "core/world/history/state_changes.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace lockstone {
-namespace {
-
-template <class Store>
-bool is_same(const typename Store::Record& now, const NativeState<WorldStores>& before,
-             std::uint32_t index) {
-  const ByteView all = before.records.template bytes_of<Store>();
-  return std::memcmp(&now, all.data() + index * sizeof(now), sizeof(now)) == 0;
-}
-
-}  // namespace
-
 StateChanges::StateChanges(std::uint32_t body_capacity)
     : is_changed_(body_capacity), is_end_(body_capacity) {
   bodies_.reserve(body_capacity);

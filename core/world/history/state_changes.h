@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/world/history/tick_memory.h"
 #include "core/world/data/world_data.h"
+#include "core/world/history/tick_memory.h"
 
 namespace lockstone {
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,9 +15,9 @@
 #include "core/base/pool_use.h"
 #include "core/collision/broad_phase/pair.h"
 #include "core/dynamics/direct/pool_share.h"
+#include "core/world/data/world_data.h"
 #include "core/world/state/delta.h"
 #include "core/world/state/stores.h"
-#include "core/world/data/world_data.h"
 
 namespace lockstone {
 
@@ -66,6 +67,14 @@ struct TickMemory {
   std::uint32_t islands = 0;           // groups with an awake body
   bool had_sleepers = false;           // when it began
 };
+
+/// Whether a record has the bytes of the one of that index in a state.
+template <class Store>
+[[nodiscard]] bool is_same(const typename Store::Record& record,
+                           const NativeState<WorldStores>& state, std::uint32_t index) {
+  const ByteView all = state.records.bytes_of<Store>();
+  return std::memcmp(&record, all.data() + index * sizeof(record), sizeof(record)) == 0;
+}
 
 /// Whether a difference of a body may reach the bodies that it meets, and theirs reach it: of all
 /// that can move in a tick. The motion of a kinematic body depends, in its last bits, on whether it
