@@ -24,8 +24,8 @@ Vec3<Unit> perpendicular(const Vec3<Unit>& u) {
   return direction_of(cross(k_axes[least], u));
 }
 
-std::int64_t size_of(const Product& v) {
-  return static_cast<std::int64_t>(norm(v.x.raw, v.y.raw, v.z.raw));
+std::uint64_t size_of(const Product& v) {
+  return norm(v.x.raw, v.y.raw, v.z.raw);
 }
 
 /// The way from one orientation to another. `angle` is that of the rotation, 32 fraction bits.
@@ -36,14 +36,14 @@ struct Arc {
 };
 
 /// With the sign of `to` that makes the way the shorter one.
-Arc arc_between(const Quat& from, const Quat& to) {
-  const Quat turn = multiply(to, conjugate(from));
-  const std::int64_t sine = static_cast<std::int64_t>(norm(turn.x.raw, turn.y.raw, turn.z.raw));
-  const bool is_longer = turn.w < Unit{};
-  const std::int64_t cosine = is_longer ? -std::int64_t{turn.w.raw} : turn.w.raw;
-  constexpr int k_shift = 1 + RotationComponent::frac_bits - Angle::frac_bits;  // half an angle
-  const std::int64_t angle = std::int64_t{atan2_raw(sine, cosine).raw} << k_shift;
-  return {from, is_longer ? Quat{-to.x, -to.y, -to.z, -to.w} : to, angle};
+Arc arc_between(const Quat& a, const Quat& b) {
+  const Product turn{b.x * a.w - b.w * a.x + b.z * a.y - b.y * a.z,
+                     b.y * a.w - b.w * a.y + b.x * a.z - b.z * a.x,
+                     b.z * a.w - b.w * a.z + b.y * a.x - b.x * a.y};  // b · a*, exact
+  const std::int64_t cosine = (a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w).raw;
+  const bool is_longer = cosine < 0;
+  const RotationComponent half = fine_arc(size_of(turn), is_longer ? -cosine : cosine);
+  return {a, is_longer ? Quat{-b.x, -b.y, -b.z, -b.w} : b, 2 * half.raw};
 }
 
 /// The orientation `part` of the angle along the way. 0 < part < angle.
@@ -52,7 +52,7 @@ Arc arc_between(const Quat& from, const Quat& to) {
 /// sin(angle/2) falls out. Sines of small angles are as the angles, and those have more bits.
 Quat along(const Arc& arc, std::int64_t part) {
   LKS_ASSERT(part > 0 && part < arc.angle);
-  constexpr std::int64_t k_small = std::int64_t{1} << 18;  // 2^-14 rad: the sine is within 2^-45
+  constexpr std::int64_t k_small = std::int64_t{1} << 18;  // 2^-14 rad: sines within 2^-45
   std::int64_t weight_from = arc.angle - part, weight_to = part;
   if (arc.angle > k_small) {
     weight_from = half_sin_cos(RotationComponent::from_raw(weight_from)).sin;
@@ -68,7 +68,7 @@ Quat along(const Arc& arc, std::int64_t part) {
 namespace rotation_detail {
 
 Angle angle(const Vec3<Unit>& a, const Vec3<Unit>& b) {
-  return atan2_raw(size_of(cross(a, b)), dot(a, b).raw);
+  return atan2_raw(static_cast<std::int64_t>(size_of(cross(a, b))), dot(a, b).raw);
 }
 
 // With c = cos θ, (axis · sin θ, 1 + c) and (axis · (1 − c), sin θ) are multiples of the rotation;
@@ -82,7 +82,7 @@ Quat between(const Vec3<Unit>& from, const Vec3<Unit>& to) {
   if (cosine >= 0)
     return normalized(
         Quat{unit(normal.x.raw), unit(normal.y.raw), unit(normal.z.raw), unit(k_one_q60 + cosine)});
-  const std::int64_t sine = size_of(normal);
+  const auto sine = static_cast<std::int64_t>(size_of(normal));
   const Vec3<Unit> axis = sine == 0 ? perpendicular(from) : direction_of(normal);
   const Unit size = unit(k_one_q60 - cosine);
   return normalized(
@@ -100,7 +100,8 @@ Quat look(const Vec3<Unit>& forward, const Vec3<Unit>& up) {
 
 Angle angle_between(const Quat& a, const Quat& b) {
   const std::int64_t angle = arc_between(a, b).angle;
-  return Angle::from_raw(static_cast<std::int32_t>(angle >> 5));
+  constexpr int k_shift = RotationComponent::frac_bits - Angle::frac_bits;
+  return Angle::from_raw(static_cast<std::int32_t>(raw::round_shift(angle, k_shift)));
 }
 
 Quat slerp(const Quat& a, const Quat& b, Unit t) {
@@ -116,7 +117,7 @@ Quat slerp(const Quat& a, const Quat& b, Unit t) {
 Quat rotate_toward(const Quat& from, const Quat& to, Angle most) {
   if (most <= Angle{}) return from;
   const Arc arc = arc_between(from, to);
-  const std::int64_t part = std::int64_t{most.raw} << 5;
+  const std::int64_t part = std::int64_t{most.raw} * 32;  // 32 fraction bits
   return part >= arc.angle ? to : along(arc, part);
 }
 

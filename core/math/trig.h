@@ -24,6 +24,9 @@ struct FineSinCos {
 /// Of half an angle, each within 2^-31. The sine is odd, exactly.
 [[nodiscard]] FineSinCos half_sin_cos(RotationComponent angle);
 
+/// The angle of (x, y) in [0, π], within 2^-32; 0 for (0, 0).
+[[nodiscard]] RotationComponent fine_arc(std::uint64_t y, std::int64_t x);
+
 /// exp(θ/2): the rotation by |θ| radians about θ, for every input; components within 2^-29
 /// (measured: 0.70 · 2^-30 up to |θ| = ½, 1.31 · 2^-30 beyond). θ → −θ flips the vector part
 /// exactly; mirroring and permuting axes is exact too. Up to |θ| = ½ a short polynomial, beyond it

@@ -98,13 +98,14 @@ struct Random {
   /// Programming 2, 3.4.1): 1.91 on average.
   [[nodiscard]] Vec3<Unit> direction();
 
-  /// Brings `items` into any of their orders, all as likely. (Richard Durstenfeld, "Algorithm 235:
-  /// Random permutation", 1964.)
-  template <class T>
-  void shuffle(std::span<T> items) {
-    for (std::size_t left = items.size(); left > 1; --left) {
+  /// Brings an array, a vector or a span into any of its orders, all as likely. (Richard
+  /// Durstenfeld, "Algorithm 235: Random permutation", 1964.)
+  template <class Items>
+  void shuffle(Items&& items) {
+    const std::span all(items);
+    for (std::size_t left = all.size(); left > 1; --left) {
       using std::swap;
-      swap(items[left - 1], items[below(left)]);
+      swap(all[left - 1], all[below(left)]);
     }
   }
 
