@@ -83,7 +83,7 @@ TEST(PoseTrack, ShowsATeleportAtOnce) {
   EXPECT_EQ(x_of(track, 0), 11);
 }
 
-TEST(PoseTrack, StaysWhereItIsWhenATickIsComputedAnew) {
+TEST(PoseTrack, StaysWhereItIsWhenATickIsComputedAgain) {
   PoseTrack track;
   track.restart(at_x(0_m));
   track.advance(at_x(1_m), k_tick);

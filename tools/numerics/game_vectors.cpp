@@ -5,11 +5,6 @@
 namespace lockstone::numerics {
 namespace {
 
-void make_two_units(Words& in) {
-  normalise_at(in, 0);
-  normalise_at(in, 4);
-}
-
 Random random_at(const Words& in) {
   Random random(u64(in[0]));
   random.drawn = u64(in[1]);

@@ -40,7 +40,7 @@ using Block = std::array<std::uint32_t, 4>;
 }  // namespace random_detail
 
 /// A stream of random numbers. Its state is `key` and `drawn`: a game saves and hashes both, or
-/// makes the stream anew each tick, `Random(seed).stream(tick)`, and saves nothing.
+/// derives the stream again each tick, `Random(seed).stream(tick)`, and saves nothing.
 ///
 /// Draw one number a statement: in f(random.below(6), random.below(6)) the compiler chooses which
 /// comes first, and peers built by different compilers part.

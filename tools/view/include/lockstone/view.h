@@ -2,7 +2,7 @@
 // corrections of a rollback. Nothing here may find its way back into a simulation.
 //
 // A frame lies between the last two ticks and is interpolated, so a picture is up to one tick late.
-// When a rollback computes the last tick anew, the picture stays where it is: the offset between
+// When a rollback computes the last tick again, the picture stays where it is: the offset between
 // the shown pose and the true one is kept, and fades from tick to tick. So neither a tick nor a
 // correction makes a jump. docs/how-to/render.md shows the use.
 #pragma once
