@@ -73,18 +73,19 @@ struct Random {
     return bound > 0 ? static_cast<T>(below_word(static_cast<std::uint64_t>(bound))) : T{};
   }
 
-  /// Uniform in low … high, both included, of whole numbers and of quantities: between(1, 6),
-  /// between<Length>(2_m, 3_m). low ≤ high.
-  template <class T>
-  [[nodiscard]] T between(std::type_identity_t<T> low, std::type_identity_t<T> high) {
-    if constexpr (std::integral<T>) {
-      return static_cast<T>(between_words(low, high));
-    } else {
-      const std::int64_t raw = between_words(low.raw, high.raw);
-      return T::from_raw(static_cast<typename T::Representation>(raw));
-    }
+  /// Uniform in low … high, both included: between(1, 6). low ≤ high; T is signed if it has 64 bits.
+  template <std::integral T>
+  requires(sizeof(T) < 8 || std::signed_integral<T>) [[nodiscard]] T between(T low, T high) {
+    return static_cast<T>(between_words(low, high));
   }
-  [[nodiscard]] int between(int low, int high) { return between<int>(low, high); }
+
+  /// The same of quantities, every value of the format as likely: between<Length>(2_m, 3_m).
+  template <class T>
+  requires(!std::integral<T>) [[nodiscard]] T
+      between(std::type_identity_t<T> low, std::type_identity_t<T> high) {
+    const std::int64_t raw = between_words(low.raw, high.raw);
+    return T::from_raw(static_cast<typename T::Representation>(raw));
+  }
 
   /// Uniform in [0, 1): every value of a plain number's format there is as likely.
   template <class T = Unit>
