@@ -73,7 +73,7 @@ struct Random {
     return bound > 0 ? static_cast<T>(below_word(static_cast<std::uint64_t>(bound))) : T{};
   }
 
-  /// Uniform in low … high, both included: between(1, 6). low ≤ high; T is signed if it has 64 bits.
+  /// Uniform in low … high, both included: between(1, 6). low ≤ high; T of 64 bits is signed.
   template <std::integral T>
   requires(sizeof(T) < 8 || std::signed_integral<T>) [[nodiscard]] T between(T low, T high) {
     return static_cast<T>(between_words(low, high));
