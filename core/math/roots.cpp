@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <lockstone/roots.h>
+
 namespace lockstone {
 namespace {
 
@@ -72,6 +74,14 @@ Normal<N> normalise(const std::array<std::int64_t, N>& components) {
 
 }  // namespace
 
+std::uint64_t roots_detail::root_of(std::int64_t raw, int shift) {
+  LKS_ASSERT(shift >= 0 && shift <= 63);
+  if (raw <= 0) return 0;
+  const auto size = static_cast<std::uint64_t>(raw);
+  if (shift <= std::countl_zero(size)) return isqrt_rounded(size << shift);
+  return isqrt128_rounded(UInt128{0, size} << shift);
+}
+
 std::uint64_t norm(std::int64_t x, std::int64_t y, std::int64_t z) {
   const Raws<3> sizes{magnitude(x), magnitude(y), magnitude(z)};
   return isqrt128_rounded(sum_of_squares(sizes, sizes[0] | sizes[1] | sizes[2]));
@@ -80,6 +90,12 @@ std::uint64_t norm(std::int64_t x, std::int64_t y, std::int64_t z) {
 Vec3<Unit> direction_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   const Normal<3> normal = normalise<3>({x, y, z});
   return {normal.unit[0], normal.unit[1], normal.unit[2]};
+}
+
+Quat direction_of(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t w) {
+  if ((x | y | z | w) == 0) return {};
+  const Normal<4> normal = normalise<4>({x, y, z, w});
+  return {normal.unit[0], normal.unit[1], normal.unit[2], normal.unit[3]};
 }
 
 Direction direction(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -97,9 +113,7 @@ Quat normalized(const Quat& q) {
     };
     return {scaled(q.x), scaled(q.y), scaled(q.z), scaled(q.w)};
   }
-  if (square == 0) return {};
-  const Normal<4> normal = normalise<4>({q.x.raw, q.y.raw, q.z.raw, q.w.raw});
-  return {normal.unit[0], normal.unit[1], normal.unit[2], normal.unit[3]};
+  return direction_of(q.x.raw, q.y.raw, q.z.raw, q.w.raw);
 }
 
 }  // namespace lockstone

@@ -146,6 +146,9 @@ struct Direction {
 /// 2·v gives the same as v wherever both fit in 31 bits.
 [[nodiscard]] Vec3<Unit> direction_of(std::int64_t x, std::int64_t y, std::int64_t z);
 
+/// The same for the unit quaternion along a raw one; zero gives the identity.
+[[nodiscard]] Quat direction_of(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t w);
+
 /// `direction_of` and the rounded length `norm`, in one.
 [[nodiscard]] Direction direction(std::int64_t x, std::int64_t y, std::int64_t z);
 

@@ -1,10 +1,12 @@
-// Roots and lengths of typed quantities, correctly rounded. The integer roots are in roots.h.
+// Reciprocal roots and lengths of typed quantities, correctly rounded. Square roots are in
+// <lockstone/roots.h>, the integer roots in core/math/roots.h.
 #pragma once
 
 #include <bit>
 #include <concepts>
 #include <cstdint>
 
+#include <lockstone/roots.h>
 #include <lockstone/units.h>
 
 #include "core/math/int128.h"
@@ -12,35 +14,7 @@
 
 namespace lockstone {
 
-template <class D>
-using DimensionSquare = DimensionProduct<D, D>;
-
 namespace roots_detail {
-
-template <class To>
-[[nodiscard]] constexpr bool fits(std::uint64_t root) {
-  return root <= static_cast<std::uint64_t>(To::max().raw);
-}
-
-/// To{root}, or its maximum.
-template <class To>
-[[nodiscard]] constexpr To bounded(std::uint64_t root) {
-  return fits<To>(root) ? To::from_raw(static_cast<typename To::Representation>(root)) : To::max();
-}
-
-/// The raw of √x in the format To, wide enough for every x.
-template <class To, class D, class R, int F>
-[[nodiscard]] constexpr std::uint64_t root_raw(Fixed<D, R, F> x) {
-  constexpr int shift = 2 * To::frac_bits - F;  // root² = raw · 2^shift
-  static_assert(shift >= 0 && shift <= 63);
-  if (x.raw <= 0) return 0;
-  const auto size = static_cast<std::uint64_t>(x.raw);
-  if constexpr (sizeof(R) == 4 && shift <= 32) {
-    return isqrt_rounded(size << shift);
-  } else {
-    return isqrt128_rounded(UInt128{0, size} << shift);
-  }
-}
 
 template <class R>
 [[nodiscard]] constexpr std::uint64_t hypot_raw(R x, R y, R z) {
@@ -77,29 +51,6 @@ inline constexpr int k_rsqrt_scale = 2 * To::frac_bits + F;
   while (root < bound && scaled_square(2 * root + 1) <= limit)
     ++root;
   return root;
-}
-
-/// √x to nearest (there are no ties) in the format To, whose unit squared is x's; the maximum of To
-/// when it does not fit. Negative x gives 0.
-template <class To, class D, class R, int F>
-requires(std::same_as<D, DimensionSquare<typename To::Unit>>) [[nodiscard]] constexpr To
-    sqrt_saturating(Fixed<D, R, F> x) {
-  return roots_detail::bounded<To>(roots_detail::root_raw<To>(x));
-}
-
-/// √x to nearest in the format To; x ≥ 0, and the result must fit.
-template <class To, class D, class R, int F>
-requires(std::same_as<D, DimensionSquare<typename To::Unit>>) [[nodiscard]] constexpr To
-    sqrt(Fixed<D, R, F> x) {
-  const std::uint64_t root = roots_detail::root_raw<To>(x);
-  LKS_ASSERT(x.raw >= 0 && roots_detail::fits<To>(root));
-  return roots_detail::bounded<To>(root);
-}
-
-/// √x of a plain number in its own format; x ≥ 0.
-template <class R, int F>
-[[nodiscard]] constexpr auto sqrt(Fixed<Dimension<0, 0, 0>, R, F> x) {
-  return sqrt<Fixed<Dimension<0, 0, 0>, R, F>>(x);
 }
 
 /// 1/√x to nearest (there are no ties) in the format To; the maximum of To when it does not fit,

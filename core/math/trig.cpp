@@ -154,6 +154,14 @@ std::uint64_t arc_tangent(std::uint64_t a, std::uint64_t b) {
   return k_arc_table[i] + static_cast<std::uint64_t>(d - cube);
 }
 
+/// The angle of (x, y) in [0, π] for y ≥ 0, with 40 fraction bits; 0 for (0, 0).
+std::uint64_t upper_arc(std::uint64_t y, std::int64_t x) {
+  const std::uint64_t ux = magnitude(x);
+  if (ux == 0 && y == 0) return 0;
+  const std::uint64_t angle = y <= ux ? arc_tangent(y, ux) : k_half_pi_q40 - arc_tangent(ux, y);
+  return x < 0 ? 2 * k_half_pi_q40 - angle : angle;
+}
+
 Angle to_angle(std::uint64_t q40, bool negative) {
   const auto size = static_cast<std::int32_t>((q40 + (std::uint64_t{1} << 12)) >> 13);
   return Angle::from_raw(negative ? -size : size);
@@ -239,12 +247,11 @@ FineSinCos half_sin_cos(RotationComponent angle) {
 }
 
 Angle atan2_raw(std::int64_t y, std::int64_t x) {
-  const std::uint64_t ux = magnitude(x);
-  const std::uint64_t uy = magnitude(y);
-  if (ux == 0 && uy == 0) return {};
-  std::uint64_t angle = uy <= ux ? arc_tangent(uy, ux) : k_half_pi_q40 - arc_tangent(ux, uy);
-  if (x < 0) angle = 2 * k_half_pi_q40 - angle;
-  return to_angle(angle, y < 0);
+  return to_angle(upper_arc(magnitude(y), x), y < 0);
+}
+
+RotationComponent fine_arc(std::uint64_t y, std::int64_t x) {
+  return RotationComponent::from_raw(static_cast<std::int64_t>((upper_arc(y, x) + 128) >> 8));
 }
 
 Angle asin(Unit x) {

@@ -16,6 +16,9 @@ using namespace lockstone::literals;
 WORLD = "#include <lockstone/world.h>\n"
 NEEDS_WORLD = re.compile(r"\b(?:World|BodyDef|Shape|RayHit|ApplyImpulse)")
 
+GAME = "#include <lockstone/game_math.h>\n"
+NEEDS_GAME = re.compile(r"\b(?:sqrt|sin|Random)\b")
+
 # The wrong line, the right one in its place, and a word of the message.
 BARE = "Fixed|no viable"
 PAIRS = [
@@ -61,11 +64,18 @@ PAIRS = [
      "auto f(Position p, Length v) { return p + v; }", "operator"),
     ("auto f(Unit a) { return to_decimal(a * a); }",
      "auto f(Unit a) { return to_decimal(a); }", "exact product"),
+    ("Length f(Length l) { return sqrt(l); }", "Number f(Number x) { return sqrt(x); }", "sqrt"),
+    ("Unit f() { return sin(2_m); }", "Unit f() { return sin(2_rad); }", "sin|conver"),
+    ("Random f() { return 5; }", "Random f() { return Random(5); }", "conver"),
+    ("Length f(Random& r) { return r.between(1_m, 2_m); }",
+     "Length f(Random& r) { return r.between<Length>(1_m, 2_m); }", "between"),
+    ("auto f(Random& r) { return r.fraction<Length>(); }",
+     "auto f(Random& r) { return r.fraction<Number>(); }", "fraction"),
 ]
 
 
 def errors(compiler, include, code):
-    front = (WORLD if NEEDS_WORLD.search(code) else "") + FRONT
+    front = (WORLD if NEEDS_WORLD.search(code) else "") + (GAME if NEEDS_GAME.search(code) else "") + FRONT
     done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-I", include, "-x", "c++", "-"],
                           input=front + code, capture_output=True, text=True)
     return "" if done.returncode == 0 else done.stderr or "failed"

@@ -37,9 +37,9 @@ HEADERS_ONLY = {"world"}
 # The module that each public header of core belongs to: its implementation lives there, and the
 # header may include the same modules.
 PUBLIC_MODULES = {
-    "base": ["assert.h", "bytes.h", "hash.h", "refusal.h", "rng.h", "status.h", "tasks.h",
+    "base": ["assert.h", "bytes.h", "hash.h", "refusal.h", "status.h", "tasks.h",
              "thread_pool.h"],
-    "math": ["constants.h", "decimal.h", "fixed.h", "literals.h", "mat3.h", "quat.h", "roots.h",
+    "math": ["decimal.h", "fixed.h", "game_math.h", "literals.h", "quat.h", "random.h", "roots.h", "rotation.h",
              "transform.h", "trigonometry.h", "units.h", "vec3.h", "vector_math.h"],
     "geometry": ["asset.h", "compound.h", "height_field.h", "hull.h", "load_asset.h", "material.h",
                  "mesh.h", "shape.h"],

@@ -9,6 +9,7 @@ import pathlib
 import sys
 from fractions import Fraction
 
+import numerics_reference_game as game
 import numerics_reference_shapes as shapes
 
 M64 = (1 << 64) - 1
@@ -438,6 +439,7 @@ FUNCTIONS = {
     "from_axis_angle": lambda x, y, z, a: from_axis_angle([x, y, z], a),
     "integrate": lambda *v: integrate(list(v[:4]), v[4:]),
     **shapes.functions(shifted, rounded, normalized),
+    **game.functions(sys.modules[__name__]),
 }
 
 

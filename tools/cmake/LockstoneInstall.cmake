@@ -5,14 +5,14 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lockstone)
 
 # Each component has targets of its own, so that the core is found without the libraries that net
 # and replay need.
-set(rooms core net replay)
+set(rooms core net replay view)
 if(TARGET lockstone_tool)
   list(APPEND rooms tool)
 endif()
 foreach(room IN LISTS rooms)
   set(folder ${room})
-  if(room STREQUAL "tool")
-    set(folder tools/tool)
+  if(room MATCHES "tool|view")
+    set(folder tools/${room})
   endif()
   install(TARGETS lockstone_${room}
     EXPORT lockstone_${room}

@@ -14,7 +14,7 @@ import sys
 LINK = re.compile(r"\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
 API = """# API
 
-- [All files](api/files.html): the public headers of `lockstone::core`, `lockstone::net` and `lockstone::replay`
+- [All files](api/files.html): the public headers of `lockstone::core`, `lockstone::net`, `lockstone::replay` and `lockstone::view`
 - [All classes](api/annotated.html)
 - [World](api/classlockstone_1_1World.html), [Simulation](api/classlockstone_1_1Simulation.html),
   [Server](api/classlockstone_1_1net_1_1Server.html), [Client](api/classlockstone_1_1net_1_1Client.html),

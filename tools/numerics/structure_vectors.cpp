@@ -63,11 +63,6 @@ void make_first_unit(Words& in) {
   normalise_at(in, 0);
 }
 
-void make_two_units(Words& in) {
-  normalise_at(in, 0);
-  normalise_at(in, 4);
-}
-
 /// Exact products are summed in 64 bits.
 Words product(const Words& in) {
   const RawSymMat3 s = sym_at(in, 0);

@@ -80,6 +80,11 @@ inline void normalise_at(Words& in, std::size_t at) {
     in[at + i] = unit[i];
 }
 
+inline void make_two_units(Words& in) {
+  normalise_at(in, 0);
+  normalise_at(in, 4);
+}
+
 /// `list` repeated into one list of inputs.
 [[nodiscard]] inline std::vector<Domain> inputs(
     std::initializer_list<std::pair<Domain, std::size_t>> list) {

@@ -132,7 +132,7 @@ const std::vector<Function>& functions() {
   static const std::vector<Function> all = [] {
     std::vector<Function> list;
     for (auto part : {arithmetic_functions, root_functions, angle_functions, structure_functions,
-                      predicate_functions}) {
+                      predicate_functions, game_functions}) {
       for (Function& function : part())
         list.push_back(std::move(function));
     }

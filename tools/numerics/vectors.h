@@ -35,6 +35,7 @@ struct Function {
 [[nodiscard]] std::vector<Function> angle_functions();
 [[nodiscard]] std::vector<Function> structure_functions();
 [[nodiscard]] std::vector<Function> predicate_functions();
+[[nodiscard]] std::vector<Function> game_functions();
 
 /// The file's text: the same on every machine.
 [[nodiscard]] std::string golden_text();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include <lockstone/units.h>
 #include <lockstone/vec3.h>
@@ -104,6 +105,52 @@ template <class T, class Factor>
     return a + scaled(b - a, t);
   else
     return a + (b - a) * t;  // a literal
+}
+
+/// Component by component.
+template <class T>
+[[nodiscard]] constexpr Vec3<T> abs(const Vec3<T>& v) {
+  return {abs(v.x), abs(v.y), abs(v.z)};
+}
+template <class T>
+[[nodiscard]] constexpr Vec3<T> min(const Vec3<T>& a, const Vec3<T>& b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+template <class T>
+[[nodiscard]] constexpr Vec3<T> max(const Vec3<T>& a, const Vec3<T>& b) {
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+template <class T>
+[[nodiscard]] constexpr Vec3<T> clamp(const Vec3<T>& v, const Vec3<T>& low, const Vec3<T>& high) {
+  return {clamp(v.x, low.x, high.x), clamp(v.y, low.y, high.y), clamp(v.z, low.z, high.z)};
+}
+
+/// v, shortened to the length `most` where it is longer, with a relative error below 2^-29 and half
+/// a last place of each component. most ≥ 0.
+template <class T>
+[[nodiscard]] Vec3<T> clamp_length(const Vec3<T>& v, std::type_identity_t<T> most) {
+  LKS_ASSERT(most >= T{});
+  if (length(v) <= most) return v;
+  const Vec3<Unit> direction = normalized(v);
+  return {scaled(most, direction.x), scaled(most, direction.y), scaled(most, direction.z)};
+}
+
+/// `from`, moved towards `to` by at most `most`; `to` itself once it is that near. The difference
+/// must fit; most ≥ 0.
+template <class D, class Rep, int F>
+[[nodiscard]] constexpr Fixed<D, Rep, F> move_toward(Fixed<D, Rep, F> from,
+                                                     std::type_identity_t<Fixed<D, Rep, F>> to,
+                                                     std::type_identity_t<Fixed<D, Rep, F>> most) {
+  LKS_ASSERT(most >= (Fixed<D, Rep, F>{}));
+  return from + clamp(to - from, -most, most);
+}
+
+/// The same along the straight line between two points, or of velocities; each step errs as
+/// `clamp_length` does.
+template <class T>
+[[nodiscard]] Vec3<T> move_toward(const Vec3<T>& from, const std::type_identity_t<Vec3<T>>& to,
+                                  std::type_identity_t<T> most) {
+  return from + clamp_length(to - from, most);
 }
 
 }  // namespace lockstone
