@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -117,8 +118,10 @@ std::string command_of(const BenchGeneralOptions& options) {
   if (options.alone) command += " --alone";
   if (!options.peers.empty()) command += fmt::format(" --peers {}", fmt::join(options.peers, ","));
   if (options.substeps != 4) command += fmt::format(" --substeps {}", options.substeps);
-  return command + fmt::format(" --first-seed {} --seeds {} --page {} --force", options.first_seed,
-                               options.seeds, options.page);
+  command += fmt::format(" --first-seed {} --seeds {} --page {}", options.first_seed, options.seeds,
+                         options.page);
+  if (!options.contacts.empty()) command += fmt::format(" --contacts {}", options.contacts);
+  return command + " --force";
 }
 
 void show(int done, int total) {
@@ -146,8 +149,10 @@ int measure(const BenchGeneralOptions& options) {
   } else {
     fmt::print("{}{}", general_table(runs), general_failures(runs, options.first_seed));
   }
-  bool written = options.page.empty() || write_text_file({options.page, options.force},
-                                                         general_page(runs, command_of(options)));
+  const std::string contacts_file = std::filesystem::path(options.contacts).filename().string();
+  bool written = options.page.empty() ||
+                 write_text_file({options.page, options.force},
+                                 general_page(runs, command_of(options), contacts_file));
   if (!options.contacts.empty())
     written = write_text_file({options.contacts, options.force}, contacts_sheet(runs)) && written;
   if (!options.plot.empty()) written = plot_general(runs, {options.plot, options.force}) && written;

@@ -116,7 +116,8 @@ std::string general_failures(std::span<const FamilyRun> runs, std::uint64_t firs
   return text;
 }
 
-std::string general_page(std::span<const FamilyRun> runs, std::string_view command) {
+std::string general_page(std::span<const FamilyRun> runs, std::string_view command,
+                         std::string_view contacts) {
   std::string text = fmt::format(
       "# Families of scenes\n\nMade by `{}`; {}; {}; commit {}.\n\n"
       "Each family is a generator: sizes, masses, friction, angles, jitter and counts come from "
@@ -129,6 +130,11 @@ std::string general_page(std::span<const FamilyRun> runs, std::string_view comma
       "| family | engine | error | worst | p99 | median | bound | gain | m/s | rest, s | asleep | "
       "µs a tick | failed |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       command, bench::machine_text(), bench::compiler_text(), bench::commit_text());
+  if (!contacts.empty())
+    text.insert(text.find("| family"),
+                fmt::format("The worst error of each scene over its number of contacts: [{0}]({0})."
+                            "\n\n",
+                            contacts));
   for (const FamilyRun& run : runs)
     text += row_of(run,
                    "| {} | {} | {} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.3g} | {:.1f} "

@@ -16,9 +16,10 @@ namespace lockstone::tool {
 [[nodiscard]] std::string general_failures(std::span<const bench::FamilyRun> runs,
                                            std::uint64_t first_seed);
 
-/// The table as Markdown, with a head that describes it.
+/// The table as Markdown, with a head that describes it. `contacts`: the name of a chart beside it;
+/// empty: none.
 [[nodiscard]] std::string general_page(std::span<const bench::FamilyRun> runs,
-                                       std::string_view command);
+                                       std::string_view command, std::string_view contacts);
 
 /// A chart a family into a folder: the errors of each engine, in order. False when the system
 /// refuses.
