@@ -31,7 +31,7 @@ void check_apart(const Pair& pair, const Answers& answers, Verdict& verdict) {
 // Points may be less deep than the shapes along the normal, where those beside the face are cut
 // off.
 void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
-  if (leans_back(pair, real(answers.deep.normal)) || is_depth_a_bound(pair, answers.deep)) return;
+  if (leans_back(pair, real(answers.deep.normal))) return;
   const double depth = real(answers.deep.depth);
   const double excess = std::min(-answers.least(), -k_deepest) - depth;
   verdict.measure(Check::overlap, std::max(0.0, excess), choice_slack(pair, 0) + preferred(depth));

@@ -24,9 +24,6 @@ struct Answers {
   [[nodiscard]] double least() const;
 };
 
-/// Whether the depth is only known to separate: rims have more vertices than EPA has room for.
-[[nodiscard]] bool is_depth_a_bound(const Pair& pair, const Penetration& found);
-
 /// How far rims, polygons of 2^15 vertices about axes of 30 bits, may be off their circles.
 [[nodiscard]] double rim_slack(const Pair& pair);
 

@@ -128,7 +128,7 @@ int run(FuzzPairsOptions& options) {
     options.run.kinds.push_back(*fuzz::kind_named(name));
   if (options.run.kinds.empty()) options.run.kinds = fuzz::all_kinds();
   const std::vector<Kind>& kinds = options.run.kinds;
-  if (*std::min_element(kinds.begin(), kinds.end()) >= Kind::triangle) {
+  if (std::ranges::none_of(kinds, [](Kind kind) { return do_meet(kind, kind); })) {
     complain("triangles and half-spaces do not meet each other: name a solid kind");
     return k_usage;
   }

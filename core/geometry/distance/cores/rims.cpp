@@ -46,7 +46,7 @@ Angle rim_angle(const Rims& rims, const RawVec& direction) {
   return atan2_raw(cut.y, cut.x);
 }
 
-std::uint16_t farthest_rim_vertex(const Rims& rims, const RawVec& direction) {
+int farthest_rim_vertex(const Rims& rims, const RawVec& direction) {
   const std::int64_t turns = std::int64_t{rim_angle(rims, direction).raw} * k_steps;
   const std::int64_t step = round_divide(Int128::from(turns), k_full_turn) & (k_steps - 1);
   int best = 0;
@@ -59,7 +59,7 @@ std::uint16_t farthest_rim_vertex(const Rims& rims, const RawVec& direction) {
     greatest = product;
     best = index;
   }
-  return static_cast<std::uint16_t>(best);
+  return static_cast<int>(best);
 }
 
 RawVec around_rim(const Rims& rims, int rim, Angle angle, int side) {

@@ -1,6 +1,6 @@
 // Circles as parts of convex cores: the rims of cylinders and cones.
 //
-// A rim is a regular polygon of 2^15 vertices: it lies within 4.6e-9 of the radius of its circle,
+// A rim is a regular polygon of 2^20 vertices: it lies within 4.5e-12 of the radius of its circle,
 // and its vertices need no list. Kept so, GJK and EPA remain exact searches in a finite set.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace lockstone::geometry {
 
-inline constexpr int k_rim_bits = 15;
+inline constexpr int k_rim_bits = 20;
 
 /// Up to two circles about one axis; a radius of zero makes a point. Empty when count is 0.
 struct Rims {
@@ -25,7 +25,7 @@ struct Rims {
   std::array<Length, 2> radii{};
 };
 
-/// The vertex with this index, fine: the rim in bit 15, the step in those below.
+/// The vertex with this index, fine: the rim in bit 20, the step in those below.
 [[nodiscard]] RawVec rim_point(const Rims& rims, int index);
 
 /// A point at `angle` from u to v, at `radius` from the centre of a rim.
@@ -36,7 +36,7 @@ struct Rims {
 
 /// The vertex farthest along a direction, whose components are below 2^62; the first of equals.
 /// Where several are within 2e-9 of the radius, any of these.
-[[nodiscard]] std::uint16_t farthest_rim_vertex(const Rims& rims, const RawVec& direction);
+[[nodiscard]] int farthest_rim_vertex(const Rims& rims, const RawVec& direction);
 
 /// The vertices of a polygon around each rim with one side at `angle`: its reach along that
 /// direction is the rim's own.

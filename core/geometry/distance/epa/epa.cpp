@@ -3,6 +3,7 @@
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/cores/half_space_gap.h"
 #include "core/geometry/distance/epa/expanding_polytope.h"
+#include "core/geometry/distance/epa/rim_overlap.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -84,39 +85,43 @@ CoreOverlap overlap_without_room(const GapQuery& query, const Simplex& face) {
   return result;
 }
 
-}  // namespace
-
-CoreOverlap core_overlap(const GapQuery& query) {
+/// Of the hull of a finite set, which ends at one of its faces.
+CoreOverlap polytope_overlap(const GapQuery& query, ExpandingPolytope& polytope) {
   const LatticePair& lattice = query.lattice();
-  Frame frame{query.simplex().count, query.simplex().vertices};
-  while (frame.count < 4) {
-    if (!add_dimension(lattice, frame)) return {flat_overlap(query, frame), true};
-  }
-  ExpandingPolytope polytope(frame.vertices);
   const auto gap_of = [&](const ExpandingFace& face) {
     return way_out(refine(query.fine_pair(), lattice, polytope.simplex_of(face), Side::before));
-  };
-  // Around a rim the search ends when the hull is that near to its planes: the room is for others.
-  constexpr std::int64_t k_rim_steps_left = 256;
-  const bool round = query.a().rims.count != 0 || query.b().rims.count != 0;
-  const auto is_seen = [&](const RawVec& point, const ExpandingFace& face) {
-    return round ? polytope.sees_from_afar(point, face, k_rim_steps_left)
-                 : polytope.sees(point, face);
   };
   // A vertex is added in each turn, and is_full ends the loop at the latest.
   for (;;) {
     const ExpandingFace& nearest = polytope.nearest();
     DifferenceVertex vertex = greatest_along(lattice, nearest.normal);
-    if (!is_seen(vertex.point, nearest)) {
+    if (!polytope.sees(vertex.point, nearest)) {
       const ExpandingFace& held = polytope.foot_face(nearest);
       if (&held == &nearest) return {gap_of(nearest), true};
       vertex = greatest_along(lattice, held.normal);
-      if (!is_seen(vertex.point, held)) return {gap_of(held), true};
+      if (!polytope.sees(vertex.point, held)) return {gap_of(held), true};
       if (polytope.is_full()) return {gap_of(nearest), true};
     }
     if (polytope.is_full()) return overlap_without_room(query, polytope.simplex_of(nearest));
     polytope.expand(vertex);
   }
+}
+
+}  // namespace
+
+CoreOverlap core_overlap(GapQuery& query) {
+  if (query.is_closed_form()) {
+    CoreGap gap = query.gap();
+    gap.distance = -gap.distance;
+    return {gap, true};
+  }
+  Frame frame{query.simplex().count, query.simplex().vertices};
+  while (frame.count < 4) {
+    if (!add_dimension(query.lattice(), frame)) return {flat_overlap(query, frame), true};
+  }
+  ExpandingPolytope polytope(frame.vertices);
+  const bool round = query.a().rims.count != 0 || query.b().rims.count != 0;
+  return round ? rim_overlap(query, polytope) : polytope_overlap(query, polytope);
 }
 
 namespace {

@@ -36,7 +36,7 @@ struct CoreOverlap {
 /// Every step adds a vertex of that hull; after 124 of them the nearest plane that supports it so
 /// far stands, which separates, if not by the least way. Of cores with rims, a plane within 256
 /// steps of the hull counts as supporting it.
-[[nodiscard]] CoreOverlap core_overlap(const GapQuery& query);
+[[nodiscard]] CoreOverlap core_overlap(GapQuery& query);
 
 }  // namespace geometry
 }  // namespace lockstone

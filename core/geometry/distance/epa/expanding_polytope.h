@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/geometry/distance/gjk/simplex.h"
 
@@ -39,6 +40,11 @@ class ExpandingPolytope {
                                     std::int64_t steps) const;
 
   [[nodiscard]] bool is_full() const { return vertex_count_ == k_max_expanding_vertices; }
+  [[nodiscard]] int vertex_count() const { return vertex_count_; }
+
+  /// Faces none of whose neighbours is nearer to the origin, nearest first; returns their number,
+  /// at most that of `valleys`. Of equal neighbours the first.
+  int find_valleys(std::span<const ExpandingFace*> valleys) const;
 
   /// Adds a vertex that sees a face. Not when full.
   void expand(const DifferenceVertex& vertex);
@@ -65,6 +71,7 @@ class ExpandingPolytope {
   void add_face(std::uint8_t a, std::uint8_t b, std::uint8_t c);
   /// Removes the faces that `vertex` sees; their rim.
   void remove_visible(const RawVec& vertex, Rim& rim);
+  [[nodiscard]] bool is_valley(const ExpandingFace& face) const;
   [[nodiscard]] bool holds_foot(const ExpandingFace& face) const;
 
   int vertex_count_ = 0;
