@@ -2,12 +2,12 @@
 
 #include <limits>
 
+#include "core/geometry/distance/gjk/fine_features.h"
 #include "core/math/roots.h"
 
 namespace lockstone::geometry {
 namespace {
 
-constexpr int k_guide_vertices = 40;
 constexpr int k_max_valleys = 12;
 constexpr int k_max_rounds = 12;
 
@@ -66,6 +66,14 @@ class Descent {
     }
   }
 
+  /// The descents from n and −n, where those could be better.
+  void try_both(const Vec3<Unit>& n) {
+    for (const Vec3<Unit>& way : {n, -n}) {
+      if (way == Vec3<Unit>{} || depth_along(way) > best_.depth + best_.depth / 8) continue;
+      from(way);
+    }
+  }
+
   [[nodiscard]] const WayOut& best() const { return best_; }
   [[nodiscard]] const RawVec& start() const { return start_; }
 
@@ -94,10 +102,10 @@ class Descent {
   WayOut best_{};
 };
 
-/// Grows the polytope to the guide's size; true when its nearest face supports the difference.
-bool grow(const LatticePair& lattice, ExpandingPolytope& polytope) {
+/// Grows the polytope to so many vertices; true when its nearest face supports the difference.
+bool grow(const LatticePair& lattice, ExpandingPolytope& polytope, int vertices) {
   constexpr std::int64_t k_steps_left = 8;
-  while (polytope.vertex_count() < k_guide_vertices) {
+  while (polytope.vertex_count() < vertices) {
     const ExpandingFace& nearest = polytope.nearest();
     const DifferenceVertex vertex = greatest_along(lattice, nearest.normal);
     if (!polytope.sees_from_afar(vertex.point, nearest, k_steps_left)) return true;
@@ -106,12 +114,8 @@ bool grow(const LatticePair& lattice, ExpandingPolytope& polytope) {
   return false;
 }
 
-}  // namespace
-
-CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
-  const bool supported = grow(query.lattice(), polytope);
-  const int shift = query.lattice().shift;
-  Descent descent(query);
+/// Descends from all valleys that could be better.
+void descend_from(const ExpandingPolytope& polytope, int shift, Descent& descent) {
   std::array<const ExpandingFace*, k_max_valleys> valleys;
   const int count = polytope.find_valleys(valleys);
   for (int i = 0; i < count; ++i) {
@@ -121,11 +125,117 @@ CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
     const RawVec n = -face.normal;
     descent.from(direction_of(n.x, n.y, n.z));
   }
+}
+
+/// Whether the way out is so long that the depth hardly changes around an axis.
+bool is_deep(const ConvexCore& core, Fine depth) {
+  return core.rims.count != 0 && depth > fine(core.rims.radii[0]) / 4;
+}
+
+RawVec axis_of(const Rims& rims) {
+  return rims.centres[1] - rims.centres[0];
+}
+
+/// The directions along which a side is nearest to the middle of another rim: across the axis, to
+/// and from its centre.
+void try_across(const Rims& side, const Rims& other, const RawVec& between, Descent& descent) {
+  const Vec3<Unit> axis = direction_of(axis_of(side).x, axis_of(side).y, axis_of(side).z);
+  for (int i = 0; i < other.count; ++i) {
+    const RawVec centre = between + other.centres[static_cast<std::size_t>(i)] - side.centres[0];
+    const RawVec across = centre - along(axis, dot(centre, axis));
+    const Vec3<Unit> n = direction_of(across.x, across.y, across.z);
+    descent.try_both(n);
+  }
+}
+
+// Layers ------------------------------------------------------------------------------------------
+//
+// Something small about the middle of a large cylinder or cone leaves it across the side about as
+// deep in any direction. Less a layer of even thickness, the side is as much nearer in all of them,
+// and the way out is the same.
+
+/// How far a core reaches from its reference along a unit vector.
+Fine reach_of(const ConvexCore& core, const Vec3<Unit>& n) {
+  return dot(vertex_of(core, farthest_vertex(core, raws_of(n))) - core.reference, n);
+}
+
+/// Bounds the part of the depth across the side that depends on the direction: by the other's reach
+/// across the axis, beside a cone by that along it too.
+Fine uneven_part(const Rims& side, const ConvexCore& other, const RawVec& between) {
+  const Vec3<Unit> axis = direction_of(axis_of(side).x, axis_of(side).y, axis_of(side).z);
+  const RawVec middle = between + other.reference - side.centres[0];
+  const RawVec across = middle - along(axis, dot(middle, axis));
+  auto most = static_cast<Fine>(norm(across.x, across.y, across.z));
+  for (const Vec3<Unit>& n : {side.u, side.v})
+    most += std::max(reach_of(other, n), reach_of(other, -n));
+  if (side.radii[1] != side.radii[0]) most += std::max(reach_of(other, axis), reach_of(other, -axis));
+  return most;
+}
+
+/// Takes a layer off the side; the base stays.
+void peel(Rims& rims, Fine layer) {
+  const auto height = static_cast<Fine>(norm(axis_of(rims).x, axis_of(rims).y, axis_of(rims).z));
+  const Fine radius = fine(rims.radii[0]);
+  const bool cone = rims.radii[1] == Length{};
+  const auto line = cone ? static_cast<Fine>(norm(height, radius, 0)) : height;
+  const Fine off = round_divide(multiply_wide(layer, line), height);
+  const Length left = Length::from_raw(
+      static_cast<std::int32_t>(raw::round_shift(radius - off, k_fine_per_length)));
+  if (cone)
+    rims.centres[1] = rims.centres[0] + scaled_by_ratio(axis_of(rims), fine(left), radius);
+  else
+    rims.radii[1] = left;
+  rims.radii[0] = left;
+}
+
+/// The way out of the pair less a layer of one side, if that side is thick enough.
+void try_peeled(const GapQuery& query, bool first, Descent& descent) {
+  const ConvexCore &side = first ? query.a() : query.b(), &other = first ? query.b() : query.a();
+  if (side.rims.count == 0) return;
+  const RawVec between = first ? descent.start() : -descent.start();
+  const Fine depth = descent.best().depth, uneven = uneven_part(side.rims, other, between);
+  if (uneven >= depth / 4) return;
+  ConvexCore peeled = side;
+  peel(peeled.rims, depth - 2 * uneven);
+  GapQuery inner(first ? peeled : other, first ? other : peeled);
+  if (inner.find(descent.start())) return;
+  descent.from(core_overlap(inner).gap.normal);
+}
+
+/// The directions that symmetry singles out.
+void try_symmetric(const GapQuery& query, Descent& descent) {
+  const Rims &a = query.a().rims, &b = query.b().rims;
+  const RawVec axis_a = axis_of(a), axis_b = axis_of(b), start = descent.start();
+  if (a.count != 0) descent.try_both(direction_of(axis_a.x, axis_a.y, axis_a.z));
+  if (b.count != 0) descent.try_both(direction_of(axis_b.x, axis_b.y, axis_b.z));
+  if (a.count == 0 || b.count == 0) return;
+  const RawVec both = truncated(wide_cross(axis_a, axis_b), 61);
+  descent.try_both(direction_of(both.x, both.y, both.z));
+  try_across(a, b, start, descent);
+  try_across(b, a, -start, descent);
+}
+
+}  // namespace
+
+CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
+  constexpr int k_guide_vertices = 40;
+  const LatticePair lattice = query.lattice();
+  bool supported = grow(lattice, polytope, k_guide_vertices);
+  Descent descent(query);
+  descend_from(polytope, lattice.shift, descent);
+  const Fine depth = descent.best().depth;
+  if (!supported && (is_deep(query.a(), depth) || is_deep(query.b(), depth))) {
+    supported = grow(lattice, polytope, k_max_expanding_vertices);
+    descend_from(polytope, lattice.shift, descent);
+    try_symmetric(query, descent);
+    try_peeled(query, true, descent);
+    try_peeled(query, false, descent);
+  }
   query.return_to(descent.start());
   const WayOut& best = descent.best();
-  const Fine depth = std::max(Fine{0}, best.depth);
-  const RawVec on_b = best.on_a - along(best.normal, depth);
-  return {{best.normal, depth, best.on_a, on_b}, supported};
+  const Fine positive = std::max(Fine{0}, best.depth);
+  const RawVec on_b = best.on_a - along(best.normal, positive);
+  return {{best.normal, positive, best.on_a, on_b}, supported};
 }
 
 }  // namespace lockstone::geometry

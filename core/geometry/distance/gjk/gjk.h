@@ -72,6 +72,7 @@ class GapQuery {
     make_core(a, a_);
     make_core(b, b_);
   }
+  GapQuery(const ConvexCore& a, const ConvexCore& b) : a_(a), b_(b) {}
   GapQuery(const GapQuery&) = delete;  // the lattice refers to the cores
   GapQuery& operator=(const GapQuery&) = delete;
 
