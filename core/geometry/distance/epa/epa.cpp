@@ -2,6 +2,7 @@
 
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/cores/half_space_gap.h"
+#include "core/geometry/distance/epa/difference_frame.h"
 #include "core/geometry/distance/epa/expanding_polytope.h"
 #include "core/geometry/distance/epa/rim_overlap.h"
 #include "core/geometry/numeric/normals.h"
@@ -11,48 +12,12 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-/// Vertices of B − A in general position, up to four.
-struct Frame {
-  int count = 0;
-  std::array<DifferenceVertex, 4> vertices{};
-
-  [[nodiscard]] const RawVec& point(std::size_t i) const { return vertices[i].point; }
-  [[nodiscard]] RawVec edge(std::size_t i) const { return point(i) - point(0); }
-  void add(const DifferenceVertex& vertex) { vertices[static_cast<std::size_t>(count++)] = vertex; }
-};
-
-constexpr std::array<RawVec, 3> k_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-/// Adds the extreme vertex along ±direction, if one is not at `direction`'s height of vertex 0.
-bool add_off_plane(const LatticePair& pair, const RawVec& direction, Frame& frame) {
-  for (const RawVec& d : {direction, -direction}) {
-    const DifferenceVertex vertex = greatest_along(pair, d);
-    if (is_zero(wide_dot(d, vertex.point - frame.point(0)))) continue;
-    frame.add(vertex);
-    return true;
-  }
-  return false;
-}
-
-/// One more dimension: along directions that span the complement of the frame, some vertex lies off
-/// it unless the difference is that flat.
-bool add_dimension(const LatticePair& pair, Frame& frame) {
-  if (frame.count == 3) {
-    return add_off_plane(pair, narrow_cross(frame.edge(1), frame.edge(2)), frame);
-  }
-  for (const RawVec& axis : k_axes) {
-    const RawVec direction = frame.count == 1 ? axis : narrow_cross(frame.edge(1), axis);
-    if (direction != RawVec{} && add_off_plane(pair, direction, frame)) return true;
-  }
-  return false;
-}
-
 Vec3<Unit> unit_along(const RawVec& v) {
   return lockstone::direction_of(v.x, v.y, v.z);
 }
 
 /// Cores whose difference is a point, a segment or a polygon that holds the origin.
-CoreGap flat_overlap(const GapQuery& query, const Frame& frame) {
+CoreGap flat_overlap(const GapQuery& query, const DifferenceFrame& frame) {
   const FinePair fine_pair = query.fine_pair();
   CoreGap gap = refine(fine_pair, query.lattice(), query.simplex(), Side::before);
   if (frame.count == 1) gap.normal = k_concentric_normal;
@@ -115,10 +80,8 @@ CoreOverlap core_overlap(GapQuery& query) {
     gap.distance = -gap.distance;
     return {gap, true};
   }
-  Frame frame{query.simplex().count, query.simplex().vertices};
-  while (frame.count < 4) {
-    if (!add_dimension(query.lattice(), frame)) return {flat_overlap(query, frame), true};
-  }
+  const DifferenceFrame frame = frame_of(query);
+  if (frame.count < 4) return {flat_overlap(query, frame), true};
   ExpandingPolytope polytope(frame.vertices);
   const bool round = query.a().rims.count != 0 || query.b().rims.count != 0;
   return round ? rim_overlap(query, polytope) : polytope_overlap(query, polytope);

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/geometry/distance/epa/difference_frame.h"
 #include "core/geometry/distance/gjk/fine_features.h"
 #include "core/math/roots.h"
 
@@ -74,17 +75,17 @@ class Descent {
     }
   }
 
+  /// The depth along n, as the vertices of the lattice give it.
+  [[nodiscard]] Fine depth_along(const Vec3<Unit>& n) const {
+    const DifferenceVertex least = least_along(query_.lattice(), raws_of(n));
+    return dot(vertex_of(query_.a(), least.a) - vertex_of(query_.b(), least.b) - start_, n);
+  }
+
   [[nodiscard]] const WayOut& best() const { return best_; }
   [[nodiscard]] const RawVec& start() const { return start_; }
 
  private:
   static constexpr Fine k_none = std::numeric_limits<Fine>::max();
-
-  /// The depth along n, as the vertices of the lattice give it.
-  Fine depth_along(const Vec3<Unit>& n) const {
-    const DifferenceVertex least = least_along(query_.lattice(), raws_of(n));
-    return dot(vertex_of(query_.a(), least.a) - vertex_of(query_.b(), least.b) - start_, n);
-  }
 
   /// The way out that the closest points show when B has just left along n.
   WayOut next_of(const Vec3<Unit>& n) {
@@ -154,22 +155,27 @@ void try_across(const Rims& side, const Rims& other, const RawVec& between, Desc
 // deep in any direction. Less a layer of even thickness, the side is as much nearer in all of them,
 // and the way out is the same.
 
-/// How far a core reaches from its reference along a unit vector.
-Fine reach_of(const ConvexCore& core, const Vec3<Unit>& n) {
-  return dot(vertex_of(core, farthest_vertex(core, raws_of(n))) - core.reference, n);
-}
+/// The least and the greatest of depths.
+struct DepthRange {
+  Fine least = std::numeric_limits<Fine>::max();
+  Fine most = std::numeric_limits<Fine>::min();
+};
 
-/// Bounds the part of the depth across the side that depends on the direction: by the other's reach
-/// across the axis, beside a cone by that along it too.
-Fine uneven_part(const Rims& side, const ConvexCore& other, const RawVec& between) {
-  const Vec3<Unit> axis = direction_of(axis_of(side).x, axis_of(side).y, axis_of(side).z);
-  const RawVec middle = between + other.reference - side.centres[0];
-  const RawVec across = middle - along(axis, dot(middle, axis));
-  auto most = static_cast<Fine>(norm(across.x, across.y, across.z));
-  for (const Vec3<Unit>& n : {side.u, side.v})
-    most += std::max(reach_of(other, n), reach_of(other, -n));
-  if (side.radii[1] != side.radii[0]) most += std::max(reach_of(other, axis), reach_of(other, -axis));
-  return most;
+/// The depths along eight normals of a side; `sign` turns them from A to B.
+DepthRange depths_across(const Rims& side, int sign, const Descent& descent) {
+  const RawVec axis = axis_of(side), u = raws_of(side.u), v = raws_of(side.v);
+  const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
+  const auto height = static_cast<Fine>(norm(axis.x, axis.y, axis.z));
+  const Vec3<Unit> slope = direction_of(height, fine(side.radii[0]) - fine(side.radii[1]), 0);
+  DepthRange range;
+  for (const RawVec& aside : {u, u + v, v, v - u, -u, -u - v, -v, u - v}) {
+    const Vec3<Unit> out = direction_of(aside.x, aside.y, aside.z);
+    const auto lane = [&](Unit x, Unit y) { return sign * (x * slope.x + y * slope.y).raw; };
+    const Fine depth = descent.depth_along(
+        direction_of(lane(out.x, up.x), lane(out.y, up.y), lane(out.z, up.z)));
+    range = {std::min(range.least, depth), std::max(range.most, depth)};
+  }
+  return range;
 }
 
 /// Takes a layer off the side; the base stays.
@@ -188,18 +194,24 @@ void peel(Rims& rims, Fine layer) {
   rims.radii[0] = left;
 }
 
-/// The way out of the pair less a layer of one side, if that side is thick enough.
+/// The best way out of a pair less a layer of one side, the valleys of whose depth are as far from
+/// even as it is deep.
 void try_peeled(const GapQuery& query, bool first, Descent& descent) {
   const ConvexCore &side = first ? query.a() : query.b(), &other = first ? query.b() : query.a();
   if (side.rims.count == 0) return;
-  const RawVec between = first ? descent.start() : -descent.start();
-  const Fine depth = descent.best().depth, uneven = uneven_part(side.rims, other, between);
-  if (uneven >= depth / 4) return;
+  const DepthRange depths = depths_across(side.rims, first ? 1 : -1, descent);
+  const Fine uneven = depths.most - depths.least + (depths.least >> 10);
+  if (depths.least <= 4 * uneven || depths.least - uneven > descent.best().depth) return;
   ConvexCore peeled = side;
-  peel(peeled.rims, depth - 2 * uneven);
+  peel(peeled.rims, depths.least - 2 * uneven);
   GapQuery inner(first ? peeled : other, first ? other : peeled);
-  if (inner.find(descent.start())) return;
-  descent.from(core_overlap(inner).gap.normal);
+  if (inner.find(descent.start())) return descent.from(inner.gap().normal);
+  ExpandingPolytope polytope(frame_of(inner).vertices);
+  const LatticePair lattice = inner.lattice();
+  grow(lattice, polytope, k_max_expanding_vertices);
+  Descent within(inner);
+  descend_from(polytope, lattice.shift, within);
+  descent.from(within.best().normal);
 }
 
 /// The directions that symmetry singles out.
