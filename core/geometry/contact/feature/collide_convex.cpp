@@ -73,14 +73,15 @@ Shape with_round_ends(const PosedShape& posed) {
   return traits.with_round_ends != nullptr ? traits.with_round_ends(posed.shape.size) : posed.shape;
 }
 
-/// Whether the axis meets the shape at its side, and so far from the ends that no axis which is
-/// turned towards one makes a smaller overlap: turned by φ it loses overlap · (1 − cos φ) and gains
-/// the distance to the end times sin φ. `point` is that of the shape's axis, from its centre.
+/// Whether the axis meets the shape at its side, not beyond an end by more than 2 µm, and so far
+/// from the ends that no axis which is turned towards one makes a smaller overlap: turned by φ it
+/// loses overlap · (1 − cos φ) and gains the distance to the end times sin φ. `point` is that of the
+/// shape's axis, from its centre; the other's core is `distance` away from it.
 bool is_at_side(const PosedShape& posed, const Shape& rounded, const Vec3<Unit>& normal,
-                const RawVec& point, Fine separation) {
-  constexpr std::int64_t k_square = std::int64_t{1} << 44;  // 2^-16
+                const RawVec& point, Fine distance, Fine separation) {
+  constexpr Fine k_beyond = Fine{1} << (k_fine_bits - 19);
   if (rounded == posed.shape) return true;
-  if (magnitude_of(lockstone::dot(posed.rotation.y, normal).raw) > k_square) return false;
+  if (magnitude_of(dot(along(normal, distance), posed.rotation.y)) > k_beyond) return false;
   const Fine to_end = fine(rounded.size.y) - magnitude_of(dot(point, posed.rotation.y));
   return to_end + separation >= 0;
 }
@@ -97,8 +98,8 @@ bool find_side_axis(const ConvexMeeting& pair, ConvexAxis& found) {
   const CoreGap& gap = query.gap();
   if (gap.distance < query.radii() / 4) return false;
   const Fine separation = gap.distance - query.radii();
-  if (!is_at_side(pair.a, shape_a, gap.normal, gap.on_a, separation) ||
-      !is_at_side(pair.b, shape_b, gap.normal, gap.on_b - between, separation))
+  if (!is_at_side(pair.a, shape_a, gap.normal, gap.on_a, gap.distance, separation) ||
+      !is_at_side(pair.b, shape_b, gap.normal, gap.on_b - between, gap.distance, separation))
     return false;
   LKS_ASSERT(is_unit(gap.normal));
   found = axis_of(gap, separation, query);
@@ -218,6 +219,11 @@ Manifold single_point(const ConvexMeeting& pair, const ConvexAxis& axis) {
   return manifold;
 }
 
+/// A sphere meets a solid at one point, whose axis is in closed form.
+bool has_sphere(const ConvexMeeting& pair) {
+  return pair.a.shape.kind == ShapeKind::sphere || pair.b.shape.kind == ShapeKind::sphere;
+}
+
 bool is_one_sided(const PosedShape& posed) {
   return posed.polytope != nullptr && posed.polytope->one_sided;
 }
@@ -237,14 +243,17 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
   const bool front_a = is_one_sided(a);
   if (front_a && !is_before_front(a, offset)) return {};
   ConvexAxis axis;
-  if (!find_side_axis(pair, axis)) axis = nearest_axis(pair);
+  if (has_sphere(pair) || !find_side_axis(pair, axis)) axis = nearest_axis(pair);
   ShownFeatures shown;
   if (front_a) {
     const Vec3<Unit> front = unit_axis(lockstone::rotate(a.rotation, a.polytope->faces[0].normal));
-    if (lockstone::dot(front, axis.normal).raw < 0)
+    const bool leans_back = lockstone::dot(front, axis.normal).raw < 0;
+    if (leans_back && axis.separation > 0) return separated_by(axis.normal);
+    if (leans_back)
       axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
   }
   if (axis.separation > fine(margin) + k_face_slack) return separated_by(axis.normal);
+  if (has_sphere(pair)) return single_point(pair, axis);
   find_feature(a, axis.normal, shown.a);
   find_feature(b, -axis.normal, shown.b);
   LKS_ASSERT(shown.a.count > 0 && shown.b.count > 0);

@@ -24,10 +24,16 @@ Angle wrapped(std::int64_t angle) {
 
 }  // namespace
 
+// Sine and cosine are rounded to 30 bits; a radius divided by their norm, 1 + e/2 for e of less than
+// 2^-28, keeps neighbours on one circle: what is between them has the normal of the circle.
 RawVec rim_point(const Rims& rims, int rim, Angle angle, Fine radius) {
   const SinCos turn = sin_cos(angle);
-  return rims.centres[static_cast<std::size_t>(rim)] + along(rims.u, scaled(radius, turn.cos.raw)) +
-         along(rims.v, scaled(radius, turn.sin.raw));
+  const std::int64_t excess = (turn.cos * turn.cos).raw + (turn.sin * turn.sin).raw -
+                              (std::int64_t{1} << (2 * Unit::frac_bits));
+  const Int128 half = round_shift(multiply_wide(radius, excess), 2 * Unit::frac_bits + 1);
+  const Fine kept = radius - saturate_to_int64(half);
+  return rims.centres[static_cast<std::size_t>(rim)] + along(rims.u, scaled(kept, turn.cos.raw)) +
+         along(rims.v, scaled(kept, turn.sin.raw));
 }
 
 RawVec rim_point(const Rims& rims, int index) {

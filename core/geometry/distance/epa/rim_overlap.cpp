@@ -23,9 +23,9 @@ RawVec raws_of(const Vec3<Unit>& n) {
   return {n.x.raw, n.y.raw, n.z.raw};
 }
 
-/// Whether two unit vectors differ by less than 2^-20 in each component.
+/// Whether two unit vectors differ by less than 2^-25 in each component.
 bool is_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {
-  constexpr std::int64_t k_alike = std::int64_t{1} << 10;
+  constexpr std::int64_t k_alike = std::int64_t{1} << 5;
   const RawVec d = raws_of(a) - raws_of(b);
   return std::max({magnitude_of(d.x), magnitude_of(d.y), magnitude_of(d.z)}) < k_alike;
 }
@@ -185,8 +185,8 @@ void peel(Rims& rims, Fine layer) {
   const bool cone = rims.radii[1] == Length{};
   const auto line = cone ? static_cast<Fine>(norm(height, radius, 0)) : height;
   const Fine off = round_divide(multiply_wide(layer, line), height);
-  const Length left = Length::from_raw(
-      static_cast<std::int32_t>(raw::round_shift(radius - off, k_fine_per_length)));
+  const Length left = Length::from_raw(static_cast<std::int32_t>(
+      std::max<Fine>(raw::round_shift(radius - off, k_fine_per_length), 1)));
   if (cone)
     rims.centres[1] = rims.centres[0] + scaled_by_ratio(axis_of(rims), fine(left), radius);
   else
@@ -206,7 +206,9 @@ void try_peeled(const GapQuery& query, bool first, Descent& descent) {
   peel(peeled.rims, depths.least - 2 * uneven);
   GapQuery inner(first ? peeled : other, first ? other : peeled);
   if (inner.find(descent.start())) return descent.from(inner.gap().normal);
-  ExpandingPolytope polytope(frame_of(inner).vertices);
+  const DifferenceFrame frame = frame_of(inner);
+  if (frame.count < 4) return;
+  ExpandingPolytope polytope(frame.vertices);
   const LatticePair lattice = inner.lattice();
   grow(lattice, polytope, k_max_expanding_vertices);
   Descent within(inner);
