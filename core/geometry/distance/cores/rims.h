@@ -1,6 +1,6 @@
 // Circles as parts of convex cores: the rims of cylinders and cones.
 //
-// A rim is a regular polygon of 2^24 vertices: it lies within 2e-14 of the radius of its circle,
+// A rim is a regular polygon of 2^15 vertices: it lies within 4.6e-9 of the radius of its circle,
 // and its vertices need no list. Kept so, GJK and EPA remain exact searches in a finite set.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace lockstone::geometry {
 
-inline constexpr int k_rim_bits = 24;
+inline constexpr int k_rim_bits = 15;
 
 /// Up to two circles about one axis; a radius of zero makes a point. Empty when count is 0.
 struct Rims {
@@ -25,7 +25,7 @@ struct Rims {
   std::array<Length, 2> radii{};
 };
 
-/// The vertex with this index, fine: the rim in bit 24, the step in those below.
+/// The vertex with this index, fine: the rim in bit 15, the step in those below.
 [[nodiscard]] RawVec rim_point(const Rims& rims, int index);
 
 /// A point at `angle` from u to v, at `radius` from the centre of a rim.

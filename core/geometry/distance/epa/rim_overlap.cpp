@@ -1,5 +1,6 @@
 #include "core/geometry/distance/epa/rim_overlap.h"
 
+#include <cstdlib>
 #include <limits>
 
 #include "core/geometry/distance/epa/difference_frame.h"
@@ -16,8 +17,22 @@ constexpr int k_max_rounds = 12;
 struct WayOut {
   Vec3<Unit> normal{};
   Fine depth = std::numeric_limits<Fine>::max();
-  RawVec on_a{};
+  RawVec on_a{};  ///< from A's centre; on_a − on_b = depth · normal
+  RawVec on_b{};
 };
+
+/// Whether vertices of a core are one point of it, or neighbours on a rim.
+bool is_one_point(const ConvexCore& core, const Simplex& simplex, int DifferenceVertex::*index) {
+  const int first = simplex.vertices[0].*index;
+  for (std::size_t i = 1; i < static_cast<std::size_t>(simplex.count); ++i) {
+    constexpr int k_steps = 1 << k_rim_bits;
+    const int other = simplex.vertices[i].*index;
+    const int turn = std::abs(first - other) % k_steps;
+    const bool near = std::min(turn, k_steps - turn) <= 2 && first >> k_rim_bits == other >> k_rim_bits;
+    if (other != first && (core.rims.count == 0 || !near)) return false;
+  }
+  return true;
+}
 
 RawVec raws_of(const Vec3<Unit>& n) {
   return {n.x.raw, n.y.raw, n.z.raw};
@@ -50,13 +65,15 @@ class Descent {
   explicit Descent(GapQuery& query)
       : query_(query),
         start_(query.fine_pair().offset),
-        clearance_(Fine{1} << (query.lattice().shift + 20)) {}
+        clearance_(Fine{1} << (query.lattice().shift + 20)),
+        least_fall_(Fine{1} << std::max(0, query.lattice().shift - 4)) {}
 
   void from(Vec3<Unit> n) {
     WayOut here = next_of(n);
     for (int round = 0; round < k_max_rounds && here.depth != k_none; ++round) {
       const WayOut next = next_of(here.normal);
-      if (next.depth == k_none || is_alike(next.normal, here.normal)) return;
+      const bool falls = next.depth < here.depth - least_fall_;
+      if (!falls || is_alike(next.normal, here.normal)) return;
       const Vec3<Unit> limit = limit_of(n, here.normal, next.normal);
       n = next.normal;
       here = next_of(n);
@@ -92,14 +109,22 @@ class Descent {
     const RawVec shift = along(n, depth_along(n) + clearance_);
     if (!query_.find(start_ + shift)) return {};
     const CoreGap& gap = query_.gap();
-    const WayOut way{gap.normal, dot(shift, gap.normal) - gap.distance, gap.on_a};
+    WayOut way{gap.normal, dot(shift, gap.normal) - gap.distance, gap.on_a, gap.on_b - shift};
+    // The normal is not so exact where a surface is curved that both points lie along it: one that
+    // is a corner stays, the other moves within its face.
+    const RawVec apart = along(way.normal, way.depth);
+    if (is_one_point(query_.b(), query_.features(), &DifferenceVertex::b))
+      way.on_a = way.on_b + apart;
+    else
+      way.on_b = way.on_a - apart;
     if (way.depth < best_.depth) best_ = way;
     return way;
   }
 
   GapQuery& query_;
   RawVec start_;
-  Fine clearance_;  ///< 2^-10 of the greatest distance of points
+  Fine clearance_;   ///< 2^-10 of the greatest distance of points
+  Fine least_fall_;  ///< 2^-34 of it: less is the rounding of the lattice
   WayOut best_{};
 };
 
@@ -247,9 +272,7 @@ CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
   }
   query.return_to(descent.start());
   const WayOut& best = descent.best();
-  const Fine positive = std::max(Fine{0}, best.depth);
-  const RawVec on_b = best.on_a - along(best.normal, positive);
-  return {{best.normal, positive, best.on_a, on_b}, supported};
+  return {{best.normal, std::max(Fine{0}, best.depth), best.on_a, best.on_b}, supported};
 }
 
 }  // namespace lockstone::geometry
