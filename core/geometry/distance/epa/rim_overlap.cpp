@@ -13,6 +13,9 @@ namespace {
 constexpr int k_max_valleys = 12;
 constexpr int k_max_rounds = 12;
 
+constexpr std::int64_t k_all = std::int64_t{1} << 31;
+constexpr std::int64_t k_close = (std::int64_t{1} << 30) - (std::int64_t{1} << 27);  // 0.5 rad
+
 /// A way out along `normal`.
 struct WayOut {
   Vec3<Unit> normal{};
@@ -66,10 +69,11 @@ class Descent {
       : query_(query),
         start_(query.fine_pair().offset),
         clearance_(Fine{1} << (query.lattice().shift + 20)),
-        least_fall_(Fine{1} << std::max(0, query.lattice().shift - 4)) {}
+        least_fall_(Fine{1} << std::max(k_fine_bits - 27, query.lattice().shift - 4)) {}
 
   void from(Vec3<Unit> n) {
     WayOut here = next_of(n);
+    if (is_alike(here.normal, n)) return;
     for (int round = 0; round < k_max_rounds && here.depth != k_none; ++round) {
       const WayOut next = next_of(here.normal);
       const bool falls = next.depth < here.depth - least_fall_;
@@ -124,7 +128,7 @@ class Descent {
   GapQuery& query_;
   RawVec start_;
   Fine clearance_;   ///< 2^-10 of the greatest distance of points
-  Fine least_fall_;  ///< 2^-34 of it: less is the rounding of the lattice
+  Fine least_fall_;  ///< 2^-34 of it, at least 7 nm: less is the rounding of the lattice
   WayOut best_{};
 };
 
@@ -140,16 +144,18 @@ bool grow(const LatticePair& lattice, ExpandingPolytope& polytope, int vertices)
   return false;
 }
 
-/// Descends from all valleys that could be better.
-void descend_from(const ExpandingPolytope& polytope, int shift, Descent& descent) {
+/// Descends from all valleys that could be better, but not from those whose direction is that close
+/// (as a cosine, 30 bits) to the best so far.
+void descend_from(const ExpandingPolytope& polytope, int shift, std::int64_t close,
+                  Descent& descent) {
   std::array<const ExpandingFace*, k_max_valleys> valleys;
   const int count = polytope.find_valleys(valleys);
   for (int i = 0; i < count; ++i) {
     const ExpandingFace& face = *valleys[static_cast<std::size_t>(i)];
     const std::uint64_t steps = face.distance >> 30;
     if (static_cast<Fine>(steps << shift) >= descent.best().depth) break;
-    const RawVec n = -face.normal;
-    descent.from(direction_of(n.x, n.y, n.z));
+    const Vec3<Unit> n = direction_of(-face.normal.x, -face.normal.y, -face.normal.z);
+    if (lockstone::dot(n, descent.best().normal).raw < close << Unit::frac_bits) descent.from(n);
   }
 }
 
@@ -237,7 +243,7 @@ void try_peeled(const GapQuery& query, bool first, Descent& descent) {
   const LatticePair lattice = inner.lattice();
   grow(lattice, polytope, k_max_expanding_vertices);
   Descent within(inner);
-  descend_from(polytope, lattice.shift, within);
+  descend_from(polytope, lattice.shift, k_all, within);
   descent.from(within.best().normal);
 }
 
@@ -257,15 +263,15 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
 }  // namespace
 
 CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
-  constexpr int k_guide_vertices = 40;
+  constexpr int k_guide_vertices = 12;
   const LatticePair lattice = query.lattice();
   bool supported = grow(lattice, polytope, k_guide_vertices);
   Descent descent(query);
-  descend_from(polytope, lattice.shift, descent);
+  descend_from(polytope, lattice.shift, k_close, descent);
   const Fine depth = descent.best().depth;
   if (!supported && (is_deep(query.a(), depth) || is_deep(query.b(), depth))) {
     supported = grow(lattice, polytope, k_max_expanding_vertices);
-    descend_from(polytope, lattice.shift, descent);
+    descend_from(polytope, lattice.shift, k_all, descent);
     try_symmetric(query, descent);
     try_peeled(query, true, descent);
     try_peeled(query, false, descent);
