@@ -14,7 +14,7 @@ constexpr int k_max_valleys = 12;
 constexpr int k_max_rounds = 12;
 
 constexpr std::int64_t k_all = std::int64_t{1} << 31;
-constexpr std::int64_t k_close = (std::int64_t{1} << 30) - (std::int64_t{1} << 27);  // 0.5 rad
+constexpr std::int64_t k_close = (std::int64_t{1} << 30) - (std::int64_t{1} << 25);  // 0.25 rad
 
 /// A way out along `normal`.
 struct WayOut {
@@ -71,21 +71,10 @@ class Descent {
         clearance_(Fine{1} << (query.lattice().shift + 20)),
         least_fall_(Fine{1} << std::max(k_fine_bits - 27, query.lattice().shift - 4)) {}
 
-  void from(Vec3<Unit> n) {
-    WayOut here = next_of(n);
-    if (is_alike(here.normal, n)) return;
-    for (int round = 0; round < k_max_rounds && here.depth != k_none; ++round) {
-      const WayOut next = next_of(here.normal);
-      const bool falls = next.depth < here.depth - least_fall_;
-      if (!falls || is_alike(next.normal, here.normal)) return;
-      const Vec3<Unit> limit = limit_of(n, here.normal, next.normal);
-      n = next.normal;
-      here = next_of(n);
-      const WayOut leap = next_of(limit);
-      if (leap.depth > here.depth) continue;
-      n = limit;
-      here = leap;
-    }
+  /// The last way is kept, not the shortest: its points lie along its normal.
+  void from(const Vec3<Unit>& n) {
+    const WayOut way = limit_from(n);
+    if (way.depth < best_.depth) best_ = way;
   }
 
   /// The descents from n and −n, where those could be better.
@@ -108,6 +97,25 @@ class Descent {
  private:
   static constexpr Fine k_none = std::numeric_limits<Fine>::max();
 
+  /// The end of the descent from n.
+  WayOut limit_from(Vec3<Unit> n) {
+    WayOut here = next_of(n);
+    for (int round = 0; round < k_max_rounds; ++round) {
+      if (here.depth == k_none || is_alike(here.normal, n)) return here;
+      const WayOut next = next_of(here.normal);
+      if (next.depth == k_none) return here;
+      if (next.depth >= here.depth - least_fall_) return next;
+      const Vec3<Unit> limit = limit_of(n, here.normal, next.normal);
+      n = next.normal;
+      here = next_of(n);
+      const WayOut leap = next_of(limit);
+      if (leap.depth > here.depth) continue;
+      n = limit;
+      here = leap;
+    }
+    return here;
+  }
+
   /// The way out that the closest points show when B has just left along n.
   WayOut next_of(const Vec3<Unit>& n) {
     const RawVec shift = along(n, depth_along(n) + clearance_);
@@ -121,7 +129,6 @@ class Descent {
       way.on_a = way.on_b + apart;
     else
       way.on_b = way.on_a - apart;
-    if (way.depth < best_.depth) best_ = way;
     return way;
   }
 
@@ -263,7 +270,7 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
 }  // namespace
 
 CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
-  constexpr int k_guide_vertices = 12;
+  constexpr int k_guide_vertices = 16;
   const LatticePair lattice = query.lattice();
   bool supported = grow(lattice, polytope, k_guide_vertices);
   Descent descent(query);
