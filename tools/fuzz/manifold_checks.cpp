@@ -45,11 +45,14 @@ bool has_core_inside(const Pair& pair, double separation) {
   return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
-// A vertex may be moved onto a side by 31 µm, and at a corner onto two.
+// A vertex may be moved onto a side by 31 µm, and at a corner onto two. A normal beside a rim errs by
+// half a step of its polygon, 1e-4, and by as much as the lattice moves the closest points of a
+// slender shape: points are as far aside.
 double surface_slack(const Pair& pair) {
+  const double aside = pair.has_rims() ? 1.2e-4 * pair.rim_radii() + 1e-6 * pair.size() : 0;
   const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
   const double share = pair.has(Kind::capsule) ? pair.radii() / 1000 : 0;
-  return tolerance(pair) + snap + share + uneven_slack(pair);
+  return tolerance(pair) + snap + share + aside + uneven_slack(pair);
 }
 
 // How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.

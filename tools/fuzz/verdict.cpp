@@ -16,7 +16,9 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"overlap", "15 % and 0.82 mm more"},
     {"margin", "as apart"},
     {"manifold", "normal 2^-29; features ascend"},
-    {"anchors", "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius"},
+    {"anchors",
+     "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius; with rims + 1e-6 of the sizes "
+     "and 1.2e-4 of the rims' radii"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
     {"cast", "2 um"},

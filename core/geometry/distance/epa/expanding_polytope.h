@@ -49,6 +49,9 @@ class ExpandingPolytope {
   /// Adds a vertex that sees a face. Not when full.
   void expand(const DifferenceVertex& vertex);
 
+  /// Whether the foot of the origin on its plane is in the face.
+  [[nodiscard]] bool holds_foot(const ExpandingFace& face) const;
+
   /// `face` if it holds the foot of the origin; else the first face that does and is as near, by
   /// rounded distances: it may be in another plane, which nothing says supports the difference.
   /// `face` when there is none.
@@ -72,7 +75,6 @@ class ExpandingPolytope {
   /// Removes the faces that `vertex` sees; their rim.
   void remove_visible(const RawVec& vertex, Rim& rim);
   [[nodiscard]] bool is_valley(const ExpandingFace& face) const;
-  [[nodiscard]] bool holds_foot(const ExpandingFace& face) const;
 
   int vertex_count_ = 0;
   int face_count_ = 0;

@@ -141,7 +141,7 @@ class Descent {
 
 /// Grows the polytope to so many vertices; true when its nearest face supports the difference.
 bool grow(const LatticePair& lattice, ExpandingPolytope& polytope, int vertices) {
-  constexpr std::int64_t k_steps_left = 8;
+  constexpr std::int64_t k_steps_left = 2;
   while (polytope.vertex_count() < vertices) {
     const ExpandingFace& nearest = polytope.nearest();
     const DifferenceVertex vertex = greatest_along(lattice, nearest.normal);
@@ -270,9 +270,15 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
 }  // namespace
 
 CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
-  constexpr int k_guide_vertices = 16;
+  constexpr int k_guide_vertices = 12;
   const LatticePair lattice = query.lattice();
   bool supported = grow(lattice, polytope, k_guide_vertices);
+  if (supported && polytope.holds_foot(polytope.nearest())) {
+    CoreGap gap = refine(query.fine_pair(), lattice, polytope.simplex_of(polytope.nearest()),
+                         Side::before);
+    gap.normal = -gap.normal;
+    return {gap, true};
+  }
   Descent descent(query);
   descend_from(polytope, lattice.shift, k_close, descent);
   const Fine depth = descent.best().depth;
