@@ -45,14 +45,20 @@ bool has_core_inside(const Pair& pair, double separation) {
   return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
-// A vertex may be moved onto a side by 31 µm, and at a corner onto two. A normal beside a rim errs by
-// half a step of its polygon, 1e-4, and by as much as the lattice moves the closest points of a
-// slender shape: points are as far aside.
-double surface_slack(const Pair& pair) {
-  const double aside = pair.has_rims() ? 1.2e-4 * pair.rim_radii() + 1e-6 * pair.size() : 0;
+// How far points of a shape with rims are aside: a normal beside a rim errs by half a step of its
+// polygon, 1e-4, and by as much as the lattice moves the closest points of slender shapes; far inside,
+// where the depth hardly changes from one direction to the next, by more.
+double aside_slack(const Pair& pair, double separation) {
+  if (!pair.has_rims()) return 0;
+  const double deep = -separation > pair.rim_radii() / 64 ? -separation / 200 : 0;
+  return 1.2e-4 * pair.rim_radii() + 1e-6 * pair.size() + deep;
+}
+
+// A vertex may be moved onto a side by 31 µm, and at a corner onto two.
+double surface_slack(const Pair& pair, double separation) {
   const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
   const double share = pair.has(Kind::capsule) ? pair.radii() / 1000 : 0;
-  return tolerance(pair) + snap + share + aside + uneven_slack(pair);
+  return tolerance(pair) + snap + share + aside_slack(pair, separation) + uneven_slack(pair);
 }
 
 // How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.
@@ -75,8 +81,8 @@ void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, co
   }
   if (separation < k_deepest || has_core_inside(pair, separation)) return;
   if (separation <= 0 && leans_back(pair, out)) return;  // the front may be pushed beside itself
-  verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair));
-  verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair));
+  verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair, separation));
+  verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair, separation));
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ double uneven_slack(const Pair& pair) {
 double choice_slack(const Pair& pair, double distance) {
   const double rim =
       pair.has(Kind::capsule) ? (std::max(0.0, distance) + pair.radii()) * k_capsule_share : 0;
-  return tolerance(pair) + k_face_slack + rim + uneven_slack(pair);
+  // The points that stand still on a disc reach as far as its rim within 5e-6 of the radius.
+  return tolerance(pair) + k_face_slack + rim + 5e-6 * pair.rim_radii() + uneven_slack(pair);
 }
 
 double height_before_front(const Pair& pair) {

@@ -168,23 +168,11 @@ void descend_from(const ExpandingPolytope& polytope, int shift, std::int64_t clo
 
 /// Whether the way out is so long that the depth hardly changes around an axis.
 bool is_deep(const ConvexCore& core, Fine depth) {
-  return core.rims.count != 0 && depth > fine(core.rims.radii[0]) / 4;
+  return core.rims.count != 0 && depth > fine(core.rims.radii[0]) / 64;
 }
 
 RawVec axis_of(const Rims& rims) {
   return rims.centres[1] - rims.centres[0];
-}
-
-/// The directions along which a side is nearest to the middle of another rim: across the axis, to
-/// and from its centre.
-void try_across(const Rims& side, const Rims& other, const RawVec& between, Descent& descent) {
-  const Vec3<Unit> axis = direction_of(axis_of(side).x, axis_of(side).y, axis_of(side).z);
-  for (int i = 0; i < other.count; ++i) {
-    const RawVec centre = between + other.centres[static_cast<std::size_t>(i)] - side.centres[0];
-    const RawVec across = centre - along(axis, dot(centre, axis));
-    const Vec3<Unit> n = direction_of(across.x, across.y, across.z);
-    descent.try_both(n);
-  }
 }
 
 // Layers ------------------------------------------------------------------------------------------
@@ -254,17 +242,49 @@ void try_peeled(const GapQuery& query, bool first, Descent& descent) {
   descent.from(within.best().normal);
 }
 
-/// The directions that symmetry singles out.
+/// The axis of a shape with rims, or the segment of a capsule, by its ends.
+struct AxisEnds {
+  bool any = false;
+  std::array<RawVec, 2> ends{};  ///< from A's centre
+
+  [[nodiscard]] RawVec axis() const { return ends[1] - ends[0]; }
+};
+
+AxisEnds ends_of(const ConvexCore& core, const RawVec& centre) {
+  if (core.rims.count != 0)
+    return {true, {centre + core.rims.centres[0], centre + core.rims.centres[1]}};
+  if (core.generator_count != 1) return {};
+  return {true, {centre - core.generators[0], centre + core.generators[0]}};
+}
+
+Vec3<Unit> across(const RawVec& v, const RawVec& w) {
+  const RawVec both = truncated(wide_cross(v, w), 61);
+  return direction_of(both.x, both.y, both.z);
+}
+
+/// The directions across one axis towards the ends of the other.
+void try_across(const AxisEnds& side, const AxisEnds& other, Descent& descent) {
+  const Vec3<Unit> axis = direction_of(side.axis().x, side.axis().y, side.axis().z);
+  for (const RawVec& end : other.ends) {
+    const RawVec from = end - side.ends[0];
+    const RawVec aside = from - along(axis, dot(from, axis));
+    descent.try_both(direction_of(aside.x, aside.y, aside.z));
+  }
+}
+
+/// The directions that symmetry singles out: along the axes, across both, and across one of them in
+/// the plane of both.
 void try_symmetric(const GapQuery& query, Descent& descent) {
-  const Rims &a = query.a().rims, &b = query.b().rims;
-  const RawVec axis_a = axis_of(a), axis_b = axis_of(b), start = descent.start();
-  if (a.count != 0) descent.try_both(direction_of(axis_a.x, axis_a.y, axis_a.z));
-  if (b.count != 0) descent.try_both(direction_of(axis_b.x, axis_b.y, axis_b.z));
-  if (a.count == 0 || b.count == 0) return;
-  const RawVec both = truncated(wide_cross(axis_a, axis_b), 61);
-  descent.try_both(direction_of(both.x, both.y, both.z));
-  try_across(a, b, start, descent);
-  try_across(b, a, -start, descent);
+  const AxisEnds a = ends_of(query.a(), {}), b = ends_of(query.b(), descent.start());
+  for (const AxisEnds* one : {&a, &b})
+    if (one->any) descent.try_both(direction_of(one->axis().x, one->axis().y, one->axis().z));
+  if (!a.any || !b.any) return;
+  const Vec3<Unit> both = across(a.axis(), b.axis());
+  descent.try_both(both);
+  descent.try_both(across(a.axis(), raws_of(both)));
+  descent.try_both(across(b.axis(), raws_of(both)));
+  try_across(a, b, descent);
+  try_across(b, a, descent);
 }
 
 }  // namespace
