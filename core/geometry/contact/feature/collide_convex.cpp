@@ -248,7 +248,7 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
   if (front_a) {
     const Vec3<Unit> front = unit_axis(lockstone::rotate(a.rotation, a.polytope->faces[0].normal));
     const bool leans_back = lockstone::dot(front, axis.normal).raw < 0;
-    if (leans_back && axis.separation > 0) return separated_by(axis.normal);
+    if (leans_back && axis.separation > k_face_slack) return separated_by(axis.normal);
     if (leans_back)
       axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
   }

@@ -290,7 +290,7 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
 }  // namespace
 
 CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
-  constexpr int k_guide_vertices = 12;
+  constexpr int k_guide_vertices = 24;
   const LatticePair lattice = query.lattice();
   bool supported = grow(lattice, polytope, k_guide_vertices);
   if (supported && polytope.holds_foot(polytope.nearest())) {

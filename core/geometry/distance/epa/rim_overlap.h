@@ -7,7 +7,7 @@
 namespace lockstone::geometry {
 
 /// Where a surface is curved, no polytope of few vertices ends on it. So `polytope`, inside B − A
-/// with the origin within, grows to 40 vertices only: its valleys, the faces that are nearer to the
+/// with the origin within, grows to 24 vertices only: its valleys, the faces that are nearer to the
 /// origin than those around them, show where a way out may be the shortest. From each that could
 /// still be shorter than the best so far the descent begins: B is put just outside along the
 /// direction at hand, and the normal of the closest points there is the next direction. The depth
