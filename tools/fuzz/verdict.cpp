@@ -18,7 +18,7 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"manifold", "normal 2^-29; features ascend"},
     {"anchors",
      "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius; with rims + 1e-6 of the sizes, "
-     "1.2e-4 of the rims' radii, and 1/200 of depths beyond 1/64 of them"},
+     "1/64 of the rims' radii, and 1/200 of depths beyond those"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
     {"cast", "2 um"},

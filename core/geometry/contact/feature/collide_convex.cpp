@@ -181,6 +181,15 @@ bool find_face_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
 
 // Edges and points --------------------------------------------------------------------------------
 
+/// How far two edges may be aside from each other and yet meet along the normal: 1/64 of the least
+/// radius of cylinders, cones and capsules; any distance where there is none.
+Fine widest_aside(const ConvexMeeting& pair) {
+  Fine least = k_any_separation;
+  for (const PosedShape* posed : {&pair.a, &pair.b})
+    if (is_round(posed->shape)) least = std::min(least, fine(posed->shape.size.x) / 64);
+  return least;
+}
+
 /// Ends of the common part of two edges that run side by side, within a degree.
 bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
                         const ShownFeatures& shown, Manifold& found) {
@@ -204,6 +213,9 @@ bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
     const Fine s = dot(core_a - from_b, along_b.unit);
     const RawVec core_b = from_b + along(along_b.unit, s);
     const Fine gap = dot(core_b - core_a, axis.normal);
+    const RawVec aside = core_b - core_a - along(axis.normal, gap);
+    if (norm(aside.x, aside.y, aside.z) > static_cast<std::uint64_t>(widest_aside(pair)))
+      return false;
     const Witnesses at = inflate(core_a, shown.a.radius, core_b, shown.b.radius, axis.normal);
     add_convex_point(pair, found, at, gap - fine(shown.a.radius) - fine(shown.b.radius),
                      t == low ? 1 : 2);
@@ -248,7 +260,7 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
   if (front_a) {
     const Vec3<Unit> front = unit_axis(lockstone::rotate(a.rotation, a.polytope->faces[0].normal));
     const bool leans_back = lockstone::dot(front, axis.normal).raw < 0;
-    if (leans_back && axis.separation > k_face_slack) return separated_by(axis.normal);
+    if (leans_back && axis.separation > 0) return separated_by(axis.normal);
     if (leans_back)
       axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
   }
