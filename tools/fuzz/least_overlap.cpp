@@ -70,7 +70,8 @@ void add_axes(const Pair& pair, std::vector<Real3>& seeds) {
 
 void add_spread(std::vector<Real3>& seeds) {
   for (int i = 0; i < k_spread; ++i) {
-    const double y = 1 - (2 * i + 1.0) / k_spread, angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double y = 1 - (2 * i + 1.0) / k_spread,
+                 angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
     const double flat = std::sqrt(1 - y * y);
     seeds.push_back({flat * std::cos(angle), y, flat * std::sin(angle)});
   }

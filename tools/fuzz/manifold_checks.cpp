@@ -46,8 +46,8 @@ bool has_core_inside(const Pair& pair, double separation) {
 }
 
 // How far points of a shape with rims are aside: edges that run side by side are by up to
-// 1/64 of a radius, and the lattice moves the closest points of slender shapes; far inside, where the
-// depth hardly changes from one direction to the next, normals err by more.
+// 1/64 of a radius, and the lattice moves the closest points of slender shapes; far inside, where
+// the depth hardly changes from one direction to the next, normals err by more.
 double aside_slack(const Pair& pair, double separation) {
   if (!pair.has_rims()) return 0;
   const double deep = -separation > pair.rim_radii() / 64 ? -separation / 200 : 0;

@@ -56,7 +56,8 @@ class Clipper {
     std::copy_n(polygon_.begin(), count_, before.begin());
     const int count = count_;
     count_ = 0;
-    const int edges = count == 2 ? 1 : count;  // a segment has one, and that of a point is never cut
+    const int edges =
+        count == 2 ? 1 : count;  // a segment has one, and that of a point is never cut
     for (int i = 0; i < count; ++i) {
       const CutVertex& v = before[static_cast<std::size_t>(i)];
       const CutVertex& w = before[static_cast<std::size_t>(i + 1 < count ? i + 1 : 0)];

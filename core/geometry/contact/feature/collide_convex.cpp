@@ -75,8 +75,8 @@ Shape with_round_ends(const PosedShape& posed) {
 
 /// Whether the axis meets the shape at its side, not beyond an end by more than 2 µm, and so far
 /// from the ends that no axis which is turned towards one makes a smaller overlap: turned by φ it
-/// loses overlap · (1 − cos φ) and gains the distance to the end times sin φ. `point` is that of the
-/// shape's axis, from its centre; the other's core is `distance` away from it.
+/// loses overlap · (1 − cos φ) and gains the distance to the end times sin φ. `point` is that of
+/// the shape's axis, from its centre; the other's core is `distance` away from it.
 bool is_at_side(const PosedShape& posed, const Shape& rounded, const Vec3<Unit>& normal,
                 const RawVec& point, Fine distance, Fine separation) {
   constexpr Fine k_beyond = Fine{1} << (k_fine_bits - 19);
@@ -261,8 +261,7 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
     const Vec3<Unit> front = unit_axis(lockstone::rotate(a.rotation, a.polytope->faces[0].normal));
     const bool leans_back = lockstone::dot(front, axis.normal).raw < 0;
     if (leans_back && axis.separation > 0) return separated_by(axis.normal);
-    if (leans_back)
-      axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
+    if (leans_back) axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
   }
   if (axis.separation > fine(margin) + k_face_slack) return separated_by(axis.normal);
   if (has_sphere(pair)) return single_point(pair, axis);

@@ -31,7 +31,8 @@ bool is_one_point(const ConvexCore& core, const Simplex& simplex, int Difference
     constexpr int k_steps = 1 << k_rim_bits;
     const int other = simplex.vertices[i].*index;
     const int turn = std::abs(first - other) % k_steps;
-    const bool near = std::min(turn, k_steps - turn) <= 2 && first >> k_rim_bits == other >> k_rim_bits;
+    const bool near =
+        std::min(turn, k_steps - turn) <= 2 && first >> k_rim_bits == other >> k_rim_bits;
     if (other != first && (core.rims.count == 0 || !near)) return false;
   }
   return true;
@@ -197,8 +198,8 @@ DepthRange depths_across(const Rims& side, int sign, const Descent& descent) {
   for (const RawVec& aside : {u, u + v, v, v - u, -u, -u - v, -v, u - v}) {
     const Vec3<Unit> out = direction_of(aside.x, aside.y, aside.z);
     const auto lane = [&](Unit x, Unit y) { return sign * (x * slope.x + y * slope.y).raw; };
-    const Fine depth = descent.depth_along(
-        direction_of(lane(out.x, up.x), lane(out.y, up.y), lane(out.z, up.z)));
+    const Fine depth =
+        descent.depth_along(direction_of(lane(out.x, up.x), lane(out.y, up.y), lane(out.z, up.z)));
     range = {std::min(range.least, depth), std::max(range.most, depth)};
   }
   return range;
@@ -294,8 +295,8 @@ CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
   const LatticePair lattice = query.lattice();
   bool supported = grow(lattice, polytope, k_guide_vertices);
   if (supported && polytope.holds_foot(polytope.nearest())) {
-    CoreGap gap = refine(query.fine_pair(), lattice, polytope.simplex_of(polytope.nearest()),
-                         Side::before);
+    CoreGap gap =
+        refine(query.fine_pair(), lattice, polytope.simplex_of(polytope.nearest()), Side::before);
     gap.normal = -gap.normal;
     return {gap, true};
   }
