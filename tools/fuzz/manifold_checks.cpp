@@ -41,7 +41,8 @@ void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
 // The deepest point of a capsule's core inside something with faces is not on the surfaces.
 bool has_core_inside(const Pair& pair, double separation) {
   if (!pair.has(Kind::capsule) || pair.half_space() != nullptr) return false;
-  const bool faces = pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle);
+  const bool faces =
+      pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) || pair.has_rims();
   return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
@@ -96,8 +97,9 @@ void check_collide(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const double height = height_before_front(pair);
   if (truth > margin + slack || height < -tolerance(pair)) verdict.require(Check::margin, !any);
   const Vec3<Unit>& out = truth > 0 ? answers.closest.normal : answers.deep.normal;
-  // What touches a triangle within the rounding may be before it or behind.
-  const bool unsure = pair.has(Kind::triangle) && std::abs(truth) < tolerance(pair);
+  // Shapes that touch a triangle within the rounding may be before it or behind.
+  const bool unsure =
+      pair.has(Kind::triangle) && std::abs(truth) < tolerance(pair) + 4 * k_micrometre;
   const bool is_met = height > tolerance(pair) && !unsure && !leans_back(pair, real(out));
   if (truth < margin - slack && is_met) verdict.require(Check::margin, any);
   if (!any || unsure) return;

@@ -25,7 +25,7 @@ Angle wrapped(std::int64_t angle) {
 }  // namespace
 
 // Sine and cosine are rounded to 30 bits; a radius divided by their norm, 1 + e/2 for e of less
-// than 2^-28, keeps neighbours on one circle: what is between them has the normal of the circle.
+// than 2^-28, keeps neighbours on one circle: the line between them has the normal of the circle.
 RawVec rim_point(const Rims& rims, int rim, Angle angle, Fine radius) {
   const SinCos turn = sin_cos(angle);
   const std::int64_t excess = (turn.cos * turn.cos).raw + (turn.sin * turn.sin).raw -

@@ -227,7 +227,7 @@ void try_peeled(const GapQuery& query, bool first, Descent& descent) {
   const ConvexCore &side = first ? query.a() : query.b(), &other = first ? query.b() : query.a();
   if (side.rims.count == 0) return;
   const DepthRange depths = depths_across(side.rims, first ? 1 : -1, descent);
-  const Fine uneven = depths.most - depths.least + (depths.least >> 14);
+  const Fine uneven = depths.most - depths.least + (depths.least >> 12);
   if (depths.least <= 4 * uneven || depths.least - uneven > descent.best().depth) return;
   ConvexCore peeled = side;
   peel(peeled.rims, depths.least - 2 * uneven);
