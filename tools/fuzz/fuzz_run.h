@@ -30,7 +30,6 @@ struct FuzzReport {
   std::vector<PairFailure> failures;  ///< by index
 };
 
-/// All kinds whose pairs keep every bound: cylinders and cones are drawn when they are asked for.
 [[nodiscard]] std::vector<Kind> all_kinds();
 
 /// The same report whatever the number of threads.

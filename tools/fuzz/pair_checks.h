@@ -24,9 +24,6 @@ struct Answers {
   [[nodiscard]] double least() const;
 };
 
-/// Whether the depth is only known to separate: rims have more vertices than EPA has room for.
-[[nodiscard]] bool is_depth_a_bound(const Pair& pair, const Penetration& found);
-
 /// How far rims, polygons of 2^15 vertices about axes of 30 bits, may be off their circles.
 [[nodiscard]] double rim_slack(const Pair& pair);
 
@@ -39,7 +36,7 @@ struct Answers {
 [[nodiscard]] double uneven_slack(const Pair& pair);
 
 /// How far collide may differ from the distance: 2^-16 m where faces are preferred, 1/2000 of a
-/// capsule's core distance, and how uneven merged faces are.
+/// capsule's core distance, 5e-6 of rims' radii, and how uneven merged faces are.
 [[nodiscard]] double choice_slack(const Pair& pair, double distance);
 
 /// How far the other's centre is before the front of a one-sided shape; 1e30 without such.

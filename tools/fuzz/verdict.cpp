@@ -12,11 +12,15 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"witness", "4 um; of depths + 26e-9 of the sizes"},
     {"depth", "2 um + 13e-9 of the sizes"},
     {"turned", "4 um + 26e-9 of the sizes"},
-    {"apart", "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance"},
+    {"apart",
+     "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance + 5e-6 of rims' radii"},
     {"overlap", "15 % and 0.82 mm more"},
     {"margin", "as apart"},
     {"manifold", "normal 2^-29; features ascend"},
-    {"anchors", "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius"},
+    {"anchors",
+     "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius; with rims + 1e-6 of the "
+     "sizes, "
+     "1/64 of the rims' radii, and 1/200 of depths beyond those"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
     {"cast", "2 um"},

@@ -12,7 +12,7 @@ ClosestPoints distance_of(ConvexPair& pair) {
 
 RealVec picked(const std::vector<RealVec>& points, const ClosestFeature& f, bool of_a, int i) {
   const std::size_t k = static_cast<std::size_t>(std::min(i, f.count - 1));
-  return points[of_a ? f.a[k] : f.b[k]];
+  return points[static_cast<std::size_t>(of_a ? f.a[k] : f.b[k])];
 }
 
 /// A witness is on the surface: at the radius from the feature's core, outward along the normal.

@@ -128,7 +128,7 @@ int run(FuzzPairsOptions& options) {
     options.run.kinds.push_back(*fuzz::kind_named(name));
   if (options.run.kinds.empty()) options.run.kinds = fuzz::all_kinds();
   const std::vector<Kind>& kinds = options.run.kinds;
-  if (*std::min_element(kinds.begin(), kinds.end()) >= Kind::triangle) {
+  if (std::ranges::none_of(kinds, [](Kind kind) { return do_meet(kind, kind); })) {
     complain("triangles and half-spaces do not meet each other: name a solid kind");
     return k_usage;
   }
@@ -157,7 +157,7 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   command
       ->add_option("--kinds", options->kinds,
-                   "Sphere, capsule, box, hull, triangle, half-space; default: all")
+                   "Sphere, capsule, box, hull, triangle, half-space, cylinder, cone; default: all")
       ->delimiter(',')
       ->check(CLI::Validator(check_kind, "KIND"));
   command->add_option("--only", options->only, "Check this index alone and print its pair");

@@ -56,7 +56,8 @@ class Clipper {
     std::copy_n(polygon_.begin(), count_, before.begin());
     const int count = count_;
     count_ = 0;
-    const int edges = count == 2 ? 1 : count;  // a segment has one
+    const int edges =
+        count == 2 ? 1 : count;  // a segment has one, and that of a point is never cut
     for (int i = 0; i < count; ++i) {
       const CutVertex& v = before[static_cast<std::size_t>(i)];
       const CutVertex& w = before[static_cast<std::size_t>(i + 1 < count ? i + 1 : 0)];
@@ -122,7 +123,7 @@ void clip(const ContactFeature& face, const ClipFrame& frame, const ContactFeatu
     return CutCorner{raw::round_shift(dot(p, frame.u), shift),
                      raw::round_shift(dot(p, frame.v), shift)};
   };
-  for (int i = 0; i < face.count && other.count > 1; ++i)
+  for (int i = 0; i < face.count; ++i)
     clipper.cut(corner(i), corner(i + 1 < face.count ? i + 1 : 0), static_cast<std::uint32_t>(i));
   out.count = clipper.count();
   for (int i = 0; i < out.count; ++i) {

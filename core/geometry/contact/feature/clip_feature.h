@@ -20,7 +20,7 @@ struct ClipFrame {
 /// The part of `other` over the face, in the face's frame; other's points are `offset` away. Ids of
 /// `other` are kept; those of new points name the two lines that cross there. After I. Sutherland
 /// and G. Hodgman, Reentrant polygon clipping, in 30 bits a coordinate: resolution 2^-29 of the
-/// extent. A point alone is not clipped. `shift` is the one that `reduce_to_four` wants.
+/// extent. `shift` is the one that `reduce_to_four` wants.
 struct ClippedFeature {
   int count = 0;
   int shift = 0;

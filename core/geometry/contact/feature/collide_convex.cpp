@@ -73,14 +73,15 @@ Shape with_round_ends(const PosedShape& posed) {
   return traits.with_round_ends != nullptr ? traits.with_round_ends(posed.shape.size) : posed.shape;
 }
 
-/// Whether the axis meets the shape at its side, and so far from the ends that no axis which is
-/// turned towards one makes a smaller overlap: turned by φ it loses overlap · (1 − cos φ) and gains
-/// the distance to the end times sin φ. `point` is that of the shape's axis, from its centre.
+/// Whether the axis meets the shape at its side, not beyond an end by more than 2 µm, and so far
+/// from the ends that no axis which is turned towards one makes a smaller overlap: turned by φ it
+/// loses overlap · (1 − cos φ) and gains the distance to the end times sin φ. `point` is that of
+/// the shape's axis, from its centre; the other's core is `distance` away from it.
 bool is_at_side(const PosedShape& posed, const Shape& rounded, const Vec3<Unit>& normal,
-                const RawVec& point, Fine separation) {
-  constexpr std::int64_t k_square = std::int64_t{1} << 44;  // 2^-16
+                const RawVec& point, Fine distance, Fine separation) {
+  constexpr Fine k_beyond = Fine{1} << (k_fine_bits - 19);
   if (rounded == posed.shape) return true;
-  if (magnitude_of(lockstone::dot(posed.rotation.y, normal).raw) > k_square) return false;
+  if (magnitude_of(dot(along(normal, distance), posed.rotation.y)) > k_beyond) return false;
   const Fine to_end = fine(rounded.size.y) - magnitude_of(dot(point, posed.rotation.y));
   return to_end + separation >= 0;
 }
@@ -97,8 +98,8 @@ bool find_side_axis(const ConvexMeeting& pair, ConvexAxis& found) {
   const CoreGap& gap = query.gap();
   if (gap.distance < query.radii() / 4) return false;
   const Fine separation = gap.distance - query.radii();
-  if (!is_at_side(pair.a, shape_a, gap.normal, gap.on_a, separation) ||
-      !is_at_side(pair.b, shape_b, gap.normal, gap.on_b - between, separation))
+  if (!is_at_side(pair.a, shape_a, gap.normal, gap.on_a, gap.distance, separation) ||
+      !is_at_side(pair.b, shape_b, gap.normal, gap.on_b - between, gap.distance, separation))
     return false;
   LKS_ASSERT(is_unit(gap.normal));
   found = axis_of(gap, separation, query);
@@ -180,6 +181,15 @@ bool find_face_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
 
 // Edges and points --------------------------------------------------------------------------------
 
+/// How far two edges may be aside from each other and yet meet along the normal: 1/64 of the least
+/// radius of cylinders, cones and capsules; any distance where there is none.
+Fine widest_aside(const ConvexMeeting& pair) {
+  Fine least = k_any_separation;
+  for (const PosedShape* posed : {&pair.a, &pair.b})
+    if (is_round(posed->shape)) least = std::min(least, fine(posed->shape.size.x) / 64);
+  return least;
+}
+
 /// Ends of the common part of two edges that run side by side, within a degree.
 bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
                         const ShownFeatures& shown, Manifold& found) {
@@ -203,6 +213,9 @@ bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
     const Fine s = dot(core_a - from_b, along_b.unit);
     const RawVec core_b = from_b + along(along_b.unit, s);
     const Fine gap = dot(core_b - core_a, axis.normal);
+    const RawVec aside = core_b - core_a - along(axis.normal, gap);
+    if (norm(aside.x, aside.y, aside.z) > static_cast<std::uint64_t>(widest_aside(pair)))
+      return false;
     const Witnesses at = inflate(core_a, shown.a.radius, core_b, shown.b.radius, axis.normal);
     add_convex_point(pair, found, at, gap - fine(shown.a.radius) - fine(shown.b.radius),
                      t == low ? 1 : 2);
@@ -216,6 +229,11 @@ Manifold single_point(const ConvexMeeting& pair, const ConvexAxis& axis) {
   manifold.normal = axis.normal;
   add_convex_point(pair, manifold, {axis.on_a, axis.on_b}, axis.separation, k_single_point);
   return manifold;
+}
+
+/// A sphere meets a solid at one point, whose axis is in closed form.
+bool has_sphere(const ConvexMeeting& pair) {
+  return pair.a.shape.kind == ShapeKind::sphere || pair.b.shape.kind == ShapeKind::sphere;
 }
 
 bool is_one_sided(const PosedShape& posed) {
@@ -237,14 +255,16 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
   const bool front_a = is_one_sided(a);
   if (front_a && !is_before_front(a, offset)) return {};
   ConvexAxis axis;
-  if (!find_side_axis(pair, axis)) axis = nearest_axis(pair);
+  if (has_sphere(pair) || !find_side_axis(pair, axis)) axis = nearest_axis(pair);
   ShownFeatures shown;
   if (front_a) {
     const Vec3<Unit> front = unit_axis(lockstone::rotate(a.rotation, a.polytope->faces[0].normal));
-    if (lockstone::dot(front, axis.normal).raw < 0)
-      axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
+    const bool leans_back = lockstone::dot(front, axis.normal).raw < 0;
+    if (leans_back && axis.separation > 0) return separated_by(axis.normal);
+    if (leans_back) axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
   }
   if (axis.separation > fine(margin) + k_face_slack) return separated_by(axis.normal);
+  if (has_sphere(pair)) return single_point(pair, axis);
   find_feature(a, axis.normal, shown.a);
   find_feature(b, -axis.normal, shown.b);
   LKS_ASSERT(shown.a.count > 0 && shown.b.count > 0);

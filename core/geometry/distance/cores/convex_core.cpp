@@ -46,14 +46,14 @@ void list_vertices(const Polytope& polytope, const Mat3& rotation, ConvexCore& c
 
 /// The core's vertex greatest along a direction, dot(x, y, z) being its exact product with it.
 template <class Dot>
-std::uint16_t greatest_vertex(const LatticeCore& core, Dot dot) {
+int greatest_vertex(const LatticeCore& core, Dot dot) {
   if (core.vertex_count == 0) {
     unsigned bits = 0;
     for (int i = 0; i < core.generator_count; ++i) {
       const RawVec& g = core.generators[at(i)];
       if (!is_negative(dot(g.x, g.y, g.z))) bits |= 1U << i;
     }
-    return static_cast<std::uint16_t>(bits);
+    return static_cast<int>(bits);
   }
   std::size_t best = 0;
   auto greatest = dot(core.x[0], core.y[0], core.z[0]);
@@ -64,12 +64,12 @@ std::uint16_t greatest_vertex(const LatticeCore& core, Dot dot) {
       best = i;
     }
   }
-  return static_cast<std::uint16_t>(best);
+  return static_cast<int>(best);
 }
 
-RawVec lattice_point(const LatticeCore& core, std::uint16_t index) {
+RawVec lattice_point(const LatticeCore& core, int index) {
   if (core.rims != nullptr) return shifted(rim_point(*core.rims, index), core.shift);
-  if (core.vertex_count != 0) return {core.x[index], core.y[index], core.z[index]};
+  if (core.vertex_count != 0) return {core.x[at(index)], core.y[at(index)], core.z[at(index)]};
   RawVec sum;
   for (int i = 0; i < core.generator_count; ++i) {
     const RawVec& g = core.generators[at(i)];
@@ -78,7 +78,7 @@ RawVec lattice_point(const LatticeCore& core, std::uint16_t index) {
   return sum;
 }
 
-DifferenceVertex difference_vertex(const LatticePair& pair, std::uint16_t a, std::uint16_t b) {
+DifferenceVertex difference_vertex(const LatticePair& pair, int a, int b) {
   return {lattice_point(pair.b, b) + pair.offset - lattice_point(pair.a, a), a, b};
 }
 
@@ -87,7 +87,7 @@ auto product_with(const RawVec& d) {
       [d](std::int64_t x, std::int64_t y, std::int64_t z) { return d.x * x + d.y * y + d.z * z; };
 }
 
-std::uint16_t greatest_vertex_along(const LatticeCore& core, const RawVec& direction) {
+int greatest_vertex_along(const LatticeCore& core, const RawVec& direction) {
   if (core.rims != nullptr) return farthest_rim_vertex(*core.rims, direction);
   return greatest_vertex(core, product_with(direction));
 }
@@ -99,7 +99,7 @@ auto wide_product_with(const RawVec& d) {
 /// The vertex greatest along a direction of any length. Of listed vertices, those are compared
 /// exactly that the direction's leading 31 bits put close to the greatest: the cut bits are worth
 /// less than 1 in each component, so a product errs by less than |x| + |y| + |z| < 2^32.
-std::uint16_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& direction) {
+int exactly_greatest_vertex(const LatticeCore& core, const RawVec& direction) {
   if (core.rims != nullptr) return farthest_rim_vertex(*core.rims, direction);
   if (core.vertex_count == 0) return greatest_vertex(core, wide_product_with(direction));
   const RawVec leading = truncated(direction, 31);
@@ -120,7 +120,7 @@ std::uint16_t exactly_greatest_vertex(const LatticeCore& core, const RawVec& dir
     most = value;
     best = i;
   }
-  return static_cast<std::uint16_t>(best);
+  return static_cast<int>(best);
 }
 
 void to_lattice(const ConvexCore& core, int shift, LatticeCore& lattice) {

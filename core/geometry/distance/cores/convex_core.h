@@ -45,6 +45,11 @@ void add_generator(ConvexCore& core, const RawVec& generator);
   return core.vertex_count != 0 ? core.vertex_count : 1 << core.generator_count;
 }
 
+/// Whether the core is its reference alone: that of a sphere.
+[[nodiscard]] constexpr bool is_point(const ConvexCore& core) {
+  return core.rims.count == 0 && core.vertex_count == 0 && core.generator_count == 0;
+}
+
 /// Where a vertex is, from the shape's centre.
 [[nodiscard]] RawVec vertex_of(const ConvexCore& core, int index);
 
@@ -75,8 +80,8 @@ struct LatticePair {
 /// A vertex of the difference B − A.
 struct DifferenceVertex {
   RawVec point{};  ///< lattice
-  std::uint16_t a = 0;
-  std::uint16_t b = 0;
+  int a = 0;
+  int b = 0;
 };
 
 /// The fine offset from a's reference to b's, `offset` being that of the shapes' centres.

@@ -17,7 +17,7 @@ HalfSpaceGap half_space_gap(const PosedShape& half_space, const PosedShape& shap
     const Fine height = dot(vertex + offset, gap.normal);
     if (i != 0 && height >= gap.distance) continue;
     gap.distance = height;
-    gap.vertex = static_cast<std::uint16_t>(i);
+    gap.vertex = static_cast<int>(i);
     deepest = vertex;
   }
   if (core.rims.count != 0) {

@@ -10,7 +10,7 @@ struct HalfSpaceGap {
   Fine distance = 0;    ///< of the surfaces, negative when they overlap
   RawVec on_plane{};    ///< from the half-space's centre
   RawVec on_shape{};    ///< from the shape's centre
-  std::uint16_t vertex = 0;
+  int vertex = 0;
 };
 
 /// `offset` is that of the shape's centre from the half-space's, fine. Any depth.

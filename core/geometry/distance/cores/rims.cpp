@@ -24,10 +24,16 @@ Angle wrapped(std::int64_t angle) {
 
 }  // namespace
 
+// Sine and cosine are rounded to 30 bits; a radius divided by their norm, 1 + e/2 for e of less
+// than 2^-28, keeps neighbours on one circle: the line between them has the normal of the circle.
 RawVec rim_point(const Rims& rims, int rim, Angle angle, Fine radius) {
   const SinCos turn = sin_cos(angle);
-  return rims.centres[static_cast<std::size_t>(rim)] + along(rims.u, scaled(radius, turn.cos.raw)) +
-         along(rims.v, scaled(radius, turn.sin.raw));
+  const std::int64_t excess = (turn.cos * turn.cos).raw + (turn.sin * turn.sin).raw -
+                              (std::int64_t{1} << (2 * Unit::frac_bits));
+  const Int128 half = round_shift(multiply_wide(radius, excess), 2 * Unit::frac_bits + 1);
+  const Fine kept = radius - saturate_to_int64(half);
+  return rims.centres[static_cast<std::size_t>(rim)] + along(rims.u, scaled(kept, turn.cos.raw)) +
+         along(rims.v, scaled(kept, turn.sin.raw));
 }
 
 RawVec rim_point(const Rims& rims, int index) {
@@ -46,20 +52,17 @@ Angle rim_angle(const Rims& rims, const RawVec& direction) {
   return atan2_raw(cut.y, cut.x);
 }
 
-std::uint16_t farthest_rim_vertex(const Rims& rims, const RawVec& direction) {
+int farthest_rim_vertex(const Rims& rims, const RawVec& direction) {
+  LKS_ASSERT(rims.count == 2);
   const std::int64_t turns = std::int64_t{rim_angle(rims, direction).raw} * k_steps;
   const std::int64_t step = round_divide(Int128::from(turns), k_full_turn) & (k_steps - 1);
-  int best = 0;
-  Int128 greatest{};
-  for (int rim = 0; rim < rims.count; ++rim) {
-    const bool is_point = rims.radii[static_cast<std::size_t>(rim)] == Length{};
-    const int index = rim << k_rim_bits | (is_point ? 0 : static_cast<int>(step));
-    const Int128 product = wide_dot(direction, rim_point(rims, index));
-    if (rim != 0 && product <= greatest) continue;
-    greatest = product;
-    best = index;
-  }
-  return static_cast<std::uint16_t>(best);
+  const int base = static_cast<int>(step);
+  // Rims of one radius differ by their centres at every angle; else the second is an apex.
+  const bool cone = rims.radii[1] == Length{};
+  LKS_ASSERT(cone || rims.radii[1] == rims.radii[0]);
+  const RawVec up = rims.centres[1] - (cone ? rim_point(rims, base) : rims.centres[0]);
+  if (!is_positive(wide_dot(direction, up))) return base;
+  return 1 << k_rim_bits | (cone ? 0 : base);
 }
 
 RawVec around_rim(const Rims& rims, int rim, Angle angle, int side) {

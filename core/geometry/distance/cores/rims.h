@@ -36,7 +36,7 @@ struct Rims {
 
 /// The vertex farthest along a direction, whose components are below 2^62; the first of equals.
 /// Where several are within 2e-9 of the radius, any of these.
-[[nodiscard]] std::uint16_t farthest_rim_vertex(const Rims& rims, const RawVec& direction);
+[[nodiscard]] int farthest_rim_vertex(const Rims& rims, const RawVec& direction);
 
 /// The vertices of a polygon around each rim with one side at `angle`: its reach along that
 /// direction is the rim's own.

@@ -2,7 +2,9 @@
 
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/cores/half_space_gap.h"
+#include "core/geometry/distance/epa/difference_frame.h"
 #include "core/geometry/distance/epa/expanding_polytope.h"
+#include "core/geometry/distance/epa/rim_overlap.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -10,48 +12,12 @@ namespace lockstone {
 namespace geometry {
 namespace {
 
-/// Vertices of B − A in general position, up to four.
-struct Frame {
-  int count = 0;
-  std::array<DifferenceVertex, 4> vertices{};
-
-  [[nodiscard]] const RawVec& point(std::size_t i) const { return vertices[i].point; }
-  [[nodiscard]] RawVec edge(std::size_t i) const { return point(i) - point(0); }
-  void add(const DifferenceVertex& vertex) { vertices[static_cast<std::size_t>(count++)] = vertex; }
-};
-
-constexpr std::array<RawVec, 3> k_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-/// Adds the extreme vertex along ±direction, if one is not at `direction`'s height of vertex 0.
-bool add_off_plane(const LatticePair& pair, const RawVec& direction, Frame& frame) {
-  for (const RawVec& d : {direction, -direction}) {
-    const DifferenceVertex vertex = greatest_along(pair, d);
-    if (is_zero(wide_dot(d, vertex.point - frame.point(0)))) continue;
-    frame.add(vertex);
-    return true;
-  }
-  return false;
-}
-
-/// One more dimension: along directions that span the complement of the frame, some vertex lies off
-/// it unless the difference is that flat.
-bool add_dimension(const LatticePair& pair, Frame& frame) {
-  if (frame.count == 3) {
-    return add_off_plane(pair, narrow_cross(frame.edge(1), frame.edge(2)), frame);
-  }
-  for (const RawVec& axis : k_axes) {
-    const RawVec direction = frame.count == 1 ? axis : narrow_cross(frame.edge(1), axis);
-    if (direction != RawVec{} && add_off_plane(pair, direction, frame)) return true;
-  }
-  return false;
-}
-
 Vec3<Unit> unit_along(const RawVec& v) {
   return lockstone::direction_of(v.x, v.y, v.z);
 }
 
 /// Cores whose difference is a point, a segment or a polygon that holds the origin.
-CoreGap flat_overlap(const GapQuery& query, const Frame& frame) {
+CoreGap flat_overlap(const GapQuery& query, const DifferenceFrame& frame) {
   const FinePair fine_pair = query.fine_pair();
   CoreGap gap = refine(fine_pair, query.lattice(), query.simplex(), Side::before);
   if (frame.count == 1) gap.normal = k_concentric_normal;
@@ -84,39 +50,41 @@ CoreOverlap overlap_without_room(const GapQuery& query, const Simplex& face) {
   return result;
 }
 
-}  // namespace
-
-CoreOverlap core_overlap(const GapQuery& query) {
+/// Of the hull of a finite set, which ends at one of its faces.
+CoreOverlap polytope_overlap(const GapQuery& query, ExpandingPolytope& polytope) {
   const LatticePair& lattice = query.lattice();
-  Frame frame{query.simplex().count, query.simplex().vertices};
-  while (frame.count < 4) {
-    if (!add_dimension(lattice, frame)) return {flat_overlap(query, frame), true};
-  }
-  ExpandingPolytope polytope(frame.vertices);
   const auto gap_of = [&](const ExpandingFace& face) {
     return way_out(refine(query.fine_pair(), lattice, polytope.simplex_of(face), Side::before));
-  };
-  // Around a rim the search ends when the hull is that near to its planes: the room is for others.
-  constexpr std::int64_t k_rim_steps_left = 256;
-  const bool round = query.a().rims.count != 0 || query.b().rims.count != 0;
-  const auto is_seen = [&](const RawVec& point, const ExpandingFace& face) {
-    return round ? polytope.sees_from_afar(point, face, k_rim_steps_left)
-                 : polytope.sees(point, face);
   };
   // A vertex is added in each turn, and is_full ends the loop at the latest.
   for (;;) {
     const ExpandingFace& nearest = polytope.nearest();
     DifferenceVertex vertex = greatest_along(lattice, nearest.normal);
-    if (!is_seen(vertex.point, nearest)) {
+    if (!polytope.sees(vertex.point, nearest)) {
       const ExpandingFace& held = polytope.foot_face(nearest);
       if (&held == &nearest) return {gap_of(nearest), true};
       vertex = greatest_along(lattice, held.normal);
-      if (!is_seen(vertex.point, held)) return {gap_of(held), true};
+      if (!polytope.sees(vertex.point, held)) return {gap_of(held), true};
       if (polytope.is_full()) return {gap_of(nearest), true};
     }
     if (polytope.is_full()) return overlap_without_room(query, polytope.simplex_of(nearest));
     polytope.expand(vertex);
   }
+}
+
+}  // namespace
+
+CoreOverlap core_overlap(GapQuery& query) {
+  if (query.is_closed_form()) {
+    CoreGap gap = query.gap();
+    gap.distance = -gap.distance;
+    return {gap, true};
+  }
+  const DifferenceFrame frame = frame_of(query);
+  if (frame.count < 4) return {flat_overlap(query, frame), true};
+  ExpandingPolytope polytope(frame.vertices);
+  const bool round = query.a().rims.count != 0 || query.b().rims.count != 0;
+  return round ? rim_overlap(query, polytope) : polytope_overlap(query, polytope);
 }
 
 namespace {

@@ -11,7 +11,7 @@ struct Penetration {
   Vec3<Unit> normal{};       ///< from A to B: moving B by depth along it separates the shapes
   Vec3<Length> point_a{};    ///< deepest points: on A's surface, from A's centre, world axes
   Vec3<Length> point_b{};    ///< on B's surface, from B's centre
-  bool exact = true;         ///< false when the search ran out of room: `depth` still separates
+  bool exact = true;         ///< false when no search proved it the least: `depth` still separates
 };
 
 /// The least translation that separates the shapes. Takes the shapes of `distance`, with the same
@@ -34,9 +34,9 @@ struct CoreOverlap {
 
 /// Of cores that `query` found to overlap: the nearest face of the hull of B − A on the lattice.
 /// Every step adds a vertex of that hull; after 124 of them the nearest plane that supports it so
-/// far stands, which separates, if not by the least way. Of cores with rims, a plane within 256
-/// steps of the hull counts as supporting it.
-[[nodiscard]] CoreOverlap core_overlap(const GapQuery& query);
+/// far stands, which separates, if not by the least way. Cores with rims: see `rim_overlap`; a
+/// point and rims: `rim_point_gap`. The query keeps its offset, but no longer its results.
+[[nodiscard]] CoreOverlap core_overlap(GapQuery& query);
 
 }  // namespace geometry
 }  // namespace lockstone

@@ -25,6 +25,13 @@ std::uint64_t plane_distance(const RawVec& normal, Int128 height) {
   return round_divide(height.bits() << (shift + k_distance_bits), length);
 }
 
+bool are_neighbours(const ExpandingFace& a, const ExpandingFace& b) {
+  const auto is_of_b = [&b](std::uint8_t vertex) {
+    return std::ranges::find(b.vertices, vertex) != b.vertices.end();
+  };
+  return std::ranges::count_if(a.vertices, is_of_b) == 2;
+}
+
 }  // namespace
 
 ExpandingPolytope::ExpandingPolytope(const std::array<DifferenceVertex, 4>& tetrahedron) {
@@ -103,6 +110,31 @@ void ExpandingPolytope::expand(const DifferenceVertex& vertex) {
   vertices_[static_cast<std::size_t>(vertex_count_++)] = vertex;
   for (std::size_t i = 0; i < rim.count; ++i)
     add_face(rim.edges[i].from, rim.edges[i].to, added);
+}
+
+bool ExpandingPolytope::is_valley(const ExpandingFace& face) const {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(face_count_); ++i) {
+    const ExpandingFace& other = faces_[i];
+    if (other.distance > face.distance || &other == &face) continue;
+    if (other.distance == face.distance && &other > &face) continue;
+    if (are_neighbours(face, other)) return false;
+  }
+  return true;
+}
+
+int ExpandingPolytope::find_valleys(std::span<const ExpandingFace*> valleys) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(face_count_); ++i) {
+    const ExpandingFace& face = faces_[i];
+    if (count == valleys.size() && face.distance >= valleys.back()->distance) continue;
+    if (!is_valley(face)) continue;
+    count = std::min(count + 1, valleys.size());
+    std::size_t place = count - 1;
+    for (; place > 0 && valleys[place - 1]->distance > face.distance; --place)
+      valleys[place] = valleys[place - 1];
+    valleys[place] = &face;
+  }
+  return static_cast<int>(count);
 }
 
 Simplex ExpandingPolytope::simplex_of(const ExpandingFace& face) const {

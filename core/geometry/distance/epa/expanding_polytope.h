@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/geometry/distance/gjk/simplex.h"
 
@@ -39,9 +40,17 @@ class ExpandingPolytope {
                                     std::int64_t steps) const;
 
   [[nodiscard]] bool is_full() const { return vertex_count_ == k_max_expanding_vertices; }
+  [[nodiscard]] int vertex_count() const { return vertex_count_; }
+
+  /// Faces none of whose neighbours is nearer to the origin, nearest first; returns their number,
+  /// at most that of `valleys`. Of equal neighbours the first.
+  int find_valleys(std::span<const ExpandingFace*> valleys) const;
 
   /// Adds a vertex that sees a face. Not when full.
   void expand(const DifferenceVertex& vertex);
+
+  /// Whether the foot of the origin on its plane is in the face.
+  [[nodiscard]] bool holds_foot(const ExpandingFace& face) const;
 
   /// `face` if it holds the foot of the origin; else the first face that does and is as near, by
   /// rounded distances: it may be in another plane, which nothing says supports the difference.
@@ -65,7 +74,7 @@ class ExpandingPolytope {
   void add_face(std::uint8_t a, std::uint8_t b, std::uint8_t c);
   /// Removes the faces that `vertex` sees; their rim.
   void remove_visible(const RawVec& vertex, Rim& rim);
-  [[nodiscard]] bool holds_foot(const ExpandingFace& face) const;
+  [[nodiscard]] bool is_valley(const ExpandingFace& face) const;
 
   int vertex_count_ = 0;
   int face_count_ = 0;

@@ -128,7 +128,7 @@ Candidate nearest_of(const FinePair& pair, const Simplex& all, Bounds& bounds) {
 }
 
 struct Extreme {
-  std::uint16_t vertex = 0;
+  int vertex = 0;
   Int128 product{};
 };
 
@@ -143,7 +143,7 @@ Extreme greatest_along(const ConvexCore& core, const RawVec& direction) {
   const int count = vertex_count(core);
   for (int i = 0; i < count; ++i) {
     const Int128 product = wide_dot(direction, vertex_of(core, i));
-    if (i == 0 || product > best.product) best = {static_cast<std::uint16_t>(i), product};
+    if (i == 0 || product > best.product) best = {static_cast<int>(i), product};
   }
   return best;
 }

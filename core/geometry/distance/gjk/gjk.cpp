@@ -5,6 +5,7 @@
 
 #include "core/geometry/distance/contact_point.h"
 #include "core/geometry/distance/cores/half_space_gap.h"
+#include "core/geometry/distance/cores/rim_point_gap.h"
 #include "core/geometry/distance/gjk/fine_closest.h"
 
 namespace lockstone {
@@ -77,6 +78,10 @@ bool GapQuery::find(const RawVec& offset) {
   offset_ = offset;
   const RawVec between = reference_offset(a_, b_, offset);
   const int shift = lattice_shift(a_, b_, between);
+  if (is_closed_form()) {
+    shift_ = lattice_.shift = shift;
+    return find_in_closed_form();
+  }
   if (shift != shift_) to_lattice(a_, b_, shift, lattice_);
   shift_ = shift;
   set_offset(between, lattice_);
@@ -100,6 +105,17 @@ bool GapQuery::find_fine() {
   gap_ = closest.gap;
   features_ = closest.features;
   return true;
+}
+
+bool GapQuery::find_in_closed_form() {
+  const bool first = a_.rims.count != 0;
+  const RimPointGap gap = rim_point_gap(first ? a_.rims : b_.rims, first ? offset_ : -offset_);
+  gap_.normal = first ? gap.normal : -gap.normal;
+  gap_.distance = gap.distance;
+  gap_.on_a = first ? gap.on_surface : RawVec{};
+  gap_.on_b = first ? offset_ : offset_ + gap.on_surface;
+  simplex_ = features_ = simplex_of({gap_.on_b - gap_.on_a, 0, 0});
+  return gap.distance > 0;
 }
 
 namespace {

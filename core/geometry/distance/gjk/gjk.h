@@ -10,8 +10,8 @@ namespace lockstone {
 /// `geometry::ConvexCore`; equal entries stand for one vertex.
 struct ClosestFeature {
   int count = 0;  ///< 0 … 3
-  std::array<std::uint16_t, 3> a{};
-  std::array<std::uint16_t, 3> b{};
+  std::array<int, 3> a{};
+  std::array<int, 3> b{};
 
   friend constexpr bool operator==(const ClosestFeature&, const ClosestFeature&) = default;
 };
@@ -72,6 +72,7 @@ class GapQuery {
     make_core(a, a_);
     make_core(b, b_);
   }
+  GapQuery(const ConvexCore& a, const ConvexCore& b) : a_(a), b_(b) {}
   GapQuery(const GapQuery&) = delete;  // the lattice refers to the cores
   GapQuery& operator=(const GapQuery&) = delete;
 
@@ -94,11 +95,21 @@ class GapQuery {
   /// Whether a step of the lattice is so long that the exact vertices have to decide.
   [[nodiscard]] bool is_coarse() const { return shift_ >= k_coarse_shift; }
 
+  /// Whether a point meets rims: then `gap` is in closed form, and where the cores overlap it has
+  /// their depth, negative.
+  [[nodiscard]] bool is_closed_form() const {
+    return (a_.rims.count != 0 && is_point(b_)) || (b_.rims.count != 0 && is_point(a_));
+  }
+
+  /// Puts the offset back to that of an earlier query, without its results.
+  void return_to(const RawVec& offset) { offset_ = offset; }
+
  private:
   /// 2^-23 m: of sizes from 64 m on.
   static constexpr int k_coarse_shift = k_fine_bits - 23;
 
   [[nodiscard]] bool find_fine();
+  [[nodiscard]] bool find_in_closed_form();
 
   ConvexCore a_;
   ConvexCore b_;
