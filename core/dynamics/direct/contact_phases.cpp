@@ -205,6 +205,17 @@ void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, con
   }
 }
 
+// Of the tangents and the twist, as iterations have them.
+std::array<std::int64_t, 3> friction_of(const ProximalContact& contact) {
+  LKS_ASSERT(contact.rows - contact.points <= 3);
+  std::array<std::int64_t, 3> seen{};
+  for (std::size_t i = contact.points; i < contact.rows; ++i)
+    seen[i - contact.points] =
+        std::clamp<std::int64_t>(raw::round_shift(contact.all[i].total, k_row_more_bits),
+                                 -lanes::k_most_impulse, lanes::k_most_impulse);
+  return seen;
+}
+
 // Whether all impulses are below 2^-7 m/s, as at rest: then all sums of products fit in 64 bits.
 bool are_small(const RowWords& moved) {
   std::int64_t bits = 0;
@@ -326,16 +337,16 @@ void give(const ContactRun& run, const IslandView& island) {
   }
 }
 
+std::int64_t friction_word(const ProximalContact& contact) {
+  const std::array<std::int64_t, 3> seen = friction_of(contact);
+  return pack(seen[0], seen[1]);
+}
+
 void end(const ContactRun& run, const IslandView& island) {
   for (const ProximalContact& contact : island.contacts) {
     ManifoldBlock& block = run.blocks[contact.block()];
     const std::size_t lane = contact.lane();
-    LKS_ASSERT(contact.rows - contact.points <= 3);
-    std::array<std::int64_t, 3> seen{};
-    for (std::size_t i = contact.points; i < contact.rows; ++i)
-      seen[i - contact.points] =
-          std::clamp<std::int64_t>(raw::round_shift(contact.all[i].total, k_row_more_bits),
-                                   -lanes::k_most_impulse, lanes::k_most_impulse);
+    const std::array<std::int64_t, 3> seen = friction_of(contact);
     block.friction[lane] = pack(seen[0], seen[1]);
     block.twist[lane] = pack(seen[2], contact.radius);
     block.mass_01[lane] = contact.words[0];

@@ -166,6 +166,9 @@ class World {
   /// state.
   [[nodiscard]] std::span<const ContactEvent> events() const;
 
+  /// The hits of the last step between bodies that ask for them, as `events`.
+  [[nodiscard]] std::span<const HitEvent> hit_events() const;
+
   /// The joints that broke in the last step, by index.
   [[nodiscard]] std::span<const JointEvent> joint_events() const;
 

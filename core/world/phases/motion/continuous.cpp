@@ -68,6 +68,16 @@ Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
   return manifold;
 }
 
+// The deepest point of a manifold, on B.
+Vec3<Position> deepest_point(const Manifold& manifold, const Vec3<Position>& position_b) {
+  const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
+  Vec3<Position> point = position_b;
+  const auto deepest = std::ranges::min_element(points, {}, &ManifoldPoint::separation);
+  for (int i = 0; i < 3; ++i)
+    point[i] += rounded<Position>(deepest->anchor_b[i]);
+  return point;
+}
+
 // A half-space has nothing behind it to come out at, and contacts find the bodies that
 // triangles sweep over.
 bool may_sweep(const BodyRecord& body, const Asset* asset) {
@@ -108,11 +118,13 @@ ContinuousCollision::ContinuousCollision(WorldData& world, MovedBodies& moved, N
   sweepers_.reserve(capacity);
   struck_.reserve(capacity);
   impacts_.reserve(capacity);
+  hits_.reserve(capacity);
 }
 
 void ContinuousCollision::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::continuous);
   impacts_.clear();
+  hits_.clear();
   passes_.begin();
   list_sweepers();
   for (const std::uint32_t body : moved_.bodies()) {
@@ -379,15 +391,20 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   a.velocity -= to_come;
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
+  Stop hit;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
     find_surface(world_, {body, other}, contact.surface_a, contact.surface_b, contact.manifold,
                  surface);
     tag_a = surface.tag_a;
     tag_b = surface.tag_b;
-    approach =
-        max(approach, answer_impact({a, inertia_a}, {b, inertia_b},
-                                    {contact.manifold, surface.friction, surface.restitution}));
+    const Vec3<Velocity> before = b.velocity - a.velocity;
+    const Velocity speed = answer_impact({a, inertia_a}, {b, inertia_b},
+                                         {contact.manifold, surface.friction, surface.restitution});
+    if (speed > approach) hit.fastest = &contact;
+    approach = max(approach, speed);
+    hit.total.add(speed, (b.velocity - a.velocity) - before, contact.manifold.normal,
+                  deepest_point(contact.manifold, other_motion.start.position));
   }
   if (next.impact.crossing != Vec3<Unit>{}) {
     const Vec3<Position> arm = a.position - other_motion.start.position;
@@ -408,6 +425,22 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
     impacts_.push_back(
         {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
   }
+  note_hit({body, other}, hit, tag_a, tag_b);
+}
+
+void ContinuousCollision::note_hit(const Pair& pair, const Stop& stop, std::uint32_t tag_a,
+                                   std::uint32_t tag_b) {
+  const SolverVelocity hit_speed = hit_speed_of(world_.bodies[pair.a], world_.bodies[pair.b]);
+  if (hit_speed == SolverVelocity{} || stop.fastest == nullptr) return;
+  if (stop.total.approach <= rounded<Velocity>(hit_speed)) return;
+  HitEvent event = hit_of(world_, pair, stop.total);
+  event.part_a = stop.fastest->part_a;
+  event.part_b = part_at(world_, pair.b, event.point, stop.fastest->part_b);
+  event.tag_a = tag_a;
+  event.tag_b = tag_b;
+  event.was_stopped = true;
+  if (event.normal_impulse > Impulse{} && hits_.size() < world_.def.body_capacity)
+    hits_.push_back(event);
 }
 
 }  // namespace lockstone

@@ -13,6 +13,7 @@
 #include "core/collision/continuous/first_impact.h"
 #include "core/dynamics/state/body_record.h"
 #include "core/world/data/world_data.h"
+#include "core/world/phases/hit_events.h"
 #include "core/world/phases/motion/moved_bodies.h"
 #include "core/world/phases/narrow/narrow_phase.h"
 #include "core/world/sleep/waking.h"
@@ -44,6 +45,12 @@ struct Sweeper {
   Bounds way{};
 };
 
+/// The impulses at an impact, and the contact that came in fastest.
+struct Stop {
+  ImpactTotal total;
+  const PartContact* fastest = nullptr;
+};
+
 class ContinuousCollision {
  public:
   /// No function but this allocates. All outlive this.
@@ -59,6 +66,7 @@ class ContinuousCollision {
   void wake_struck();
 
   [[nodiscard]] const std::vector<ContactEvent>& impacts() const { return impacts_; }
+  [[nodiscard]] std::span<const HitEvent> hits() const { return hits_; }
   [[nodiscard]] std::span<const Sweeper> sweepers() const { return sweepers_; }
   [[nodiscard]] std::uint8_t marks(std::uint32_t body) const { return far_movers_[body]; }
   [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
@@ -78,6 +86,7 @@ class ContinuousCollision {
   void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
   void resolve(std::uint32_t body, const NextImpact& next, Unit done);
+  void note_hit(const Pair& pair, const Stop& stop, std::uint32_t tag_a, std::uint32_t tag_b);
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   void list_sweepers();
@@ -96,6 +105,7 @@ class ContinuousCollision {
   std::vector<Sweeper> sweepers_;             // of this tick, by body
   std::vector<std::uint32_t> struck_;         // sleepers
   std::vector<ContactEvent> impacts_;         // of this tick
+  std::vector<HitEvent> hits_;                // of this tick
 };
 
 }  // namespace lockstone
