@@ -63,8 +63,9 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
   if (converged_ != nullptr)
     converged_->begin(scene, bodies_, contacts_, constraints_.layout(), constraints_.run());
   warm_start_.find(scene, constraints_.run(), parallel);
-  totals_.begin(scene.watched, contacts_, constraints_,
-                converged_ == nullptr ? std::span<const ProximalContact>() : converged_->contacts());
+  totals_.begin(
+      scene.watched, contacts_, constraints_,
+      converged_ == nullptr ? std::span<const ProximalContact>() : converged_->contacts());
 }
 
 // The bodies, contacts, joints and islands of the tick.

@@ -45,12 +45,12 @@ struct ContactEvent {
 struct HitEvent {
   BodyHandle a{};
   BodyHandle b{};
-  Vec3<Position> point{};   ///< m: mean of the contact's points, weighted by their impulses
-  Vec3<Unit> normal{};      ///< from a to b, unit
-  Impulse normal_impulse{};           ///< N·s = kg·m/s: the tick's, of all points, > 0
-  Vec3<Impulse> friction_impulse{};   ///< N·s, on b, across the normal: the tick's
-  Velocity approach_speed{};  ///< m/s, along the normal before: of the fastest point, > 0
-  std::uint32_t part_a = 0;   ///< triangle, cell or child where they meet, as RayHit::part
+  Vec3<Position> point{};    ///< m: mean of the contact's points, weighted by their impulses
+  Vec3<Unit> normal{};       ///< from a to b, unit
+  Impulse normal_impulse{};  ///< N·s = kg·m/s: the tick's, of all points, > 0
+  Vec3<Impulse> friction_impulse{};  ///< N·s, on b, across the normal: the tick's
+  Velocity approach_speed{};         ///< m/s, along the normal before: of the fastest point, > 0
+  std::uint32_t part_a = 0;          ///< triangle, cell or child where they meet, as RayHit::part
   std::uint32_t part_b = 0;
   std::uint32_t tag_a = 0;  ///< Surface::tag where they meet
   std::uint32_t tag_b = 0;

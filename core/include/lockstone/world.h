@@ -291,6 +291,14 @@ class World {
   std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
                         const QueryFilter& filter = {}) const;
 
+  /// The contacts in which a body touches others as of the last step, by the other's index and
+  /// parts, as many as `out` holds; returns how many were written, 0 for a body that does not
+  /// exist. Takes a look at every contact of an awake body.
+  std::size_t contacts_of(BodyHandle body, std::span<BodyContact> out) const;
+
+  /// The joints of a body, by index, as many as `out` holds; returns how many were written.
+  std::size_t joints_of(BodyHandle body, std::span<JointHandle> out) const;
+
   /// Draws the bodies by index, then the contacts by key, then the joints by index. Not from two
   /// threads at once.
   void draw(DebugDraw& out, const DebugDrawOptions& options = {}) const;

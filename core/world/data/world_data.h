@@ -113,7 +113,7 @@ struct WorldData {
   std::vector<JointRecord> joints;  // by index; size: joint capacity
 
   // Derived from the state.
-  IndexSet awake;     // bodies that move
+  IndexSet awake;       // bodies that move
   IndexSet triggers;    // triggers that exist
   IndexSet hit_bodies;  // bodies with hit events
   JointGraph joint_graph;

@@ -33,7 +33,8 @@ TickMemory::TickMemory(const WorldDef& def) : before(state_bytes(def)), after(st
 
 std::size_t TickMemory::bytes_max(const WorldDef& def) {
   return sizeof(TickMemory) + 2 * state_bytes(def) + most_events(def) * sizeof(ContactEvent) +
-         most_hits(def) * sizeof(HitEvent) + def.joint_capacity * sizeof(JointEvent) + def.pair_capacity * sizeof(Pair) +
+         most_hits(def) * sizeof(HitEvent) + def.joint_capacity * sizeof(JointEvent) +
+         def.pair_capacity * sizeof(Pair) +
          (def.body_capacity + MovedBodies::most_looks(def)) * sizeof(std::uint32_t) +
          def.body_capacity * sizeof(IslandShare);
 }

@@ -70,8 +70,8 @@ std::optional<ContactEvent> ContactEvents::event_of(const PairState& before,
   const bool trigger = before.trigger || now.trigger;
   if (!trigger && was == is) return {};
   const Pair pair = now.exists ? now.bodies : before.bodies;
-  const bool is_told = world_.bodies[pair.a].has_contact_events() &&
-                       world_.bodies[pair.b].has_contact_events();
+  const bool is_told =
+      world_.bodies[pair.a].has_contact_events() && world_.bodies[pair.b].has_contact_events();
   if (!trigger && !is_told) return {};
   const EventKind kind = trigger ? (!is   ? EventKind::trigger_exit
                                     : was ? EventKind::trigger_stay

@@ -50,7 +50,8 @@ class HitEvents {
 
  private:
   void add_solved(const ImpulseTotal& total);
-  void name_parts(const ContactRecord& record, const ContactSurface& surface, HitEvent& event) const;
+  void name_parts(const ContactRecord& record, const ContactSurface& surface,
+                  HitEvent& event) const;
 
   WorldData& world_;
   TickContacts& found_;

@@ -23,8 +23,7 @@ ContactId contact_of(std::uint32_t record, const ContactList& contacts) {
     else
       end = middle;
   }
-  const bool is_there =
-      first < contacts.size() && contacts[ContactId{first}].record == record;
+  const bool is_there = first < contacts.size() && contacts[ContactId{first}].record == record;
   return ContactId{is_there ? first : contacts.size()};
 }
 
