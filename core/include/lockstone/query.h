@@ -75,6 +75,8 @@ struct TouchingPoint {
   Vec3<Position> point{};     ///< m, in the middle between both surfaces
   Displacement separation{};  ///< m; negative when overlapping
   Force normal_force{};       ///< N, ≥ 0, in the last substep; 0 of a point that is new since
+
+  friend bool operator==(const TouchingPoint&, const TouchingPoint&) = default;
 };
 
 /// A contact of a body with another. Forces are those of the last substep of the last step: divided
@@ -90,6 +92,8 @@ struct BodyContact {
   std::uint32_t other_part = 0;
   std::uint32_t tag = 0;  ///< Surface::tag of the body where they meet
   std::uint32_t other_tag = 0;
+
+  friend bool operator==(const BodyContact&, const BodyContact&) = default;
 };
 
 /// The point of a body that is nearest to another point.

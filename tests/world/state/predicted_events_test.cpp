@@ -109,7 +109,9 @@ class Timeline {
     for (std::size_t i = 0; i < told.size(); ++i) {
       const std::int64_t id = told[i];
       if (id > 0) heard_[id] = names[i];
-      if (id < 0) EXPECT_EQ(heard_.at(-id), names[i]);
+      if (id < 0) {
+        EXPECT_EQ(heard_.at(-id), names[i]);
+      }
     }
     for (const std::uint64_t id : game_.revoked)
       EXPECT_EQ(heard_.erase(static_cast<std::int64_t>(id)), 1U);
