@@ -60,12 +60,11 @@ void World::Impl::solve_contacts(StepReport& report) {
   events.hits().begin();
   {
     const StageTimer timer(profiler, StepStage::prepare);
-    solver.prepare(
-        {std::span(bodies).first(header.body_limit), cache.rotations(), found.manifold_ids,
-         found.manifolds, found.surfaces, found.records,
-         std::span(joints).first(header.joint_limit), links, header.gravity, header.tick,
-         events.hits().watched()},
-        parallel);
+    solver.prepare({std::span(bodies).first(header.body_limit), cache.rotations(),
+                    found.manifold_ids, found.manifolds, found.surfaces, found.records,
+                    std::span(joints).first(header.joint_limit), links, header.gravity, header.tick,
+                    events.hits().watched()},
+                   parallel);
   }
   {
     const StageTimer timer(profiler, StepStage::solve);
@@ -98,10 +97,10 @@ void World::Impl::find_events() {
   const StageTimer timer(profiler, StepStage::events);
   events.find();
   passes.add_events(events.list());
-  events.list().insert(events.list().end(), continuous.impacts().begin(),
-                       continuous.impacts().end());
+  const Stops& stops = continuous.stops();
+  events.list().insert(events.list().end(), stops.impacts.begin(), stops.impacts.end());
   events.hits().add_bounced(bounces.contacts(), bounces.totals());
-  events.hits().finish(continuous.hits());
+  events.hits().finish(stops.hits);
 }
 
 }  // namespace lockstone

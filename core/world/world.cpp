@@ -108,9 +108,6 @@ StepReport World::step() {
 std::span<const ContactEvent> World::events() const {
   return impl_->events.list();
 }
-std::span<const HitEvent> World::hit_events() const {
-  return impl_->events.hits().list();
-}
 void World::set_clock(ProfileClock now, ProfileDetail detail) {
   impl_->profiler.set_clock(now, detail);
 }
@@ -170,7 +167,7 @@ BodyView World::body(BodyHandle body) const {
           .is_bullet = record->is_bullet(),
           .is_asleep = record->is_asleep(),
           .allow_sleep = record->may_sleep(),
-          .events = {record->has_contact_events(), record->hit_speed},
+          .events = {has_contact_events(*record), record->hit_speed},
           .user_data = record->user_data};
 }
 

@@ -40,7 +40,7 @@ Result<std::unique_ptr<Simulation>> make_loud_game(ByteView config) {
 
 std::vector<EventName> names_in(const World& world) {
   std::vector<EventName> names;
-  for (const HitEvent& hit : world.hit_events())
+  for (const HitEvent& hit : hit_events(world))
     names.push_back(name_of(hit));
   for (const ContactEvent& event : world.events())
     names.push_back(name_of(event));

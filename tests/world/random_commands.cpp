@@ -280,7 +280,7 @@ std::vector<std::int64_t> told_by(const World& world) {
     told.insert(told.end(), {static_cast<std::int64_t>(e.kind), e.a.index, e.a.generation,
                              e.b.index, e.b.generation, e.approach_speed.raw, e.tag_a, e.tag_b});
   }
-  for (const HitEvent& e : world.hit_events()) {
+  for (const HitEvent& e : hit_events(world)) {
     told.insert(told.end(), {e.a.index, e.b.index, e.part_a, e.part_b, e.tag_a, e.tag_b,
                              e.approach_speed.raw, e.normal_impulse.raw});
     for (int i = 0; i < 3; ++i)

@@ -176,6 +176,7 @@ void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, con
     sum.add(x, y);
     return sum.rounded(30);
   };
+  LKS_ASSERT(contact.points <= contact.rows);
   std::int64_t push = 0;
   Sum about_b, about_t;
   for (std::size_t i = 0; i < contact.points; ++i) {
@@ -207,7 +208,7 @@ void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, con
 
 // Of the tangents and the twist, as iterations have them.
 std::array<std::int64_t, 3> friction_of(const ProximalContact& contact) {
-  LKS_ASSERT(contact.rows - contact.points <= 3);
+  LKS_ASSERT(contact.points <= contact.rows && contact.rows - contact.points <= 3);
   std::array<std::int64_t, 3> seen{};
   for (std::size_t i = contact.points; i < contact.rows; ++i)
     seen[i - contact.points] =
@@ -338,6 +339,7 @@ void give(const ContactRun& run, const IslandView& island) {
 }
 
 std::int64_t friction_word(const ProximalContact& contact) {
+  LKS_ASSERT(contact.rows <= k_contact_rows);
   const std::array<std::int64_t, 3> seen = friction_of(contact);
   return pack(seen[0], seen[1]);
 }

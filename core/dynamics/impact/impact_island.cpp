@@ -216,6 +216,7 @@ Vec3<Position> meeting_point(const Gaps& gaps, const Manifold& manifold, const B
     for (int axis = 0; axis < 3; ++axis)
       sum[axis] += rounded<Position>(manifold.points[i].anchor_b[axis]);
   }
+  LKS_ASSERT(near >= 1);
   Vec3<Position> point = b.position;
   for (int axis = 0; axis < 3; ++axis)
     point[axis] += Position::from_raw(raw::round_divide(sum[axis].raw, near));

@@ -93,8 +93,6 @@ struct BodyRecord {
   [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
   [[nodiscard]] bool may_sleep() const { return (flags & k_body_no_sleep) == 0; }
   [[nodiscard]] bool has_changed_sleep() const { return (flags & k_body_changed_sleep) != 0; }
-  [[nodiscard]] bool has_contact_events() const { return (flags & k_body_no_contact_events) == 0; }
-  [[nodiscard]] bool has_hit_events() const { return hit_speed > SolverVelocity{}; }
   [[nodiscard]] bool rotates() const { return (locks & k_lock_turning) != k_lock_turning; }
   [[nodiscard]] bool is_locked(int axis) const { return (locks >> axis & 1) != 0; }
   [[nodiscard]] bool is_turn_locked(int axis) const { return (locks >> (3 + axis) & 1) != 0; }
@@ -155,6 +153,14 @@ struct BodyRecord {
 
 [[nodiscard]] inline bool is_loose(const BodyRecord& body) {
   return (body.flags & k_body_loose) != 0;
+}
+
+/// EventSettings::contacts.
+[[nodiscard]] inline bool has_contact_events(const BodyRecord& body) {
+  return (body.flags & k_body_no_contact_events) == 0;
+}
+[[nodiscard]] inline bool has_hit_events(const BodyRecord& body) {
+  return body.hit_speed > SolverVelocity{};
 }
 
 // clang-format off

@@ -40,8 +40,8 @@ struct ContactEvent {
 /// part; then those of bodies that were stopped on their way, as of `impact`. A contact that
 /// persists hits again where another corner comes down.
 ///
-/// The approach of a contact at rest is up to what gravity gives a body in a tick (0.16 m/s at 60
-/// Hz): a hit speed should be above it.
+/// The approach of a contact at rest is up to gravity's gain in a tick (0.16 m/s at 60 Hz): a hit
+/// speed should be above it.
 struct HitEvent {
   BodyHandle a{};
   BodyHandle b{};

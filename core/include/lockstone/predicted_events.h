@@ -19,7 +19,8 @@
 
 namespace lockstone {
 
-/// What an event is about. A game may name events of its own by kinds from k_own_event_kinds on.
+/// The kind of an event and the two things it is about. A game may name events of its own by kinds
+/// from k_own_event_kinds on.
 struct EventName {
   std::uint32_t kind = 0;
   std::uint64_t a = 0;
@@ -39,7 +40,7 @@ class PredictedEvents {
  public:
   struct Settings {
     std::uint32_t capacity = 1024;   ///< events that are not final yet, ≥ 1
-    std::uint32_t window_ticks = 2;  ///< a rollback may move an event by so many ticks
+    std::uint32_t window_ticks = 2;  ///< a rollback moves an event by at most this
   };
   /// No function but this allocates.
   explicit PredictedEvents(const Settings& settings);

@@ -1,7 +1,6 @@
 // Questions to a world: read-only, safe from several threads at once, answers in canonical order.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <lockstone/body.h>
@@ -68,32 +67,6 @@ struct ShapeContact {
   Surface surface{};          ///< of the body, where they meet
 
   friend constexpr bool operator==(const ShapeContact&, const ShapeContact&) = default;
-};
-
-/// A point of a contact between two bodies.
-struct TouchingPoint {
-  Vec3<Position> point{};     ///< m, in the middle between both surfaces
-  Displacement separation{};  ///< m; negative when overlapping
-  Force normal_force{};       ///< N, ≥ 0, in the last substep; 0 of a point that is new since
-
-  friend bool operator==(const TouchingPoint&, const TouchingPoint&) = default;
-};
-
-/// A contact of a body with another. Forces are those of the last substep of the last step: divided
-/// by the tick rate they are the impulse of a tick.
-struct BodyContact {
-  BodyHandle other{};
-  Vec3<Unit> normal{};      ///< from the body to the other; zero without points
-  Force normal_force{};     ///< N, ≥ 0: pushes the other along the normal, at all points
-  Vec3<Force> friction{};   ///< N, on the other
-  std::uint32_t count = 0;  ///< of points: 0 where the two parted within the step
-  std::array<TouchingPoint, 4> points{};
-  std::uint32_t part = 0;  ///< triangle, cell or child of the body's asset
-  std::uint32_t other_part = 0;
-  std::uint32_t tag = 0;  ///< Surface::tag of the body where they meet
-  std::uint32_t other_tag = 0;
-
-  friend bool operator==(const BodyContact&, const BodyContact&) = default;
 };
 
 /// The point of a body that is nearest to another point.

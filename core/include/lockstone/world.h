@@ -16,6 +16,7 @@
 #include <lockstone/bytes.h>
 #include <lockstone/collision.h>
 #include <lockstone/command.h>
+#include <lockstone/contacts.h>
 #include <lockstone/debug_draw.h>
 #include <lockstone/event.h>
 #include <lockstone/hash.h>
@@ -119,6 +120,7 @@ enum class StateStore : std::uint8_t { bodies, contacts, joints };
 [[nodiscard]] std::string_view to_string(StateStore store);
 
 class CommandExplainer;
+class WorldContacts;
 
 class World {
  public:
@@ -165,9 +167,6 @@ class World {
   /// Events of the last step; empty after `load`. Read them before the next step: they are not
   /// state.
   [[nodiscard]] std::span<const ContactEvent> events() const;
-
-  /// The hits of the last step between bodies that ask for them, as `events`.
-  [[nodiscard]] std::span<const HitEvent> hit_events() const;
 
   /// The joints that broke in the last step, by index.
   [[nodiscard]] std::span<const JointEvent> joint_events() const;
@@ -291,14 +290,6 @@ class World {
   std::size_t bodies_at(const Vec3<Position>& point, std::span<BodyHandle> out,
                         const QueryFilter& filter = {}) const;
 
-  /// The contacts in which a body touches others as of the last step, by the other's index and
-  /// parts, as many as `out` holds; returns how many were written, 0 for a body that does not
-  /// exist. Takes a look at every contact of an awake body.
-  std::size_t contacts_of(BodyHandle body, std::span<BodyContact> out) const;
-
-  /// The joints of a body, by index, as many as `out` holds; returns how many were written.
-  std::size_t joints_of(BodyHandle body, std::span<JointHandle> out) const;
-
   /// Draws the bodies by index, then the contacts by key, then the joints by index. Not from two
   /// threads at once.
   void draw(DebugDraw& out, const DebugDrawOptions& options = {}) const;
@@ -352,6 +343,7 @@ class World {
 
  private:
   friend class CommandExplainer;
+  friend class WorldContacts;
   friend class RollbackHistory;
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

@@ -151,7 +151,7 @@ Status CommandExecutor::execute(const SetEvents& command) {
   if (record == nullptr) return Status::stale_handle;
   if (!is_hit_speed(command.settings.hit_speed)) return Status::invalid_argument;
   set_events(*record, command.settings);
-  world_.note_hit_events(command.body.index);
+  world_.cache.refresh_hit_events(command.body.index, *record);
   return Status::ok;
 }
 

@@ -19,7 +19,6 @@ WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet>
       joints(definition.joint_capacity),
       awake(definition.body_capacity),
       triggers(definition.body_capacity),
-      hit_bodies(definition.body_capacity),
       joint_graph(definition.body_capacity, definition.joint_capacity),
       cache(definition.body_capacity),
       broad_phase(definition.broad_phase, definition.body_capacity, definition.pair_capacity),
@@ -81,14 +80,9 @@ void WorldData::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
   cache.refresh_shape(body, record);
   if (triggers.has(body) != record.is_trigger()) triggers.flip(body);
-  note_hit_events(body);
   broad_phase.set(body, bounds_of(body),
                   {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
                    record.is_asleep()});
-}
-
-void WorldData::note_hit_events(std::uint32_t body) {
-  if (hit_bodies.has(body) != bodies[body].has_hit_events()) hit_bodies.flip(body);
 }
 
 Pair WorldData::pair_of(std::uint32_t a, std::uint32_t b) const {

@@ -64,9 +64,6 @@ struct WorldData {
   /// The same for bounds and the broad phase alone.
   void refresh_bounds(std::uint32_t body);
 
-  /// Brings `hit_bodies` up to date: after a change of the body's event settings.
-  void note_hit_events(std::uint32_t body);
-
   /// The pair of two bodies in the order of the broad phase: the moving one first, else the lower
   /// index.
   [[nodiscard]] Pair pair_of(std::uint32_t a, std::uint32_t b) const;
@@ -114,8 +111,7 @@ struct WorldData {
 
   // Derived from the state.
   IndexSet awake;       // bodies that move
-  IndexSet triggers;    // triggers that exist
-  IndexSet hit_bodies;  // bodies with hit events
+  IndexSet triggers;  // triggers that exist
   JointGraph joint_graph;
   BodyCache cache;
   BroadPhase broad_phase;

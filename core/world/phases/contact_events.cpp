@@ -71,7 +71,7 @@ std::optional<ContactEvent> ContactEvents::event_of(const PairState& before,
   if (!trigger && was == is) return {};
   const Pair pair = now.exists ? now.bodies : before.bodies;
   const bool is_told =
-      world_.bodies[pair.a].has_contact_events() && world_.bodies[pair.b].has_contact_events();
+      has_contact_events(world_.bodies[pair.a]) && has_contact_events(world_.bodies[pair.b]);
   if (!trigger && !is_told) return {};
   const EventKind kind = trigger ? (!is   ? EventKind::trigger_exit
                                     : was ? EventKind::trigger_stay

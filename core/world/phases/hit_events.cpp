@@ -52,18 +52,19 @@ Vec3<Position> mean_place(const ImpulseTotal& total, std::int64_t sum, const Man
   return mean;
 }
 
-// By pair, then by what else tells contacts of one pair apart.
+// By pair and part; then all that an event consists of, so that only equal ones tie.
 auto order_of(const HitEvent& event) {
-  return std::tuple(event.a.index, event.b.index, event.part_a, event.part_b, event.point.x.raw,
-                    event.point.y.raw, event.point.z.raw, event.normal.x.raw, event.normal.y.raw,
-                    event.normal.z.raw);
+  const auto words = [](const auto& v) { return std::tuple(v.x.raw, v.y.raw, v.z.raw); };
+  return std::tuple(event.a.index, event.b.index, event.part_a, event.part_b, words(event.point),
+                    words(event.normal), event.normal_impulse.raw, words(event.friction_impulse),
+                    event.approach_speed.raw, event.tag_a, event.tag_b);
 }
 
 }  // namespace
 
 SolverVelocity hit_speed_of(const BodyRecord& a, const BodyRecord& b) {
-  if (!a.has_hit_events()) return b.hit_speed;
-  return b.has_hit_events() ? min(a.hit_speed, b.hit_speed) : a.hit_speed;
+  if (!has_hit_events(a)) return b.hit_speed;
+  return has_hit_events(b) ? min(a.hit_speed, b.hit_speed) : a.hit_speed;
 }
 
 HitEvent hit_of(const WorldData& world, const Pair& pair, const ImpactTotal& total) {
@@ -101,11 +102,12 @@ HitEvents::HitEvents(WorldData& world, TickContacts& found) : world_(world), fou
 void HitEvents::begin() {
   events_.clear();
   watched_.clear();
-  if (world_.hit_bodies.count() == 0) return;
+  const IndexSet& hit_bodies = world_.cache.hit_bodies();
+  if (hit_bodies.count() == 0) return;
   LKS_ASSERT(is_reserved(watched_, found_.records.size()));
   for (std::uint32_t i = 0; i < found_.records.size(); ++i) {
     const ContactRecord& record = found_.records[i];
-    if (!world_.hit_bodies.has(record.body_a) && !world_.hit_bodies.has(record.body_b)) continue;
+    if (!hit_bodies.has(record.body_a) && !hit_bodies.has(record.body_b)) continue;
     if (record.is_trigger()) continue;
     watched_.push_back(
         {i, hit_speed_of(world_.bodies[record.body_a], world_.bodies[record.body_b])});

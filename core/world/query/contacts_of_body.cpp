@@ -12,10 +12,10 @@
 namespace lockstone {
 namespace {
 
-// By what tells two contacts of a body apart.
 auto order_of(const BodyContact& contact) {
   return std::tuple(contact.other.index, contact.part, contact.other_part, contact.normal.x.raw,
-                    contact.normal.y.raw, contact.normal.z.raw);
+                    contact.normal.y.raw, contact.normal.z.raw, contact.tag, contact.other_tag,
+                    contact.normal_force.raw);
 }
 
 SolverVelocity impulse_of(const ContactRecord& record, std::uint32_t feature) {
@@ -114,9 +114,16 @@ class ContactReader {
 
 }  // namespace
 
-std::size_t World::contacts_of(BodyHandle body, std::span<BodyContact> out) const {
-  if (!exists(body)) return 0;
-  ContactReader reader(*impl_);
+/// The way of these functions into a world.
+class WorldContacts {
+ public:
+  static World::Impl& of(const World& world) { return *world.impl_; }
+};
+
+std::size_t contacts_of(const World& world, BodyHandle body, std::span<BodyContact> out) {
+  if (!world.exists(body)) return 0;
+  World::Impl& impl = WorldContacts::of(world);
+  ContactReader reader(impl);
   std::size_t count = 0;
   const auto visit = [&](const ContactRecord& record) {
     if (!record.is_touching() || record.is_trigger()) return;
@@ -125,20 +132,25 @@ std::size_t World::contacts_of(BodyHandle body, std::span<BodyContact> out) cons
         reader.read(record, body.index), out, count,
         [](const BodyContact& x, const BodyContact& y) { return order_of(x) < order_of(y); });
   };
-  std::ranges::for_each(impl_->contacts.active(), visit);
-  impl_->contacts.sleeping().for_each_of(body.index, visit);
+  std::ranges::for_each(impl.contacts.active(), visit);
+  impl.contacts.sleeping().for_each_of(body.index, visit);
   return count;
 }
 
-std::size_t World::joints_of(BodyHandle body, std::span<JointHandle> out) const {
-  if (!exists(body)) return 0;
+std::size_t joints_of(const World& world, BodyHandle body, std::span<JointHandle> out) {
+  if (!world.exists(body)) return 0;
+  const World::Impl& impl = WorldContacts::of(world);
   std::size_t count = 0;
-  for (const JointLink& link : impl_->joint_graph.links()) {
+  for (const JointLink& link : impl.joint_graph.links()) {
     if (count == out.size()) break;
     if (link.body_a != body.index && link.body_b != body.index) continue;
-    out[count++] = {link.joint, impl_->joints[link.joint].generation};
+    out[count++] = {link.joint, impl.joints[link.joint].generation};
   }
   return count;
+}
+
+std::span<const HitEvent> hit_events(const World& world) {
+  return WorldContacts::of(world).events.hits().list();
 }
 
 }  // namespace lockstone

@@ -79,7 +79,7 @@ TEST(PredictedEvents, TellTwoOfOneNameApart) {
   EXPECT_EQ(game.revoked, Revoked{1});
 }
 
-TEST(PredictedEvents, ForgetWhatIsFinalAndCountWhatFindsNoRoom) {
+TEST(PredictedEvents, ForgetFinalEventsAndCountThoseWithoutRoom) {
   Listener game{PredictedEvents({.capacity = 2, .window_ticks = 2}), {}};
   EXPECT_EQ(game.tick(1, {k_thud, k_click, k_thud}), (Ids{1, 2, 0}));
   EXPECT_EQ(game.events.dropped(), 1U);
@@ -116,6 +116,11 @@ class Timeline {
     for (const std::uint64_t id : game_.revoked)
       EXPECT_EQ(heard_.erase(static_cast<std::int64_t>(id)), 1U);
     game_.revoked.clear();
+  }
+  // Nothing more happens, until all that was ever told is settled.
+  void finish() {
+    while (happened_.size() < guesses_.size() + 3)
+      step({});
   }
   void roll_back() {
     happened_.resize(confirmed_ + random_.below(happened_.size() - confirmed_ + 1));
@@ -155,7 +160,7 @@ class Timeline {
   std::uint64_t confirmed_ = 0;                             // ticks that are final
 };
 
-TEST(PredictedEvents, AddUpToWhatHappened) {
+TEST(PredictedEvents, AddUpToTheEventsThatHappened) {
   test::Random random;
   for (int round = 0; round < test::share_of(200); ++round) {
     Timeline timeline(random);
@@ -165,10 +170,7 @@ TEST(PredictedEvents, AddUpToWhatHappened) {
       if (random.below(2) == 0) timeline.roll_back();
       if (random.below(2) == 0) timeline.confirm();
     }
-    for (int i = 0; i < 8; ++i)
-      timeline.step();
-    for (int i = 0; i < 3; ++i)
-      timeline.step({});
+    timeline.finish();
     ASSERT_EQ(timeline.happened(), timeline.heard()) << "in round " << round;
   }
 }

@@ -95,7 +95,7 @@ lks_status lks_joint_events(const lks_world* world, lks_joint_event* out, size_t
 
 lks_status lks_hit_events(const lks_world* world, lks_hit_event* out, size_t capacity,
                           size_t* count) {
-  return call([&] { give_events(read(world).hit_events(), out, capacity, count, hit_event_of); });
+  return call([&] { give_events(hit_events(read(world)), out, capacity, count, hit_event_of); });
 }
 
 lks_status lks_contacts_of(const lks_world* world, lks_body body, lks_body_contact* out,
@@ -105,7 +105,7 @@ lks_status lks_contacts_of(const lks_world* world, lks_body body, lks_body_conta
     const BodyHandle handle = existing_body(source, body);
     give_found<BodyContact>(
         out, std::min<std::size_t>(capacity, source.def().contact_capacity), count,
-        [&](auto room) { return source.contacts_of(handle, room); }, contact_of);
+        [&](auto room) { return contacts_of(source, handle, room); }, contact_of);
   });
 }
 
@@ -116,7 +116,7 @@ lks_status lks_joints_of(const lks_world* world, lks_body body, lks_joint* out, 
     const BodyHandle handle = existing_body(source, body);
     give_found<JointHandle>(
         out, std::min<std::size_t>(capacity, source.joint_count()), count,
-        [&](auto room) { return source.joints_of(handle, room); }, id_of<JointHandle>);
+        [&](auto room) { return joints_of(source, handle, room); }, id_of<JointHandle>);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "core/dynamics/contact/block_words.h"
 #include "core/dynamics/contact/contact_prepare.h"
 #include "core/dynamics/direct/contact_phases.h"
+#include "core/geometry/distance/manifold_checks.h"
 
 namespace lockstone {
 namespace {
@@ -23,6 +24,7 @@ ContactId contact_of(std::uint32_t record, const ContactList& contacts) {
     else
       end = middle;
   }
+  LKS_ASSERT(first <= contacts.size());
   const bool is_there = first < contacts.size() && contacts[ContactId{first}].record == record;
   return ContactId{is_there ? first : contacts.size()};
 }
@@ -43,6 +45,7 @@ void ImpulseTotals::begin(std::span<const WatchedContact> watched, const Contact
     if (contact.value == contacts.size()) continue;
     const ContactLane place = constraints.layout().lane_of(contact);
     if (constraints.approach_of(place) <= each.hit_speed.raw) continue;
+    LKS_ASSERT(entries_.empty() || entries_.back().contact < contact);
     Entry& entry = entries_.emplace_back();
     entry.contact = contact;
     entry.place = place;
@@ -61,6 +64,7 @@ ImpulseTotals::Entry* ImpulseTotals::find(ContactId contact) {
 
 ImpulseTotals::Impulses ImpulseTotals::impulses_of(const Entry& entry, const ContactRun& run) {
   const lanes::ManifoldBlock& block = run.blocks[entry.place.block()];
+  LKS_ASSERT(entry.place.lane() < lanes::k_block_lanes);
   Impulses impulses{};
   for (std::size_t i = 0; i < impulses.size(); ++i)
     impulses[i] = low_word(block.points[i].impulse[entry.place.lane()]);
@@ -90,6 +94,7 @@ void ImpulseTotals::note(const ContactRun& run) {
 
 void ImpulseTotals::end(const ContactRun& run) {
   for (Entry& entry : entries_) {
+    LKS_ASSERT(entry.place.block() < run.blocks.size());
     const Impulses now = impulses_of(entry, run);
     for (std::size_t i = 0; i < now.size(); ++i)
       entry.total.points[i] += now[i] - entry.last[i];
@@ -102,6 +107,7 @@ void ImpulseTotals::add_impact(ContactId contact, const Vec3<Velocity>& jump,
   constexpr int k_down = Velocity::frac_bits - SolverVelocity::frac_bits;
   Entry* entry = find(contact);
   if (entry == nullptr) return;
+  LKS_ASSERT(geometry::is_unit(normal));
   const Velocity along =
       times(jump.x, normal.x) + times(jump.y, normal.y) + times(jump.z, normal.z);
   entry->total.points[0] += raw::round_shift(along.raw, k_down);

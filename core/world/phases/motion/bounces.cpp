@@ -74,7 +74,7 @@ void Bounces::find() {
   for (std::size_t i = 0; i < found_.records.size(); ++i)
     mark(i);
   std::ranges::sort(contacts_);
-  if (world_.hit_bodies.count() != 0) totals_.resize(contacts_.size());
+  if (world_.cache.hit_bodies().count() != 0) totals_.resize(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (i == 0 || contacts_[i].root != contacts_[i - 1].root)
       groups_.push_back(static_cast<std::uint32_t>(i));
@@ -131,7 +131,7 @@ ImpactPair Bounces::pair_of(std::size_t contact) {
   const ContactRecord& record = found_.records[contact];
   return {&world_.bodies[record.body_a], &world_.bodies[record.body_b],
           &found_.manifold_of(contact), &found_.surface_of(contact),
-          world_.hit_bodies.count() != 0};
+          world_.cache.hit_bodies().count() != 0};
 }
 
 bool Bounces::may_bounce(const ContactRecord& record) {

@@ -50,7 +50,7 @@ class Bounces {
   TickContacts& found_;
   MovedBodies& moved_;
   Islands& islands_;
-  std::vector<BouncingContact> contacts_;       // by group, a group by its least body
+  std::vector<BouncingContact> contacts_;  // by group, a group by its least body
   std::vector<ImpactTotal> totals_;
   std::vector<std::uint32_t> groups_, bodies_;  // a group is the index of its first contact
   std::vector<std::uint8_t> has_bounced_;       // by body

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "core/collision/continuous/first_impact.h"
 #include "core/collision/continuous/relative_path.h"
@@ -78,6 +79,29 @@ Vec3<Position> deepest_point(const Manifold& manifold, const Vec3<Position>& pos
   return point;
 }
 
+// The impulses at an impact, and the contact that came in fastest.
+struct Stop {
+  ImpactTotal total;
+  const PartContact* fastest = nullptr;
+};
+
+// The hit of an impact, if it is one.
+std::optional<HitEvent> hit_of_stop(const WorldData& world, const ContactEvent& impact,
+                                    const Stop& stop) {
+  const Pair pair{impact.a.index, impact.b.index};
+  const SolverVelocity hit_speed = hit_speed_of(world.bodies[pair.a], world.bodies[pair.b]);
+  if (hit_speed == SolverVelocity{} || stop.fastest == nullptr) return {};
+  if (stop.total.approach <= rounded<Velocity>(hit_speed)) return {};
+  HitEvent event = hit_of(world, pair, stop.total);
+  if (event.normal_impulse <= Impulse{}) return {};
+  event.part_a = stop.fastest->part_a;
+  event.part_b = part_at(world, pair.b, event.point, stop.fastest->part_b);
+  event.tag_a = impact.tag_a;
+  event.tag_b = impact.tag_b;
+  event.was_stopped = true;
+  return event;
+}
+
 // A half-space has nothing behind it to come out at, and contacts find the bodies that
 // triangles sweep over.
 bool may_sweep(const BodyRecord& body, const Asset* asset) {
@@ -117,14 +141,14 @@ ContinuousCollision::ContinuousCollision(WorldData& world, MovedBodies& moved, N
   joined_movers_.reserve(world.def.joint_capacity == 0 ? 0 : capacity);
   sweepers_.reserve(capacity);
   struck_.reserve(capacity);
-  impacts_.reserve(capacity);
-  hits_.reserve(capacity);
+  stops_.impacts.reserve(capacity);
+  stops_.hits.reserve(capacity);
 }
 
 void ContinuousCollision::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::continuous);
-  impacts_.clear();
-  hits_.clear();
+  stops_.impacts.clear();
+  stops_.hits.clear();
   passes_.begin();
   list_sweepers();
   for (const std::uint32_t body : moved_.bodies()) {
@@ -391,7 +415,7 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   a.velocity -= to_come;
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
-  Stop hit;
+  Stop stop;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
     find_surface(world_, {body, other}, contact.surface_a, contact.surface_b, contact.manifold,
@@ -401,10 +425,10 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
     const Vec3<Velocity> before = b.velocity - a.velocity;
     const Velocity speed = answer_impact({a, inertia_a}, {b, inertia_b},
                                          {contact.manifold, surface.friction, surface.restitution});
-    if (speed > approach) hit.fastest = &contact;
+    if (speed > approach) stop.fastest = &contact;
     approach = max(approach, speed);
-    hit.total.add(speed, (b.velocity - a.velocity) - before, contact.manifold.normal,
-                  deepest_point(contact.manifold, other_motion.start.position));
+    stop.total.add(speed, (b.velocity - a.velocity) - before, contact.manifold.normal,
+                   deepest_point(contact.manifold, other_motion.start.position));
   }
   if (next.impact.crossing != Vec3<Unit>{}) {
     const Vec3<Position> arm = a.position - other_motion.start.position;
@@ -421,26 +445,11 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
     far_movers_[other] |= swept_over;
   }
   if (b.is_dynamic() && b.is_asleep()) waking_.note_hit(other);
-  if (impacts_.size() < world_.def.body_capacity) {
-    impacts_.push_back(
-        {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
-  }
-  note_hit({body, other}, hit, tag_a, tag_b);
-}
-
-void ContinuousCollision::note_hit(const Pair& pair, const Stop& stop, std::uint32_t tag_a,
-                                   std::uint32_t tag_b) {
-  const SolverVelocity hit_speed = hit_speed_of(world_.bodies[pair.a], world_.bodies[pair.b]);
-  if (hit_speed == SolverVelocity{} || stop.fastest == nullptr) return;
-  if (stop.total.approach <= rounded<Velocity>(hit_speed)) return;
-  HitEvent event = hit_of(world_, pair, stop.total);
-  event.part_a = stop.fastest->part_a;
-  event.part_b = part_at(world_, pair.b, event.point, stop.fastest->part_b);
-  event.tag_a = tag_a;
-  event.tag_b = tag_b;
-  event.was_stopped = true;
-  if (event.normal_impulse > Impulse{} && hits_.size() < world_.def.body_capacity)
-    hits_.push_back(event);
+  if (stops_.impacts.size() == world_.def.body_capacity) return;
+  stops_.impacts.push_back(
+      {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
+  if (const auto event = hit_of_stop(world_, stops_.impacts.back(), stop))
+    stops_.hits.push_back(*event);
 }
 
 }  // namespace lockstone

@@ -45,10 +45,10 @@ struct Sweeper {
   Bounds way{};
 };
 
-/// The impulses at an impact, and the contact that came in fastest.
-struct Stop {
-  ImpactTotal total;
-  const PartContact* fastest = nullptr;
+/// The bodies that were stopped on their way in a tick, in the order of their impacts.
+struct Stops {
+  std::vector<ContactEvent> impacts;
+  std::vector<HitEvent> hits;
 };
 
 class ContinuousCollision {
@@ -65,8 +65,7 @@ class ContinuousCollision {
   /// Wakes the sleepers that kinematic bodies will run into in the coming tick.
   void wake_struck();
 
-  [[nodiscard]] const std::vector<ContactEvent>& impacts() const { return impacts_; }
-  [[nodiscard]] std::span<const HitEvent> hits() const { return hits_; }
+  [[nodiscard]] const Stops& stops() const { return stops_; }
   [[nodiscard]] std::span<const Sweeper> sweepers() const { return sweepers_; }
   [[nodiscard]] std::uint8_t marks(std::uint32_t body) const { return far_movers_[body]; }
   [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
@@ -86,7 +85,6 @@ class ContinuousCollision {
   void visit_obstacles(std::uint32_t body, const Sweep& motion, F&& f) const;
   [[nodiscard]] NextImpact find_impact(std::uint32_t body, const Sweep& motion, Unit done) const;
   void resolve(std::uint32_t body, const NextImpact& next, Unit done);
-  void note_hit(const Pair& pair, const Stop& stop, std::uint32_t tag_a, std::uint32_t tag_b);
   [[nodiscard]] Sweep motion_in_tick(std::uint32_t body) const;
   [[nodiscard]] Sweep go_on(BodyRecord& record, Unit left) const;
   void list_sweepers();
@@ -104,8 +102,7 @@ class ContinuousCollision {
   std::vector<std::uint32_t> joined_movers_;  // bodies that stop together
   std::vector<Sweeper> sweepers_;             // of this tick, by body
   std::vector<std::uint32_t> struck_;         // sleepers
-  std::vector<ContactEvent> impacts_;         // of this tick
-  std::vector<HitEvent> hits_;                // of this tick
+  Stops stops_;                               // of this tick
 };
 
 }  // namespace lockstone
