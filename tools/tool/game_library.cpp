@@ -180,6 +180,14 @@ std::size_t draw(const void* match, char* out, std::size_t capacity) noexcept {
   return picture.size();
 }
 
+void keep_history(void* match, std::uint32_t ticks) noexcept {
+  simulation_of(match).keep_history(ticks);
+}
+
+void forget_history(void* match) noexcept {
+  simulation_of(match).forget_history();
+}
+
 void fill_table(Library& library) {
   const GameDef& game = library.game;
   for (const SceneDef& scene : game.scenes)
@@ -205,7 +213,9 @@ void fill_table(Library& library) {
                    .step_traced = game.world ? step_traced : nullptr,
                    .draw = game.draw ? draw : nullptr,
                    .scenes = library.scenes.data(),
-                   .scene_count = library.scenes.size()};
+                   .scene_count = library.scenes.size(),
+                   .keep_history = keep_history,
+                   .forget_history = forget_history};
 }
 
 }  // namespace

@@ -41,6 +41,12 @@ class LoadedSimulation final : public Simulation, public SelfTracing {
   [[nodiscard]] std::size_t snapshot_bytes_max(SnapshotKind kind) const override;
   [[nodiscard]] std::size_t save(SnapshotKind kind, std::span<std::byte> out) const override;
   Status load(SnapshotKind kind, ByteView bytes) override;
+  void keep_history(std::uint32_t ticks) override {
+    if (table_->keep_history != nullptr) table_->keep_history(match_, ticks);
+  }
+  void forget_history() override {
+    if (table_->forget_history != nullptr) table_->forget_history(match_);
+  }
   [[nodiscard]] std::uint64_t hash() const override { return table_->hash(match_); }
   [[nodiscard]] std::size_t part_hashes(std::span<PartHash, k_max_state_parts> out) const override;
   [[nodiscard]] StateDifference describe(ByteView here, ByteView there) const override;

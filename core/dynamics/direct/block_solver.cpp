@@ -3,6 +3,7 @@
 #include <lockstone/assert.h>
 
 #include "core/dynamics/direct/contact_phases.h"
+#include "core/dynamics/direct/contact_speeds.h"
 #include "core/dynamics/direct/phase_solver.h"
 
 namespace lockstone {
@@ -26,7 +27,8 @@ void BlockSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t
                         int substeps) {
   const IslandView island = islands_.view(index);
   contact_phases::begin(run, island, weight, substeps);
-  if (!island.joints.empty()) joint_phases::begin(run, island);
+  if (!island.joints.empty()) island.state.is_measured = true;
+  if (island.state.is_measured) begin_measuring(run, island);
 }
 
 void BlockSolver::solve(const ContactRun& run, const JointAccess& joints, std::uint32_t index,
@@ -38,6 +40,7 @@ void BlockSolver::solve(const ContactRun& run, const JointAccess& joints, std::u
   else
     contact_phases::return_leaks(island);
   if (!island.joints.empty()) joint_phases::update(run, joints, island, first_free_, pushes_out);
+  if (island.state.is_measured) measure_again(run, island);
   contact_phases::set_biases(run, island, pushes_out);
   contact_phases::loosen(island);
   PhaseSolver phase(island, islands_.factor());

@@ -28,6 +28,46 @@ std::int64_t speed_along(const RawVec3* linear, const RawVec3& response_a,
   return sum.rounded(30);
 }
 
+// √(m/m₀)·(v, Cᵀ·spin), in units of kept quantities.
+BodyVector motion_of(const lanes::BodyVelocity& row, const InertiaRoot& root,
+                     const RowScale& mass) {
+  constexpr int k_down = lanes::k_velocity_bits - k_row_unit_bits;
+  BodyVector u{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = mass.times(row.velocity[i], k_down);
+    ProductSum turn;
+    for (std::size_t k = i; k < 3; ++k)
+      turn.add(root.c[k][i], row.spin[k]);
+    u[3 + i] = mass.times(turn.rounded(30 - root.shift), k_down);
+  }
+  return u;
+}
+
+// How bodies move now, as all rows see it.
+void find_motions(const ContactRun& run, const IslandView& island) {
+  const std::span<BodyVector> motions = island.changes;
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const std::uint32_t body = island.bodies[k];
+    motions[k] = motion_of(run.rows[body], island.roots[k],
+                           mass_scale(island.state.unit, run.bodies[body].inverse_mass));
+  }
+  motions[island.bodies.size()] = {};
+}
+
+// The speed of a contact's row by the motion of the bodies that impulses move.
+std::int64_t speed_of(const IslandView& island, const lanes::ProximalBlock& problem,
+                      std::size_t row) {
+  LKS_ASSERT(row < problem.rows);
+  const std::span<const BodyVector> motions = island.changes;
+  const BodyVector &a = motions[problem.a], &b = motions[problem.b];
+  ProductSum sum;
+  for (std::size_t i = 0; i < lanes::k_body_words; ++i) {
+    sum.add(low_word(problem.by_row[row][i]), a[i]);
+    sum.add(high_word(problem.by_row[row][i]), b[i]);
+  }
+  return sum.rounded(30);
+}
+
 }  // namespace
 
 void set_drives(const ContactRun& run, int substeps, ProximalContact& contact,
@@ -88,6 +128,27 @@ void measure_speeds(const ContactRun& run, const PreparedRows& prepared,
     };
     problem.moved[i] = read(start);
     problem.moving[i] = within_row(problem.moved[i] + read(gained));
+  }
+}
+
+// The rest of the rows' speeds, which kinematic bodies give them.
+void begin_measuring(const ContactRun& run, const IslandView& island) {
+  find_motions(run, island);
+  for (std::size_t i = 0; i < island.contacts.size(); ++i) {
+    ProximalContact& contact = island.contacts[i];
+    const lanes::ProximalBlock& problem = island.problems[i];
+    for (std::size_t r = 0; r < contact.rows; ++r)
+      contact.all[r].carried = within_row(problem.moved[r] - speed_of(island, problem, r));
+  }
+}
+
+void measure_again(const ContactRun& run, const IslandView& island) {
+  find_motions(run, island);
+  for (std::size_t i = 0; i < island.contacts.size(); ++i) {
+    const ProximalContact& contact = island.contacts[i];
+    lanes::ProximalBlock& problem = island.problems[i];
+    for (std::size_t r = 0; r < contact.rows; ++r)
+      problem.moving[r] = within_row(contact.all[r].carried + speed_of(island, problem, r));
   }
 }
 

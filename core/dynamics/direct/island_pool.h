@@ -19,6 +19,8 @@ struct IslandState {
   int bits = 0;               ///< fraction bits of the phase's units
   int loose = 0;              ///< the phase's tolerance is 2^this times the least
   bool is_first = true;       ///< substep of the tick
+  bool is_measured = false;   ///< speeds of contacts' rows are measured before each phase, since
+                              ///< joints or impacts change velocities as well
   bool warms = false;         ///< this phase begins with the impulses of the tick before
   bool was_factored = false;  ///< in this tick
   bool is_factored = false;   ///< for the rows that are active

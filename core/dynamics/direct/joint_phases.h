@@ -19,9 +19,6 @@ struct JointAccess {
 
 namespace joint_phases {
 
-/// As the tick begins: the part of each contact row's speed that kinematic bodies give it.
-void begin(const ContactRun& run, const IslandView& island);
-
 /// Before a phase: joints have pushed the bodies since the last one, and turn with them. Rows and
 /// factor are kept while no joint's rows have turned far. Bodies of number `first_free` or above
 /// touch nothing.

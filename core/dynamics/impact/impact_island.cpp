@@ -171,17 +171,13 @@ PairImpact impact_of_points(const ImpactPair& pair, const Gaps& gaps, const Vec3
 void integrate_ballistic(BodyRecord& body, const Vec3<Velocity>& gain, Unit fraction,
                          const TimeStep& step) {
   LKS_ASSERT(fraction >= Unit{} && fraction <= Unit::from_integer(1) && step.tick_rate > 0);
-  const Vec3<Velocity> w = surface_of(body);
-  RotationVector turn;
   for (int i = 0; i < 3; ++i) {
     const Velocity gained = times(gain[i], fraction);
     const Velocity twice = body.velocity[i] + body.velocity[i] + gained;
     body.position[i].raw += raw::round_divide(times(twice, fraction).raw, 2 * step.tick_rate);
     body.velocity[i] += gained;
-    turn[i].raw =
-        raw::scale_binary(step.tick.times(times(w[i], fraction).raw), -body.scale_exponent);
   }
-  if (turn != RotationVector{}) body.orientation = integrate(body.orientation, turn);
+  (void)turn_in_flight(body, to_matrix(body.orientation), step, fraction);
 }
 
 // The one point where two balls touch.

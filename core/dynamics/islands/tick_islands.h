@@ -38,16 +38,17 @@ struct IslandTally {
   /// cost.
   static constexpr std::uint32_t k_least_jointed_loose = 8, k_least_loose = 24;
 
-  bool iterates_only = false;  ///< nets, locked axes or rolling resistance: no direct steps
-  bool is_pinched = false;     ///< between a moving kinematic body and another immovable one
-  bool may_bounce = false;     ///< any restitution
-  bool is_fed = false;         ///< something besides gravity and forces may give it energy
-  bool has_joints = false;     ///< known where an island may gain energy
-  bool is_struck = false;      ///< a contact of it comes in fast
-  bool is_carried = false;     ///< a joint holds it to an immovable body, or has a drive
-  bool is_loose = false;       ///< a loose pile, which iterations bring to rest
-  bool is_converged = false;   ///< solved to convergence, by `BlockSolver`
-  std::uint32_t bodies = 0;    ///< dynamic ones
+  bool iterates_only = false;     ///< nets, locked axes or rolling resistance: no direct steps
+  bool is_pinched = false;        ///< between a moving kinematic body and another immovable one
+  bool may_bounce = false;        ///< any restitution
+  bool is_fed = false;            ///< something besides gravity and forces may give it energy
+  bool has_joints = false;        ///< known where an island may gain energy
+  bool is_struck = false;         ///< a contact of it comes in fast
+  bool has_ball_impacts = false;  ///< `BallImpacts` may push its bodies
+  bool is_carried = false;        ///< a joint holds it to an immovable body, or has a drive
+  bool is_loose = false;          ///< a loose pile, which iterations bring to rest
+  bool is_converged = false;      ///< solved to convergence, by `BlockSolver`
+  std::uint32_t bodies = 0;       ///< dynamic ones
   std::uint32_t contacts = 0;
   std::uint32_t joints = 0;
   std::int32_t least_share = 1 << 30;  ///< of the masses of two that touch or are jointed, Q30

@@ -61,7 +61,8 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
     islands_.find_energy_sources(scene, bodies_, contacts_);
   energy_limit_.begin(energy_bodies());
   if (converged_ != nullptr)
-    converged_->begin(scene, bodies_, contacts_, constraints_.layout(), constraints_.run());
+    converged_->begin(scene, bodies_, contacts_, islands_, constraints_.layout(),
+                      constraints_.run());
   warm_start_.find(scene, constraints_.run(), parallel);
   totals_.begin(
       scene.watched, contacts_, constraints_,
@@ -156,8 +157,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return bodies_.integrate_velocities(stage.substep == 0, first, end);
     case StageKind::warm_joints:
       return joints.warm_start(joints_.run(), first, end);
-    case StageKind::impacts:
-      return impacts_.run();
+    case StageKind::first_impacts:
+      return impacts_.run(bodies_.before());
     case StageKind::solve:
       return constraints_.solve(stage.color, first, end);
     case StageKind::push_islands:
@@ -180,6 +181,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return joints_.balls().update(joints_.balls_run(), stage.color, first, end);
     case StageKind::relax_balls:
       return joints_.balls().relax(joints_.balls_run(), stage.color, first, end);
+    case StageKind::impacts:
+      return impacts_.run(bodies_.rows());
     case StageKind::relax:
       return constraints_.relax(stage.color, first, end, tick_.first_substep + stage.substep);
     case StageKind::limit_energies:

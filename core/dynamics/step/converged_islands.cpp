@@ -74,8 +74,8 @@ void ConvergedIslands::list(const ContactList& contacts, const IslandBuilder& is
 }
 
 void ConvergedIslands::begin(const ContactScene& scene, SolverBodies& bodies,
-                             const ContactList& contacts, const ConstraintLayout& layout,
-                             const ContactRun& run) {
+                             const ContactList& contacts, const IslandBuilder& islands,
+                             const ConstraintLayout& layout, const ContactRun& run) {
   for (ProximalContact& contact : solver_.islands().contacts()) {
     const ContactRef& ref = contacts[contact.id];
     LKS_ASSERT(contact.a < bodies.count() && contact.b < bodies.count());
@@ -90,8 +90,11 @@ void ConvergedIslands::begin(const ContactScene& scene, SolverBodies& bodies,
   for (const std::uint32_t body : solver_.islands().bodies())
     bodies.before()[body] = {};
   const std::int64_t weight = weight_of(scene.gravity, step_);
-  for (std::uint32_t i = 0; i < solver_.count(); ++i)
+  for (std::uint32_t i = 0; i < solver_.count(); ++i) {
+    const std::uint32_t island = islands.all().of(solver_.islands().first_body(i));
+    solver_.islands().view(i).state.is_measured = islands.tally(island).has_ball_impacts;
     solver_.begin(run, i, weight, step_.substeps);
+  }
 }
 
 }  // namespace lockstone

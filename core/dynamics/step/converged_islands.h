@@ -39,7 +39,7 @@ class ConvergedIslands {
 
   /// Once blocks are prepared: takes the contacts over from the iterations.
   void begin(const ContactScene& scene, SolverBodies& bodies, const ContactList& contacts,
-             const ConstraintLayout& layout, const ContactRun& run);
+             const IslandBuilder& islands, const ConstraintLayout& layout, const ContactRun& run);
 
   /// One phase of islands `first` … `end` − 1, by their numbers here. With `pushes_out` overlap
   /// goes.

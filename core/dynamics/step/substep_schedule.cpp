@@ -61,7 +61,7 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   add_serial(StageKind::note_energies, work.watches_energy);
   add({StageKind::velocities, 0, substep}, work.bodies, k_body_grain);
   add({StageKind::warm_joints}, work.clusters, k_one_grain);
-  add_serial(StageKind::impacts, work.has_impacts);
+  add_serial(StageKind::first_impacts, work.has_impacts);
   if (work.iterates) add_contacts(StageKind::solve, work);
   add({StageKind::push_islands}, work.converged, k_one_grain);
   for (int i = 0; i < k_ball_passes; ++i)

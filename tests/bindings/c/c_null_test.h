@@ -58,6 +58,8 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_config_hash(&def, NULL, NULL));
   NULLED(lks_world_set_threads(NULL, 1));
   NULLED(lks_step(NULL, NULL));
+  NULLED(lks_world_keep_history(NULL, 8));
+  NULLED(lks_world_forget_history(NULL));
   NULLED(lks_tick(NULL, &number));
   NULLED(lks_tick(world, NULL));
   NULLED(lks_body_def_init(NULL, sizeof body_def));

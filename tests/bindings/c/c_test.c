@@ -153,6 +153,36 @@ static void a_snapshot_brings_a_world_back(void) {
   }
 }
 
+static void a_history_recalls_ticks_that_are_stepped_again(void) {
+  lks_world* world = make_world();
+  unsigned char saved[4096];
+  size_t bytes = 0;
+  uint64_t before = 0;
+  uint64_t after = 0;
+  int i;
+  lks_step_report report;
+  add_ball(world);
+  REFUSED(LKS_INVALID_ARGUMENT, lks_world_keep_history(world, LKS_MAX_HISTORY_TICKS + 1));
+  OK(lks_world_keep_history(world, 8));
+  OK(lks_save(world, LKS_NATIVE, saved, sizeof saved, &bytes));
+  for (i = 0; i < 8; ++i)
+    OK(lks_step(world, NULL));
+  OK(lks_hash(world, &before));
+  OK(lks_load(world, LKS_NATIVE, saved, bytes));
+  for (i = 0; i < 8; ++i) {
+    report.size = sizeof report;
+    OK(lks_step(world, &report));
+    CHECK(report.recalled_islands == 1 && report.computed_islands == 0);
+  }
+  OK(lks_hash(world, &after));
+  CHECK(before == after);
+  OK(lks_load(world, LKS_NATIVE, saved, bytes));
+  OK(lks_world_forget_history(world));
+  OK(lks_step(world, &report));
+  CHECK(report.recalled_islands == 0 && report.computed_islands == 1);
+  lks_world_destroy(world);
+}
+
 static void damaged_snapshots_are_refused_and_change_nothing(void) {
   lks_world* world = make_world();
   unsigned char saved[4096];
@@ -573,6 +603,7 @@ static const struct test k_tests[] = {TEST(a_ball_falls_and_rests_on_the_ground)
                                       TEST(a_hit_tells_where_and_how_hard),
                                       TEST(a_joint_holds_its_bodies_together),
                                       TEST(a_snapshot_brings_a_world_back),
+                                      TEST(a_history_recalls_ticks_that_are_stepped_again),
                                       TEST(damaged_snapshots_are_refused_and_change_nothing),
                                       TEST(the_difference_of_two_states_is_named),
                                       TEST(rays_and_shapes_find_bodies),

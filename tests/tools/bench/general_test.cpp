@@ -64,6 +64,19 @@ TEST(GeneralRun, GainsNoEnergyWhereJointsCannotHold) {
     EXPECT_LT(play("jumble", seed).gain, 0.05) << seed;
 }
 
+// A ball that floor and box press from both sides, in an island that is solved to convergence.
+TEST(GeneralRun, GainsNoEnergyWhereBallsBounceAmongOtherBodies) {
+  for (const std::uint64_t seed : {7657U, 10323U, 17176U, 26437U, 27359U})
+    EXPECT_LT(play("toss", seed).gain, 0.001) << seed;
+  EXPECT_LT(play("spill", 11676).gain, 0.001);
+}
+
+// Capsules and boxes that turn by more than a radian a tick where they bounce, or are stopped.
+TEST(GeneralRun, GainsNoEnergyWhereFastTurningBodiesMeetTheFloor) {
+  for (const std::uint64_t seed : {5508U, 7760U, 13658U, 20751U, 27803U, 30846U})
+    EXPECT_LT(play("toss", seed).gain, 0.01) << seed;
+}
+
 // Sliders, welds and hinges with levers of metres between masses of 1000 : 1, thrown: the impulses
 // that hold them exceed those that light bodies may get at once.
 TEST(GeneralRun, HoldsLightBodiesBetweenHeavyOnesOnLongLevers) {

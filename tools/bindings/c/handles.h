@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lockstone/asset.h>
+#include <lockstone/rollback_history.h>
 #include <lockstone/thread_pool.h>
 #include <lockstone/world.h>
 
@@ -16,6 +17,7 @@
 struct lks_world {
   std::unique_ptr<lockstone::ThreadPool> threads;  // outlives the world that steps on it
   std::optional<lockstone::World> own;
+  std::optional<lockstone::RollbackHistory> history;  // of `own`
   std::unique_ptr<lockstone::scenes::ScenePlay> scene;
 
   [[nodiscard]] const lockstone::World& world() const { return scene ? scene->world() : *own; }

@@ -87,11 +87,13 @@ lks_step_report raw_report(const StepReport& report) {
   raw.impacts = report.impacts;
   raw.saturations = report.saturations;
   raw.energy_limits = report.energy_limits;
+  raw.computed_islands = report.computed_islands;
+  raw.recalled_islands = report.recalled_islands;
   return raw;
 }
 
 StepReport step(lks_world& world) {
-  if (!world.scene) return world.own->step();
+  if (!world.scene) return world.history ? world.history->step() : world.own->step();
   world.scene->step();
   return world.scene->last_report();
 }
@@ -175,6 +177,22 @@ lks_status lks_step(lks_world* world, lks_step_report* report) {
     if (report != nullptr) check_size<lks_step_report>(report->size, "report");
     const StepReport done = step(*world);
     if (report != nullptr) give(raw_report(done), report, report->size, "report");
+  });
+}
+
+lks_status lks_world_keep_history(lks_world* world, uint32_t ticks) {
+  return call([&] {
+    World& own = write(world);
+    if (ticks > LKS_MAX_HISTORY_TICKS) throw invalid("ticks", "must be 0 … 256");
+    world->history.reset();
+    if (ticks != 0) world->history.emplace(own, ticks);
+  });
+}
+
+lks_status lks_world_forget_history(lks_world* world) {
+  return call([&] {
+    (void)write(world);
+    if (world->history) world->history->forget();
   });
 }
 

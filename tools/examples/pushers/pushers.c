@@ -106,6 +106,16 @@ static int32_t load(void *at, uint32_t kind, const uint8_t *bytes, size_t size) 
   return lks_load(((match *)at)->world, kind, bytes, size);
 }
 
+static void keep_history(void *at, uint32_t ticks) {
+  match *m = at;
+  (void)lks_world_keep_history(m->world, ticks);
+}
+
+static void forget_history(void *at) {
+  match *m = at;
+  (void)lks_world_forget_history(m->world);
+}
+
 static uint64_t hash(const void *at) {
   uint64_t value = 0;
   lks_hash(((const match *)at)->world, &value);
@@ -159,6 +169,8 @@ LOCKSTONE_GAME_EXPORT const lockstone_game_table *lockstone_game(void) {
       .configure = configure,
       .scenes = scenes,
       .scene_count = 1,
+      .keep_history = keep_history,
+      .forget_history = forget_history,
   };
   return &table;
 }

@@ -60,8 +60,10 @@ void BallImpacts::find(const ContactScene& scene) {
     const BodyRecord &a = scene.bodies[record.body_a], &b = scene.bodies[record.body_b];
     const bool are_balls = (a.is_ball() || !a.is_dynamic()) && (b.is_ball() || !b.is_dynamic());
     if (are_balls && scene.surfaces[contact.manifold].restitution > Coefficient{} &&
-        scene.manifolds[contact.manifold].count == 1 && parts_.islands.tally(contact).is_struck)
+        scene.manifolds[contact.manifold].count == 1 && parts_.islands.tally(contact).is_struck) {
       impacts_.push_back(id);
+      parts_.islands.tally(contact).has_ball_impacts = true;
+    }
   });
 }
 
@@ -69,10 +71,10 @@ void BallImpacts::find(const ContactScene& scene) {
 bool BallImpacts::meets(const ContactRef& contact) const {
   const Manifold& manifold = scene_.manifolds[contact.manifold];
   LKS_ASSERT(manifold.count == 1);
-  const std::span<const BodyVelocity> rows = parts_.bodies.rows();
   const std::span<const lanes::DeltaPose> travel = parts_.bodies.travel();
   const std::size_t a = parts_.bodies.row_of(contact.a), b = parts_.bodies.row_of(contact.b);
-  const std::int64_t speed = along(rows[a].velocity, rows[b].velocity, manifold.normal);
+  const std::int64_t speed =
+      along(velocities_[a].velocity, velocities_[b].velocity, manifold.normal);
   if (speed > -k_least_impact) return false;
   const std::int64_t parted =
       along(travel[a].velocity, travel[b].velocity, manifold.normal);  // m/s of substeps, Q32
@@ -107,7 +109,7 @@ BodyRecord BallImpacts::body_now(BodyRef ref, std::uint32_t body) const {
   BodyRecord copy = scene_.bodies[body];
   const std::uint32_t number = parts_.bodies.pushed_number(ref);
   if (number == 0) return copy;
-  const BodyVelocity& row = parts_.bodies.rows()[number];
+  const BodyVelocity& row = velocities_[number];
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     copy.velocity[i].raw = row.velocity[axis] >> k_row_bits_more;
@@ -137,7 +139,8 @@ void BallImpacts::respond(ContactId id) {
   parts_.constraints.forget_restitution(parts_.constraints.layout().lane_of(id));
 }
 
-void BallImpacts::run() {
+void BallImpacts::run(std::span<const BodyVelocity> velocities) {
+  velocities_ = velocities;
   bool any = true;
   for (int i = 0; i < k_passes && any; ++i) {
     any = false;

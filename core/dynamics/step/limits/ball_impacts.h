@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/state/time_step.h"
@@ -36,8 +37,10 @@ class BallImpacts {
 
   [[nodiscard]] bool empty() const { return impacts_.empty(); }
 
-  /// Solves those that meet within the substep at hand.
-  void run();
+  /// Solves those that meet within the substep at hand, with these velocities by number. At its
+  /// beginning these are the ones before it: contacts' impulses of the last substep, which the rows
+  /// repeat then, may press a ball against another, and it must not bounce off with their speed.
+  void run(std::span<const lanes::BodyVelocity> velocities);
 
  private:
   [[nodiscard]] bool meets(const ContactRef& contact) const;
@@ -48,6 +51,7 @@ class BallImpacts {
   TimeStep step_;
   Parts parts_;
   std::vector<ContactId> impacts_;
+  std::span<const lanes::BodyVelocity> velocities_;  // of the run at hand
   ContactScene scene_{};
 };
 

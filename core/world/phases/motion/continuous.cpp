@@ -24,14 +24,15 @@ Transform pose_of(const BodyRecord& body) {
   return {body.position, body.orientation};
 }
 
-// To a pose on a path that began with the matrix `rotation`. The angular momentum turns with the
+// To a pose on the path that brought it to the one it has. The angular momentum turns with the
 // body: kept in world axes it would not fit a pose off the free rotation, and a thin body could
 // gain any amount of energy.
-void stop_at(BodyRecord& body, const Transform& pose, const Mat3& rotation) {
+void stop_at(BodyRecord& body, const Transform& pose) {
+  const Mat3 end = to_matrix(body.orientation);
   body.position = pose.position;
   body.orientation = pose.orientation;
   if (!body.rotates() || body.has_spherical_inertia()) return;
-  body.spin = rotate_wide(to_matrix(pose.orientation), rotate_inverse_wide(rotation, body.spin));
+  body.spin = rotate_wide(to_matrix(pose.orientation), rotate_inverse_wide(end, body.spin));
 }
 
 // The rest of a motion after a fraction of it.
@@ -210,7 +211,6 @@ void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
   if (is_free) return passes_.note(body, motion_in_tick(body), {}, k_whole_tick);
   if (!world_.joint_graph.neighbours(body).empty()) return sweep_joined(body, report);
   Sweep motion = motion_in_tick(body);
-  Mat3 rotation = world_.cache.rotation(body);
   Unit done{};                         // of the tick
   Transform last_pose = motion.start;  // at the last impact, with `met`
   Unit last_fraction{};
@@ -222,11 +222,11 @@ void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
     if (!next.impact.hit) return;
     ++report.impacts;
     if (i > 0 && next.body == met && carries(met)) {
-      stop_at(record, carried(last_pose, motion_of(met, last_fraction)), rotation);
+      stop_at(record, carried(last_pose, motion_of(met, last_fraction)));
       resolve(body, next, k_whole_tick);
       return push_out(body, met);
     }
-    stop_at(record, pose_at(motion, next.impact.fraction), rotation);
+    stop_at(record, pose_at(motion, next.impact.fraction));
     const Unit left = k_whole_tick - done;
     done = k_whole_tick - rounded<Unit>(left * (k_whole_tick - next.impact.fraction));
     resolve(body, next, done);
@@ -235,7 +235,6 @@ void ContinuousCollision::sweep_body(std::uint32_t body, StepReport& report) {
     met = next.body;
     const bool last = i + 1 == k_max_impacts;
     if (last) return;
-    rotation = to_matrix(record.orientation);
     motion = go_on(record, k_whole_tick - done);
     if (!limit_position(record)) continue;
     ++report.saturations;
@@ -291,7 +290,7 @@ void ContinuousCollision::sweep_joined(std::uint32_t body, StepReport& report) {
     const Sweep motion = motion_in_tick(each);
     const Transform pose = pose_at(motion, first.impact.fraction);
     passes_.note(each, motion, {}, first.impact.fraction);
-    stop_at(world_.bodies[each], pose, world_.cache.rotation(each));
+    stop_at(world_.bodies[each], pose);
     far_movers_[each] = 0;
   }
   resolve(body_of_first, first, first.impact.fraction);

@@ -76,10 +76,24 @@ typedef struct lks_step_report {
   uint32_t impacts;
   uint32_t saturations;
   uint32_t energy_limits;
+  uint32_t computed_islands; /* with a history alone: groups of bodies that were stepped, */
+  uint32_t recalled_islands; /* and those whose results came from memory */
 } lks_step_report;
 
 /* Advances by 1 / tick_rate seconds. `report` may be null; else `report->size` must be set. */
 LKS_API lks_status lks_step(lks_world* world, lks_step_report* report);
+
+/* The most ticks of lks_world_keep_history. */
+#define LKS_MAX_HISTORY_TICKS 256
+
+/* From here on the world remembers its last `ticks` ticks, at most LKS_MAX_HISTORY_TICKS; 0, as at
+ * first: none. A tick that is stepped again after lks_load then costs as much as differs. No result
+ * depends on it. Allocates; a tick takes the bytes of two native snapshots, and of events and
+ * pairs. For worlds of one's own, not for scenes. */
+LKS_API lks_status lks_world_keep_history(lks_world* world, uint32_t ticks);
+
+/* Forgets the remembered ticks: the next steps compute everything. */
+LKS_API lks_status lks_world_forget_history(lks_world* world);
 
 /* Ticks stepped. */
 LKS_API lks_status lks_tick(const lks_world* world, uint64_t* out);

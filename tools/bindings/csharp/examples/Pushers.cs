@@ -52,6 +52,8 @@ public sealed class Pushers : Game
     public World World => world;
     public override lockstone_game_info Info => info;
     public override ulong Tick => world.Tick;
+    public override void KeepHistory(uint ticks) => world.KeepHistory(ticks);
+    public override void ForgetHistory() => world.ForgetHistory();
     public override ulong Hash => world.Hash;
 
     // Two signed numbers: a push along x and one along z, in N·s times 8.

@@ -53,6 +53,12 @@ class Pushers(Game):
     def load(self, kind, data):
         self.world.load(data, kind)
 
+    def keep_history(self, ticks):
+        self.world.keep_history(ticks)
+
+    def forget_history(self):
+        self.world.forget_history()
+
     @property
     def hash(self):
         return self.world.hash

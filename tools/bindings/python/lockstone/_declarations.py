@@ -150,6 +150,7 @@ LKS_NUMBER_BITS = 20
 LKS_RATE_BITS = 20
 LKS_ANGLE_BITS = 27
 LKS_DENSITY_BITS = 8
+LKS_MAX_HISTORY_TICKS = 256
 LOCKSTONE_GAME_ABI = 1
 LOCKSTONE_GAME_MAX_PARTS = 8
 LOCKSTONE_GAME_TEXT_BYTES = 96
@@ -681,6 +682,8 @@ class lks_step_report(Structure):
         ("impacts", c_uint32),
         ("saturations", c_uint32),
         ("energy_limits", c_uint32),
+        ("computed_islands", c_uint32),
+        ("recalled_islands", c_uint32),
     ]
 
 
@@ -763,6 +766,8 @@ class lockstone_game_table(Structure):
         ("draw", CFUNCTYPE(c_size_t, c_void_p, c_void_p, c_size_t)),
         ("scenes", POINTER(lockstone_game_scene)),
         ("scene_count", c_size_t),
+        ("keep_history", CFUNCTYPE(None, c_void_p, c_uint32)),
+        ("forget_history", CFUNCTYPE(None, c_void_p)),
     ]
 
 
@@ -926,5 +931,7 @@ FUNCTIONS = {
     "lks_config_hash": [c_int32, POINTER(lks_world_def), c_void_p, POINTER(c_uint64)],
     "lks_world_set_threads": [c_int32, c_void_p, c_uint32],
     "lks_step": [c_int32, c_void_p, POINTER(lks_step_report)],
+    "lks_world_keep_history": [c_int32, c_void_p, c_uint32],
+    "lks_world_forget_history": [c_int32, c_void_p],
     "lks_tick": [c_int32, c_void_p, POINTER(c_uint64)],
 }

@@ -91,6 +91,12 @@ class Game:
         """Over everything that can change the future."""
         raise NotImplementedError
 
+    def keep_history(self, ticks: int) -> None:
+        """From here on remembers the last ticks, as World.keep_history does. A client that predicts asks for it."""
+
+    def forget_history(self) -> None:
+        """The next steps simulate in full."""
+
     def part_hashes(self) -> List[Tuple[str, int]]:
         """Of all parts of the state, at most 8, always the same ones in the same order."""
         return []
@@ -189,6 +195,12 @@ class GameLibrary:
 
     def _hash(self, match: int) -> int:
         return self.game_of(match).hash
+
+    def _keep_history(self, match: int, ticks: int) -> None:
+        self.game_of(match).keep_history(ticks)
+
+    def _forget_history(self, match: int) -> None:
+        self.game_of(match).forget_history()
 
     def _part_hashes(self, match: int, out: Any) -> int:
         parts = self.game_of(match).part_hashes()

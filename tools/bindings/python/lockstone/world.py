@@ -236,6 +236,13 @@ class World:
         if hasattr(self, "handle"):
             lib.lks_world_destroy(self.handle)
 
+    def keep_history(self, ticks: int) -> None:
+        """Remembers the last ticks, at most 256, so that stepping them again after `load` costs as much as differs."""
+        lib.lks_world_keep_history(self.handle, ticks)
+
+    def forget_history(self) -> None:
+        lib.lks_world_forget_history(self.handle)
+
     def step(self, ticks: int = 1) -> None:
         for _ in range(ticks):
             lib.lks_step(self.handle, None)

@@ -101,7 +101,7 @@ typedef struct lockstone_game_request {
   uint32_t players; /* 0: the usual number */
 } lockstone_game_request;
 
-/* GameDef. The functions up to `hash` are required, the others may be null. */
+/* GameDef. The functions up to `hash` are required, all others may be null. */
 typedef struct lockstone_game_table {
   uint32_t abi;   /* LOCKSTONE_GAME_ABI */
   uint32_t bytes; /* sizeof(lockstone_game_table): later members are taken for null */
@@ -138,6 +138,12 @@ typedef struct lockstone_game_table {
 
   const lockstone_game_scene* scenes;
   size_t scene_count;
+
+  /* Simulation::keep_history and forget_history: remembers the last `ticks` ticks, so that stepping
+   * them again costs as much as differs; no result depends on it. keep_history may allocate. A
+   * client that predicts calls them. */
+  void (*keep_history)(void* match, uint32_t ticks);
+  void (*forget_history)(void* match);
 } lockstone_game_table;
 
 /* The one symbol of the library. */

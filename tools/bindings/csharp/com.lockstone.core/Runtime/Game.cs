@@ -64,6 +64,15 @@ namespace Lockstone
         public abstract int Load(Snapshot kind, ReadOnlySpan<byte> from);
         /// <summary>Over everything that can change the future.</summary>
         public abstract ulong Hash { get; }
+        /// <summary>From here on remembers the last ticks, as World.KeepHistory does. A client that predicts asks for
+        /// it.</summary>
+        public virtual void KeepHistory(uint ticks)
+        {
+        }
+        /// <summary>The next steps simulate in full.</summary>
+        public virtual void ForgetHistory()
+        {
+        }
         /// <summary>Hashes of all parts of the state, at most 8, always the same ones: <see cref="PartNames"/>.</summary>
         public virtual int PartHashes(Span<ulong> hashes) => 0;
         /// <summary>The first difference between two canonical snapshots, for people; null where there is none.</summary>
@@ -97,6 +106,8 @@ namespace Lockstone
         static readonly lockstone_game_hash_function hashFunction = Hash;
         static readonly lockstone_game_part_hashes_function partsFunction = PartHashes;
         static readonly lockstone_game_describe_function describeFunction = Describe;
+        static readonly lockstone_game_keep_history_function keepHistoryFunction = KeepHistory;
+        static readonly lockstone_game_forget_history_function forgetHistoryFunction = ForgetHistory;
 
         /// <summary>`create` makes the match at tick 0 from configuration bytes, which may come from a stranger; it
         /// throws a LockstoneException for those that it does not know. `parts` names the hashes of parts.</summary>
@@ -129,7 +140,9 @@ namespace Lockstone
                 load = Marshal.GetFunctionPointerForDelegate(loadFunction),
                 hash = Marshal.GetFunctionPointerForDelegate(hashFunction),
                 part_hashes = Marshal.GetFunctionPointerForDelegate(partsFunction),
-                describe = Marshal.GetFunctionPointerForDelegate(describeFunction)
+                describe = Marshal.GetFunctionPointerForDelegate(describeFunction),
+                keep_history = Marshal.GetFunctionPointerForDelegate(keepHistoryFunction),
+                forget_history = Marshal.GetFunctionPointerForDelegate(forgetHistoryFunction)
             };
         }
 
@@ -257,6 +270,18 @@ namespace Lockstone
         static ulong Hash(void* match)
         {
             return GameOf(match).Hash;
+        }
+
+        [MonoPInvokeCallback(typeof(lockstone_game_keep_history_function))]
+        static void KeepHistory(void* match, uint ticks)
+        {
+            GameOf(match).KeepHistory(ticks);
+        }
+
+        [MonoPInvokeCallback(typeof(lockstone_game_forget_history_function))]
+        static void ForgetHistory(void* match)
+        {
+            GameOf(match).ForgetHistory();
         }
 
         [MonoPInvokeCallback(typeof(lockstone_game_part_hashes_function))]

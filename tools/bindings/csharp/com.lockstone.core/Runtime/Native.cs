@@ -522,6 +522,8 @@ namespace Lockstone.Interop
         public uint impacts;
         public uint saturations;
         public uint energy_limits;
+        public uint computed_islands;
+        public uint recalled_islands;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -604,6 +606,8 @@ namespace Lockstone.Interop
         public IntPtr draw;
         public lockstone_game_scene* scenes;
         public UIntPtr scene_count;
+        public IntPtr keep_history;
+        public IntPtr forget_history;
     }
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -646,6 +650,10 @@ namespace Lockstone.Interop
     public unsafe delegate UIntPtr lockstone_game_step_traced_function(void* match, lockstone_game_input* inputs, UIntPtr count, lockstone_game_hash* @out, UIntPtr capacity);
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate UIntPtr lockstone_game_draw_function(void* match, byte* @out, UIntPtr capacity);
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void lockstone_game_keep_history_function(void* match, uint ticks);
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void lockstone_game_forget_history_function(void* match);
 
     public static unsafe class Native
     {
@@ -798,6 +806,7 @@ namespace Lockstone.Interop
         public const int LKS_RATE_BITS = 20;
         public const int LKS_ANGLE_BITS = 27;
         public const int LKS_DENSITY_BITS = 8;
+        public const uint LKS_MAX_HISTORY_TICKS = 256;
         public const uint LOCKSTONE_GAME_ABI = 1;
         public const uint LOCKSTONE_GAME_MAX_PARTS = 8;
         public const uint LOCKSTONE_GAME_TEXT_BYTES = 96;
@@ -1285,6 +1294,12 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_step(IntPtr world, lks_step_report* report);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_world_keep_history(IntPtr world, uint ticks);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_world_forget_history(IntPtr world);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_tick(IntPtr world, ulong* @out);

@@ -88,6 +88,18 @@ namespace Lockstone
             return hash;
         }
 
+        /// <summary>Remembers the last ticks, at most 256, so that stepping them again after Load costs as much as
+        /// differs.</summary>
+        public void KeepHistory(uint ticks)
+        {
+            Call.Check(Native.lks_world_keep_history(Pointer, ticks));
+        }
+
+        public void ForgetHistory()
+        {
+            Call.Check(Native.lks_world_forget_history(Pointer));
+        }
+
         public void Step()
         {
             Call.Check(Native.lks_step(Pointer, null));

@@ -183,6 +183,7 @@ pub const LKS_NUMBER_BITS: i32 = 20;
 pub const LKS_RATE_BITS: i32 = 20;
 pub const LKS_ANGLE_BITS: i32 = 27;
 pub const LKS_DENSITY_BITS: i32 = 8;
+pub const LKS_MAX_HISTORY_TICKS: u32 = 256;
 pub const LOCKSTONE_GAME_ABI: u32 = 1;
 pub const LOCKSTONE_GAME_MAX_PARTS: u32 = 8;
 pub const LOCKSTONE_GAME_TEXT_BYTES: u32 = 96;
@@ -718,6 +719,8 @@ pub struct lks_step_report {
     pub impacts: u32,
     pub saturations: u32,
     pub energy_limits: u32,
+    pub computed_islands: u32,
+    pub recalled_islands: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -793,6 +796,8 @@ pub struct lockstone_game_table {
     pub draw: Option<unsafe extern "C" fn(*const c_void, *mut c_char, usize) -> usize>,
     pub scenes: *const lockstone_game_scene,
     pub scene_count: usize,
+    pub keep_history: Option<unsafe extern "C" fn(*mut c_void, u32)>,
+    pub forget_history: Option<unsafe extern "C" fn(*mut c_void)>,
 }
 
 extern "C" {
@@ -954,5 +959,7 @@ extern "C" {
     pub fn lks_config_hash(def: *const lks_world_def, assets: *const lks_assets, out: *mut u64) -> lks_status;
     pub fn lks_world_set_threads(world: *mut lks_world, threads: u32) -> lks_status;
     pub fn lks_step(world: *mut lks_world, report: *mut lks_step_report) -> lks_status;
+    pub fn lks_world_keep_history(world: *mut lks_world, ticks: u32) -> lks_status;
+    pub fn lks_world_forget_history(world: *mut lks_world) -> lks_status;
     pub fn lks_tick(world: *const lks_world, out: *mut u64) -> lks_status;
 }

@@ -84,6 +84,10 @@ pub trait Game: Sized + 'static {
     fn load(&mut self, kind: Snapshot, bytes: &[u8]) -> Result<()>;
     /// Over everything that can change the future.
     fn hash(&self) -> u64;
+    /// From here on remembers the last ticks, as `World::keep_history` does. A client that predicts asks for it.
+    fn keep_history(&mut self, _ticks: u32) {}
+    /// The next steps simulate in full.
+    fn forget_history(&mut self) {}
     /// Hashes of all parts of the state, at most 8, always the same in the same order.
     fn part_hashes(&self) -> Vec<(&'static std::ffi::CStr, u64)> {
         Vec::new()
@@ -192,6 +196,12 @@ unsafe extern "C" fn load<G: Game>(game: *mut c_void, kind: u32, bytes: *const u
 unsafe extern "C" fn hash<G: Game>(game: *const c_void) -> u64 {
     guard(|| game_of::<G>(game).hash())
 }
+unsafe extern "C" fn keep_history<G: Game>(game: *mut c_void, ticks: u32) {
+    guard(|| game_mut::<G>(game).keep_history(ticks))
+}
+unsafe extern "C" fn forget_history<G: Game>(game: *mut c_void) {
+    guard(|| game_mut::<G>(game).forget_history())
+}
 unsafe extern "C" fn part_hashes<G: Game>(game: *const c_void, out: *mut lockstone_game_hash) -> usize {
     guard(|| {
         let parts = game_of::<G>(game).part_hashes();
@@ -268,6 +278,8 @@ impl GameTable {
             draw: None,
             scenes: ptr::null(),
             scene_count: 0,
+            keep_history: Some(keep_history::<G>),
+            forget_history: Some(forget_history::<G>),
         };
         Box::into_raw(Box::new(table))
     }

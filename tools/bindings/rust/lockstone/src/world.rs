@@ -174,6 +174,13 @@ impl World {
     pub fn set_threads(&mut self, threads: u32) -> Result<()> {
         check(unsafe { sys::lks_world_set_threads(self.0, threads) })
     }
+    /// Remembers the last ticks, at most 256, so that stepping them again after `load` costs as much as differs.
+    pub fn keep_history(&mut self, ticks: u32) -> Result<()> {
+        check(unsafe { sys::lks_world_keep_history(self.0, ticks) })
+    }
+    pub fn forget_history(&mut self) -> Result<()> {
+        check(unsafe { sys::lks_world_forget_history(self.0) })
+    }
     pub fn step(&mut self) -> Result<lks_step_report> {
         let mut report = sized!(lks_step_report);
         check(unsafe { sys::lks_step(self.0, &mut report) })?;

@@ -85,6 +85,12 @@ impl Game for Pushers {
     fn load(&mut self, kind: Snapshot, bytes: &[u8]) -> Result<()> {
         unsafe { self.world.load(kind, bytes) }
     }
+    fn keep_history(&mut self, ticks: u32) {
+        let _ = self.world.keep_history(ticks);
+    }
+    fn forget_history(&mut self) {
+        let _ = self.world.forget_history();
+    }
     fn hash(&self) -> u64 {
         self.world.hash()
     }
