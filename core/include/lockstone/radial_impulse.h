@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include <lockstone/command.h>
 #include <lockstone/query.h>
@@ -17,6 +18,7 @@ enum class Falloff : std::uint8_t {
   linear = 1,     ///< 1 − d/r
   quadratic = 2,  ///< (1 − d/r)²
 };
+[[nodiscard]] std::string_view to_string(Falloff falloff);
 
 /// The most bodies that one radial impulse pushes.
 inline constexpr std::size_t k_most_radial_impulses = 1024;

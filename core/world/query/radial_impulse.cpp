@@ -42,6 +42,12 @@ Vec3<Unit> direction_to(const Vec3<Position>& centre, const Vec3<Position>& body
 
 }  // namespace
 
+std::string_view to_string(Falloff falloff) {
+  constexpr std::string_view k_names[] = {"constant", "linear", "quadratic"};
+  const auto index = static_cast<std::size_t>(falloff);
+  return index < std::size(k_names) ? k_names[index] : "unknown";
+}
+
 std::size_t radial_impulse(const World& world, const RadialImpulse& def,
                            std::span<ApplyImpulse> out) {
   if (def.radius <= Length{} || def.radius > k_max_cast)
