@@ -57,13 +57,14 @@ bool World::Impl::wake_met() {
 // The new records hold each contact's final impulses, and whether the surfaces met.
 void World::Impl::solve_contacts(StepReport& report) {
   const std::span<const JointLink> links = pendulums.joints_to_solve();
+  events.hits().begin();
   {
     const StageTimer timer(profiler, StepStage::prepare);
-    solver.prepare(
-        {std::span(bodies).first(header.body_limit), cache.rotations(), found.manifold_ids,
-         found.manifolds, found.surfaces, found.records,
-         std::span(joints).first(header.joint_limit), links, header.gravity, header.tick},
-        parallel);
+    solver.prepare({std::span(bodies).first(header.body_limit), cache.rotations(),
+                    found.manifold_ids, found.manifolds, found.surfaces, found.records,
+                    std::span(joints).first(header.joint_limit), links, header.gravity, header.tick,
+                    events.hits().watched()},
+                   parallel);
   }
   {
     const StageTimer timer(profiler, StepStage::solve);
@@ -73,6 +74,7 @@ void World::Impl::solve_contacts(StepReport& report) {
     const StageTimer timer(profiler, StepStage::store);
     solver.store(found.manifolds, found.records, found.approach_speeds, parallel);
     solver.store_joints(links, joints, parallel);
+    events.hits().add_solved(solver.totals());
   }
   const SolverCounts counts = solver.counts();
   report.contacts = counts.contacts + static_cast<std::uint32_t>(bounces.contacts().size());
@@ -95,8 +97,10 @@ void World::Impl::find_events() {
   const StageTimer timer(profiler, StepStage::events);
   events.find();
   passes.add_events(events.list());
-  events.list().insert(events.list().end(), continuous.impacts().begin(),
-                       continuous.impacts().end());
+  const Stops& stops = continuous.stops();
+  events.list().insert(events.list().end(), stops.impacts.begin(), stops.impacts.end());
+  events.hits().add_bounced(bounces.contacts(), bounces.totals());
+  events.hits().finish(stops.hits);
 }
 
 }  // namespace lockstone

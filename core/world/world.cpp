@@ -167,6 +167,7 @@ BodyView World::body(BodyHandle body) const {
           .is_bullet = record->is_bullet(),
           .is_asleep = record->is_asleep(),
           .allow_sleep = record->may_sleep(),
+          .events = {has_contact_events(*record), record->hit_speed},
           .user_data = record->user_data};
 }
 

@@ -42,6 +42,7 @@ struct World::Impl : WorldData {
   void refresh_moved();
   void forget_events() {
     events.list().clear();
+    events.hits().set({});
     joint_registry.clear_events();
   }
 

@@ -109,6 +109,8 @@ TEST_F(CommandsThroughC, SettingsGiveTheSameState) {
               lks_set_speed_limit(twin_, box, limit.linear.raw, limit.angular.raw), "limit");
   expect_same(world_->apply(SetFilter{box_, filter}), lks_set_filter(twin_, box, &raw_filter),
               "filter");
+  expect_same(world_->apply(SetEvents{box_, {false, SolverVelocity::from_integer(2)}}),
+              lks_set_events(twin_, box, 0, 2 << LKS_SPEED_BITS), "events");
   expect_same(world_->apply(SetUserData{box_, 1234}), lks_set_user_data(twin_, box, 1234), "data");
   expect_same(world_->apply(SetAllowSleep{box_, false}), lks_set_allow_sleep(twin_, box, 0),
               "allow sleep");
@@ -124,6 +126,8 @@ TEST_F(CommandsThroughC, AViewShowsTheBodyAsTheCoreDoes) {
               "material");
   expect_same(world_->apply(SetAxisLocks{box_, {.move_z = true, .turn_x = true}}),
               lks_set_axis_locks(twin_, box, LKS_LOCK_MOVE_Z | LKS_LOCK_TURN_X), "locks");
+  expect_same(world_->apply(SetEvents{box_, {false, SolverVelocity::from_integer(2)}}),
+              lks_set_events(twin_, box, 0, 2 << LKS_SPEED_BITS), "events");
   expect_same(world_->apply(SetUserData{box_, 1234}), lks_set_user_data(twin_, box, 1234), "data");
   expect_same(world_->apply(SetAllowSleep{box_, false}), lks_set_allow_sleep(twin_, box, 0),
               "allow sleep");
@@ -134,6 +138,7 @@ TEST_F(CommandsThroughC, AViewShowsTheBodyAsTheCoreDoes) {
   ASSERT_EQ(lks_body_get(twin_, box, &raw), LKS_OK);
   EXPECT_EQ(c::surface_of(raw.surface, ""), view.surface);
   EXPECT_EQ(c::locks_of(raw.locks, ""), view.locks);
+  EXPECT_EQ(c::events_of(raw.events, raw.hit_speed, ""), view.events);
   EXPECT_EQ(c::vec<Position>(raw.centre_of_mass), view.centre_of_mass);
   EXPECT_EQ(c::vec<AngularVelocity>(raw.angular_velocity), view.angular_velocity);
   EXPECT_EQ(raw.flags, 0U);

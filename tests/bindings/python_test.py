@@ -38,6 +38,19 @@ class Worlds(unittest.TestCase):
         self.assertIn((lockstone.CONTACT_BEGIN, {ground, ball}), kinds)
         self.assertEqual(world.tick, 180)
 
+    def test_a_hit_tells_where_and_how_hard(self):
+        world = small_world()
+        ground, ball = drop_ball(world)
+        ball.set_events(hit_speed=1)
+        hits = []
+        for _ in range(180):
+            world.step()
+            hits += world.hit_events()
+        self.assertEqual((hits[0].a, hits[0].b), (ball, ground))
+        self.assertAlmostEqual(float(hits[0].approach_speed), (2 * 9.81 * 9.75) ** 0.5, delta=0.2)
+        self.assertAlmostEqual(float(hits[0].point[1]), 0, places=2)
+        self.assertGreater(hits[0].normal_impulse, 0)
+
     def test_a_snapshot_brings_a_world_back(self):
         world = small_world()
         _, ball = drop_ball(world)

@@ -11,6 +11,8 @@
 #include <lockstone/hull.h>
 #include <lockstone/load_asset.h>
 #include <lockstone/mesh.h>
+#include <lockstone/predicted_events.h>
+#include <lockstone/radial_impulse.h>
 #include <lockstone/rollback_history.h>
 #include <lockstone/thread_pool.h>
 
@@ -51,9 +53,26 @@ void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullp
   std::vector<std::byte> native(world.snapshot_bytes_max(SnapshotKind::native));
   std::vector<std::byte> canonical(world.snapshot_bytes_max(SnapshotKind::canonical));
   std::array<BodyHandle, 8> found{};
+  std::array<BodyContact, 8> contacts{};
+  std::array<JointHandle, 8> joints{};
+  std::array<ApplyImpulse, 8> pushes{};
+  PredictedEvents heard;
   const std::size_t before = g_allocations;
+  for (std::uint32_t i = 0; i < world.body_limit(); ++i)
+    ASSERT_EQ(world.apply(SetEvents{world.body_at(i), {true, SolverVelocity::from_ratio(1, 2)}}),
+              Status::ok);
+  std::size_t hits = 0;
   for (int tick = 0; tick < 120; ++tick) {
     (void)world.step();
+    hits += hit_events(world).size();
+    heard.begin_tick(world.tick());
+    for (const HitEvent& hit : hit_events(world))
+      (void)heard.add(name_of(hit));
+    (void)heard.end_tick();
+    heard.confirm(world.tick());
+    (void)contacts_of(world, world.body_at(1), contacts);
+    (void)joints_of(world, world.body_at(1), joints);
+    (void)radial_impulse(world, {}, pushes);
     (void)world.hash();
     const std::size_t size = world.save(SnapshotKind::native, native);
     const std::size_t canonical_size = world.save(SnapshotKind::canonical, canonical);
@@ -70,6 +89,7 @@ void expect_no_allocation(BroadPhaseKind broad_phase, TaskRunner* runner = nullp
     ASSERT_FALSE(world.find_fault());
   }
   EXPECT_EQ(g_allocations, before);
+  EXPECT_GT(hits, 10U);
 }
 
 TEST(RollbackHistory, AllocatesNothingAfterCreation) {

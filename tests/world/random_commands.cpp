@@ -75,6 +75,12 @@ Surface CommandDice::surface() {
   return surface;
 }
 
+EventSettings CommandDice::events() {
+  EventSettings settings{!chance(4), {}};
+  if (chance(2)) settings.hit_speed = size_of(number(SolverVelocity::from_integer(2)));
+  return settings;
+}
+
 BodyDef CommandDice::body_def() {
   constexpr MotionType k_motions[] = {MotionType::dynamic, MotionType::dynamic,
                                       MotionType::kinematic, MotionType::static_body};
@@ -96,6 +102,7 @@ BodyDef CommandDice::body_def() {
   def.is_bullet = chance(8);
   def.fixed_rotation = chance(8);
   def.allow_sleep = !chance(8);
+  def.events = events();
   return def;
 }
 
@@ -177,6 +184,9 @@ void CommandDice::fill(SetFilter& c) {
 }
 void CommandDice::fill(SetUserData& c) {
   c = {body(), random_.next()};
+}
+void CommandDice::fill(SetEvents& c) {
+  c = {body(), events()};
 }
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
@@ -269,6 +279,12 @@ std::vector<std::int64_t> told_by(const World& world) {
   for (const ContactEvent& e : world.events()) {
     told.insert(told.end(), {static_cast<std::int64_t>(e.kind), e.a.index, e.a.generation,
                              e.b.index, e.b.generation, e.approach_speed.raw, e.tag_a, e.tag_b});
+  }
+  for (const HitEvent& e : hit_events(world)) {
+    told.insert(told.end(), {e.a.index, e.b.index, e.part_a, e.part_b, e.tag_a, e.tag_b,
+                             e.approach_speed.raw, e.normal_impulse.raw});
+    for (int i = 0; i < 3; ++i)
+      told.insert(told.end(), {e.point[i].raw, e.normal[i].raw, e.friction_impulse[i].raw});
   }
   for (const JointEvent& e : world.joint_events())
     told.insert(told.end(), {e.joint.index, e.joint.generation, e.a.index, e.b.index});

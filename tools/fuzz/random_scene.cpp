@@ -316,6 +316,34 @@ Command random_command(const World& world, Random& random) {
   return kind < 7 ? random_push(world, body, random) : random_setting(body, random);
 }
 
+std::string difference_of_events(const World& a, const World& b) {
+  const auto same_event = [](const ContactEvent& x, const ContactEvent& y) {
+    return x.kind == y.kind && x.a == y.a && x.b == y.b && x.approach_speed == y.approach_speed &&
+           x.tag_a == y.tag_a && x.tag_b == y.tag_b;
+  };
+  const auto same_joint = [](const JointEvent& x, const JointEvent& y) {
+    return x.joint == y.joint && x.a == y.a && x.b == y.b && x.user_data == y.user_data;
+  };
+  if (!std::ranges::equal(a.events(), b.events(), same_event)) return "events differ";
+  if (!std::ranges::equal(hit_events(a), hit_events(b))) return "hits differ";
+  if (!std::ranges::equal(a.joint_events(), b.joint_events(), same_joint))
+    return "events of joints differ";
+  return {};
+}
+
+void drive_events(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 2)));
+  const auto settings = [&] {
+    EventSettings events{!chance(random, 4), {}};
+    if (chance(random, 2))
+      events.hit_speed.raw = static_cast<std::int32_t>(log_between(random, 1, 500 << 20));
+    return events;
+  };
+  for (std::uint32_t i = 0; world.tick() == 0 && i < world.body_limit(); ++i)
+    (void)world.apply(SetEvents{world.body_at(i), settings()});
+  if (chance(random, 8)) (void)world.apply(SetEvents{any_body(world, random), settings()});
+}
+
 RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims)
     : seed_(mix(seed) ^ mix(~index)), with_rims_(with_rims) {
   Random random(seed_);
@@ -339,6 +367,7 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
 }
 
 void RandomScene::drive(World& world) const {
+  drive_events(world, seed_);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (!chance(random, 4)) return;
   const int commands = random.between(1, 3);

@@ -46,6 +46,14 @@ class RandomScene {
 }
 
 /// A command for a world as it stands, from sensible to absurd. The world may refuse it.
+/// Which lists of events of the last step differ; empty when none do.
+[[nodiscard]] std::string difference_of_events(const World& a, const World& b);
+
+/// Gives bodies other event settings: all before the first tick, one of them seldom later. The
+/// settings change no motion, and their numbers are drawn apart: scenes of one seed move alike
+/// with and without them.
+void drive_events(World& world, std::uint64_t seed);
+
 [[nodiscard]] Command random_command(const World& world, arena::Random& random);
 
 }  // namespace lockstone::fuzz

@@ -131,6 +131,7 @@ World RandomYard::make() const {
 }
 
 void RandomYard::drive(World& world) const {
+  drive_events(world, seed_);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (chance(random, 4)) (void)world.apply(push(world, random));
 }

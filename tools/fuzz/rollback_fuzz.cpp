@@ -23,14 +23,6 @@ using arena::Random;
 constexpr std::uint32_t k_history_ticks = 8;
 constexpr std::uint32_t k_most_ahead = 10;
 
-bool is_same(const ContactEvent& a, const ContactEvent& b) {
-  return a.kind == b.kind && a.a == b.a && a.b == b.b && a.approach_speed == b.approach_speed &&
-         a.tag_a == b.tag_a && a.tag_b == b.tag_b;
-}
-bool is_same(const JointEvent& a, const JointEvent& b) {
-  return a.joint == b.joint && a.a == b.a && a.b == b.b && a.user_data == b.user_data;
-}
-
 // A yard or a scene of extremes.
 class Source {
  public:
@@ -104,10 +96,7 @@ class RollbackRun {
     if (plain.status != rolled.status) return "the status of the step differs";
     if (plain.asleep_bodies != rolled.asleep_bodies) return "the number of sleepers differs";
     if (plain_.hash().total != rolled_.hash().total) return difference();
-    const auto are_same = [](const auto& a, const auto& b) { return is_same(a, b); };
-    if (!std::ranges::equal(plain_.events(), rolled_.events(), are_same)) return "events differ";
-    if (!std::ranges::equal(plain_.joint_events(), rolled_.joint_events(), are_same))
-      return "events of joints differ";
+    if (std::string what = difference_of_events(plain_, rolled_); !what.empty()) return what;
     if (const WorldFault fault = rolled_.find_fault())
       return fmt::format("{} does not fit, {}", fault.what, fault.index);
     return {};

@@ -1,6 +1,7 @@
 #include "tools/fuzz/scene_fuzz.h"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -61,6 +62,9 @@ class SceneRun {
     count(done, report);
     if (done != again) return "the report depends on derived data";
     if (plain_.hash().total != other_.hash().total) return difference();
+    if (std::string what = difference_of_events(plain_, other_); !what.empty()) return what;
+    report.hits += hit_events(plain_).size();
+    if (has_other_contacts()) return "the contacts of a body differ";
     if (plain_.tick() % k_load_every == 0) {
       const std::size_t size = plain_.save(SnapshotKind::canonical, bytes_);
       const Status status = other_.load(SnapshotKind::canonical, ByteView(bytes_).first(size));
@@ -81,6 +85,16 @@ class SceneRun {
     report.impacts += done.impacts;
     report.saturations += done.saturations;
     report.exhausted += done.status == Status::ok ? 0U : 1U;
+  }
+
+  // Of one body after the other.
+  [[nodiscard]] bool has_other_contacts() const {
+    if (plain_.body_limit() == 0) return false;
+    const BodyHandle body =
+        plain_.body_at(static_cast<std::uint32_t>(plain_.tick() % plain_.body_limit()));
+    std::array<BodyContact, 16> here{}, there{};
+    const std::size_t count = contacts_of(plain_, body, here);
+    return contacts_of(other_, body, there) != count || here != there;
   }
 
   std::string difference() {
@@ -116,6 +130,7 @@ void add(SceneFuzzReport& sum, SceneFuzzReport&& part) {
   sum.ticks += part.ticks;
   sum.contacts += part.contacts;
   sum.impacts += part.impacts;
+  sum.hits += part.hits;
   sum.saturations += part.saturations;
   sum.exhausted += part.exhausted;
   for (SceneFailure& failure : part.failures)

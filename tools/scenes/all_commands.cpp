@@ -126,6 +126,9 @@ Command sample(Tag<SetAngularAxis>, BodyHandle, Random& random) {
   axis.max_effort = Torque::from_integer(500);
   return SetAngularAxis{{random.below(4), 1}, 0, axis};
 }
+Command sample(Tag<SetEvents>, BodyHandle body, Random& random) {
+  return SetEvents{body, {true, SolverVelocity::from_integer(random.between(0, 3))}};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }
@@ -147,6 +150,9 @@ using Sampler = Command (*)(BodyHandle, Random&);
 constexpr Sampler k_samplers[] = {LKS_COMMANDS(LKS_SAMPLER)};
 #undef LKS_SAMPLER
 
+// SetEvents, the last, has no turn: it changes no motion, and all others would move to other ticks.
+constexpr std::size_t k_turns = std::size(k_samplers) - 1;
+
 void build_commands(World& world, std::uint64_t seed) {
   add_ground(world, 12_m);
   Random random(mix(seed));
@@ -161,7 +167,7 @@ void build_commands(World& world, std::uint64_t seed) {
 void drive_commands(World& world, std::uint64_t seed) {
   Random random(mix(seed ^ mix(world.tick() + 1)));
   const BodyHandle body = world.body_at(1 + random.below(world.body_limit() - 1));
-  const Sampler sampler = k_samplers[world.tick() % std::size(k_samplers)];
+  const Sampler sampler = k_samplers[world.tick() % k_turns];
   static_cast<void>(world.apply(sampler(body, random)));
 }
 

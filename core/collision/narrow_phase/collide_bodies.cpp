@@ -181,6 +181,14 @@ void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
   collide_near({a, near_b, margin}, scratch, out);
 }
 
+void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, PartContacts& out) {
+  LKS_ASSERT(margin >= Length{});
+  if (b.asset == nullptr || b.asset->mesh_kernels() == nullptr)
+    return collide_bodies(a, b, margin, nullptr, out);
+  TriangleScratch scratch;
+  collide_bodies(a, b, margin, &scratch, out);
+}
+
 bool separated_along(const PlacedShape& a, const PlacedShape& b, Length margin,
                      const Vec3<Unit>& axis) {
   if (!is_single(a) || !is_single(b) || b.shape.kind == ShapeKind::half_space) return false;

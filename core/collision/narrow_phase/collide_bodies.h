@@ -59,6 +59,9 @@ struct TriangleScratch {
 void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin,
                     TriangleScratch* scratch, PartContacts& out);
 
+/// The same with scratch memory on the stack, tens of kilobytes where B has triangles.
+void collide_bodies(const PlacedShape& a, const PlacedShape& b, Length margin, PartContacts& out);
+
 /// Whether the unit axis, from A to B, shows that `collide_bodies` finds nothing (see
 /// `separated_along` of posed shapes). Only single shapes, neither a half-space, are looked at.
 [[nodiscard]] bool separated_along(const PlacedShape& a, const PlacedShape& b, Length margin,

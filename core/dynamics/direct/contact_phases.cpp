@@ -176,6 +176,7 @@ void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, con
     sum.add(x, y);
     return sum.rounded(30);
   };
+  LKS_ASSERT(contact.points <= contact.rows);
   std::int64_t push = 0;
   Sum about_b, about_t;
   for (std::size_t i = 0; i < contact.points; ++i) {
@@ -203,6 +204,17 @@ void push_bodies(const ManifoldBlock& block, const ProximalContact& contact, con
     b.velocity[i] += product(force[i], share);
     b.spin[i] += spin_b[i];
   }
+}
+
+// Of the tangents and the twist, as iterations have them.
+std::array<std::int64_t, 3> friction_of(const ProximalContact& contact) {
+  LKS_ASSERT(contact.points <= contact.rows && contact.rows - contact.points <= 3);
+  std::array<std::int64_t, 3> seen{};
+  for (std::size_t i = contact.points; i < contact.rows; ++i)
+    seen[i - contact.points] =
+        std::clamp<std::int64_t>(raw::round_shift(contact.all[i].total, k_row_more_bits),
+                                 -lanes::k_most_impulse, lanes::k_most_impulse);
+  return seen;
 }
 
 // Whether all impulses are below 2^-7 m/s, as at rest: then all sums of products fit in 64 bits.
@@ -326,16 +338,17 @@ void give(const ContactRun& run, const IslandView& island) {
   }
 }
 
+std::int64_t friction_word(const ProximalContact& contact) {
+  LKS_ASSERT(contact.rows <= k_contact_rows);
+  const std::array<std::int64_t, 3> seen = friction_of(contact);
+  return pack(seen[0], seen[1]);
+}
+
 void end(const ContactRun& run, const IslandView& island) {
   for (const ProximalContact& contact : island.contacts) {
     ManifoldBlock& block = run.blocks[contact.block()];
     const std::size_t lane = contact.lane();
-    LKS_ASSERT(contact.rows - contact.points <= 3);
-    std::array<std::int64_t, 3> seen{};
-    for (std::size_t i = contact.points; i < contact.rows; ++i)
-      seen[i - contact.points] =
-          std::clamp<std::int64_t>(raw::round_shift(contact.all[i].total, k_row_more_bits),
-                                   -lanes::k_most_impulse, lanes::k_most_impulse);
+    const std::array<std::int64_t, 3> seen = friction_of(contact);
     block.friction[lane] = pack(seen[0], seen[1]);
     block.twist[lane] = pack(seen[2], contact.radius);
     block.mass_01[lane] = contact.words[0];

@@ -30,6 +30,9 @@ void loosen(const IslandView& island);
 /// After a phase: adds its impulses to the blocks, and their changes of motion to the bodies.
 void give(const ContactRun& run, const IslandView& island);
 
+/// The impulses of a contact's friction now, as the word of a block.
+[[nodiscard]] std::int64_t friction_word(const ProximalContact& contact);
+
 /// After the last phase: writes friction to the blocks, and gives the contacts back to the
 /// iterations.
 void end(const ContactRun& run, const IslandView& island);

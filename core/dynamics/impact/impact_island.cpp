@@ -198,6 +198,27 @@ Manifold touching_balls(const ImpactPair& pair) {
   return manifold;
 }
 
+// Mean of the points of a manifold that are about as near as the nearest, where B has them.
+Vec3<Position> meeting_point(const Gaps& gaps, const Manifold& manifold, const BodyRecord& b) {
+  constexpr std::int64_t k_about = std::int64_t{1} << 14;  // 1 mm, Q24
+  const auto count = static_cast<std::size_t>(manifold.count);
+  LKS_ASSERT(count >= 1 && count <= gaps.size());
+  const std::int64_t least = *std::min_element(gaps.begin(), gaps.begin() + manifold.count);
+  Vec3<Position> sum;
+  std::int64_t near = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (gaps[i] > least + k_about) continue;
+    ++near;
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] += rounded<Position>(manifold.points[i].anchor_b[axis]);
+  }
+  LKS_ASSERT(near >= 1);
+  Vec3<Position> point = b.position;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] += Position::from_raw(raw::round_divide(sum[axis].raw, near));
+  return point;
+}
+
 Vec3<Velocity> gain_in_tick(const BodyRecord& body, const Vec3<Acceleration>& gravity,
                             const TimeStep& step) {
   return body.is_dynamic() ? tick_gain(body, gravity, step) : Vec3<Velocity>{};
@@ -296,10 +317,15 @@ void ImpactIsland::answer(Contact& contact, Velocity speed) {
   const InverseInertia inertia_b = inverse_inertia(b, to_matrix(b.orientation));
   const bool balls = are_balls(contact.pair);
   const Manifold now = balls ? touching_balls(contact.pair) : *contact.pair.manifold;
+  const Vec3<Velocity> before = b.velocity - a.velocity;
   const Velocity approach = answer_impact(
       {a, inertia_a}, {b, inertia_b},
       {now, surface.friction, contact.rests ? Coefficient{} : surface.restitution, Velocity{}});
   contact.approach = max(contact.approach, approach);
+  if (contact.pair.is_watched) {
+    contact.total.add(approach, (b.velocity - a.velocity) - before, now.normal,
+                      meeting_point(contact.gap, now, b));
+  }
   if (!contact.rests) return;
   for (const std::uint8_t flyer : {contact.flyer_a, contact.flyer_b})
     if (flyer != k_none) flyers_[flyer].gain = {};

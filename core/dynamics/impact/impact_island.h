@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/dynamics/impact/impact_total.h"
 #include "core/dynamics/state/body_record.h"
 #include "core/dynamics/state/surface.h"
 #include "core/dynamics/state/time_step.h"
@@ -27,6 +28,7 @@ struct ImpactPair {
   BodyRecord* b = nullptr;
   const Manifold* manifold = nullptr;       ///< of the tick's beginning
   const ContactSurface* surface = nullptr;  ///< friction and restitution
+  bool is_watched = false;                  ///< its impulses are added up
 };
 
 /// When two bodies meet next.
@@ -55,6 +57,10 @@ class ImpactIsland {
   /// By the order of adding: whether the two met, and the greatest speed at which they did.
   [[nodiscard]] bool touched(std::size_t contact) const { return contacts_[contact].touched; }
   [[nodiscard]] Velocity approach(std::size_t contact) const { return contacts_[contact].approach; }
+  /// Of a watched pair.
+  [[nodiscard]] const ImpactTotal& total(std::size_t contact) const {
+    return contacts_[contact].total;
+  }
 
  private:
   struct Flyer {
@@ -69,6 +75,7 @@ class ImpactIsland {
     bool rests = false;                                     // met too slowly: left alone
     bool touched = false;
     Velocity approach{};
+    ImpactTotal total{};
   };
 
   std::uint8_t flyer_of(BodyRecord* body);

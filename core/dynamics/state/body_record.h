@@ -19,8 +19,7 @@ enum BodyFlag : std::uint8_t {
   k_body_no_sleep = 16,       // never falls asleep
   k_body_changed_sleep = 32,  // sleeps and did not at the last events, or the reverse; dynamic
   k_body_loose = 64,          // of a loose pile in the last tick that solved it, effort_policy.h
-  k_all_body_flags = k_body_trigger | k_body_pushed | k_body_bullet | k_body_asleep |
-                     k_body_no_sleep | k_body_changed_sleep | k_body_loose,
+  k_body_no_contact_events = 128,
 };
 
 /// Bits of BodyRecord::locks: three axes of moving, three of turning.
@@ -78,7 +77,7 @@ struct BodyRecord {
   std::int8_t inverse_mass_exponent = 0;
   std::uint8_t locks = 0;        // BodyLock
   std::uint32_t rest_ticks = 0;  // since it rests
-  std::uint32_t reserved = 0;
+  SolverVelocity hit_speed{};    // EventSettings::hit_speed
 
   friend bool operator==(const BodyRecord&, const BodyRecord&) = default;
 
@@ -156,6 +155,14 @@ struct BodyRecord {
   return (body.flags & k_body_loose) != 0;
 }
 
+/// EventSettings::contacts.
+[[nodiscard]] inline bool has_contact_events(const BodyRecord& body) {
+  return (body.flags & k_body_no_contact_events) == 0;
+}
+[[nodiscard]] inline bool has_hit_events(const BodyRecord& body) {
+  return body.hit_speed > SolverVelocity{};
+}
+
 // clang-format off
 // X: a field in the unit of its type; B: one that holds bits without a unit.
 #define LKS_BODY_FIELDS(X, B) \
@@ -164,7 +171,7 @@ struct BodyRecord {
   X(gravity_scale) X(linear_damping) X(angular_damping) X(max_speed) X(max_surface_speed) \
   X(friction) X(restitution) X(rolling_resistance) X(tag) X(category) X(mask) X(group) \
   X(generation) X(rules) X(motion) X(shape_kind) X(flags) X(scale_exponent) \
-  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(reserved)
+  X(inverse_mass_exponent) X(locks) X(rest_ticks) X(hit_speed)
 // clang-format on
 
 template <class F>

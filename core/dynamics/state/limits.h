@@ -16,6 +16,12 @@ inline constexpr int k_largest_scale_exponent = 10;
 
 inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
 
+/// EventSettings::hit_speed.
+inline constexpr SolverVelocity k_most_hit_speed = SolverVelocity::from_integer(500);
+[[nodiscard]] constexpr bool is_hit_speed(SolverVelocity speed) {
+  return speed >= SolverVelocity{} && speed <= k_most_hit_speed;
+}
+
 /// The last generation of a slot. When its object is gone the slot is never used again: a handle
 /// never names two objects.
 inline constexpr std::uint32_t k_last_generation = 0xfffffffe;

@@ -22,7 +22,8 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       constraints_(step, body_capacity, contact_capacity, {bodies_, contacts_, islands_, effort_}),
       warm_start_(body_capacity, contact_capacity, joint_capacity,
                   {bodies_, contacts_, islands_, joints_, constraints_.layout()}),
-      impacts_(step, contact_capacity, {bodies_, contacts_, islands_, constraints_}),
+      totals_(contact_capacity),
+      impacts_(step, contact_capacity, {bodies_, contacts_, islands_, constraints_, totals_}),
       motion_(step, body_capacity + contact_capacity + 1, bodies_),
       bounce_limit_(step, body_capacity, body_capacity + contact_capacity + 1, bodies_, islands_),
       schedule_(step.substeps) {
@@ -63,6 +64,9 @@ void ContactSolver::prepare(const ContactScene& scene, Parallel& parallel) {
     converged_->begin(scene, bodies_, contacts_, islands_, constraints_.layout(),
                       constraints_.run());
   warm_start_.find(scene, constraints_.run(), parallel);
+  totals_.begin(
+      scene.watched, contacts_, constraints_,
+      converged_ == nullptr ? std::span<const ProximalContact>() : converged_->contacts());
 }
 
 // The bodies, contacts, joints and islands of the tick.
@@ -93,6 +97,7 @@ TickWork ContactSolver::work() const {
   work.has_joints = !joints_.empty();
   work.has_impacts = !impacts_.empty();
   work.watches_energy = energy_limit_.watches();
+  work.watches_impulses = !totals_.empty();
   work.bounces = constraints_.has_restitution();
   for (std::size_t color = 0; color <= k_graph_colors; ++color) {
     work.contact_blocks[color] =
@@ -140,6 +145,7 @@ void ContactSolver::run(Parallel& parallel) {
     run_piece(stage, first, end);
   });
   joints_.solver().end(joints_.run());
+  totals_.end(constraints_.run());
 }
 
 void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t end) {
@@ -181,6 +187,8 @@ void ContactSolver::run_piece(const Stage& stage, std::size_t first, std::size_t
       return constraints_.relax(stage.color, first, end, tick_.first_substep + stage.substep);
     case StageKind::limit_energies:
       return energy_limit_.limit_gains(energy_bodies());
+    case StageKind::note_impulses:
+      return totals_.note(constraints_.run());
     case StageKind::end_islands:
       return converged_->end(constraints_.run(), first, end);
     case StageKind::keep_speeds:

@@ -16,6 +16,7 @@
 #include "core/dynamics/body/solver_body.h"
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/step/contacts/contact_constraints.h"
+#include "core/dynamics/step/contacts/impulse_totals.h"
 #include "core/dynamics/step/contacts/solved_motion.h"
 #include "core/dynamics/step/contacts/stack_warm_start.h"
 #include "core/dynamics/step/converged_islands.h"
@@ -65,6 +66,9 @@ class ContactSolver {
   /// fastest approach of each to `approaches`.
   void store(std::span<const Manifold> manifolds, std::span<ContactRecord> records,
              std::span<SolverVelocity> approaches, Parallel& parallel);
+
+  /// The impulses of the watched contacts that came in fast.
+  [[nodiscard]] const ImpulseTotals& totals() const { return totals_; }
 
   /// Writes the last impulses of each joint to the records.
   void store_joints(std::span<const JointLink> links, std::span<JointRecord> joints,
@@ -126,6 +130,7 @@ class ContactSolver {
   ContactConstraints constraints_;
   std::unique_ptr<ConvergedIslands> converged_;  // null where no island is solved to convergence
   StackWarmStart warm_start_;
+  ImpulseTotals totals_;
   BallImpacts impacts_;
   EnergyLimit energy_limit_;
   SolvedMotion motion_;

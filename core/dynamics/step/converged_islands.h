@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/contact/row_geometry.h"
@@ -29,6 +30,8 @@ class ConvergedIslands {
 
   /// Contacts of all these islands.
   [[nodiscard]] std::size_t contact_count() { return solver_.islands().contacts().size(); }
+
+  [[nodiscard]] std::span<const ProximalContact> contacts() { return solver_.islands().contacts(); }
 
   /// Once islands are built: chooses, and takes the joints of chosen islands from the joint solver.
   void plan(const ContactScene& scene, const SolverBodies& bodies, const ContactList& contacts,

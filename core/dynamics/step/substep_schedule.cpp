@@ -16,9 +16,9 @@ constexpr std::uint32_t k_one_grain = 1;
 // Coloured ball joints converge slowly: iterations before positions move, and after.
 constexpr int k_ball_passes = 2;
 
-// Loops of a substep: thirteen of bodies, joints, islands and energies; the colours of contacts
+// Loops of a substep: fourteen of bodies, joints, islands and energies; the colours of contacts
 // twice, of coloured ball joints four times.
-constexpr std::size_t k_most_substep_loops = 13 + 6 * (k_graph_colors + 1);
+constexpr std::size_t k_most_substep_loops = 14 + 6 * (k_graph_colors + 1);
 
 }  // namespace
 
@@ -78,6 +78,7 @@ void SubstepSchedule::plan_substep(const TickWork& work, std::uint8_t substep) {
   add_contacts(StageKind::relax, work, substep);
   add({StageKind::relax_islands}, work.converged, k_one_grain);
   add_serial(StageKind::limit_energies, work.watches_energy);
+  add_serial(StageKind::note_impulses, work.watches_impulses);
 }
 
 void SubstepSchedule::plan_store(const TickWork& work) {

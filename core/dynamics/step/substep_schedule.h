@@ -37,6 +37,7 @@ enum class StageKind : std::uint8_t {
   relax,
   relax_islands,
   limit_energies,
+  note_impulses,
   end_islands,
   keep_speeds,
   bounce,
@@ -60,6 +61,7 @@ struct TickWork {
   bool iterates = true;      ///< some contacts are of no converged island
   bool has_impacts = false;  ///< of balls
   bool watches_energy = false;
+  bool watches_impulses = false;
   bool bounces = false;
   std::array<std::uint32_t, k_graph_colors + 1> contact_blocks{};  ///< by colour
   std::array<std::uint32_t, k_graph_colors + 1> ball_blocks{};     ///< of coloured ball joints

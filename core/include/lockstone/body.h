@@ -52,6 +52,17 @@ struct SpeedLimit {
   AngularVelocity angular = AngularVelocity::from_integer(1'000'000);  ///< > 0
 };
 
+/// Which events a body has. They follow from a tick's result, and change none.
+struct EventSettings {
+  /// contact_begin and contact_end: a pair has them unless one of the two has none.
+  bool contacts = true;
+  /// A pair that approaches faster has a HitEvent; of two such speeds the lower counts. 0 … 500
+  /// m/s; 0: the body asks for none.
+  SolverVelocity hit_speed{};
+
+  friend constexpr bool operator==(const EventSettings&, const EventSettings&) = default;
+};
+
 /// A body to be made. Position and orientation place the frame of its shape; velocities are those
 /// of the centre of mass, which of sphere, capsule and box is the same point.
 struct BodyDef {
@@ -73,6 +84,7 @@ struct BodyDef {
   SpeedLimit speed_limit{};                        ///< at the end of each tick
   bool is_bullet = false;       ///< never passes through dynamic bodies either, at a cost
   bool allow_sleep = true;      ///< may fall asleep; says nothing of a static body
+  EventSettings events{};       ///< which events it has
   std::uint64_t user_data = 0;  ///< the game's own; part of the state
 };
 
@@ -92,6 +104,7 @@ struct BodyView {
   bool is_bullet = false;                    ///< as in BodyDef
   bool is_asleep = false;                    ///< skipped until it wakes
   bool allow_sleep = true;                   ///< as in BodyDef
+  EventSettings events{};                    ///< as in BodyDef
   std::uint64_t user_data = 0;               ///< as in BodyDef
 };
 

@@ -132,6 +132,11 @@ struct SetUserData {
   BodyHandle body{};
   std::uint64_t user_data = 0;
 };
+/// Changes no motion, and wakes nothing.
+struct SetEvents {
+  BodyHandle body{};
+  EventSettings settings{};
+};
 /// Wakes a dynamic or kinematic body, and the island that it sleeps in. Commands that push, move or
 /// change a body do so by themselves.
 struct WakeBody {
@@ -181,7 +186,8 @@ struct SetGravity {
   X(MoveKinematic) X(SetMaterial) X(SetSurfaceMotion) X(SetGravityScale) X(SetDamping) X(SetAxisLocks) \
   X(SetSpeedLimit) X(SetFilter) X(SetUserData) \
   X(WakeBody) X(SleepBody) X(SetAllowSleep) X(SetGravity) \
-  X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis)
+  X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis) \
+  X(SetEvents)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

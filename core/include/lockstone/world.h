@@ -16,6 +16,7 @@
 #include <lockstone/bytes.h>
 #include <lockstone/collision.h>
 #include <lockstone/command.h>
+#include <lockstone/contacts.h>
 #include <lockstone/debug_draw.h>
 #include <lockstone/event.h>
 #include <lockstone/hash.h>
@@ -119,6 +120,7 @@ enum class StateStore : std::uint8_t { bodies, contacts, joints };
 [[nodiscard]] std::string_view to_string(StateStore store);
 
 class CommandExplainer;
+class WorldContacts;
 
 class World {
  public:
@@ -341,6 +343,7 @@ class World {
 
  private:
   friend class CommandExplainer;
+  friend class WorldContacts;
   friend class RollbackHistory;
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

@@ -32,6 +32,8 @@ namespace lockstone {
 [[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);
 [[nodiscard]] AxisLocks axis_locks(std::uint8_t bits);
 
+void set_events(BodyRecord& record, const EventSettings& settings);
+
 /// Limits beyond the formats are clamped to them. The scale exponent must be known.
 void set_speed_limit(BodyRecord& record, const SpeedLimit& limit);
 

@@ -26,7 +26,8 @@ bool is_valid(const BodyDef& def) {
          is_valid(def.surface_motion.velocity, def.surface_motion.turning) &&
          (def.motion != MotionType::dynamic || def.surface_motion == SurfaceMotion{}) &&
          is_within(def.gravity_scale, k_gravity_scale_limit) && def.linear_damping >= Rate{} &&
-         def.angular_damping >= Rate{} && is_valid(def.speed_limit);
+         def.angular_damping >= Rate{} && is_valid(def.speed_limit) &&
+         is_hit_speed(def.events.hit_speed);
 }
 
 // A shape without volume cannot be dynamic, and only a body with a centre of mass can move. Lighter
@@ -77,6 +78,7 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
       static_cast<std::uint8_t>(locks_of(def.locks) | (def.fixed_rotation ? k_lock_turning : 0));
   set_mass(record, def, asset);
   set_speed_limit(record, def.speed_limit);
+  set_events(record, def.events);
   if (!record.is_dynamic()) set_surface_motion(record, asset, def.surface_motion);
   return record;
 }
@@ -147,6 +149,7 @@ Status BodyRegistry::destroy(BodyHandle body) {
   drop_contacts_of(index);
   world_.broad_phase.remove(index);
   world_.triggers.erase(index);
+  world_.cache.forget_hit_events(index);
   BodyRecord empty;
   empty.generation = record->generation;
   world_.bodies[index] = empty;

@@ -91,6 +91,9 @@ void check_own_fields(RefusalFinder& find, const BodyDef& def) {
   RefusalFinder of_limit("body.speed_limit.");
   check(of_limit, def.speed_limit);
   find.adopt(of_limit.take());
+  RefusalFinder of_events("body.events.");
+  check(of_events, def.events);
+  find.adopt(of_events.take());
 }
 
 template <class Axis>
@@ -162,6 +165,10 @@ void check(RefusalFinder& find, const SurfaceMotion& motion) {
 void check(RefusalFinder& find, const SpeedLimit& limit) {
   find.above_zero("linear", limit.linear, "m/s");
   find.above_zero("angular", limit.angular, "rad/s");
+}
+
+void check(RefusalFinder& find, const EventSettings& settings) {
+  find.within("hit_speed", settings.hit_speed, SolverVelocity{}, k_most_hit_speed, "m/s");
 }
 
 void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings) {

@@ -179,6 +179,9 @@ class CommandExplainer::Properties {
   void of(const SetSpeedLimit& c) {
     if (on_.body(c.body) != nullptr) check(on_.find, c.limit);
   }
+  void of(const SetEvents& c) {
+    if (on_.body(c.body) != nullptr) check(on_.find, c.settings);
+  }
   void of(const SetGravity& c) {
     on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");
   }

@@ -96,6 +96,7 @@ class RefusalFinder {
 void check(RefusalFinder& find, const Surface& surface);
 void check(RefusalFinder& find, const SurfaceMotion& motion);
 void check(RefusalFinder& find, const SpeedLimit& limit);
+void check(RefusalFinder& find, const EventSettings& settings);
 /// |ω · 2^exponent| ≤ 500 m/s on the surface.
 void check_turning(RefusalFinder& find, const Vec3<AngularVelocity>& turning, int exponent);
 void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings);

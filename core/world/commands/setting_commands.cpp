@@ -32,6 +32,13 @@ AxisLocks axis_locks(std::uint8_t bits) {
   return {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5)};
 }
 
+void set_events(BodyRecord& record, const EventSettings& settings) {
+  record.flags =
+      static_cast<std::uint8_t>(settings.contacts ? record.flags & ~k_body_no_contact_events
+                                                  : record.flags | k_body_no_contact_events);
+  record.hit_speed = settings.hit_speed;
+}
+
 void set_speed_limit(BodyRecord& record, const SpeedLimit& limit) {
   const auto bounded = [](std::int64_t speed) {
     constexpr std::int64_t k_least = 1, k_most = k_speed_limit.raw >> 12;
@@ -136,6 +143,15 @@ Status CommandExecutor::execute(const SetSpeedLimit& command) {
   if (record == nullptr) return Status::stale_handle;
   if (!is_valid(command.limit)) return Status::invalid_argument;
   set_speed_limit(*record, command.limit);
+  return Status::ok;
+}
+
+Status CommandExecutor::execute(const SetEvents& command) {
+  BodyRecord* record = world_.edit(command.body);
+  if (record == nullptr) return Status::stale_handle;
+  if (!is_hit_speed(command.settings.hit_speed)) return Status::invalid_argument;
+  set_events(*record, command.settings);
+  world_.cache.refresh_hit_events(command.body.index, *record);
   return Status::ok;
 }
 

@@ -14,6 +14,7 @@
 #include "core/collision/narrow_phase/placed_shape.h"
 #include "core/dynamics/contact/recycling_pose.h"
 #include "core/dynamics/state/body_record.h"
+#include "core/world/derived/index_set.h"
 
 namespace lockstone {
 
@@ -46,6 +47,13 @@ class BodyCache {
     return recycling_pose_numbers_[body];
   }
 
+  /// Bodies with hit events.
+  [[nodiscard]] const IndexSet& hit_bodies() const { return hit_bodies_; }
+  /// After a change of the event settings; `refresh_shape` does so too.
+  void refresh_hit_events(std::uint32_t body, const BodyRecord& record);
+  void forget_hit_events(std::uint32_t body) { hit_bodies_.erase(body); }
+  void forget_hit_events() { hit_bodies_.clear(); }
+
   /// The body's shape where it is.
   [[nodiscard]] PlacedShape placed(std::uint32_t body, const BodyRecord& record) const;
 
@@ -70,6 +78,7 @@ class BodyCache {
   std::vector<std::uint32_t> recycling_pose_numbers_;
   std::vector<ShapeFrame> frames_;  // kept where an asset is
   std::vector<Length> inner_radii_;
+  IndexSet hit_bodies_;
 };
 
 }  // namespace lockstone

@@ -123,12 +123,19 @@ EventPlace place_of(const ContactEvent& event) {
       return {0, {event.a.index, event.b.index}};
   }
 }
+EventPlace place_of(const HitEvent& event) {
+  if (event.was_stopped) return {1, {}};
+  return {0, {event.a.index, event.b.index}};
+}
 std::uint32_t place_of(const JointEvent& event) {
   return event.joint.index;
 }
 
 bool is_computed(const ContactEvent& event, const ComputedBodies& computed) {
   return computed.has(event.a.index) || (!event.b.is_null() && computed.has(event.b.index));
+}
+bool is_computed(const HitEvent& event, const ComputedBodies& computed) {
+  return computed.has_any(event.a.index, event.b.index);
 }
 bool is_computed(const JointEvent& event, const ComputedBodies& computed) {
   return computed.has_any(event.a.index, event.b.index);
@@ -168,6 +175,11 @@ bool write_next_state(const WorldData& world, const ComputedBodies& computed,
 void merge_events(std::span<const ContactEvent> now, const ComputedBodies& computed,
                   const TickMemory& known, std::vector<ContactEvent>& events) {
   merge(now, std::span<const ContactEvent>(known.events), computed, events);
+}
+
+void merge_events(std::span<const HitEvent> now, const ComputedBodies& computed,
+                  const TickMemory& known, std::vector<HitEvent>& events) {
+  merge(now, std::span<const HitEvent>(known.hit_events), computed, events);
 }
 
 void merge_events(std::span<const JointEvent> now, const ComputedBodies& computed,

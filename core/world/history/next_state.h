@@ -18,6 +18,8 @@ namespace lockstone {
 /// Those of computed bodies and, from memory, those of the others, in the order of a whole tick.
 void merge_events(std::span<const ContactEvent> now, const ComputedBodies& computed,
                   const TickMemory& known, std::vector<ContactEvent>& events);
+void merge_events(std::span<const HitEvent> now, const ComputedBodies& computed,
+                  const TickMemory& known, std::vector<HitEvent>& events);
 void merge_events(std::span<const JointEvent> now, const ComputedBodies& computed,
                   const TickMemory& known, std::vector<JointEvent>& events);
 

@@ -67,6 +67,7 @@ StepReport RollbackHistory::Impl::recall_all(const TickMemory& known) {
   report.recalled_islands = known.islands;
   LKS_CHECK(StateLoader(world).load_native(known.after.bytes()) == Status::ok);
   world.events.list().assign(known.events.begin(), known.events.end());
+  world.events.hits().set(known.hit_events);
   world.joint_registry.set_events(known.joint_events);
   report.asleep_bodies = world.sleep_flags.asleep_count();
   return report;
@@ -81,6 +82,8 @@ StepReport RollbackHistory::Impl::compute_all() {
   fresh.after.save(world);
   const std::vector<ContactEvent>& events = world.events.list();
   fresh.events.assign(events.begin(), events.end());
+  const std::vector<HitEvent>& hits = world.events.hits().list();
+  fresh.hit_events.assign(hits.begin(), hits.end());
   const std::vector<JointEvent>& joint_events = world.joint_registry.events();
   fresh.joint_events.assign(joint_events.begin(), joint_events.end());
   fresh.pairs.assign(world.pairs.begin(), world.pairs.end());
@@ -107,9 +110,11 @@ std::optional<StepReport> RollbackHistory::Impl::recall_some(const TickMemory& k
     return {};
   }
   merge_events(world.events.list(), computed, known, fresh.events);
+  merge_events(world.events.hits().list(), computed, known, fresh.hit_events);
   merge_events(world.joint_registry.events(), computed, known, fresh.joint_events);
   LKS_CHECK(StateLoader(world).load_native(fresh.after.bytes()) == Status::ok);
   world.events.list().assign(fresh.events.begin(), fresh.events.end());
+  world.events.hits().set(fresh.hit_events);
   world.joint_registry.set_events(fresh.joint_events);
   groups.join(computed.all_pairs());
   for (std::uint32_t body = 0; body < known.groups.size(); ++body)

@@ -58,6 +58,7 @@ struct TickMemory {
   StateCopy before;        // once the tick's commands were applied
   StateCopy after;
   std::vector<ContactEvent> events;
+  std::vector<HitEvent> hit_events;
   std::vector<JointEvent> joint_events;
   std::vector<Pair> pairs;             // whose bounds overlapped
   std::vector<std::uint32_t> groups;   // by body: the least body of its group (island_groups.h)

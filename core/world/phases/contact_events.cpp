@@ -56,7 +56,8 @@ ListsOfPairs lists_between(Records old, Records now, std::size_t first, std::siz
 
 }  // namespace
 
-ContactEvents::ContactEvents(WorldData& world, TickContacts& found) : world_(world), found_(found) {
+ContactEvents::ContactEvents(WorldData& world, TickContacts& found)
+    : world_(world), found_(found), hits_(world, found) {
   events_.reserve(std::size_t{2} * world.def.contact_capacity +
                   std::size_t{4} * world.def.body_capacity);
   piece_ends_.reserve(world.def.contact_capacity / k_piece + 1);
@@ -69,6 +70,9 @@ std::optional<ContactEvent> ContactEvents::event_of(const PairState& before,
   const bool trigger = before.trigger || now.trigger;
   if (!trigger && was == is) return {};
   const Pair pair = now.exists ? now.bodies : before.bodies;
+  const bool is_told =
+      has_contact_events(world_.bodies[pair.a]) && has_contact_events(world_.bodies[pair.b]);
+  if (!trigger && !is_told) return {};
   const EventKind kind = trigger ? (!is   ? EventKind::trigger_exit
                                     : was ? EventKind::trigger_stay
                                           : EventKind::trigger_enter)

@@ -9,6 +9,7 @@
 #include <lockstone/event.h>
 
 #include "core/world/data/world_data.h"
+#include "core/world/phases/hit_events.h"
 #include "core/world/phases/step_records.h"
 #include "core/world/phases/tick_contacts.h"
 
@@ -26,6 +27,9 @@ class ContactEvents {
   [[nodiscard]] std::vector<ContactEvent>& list() { return events_; }
   [[nodiscard]] const std::vector<ContactEvent>& list() const { return events_; }
 
+  [[nodiscard]] HitEvents& hits() { return hits_; }
+  [[nodiscard]] const HitEvents& hits() const { return hits_; }
+
  private:
   PairState take_pair(std::span<const ContactRecord>& records, bool is_new) const;
   [[nodiscard]] std::optional<ContactEvent> event_of(const PairState& before,
@@ -41,6 +45,7 @@ class ContactEvents {
   WorldData& world_;
   TickContacts& found_;
   std::vector<ContactEvent> events_;
+  HitEvents hits_;
   std::vector<std::uint32_t> piece_ends_;  // by piece: where its events end
 };
 

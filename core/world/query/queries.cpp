@@ -5,6 +5,7 @@
 #include "core/collision/broad_phase/segment_probe.h"
 #include "core/collision/query/cast_placed.h"
 #include "core/dynamics/state/limits.h"
+#include "core/world/query/sorted_results.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -24,16 +25,6 @@ Bounds bounds_of(const WorldBox& box) {
 
 constexpr bool is_in_reach(const Vec3<Length>& translation) {
   return is_within(translation, k_max_cast);
-}
-
-// Keeps the first `out.size()` items in their order, whatever the order they come in.
-template <class T, class Before>
-void insert_sorted(const T& item, std::span<T> out, std::size_t& count, Before&& before) {
-  if (out.empty() || (count == out.size() && !before(item, out.back()))) return;
-  const std::size_t last = count < out.size() ? count++ : count - 1;
-  out[last] = item;
-  for (std::size_t i = last; i > 0 && before(out[i], out[i - 1]); --i)
-    std::swap(out[i], out[i - 1]);
 }
 
 // Of rays and shapes: by fraction, then by index.
@@ -105,16 +96,6 @@ void walk_shape(const WorldData& world, const ShapeCast& cast, const QueryFilter
     if (limit != before) probe.shorten(limit);
   };
   world.broad_phase.traverse(filter.mask, test, visit);
-}
-
-// Room for triangles only where there are any: tens of kilobytes.
-void collide_anywhere(const PlacedShape& a, const PlacedShape& b, Length margin,
-                      PartContacts& out) {
-  if (b.asset == nullptr || b.asset->mesh_kernels() == nullptr) {
-    return collide_bodies(a, b, margin, nullptr, out);
-  }
-  TriangleScratch scratch;
-  collide_bodies(a, b, margin, &scratch, out);
 }
 
 // The deepest point of a manifold, the first of equals, seen from the body.
@@ -240,7 +221,7 @@ std::size_t World::contacts_of_shape(const Shape& shape, const Transform& pose, 
     const BodyRecord& body = world.bodies[index];
     if (!is_seen(body, index, filter)) return;
     PartContacts found;
-    collide_anywhere(probe, world.placed(index), margin, found);
+    collide_bodies(probe, world.placed(index), margin, found);
     for (const PartContact& contact : found)
       insert_sorted(to_contact(probe, {index, body.generation}, body, contact), out, count, before);
   };

@@ -27,7 +27,7 @@ bool same_bytes(const Record& a, const Record& b) {
 
 // All that is derived of the two but place and bounds.
 bool same_make(const BodyRecord& a, const BodyRecord& b) {
-  return a.motion == b.motion && a.flags == b.flags && a.shape() == b.shape() &&
+  return a.motion == b.motion && a.flags == b.flags && a.hit_speed == b.hit_speed && a.shape() == b.shape() &&
          a.filter() == b.filter();
 }
 
@@ -107,6 +107,7 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   } else {
     world_.broad_phase.remove(body);
     world_.triggers.erase(body);
+    world_.cache.forget_hit_events(body);
   }
   return false;
 }
@@ -182,6 +183,7 @@ void StateLoader::rebuild_from(std::span<const ContactRecord> contacts) {
   world_.narrow.forget();
   world_.body_registry.rebuild();
   world_.triggers.clear();
+  world_.cache.forget_hit_events();
   world_.sleep_flags.rebuild();
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
     if (!world_.bodies[i].exists()) continue;

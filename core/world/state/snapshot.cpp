@@ -117,9 +117,9 @@ bool has_unit_norm(const Quat& q) {
 Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (!is_generation(record.generation) || record.motion > 3) return Status::malformed;
   if (!record.exists()) return is_empty_slot(record) ? Status::ok : Status::malformed;
-  const bool known = record.shape_kind <= static_cast<std::uint8_t>(k_last_shape_kind) &&
-                     (record.flags & ~k_all_body_flags) == 0;
-  if (!known || validate(record.shape()) != Status::ok) return Status::malformed;
+  if (record.shape_kind > static_cast<std::uint8_t>(k_last_shape_kind) ||
+      validate(record.shape()) != Status::ok)
+    return Status::malformed;
   const Asset* asset = assets.find(record.asset);
   if (!has_known_shape(record, asset)) return Status::malformed;
   const int scale = properties_of(record.shape(), asset).scale_exponent;
@@ -130,7 +130,7 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (!consistent) return Status::malformed;
   const bool in_world = is_within(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation) &&
-                        has_unit_norm(record.recycling_orientation) && record.reserved == 0;
+                        has_unit_norm(record.recycling_orientation) && is_hit_speed(record.hit_speed);
   return in_world ? Status::ok : Status::malformed;
 }
 

@@ -82,6 +82,8 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
     awake_count += world_.awake.has(i) ? 1U : 0U;
     if (world_.sleep_flags.has_changed(i) != body.has_changed_sleep())
       return {"the list of changed sleep", i};
+    if (world_.cache.hit_bodies().has(i) != has_hit_events(body))
+      return {"the list of bodies with hit events", i};
     if (world_.broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;

@@ -99,6 +99,7 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_speed_limit(NULL, body, 1, 1));
   NULLED(lks_set_filter(NULL, body, &filter));
   NULLED(lks_set_filter(world, body, NULL));
+  NULLED(lks_set_events(NULL, body, 0, 0));
   NULLED(lks_set_user_data(NULL, body, 0));
   NULLED(lks_wake_body(NULL, body));
   NULLED(lks_sleep_body(NULL, body));
@@ -132,6 +133,15 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_events(NULL, NULL, 0, &count));
   NULLED(lks_events(world, NULL, 1, &count));
   NULLED(lks_events(world, NULL, 0, NULL));
+  NULLED(lks_hit_events(NULL, NULL, 0, &count));
+  NULLED(lks_hit_events(world, NULL, 1, &count));
+  NULLED(lks_hit_events(world, NULL, 0, NULL));
+  NULLED(lks_contacts_of(NULL, body, NULL, 0, &count));
+  NULLED(lks_contacts_of(world, body, NULL, 1, &count));
+  NULLED(lks_contacts_of(world, body, NULL, 0, NULL));
+  NULLED(lks_joints_of(NULL, body, NULL, 0, &count));
+  NULLED(lks_joints_of(world, body, NULL, 1, &count));
+  NULLED(lks_joints_of(world, body, NULL, 0, NULL));
   NULLED(lks_joint_events(NULL, NULL, 0, &count));
   NULLED(lks_joint_events(world, NULL, 1, &count));
   NULLED(lks_joint_events(world, NULL, 0, NULL));

@@ -71,6 +71,35 @@ static void events_tell_of_the_first_contact(void) {
   lks_world_destroy(world);
 }
 
+static void a_hit_tells_where_and_how_hard(void) {
+  lks_world* world = make_world();
+  const lks_body ground = add(world, LKS_STATIC, lks_half_space(), 0);
+  const lks_body ball = add_ball(world);
+  lks_hit_event hit = {0};
+  lks_body_contact contact[2];
+  lks_joint joint;
+  size_t count = 0;
+  int i;
+  OK(lks_set_events(world, ball, LKS_BODY_CONTACT_EVENTS, 1 << LKS_SPEED_BITS));
+  REFUSED(LKS_INVALID_ARGUMENT, lks_set_events(world, ball, 2, 0));
+  REFUSED(LKS_INVALID_ARGUMENT, lks_set_events(world, ball, 0, -1));
+  for (i = 0; i < 180 && count == 0; ++i) {
+    OK(lks_step(world, NULL));
+    OK(lks_hit_events(world, &hit, 1, &count));
+  }
+  CHECK(count == 1 && hit.a == ball && hit.b == ground && hit.was_stopped <= 1);
+  CHECK(lks_velocity_to_mm_s(hit.approach_speed) > 10000 && hit.normal_impulse > 0);
+  CHECK(hit.normal.y < 0);
+  for (i = 0; i < 300; ++i)
+    OK(lks_step(world, NULL));
+  OK(lks_contacts_of(world, ball, contact, 2, &count));
+  CHECK(count == 1 && contact[0].other == ground && contact[0].count == 1);
+  CHECK(contact[0].normal_force > 0 && contact[0].points[0].normal_force > 0);
+  OK(lks_joints_of(world, ball, &joint, 1, &count));
+  CHECK(count == 0);
+  lks_world_destroy(world);
+}
+
 static void a_joint_holds_its_bodies_together(void) {
   lks_world* world = make_world();
   const lks_body anchor = add(world, LKS_STATIC, lks_box(1 << 20, 1 << 20, 1 << 20), 20000);
@@ -571,6 +600,7 @@ struct test {
 
 static const struct test k_tests[] = {TEST(a_ball_falls_and_rests_on_the_ground),
                                       TEST(events_tell_of_the_first_contact),
+                                      TEST(a_hit_tells_where_and_how_hard),
                                       TEST(a_joint_holds_its_bodies_together),
                                       TEST(a_snapshot_brings_a_world_back),
                                       TEST(a_history_recalls_ticks_that_are_stepped_again),

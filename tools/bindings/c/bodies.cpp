@@ -26,6 +26,7 @@ lks_body_def default_body_def() {
   raw.flags = LKS_BODY_ALLOW_SLEEP;
   raw.speed_limit = def.speed_limit.linear.raw;
   raw.angular_speed_limit = def.speed_limit.angular.raw;
+  raw.events = raw_of(def.events);
   return raw;
 }
 
@@ -64,6 +65,7 @@ BodyDef body_def_of(const lks_body_def* from) {
   def.speed_limit = {Velocity::from_raw(raw.speed_limit),
                      AngularVelocity::from_raw(raw.angular_speed_limit)};
   def.user_data = raw.user_data;
+  def.events = events_of(raw.events, raw.hit_speed, "body.events");
   return def;
 }
 
@@ -92,6 +94,8 @@ lks_body_view view_of(const BodyView& body, Mass mass) {
   raw.locks = raw_of(body.locks);
   raw.mass = mass.raw;
   raw.user_data = body.user_data;
+  raw.events = raw_of(body.events);
+  raw.hit_speed = body.events.hit_speed.raw;
   return raw;
 }
 

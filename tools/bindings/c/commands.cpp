@@ -138,6 +138,12 @@ lks_status lks_set_filter(lks_world* world, lks_body body, const lks_filter* fil
   });
 }
 
+lks_status lks_set_events(lks_world* world, lks_body body, uint32_t events, lks_speed hit_speed) {
+  return call([&] {
+    order(world, SetEvents{handle_of<BodyHandle>(body), events_of(events, hit_speed, "events")});
+  });
+}
+
 lks_status lks_set_user_data(lks_world* world, lks_body body, uint64_t user_data) {
   return call([&] { order(world, SetUserData{handle_of<BodyHandle>(body), user_data}); });
 }

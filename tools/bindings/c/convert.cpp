@@ -37,6 +37,11 @@ AxisLocks locks_of(std::uint32_t bits, std::string_view field) {
           has(LKS_LOCK_TURN_X), has(LKS_LOCK_TURN_Y), has(LKS_LOCK_TURN_Z)};
 }
 
+EventSettings events_of(std::uint32_t bits, lks_speed hit_speed, std::string_view field) {
+  check_bits(bits, LKS_BODY_CONTACT_EVENTS, field);
+  return {(bits & LKS_BODY_CONTACT_EVENTS) != 0, SolverVelocity::from_raw(hit_speed)};
+}
+
 Frame frame_of(std::uint32_t frame) {
   return enumerator(frame, Frame::world, Frame::body, "frame");
 }
@@ -62,6 +67,10 @@ std::uint32_t raw_of(const AxisLocks& locks) {
   for (std::uint32_t i = 0; i < 6; ++i)
     result |= static_cast<std::uint32_t>(bits[i]) << i;
   return result;
+}
+
+std::uint32_t raw_of(const EventSettings& events) {
+  return events.contacts ? LKS_BODY_CONTACT_EVENTS : 0;
 }
 
 Vec3<Position> place_of(const lks_position3* place, std::string_view field) {

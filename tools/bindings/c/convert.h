@@ -49,11 +49,14 @@ template <class Handle>
 [[nodiscard]] Surface surface_of(const lks_surface& surface, std::string_view field);
 [[nodiscard]] SurfaceMotion surface_motion_of(const lks_surface_motion& motion);
 [[nodiscard]] AxisLocks locks_of(std::uint32_t bits, std::string_view field);
+[[nodiscard]] EventSettings events_of(std::uint32_t bits, lks_speed hit_speed,
+                                      std::string_view field);
 [[nodiscard]] Frame frame_of(std::uint32_t frame);
 
 [[nodiscard]] lks_shape raw_of(const Shape& shape);
 [[nodiscard]] lks_surface raw_of(const Surface& surface);
 [[nodiscard]] std::uint32_t raw_of(const AxisLocks& locks);
+[[nodiscard]] std::uint32_t raw_of(const EventSettings& events);  ///< without the hit speed
 
 /// Throws beyond the world's limit. Commands check places themselves, but queries take a place
 /// within the limit as a precondition.

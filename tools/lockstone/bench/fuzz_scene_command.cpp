@@ -27,8 +27,8 @@ std::string reproducer(const FuzzSceneOptions& options, const fuzz::SceneFailure
 void print_text(const FuzzSceneOptions& options, const fuzz::SceneFuzzReport& report) {
   fmt::print("seed {}, {} scenes, {} ticks, {} failed\n", options.run.seed, report.scenes,
              report.ticks, report.failures.size());
-  fmt::print("{} contacts, {} impacts, {} saturations, {} ticks with an exhausted store\n",
-             report.contacts, report.impacts, report.saturations, report.exhausted);
+  fmt::print("{} contacts, {} impacts, {} hits, {} saturations, {} ticks with an exhausted store\n",
+             report.contacts, report.impacts, report.hits, report.saturations, report.exhausted);
   for (const fuzz::SceneFailure& failure : report.failures) {
     const fuzz::RandomScene scene(options.run.seed, failure.index);
     fmt::print("FAILED at tick {}: {} ({})\n  {}\n", failure.tick, failure.what, scene.text(),
@@ -37,11 +37,15 @@ void print_text(const FuzzSceneOptions& options, const fuzz::SceneFuzzReport& re
 }
 
 void print_json(const FuzzSceneOptions& options, const fuzz::SceneFuzzReport& report) {
-  nlohmann::ordered_json document{
-      {"seed", options.run.seed},      {"scenes", report.scenes},
-      {"ticks", report.ticks},         {"contacts", report.contacts},
-      {"impacts", report.impacts},     {"saturations", report.saturations},
-      {"exhausted", report.exhausted}, {"failures", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json document{{"seed", options.run.seed},
+                                  {"scenes", report.scenes},
+                                  {"ticks", report.ticks},
+                                  {"contacts", report.contacts},
+                                  {"impacts", report.impacts},
+                                  {"hits", report.hits},
+                                  {"saturations", report.saturations},
+                                  {"exhausted", report.exhausted},
+                                  {"failures", nlohmann::ordered_json::array()}};
   for (const fuzz::SceneFailure& failure : report.failures)
     document["failures"].push_back({{"index", failure.index},
                                     {"tick", failure.tick},

@@ -15,6 +15,12 @@
 
 namespace lockstone {
 
+/// A contact whose impulses of the tick are added up if it approaches faster than a speed.
+struct WatchedContact {
+  std::uint32_t record = 0;
+  SolverVelocity hit_speed{};
+};
+
 /// The solver's inputs from a world. The manifold and the surfaces of record i have the number
 /// manifold_ids[i]; those of triggers are left out.
 struct ContactScene {
@@ -28,6 +34,7 @@ struct ContactScene {
   std::span<const JointLink> joint_links;
   Vec3<Acceleration> gravity;
   std::uint64_t tick = 0;
+  std::span<const WatchedContact> watched{};  // by record
 };
 
 /// A body of the world with its motion type, by which it enters the solver, and a mark. Zero: none.

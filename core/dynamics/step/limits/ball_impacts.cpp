@@ -133,6 +133,9 @@ void BallImpacts::respond(ContactId id) {
       {scene_.manifolds[contact.manifold], surface.friction, surface.restitution, Velocity{}});
   push(contact.a, a, after_a);
   push(contact.b, b, after_b);
+  if (!parts_.totals.empty())
+    parts_.totals.add_impact(id, (after_b.velocity - b.velocity) - (after_a.velocity - a.velocity),
+                             scene_.manifolds[contact.manifold].normal);
   parts_.constraints.forget_restitution(parts_.constraints.layout().lane_of(id));
 }
 

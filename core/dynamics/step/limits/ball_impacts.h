@@ -9,6 +9,7 @@
 
 #include "core/dynamics/state/time_step.h"
 #include "core/dynamics/step/contacts/contact_constraints.h"
+#include "core/dynamics/step/contacts/impulse_totals.h"
 #include "core/dynamics/step/input/contact_list.h"
 #include "core/dynamics/step/input/contact_scene.h"
 #include "core/dynamics/step/input/solver_bodies.h"
@@ -24,6 +25,7 @@ class BallImpacts {
     const ContactList& contacts;
     IslandBuilder& islands;
     ContactConstraints& constraints;
+    ImpulseTotals& totals;
   };
 
   /// No function but this allocates.

@@ -52,6 +52,7 @@ Bounces::Bounces(WorldData& world, TickContacts& found, MovedBodies& moved, Isla
       has_bounced_(world.def.body_capacity),
       marks_(world.def.body_capacity) {
   contacts_.reserve(world.def.contact_capacity);
+  totals_.reserve(world.def.contact_capacity);
   groups_.reserve(world.def.contact_capacity);
   bodies_.reserve(world.def.body_capacity);
 }
@@ -62,6 +63,7 @@ void Bounces::find() {
   bodies_.clear();
   contacts_.clear();
   groups_.clear();
+  totals_.clear();
   const auto elastic = [&](std::uint32_t id) {
     return found_.surfaces[id].restitution > Coefficient{};
   };
@@ -72,6 +74,7 @@ void Bounces::find() {
   for (std::size_t i = 0; i < found_.records.size(); ++i)
     mark(i);
   std::ranges::sort(contacts_);
+  if (world_.cache.hit_bodies().count() != 0) totals_.resize(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (i == 0 || contacts_[i].root != contacts_[i - 1].root)
       groups_.push_back(static_cast<std::uint32_t>(i));
@@ -127,7 +130,8 @@ std::uint32_t Bounces::root_of(const ContactRecord& record) {
 ImpactPair Bounces::pair_of(std::size_t contact) {
   const ContactRecord& record = found_.records[contact];
   return {&world_.bodies[record.body_a], &world_.bodies[record.body_b],
-          &found_.manifold_of(contact), &found_.surface_of(contact)};
+          &found_.manifold_of(contact), &found_.surface_of(contact),
+          world_.cache.hit_bodies().count() != 0};
 }
 
 bool Bounces::may_bounce(const ContactRecord& record) {
@@ -212,6 +216,7 @@ void Bounces::run_group(std::uint32_t index) {
     const bool touches = is_nearer(found_.manifold_of(contact), Displacement::from_raw(1));
     if (group.touched(i) || touches) found_.records[contact].flags = k_contact_touching;
     if (!group.touched(i)) continue;
+    if (!totals_.empty()) totals_[first + i] = group.total(i);
     found_.approach_speeds[contact] = SolverVelocity::from_raw(
         raw::saturate<std::int32_t>(raw::round_shift(group.approach(i).raw, 12)));
   }

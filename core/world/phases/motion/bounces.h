@@ -30,6 +30,8 @@ class Bounces {
 
   /// The contacts of all groups, group by group.
   [[nodiscard]] std::span<const BouncingContact> contacts() const { return contacts_; }
+  /// Of these contacts, where any body has hit events; else none.
+  [[nodiscard]] std::span<const ImpactTotal> totals() const { return totals_; }
   [[nodiscard]] bool has_moved(std::uint32_t body) const { return has_bounced_[body] != 0; }
 
  private:
@@ -48,7 +50,8 @@ class Bounces {
   TickContacts& found_;
   MovedBodies& moved_;
   Islands& islands_;
-  std::vector<BouncingContact> contacts_;       // by group, a group by its least body
+  std::vector<BouncingContact> contacts_;  // by group, a group by its least body
+  std::vector<ImpactTotal> totals_;
   std::vector<std::uint32_t> groups_, bodies_;  // a group is the index of its first contact
   std::vector<std::uint8_t> has_bounced_;       // by body
   std::vector<std::uint8_t> marks_;             // by body

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "core/collision/continuous/first_impact.h"
 #include "core/collision/continuous/relative_path.h"
@@ -69,6 +70,39 @@ Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
   return manifold;
 }
 
+// The deepest point of a manifold, on B.
+Vec3<Position> deepest_point(const Manifold& manifold, const Vec3<Position>& position_b) {
+  const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
+  Vec3<Position> point = position_b;
+  const auto deepest = std::ranges::min_element(points, {}, &ManifoldPoint::separation);
+  for (int i = 0; i < 3; ++i)
+    point[i] += rounded<Position>(deepest->anchor_b[i]);
+  return point;
+}
+
+// The impulses at an impact, and the contact that came in fastest.
+struct Stop {
+  ImpactTotal total;
+  const PartContact* fastest = nullptr;
+};
+
+// The hit of an impact, if it is one.
+std::optional<HitEvent> hit_of_stop(const WorldData& world, const ContactEvent& impact,
+                                    const Stop& stop) {
+  const Pair pair{impact.a.index, impact.b.index};
+  const SolverVelocity hit_speed = hit_speed_of(world.bodies[pair.a], world.bodies[pair.b]);
+  if (hit_speed == SolverVelocity{} || stop.fastest == nullptr) return {};
+  if (stop.total.approach <= rounded<Velocity>(hit_speed)) return {};
+  HitEvent event = hit_of(world, pair, stop.total);
+  if (event.normal_impulse <= Impulse{}) return {};
+  event.part_a = stop.fastest->part_a;
+  event.part_b = part_at(world, pair.b, event.point, stop.fastest->part_b);
+  event.tag_a = impact.tag_a;
+  event.tag_b = impact.tag_b;
+  event.was_stopped = true;
+  return event;
+}
+
 // A half-space has nothing behind it to come out at, and contacts find the bodies that
 // triangles sweep over.
 bool may_sweep(const BodyRecord& body, const Asset* asset) {
@@ -108,12 +142,14 @@ ContinuousCollision::ContinuousCollision(WorldData& world, MovedBodies& moved, N
   joined_movers_.reserve(world.def.joint_capacity == 0 ? 0 : capacity);
   sweepers_.reserve(capacity);
   struck_.reserve(capacity);
-  impacts_.reserve(capacity);
+  stops_.impacts.reserve(capacity);
+  stops_.hits.reserve(capacity);
 }
 
 void ContinuousCollision::run(StepReport& report) {
   const StageTimer timer(world_.profiler, StepStage::continuous);
-  impacts_.clear();
+  stops_.impacts.clear();
+  stops_.hits.clear();
   passes_.begin();
   list_sweepers();
   for (const std::uint32_t body : moved_.bodies()) {
@@ -378,15 +414,20 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   a.velocity -= to_come;
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
+  Stop stop;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
     find_surface(world_, {body, other}, contact.surface_a, contact.surface_b, contact.manifold,
                  surface);
     tag_a = surface.tag_a;
     tag_b = surface.tag_b;
-    approach =
-        max(approach, answer_impact({a, inertia_a}, {b, inertia_b},
-                                    {contact.manifold, surface.friction, surface.restitution}));
+    const Vec3<Velocity> before = b.velocity - a.velocity;
+    const Velocity speed = answer_impact({a, inertia_a}, {b, inertia_b},
+                                         {contact.manifold, surface.friction, surface.restitution});
+    if (speed > approach) stop.fastest = &contact;
+    approach = max(approach, speed);
+    stop.total.add(speed, (b.velocity - a.velocity) - before, contact.manifold.normal,
+                   deepest_point(contact.manifold, other_motion.start.position));
   }
   if (next.impact.crossing != Vec3<Unit>{}) {
     const Vec3<Position> arm = a.position - other_motion.start.position;
@@ -403,10 +444,11 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
     far_movers_[other] |= swept_over;
   }
   if (b.is_dynamic() && b.is_asleep()) waking_.note_hit(other);
-  if (impacts_.size() < world_.def.body_capacity) {
-    impacts_.push_back(
-        {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
-  }
+  if (stops_.impacts.size() == world_.def.body_capacity) return;
+  stops_.impacts.push_back(
+      {EventKind::impact, {body, a.generation}, {other, b.generation}, approach, tag_a, tag_b});
+  if (const auto event = hit_of_stop(world_, stops_.impacts.back(), stop))
+    stops_.hits.push_back(*event);
 }
 
 }  // namespace lockstone

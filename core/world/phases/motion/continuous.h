@@ -13,6 +13,7 @@
 #include "core/collision/continuous/first_impact.h"
 #include "core/dynamics/state/body_record.h"
 #include "core/world/data/world_data.h"
+#include "core/world/phases/hit_events.h"
 #include "core/world/phases/motion/moved_bodies.h"
 #include "core/world/phases/narrow/narrow_phase.h"
 #include "core/world/sleep/waking.h"
@@ -44,6 +45,12 @@ struct Sweeper {
   Bounds way{};
 };
 
+/// The bodies that were stopped on their way in a tick, in the order of their impacts.
+struct Stops {
+  std::vector<ContactEvent> impacts;
+  std::vector<HitEvent> hits;
+};
+
 class ContinuousCollision {
  public:
   /// No function but this allocates. All outlive this.
@@ -58,7 +65,7 @@ class ContinuousCollision {
   /// Wakes the sleepers that kinematic bodies will run into in the coming tick.
   void wake_struck();
 
-  [[nodiscard]] const std::vector<ContactEvent>& impacts() const { return impacts_; }
+  [[nodiscard]] const Stops& stops() const { return stops_; }
   [[nodiscard]] std::span<const Sweeper> sweepers() const { return sweepers_; }
   [[nodiscard]] std::uint8_t marks(std::uint32_t body) const { return far_movers_[body]; }
   [[nodiscard]] bool is_sweeper(std::uint32_t body) const;
@@ -95,7 +102,7 @@ class ContinuousCollision {
   std::vector<std::uint32_t> joined_movers_;  // bodies that stop together
   std::vector<Sweeper> sweepers_;             // of this tick, by body
   std::vector<std::uint32_t> struck_;         // sleepers
-  std::vector<ContactEvent> impacts_;         // of this tick
+  Stops stops_;                               // of this tick
 };
 
 }  // namespace lockstone

@@ -35,6 +35,9 @@ enum {
   LKS_BODY_ASLEEP = 16         /* in views only */
 };
 
+/* Bits of events: which events a body has. */
+enum { LKS_BODY_CONTACT_EVENTS = 1 /* set by default */ };
+
 /* Bits of locks: world axes that a dynamic body does not move along, or turn about. */
 enum {
   LKS_LOCK_MOVE_X = 1,
@@ -91,6 +94,8 @@ typedef struct lks_body_def {
   lks_velocity speed_limit; /* > 0 */
   lks_angular_velocity angular_speed_limit;
   uint64_t user_data; /* the game's own; part of the state */
+  uint32_t events;
+  lks_speed hit_speed; /* approaches above it are hits, 0 … 500 m/s; 0: none are */
 } lks_body_def;
 
 /* Sets the defaults: a dynamic sphere of 0.5 m of 1000 kg/m³. */
@@ -112,6 +117,8 @@ typedef struct lks_body_view {
   uint32_t locks;
   lks_mass mass; /* 0 of static and kinematic bodies */
   uint64_t user_data;
+  uint32_t events;
+  lks_speed hit_speed;
 } lks_body_view;
 
 /* Commands: the only way to write a world. On any status but LKS_OK nothing has changed. */
@@ -159,6 +166,9 @@ LKS_API lks_status lks_set_axis_locks(lks_world* world, lks_body body, uint32_t 
 LKS_API lks_status lks_set_speed_limit(lks_world* world, lks_body body, lks_velocity linear,
                                        lks_angular_velocity angular);
 LKS_API lks_status lks_set_filter(lks_world* world, lks_body body, const lks_filter* filter);
+/* Changes no motion. */
+LKS_API lks_status lks_set_events(lks_world* world, lks_body body, uint32_t events,
+                                  lks_speed hit_speed);
 LKS_API lks_status lks_set_user_data(lks_world* world, lks_body body, uint64_t user_data);
 
 /* Wakes a body and its island; commands that push or move a body do so by themselves. */

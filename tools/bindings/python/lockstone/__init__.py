@@ -15,7 +15,8 @@ from .shapes import Assets, box, capsule, cone, cylinder, half_space, sphere
 from .units import Raw
 from .world import (ALLOW_SLEEP, BALL, BULLET, CONTACT_BEGIN, CONTACT_END, DISTANCE, DYNAMIC, FIXED_ROTATION, GEAR,
                     HINGE, IMPACT, KINEMATIC, MOTOR, PULLEY, RACK, SIX_AXIS, SLEEP, SLIDER, STATIC, TRIGGER,
-                    TRIGGER_ENTER, TRIGGER_EXIT, TRIGGER_STAY, WAKE, WELD, WHEEL, Body, Contact, Poses, RayHit, World)
+                    TRIGGER_ENTER, TRIGGER_EXIT, TRIGGER_STAY, WAKE, WELD, WHEEL, Body, Contact, Impact, Poses,
+                    RayHit, World)
 
 __version__ = lib.lks_version().decode()
 simulation_abi: int = lib.lks_simulation_abi()

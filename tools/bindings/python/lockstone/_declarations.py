@@ -48,6 +48,7 @@ LKS_BODY_FIXED_ROTATION = 2
 LKS_BODY_BULLET = 4
 LKS_BODY_ALLOW_SLEEP = 8
 LKS_BODY_ASLEEP = 16
+LKS_BODY_CONTACT_EVENTS = 1
 LKS_LOCK_MOVE_X = 1
 LKS_LOCK_MOVE_Y = 2
 LKS_LOCK_MOVE_Z = 4
@@ -252,6 +253,8 @@ class lks_body_def(Structure):
         ("speed_limit", c_int64),
         ("angular_speed_limit", c_int64),
         ("user_data", c_uint64),
+        ("events", c_uint32),
+        ("hit_speed", c_int32),
     ]
 
 
@@ -271,6 +274,8 @@ class lks_body_view(Structure):
         ("locks", c_uint32),
         ("mass", c_int64),
         ("user_data", c_uint64),
+        ("events", c_uint32),
+        ("hit_speed", c_int32),
     ]
 
 
@@ -322,12 +327,53 @@ class lks_event(Structure):
     ]
 
 
+class lks_hit_event(Structure):
+    _fields_ = [
+        ("a", c_uint64),
+        ("b", c_uint64),
+        ("point", lks_i64x3),
+        ("normal_impulse", c_int64),
+        ("friction_impulse", lks_i64x3),
+        ("approach_speed", c_int64),
+        ("normal", lks_i32x3),
+        ("was_stopped", c_uint32),
+        ("part_a", c_uint32),
+        ("part_b", c_uint32),
+        ("tag_a", c_uint32),
+        ("tag_b", c_uint32),
+    ]
+
+
 class lks_joint_event(Structure):
     _fields_ = [
         ("joint", c_uint64),
         ("a", c_uint64),
         ("b", c_uint64),
         ("user_data", c_uint64),
+    ]
+
+
+class lks_touching_point(Structure):
+    _fields_ = [
+        ("point", lks_i64x3),
+        ("normal_force", c_int64),
+        ("separation", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
+class lks_body_contact(Structure):
+    _fields_ = [
+        ("other", c_uint64),
+        ("points", lks_touching_point * 4),
+        ("normal_force", c_int64),
+        ("friction", lks_i64x3),
+        ("normal", lks_i32x3),
+        ("count", c_uint32),
+        ("part", c_uint32),
+        ("other_part", c_uint32),
+        ("tag", c_uint32),
+        ("other_tag", c_uint32),
     ]
 
 
@@ -757,6 +803,7 @@ FUNCTIONS = {
     "lks_set_axis_locks": [c_int32, c_void_p, c_uint64, c_uint32],
     "lks_set_speed_limit": [c_int32, c_void_p, c_uint64, c_int64, c_int64],
     "lks_set_filter": [c_int32, c_void_p, c_uint64, POINTER(lks_filter)],
+    "lks_set_events": [c_int32, c_void_p, c_uint64, c_uint32, c_int32],
     "lks_set_user_data": [c_int32, c_void_p, c_uint64, c_uint64],
     "lks_wake_body": [c_int32, c_void_p, c_uint64],
     "lks_sleep_body": [c_int32, c_void_p, c_uint64],
@@ -786,6 +833,9 @@ FUNCTIONS = {
     "lks_client_leave": [c_int32, c_void_p],
     "lks_events": [c_int32, c_void_p, POINTER(lks_event), c_size_t, POINTER(c_size_t)],
     "lks_joint_events": [c_int32, c_void_p, POINTER(lks_joint_event), c_size_t, POINTER(c_size_t)],
+    "lks_hit_events": [c_int32, c_void_p, POINTER(lks_hit_event), c_size_t, POINTER(c_size_t)],
+    "lks_contacts_of": [c_int32, c_void_p, c_uint64, POINTER(lks_body_contact), c_size_t, POINTER(c_size_t)],
+    "lks_joints_of": [c_int32, c_void_p, c_uint64, POINTER(c_uint64), c_size_t, POINTER(c_size_t)],
     "lks_touching": [c_int32, c_void_p, c_uint64, c_uint64, POINTER(c_uint32)],
     "lks_game_create": [c_int32, POINTER(lockstone_game_table), POINTER(c_void_p)],
     "lks_game_builtin": [c_int32, POINTER(c_void_p)],

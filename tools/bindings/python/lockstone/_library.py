@@ -57,14 +57,16 @@ class BodyDef(ctypes.Structure):
                 ("surface", Surface), ("density", c_int32), ("surface_motion", SurfaceMotion),
                 ("filter", Filter), ("gravity_scale", c_int32), ("linear_damping", c_int32),
                 ("angular_damping", c_int32), ("flags", c_uint32), ("locks", c_uint32),
-                ("speed_limit", c_int64), ("angular_speed_limit", c_int64), ("user_data", c_uint64)]
+                ("speed_limit", c_int64), ("angular_speed_limit", c_int64), ("user_data", c_uint64),
+                ("events", c_uint32), ("hit_speed", c_int32)]
 
 
 class BodyView(ctypes.Structure):
     _fields_ = [("size", c_uint32), ("motion", c_uint32), ("shape", Shape), ("position", I64x3),
                 ("centre_of_mass", I64x3), ("velocity", I64x3), ("angular_velocity", I64x3),
                 ("orientation", Quat), ("surface", Surface), ("filter", Filter), ("flags", c_uint32),
-                ("locks", c_uint32), ("mass", c_int64), ("user_data", c_uint64)]
+                ("locks", c_uint32), ("mass", c_int64), ("user_data", c_uint64), ("events", c_uint32),
+                ("hit_speed", c_int32)]
 
 
 class Axis(ctypes.Structure):
@@ -87,6 +89,13 @@ class JointDef(ctypes.Structure):
 class Event(ctypes.Structure):
     _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("a", c_uint64), ("b", c_uint64),
                 ("approach_speed", c_int64), ("tag_a", c_uint32), ("tag_b", c_uint32)]
+
+
+class HitEvent(ctypes.Structure):
+    _fields_ = [("a", c_uint64), ("b", c_uint64), ("point", I64x3), ("normal_impulse", c_int64),
+                ("friction_impulse", I64x3), ("approach_speed", c_int64), ("normal", I32x3),
+                ("was_stopped", c_uint32), ("part_a", c_uint32), ("part_b", c_uint32), ("tag_a", c_uint32),
+                ("tag_b", c_uint32)]
 
 
 class Hit(ctypes.Structure):
@@ -142,6 +151,7 @@ _CALLS = {
     "lks_set_axis_locks": [_WORLD, _BODY, c_uint32],
     "lks_set_speed_limit": [_WORLD, _BODY, c_int64, c_int64],
     "lks_set_filter": [_WORLD, _BODY, POINTER(Filter)],
+    "lks_set_events": [_WORLD, _BODY, c_uint32, c_int32],
     "lks_set_user_data": [_WORLD, _BODY, c_uint64],
     "lks_wake_body": [_WORLD, _BODY],
     "lks_sleep_body": [_WORLD, _BODY],
@@ -156,6 +166,7 @@ _CALLS = {
     "lks_destroy_joint": [_WORLD, c_uint64],
     "lks_set_linear_axis": [_WORLD, c_uint64, c_uint32, POINTER(Axis)],
     "lks_set_angular_axis": [_WORLD, c_uint64, c_uint32, POINTER(Axis)],
+    "lks_hit_events": [_WORLD, c_void_p, c_size_t, _COUNT],
     "lks_events": [_WORLD, c_void_p, c_size_t, _COUNT],
     "lks_touching": [_WORLD, _BODY, _BODY, _FLAG],
     "lks_cast_ray": [_WORLD, POINTER(I64x3), POINTER(I32x3), c_void_p, POINTER(Hit)],

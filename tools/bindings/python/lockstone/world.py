@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
-from ._library import (BodyDef, BodyView, Event, Filter, Hit, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
+from ._library import (BodyDef, BodyView, Event, Filter, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
 from .shapes import Assets, lengths
 from .units import Quantity, Rotation, Vector
 
@@ -38,6 +38,18 @@ class Contact(NamedTuple):
     kind: int
     a: "Body"
     b: Optional["Body"]
+    approach_speed: Fraction
+
+
+class Impact(NamedTuple):
+    """A hit of the last step: an impact that was faster than a hit speed of its bodies."""
+
+    a: "Body"
+    b: "Body"
+    point: Exact
+    normal: Exact
+    normal_impulse: Fraction
+    friction_impulse: Exact
     approach_speed: Fraction
 
 
@@ -157,6 +169,9 @@ class Body:
 
     def set_filter(self, category: int = 1, mask: int = 0xffffffff, group: int = 0) -> None:
         self._call("lks_set_filter", byref(Filter(category, mask, group)))
+
+    def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0) -> None:
+        self._call("lks_set_events", int(contacts), units.raw(hit_speed, units.SPEED, 32))
 
     def set_user_data(self, number: int) -> None:
         self._call("lks_set_user_data", number)
@@ -308,6 +323,16 @@ class World:
         lib.lks_events(self.handle, room, most, byref(count))
         return [Contact(event.kind, Body(self, event.a), Body(self, event.b) if event.b else None,
                         units.exact(event.approach_speed, units.VELOCITY)) for event in room[:count.value]]
+
+    def hit_events(self) -> List[Impact]:
+        """Of the last step."""
+        room = (HitEvent * (self.definition.contact_capacity + self.definition.body_capacity))()
+        count = ctypes.c_size_t()
+        lib.lks_hit_events(self.handle, room, len(room), byref(count))
+        return [Impact(Body(self, hit.a), Body(self, hit.b), _exact(hit.point, units.POSITION),
+                       _exact(hit.normal, units.UNIT), units.exact(hit.normal_impulse, units.IMPULSE),
+                       _exact(hit.friction_impulse, units.IMPULSE),
+                       units.exact(hit.approach_speed, units.VELOCITY)) for hit in room[:count.value]]
 
     def cast_ray(self, origin: Vector, way: Vector) -> Optional[RayHit]:
         """The first body on the way, which is at most 512 m along each axis."""

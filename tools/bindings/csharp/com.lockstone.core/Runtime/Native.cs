@@ -61,6 +61,8 @@ namespace Lockstone.Interop
         public long speed_limit;
         public long angular_speed_limit;
         public ulong user_data;
+        public uint events;
+        public int hit_speed;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -80,6 +82,8 @@ namespace Lockstone.Interop
         public uint locks;
         public long mass;
         public ulong user_data;
+        public uint events;
+        public int hit_speed;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -131,12 +135,56 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_hit_event
+    {
+        public ulong a;
+        public ulong b;
+        public lks_i64x3 point;
+        public long normal_impulse;
+        public lks_i64x3 friction_impulse;
+        public long approach_speed;
+        public lks_i32x3 normal;
+        public uint was_stopped;
+        public uint part_a;
+        public uint part_b;
+        public uint tag_a;
+        public uint tag_b;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_joint_event
     {
         public ulong joint;
         public ulong a;
         public ulong b;
         public ulong user_data;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_touching_point
+    {
+        public lks_i64x3 point;
+        public long normal_force;
+        public int separation;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_body_contact
+    {
+        public ulong other;
+        public lks_touching_point points_0;
+        public lks_touching_point points_1;
+        public lks_touching_point points_2;
+        public lks_touching_point points_3;
+        public long normal_force;
+        public lks_i64x3 friction;
+        public lks_i32x3 normal;
+        public uint count;
+        public uint part;
+        public uint other_part;
+        public uint tag;
+        public uint other_tag;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -656,6 +704,7 @@ namespace Lockstone.Interop
         public const uint LKS_BODY_BULLET = 4;
         public const uint LKS_BODY_ALLOW_SLEEP = 8;
         public const uint LKS_BODY_ASLEEP = 16;
+        public const uint LKS_BODY_CONTACT_EVENTS = 1;
         public const uint LKS_LOCK_MOVE_X = 1;
         public const uint LKS_LOCK_MOVE_Y = 2;
         public const uint LKS_LOCK_MOVE_Z = 4;
@@ -863,6 +912,9 @@ namespace Lockstone.Interop
         public static extern int lks_set_filter(IntPtr world, ulong body, lks_filter* filter);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_events(IntPtr world, ulong body, uint events, int hit_speed);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_user_data(IntPtr world, ulong body, ulong user_data);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -948,6 +1000,15 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_joint_events(IntPtr world, lks_joint_event* @out, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_hit_events(IntPtr world, lks_hit_event* @out, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_contacts_of(IntPtr world, ulong body, lks_body_contact* @out, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_joints_of(IntPtr world, ulong body, ulong* @out, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_touching(IntPtr world, ulong a, ulong b, uint* @out);

@@ -270,6 +270,19 @@ namespace Lockstone
             return (int)count;
         }
 
+        /// <summary>Fills the impacts of the last step that were faster than a hit speed of their bodies; returns their
+        /// number.</summary>
+        public int HitEvents(Span<lks_hit_event> events)
+        {
+            UIntPtr count;
+            fixed (lks_hit_event* p = &MemoryMarshal.GetReference(events))
+            {
+                int status = Native.lks_hit_events(Pointer, p, (UIntPtr)events.Length, &count);
+                if (status != Native.LKS_BUFFER_TOO_SMALL) Call.Check(status);
+            }
+            return (int)count;
+        }
+
         /// <summary>The first body along the ray; its `body` is 0 when there is none.</summary>
         public lks_hit CastRay(lks_i64x3 origin, lks_i32x3 way, lks_query_filter filter)
         {

@@ -81,6 +81,7 @@ pub const LKS_BODY_FIXED_ROTATION: u32 = 2;
 pub const LKS_BODY_BULLET: u32 = 4;
 pub const LKS_BODY_ALLOW_SLEEP: u32 = 8;
 pub const LKS_BODY_ASLEEP: u32 = 16;
+pub const LKS_BODY_CONTACT_EVENTS: u32 = 1;
 pub const LKS_LOCK_MOVE_X: u32 = 1;
 pub const LKS_LOCK_MOVE_Y: u32 = 2;
 pub const LKS_LOCK_MOVE_Z: u32 = 4;
@@ -297,6 +298,8 @@ pub struct lks_body_def {
     pub speed_limit: lks_velocity,
     pub angular_speed_limit: lks_angular_velocity,
     pub user_data: u64,
+    pub events: u32,
+    pub hit_speed: lks_speed,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -315,6 +318,8 @@ pub struct lks_body_view {
     pub locks: u32,
     pub mass: lks_mass,
     pub user_data: u64,
+    pub events: u32,
+    pub hit_speed: lks_speed,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -363,11 +368,49 @@ pub struct lks_event {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct lks_hit_event {
+    pub a: lks_body,
+    pub b: lks_body,
+    pub point: lks_position3,
+    pub normal_impulse: lks_impulse,
+    pub friction_impulse: lks_impulse3,
+    pub approach_speed: lks_velocity,
+    pub normal: lks_unit3,
+    pub was_stopped: u32,
+    pub part_a: u32,
+    pub part_b: u32,
+    pub tag_a: u32,
+    pub tag_b: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct lks_joint_event {
     pub joint: lks_joint,
     pub a: lks_body,
     pub b: lks_body,
     pub user_data: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_touching_point {
+    pub point: lks_position3,
+    pub normal_force: lks_force,
+    pub separation: lks_displacement,
+    pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_body_contact {
+    pub other: lks_body,
+    pub points: [lks_touching_point; 4],
+    pub normal_force: lks_force,
+    pub friction: lks_force3,
+    pub normal: lks_unit3,
+    pub count: u32,
+    pub part: u32,
+    pub other_part: u32,
+    pub tag: u32,
+    pub other_tag: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -788,6 +831,7 @@ extern "C" {
     pub fn lks_set_axis_locks(world: *mut lks_world, body: lks_body, locks: u32) -> lks_status;
     pub fn lks_set_speed_limit(world: *mut lks_world, body: lks_body, linear: lks_velocity, angular: lks_angular_velocity) -> lks_status;
     pub fn lks_set_filter(world: *mut lks_world, body: lks_body, filter: *const lks_filter) -> lks_status;
+    pub fn lks_set_events(world: *mut lks_world, body: lks_body, events: u32, hit_speed: lks_speed) -> lks_status;
     pub fn lks_set_user_data(world: *mut lks_world, body: lks_body, user_data: u64) -> lks_status;
     pub fn lks_wake_body(world: *mut lks_world, body: lks_body) -> lks_status;
     pub fn lks_sleep_body(world: *mut lks_world, body: lks_body) -> lks_status;
@@ -817,6 +861,9 @@ extern "C" {
     pub fn lks_client_leave(client: *mut lks_client) -> lks_status;
     pub fn lks_events(world: *const lks_world, out: *mut lks_event, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_joint_events(world: *const lks_world, out: *mut lks_joint_event, capacity: usize, count: *mut usize) -> lks_status;
+    pub fn lks_hit_events(world: *const lks_world, out: *mut lks_hit_event, capacity: usize, count: *mut usize) -> lks_status;
+    pub fn lks_contacts_of(world: *const lks_world, body: lks_body, out: *mut lks_body_contact, capacity: usize, count: *mut usize) -> lks_status;
+    pub fn lks_joints_of(world: *const lks_world, body: lks_body, out: *mut lks_joint, capacity: usize, count: *mut usize) -> lks_status;
     pub fn lks_touching(world: *const lks_world, a: lks_body, b: lks_body, out: *mut u32) -> lks_status;
     pub fn lks_game_create(table: *const lockstone_game_table, out: *mut *mut lks_game) -> lks_status;
     pub fn lks_game_builtin(out: *mut *mut lks_game) -> lks_status;

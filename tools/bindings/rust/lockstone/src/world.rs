@@ -3,8 +3,8 @@ use std::ptr;
 use crate::error::{c_text, check, definition, sized, Result};
 use crate::sys::{
     self, lks_angular_velocity, lks_axis, lks_body_view, lks_filter, lks_hit, lks_i32x3, lks_i64x3, lks_joint_event,
-    lks_joint_view, lks_length, lks_number, lks_pose, lks_rate, lks_shape, lks_step_report, lks_surface,
-    lks_surface_motion, lks_velocity,
+    lks_joint_view, lks_length, lks_number, lks_pose, lks_rate, lks_shape, lks_speed, lks_step_report,
+    lks_surface, lks_surface_motion, lks_velocity,
 };
 
 definition!(
@@ -245,6 +245,7 @@ impl World {
         set_speed_limit(body: Body => body.0, linear: lks_velocity => linear, angular: lks_angular_velocity => angular)
             = lks_set_speed_limit;
         set_filter(body: Body => body.0, filter: &lks_filter => filter) = lks_set_filter;
+        set_events(body: Body => body.0, events: u32 => events, hit_speed: lks_speed => hit_speed) = lks_set_events;
         set_user_data(body: Body => body.0, user_data: u64 => user_data) = lks_set_user_data;
         wake_body(body: Body => body.0) = lks_wake_body;
         sleep_body(body: Body => body.0) = lks_sleep_body;
@@ -296,6 +297,14 @@ impl World {
         unsafe { sys::lks_events(self.0, ptr::null_mut(), 0, &mut count) };
         let mut events: Vec<sys::lks_event> = vec![unsafe { std::mem::zeroed() }; count];
         unsafe { sys::lks_events(self.0, events.as_mut_ptr(), count, &mut count) };
+        events
+    }
+    /// The impacts of the last step that were faster than a hit speed of their bodies.
+    pub fn hit_events(&self) -> Vec<sys::lks_hit_event> {
+        let mut count = 0;
+        unsafe { sys::lks_hit_events(self.0, ptr::null_mut(), 0, &mut count) };
+        let mut events: Vec<sys::lks_hit_event> = vec![unsafe { std::mem::zeroed() }; count];
+        unsafe { sys::lks_hit_events(self.0, events.as_mut_ptr(), count, &mut count) };
         events
     }
     /// The joints that broke in the last step.
