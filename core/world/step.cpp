@@ -92,14 +92,14 @@ void World::Impl::refresh_moved() {
   moved.refresh();
 }
 
-// Makes the contacts of the tick those of the state.
+// Makes the contacts of the tick those of the state; manifolds have other ids from then on.
 void World::Impl::find_events() {
   const StageTimer timer(profiler, StepStage::events);
+  events.hits().add_bounced(bounces.contacts(), bounces.totals());
   events.find();
   passes.add_events(events.list());
   const Stops& stops = continuous.stops();
   events.list().insert(events.list().end(), stops.impacts.begin(), stops.impacts.end());
-  events.hits().add_bounced(bounces.contacts(), bounces.totals());
   events.hits().finish(stops.hits);
 }
 

@@ -39,8 +39,8 @@ class HitEvents {
 
   /// After the solver, before bodies move.
   void add_solved(const ImpulseTotals& totals);
-  /// The contacts that bounced within the tick, with their impacts; none are given where none are
-  /// watched.
+  /// The contacts that bounced within the tick, while `found` still has their manifolds. None are
+  /// given where none are watched.
   void add_bounced(std::span<const BouncingContact> contacts, std::span<const ImpactTotal> totals);
   /// Once all contacts were added: brings them in order. `stops` follow.
   void finish(std::span<const HitEvent> stops);

@@ -142,6 +142,7 @@ TEST(HitEvents, TellItOfBallsInTheSolver) {
       const double gain = to_double(world.velocity(resting).x) - before;
       EXPECT_NEAR(to_double(hit.normal_impulse) / (gain * to_double(world.mass(resting))), 1, 1e-3);
       EXPECT_NEAR(to_double(hit.approach_speed), 3, 1e-2);
+      EXPECT_NEAR(gain, 3, 1e-2);
     }
   }
   EXPECT_EQ(hits, 1);
