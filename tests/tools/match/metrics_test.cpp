@@ -49,7 +49,7 @@ class Caller {
               static_cast<ssize_t>(request.size()));
     std::string answer;
     test::await([&] {
-      port.serve(some_metrics);
+      port.serve([](std::string_view head) { return answer_about(head, some_metrics()); });
       std::array<char, 4096> bytes{};
       const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
       if (count > 0) answer.append(bytes.data(), static_cast<std::size_t>(count));
