@@ -143,7 +143,8 @@ void Agones::run() {
       post_next(lock);
       continue;
     }
-    if (now >= next_health_ && now - last_beat_ < k_longest_silence && orders_.empty()) {
+    const bool healthy = healthy_ && now - last_beat_ < k_longest_silence;
+    if (healthy && now >= next_health_ && orders_.empty()) {
       next_health_ = now + k_health_period;
       lock.unlock();
       static_cast<void>(post("/health"));
@@ -166,6 +167,7 @@ void Agones::post_next(std::unique_lock<std::mutex>& lock) {
   lock.lock();
   if (taken) {
     orders_.pop_front();
+    healthy_ = std::string_view(path) != "/shutdown";
     changed_.notify_all();
   } else {
     next_try_ = Clock::now() + k_retry;

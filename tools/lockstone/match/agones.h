@@ -15,7 +15,8 @@
 namespace lockstone::tool {
 
 /// Posts `/ready`, `/allocate` and `/shutdown` in the order of the calls here, each until the sidecar
-/// has taken it, and `/health` every two seconds. A thread of its own does it: no call waits but
+/// has taken it, and `/health` every two seconds in between. A
+/// thread of its own does it: no call waits but
 /// `shutdown`. Any thread may call.
 class Agones {
  public:
@@ -54,6 +55,7 @@ class Agones {
   std::condition_variable changed_;
   std::deque<const char*> orders_;
   unsigned running_ = 0;  ///< matches
+  bool healthy_ = false;  ///< between the first `/ready` and `/shutdown`
   bool complained_ = false;
   bool ends_ = false;
   Clock::time_point next_try_;

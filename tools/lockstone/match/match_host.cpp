@@ -85,6 +85,7 @@ struct MatchHost::Impl final : net::ServerObserver {
   std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
   void say(const JournalEntry& entry) {
+    if (options.silent) return;
     progress.clear();
     journal.write(entry);
   }
@@ -279,6 +280,10 @@ bool MatchHost::begun() const {
 
 const TickLateness& MatchHost::lateness() const {
   return impl_->lateness;
+}
+
+void MatchHost::restart_lateness() {
+  impl_->lateness = {};
 }
 
 bool MatchHost::step() {

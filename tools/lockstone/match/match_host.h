@@ -44,6 +44,7 @@ struct MatchOptions {
   std::uint16_t metrics_port = 0;  ///< 0: none
   std::string metrics_bind = "127.0.0.1";
   bool json_log = false;                          ///< print JSON, one object a line
+  bool silent = false;                            ///< print nothing
   bool force = false;                             ///< replace files that are there
   std::optional<replay::SigningKey> signing_key;  ///< of the log; none: it is not signed
 };
@@ -83,8 +84,9 @@ class MatchHost {
   /// The match has begun.
   [[nodiscard]] bool begun() const;
 
-  /// How much later than at the punctual end of its second each tick was confirmed, so far.
+  /// How punctual the ticks were, since the beginning or the last restart.
   [[nodiscard]] const TickLateness& lateness() const;
+  void restart_lateness();
 
   /// Ends the match after the ticks confirmed so far.
   void stop();

@@ -42,6 +42,7 @@ std::optional<MatchOptions> RoomsProgram::next() {
   const std::lock_guard lock(mutex_);
   if (!takes_more_locked()) return std::nullopt;
   MatchOptions match = match_;
+  match.start.seed += begun_;
   match.match += begun_++;
   match.metrics_port = 0;
   for (std::string* file : {&match.record, &match.bundle}) {
@@ -115,16 +116,19 @@ void Room::open() {
     closed_ = true;
     return program_.note_failed(k_unavailable);
   }
-  Journal(coming_->json_log, coming_->match)
-      .write({"match_open", fmt::format("match {} is open", coming_->match)});
+  if (!coming_->silent) {
+    Journal(coming_->json_log, coming_->match)
+        .write({"match_open", fmt::format("match {} is open", coming_->match)});
+  }
   coming_.reset();
-  begun_ = drained_ = stopped_ = false;
+  begun_ = drained_ = stopped_ = measured_ = false;
   next_metrics_us_ = 0;
 }
 
 void Room::obey() {
   if (program_.stopping() && !std::exchange(stopped_, true)) host_->stop();
   if (program_.draining() && !std::exchange(drained_, true)) host_->drain();
+  if (program_.measuring() && !std::exchange(measured_, true)) host_->restart_lateness();
 }
 
 void Room::publish(std::int64_t now_us) {

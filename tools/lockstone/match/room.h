@@ -34,8 +34,10 @@ class RoomsProgram {
 
   void drain() { draining_ = true; }
   void stop() { stopping_ = true; }
+  void measure() { measuring_ = true; }
   [[nodiscard]] bool draining() const { return draining_; }
   [[nodiscard]] bool stopping() const { return stopping_; }
+  [[nodiscard]] bool measuring() const { return measuring_; }
 
   void note_begun() const;
   void note_ended(const MatchHost& host, bool begun, int code);
@@ -53,6 +55,7 @@ class RoomsProgram {
   const RoomsOptions& options_;
   std::atomic<bool> draining_{false};
   std::atomic<bool> stopping_{false};
+  std::atomic<bool> measuring_{false};
   mutable std::mutex mutex_;
   std::uint64_t begun_ = 0;  ///< how many options were given out
   EndedMatches ended_;
@@ -90,6 +93,7 @@ class Room {
   bool begun_ = false;
   bool drained_ = false;
   bool stopped_ = false;
+  bool measured_ = false;
   std::atomic<bool> closed_{false};
   std::int64_t next_metrics_us_ = 0;
   mutable std::mutex metrics_mutex_;

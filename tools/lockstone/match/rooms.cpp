@@ -196,6 +196,10 @@ void Rooms::drain() {
   impl_->program.drain();
 }
 
+void Rooms::restart_lateness() {
+  impl_->program.measure();
+}
+
 void Rooms::stop() {
   impl_->program.stop();
 }

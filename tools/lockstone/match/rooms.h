@@ -25,8 +25,8 @@ struct RoomsTime {
   double workers = 0;
 };
 
-/// Keeps as many matches open as there are rooms, numbered from MatchOptions::match on. The number of
-/// one that ends is not used again.
+/// Keeps as many matches open as there are rooms. Their numbers and seeds count up from those of
+/// MatchOptions, and are not used again.
 class Rooms {
  public:
   /// Null, with a complaint, when they cannot be set up. The threads run from here on.
@@ -52,7 +52,10 @@ class Rooms {
   /// the worst match.
   [[nodiscard]] int finish();
 
-  /// After `finish`: of all ticks of all matches.
+  /// The ticks until now do not count as late or punctual.
+  void restart_lateness();
+
+  /// After `finish`: of the ticks of all matches.
   [[nodiscard]] const TickLateness& lateness() const;
 
  private:
