@@ -14,8 +14,8 @@ static_assert(std::is_trivially_copyable_v<Parcel>);
 }  // namespace
 
 Mailbox::Mailbox(std::size_t capacity) : capacity_(capacity) {
-  written_.bytes = std::make_unique_for_overwrite<std::byte[]>(capacity);
-  read_.bytes = std::make_unique_for_overwrite<std::byte[]>(capacity);
+  written_.bytes.reset(new std::byte[capacity]);
+  read_.bytes.reset(new std::byte[capacity]);
 }
 
 bool Mailbox::put(const Parcel& parcel, ByteView bytes, std::size_t spare) {

@@ -29,7 +29,7 @@ bool in_range(const MatchRouterOptions& options) {
          options.max_connections_per_match >= 1 &&
          options.max_connections_per_match <= k_max_connections_per_match &&
          options.queue_bytes >= k_min_queue_bytes + k_orders_a_connection * sizeof(Parcel) *
-                                                       options.max_connections_per_match &&
+                                                        options.max_connections_per_match &&
          options.queue_bytes <= k_max_queue_bytes;
 }
 
@@ -88,9 +88,8 @@ Result<std::unique_ptr<MatchRouter>> MatchRouter::create(Transport& carrier, Ope
 Result<Transport*> MatchRouter::open(std::uint64_t match) {
   Impl& impl = *impl_;
   const std::lock_guard lock(impl.mutex);
-  const auto place = std::find_if(impl.places.begin(), impl.places.end(), [](const auto& one) {
-    return one->stage == Impl::Stage::free;
-  });
+  const auto place = std::find_if(impl.places.begin(), impl.places.end(),
+                                  [](const auto& one) { return one->stage == Impl::Stage::free; });
   if (place == impl.places.end()) return Status::capacity_exhausted;
   if (const Status status = impl.matches.add(match); status != Status::ok) return status;
   (*place)->match = match;

@@ -93,9 +93,9 @@ void RoutedTransport::reset() {
 }
 
 const RoutedTransport::Known* RoutedTransport::find(ConnectionId connection) const {
-  const auto found = std::find_if(
-      known_.begin(), known_.end(),
-      [connection](const Known& known) { return known.connection == connection; });
+  const auto found = std::find_if(known_.begin(), known_.end(), [connection](const Known& known) {
+    return known.connection == connection;
+  });
   return found == known_.end() ? nullptr : &*found;
 }
 

@@ -115,8 +115,8 @@ bool SecureServerHandshake::on_confirm(SecureLink& link, ByteView packet, Transp
   ++data_.counters.handshakes_completed;
   data_.carrier.trust(link.connection);
   for (SecureLink& other : data_.links.all()) {
-    const bool same = &other != &link && other.stage == SecureStage::open &&
-                      other.identity == link.identity;
+    const bool same =
+        &other != &link && other.stage == SecureStage::open && other.identity == link.identity;
     if (!same) continue;
     // There is at most one: the player came back before the old connection was found dead.
     static_cast<void>(SecureLinks::open(link, event));

@@ -9,7 +9,7 @@ namespace lockstone::net {
 TickRing::TickRing(std::size_t capacity, std::size_t record_bytes)
     : record_bytes_(record_bytes),
       entries_(capacity),
-      bytes_(std::make_unique_for_overwrite<std::byte[]>(capacity * record_bytes)) {}
+      bytes_(new std::byte[capacity * record_bytes]) {}
 
 std::span<std::byte> TickRing::claim(std::uint64_t tick) {
   LKS_CHECK(!entries_.empty());

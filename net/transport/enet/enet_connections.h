@@ -107,7 +107,7 @@ class EnetConnections {
   std::size_t strangers_per_address_;
   std::uint32_t timeout_ms_;
   std::vector<EnetConnection> connections_;  ///< by ENet's peer number
-  std::size_t last_numbered_ = 0;  ///< where find_numbered found one
+  std::size_t last_numbered_ = 0;            ///< where find_numbered found one
   bool any_ending_ = false;
 };
 

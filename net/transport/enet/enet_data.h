@@ -61,8 +61,8 @@ struct EnetData {
   LinkChecksum checksum{std::nullopt};
   std::uint32_t match_tag = 0;
   const OpenMatches* matches = nullptr;  ///< null: the one of `checksum` and `match_tag`
-  DatagramSource source;           ///< of the datagram that is judged
-  std::unique_ptr<Ipv6Side> ipv6;  ///< null: IPv4 only
+  DatagramSource source;                 ///< of the datagram that is judged
+  std::unique_ptr<Ipv6Side> ipv6;        ///< null: IPv4 only
 };
 
 }  // namespace lockstone::net

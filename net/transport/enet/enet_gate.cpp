@@ -101,7 +101,8 @@ bool EnetGate::authenticate(EnetConnection& connection, std::span<std::byte>& da
     ++data_.counters.replayed;
     return false;
   }
-  const bool bare = !connection.seal.required() && connection.checksum.verify(datagram, head, number);
+  const bool bare =
+      !connection.seal.required() && connection.checksum.verify(datagram, head, number);
   if (!bare) ++data_.counters.forged;
   return bare;
 }

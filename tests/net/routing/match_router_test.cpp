@@ -27,10 +27,8 @@ std::vector<Event> read(Transport& transport) {
   std::vector<Event> seen;
   TransportEvent event;
   while (transport.poll(0, event))
-    seen.push_back({event.kind,
-                    event.connection,
-                    event.channel,
-                    {event.bytes.begin(), event.bytes.end()}});
+    seen.push_back(
+        {event.kind, event.connection, event.channel, {event.bytes.begin(), event.bytes.end()}});
   return seen;
 }
 
@@ -62,8 +60,7 @@ TEST(MatchRouter, AnEventReachesTheMatchOfItsToken) {
   ASSERT_EQ(of_one.size(), 1U);
   EXPECT_EQ(of_one[0], (Event{TransportEventKind::connected, a, Channel::reliable, {}}));
   ASSERT_EQ(of_two.size(), 2U);
-  EXPECT_EQ(of_two[1],
-            (Event{TransportEventKind::received, b, Channel::unreliable, packet(5, 7)}));
+  EXPECT_EQ(of_two[1], (Event{TransportEventKind::received, b, Channel::unreliable, packet(5, 7)}));
   EXPECT_EQ(two.identity(b).match, 2U);
   EXPECT_FALSE(one.identity(b).authenticated);
   EXPECT_EQ(one.send(b, Channel::reliable, packet(1, 1)), Status::stale_handle);
@@ -222,7 +219,7 @@ TEST(MatchRouter, AReliablePacketThatTheCarrierRefusesEndsItsConnection) {
   EXPECT_EQ(seen[0].kind, TransportEventKind::disconnected);
 }
 
-// Against a model: every open match sees what came for it, in order, until it ends a connection.
+// Against a model: every open match sees its events, in order, until it ends a connection.
 class Churn {
  public:
   explicit Churn(std::uint64_t seed) : random_(seed) {}
@@ -330,7 +327,7 @@ class Churn {
   std::uint64_t last_match_ = 0;
 };
 
-TEST(MatchRouter, RandomMatchesSeeWhatCameForThem) {
+TEST(MatchRouter, RandomMatchesSeeTheirEvents) {
   for (std::uint64_t seed = 1; seed <= lockstone::test::share_of(40U); ++seed) {
     SCOPED_TRACE(seed);
     Churn churn(seed);

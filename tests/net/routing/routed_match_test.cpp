@@ -46,9 +46,8 @@ class SharedNetwork {
     ServerConfig config;
     config.tick_count = k_ticks;
     config.match_config = room->toy.encode();
-    room->server =
-        std::move(Server::create(config, {room->transport, &room->simulation, nullptr, &room->log})
-                      .server);
+    room->server = std::move(
+        Server::create(config, {room->transport, &room->simulation, nullptr, &room->log}).server);
     for (std::size_t slot = 0; slot < 3; ++slot)
       add_client(*room, match, slot);
     rooms.push_back(std::move(room));

@@ -39,8 +39,7 @@ class ScriptedCarrier final : public Transport {
       if (!identities_.contains(current_.connection)) continue;  // ended by this side
       event = {current_.kind, current_.connection, current_.channel, current_.bytes,
                RefuseReason::none};
-      if (current_.kind == TransportEventKind::disconnected)
-        identities_.erase(current_.connection);
+      if (current_.kind == TransportEventKind::disconnected) identities_.erase(current_.connection);
       return true;
     }
     return false;

@@ -1,4 +1,4 @@
-"""`lockstone serve --rooms`: many matches on one port; and what Agones' sidecar hears of a server.
+"""`lockstone serve --rooms`: many matches on one port; and the calls to Agones' sidecar.
 
 usage: rooms_test.py LOCKSTONE
 """

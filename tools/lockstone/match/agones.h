@@ -14,10 +14,9 @@
 
 namespace lockstone::tool {
 
-/// Posts `/ready`, `/allocate` and `/shutdown` in the order of the calls here, each until the sidecar
-/// has taken it, and `/health` every two seconds in between. A
-/// thread of its own does it: no call waits but
-/// `shutdown`. Any thread may call.
+/// Posts `/ready`, `/allocate` and `/shutdown` in the order of the calls here, each until the
+/// sidecar has taken it, and `/health` every two seconds in between. A thread of its own does it:
+/// no call waits but `shutdown`. Any thread may call.
 class Agones {
  public:
   /// The sidecar's port is in the environment, AGONES_SDK_HTTP_PORT; else 9358. Null, with a

@@ -222,8 +222,8 @@ struct MatchHost::Impl final : net::ServerObserver {
     random.fill(unguessable);
     net::ServerConfig server_options = server_config(options, match.config, unguessable);
     server_options.resume_mask = resume_mask;
-    net::Server::Created created = net::Server::create(
-        server_options, {line, match.simulation.get(), nullptr, this});
+    net::Server::Created created =
+        net::Server::create(server_options, {line, match.simulation.get(), nullptr, this});
     server = std::move(created.server);
     journal = Journal(options.json_log, socket != nullptr ? socket->port() : options.match);
     if (server == nullptr) return refuse(std::string(to_string(created.error)));

@@ -64,8 +64,8 @@ struct MatchSummary {
 /// One match. Prints joins, leaves, refusals and desyncs as they come.
 class MatchHost {
  public:
-  /// Null, with a complaint, when it cannot be set up. With `line`, which must outlive it, the match
-  /// has neither a socket nor a port for metrics, and is called by the number of its tokens.
+  /// Null, with a complaint, when it cannot be set up. With `line`, which must outlive it, the
+  /// match has neither a socket nor a port for metrics, and is called by the number of its tokens.
   [[nodiscard]] static std::unique_ptr<MatchHost> create(const Games& games,
                                                          const MatchOptions& options,
                                                          net::Transport* line = nullptr);

@@ -195,9 +195,9 @@ std::string host_for_prometheus(const RoomsMetrics& rooms) {
 }  // namespace
 
 std::string metrics_as_text(const MatchMetrics& metrics) {
-  std::string text = fmt::format("{} {}: {} ticks, {} spectators, {} desyncs\n",
-                                 metrics.room ? "match" : "port", number_of(metrics),
-                                 metrics.ticks, metrics.spectators, metrics.desyncs);
+  std::string text =
+      fmt::format("{} {}: {} ticks, {} spectators, {} desyncs\n", metrics.room ? "match" : "port",
+                  number_of(metrics), metrics.ticks, metrics.spectators, metrics.desyncs);
   for (const ReasonFigure& figure : k_reason_figures) {
     for (std::size_t i = 0; i < figure.count; ++i) {
       if (figure.value(metrics, i) == 0) continue;
@@ -227,8 +227,9 @@ std::string metrics_for_prometheus(const MatchMetrics& metrics) {
   for (const ReasonFigure& figure : k_reason_figures) {
     text += fmt::format("# TYPE lockstone_{} counter\n", figure.name);
     for (std::size_t i = 0; i < figure.count; ++i) {
-      text += fmt::format("lockstone_{}{{match=\"{}\",{}=\"{}\"}} {}\n", figure.name, number_of(metrics),
-                          figure.label, figure.text(i), figure.value(metrics, i));
+      text +=
+          fmt::format("lockstone_{}{{match=\"{}\",{}=\"{}\"}} {}\n", figure.name,
+                      number_of(metrics), figure.label, figure.text(i), figure.value(metrics, i));
     }
   }
   for (const PlayerFigure& figure : k_figures) {

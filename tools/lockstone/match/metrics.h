@@ -17,10 +17,10 @@
 namespace lockstone::tool {
 
 struct MatchMetrics {
-  std::uint16_t port = 0;       ///< of the match
+  std::uint16_t port = 0;                  ///< of the match
   std::optional<std::uint64_t> room = {};  ///< one of many on a socket: the number of its tokens
-  std::string_view state = {};  ///< of the server
-  bool ready = true;            ///< players may come
+  std::string_view state = {};             ///< of the server
+  bool ready = true;                       ///< players may come
   std::uint64_t ticks = 0;
   std::size_t spectators = 0;
   std::uint16_t present_mask = 0;
@@ -37,8 +37,8 @@ struct MatchMetrics {
 /// Prometheus' text format 0.0.4.
 [[nodiscard]] std::string metrics_for_prometheus(const MatchMetrics& metrics);
 
-/// `GET /metrics`, `/stats.json`, `/livez` (200: the match's loop runs), `/readyz` (200, or 503 where
-/// no player should be sent to), and for everything else a text.
+/// `GET /metrics`, `/stats.json`, `/livez` (200: the match's loop runs), `/readyz` (200, or 503
+/// where no player should be sent to), and for everything else a text.
 [[nodiscard]] HttpAnswer answer_about(std::string_view request, const MatchMetrics& metrics);
 
 /// Of a process that hosts many matches on one socket.

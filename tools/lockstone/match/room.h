@@ -23,7 +23,7 @@ struct EndedMatches {
   int code = 0;  ///< exit code of the worst
 };
 
-/// Which matches follow, and what the ended ones left. Any thread may call.
+/// Gives out the matches that follow, and sums the ended ones up. Any thread may call.
 class RoomsProgram {
  public:
   RoomsProgram(const Games& games, const MatchOptions& match, const RoomsOptions& options);

@@ -12,9 +12,9 @@ namespace lockstone::tool {
 class Agones;
 
 struct RoomsOptions {
-  unsigned rooms = 1;         ///< matches at once
-  unsigned workers = 0;       ///< threads; 0: one less than the machine's processors
-  std::uint64_t matches = 0;  ///< in all; 0: without end
+  unsigned rooms = 1;                  ///< matches at once
+  unsigned workers = 0;                ///< threads; 0: one less than the machine's processors
+  std::uint64_t matches = 0;           ///< in all; 0: without end
   bool per_address_unlimited = false;  ///< all players are on this machine
   Agones* agones = nullptr;            ///< hears of matches; may be null
 };
@@ -48,8 +48,8 @@ class Rooms {
   [[nodiscard]] RoomsMetrics metrics() const;
   [[nodiscard]] RoomsTime time() const;
 
-  /// Once it is over: the last packets have left, and the threads are gone. Returns the exit code of
-  /// the worst match.
+  /// Once it is over: the last packets have left, and the threads are gone. Returns the exit code
+  /// of the worst match.
   [[nodiscard]] int finish();
 
   /// The ticks until now do not count as late or punctual.

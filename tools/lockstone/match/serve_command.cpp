@@ -177,11 +177,10 @@ int serve_rooms(const Games& games, const ServeOptions& options, Agones* agones)
   say_listening(options, rooms->port());
   if (agones != nullptr) agones->ready();
   while (!rooms->over()) {
-    if (interrupted()) options.drain && asked_to_end() ? rooms->drain() : rooms->stop();
+    if (interrupted()) options.drain&& asked_to_end() ? rooms->drain() : rooms->stop();
     if (metrics_port != nullptr) {
-      metrics_port->serve([&rooms](std::string_view request) {
-        return answer_about(request, rooms->metrics());
-      });
+      metrics_port->serve(
+          [&rooms](std::string_view request) { return answer_about(request, rooms->metrics()); });
     }
     if (agones != nullptr && rooms->alive()) agones->beat();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -209,8 +208,8 @@ int serve(const Games& games, ServeOptions options) {
     if (agones == nullptr) return k_usage;
   }
   catch_interrupts();
-  const int code = rooms ? serve_rooms(games, options, agones.get())
-                         : serve_ports(games, options, agones.get());
+  const int code =
+      rooms ? serve_rooms(games, options, agones.get()) : serve_ports(games, options, agones.get());
   if (agones != nullptr) agones->shutdown();
   return code;
 }

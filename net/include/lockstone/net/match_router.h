@@ -1,8 +1,8 @@
 // One transport for many matches: each match gets a transport of its own, for a thread of its own.
 //
 // One thread pumps. It hands every event to the match that the peer's token names, and sends the
-// packets of all matches. Between the threads are bounded queues: a match that is slow loses its own
-// packets only.
+// packets of all matches. Between the threads are bounded queues: a match that is slow loses its
+// own packets only.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ struct MatchRouterOptions {
   std::size_t max_matches = 256;               ///< at once; 1 … k_max_open_matches
   std::size_t max_connections = 1024;          ///< of all matches together; 1 … 4095
   std::size_t max_connections_per_match = 32;  ///< 1 … 1024
-  /// Waiting packets of one match, each way; 128 KiB and 256 bytes a connection … 64 MiB. A queue keeps two such buffers, of
-  /// which only the used part takes memory.
+  /// Waiting packets of one match, each way; 128 KiB and 256 bytes a connection … 64 MiB. A queue
+  /// keeps two such buffers, of which only the used part takes memory.
   std::size_t queue_bytes = std::size_t{512} * 1024;
 };
 

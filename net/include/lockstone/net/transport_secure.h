@@ -17,8 +17,8 @@
 namespace lockstone::net {
 
 struct SecureServerOptions {
-  Key backend_key;           ///< seals the tokens
-  std::uint64_t match = 0;   ///< tokens of other matches are refused
+  Key backend_key;          ///< seals the tokens
+  std::uint64_t match = 0;  ///< tokens of other matches are refused
   /// Instead of `match`: tokens of all these are good. Must outlive the transport. Null: `match`.
   const OpenMatches* matches = nullptr;
   ServerList own_addresses;  ///< one of them must be in a token that lists servers; none: no check

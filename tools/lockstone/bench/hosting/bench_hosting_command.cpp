@@ -146,25 +146,30 @@ void print(const HostingOptions& options, const Moment& from, const Moment& to) 
   const auto percent = [seconds](double before, double after) {
     return 100 * (after - before) / seconds;
   };
-  const double socket = percent(from.time.socket, to.time.socket);
-  const double workers = percent(from.time.workers, to.time.workers);
   const auto rate = [seconds, matches](std::uint64_t before, std::uint64_t after) {
     return static_cast<double>(after - before) / seconds / matches;
   };
   const net::PlayerStats& before = from.metrics.sum.players.at(0);
   const net::PlayerStats& after = to.metrics.sum.players.at(0);
-  row("share of a core", fmt::format("{:.3f} % a match: {:.3f} workers, {:.3f} socket",
-                                     (socket + workers) / matches, workers / matches,
-                                     socket / matches));
-  row("", fmt::format("{:.1f} % in all; the bots' thread {:.1f} %", socket + workers,
-                      percent(from.bots, to.bots)));
-  row("ticks", fmt::format("{:.1f} a second and match",
-                           rate(from.metrics.sum.ticks, to.metrics.sum.ticks)));
-  row("bandwidth", fmt::format("{:.1f} kB/s out, {:.1f} in a match; {:.0f} packets/s out, {:.0f} in",
-                               rate(before.bytes_sent, after.bytes_sent) / 1000,
-                               rate(before.bytes_received, after.bytes_received) / 1000,
-                               rate(before.packets_sent, after.packets_sent),
-                               rate(before.packets_received, after.packets_received)));
+  const auto ticks = static_cast<double>(to.metrics.sum.ticks - from.metrics.sum.ticks);
+  const double busy_ticks = std::max(ticks, 1.0);
+  const double worker_us = 1e6 * (to.time.workers - from.time.workers) / busy_ticks;
+  const double socket_us = 1e6 * (to.time.socket - from.time.socket) / busy_ticks;
+  row("a tick", fmt::format("{:.0f} us of a core: {:.0f} workers, {:.0f} socket",
+                            worker_us + socket_us, worker_us, socket_us));
+  row("share of a core",
+      fmt::format("{:.2f} % a match at 60 ticks a second", (worker_us + socket_us) * 60 / 1e4));
+  row("in fact",
+      fmt::format("{:.1f} ticks a second and match; {:.0f} % of a core workers, {:.0f} "
+                  "socket, {:.0f} bots",
+                  ticks / seconds / matches, percent(from.time.workers, to.time.workers),
+                  percent(from.time.socket, to.time.socket), percent(from.bots, to.bots)));
+  row("bandwidth",
+      fmt::format("{:.1f} kB/s out, {:.1f} in a match; {:.0f} packets/s out, {:.0f} in",
+                  rate(before.bytes_sent, after.bytes_sent) / 1000,
+                  rate(before.bytes_received, after.bytes_received) / 1000,
+                  rate(before.packets_sent, after.packets_sent),
+                  rate(before.packets_received, after.packets_received)));
   row("inputs", fmt::format("{} late, {} replaced", after.late_inputs - before.late_inputs,
                             after.substituted_inputs - before.substituted_inputs));
   row("queues", fmt::format("{} packets lost, {} connections broken", to.metrics.router.lost,
@@ -235,8 +240,7 @@ void add_bench_hosting_command(CLI::App& bench, int& exit_code) {
   command->add_option("--bots", options->bots, "Players of a match, which do not simulate")
       ->check(CLI::Range(1U, 8U))
       ->capture_default_str();
-  command->add_option("--bodies", options->bodies,
-                      "Loose bodies of the arena; default: as serve");
+  command->add_option("--bodies", options->bodies, "Loose bodies of the arena; default: as serve");
   command->add_option("--seconds", options->seconds, "Measured, once all matches run")
       ->check(CLI::Range(1U, 600U))
       ->capture_default_str();

@@ -1,5 +1,5 @@
-// Simulations for players that cost next to nothing: the server's one tells its hashes, the players'
-// ones repeat them.
+// Simulations for players that cost next to nothing: the server's one tells its hashes, the
+// players' ones repeat them.
 #pragma once
 
 #include <array>

@@ -32,9 +32,8 @@ void BotInputs::sample(std::uint64_t tick, std::span<std::byte> out) {
   }
 }
 
-std::unique_ptr<BotTeam> BotTeam::call(std::uint16_t port, const net::Key& key,
-                                       std::uint64_t match, unsigned bots,
-                                       const HashBoards& boards) {
+std::unique_ptr<BotTeam> BotTeam::call(std::uint16_t port, const net::Key& key, std::uint64_t match,
+                                       unsigned bots, const HashBoards& boards) {
   auto team = std::make_unique<BotTeam>();
   net::EnetOptions options;
   options.max_connections = bots;
