@@ -27,20 +27,19 @@ class EntryLimits {
   [[nodiscard]] bool take(const PeerIdentity& identity, std::int64_t now_us) {
     Seat* place = &seats_.front();
     for (Seat& one : seats_) {
-      if (one.last_us >= 0 && one.player == identity.player && one.slot == identity.slot) {
+      if (one.last_us >= 0 && one.identity == identity) {
         one.last_us = now_us;
         return one.limit.take(now_us, 1);
       }
       if (one.last_us < place->last_us) place = &one;
     }
-    *place = {identity.player, identity.slot, now_us, RateLimit(k_per_second, k_burst)};
+    *place = {identity, now_us, RateLimit(k_per_second, k_burst)};
     return place->limit.take(now_us, 1);
   }
 
  private:
   struct Seat {
-    std::uint64_t player = 0;
-    std::uint8_t slot = 0;
+    PeerIdentity identity;
     std::int64_t last_us = -1;  ///< below 0: this place is free
     RateLimit limit;
   };

@@ -13,27 +13,27 @@ SecureLinks::~SecureLinks() {
 }
 
 SecureLink* SecureLinks::find(ConnectionId connection) {
-  const auto found = std::find_if(links_.begin(), links_.end(), [connection](const auto& link) {
-    return link.stage != SecureStage::unused && link.connection == connection;
-  });
-  return found == links_.end() ? nullptr : &*found;
+  if (connection == k_no_connection) return nullptr;
+  const auto found = std::find(ids_.begin(), ids_.end(), connection);
+  return found == ids_.end() ? nullptr : &links_[static_cast<std::size_t>(found - ids_.begin())];
 }
 
 SecureLink* SecureLinks::add(ConnectionId connection, std::int64_t now_us) {
-  const auto place = std::find_if(links_.begin(), links_.end(), [](const SecureLink& link) {
-    return link.stage == SecureStage::unused;
-  });
-  if (place == links_.end()) return nullptr;
-  place->connection = connection;
-  place->stage = SecureStage::greeting;
-  place->since_us = now_us;
-  return &*place;
+  const auto place = std::find(ids_.begin(), ids_.end(), k_no_connection);
+  if (place == ids_.end()) return nullptr;
+  *place = connection;
+  SecureLink& link = links_[static_cast<std::size_t>(place - ids_.begin())];
+  link.connection = connection;
+  link.stage = SecureStage::greeting;
+  link.since_us = now_us;
+  return &link;
 }
 
 void SecureLinks::release(SecureLink& link) {
   crypto::wipe(std::as_writable_bytes(std::span(&link.sealer, 1)));
   crypto::wipe(std::as_writable_bytes(std::span(&link.opener, 1)));
   crypto::wipe(link.secret.bytes);
+  ids_[static_cast<std::size_t>(&link - links_.data())] = k_no_connection;
   link = {};
 }
 

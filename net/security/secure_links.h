@@ -34,7 +34,8 @@ struct SecureLink {
 /// return whether it is to be told. Allocates when made only.
 class SecureLinks {
  public:
-  SecureLinks(Transport& carrier, std::size_t capacity) : carrier_(carrier), links_(capacity) {}
+  SecureLinks(Transport& carrier, std::size_t capacity)
+      : carrier_(carrier), ids_(capacity, k_no_connection), links_(capacity) {}
   ~SecureLinks();
   SecureLinks(const SecureLinks&) = delete;
   SecureLinks& operator=(const SecureLinks&) = delete;
@@ -46,7 +47,7 @@ class SecureLinks {
   SecureLink* add(ConnectionId connection, std::int64_t now_us);
 
   /// Forgets a connection and wipes its keys.
-  static void release(SecureLink& link);
+  void release(SecureLink& link);
 
   /// Ends a connection from this side.
   [[nodiscard]] bool close(SecureLink& link, RefuseReason reason, TransportEvent& event);
@@ -59,6 +60,7 @@ class SecureLinks {
 
  private:
   Transport& carrier_;
+  std::vector<ConnectionId> ids_;  ///< of the links, close together: every packet is looked up
   std::vector<SecureLink> links_;  ///< never resized
 };
 

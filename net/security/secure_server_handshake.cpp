@@ -13,6 +13,10 @@ std::uint64_t unix_seconds(const SecureServerOptions& options, std::int64_t now_
   return unix_us < 0 ? 0 : static_cast<std::uint64_t>(unix_us / 1'000'000);
 }
 
+PeerIdentity identity_of(const SealedGrant& grant) {
+  return {true, grant.grant.match, grant.grant.player, grant.grant.slot};
+}
+
 // A session without encryption says so in its own words.
 bool is_plain_hello(ByteView packet) {
   Hello hello;
@@ -44,18 +48,19 @@ bool SecureServerHandshake::on_hello(SecureLink& link, ByteView packet, Transpor
 // A token has one place before its proof, independent of its sender and address.
 void SecureServerHandshake::end_older_handshake(const SealedGrant& grant) {
   for (SecureLink& link : data_.links.all()) {
-    const bool same = link.stage == SecureStage::proving &&
-                      link.identity.player == grant.grant.player &&
-                      link.identity.slot == grant.grant.slot;
-    if (!same) continue;
+    if (link.stage != SecureStage::proving || link.identity != identity_of(grant)) continue;
     TransportEvent unheard;
     static_cast<void>(data_.links.close(link, RefuseReason::replaced, unheard));
     ++data_.counters.handshakes_replaced;
   }
 }
 
+bool SecureServerHandshake::hosts(std::uint64_t match) const {
+  return options_.matches != nullptr ? options_.matches->contains(match) : match == options_.match;
+}
+
 RefuseReason SecureServerHandshake::judge(const SecureHello& hello, SealedGrant& grant) const {
-  if (hello.token.match != options_.match) return RefuseReason::wrong_match;
+  if (!hosts(hello.token.match)) return RefuseReason::wrong_match;
   if (open_sealed(options_.backend_key, hello.token, grant) != Status::ok) {
     return RefuseReason::token_refused;
   }
@@ -84,7 +89,7 @@ bool SecureServerHandshake::challenge(SecureLink& link, const SecureHello& hello
   link.sealer = PacketSealer(keys.server);
   link.opener = PacketOpener(keys.client);
   data_.carrier.protect(link.connection, {keys.server_datagrams, keys.client_datagrams}, false);
-  link.identity = {true, grant.grant.match, grant.grant.player, grant.grant.slot};
+  link.identity = identity_of(grant);
   link.stage = SecureStage::proving;
   std::array<std::byte, k_challenge_bytes> answer{};
   ByteWriter writer(answer);
@@ -110,9 +115,8 @@ bool SecureServerHandshake::on_confirm(SecureLink& link, ByteView packet, Transp
   ++data_.counters.handshakes_completed;
   data_.carrier.trust(link.connection);
   for (SecureLink& other : data_.links.all()) {
-    const bool same = &other != &link && other.stage == SecureStage::open &&
-                      other.identity.player == link.identity.player &&
-                      other.identity.slot == link.identity.slot;
+    const bool same =
+        &other != &link && other.stage == SecureStage::open && other.identity == link.identity;
     if (!same) continue;
     // There is at most one: the player came back before the old connection was found dead.
     static_cast<void>(SecureLinks::open(link, event));

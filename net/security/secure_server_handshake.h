@@ -32,6 +32,7 @@ class SecureServerHandshake {
   void expire();
 
  private:
+  [[nodiscard]] bool hosts(std::uint64_t match) const;
   [[nodiscard]] RefuseReason judge(const SecureHello& hello, SealedGrant& grant) const;
   [[nodiscard]] bool challenge(SecureLink& link, const SecureHello& hello, const SealedGrant& grant,
                                ByteView packet, TransportEvent& event);

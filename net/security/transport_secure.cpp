@@ -5,7 +5,7 @@
 namespace lockstone::net {
 namespace {
 
-constexpr std::size_t k_max_connections = 1024;
+constexpr std::size_t k_max_connections = 4095;
 constexpr std::size_t k_max_client_connections = 8;
 
 }  // namespace
@@ -71,7 +71,7 @@ void SecureTransport::flush() {
 }
 
 void SecureTransport::disconnect(ConnectionId connection) {
-  if (SecureLink* link = impl_->data.links.find(connection)) SecureLinks::release(*link);
+  if (SecureLink* link = impl_->data.links.find(connection)) impl_->data.links.release(*link);
   impl_->data.carrier.disconnect(connection);
 }
 
@@ -103,7 +103,7 @@ bool SecureTransport::Impl::translate(const TransportEvent& source, TransportEve
   if (source.kind == TransportEventKind::received) return receive(*link, source, event);
   // A server's session hears of those alone who came in.
   const bool known = link->stage == SecureStage::open || !server;
-  SecureLinks::release(*link);
+  data.links.release(*link);
   event = source;
   return known;
 }

@@ -7,13 +7,15 @@
 namespace lockstone::net {
 
 TickRing::TickRing(std::size_t capacity, std::size_t record_bytes)
-    : record_bytes_(record_bytes), entries_(capacity), bytes_(capacity * record_bytes) {}
+    : record_bytes_(record_bytes),
+      entries_(capacity),
+      bytes_(new std::byte[capacity * record_bytes]) {}
 
 std::span<std::byte> TickRing::claim(std::uint64_t tick) {
   LKS_CHECK(!entries_.empty());
   const auto place = static_cast<std::size_t>(tick % entries_.size());
   entries_[place] = {};
-  return std::span(bytes_).subspan(place * record_bytes_, record_bytes_);
+  return {bytes_.get() + place * record_bytes_, record_bytes_};
 }
 
 void TickRing::commit(std::uint64_t tick, std::size_t size) {
@@ -40,7 +42,7 @@ bool TickRing::has(std::uint64_t tick) const {
 ByteView TickRing::find(std::uint64_t tick) const {
   if (!has(tick)) return {};
   const auto place = static_cast<std::size_t>(tick % entries_.size());
-  return ByteView(bytes_).subspan(place * record_bytes_, entries_[place].size);
+  return {bytes_.get() + place * record_bytes_, entries_[place].size};
 }
 
 }  // namespace lockstone::net

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,7 @@ class TickRing {
   };
   std::size_t record_bytes_ = 0;
   std::vector<Entry> entries_;
-  std::vector<std::byte> bytes_;
+  std::unique_ptr<std::byte[]> bytes_;  ///< not initialised: unused pages cost no memory
 };
 
 /// The last hashes of a stream, contiguous from tick 0 or a later one.

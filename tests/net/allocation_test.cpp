@@ -1,5 +1,6 @@
 // Server and client must not allocate once a match runs. This program counts its allocations.
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -7,13 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <lockstone/net/client.h>
+#include <lockstone/net/match_router.h>
 #include <lockstone/net/server.h>
 
 #include "tests/net/security/secure_fixture.h"
 #include "tools/toy/toy_simulation.h"
 
 namespace {
-std::size_t g_allocations = 0;
+std::atomic<std::size_t> g_allocations{0};
 }
 
 [[gnu::noinline]] void* operator new(std::size_t size) {
@@ -94,7 +96,11 @@ class Presses final : public InputSource {
   }
 };
 
-void expect_no_allocation(bool secure) {
+enum class Line { bare, secure, routed };
+
+void expect_no_allocation(Line line) {
+  const bool secure = line != Line::bare;
+
   lockstone::toy::ToyConfig toy;
   toy.player_count = 1;
   lockstone::toy::ToySimulation simulation(toy);
@@ -108,6 +114,11 @@ void expect_no_allocation(bool secure) {
     server_secure = test::serve_securely(server_end, random);
     client_secure = test::join_securely(client_end, 0, random);
   }
+  OpenMatches matches(test::backend_key(), 1);
+  std::unique_ptr<MatchRouter> router;
+  if (line == Line::routed) {
+    router = std::move(MatchRouter::create(*server_secure, matches, {.max_matches = 1})).value();
+  }
   Presses presses;
   ServerConfig server_config;
   server_config.insecure = !secure;
@@ -115,6 +126,7 @@ void expect_no_allocation(bool secure) {
   ServerParts server_parts;
   server_parts.transport = &server_end;
   if (secure) server_parts.transport = server_secure.get();
+  if (router != nullptr) server_parts.transport = router->open(test::k_match).value();
   server_parts.simulation = &simulation;
   const auto server = Server::create(server_config, server_parts).server;
   ClientConfig client_config;
@@ -130,7 +142,9 @@ void expect_no_allocation(bool secure) {
   std::int64_t now_us = 0;
   const auto run_until = [&](std::int64_t end_us) {
     for (; now_us < end_us; now_us += 4000) {
+      if (router != nullptr) router->pump(now_us);
       server->update(now_us);
+      if (router != nullptr) router->pump(now_us);
       client->update(now_us);
     }
   };
@@ -144,12 +158,17 @@ void expect_no_allocation(bool secure) {
 }
 
 TEST(Allocation, NothingIsAllocatedWhileAMatchRuns) {
-  expect_no_allocation(false);
+  expect_no_allocation(Line::bare);
 }
 
 TEST(Allocation, NothingIsAllocatedWhileAnEncryptedMatchRuns) {
   if (!security_available()) GTEST_SKIP() << "no libsodium";
-  expect_no_allocation(true);
+  expect_no_allocation(Line::secure);
+}
+
+TEST(Allocation, NothingIsAllocatedWhileARoutedMatchRuns) {
+  if (!security_available()) GTEST_SKIP() << "no libsodium";
+  expect_no_allocation(Line::routed);
 }
 
 }  // namespace

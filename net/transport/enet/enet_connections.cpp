@@ -7,7 +7,7 @@
 namespace lockstone::net {
 namespace {
 
-constexpr std::uint32_t k_index_bits = 10;  // of a ConnectionId; the rest is the generation
+constexpr std::uint32_t k_index_bits = 12;  // of a ConnectionId; the rest is the generation
 constexpr std::uint32_t k_index_mask = (1U << k_index_bits) - 1;
 static_assert(k_max_connections <= k_index_mask + 1);
 
@@ -44,11 +44,15 @@ EnetConnection* EnetConnections::find(ConnectionId connection) {
   return id_at(index) == connection ? &connections_[index] : nullptr;
 }
 
+// ENet sends to one peer after another, so that the next one is seldom far from the last.
 EnetConnection* EnetConnections::find_numbered(enet_uint32 connect_id) {
-  for (std::size_t i = 0; i < data_.host->peerCount; ++i) {
-    const ENetPeer& peer = data_.host->peers[i];
-    const bool used = peer.state != ENET_PEER_STATE_DISCONNECTED;
-    if (used && peer.connectID == connect_id) return &connections_[i];
+  const std::size_t count = data_.host->peerCount;
+  std::size_t index = last_numbered_;
+  for (std::size_t i = 0; i < count; ++i, index = index + 1 < count ? index + 1 : 0) {
+    const ENetPeer& peer = data_.host->peers[index];
+    if (peer.state == ENET_PEER_STATE_DISCONNECTED || peer.connectID != connect_id) continue;
+    last_numbered_ = index;
+    return &connections_[index];
   }
   return nullptr;
 }
@@ -63,9 +67,9 @@ ConnectionId EnetConnections::adopt(ENetPeer* peer) {
   connection.open = true;
   connection.ending = RefuseReason::none;
   connection.stats = {};
-  if (!data_.listens) prepare(connection);
-  // 22 bits of generation, never zero, so that no id is k_no_connection.
-  connection.generation = connection.generation + 1 >= (1U << 22) ? 1 : connection.generation + 1;
+  if (!data_.listens) prepare(connection, data_.checksum);
+  // 20 bits of generation, never zero, so that no id is k_no_connection.
+  connection.generation = connection.generation + 1 >= (1U << 20) ? 1 : connection.generation + 1;
   enet_peer_timeout(peer, k_timeout_doublings, timeout_ms_, timeout_ms_);
   return id_of(peer);
 }
@@ -113,7 +117,7 @@ std::optional<std::size_t> EnetConnections::oldest_closing() const {
   return oldest;
 }
 
-bool EnetConnections::make_place() {
+bool EnetConnections::make_place(const LinkChecksum& checksum) {
   if (is_crowded()) {
     ++data_.counters.crowded;
     return false;
@@ -130,17 +134,18 @@ bool EnetConnections::make_place() {
     if (place) free_place(*place);
   }
   if (place) {
-    prepare(connections_[*place]);
+    prepare(connections_[*place], checksum);
     connections_[*place].remote = data_.source;
   }
   return true;
 }
 
-void EnetConnections::prepare(EnetConnection& connection) const {
+void EnetConnections::prepare(EnetConnection& connection, const LinkChecksum& checksum) const {
   connection.trusted = connection.closing = false;
   connection.since_us = data_.now_us;
   connection.hearsay = RefuseReason::none;
   connection.commands = {};
+  connection.checksum = checksum;
   connection.seal = {};
   connection.datagrams = connection.packets = {};
   if (!data_.listens) return;

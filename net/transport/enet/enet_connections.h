@@ -19,7 +19,7 @@
 
 namespace lockstone::net {
 
-inline constexpr std::size_t k_max_connections = 1024;
+inline constexpr std::size_t k_max_connections = ENET_PROTOCOL_MAXIMUM_PEER_ID;
 
 struct EnetConnection {
   ENetPeer* peer = nullptr;
@@ -33,6 +33,7 @@ struct EnetConnection {
   RefuseReason hearsay = RefuseReason::none;  ///< why it was refused, by a word of unknown origin
   std::int64_t hearsay_us = 0;                ///< when that came
   CommandFilter commands;
+  LinkChecksum checksum{std::nullopt};  ///< of the match that it was asked for
   DatagramSeal seal;
   FloodWatch datagrams;
   FloodWatch packets;  ///< of which one datagram may hold many
@@ -71,7 +72,7 @@ class EnetConnections {
 
   /// Prepares the place that ENet will give to the source at hand, the first that is free. False:
   /// its address has as many as it may have.
-  [[nodiscard]] bool make_place();
+  [[nodiscard]] bool make_place(const LinkChecksum& checksum);
 
   /// A member of the match has other limits than a stranger.
   void trust(EnetConnection& connection) const;
@@ -95,7 +96,7 @@ class EnetConnections {
  private:
   [[nodiscard]] std::size_t index_of(const ENetPeer* peer) const;
   [[nodiscard]] ConnectionId id_at(std::size_t index) const;
-  void prepare(EnetConnection& connection) const;
+  void prepare(EnetConnection& connection, const LinkChecksum& checksum) const;
   void free_place(std::size_t index);
   [[nodiscard]] bool is_crowded() const;
   [[nodiscard]] std::optional<std::size_t> oldest_closing() const;
@@ -106,6 +107,7 @@ class EnetConnections {
   std::size_t strangers_per_address_;
   std::uint32_t timeout_ms_;
   std::vector<EnetConnection> connections_;  ///< by ENet's peer number
+  std::size_t last_numbered_ = 0;            ///< where find_numbered found one
   bool any_ending_ = false;
 };
 

@@ -60,8 +60,9 @@ struct EnetData {
   EnetCounters counters;
   LinkChecksum checksum{std::nullopt};
   std::uint32_t match_tag = 0;
-  DatagramSource source;           ///< of the datagram that is judged
-  std::unique_ptr<Ipv6Side> ipv6;  ///< null: IPv4 only
+  const OpenMatches* matches = nullptr;  ///< null: the one of `checksum` and `match_tag`
+  DatagramSource source;                 ///< of the datagram that is judged
+  std::unique_ptr<Ipv6Side> ipv6;        ///< null: IPv4 only
 };
 
 }  // namespace lockstone::net

@@ -24,7 +24,8 @@ bool EnetGate::admit_stranger(std::span<std::byte> datagram, const DatagramHead&
     ++data_.counters.strays;
     return false;
   }
-  if (!data_.checksum.verify(datagram, head, Word{})) {
+  const std::optional<LinkChecksum> checksum = checksum_for(datagram);
+  if (!checksum || !checksum->verify(datagram, head, Word{})) {
     ++data_.counters.forged;
     refusals_.refuse(*connect, datagram, head);
     return false;
@@ -39,7 +40,15 @@ bool EnetGate::admit_stranger(std::span<std::byte> datagram, const DatagramHead&
     return false;
   }
   admitted_ = word_of(datagram, head);
-  return connections_.holds_place(number) || connections_.make_place();
+  return connections_.holds_place(number) || connections_.make_place(*checksum);
+}
+
+// Nothing for a match that is not open.
+std::optional<LinkChecksum> EnetGate::checksum_for(ByteView connect) const {
+  if (data_.matches == nullptr) return data_.checksum;
+  const std::optional<LinkKey> key = data_.matches->link_key_of(read_match_tag(connect));
+  if (!key) return std::nullopt;
+  return LinkChecksum(key);
 }
 
 bool EnetGate::admit_peer(std::span<std::byte> datagram, const DatagramHead& head) {
@@ -92,7 +101,8 @@ bool EnetGate::authenticate(EnetConnection& connection, std::span<std::byte>& da
     ++data_.counters.replayed;
     return false;
   }
-  const bool bare = !connection.seal.required() && data_.checksum.verify(datagram, head, number);
+  const bool bare =
+      !connection.seal.required() && connection.checksum.verify(datagram, head, number);
   if (!bare) ++data_.counters.forged;
   return bare;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "net/transport/enet/enet_connections.h"
@@ -28,6 +29,7 @@ class EnetGate {
   static constexpr std::size_t k_remembered_connects = 1024;
 
   [[nodiscard]] bool admit_stranger(std::span<std::byte> datagram, const DatagramHead& head);
+  [[nodiscard]] std::optional<LinkChecksum> checksum_for(ByteView connect) const;
   [[nodiscard]] bool admit_peer(std::span<std::byte> datagram, const DatagramHead& head);
   [[nodiscard]] bool admit_commands(EnetConnection& connection, const ENetPeer& peer,
                                     ByteView commands);

@@ -25,7 +25,8 @@ Word EnetOutgoing::seal(std::size_t size) {
   const bool seals =
       receiver != nullptr && receiver->seal.sends() && sealed_size <= gathered_.size();
   const std::span<std::byte> whole = std::span(gathered_).first(seals ? sealed_size : size);
-  const Word word = seals ? receiver->seal.seal(whole) : data_.checksum.of(whole);
+  const LinkChecksum& checksum = receiver != nullptr ? receiver->checksum : data_.checksum;
+  const Word word = seals ? receiver->seal.seal(whole) : checksum.of(whole);
   std::memcpy(gathered_.data() + head->checksum_offset, word.data(), word.size());
   if (data_.ipv6 != nullptr && receiver != nullptr && !receiver->remote.is_ipv4()) {
     data_.ipv6->send_instead(*data_.host, receiver->remote, whole);

@@ -28,10 +28,15 @@ void EnetRefusals::refuse(const Word& connect, std::span<std::byte> request,
 RefuseReason EnetRefusals::reason_against(std::span<std::byte> request,
                                           const DatagramHead& head) const {
   // Without a key, anything that has not the open checksum may be of the other kind.
-  if (!data_.checksum.keyed() || open_checksum_.verify(request, head, Word{})) {
+  const bool keyed = data_.checksum.keyed() || data_.matches != nullptr;
+  if (!keyed || open_checksum_.verify(request, head, Word{})) {
     return RefuseReason::insecure_not_allowed;
   }
   const std::uint32_t tag = read_match_tag(request);
+  if (data_.matches != nullptr) {
+    return tag != 0 && !data_.matches->link_key_of(tag) ? RefuseReason::wrong_match
+                                                        : RefuseReason::none;
+  }
   const bool other = data_.match_tag != 0 && tag != 0 && tag != data_.match_tag;
   return other ? RefuseReason::wrong_match : RefuseReason::none;
 }

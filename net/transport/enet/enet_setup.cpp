@@ -34,6 +34,7 @@ EnetTransport::State::State(const EnetOptions& options)
       outgoing(data, connections) {
   data.checksum = LinkChecksum(options.link_key);
   data.match_tag = options.match_tag;
+  data.matches = options.matches;
 }
 
 EnetTransport::State::~State() {
@@ -98,7 +99,8 @@ Result<std::unique_ptr<EnetTransport::State>> EnetTransport::State::create(
   if (options.max_connections < 1 || options.max_connections > k_max_connections) {
     return Status::invalid_argument;
   }
-  if (options.link_key && !security_available()) return Status::incompatible;
+  if ((options.link_key || options.matches != nullptr) && !security_available())
+    return Status::incompatible;
   auto state = std::make_unique<State>(options);
   if (!state->data.library.ready()) return Status::io_error;
   state->data.listens = address != nullptr;

@@ -13,6 +13,7 @@
 
 #include "tests/support/await.h"
 #include "tools/lockstone/match/journal.h"
+#include "tools/lockstone/match/tick_lateness.h"
 
 namespace lockstone::tool {
 namespace {
@@ -26,6 +27,28 @@ MatchMetrics some_metrics() {
   metrics.players.resize(2);
   metrics.players[1].late_inputs = 3;
   return metrics;
+}
+
+HttpAnswer about_a_match(std::string_view request) {
+  return answer_about(request, some_metrics());
+}
+
+RoomsMetrics some_rooms() {
+  RoomsMetrics rooms;
+  rooms.state = "open";
+  for (const std::uint64_t number : {7U, 8U}) {
+    MatchMetrics match = some_metrics();
+    match.room = number;
+    add_up_present(rooms.sum, match);
+    rooms.matches.push_back(match);
+  }
+  MatchMetrics gone = some_metrics();
+  gone.ticks = 1000;
+  add_up(rooms.sum, gone);
+  rooms.ended = 1;
+  rooms.sum.socket.datagrams = 123;
+  rooms.router.lost = 9;
+  return rooms;
 }
 
 /// Somebody who asks.
@@ -43,13 +66,14 @@ class Caller {
   Caller(const Caller&) = delete;
   Caller& operator=(const Caller&) = delete;
 
-  std::string ask(MetricsPort& port, const std::string& path) const {
+  std::string ask(MetricsPort& port, const std::string& path,
+                  const MetricsPort::Answerer& answerer = about_a_match) const {
     const std::string request = "GET " + path + " HTTP/1.0\r\n\r\n";
     EXPECT_EQ(::send(socket_, request.data(), request.size(), MSG_NOSIGNAL),
               static_cast<ssize_t>(request.size()));
     std::string answer;
     test::await([&] {
-      port.serve(some_metrics);
+      port.serve(answerer);
       std::array<char, 4096> bytes{};
       const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
       if (count > 0) answer.append(bytes.data(), static_cast<std::size_t>(count));
@@ -142,11 +166,58 @@ TEST(Metrics, AreOnTheAddressThatIsAskedFor) {
   EXPECT_EQ(MetricsPort::open(0, "192.0.2.1"), nullptr);  // nobody's, by RFC 5737
 }
 
+TEST(Metrics, OfRoomsAreSumsAndFiguresOfEachMatch) {
+  const RoomsMetrics rooms = some_rooms();
+  const std::string text = rooms_for_prometheus(rooms);
+  EXPECT_TRUE(has(text, "\nlockstone_host_ticks 1120\n")) << text;
+  EXPECT_TRUE(has(text, "\nlockstone_host_spectators 2\n"));  // not of the one that is gone
+  EXPECT_TRUE(has(text, "\nlockstone_host_player_late_inputs 9\n"));
+  EXPECT_TRUE(has(text, "\nlockstone_host_datagrams 123\n"));
+  EXPECT_TRUE(has(text, "\nlockstone_host_packets_lost_in_queues 9\n"));
+  EXPECT_TRUE(has(text, "\nlockstone_ticks{match=\"7\"} 60\nlockstone_ticks{match=\"8\"} 60\n"));
+  EXPECT_FALSE(has(text, "lockstone_datagrams{"));
+  const std::string json = rooms_as_json(rooms);
+  EXPECT_TRUE(has(json, "\"matches_ended\": 1"));
+  EXPECT_TRUE(has(json, "\"match\": 8"));
+  EXPECT_TRUE(has(json, "\"player_late_inputs\": 9"));
+}
+
+TEST(Metrics, OfRoomsSayWhetherAThreadHangs) {
+  RoomsMetrics rooms = some_rooms();
+  EXPECT_STREQ(answer_about("GET /livez HTTP/1.1", rooms).status, "200 OK");
+  rooms.alive = false;
+  EXPECT_STREQ(answer_about("GET /livez HTTP/1.1", rooms).status, "503 Service Unavailable");
+}
+
+TEST(Metrics, ALongAnswerArrivesWhole) {
+  const auto port = MetricsPort::open(0);
+  ASSERT_NE(port, nullptr);
+  const std::string body(20'000'000, 'x');
+  const std::string answer =
+      Caller(*port).ask(*port, "/", [&body](std::string_view) { return HttpAnswer{.body = body}; });
+  EXPECT_TRUE(answer.ends_with("\r\n\r\n" + body));
+}
+
+TEST(TickLateness, MeasuresAgainstTheMostPunctualTick) {
+  TickLateness late;
+  for (std::int64_t tick = 0; tick < 100; ++tick)
+    late.note(5000 + tick * 1'000'000 / 60 + (tick == 50 ? 7000 : 250), 60);
+  EXPECT_EQ(late.ticks(), 100U);
+  EXPECT_EQ(late.percentile_us(50), 100);
+  EXPECT_EQ(late.percentile_us(99), 100);
+  EXPECT_NEAR(static_cast<double>(late.longest_us()), 6750, 2);
+  TickLateness both;
+  both.add(late);
+  both.add(late);
+  EXPECT_EQ(both.ticks(), 200U);
+  EXPECT_EQ(both.longest_us(), late.longest_us());
+}
+
 TEST(Metrics, DoNotWaitForWhoSaysNothing) {
   const auto port = MetricsPort::open(0);
   ASSERT_NE(port, nullptr);
   const Caller silent(*port);
-  port->serve(some_metrics);
+  port->serve(about_a_match);
   EXPECT_TRUE(has(Caller(*port).ask(*port, "/metrics"), "200 OK"));
 }
 

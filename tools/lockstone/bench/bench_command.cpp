@@ -4,6 +4,7 @@ namespace lockstone::tool {
 
 void add_bench_accuracy_command(CLI::App& bench, int& exit_code);
 void add_bench_general_command(CLI::App& bench, int& exit_code);
+void add_bench_hosting_command(CLI::App& bench, int& exit_code);
 void add_bench_numerics_command(CLI::App& bench, int& exit_code);
 void add_bench_queries_command(CLI::App& bench, int& exit_code);
 void add_bench_rollback_command(CLI::App& bench, int& exit_code);
@@ -18,6 +19,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   bench->require_subcommand(1);
   add_bench_accuracy_command(*bench, exit_code);
   add_bench_general_command(*bench, exit_code);
+#ifdef LOCKSTONE_WITH_ENET
+  add_bench_hosting_command(*bench, exit_code);
+#endif
   add_bench_numerics_command(*bench, exit_code);
   add_bench_queries_command(*bench, exit_code);
   add_bench_rollback_command(*bench, exit_code);

@@ -26,11 +26,11 @@ std::string time_text(std::int64_t unix_ms) {
 
 }  // namespace
 
-std::string journal_line(const JournalEntry& entry, std::uint16_t port, std::int64_t unix_ms) {
+std::string journal_line(const JournalEntry& entry, std::uint64_t match, std::int64_t unix_ms) {
   nlohmann::ordered_json json{{"time", time_text(unix_ms)},
                               {"level", level_of(entry.event)},
                               {"event", entry.event},
-                              {"match", port}};
+                              {"match", match}};
   if (entry.slot) json["player"] = *entry.slot;
   if (entry.tick) json["tick"] = *entry.tick;
   json["text"] = entry.text;
@@ -44,7 +44,7 @@ void Journal::write(const JournalEntry& entry) const {
   } else {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     const auto unix_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
-    fmt::print("{}\n", journal_line(entry, port_, unix_ms));
+    fmt::print("{}\n", journal_line(entry, match_, unix_ms));
   }
   std::fflush(stdout);
 }

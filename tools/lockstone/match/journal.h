@@ -16,19 +16,19 @@ struct JournalEntry {
 };
 
 /// `{"time": "2026-11-25T12:00:00.123Z", "level": "info", "event": …, "match": 7777, "text": …}`
-[[nodiscard]] std::string journal_line(const JournalEntry& entry, std::uint16_t port,
+[[nodiscard]] std::string journal_line(const JournalEntry& entry, std::uint64_t match,
                                        std::int64_t unix_ms);
 
 class Journal {
  public:
-  explicit Journal(bool json = false, std::uint16_t port = 0) : json_(json), port_(port) {}
+  explicit Journal(bool json = false, std::uint64_t match = 0) : json_(json), match_(match) {}
 
   /// Prints the line at once.
   void write(const JournalEntry& entry) const;
 
  private:
   bool json_;
-  std::uint16_t port_;  ///< of the match
+  std::uint64_t match_;  ///< its port, or, of one in a room, the number of its tokens
 };
 
 }  // namespace lockstone::tool

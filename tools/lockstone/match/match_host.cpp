@@ -13,13 +13,14 @@
 #include <fmt/format.h>
 
 #include <lockstone/hash.h>
-#include <lockstone/net/transport_secure.h>
 #include <lockstone/world.h>
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/file/resume.h"
 #include "tools/lockstone/match/journal.h"
 #include "tools/lockstone/match/match_log.h"
+#include "tools/lockstone/match/match_socket.h"
+#include "tools/lockstone/match/metrics_port.h"
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/support/build_text.h"
 #include "tools/lockstone/support/output_file.h"
@@ -67,9 +68,8 @@ struct MatchHost::Impl final : net::ServerObserver {
   const Games& games;
   MatchOptions options;
   Match match;
-  net::SystemRandom random;
-  std::unique_ptr<net::EnetTransport> transport;
-  std::unique_ptr<net::SecureTransport> secure;
+  std::unique_ptr<MatchSocket> socket;  ///< null: it has the line of its owner
+  net::Transport* line = nullptr;
   std::unique_ptr<net::Server> server;
   MatchLog log;
   Progress progress;
@@ -77,6 +77,7 @@ struct MatchHost::Impl final : net::ServerObserver {
   Stopwatch watch;
   MatchSummary summary;
   TickTimes times;
+  TickLateness lateness;
   std::uint64_t ticks_seen = 0;
   std::unique_ptr<MetricsPort> metrics_port;
   HostOrders wanted;
@@ -84,6 +85,7 @@ struct MatchHost::Impl final : net::ServerObserver {
   std::vector<TarEntry> bundle;              ///< of the first desync, without the log
 
   void say(const JournalEntry& entry) {
+    if (options.silent) return;
     progress.clear();
     journal.write(entry);
   }
@@ -95,6 +97,7 @@ struct MatchHost::Impl final : net::ServerObserver {
       summary.longest_seconds = std::max(summary.longest_seconds, now - times.last_tick);
     }
     times.last_tick = now;
+    lateness.note(static_cast<std::int64_t>(now * 1e6), match.simulation->info().tick_rate);
     summary.final_hash = hash.value_or(0);
     log.record(*match.simulation, tick, inputs, summary.final_hash);
   }
@@ -205,35 +208,24 @@ struct MatchHost::Impl final : net::ServerObserver {
 
   [[nodiscard]] bool set_up() {
     if (!may_write_files() || !make_simulation()) return false;
-    net::EnetOptions enet{.bind_address = options.bind, .port = options.port};
-    enet.max_connections = connections();
-    enet.max_connections_per_address = options.max_per_address;
-    if (options.fast) enet.limits = net::DatagramLimits::none();
-    if (options.key) {
-      enet.link_key = net::make_link_key(*options.key, options.match);
-      enet.match_tag = net::make_match_tag(options.match);
-    }
-    std::string problem;
-    auto listening = net::EnetTransport::listen(enet, &problem);
-    if (!listening) return refuse("cannot listen on " + problem);
-    transport = std::move(listening).value();
-    if (options.key && !encrypt()) return false;
+    if (line == nullptr && !open_socket()) return false;
     const Status status = log.open(options, *match.game, *match.simulation, match.config);
     if (status != Status::ok) {
       return refuse(fmt::format("cannot write {}: {}", options.record, to_string(status)));
     }
-    if (options.metrics_port != 0) {
+    if (options.metrics_port != 0 && socket != nullptr) {
       metrics_port = MetricsPort::open(options.metrics_port, options.metrics_bind);
       if (metrics_port == nullptr) return false;
     }
     std::array<std::byte, 16> unguessable{};
+    net::SystemRandom random;
     random.fill(unguessable);
     net::ServerConfig server_options = server_config(options, match.config, unguessable);
     server_options.resume_mask = resume_mask;
-    net::Server::Created created = net::Server::create(
-        server_options, {session_transport(), match.simulation.get(), nullptr, this});
+    net::Server::Created created =
+        net::Server::create(server_options, {line, match.simulation.get(), nullptr, this});
     server = std::move(created.server);
-    journal = Journal(options.json_log, transport->port());
+    journal = Journal(options.json_log, socket != nullptr ? socket->port() : options.match);
     if (server == nullptr) return refuse(std::string(to_string(created.error)));
     return true;
   }
@@ -244,22 +236,20 @@ struct MatchHost::Impl final : net::ServerObserver {
     return options.start.players + options.spectators + k_strangers;
   }
 
-  [[nodiscard]] bool encrypt() {
-    net::SecureServerOptions security;
-    security.backend_key = *options.key;
-    security.match = options.match;
-    security.max_connections = connections();
-    security.own_addresses = options.addresses;
-    security.unix_us_at_zero = unix_microseconds() - watch.microseconds();
-    auto created = net::SecureTransport::serve(*transport, security, random);
-    if (!created) return refuse(fmt::format("no encryption: {}", to_string(created.status())));
-    secure = std::move(created).value();
-    return true;
-  }
-
-  [[nodiscard]] net::Transport* session_transport() const {
-    if (secure != nullptr) return secure.get();
-    return transport.get();
+  [[nodiscard]] bool open_socket() {
+    SocketOptions asked;
+    asked.enet.bind_address = options.bind;
+    asked.enet.port = options.port;
+    asked.enet.max_connections = connections();
+    asked.enet.max_connections_per_address = options.max_per_address;
+    if (options.fast) asked.enet.limits = net::DatagramLimits::none();
+    asked.key = options.key;
+    asked.match = options.match;
+    asked.addresses = options.addresses;
+    asked.unix_us_at_zero = unix_microseconds() - watch.microseconds();
+    socket = MatchSocket::open(asked);
+    if (socket != nullptr) line = &socket->session();
+    return socket != nullptr;
   }
 
   static bool refuse(const std::string& why) {
@@ -271,27 +261,48 @@ struct MatchHost::Impl final : net::ServerObserver {
 MatchHost::MatchHost(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 MatchHost::~MatchHost() = default;
 
-std::unique_ptr<MatchHost> MatchHost::create(const Games& games, const MatchOptions& options) {
+std::unique_ptr<MatchHost> MatchHost::create(const Games& games, const MatchOptions& options,
+                                             net::Transport* line) {
   auto impl = std::make_unique<Impl>(games);
   impl->options = options;
+  impl->line = line;
   if (!impl->set_up()) return nullptr;
   return std::unique_ptr<MatchHost>(new MatchHost(std::move(impl)));
 }
 
 std::uint16_t MatchHost::port() const {
-  return impl_->transport->port();
+  return impl_->socket == nullptr ? std::uint16_t{0} : impl_->socket->port();
 }
 
-bool MatchHost::update() {
-  using namespace std::chrono_literals;
+bool MatchHost::begun() const {
+  return impl_->server->state() != net::ServerState::lobby;
+}
+
+const TickLateness& MatchHost::lateness() const {
+  return impl_->lateness;
+}
+
+void MatchHost::restart_lateness() {
+  impl_->lateness = {};
+}
+
+bool MatchHost::step() {
   Impl& impl = *impl_;
   impl.server->update(impl.watch.microseconds());
   if (impl.server->state() == net::ServerState::over) return false;
   if (impl.wanted.pause != impl.server->paused()) {
     impl.wanted.pause ? impl.server->pause() : impl.server->resume();
   }
+  return true;
+}
+
+bool MatchHost::update() {
+  using namespace std::chrono_literals;
+  Impl& impl = *impl_;
+  if (!step()) return false;
   if (impl.metrics_port != nullptr) {
-    impl.metrics_port->serve([this] { return metrics(); });
+    impl.metrics_port->serve(
+        [this](std::string_view request) { return answer_about(request, metrics()); });
   }
   // The transport does not wait: give the processor away when there was nothing to do.
   const bool busy = std::exchange(impl.ticks_seen, ticks_confirmed()) != ticks_confirmed();
@@ -362,6 +373,7 @@ std::uint64_t MatchHost::ticks_confirmed() const {
 MatchMetrics MatchHost::metrics() const {
   MatchMetrics metrics;
   metrics.port = port();
+  if (impl_->socket == nullptr) metrics.room = impl_->options.match;
   metrics.state = to_string(impl_->server->state());
   metrics.ready = !impl_->wanted.drain && impl_->server->state() <= net::ServerState::running;
   metrics.ticks = ticks_confirmed();
@@ -370,8 +382,10 @@ MatchMetrics MatchHost::metrics() const {
   metrics.desyncs = impl_->summary.desyncs;
   metrics.server = impl_->server->counters();
   metrics.connections = impl_->server->connections();
-  metrics.socket = impl_->transport->counters();
-  if (impl_->secure != nullptr) metrics.security = impl_->secure->counters();
+  if (impl_->socket != nullptr) {
+    metrics.socket = impl_->socket->socket_counters();
+    metrics.security = impl_->socket->security_counters();
+  }
   for (unsigned slot = 0; slot < impl_->match.simulation->info().player_count; ++slot) {
     metrics.players.push_back(impl_->server->stats(static_cast<std::uint8_t>(slot)));
   }

@@ -14,6 +14,7 @@
 #include <lockstone/simulation.h>
 
 #include "tools/lockstone/match/metrics.h"
+#include "tools/lockstone/match/tick_lateness.h"
 #include "tools/lockstone/support/console.h"
 #include "tools/tool/start_match.h"
 
@@ -43,6 +44,7 @@ struct MatchOptions {
   std::uint16_t metrics_port = 0;  ///< 0: none
   std::string metrics_bind = "127.0.0.1";
   bool json_log = false;                          ///< print JSON, one object a line
+  bool silent = false;                            ///< print nothing
   bool force = false;                             ///< replace files that are there
   std::optional<replay::SigningKey> signing_key;  ///< of the log; none: it is not signed
 };
@@ -62,15 +64,29 @@ struct MatchSummary {
 /// One match. Prints joins, leaves, refusals and desyncs as they come.
 class MatchHost {
  public:
-  /// Null, with a complaint, when it cannot be set up.
+  /// Null, with a complaint, when it cannot be set up. With `line`, which must outlive it, the
+  /// match has neither a socket nor a port for metrics, and is called by the number of its tokens.
   [[nodiscard]] static std::unique_ptr<MatchHost> create(const Games& games,
-                                                         const MatchOptions& options);
+                                                         const MatchOptions& options,
+                                                         net::Transport* line = nullptr);
   ~MatchHost();
 
+  /// 0 without a socket.
   [[nodiscard]] std::uint16_t port() const;
 
-  /// Does the work that is due; false once the match is over.
+  /// Does the work that is due, and rests a moment when there was none; false once the match is
+  /// over.
   [[nodiscard]] bool update();
+
+  /// As `update`, without rest, progress and metrics port.
+  [[nodiscard]] bool step();
+
+  /// The match has begun.
+  [[nodiscard]] bool begun() const;
+
+  /// How punctual the ticks were, since the beginning or the last restart.
+  [[nodiscard]] const TickLateness& lateness() const;
+  void restart_lateness();
 
   /// Ends the match after the ticks confirmed so far.
   void stop();

@@ -1,19 +1,10 @@
 #include "tools/lockstone/match/metrics.h"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
+#include <span>
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <netdb.h>
-#include <netinet/in.h>
 #include <nlohmann/json.hpp>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include "tools/lockstone/support/console.h"
 
 namespace lockstone::tool {
 namespace {
@@ -52,6 +43,7 @@ struct MatchFigure {
   const char* kind;
   std::uint64_t (*value)(const MatchMetrics&);
 };
+constexpr std::size_t k_own_figures = 10;  // the others are of the socket
 
 using M = MatchMetrics;
 constexpr std::array<MatchFigure, 29> k_match_figures{
@@ -112,16 +104,100 @@ constexpr std::array<ReasonFigure, 3> k_reason_figures{
      {"wrong_states", "verdict", net::k_verdicts,
       [](const M& m, std::size_t i) { return m.server.verdicts[i]; }, text_of<net::Verdict>}}};
 
-void close_socket(int& socket) {
-  if (socket >= 0) ::close(socket);
-  socket = -1;
+std::uint64_t number_of(const MatchMetrics& metrics) {
+  return metrics.room.value_or(metrics.port);
+}
+
+std::string type_line(std::string_view name, std::string_view kind) {
+  return fmt::format("# TYPE lockstone_{} {}\n", name, kind);
+}
+
+// The socket of one in a room is its host's.
+std::span<const MatchFigure> figures_of(bool in_room) {
+  return std::span(k_match_figures).first(in_room ? k_own_figures : k_match_figures.size());
+}
+
+void add_figures(const MatchMetrics& metrics, std::span<const MatchFigure> figures,
+                 nlohmann::ordered_json& json) {
+  for (const MatchFigure& figure : figures)
+    json[figure.name] = figure.value(metrics);
+  for (const ReasonFigure& figure : k_reason_figures) {
+    nlohmann::ordered_json& counts = json[figure.name] = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < figure.count; ++i) {
+      if (figure.value(metrics, i) > 0)
+        counts[std::string(figure.text(i))] = figure.value(metrics, i);
+    }
+  }
+}
+
+nlohmann::ordered_json json_of(const MatchMetrics& metrics) {
+  nlohmann::ordered_json players = nlohmann::ordered_json::array();
+  for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
+    nlohmann::ordered_json player{{"slot", slot},
+                                  {"present", ((metrics.present_mask >> slot) & 1) != 0}};
+    for (const PlayerFigure& figure : k_figures)
+      player[figure.name] = figure.value(metrics.players[slot]);
+    players.push_back(std::move(player));
+  }
+  nlohmann::ordered_json json{{metrics.room ? "match" : "port", number_of(metrics)},
+                              {"state", metrics.state},
+                              {"ready", metrics.ready}};
+  add_figures(metrics, figures_of(metrics.room.has_value()), json);
+  json["players"] = std::move(players);
+  return json;
+}
+
+bool is_counter(const PlayerFigure& figure) {
+  return std::string_view(figure.kind) == "counter";
+}
+
+struct HostFigure {
+  const char* name;
+  const char* kind;
+  std::uint64_t (*value)(const RoomsMetrics&);
+};
+
+using R = RoomsMetrics;
+constexpr std::array<HostFigure, 6> k_host_figures{
+    {{"matches_open", "gauge", [](const R& r) { return std::uint64_t{r.matches.size()}; }},
+     {"matches_running", "gauge", [](const R& r) { return r.running; }},
+     {"matches_ended", "counter", [](const R& r) { return r.ended; }},
+     {"connections_homeless", "counter", [](const R& r) { return r.router.homeless; }},
+     {"packets_lost_in_queues", "counter", [](const R& r) { return r.router.lost; }},
+     {"connections_broken_by_queues", "counter", [](const R& r) { return r.router.broken; }}}};
+
+// All that is the process's: sums over its matches, and its socket.
+std::string host_for_prometheus(const RoomsMetrics& rooms) {
+  std::string text;
+  const auto figure_line = [&text](const std::string& name, std::string_view kind,
+                                   std::uint64_t value) {
+    text += type_line("host_" + name, kind) + fmt::format("lockstone_host_{} {}\n", name, value);
+  };
+  for (const HostFigure& figure : k_host_figures)
+    figure_line(figure.name, figure.kind, figure.value(rooms));
+  for (const MatchFigure& figure : k_match_figures)
+    figure_line(figure.name, figure.kind, figure.value(rooms.sum));
+  for (const ReasonFigure& figure : k_reason_figures) {
+    text += type_line(fmt::format("host_{}", figure.name), "counter");
+    for (std::size_t i = 0; i < figure.count; ++i) {
+      text += fmt::format("lockstone_host_{}{{{}=\"{}\"}} {}\n", figure.name, figure.label,
+                          figure.text(i), figure.value(rooms.sum, i));
+    }
+  }
+  for (const PlayerFigure& figure : k_figures) {
+    if (!is_counter(figure) || rooms.sum.players.empty()) continue;
+    figure_line(fmt::format("player_{}", figure.name), figure.kind,
+                static_cast<std::uint64_t>(figure.value(rooms.sum.players[0])));
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string metrics_as_text(const MatchMetrics& metrics) {
-  std::string text = fmt::format("port {}: {} ticks, {} spectators, {} desyncs\n", metrics.port,
-                                 metrics.ticks, metrics.spectators, metrics.desyncs);
+  std::string text =
+      fmt::format("{} {}: {} ticks, {} spectators, {} desyncs\n", metrics.room ? "match" : "port",
+                  number_of(metrics), metrics.ticks, metrics.spectators, metrics.desyncs);
   for (const ReasonFigure& figure : k_reason_figures) {
     for (std::size_t i = 0; i < figure.count; ++i) {
       if (figure.value(metrics, i) == 0) continue;
@@ -139,131 +215,138 @@ std::string metrics_as_text(const MatchMetrics& metrics) {
 }
 
 std::string metrics_as_json(const MatchMetrics& metrics) {
-  nlohmann::ordered_json players = nlohmann::ordered_json::array();
-  for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
-    nlohmann::ordered_json player{{"slot", slot},
-                                  {"present", ((metrics.present_mask >> slot) & 1) != 0}};
-    for (const PlayerFigure& figure : k_figures)
-      player[figure.name] = figure.value(metrics.players[slot]);
-    players.push_back(std::move(player));
-  }
-  nlohmann::ordered_json json{
-      {"port", metrics.port}, {"state", metrics.state}, {"ready", metrics.ready}};
-  for (const MatchFigure& figure : k_match_figures)
-    json[figure.name] = figure.value(metrics);
-  for (const ReasonFigure& figure : k_reason_figures) {
-    nlohmann::ordered_json& counts = json[figure.name] = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < figure.count; ++i) {
-      if (figure.value(metrics, i) > 0)
-        counts[std::string(figure.text(i))] = figure.value(metrics, i);
-    }
-  }
-  json["players"] = std::move(players);
-  return json.dump(2) + '\n';
+  return json_of(metrics).dump(2) + '\n';
 }
 
 std::string metrics_for_prometheus(const MatchMetrics& metrics) {
   std::string text;
   for (const MatchFigure& figure : k_match_figures) {
     text += fmt::format("# TYPE lockstone_{0} {1}\nlockstone_{0}{{match=\"{2}\"}} {3}\n",
-                        figure.name, figure.kind, metrics.port, figure.value(metrics));
+                        figure.name, figure.kind, number_of(metrics), figure.value(metrics));
   }
   for (const ReasonFigure& figure : k_reason_figures) {
     text += fmt::format("# TYPE lockstone_{} counter\n", figure.name);
     for (std::size_t i = 0; i < figure.count; ++i) {
-      text += fmt::format("lockstone_{}{{match=\"{}\",{}=\"{}\"}} {}\n", figure.name, metrics.port,
-                          figure.label, figure.text(i), figure.value(metrics, i));
+      text +=
+          fmt::format("lockstone_{}{{match=\"{}\",{}=\"{}\"}} {}\n", figure.name,
+                      number_of(metrics), figure.label, figure.text(i), figure.value(metrics, i));
     }
   }
   for (const PlayerFigure& figure : k_figures) {
     text += fmt::format("# TYPE lockstone_player_{} {}\n", figure.name, figure.kind);
     for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
       text += fmt::format("lockstone_player_{}{{match=\"{}\",player=\"{}\"}} {}\n", figure.name,
-                          metrics.port, slot, figure.value(metrics.players[slot]));
+                          number_of(metrics), slot, figure.value(metrics.players[slot]));
     }
   }
   return text;
 }
 
-std::unique_ptr<MetricsPort> MetricsPort::open(std::uint16_t port, const std::string& address) {
-  addrinfo hints{};
-  hints.ai_flags = AI_NUMERICHOST | AI_PASSIVE;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
-    complain(fmt::format("no metrics: {} is no numeric address", address));
-    return nullptr;
+void add_up(MatchMetrics& sum, const MatchMetrics& one) {
+  sum.ticks += one.ticks;
+  sum.desyncs += one.desyncs;
+  sum.server.malformed_packets += one.server.malformed_packets;
+  sum.server.turned_away += one.server.turned_away;
+  sum.server.resyncs += one.server.resyncs;
+  sum.server.expelled += one.server.expelled;
+  const auto add = [](auto& to, const auto& from) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      to[i] += from[i];
+  };
+  add(sum.server.refused, one.server.refused);
+  add(sum.server.left, one.server.left);
+  add(sum.server.verdicts, one.server.verdicts);
+  sum.players.resize(1);
+  net::PlayerStats& all = sum.players[0];
+  for (const net::PlayerStats& player : one.players) {
+    all.bytes_sent += player.bytes_sent;
+    all.bytes_received += player.bytes_received;
+    all.packets_sent += player.packets_sent;
+    all.packets_received += player.packets_received;
+    all.late_inputs += player.late_inputs;
+    all.substituted_inputs += player.substituted_inputs;
+    all.hashes_compared += player.hashes_compared;
+    all.hashes_equal += player.hashes_equal;
+    all.malformed_packets += player.malformed_packets;
+    all.entries += player.entries;
+    all.resends += player.resends;
   }
-  const int socket = ::socket(found->ai_family, SOCK_STREAM, 0);
-  const int yes = 1;
-  const bool ok = socket >= 0 &&
-                  ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
-                  ::bind(socket, found->ai_addr, found->ai_addrlen) == 0 &&
-                  ::listen(socket, 4) == 0 && ::fcntl(socket, F_SETFL, O_NONBLOCK) == 0;
-  const int error = errno;
-  ::freeaddrinfo(found);
-  if (ok) return std::unique_ptr<MetricsPort>(new MetricsPort(socket));
-  complain(fmt::format("no metrics on {} port {}: {}", address, port, std::strerror(error)));
-  if (socket >= 0) ::close(socket);
-  return nullptr;
 }
 
-// The port is in the same place for both families.
-std::uint16_t MetricsPort::port() const {
-  sockaddr_storage address{};
-  socklen_t bytes = sizeof address;
-  ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &bytes);
-  return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
+void add_up_present(MatchMetrics& sum, const MatchMetrics& one) {
+  add_up(sum, one);
+  sum.spectators += one.spectators;
+  sum.connections.greeting += one.connections.greeting;
+  sum.connections.players += one.connections.players;
+  sum.connections.condemned += one.connections.condemned;
 }
 
-MetricsPort::~MetricsPort() {
-  close_socket(client_);
-  close_socket(socket_);
-}
-
-void MetricsPort::serve(const std::function<MatchMetrics()>& metrics) {
-  constexpr std::size_t k_longest_request = 4096;
-  if (const int next = ::accept(socket_, nullptr, nullptr); next >= 0) {
-    close_socket(client_);  // has been silent until now: the next in line shall not wait for it
-    client_ = next;
-    ::fcntl(client_, F_SETFL, O_NONBLOCK);
-    request_.clear();
+std::string rooms_for_prometheus(const RoomsMetrics& rooms) {
+  std::string text = host_for_prometheus(rooms);
+  for (const MatchFigure& figure : figures_of(true)) {
+    text += type_line(figure.name, figure.kind);
+    for (const MatchMetrics& match : rooms.matches) {
+      text += fmt::format("lockstone_{}{{match=\"{}\"}} {}\n", figure.name, number_of(match),
+                          figure.value(match));
+    }
   }
-  if (client_ < 0) return;
-  std::array<char, 1024> bytes{};
-  const ssize_t count = ::recv(client_, bytes.data(), bytes.size(), 0);
-  if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
-  if (count > 0) request_.append(bytes.data(), static_cast<std::size_t>(count));
-  const bool whole = request_.find("\r\n\r\n") != std::string::npos;
-  if (whole) answer(metrics, request_);
-  if (whole || count <= 0 || request_.size() > k_longest_request) close_socket(client_);
+  return text;
 }
 
-// An answer that does not fit into the system's buffer at once is cut: a scraper asks again.
-void MetricsPort::answer(const std::function<MatchMetrics()>& metrics, std::string_view request) {
-  std::string body;
-  const char* status = "200 OK";
-  const char* type = "text/plain; charset=utf-8";
-  if (request.rfind("GET /metrics", 0) == 0) {
-    body = metrics_for_prometheus(metrics());
-    type = "text/plain; version=0.0.4";
-  } else if (request.rfind("GET /stats.json", 0) == 0) {
-    body = metrics_as_json(metrics());
-    type = "application/json";
-  } else if (request.rfind("GET /livez", 0) == 0) {
-    body = "ok\n";
-  } else if (request.rfind("GET /readyz", 0) == 0) {
-    const MatchMetrics now = metrics();
-    body = fmt::format("{}\n", now.state);
-    if (!now.ready) status = "503 Service Unavailable";
+std::string rooms_as_json(const RoomsMetrics& rooms) {
+  nlohmann::ordered_json json{{"state", rooms.state}, {"ready", rooms.ready}};
+  for (const HostFigure& figure : k_host_figures)
+    json[figure.name] = figure.value(rooms);
+  nlohmann::ordered_json& sum = json["sum"] = nlohmann::ordered_json::object();
+  add_figures(rooms.sum, k_match_figures, sum);
+  for (const PlayerFigure& figure : k_figures) {
+    if (!is_counter(figure) || rooms.sum.players.empty()) continue;
+    sum[fmt::format("player_{}", figure.name)] = figure.value(rooms.sum.players[0]);
+  }
+  nlohmann::ordered_json& matches = json["matches"] = nlohmann::ordered_json::array();
+  for (const MatchMetrics& match : rooms.matches)
+    matches.push_back(json_of(match));
+  return json.dump(2) + '\n';
+}
+
+HttpAnswer answer_about(std::string_view request, const RoomsMetrics& rooms) {
+  HttpAnswer answer;
+  if (request.starts_with("GET /metrics")) {
+    answer.body = rooms_for_prometheus(rooms);
+    answer.type = "text/plain; version=0.0.4";
+  } else if (request.starts_with("GET /stats.json")) {
+    answer.body = rooms_as_json(rooms);
+    answer.type = "application/json";
+  } else if (request.starts_with("GET /livez")) {
+    answer.body = rooms.alive ? "ok\n" : "a thread hangs\n";
+    if (!rooms.alive) answer.status = "503 Service Unavailable";
+  } else if (request.starts_with("GET /readyz")) {
+    answer.body = fmt::format("{}\n", rooms.state);
+    if (!rooms.ready) answer.status = "503 Service Unavailable";
   } else {
-    body = metrics_as_text(metrics());
+    for (const MatchMetrics& match : rooms.matches)
+      answer.body += metrics_as_text(match);
   }
-  const std::string head = fmt::format(
-      "HTTP/1.0 {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n", status,
-      type, body.size());
-  const std::string all = head + body;
-  static_cast<void>(::send(client_, all.data(), all.size(), MSG_NOSIGNAL));
+  return answer;
+}
+
+HttpAnswer answer_about(std::string_view request, const MatchMetrics& metrics) {
+  HttpAnswer answer;
+  if (request.starts_with("GET /metrics")) {
+    answer.body = metrics_for_prometheus(metrics);
+    answer.type = "text/plain; version=0.0.4";
+  } else if (request.starts_with("GET /stats.json")) {
+    answer.body = metrics_as_json(metrics);
+    answer.type = "application/json";
+  } else if (request.starts_with("GET /livez")) {
+    answer.body = "ok\n";
+  } else if (request.starts_with("GET /readyz")) {
+    answer.body = fmt::format("{}\n", metrics.state);
+    if (!metrics.ready) answer.status = "503 Service Unavailable";
+  } else {
+    answer.body = metrics_as_text(metrics);
+  }
+  return answer;
 }
 
 }  // namespace lockstone::tool

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -9,9 +10,11 @@
 
 #include "tools/lockstone/commands.h"
 #include "tools/lockstone/logs/file/log_file.h"
+#include "tools/lockstone/match/agones.h"
 #include "tools/lockstone/match/journal.h"
 #include "tools/lockstone/match/match_host.h"
 #include "tools/lockstone/match/match_options.h"
+#include "tools/lockstone/match/rooms.h"
 #include "tools/lockstone/match/secrets.h"
 #include "tools/lockstone/match/servers.h"
 #include "tools/lockstone/support/console.h"
@@ -25,7 +28,9 @@ struct ServeOptions {
   MatchOptions match;
   std::string policy = "deadline";
   std::string on_desync = "resync";
-  unsigned matches = 1;
+  std::optional<unsigned> matches;
+  RoomsOptions rooms{.rooms = 0};
+  bool agones = false;
   std::string key;
   std::string sign;
   std::vector<std::string> addresses;
@@ -57,9 +62,15 @@ bool set_signing(ServeOptions& options) {
   return options.match.signing_key.has_value();
 }
 
-int run_match(MatchHost& host, bool drains) {
+// `agones` may be null.
+int run_match(MatchHost& host, bool drains, Agones* agones) {
   bool stopping = false;
+  bool begun = false;
   while (host.update()) {
+    if (agones != nullptr) {
+      agones->beat();
+      if (host.begun() && !std::exchange(begun, true)) agones->match_began();
+    }
     if (!interrupted() || stopping) continue;
     if (drains && asked_to_end()) {
       host.drain();
@@ -69,6 +80,7 @@ int run_match(MatchHost& host, bool drains) {
     stopping = true;
   }
   const MatchSummary summary = host.finish();
+  if (begun) agones->match_ended(false);
   host.say_summary(summary);
   if (summary.desyncs > 0) return k_different;
   return summary.record_status == Status::ok ? k_ok : k_unavailable;
@@ -77,7 +89,7 @@ int run_match(MatchHost& host, bool drains) {
 // The options of one of several matches: ports count up, files get the number as an ending.
 MatchOptions options_of(const ServeOptions& options, unsigned index) {
   MatchOptions match = options.match;
-  if (options.matches == 1) return match;
+  if (options.matches.value_or(1) == 1) return match;
   if (match.port != 0) match.port = static_cast<std::uint16_t>(match.port + index);
   if (match.metrics_port != 0) {
     match.metrics_port = static_cast<std::uint16_t>(match.metrics_port + index);
@@ -91,14 +103,29 @@ MatchOptions options_of(const ServeOptions& options, unsigned index) {
 // Each match has ports of its own, and they must exist.
 int check_matches(const ServeOptions& options) {
   constexpr unsigned k_last_port = 65535;
-  for (const std::uint16_t port : {options.match.port, options.match.metrics_port}) {
-    if (port == 0 || port + options.matches - 1 <= k_last_port) continue;
-    complain(fmt::format("{} matches from port {} on: there is none above {}", options.matches,
-                         port, k_last_port));
+  constexpr unsigned k_most = 64;
+  const unsigned matches = options.matches.value_or(1);
+  if (matches < 1 || matches > k_most) {
+    complain(fmt::format("--matches is {}; without --rooms it must be 1 … {}", matches, k_most));
     return k_usage;
   }
-  if (options.matches == 1 || options.match.resume.empty()) return k_ok;
+  for (const std::uint16_t port : {options.match.port, options.match.metrics_port}) {
+    if (port == 0 || port + matches - 1 <= k_last_port) continue;
+    complain(fmt::format("{} matches from port {} on: there is none above {}", matches, port,
+                         k_last_port));
+    return k_usage;
+  }
+  if (matches == 1 || options.match.resume.empty()) return k_ok;
   complain("--resume is for one match");
+  return k_usage;
+}
+
+// Rooms share a port, so that the tokens must name the match.
+int check_rooms(const ServeOptions& options) {
+  const bool possible =
+      !options.match.insecure && options.match.resume.empty() && !options.match.fast;
+  if (possible) return k_ok;
+  complain("--rooms needs --key, and excludes --insecure, --resume and --fast");
   return k_usage;
 }
 
@@ -109,6 +136,58 @@ void remove_brackets(std::string& address) {
   if (bracketed && ipv6) address = address.substr(1, address.size() - 2);
 }
 
+void say_listening(const ServeOptions& options, std::uint16_t port) {
+  const net::HostPort where{options.match.bind, port};
+  Journal(options.match.json_log, port)
+      .write({"listening", fmt::format("listening on {}", where.to_text())});
+}
+
+int serve_ports(const Games& games, const ServeOptions& options, Agones* agones) {
+  std::vector<std::unique_ptr<MatchHost>> hosts;
+  for (unsigned i = 0; i < options.matches.value_or(1); ++i) {
+    hosts.push_back(MatchHost::create(games, options_of(options, i)));
+    if (hosts.back() == nullptr) return k_unavailable;
+    say_listening(options, hosts.back()->port());
+  }
+  if (agones != nullptr) agones->ready();
+  std::vector<int> exits(hosts.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 1; i < hosts.size(); ++i)
+    threads.emplace_back([&hosts, &exits, i, &options, agones] {
+      exits[i] = run_match(*hosts[i], options.drain, agones);
+    });
+  exits[0] = run_match(*hosts[0], options.drain, agones);
+  for (std::thread& thread : threads)
+    thread.join();
+  return *std::max_element(exits.begin(), exits.end());
+}
+
+// The main thread answers signals and scrapers.
+int serve_rooms(const Games& games, const ServeOptions& options, Agones* agones) {
+  std::unique_ptr<MetricsPort> metrics_port;
+  if (options.match.metrics_port != 0) {
+    metrics_port = MetricsPort::open(options.match.metrics_port, options.match.metrics_bind);
+    if (metrics_port == nullptr) return k_unavailable;
+  }
+  RoomsOptions wanted = options.rooms;
+  wanted.matches = options.matches.value_or(0);
+  wanted.agones = agones;
+  const std::unique_ptr<Rooms> rooms = Rooms::open(games, options.match, wanted);
+  if (rooms == nullptr) return k_unavailable;
+  say_listening(options, rooms->port());
+  if (agones != nullptr) agones->ready();
+  while (!rooms->over()) {
+    if (interrupted()) options.drain&& asked_to_end() ? rooms->drain() : rooms->stop();
+    if (metrics_port != nullptr) {
+      metrics_port->serve(
+          [&rooms](std::string_view request) { return answer_about(request, rooms->metrics()); });
+    }
+    if (agones != nullptr && rooms->alive()) agones->beat();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return rooms->finish();
+}
+
 int serve(const Games& games, ServeOptions options) {
   remove_brackets(options.match.bind);
   remove_brackets(options.match.metrics_bind);
@@ -117,27 +196,22 @@ int serve(const Games& games, ServeOptions options) {
   options.match.desync_policy = options.on_desync == "kick"     ? net::DesyncPolicy::kick
                                 : options.on_desync == "resync" ? net::DesyncPolicy::resync
                                                                 : net::DesyncPolicy::end_match;
-  if (const int code = set_security(options); code != k_ok) return code;
-  if (const int code = check_matches(options); code != k_ok) return code;
-  if (!set_signing(options)) return k_usage;
-  catch_interrupts();
-  std::vector<std::unique_ptr<MatchHost>> hosts;
-  for (unsigned i = 0; i < options.matches; ++i) {
-    hosts.push_back(MatchHost::create(games, options_of(options, i)));
-    if (hosts.back() == nullptr) return k_unavailable;
-    const net::HostPort where{options.match.bind, hosts.back()->port()};
-    Journal(options.match.json_log, where.port)
-        .write({"listening", fmt::format("listening on {}", where.to_text())});
+  const bool rooms = options.rooms.rooms > 0;
+  if (const int code = rooms ? check_rooms(options) : check_matches(options); code != k_ok) {
+    return code;
   }
-  std::vector<int> exits(hosts.size());
-  std::vector<std::thread> threads;
-  for (std::size_t i = 1; i < hosts.size(); ++i)
-    threads.emplace_back(
-        [&hosts, &exits, i, &options] { exits[i] = run_match(*hosts[i], options.drain); });
-  exits[0] = run_match(*hosts[0], options.drain);
-  for (std::thread& thread : threads)
-    thread.join();
-  return *std::max_element(exits.begin(), exits.end());
+  if (const int code = set_security(options); code != k_ok) return code;
+  if (!set_signing(options)) return k_usage;
+  std::unique_ptr<Agones> agones;
+  if (options.agones) {
+    agones = Agones::from_environment();
+    if (agones == nullptr) return k_usage;
+  }
+  catch_interrupts();
+  const int code =
+      rooms ? serve_rooms(games, options, agones.get()) : serve_ports(games, options, agones.get());
+  if (agones != nullptr) agones->shutdown();
+  return code;
 }
 
 void add_service_options(CLI::App& command, ServeOptions& options) {
@@ -148,6 +222,25 @@ void add_service_options(CLI::App& command, ServeOptions& options) {
       .add_option("--log-format", options.log_format,
                   "Print lines for people, or JSON, one object a line")
       ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  command.add_flag("--agones", options.agones,
+                   "Tell the sidecar of Agones: ready, health, allocated while a match runs, "
+                   "shutdown");
+}
+
+void add_rooms_options(CLI::App& command, ServeOptions& options) {
+  command.add_option("--matches", options.matches,
+                     "Host this many matches, at most 64, on ports that follow; default: 1. With "
+                     "--rooms: end after this many; default: never");
+  command
+      .add_option("--rooms", options.rooms.rooms,
+                  "Host this many matches at once on one port, and a new one after each that ends. "
+                  "Tokens name the match, from --match on")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--workers", options.rooms.workers,
+                  "Threads that run the matches of rooms; 0: one less than the processors")
+      ->check(CLI::Range(0, 256))
       ->capture_default_str();
 }
 
@@ -222,9 +315,7 @@ void add_serve_command(CLI::App& app, Tool& tool) {
       ->add_option("--metrics-bind", options->match.metrics_bind,
                    "Numeric address for that; anybody who reaches it may read")
       ->capture_default_str();
-  command->add_option("--matches", options->matches, "Host this many matches, on ports that follow")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+  add_rooms_options(*command, *options);
   add_service_options(*command, *options);
   add_security_options(*command, *options);
   command->callback([options, &tool] { tool.exit_code = serve(tool.games, *options); });

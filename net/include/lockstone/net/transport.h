@@ -40,6 +40,7 @@ struct PeerIdentity {
   std::uint64_t match = 0;
   std::uint64_t player = 0;  ///< the backend's number for the account
   std::uint8_t slot = 0;     ///< the seat it may take, or k_spectator_slot
+  friend bool operator==(const PeerIdentity&, const PeerIdentity&) = default;
 };
 
 enum class TransportEventKind : std::uint8_t { connected, disconnected, received };

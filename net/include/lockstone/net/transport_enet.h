@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <lockstone/net/keys.h>
+#include <lockstone/net/open_matches.h>
 #include <lockstone/net/transport.h>
 
 namespace lockstone::net {
@@ -34,7 +35,7 @@ struct EnetOptions {
   /// Numeric, IPv4 or IPv6. `::` stands for all addresses of both, `0.0.0.0` for those of IPv4.
   std::string bind_address = "127.0.0.1";
   std::uint16_t port = 0;            ///< 0: the system chooses, see EnetTransport::port
-  std::size_t max_connections = 32;  ///< 1 … 1024
+  std::size_t max_connections = 32;  ///< 1 … 4095
   /// Players behind one router share an address. IPv6 addresses of one /64 count as one.
   std::size_t max_connections_per_address = 8;
   std::size_t max_strangers_per_address = 4;  ///< of these, before `trust`
@@ -45,6 +46,9 @@ struct EnetOptions {
   std::optional<LinkKey> link_key = std::nullopt;  ///< none: open to everybody
   /// make_match_tag of the match: a client of another match is told so. 0: it hears nothing.
   std::uint32_t match_tag = 0;
+  /// Instead of key and tag, of a listening socket: a request for a connection has the tag and the
+  /// checksum of one of these matches. Must outlive the transport.
+  const OpenMatches* matches = nullptr;
   DatagramLimits limits = {};      ///< of those who call a listening socket
   RandomSource* random = nullptr;  ///< for numbers of connections; null: the system's
 };

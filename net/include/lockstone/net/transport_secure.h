@@ -10,17 +10,20 @@
 #include <memory>
 
 #include <lockstone/net/keys.h>
+#include <lockstone/net/open_matches.h>
 #include <lockstone/net/token.h>
 #include <lockstone/net/transport.h>
 
 namespace lockstone::net {
 
 struct SecureServerOptions {
-  Key backend_key;           ///< seals the tokens
-  std::uint64_t match = 0;   ///< tokens of other matches are refused
+  Key backend_key;          ///< seals the tokens
+  std::uint64_t match = 0;  ///< tokens of other matches are refused
+  /// Instead of `match`: tokens of all these are good. Must outlive the transport. Null: `match`.
+  const OpenMatches* matches = nullptr;
   ServerList own_addresses;  ///< one of them must be in a token that lists servers; none: no check
   std::int64_t unix_us_at_zero = 0;       ///< the wall clock when the transport's time was 0
-  std::size_t max_connections = 32;       ///< further ones are disconnected at once; 1 … 1024
+  std::size_t max_connections = 32;       ///< further ones are disconnected at once; 1 … 4095
   std::int64_t handshake_us = 5'000'000;  ///< for the token and its proof
 };
 

@@ -73,6 +73,7 @@ void InputIntake::take_hashes(std::uint8_t slot, const Inputs& message) {
 }
 
 void InputIntake::fill_next(std::span<std::byte> record) {
+  std::fill(record.begin(), record.end(), std::byte{0});  // bits that belong to no slot
   for (std::uint8_t slot = 0; slot < data_.roster.seats().size(); ++slot)
     fill_slot(record, slot);
 }

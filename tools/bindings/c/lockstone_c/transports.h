@@ -21,7 +21,7 @@ LKS_API void lks_transport_destroy(lks_transport* transport);
 typedef struct lks_enet_def {
   uint32_t size;
   uint32_t port;                        /* 0: the system chooses, see lks_enet_port */
-  uint32_t max_connections;             /* 1 … 1024 */
+  uint32_t max_connections;             /* 1 … 4095 */
   uint32_t max_connections_per_address; /* players behind one router share an address */
   uint32_t
       unlimited; /* 1: no limits on a peer's traffic, for a match that runs as fast as it can */
