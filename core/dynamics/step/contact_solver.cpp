@@ -7,6 +7,7 @@
 
 #include "core/base/reserved.h"
 #include "core/dynamics/contact/recycling_pose.h"
+#include "core/dynamics/state/limits.h"
 
 namespace lockstone {
 

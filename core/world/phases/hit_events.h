@@ -9,6 +9,7 @@
 #include <lockstone/event.h>
 
 #include "core/dynamics/impact/impact_total.h"
+#include "core/dynamics/state/limits.h"
 #include "core/dynamics/step/contacts/impulse_totals.h"
 #include "core/world/data/world_data.h"
 #include "core/world/phases/step_records.h"

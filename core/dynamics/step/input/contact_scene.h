@@ -1,7 +1,6 @@
 // The inputs of a tick's contact solver, and how it numbers bodies.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -21,12 +20,6 @@ struct WatchedContact {
   std::uint32_t record = 0;
   SolverVelocity hit_speed{};
 };
-
-/// The contacts that one tick can tell hits of: many more than bodies have fast impacts at once.
-/// Where there are more, the last ones are left out.
-[[nodiscard]] constexpr std::size_t most_hits(std::size_t body_capacity) {
-  return 2 * body_capacity;
-}
 
 /// The solver's inputs from a world. The manifold and the surfaces of record i have the number
 /// manifold_ids[i]; those of triggers are left out.

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/dynamics/body/inertia.h"
+#include "core/dynamics/state/limits.h"
 #include "core/world/derived/quantities.h"
 
 namespace lockstone {
