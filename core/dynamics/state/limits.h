@@ -1,6 +1,7 @@
 // Ranges that commands, world definitions and snapshots all keep to.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <lockstone/asset.h>
@@ -20,6 +21,12 @@ inline constexpr Number k_gravity_scale_limit = Number::from_integer(100);
 inline constexpr SolverVelocity k_most_hit_speed = SolverVelocity::from_integer(500);
 [[nodiscard]] constexpr bool is_hit_speed(SolverVelocity speed) {
   return speed >= SolverVelocity{} && speed <= k_most_hit_speed;
+}
+
+/// The contacts that one tick can tell hits of: many more than bodies have fast impacts at once.
+/// Where there are more, the last ones are left out.
+[[nodiscard]] constexpr std::size_t most_hits(std::size_t body_capacity) {
+  return 2 * body_capacity;
 }
 
 /// The last generation of a slot. When its object is gone the slot is never used again: a handle

@@ -7,6 +7,7 @@
 
 #include "core/base/reserved.h"
 #include "core/dynamics/contact/recycling_pose.h"
+#include "core/dynamics/state/limits.h"
 
 namespace lockstone {
 
@@ -22,7 +23,7 @@ ContactSolver::ContactSolver(const TimeStep& step, std::size_t body_capacity,
       constraints_(step, body_capacity, contact_capacity, {bodies_, contacts_, islands_, effort_}),
       warm_start_(body_capacity, contact_capacity, joint_capacity,
                   {bodies_, contacts_, islands_, joints_, constraints_.layout()}),
-      totals_(contact_capacity),
+      totals_(most_hits(body_capacity)),
       impacts_(step, contact_capacity, {bodies_, contacts_, islands_, constraints_, totals_}),
       motion_(step, body_capacity + contact_capacity + 1, bodies_),
       bounce_limit_(step, body_capacity, body_capacity + contact_capacity + 1, bodies_, islands_),

@@ -38,7 +38,8 @@ struct ContactEvent {
 /// Two bodies came together faster than the hit speed of one of them (EventSettings), and pushed
 /// each other: for sounds, sparks and damage. At most one for each contact and tick, by pair and
 /// part; then those of bodies that were stopped on their way, as of `impact`. A contact that
-/// persists hits again where another corner comes down.
+/// persists hits again where another corner comes down. Contacts have at most twice as many hits in
+/// a tick as the world has room for bodies; the last ones are left out.
 ///
 /// The approach of a contact at rest is up to gravity's gain in a tick (0.16 m/s at 60 Hz): a hit
 /// speed should be above it.

@@ -103,6 +103,9 @@ std::optional<StepReport> RollbackHistory::Impl::recall_some(const TickMemory& k
   const PoolUse pools = known.pools.beside(pools_in_use());
   const bool holds = report.status == Status::ok && !pools.is_exhausted() &&
                      add_known_shares(known) && !world.moved.has_lost_looks() &&
+                     !world.events.hits().has_left_out() &&
+                     known.hit_events.size() + world.events.hits().list().size() <=
+                         most_hits(world.def.body_capacity) &&
                      computed.kept_to_themselves(world, fresh.before, world.moved.looks()) &&
                      write_next_state(world, computed, known, fresh);
   if (!holds) {
@@ -168,8 +171,8 @@ bool RollbackHistory::Impl::add_known_shares(const TickMemory& known) {
 
 void RollbackHistory::Impl::remember(const StepReport& report, const PoolUse& pools) {
   fresh.pools = pools;
-  fresh.is_known =
-      report.status == Status::ok && !pools.is_exhausted() && !world.moved.has_lost_looks();
+  fresh.is_known = report.status == Status::ok && !pools.is_exhausted() &&
+                   !world.moved.has_lost_looks() && !world.events.hits().has_left_out();
   std::swap(fresh, memory_of(fresh.tick));
 }
 

@@ -1,5 +1,6 @@
 #include "core/world/history/tick_memory.h"
 
+#include "core/world/phases/hit_events.h"
 #include "core/world/phases/motion/moved_bodies.h"
 
 namespace lockstone {
@@ -14,16 +15,11 @@ std::size_t most_events(const WorldDef& def) {
   return std::size_t{2} * def.contact_capacity + std::size_t{4} * def.body_capacity;
 }
 
-// As many as HitEvents has room for.
-std::size_t most_hits(const WorldDef& def) {
-  return std::size_t{def.contact_capacity} + def.body_capacity;
-}
-
 }  // namespace
 
 TickMemory::TickMemory(const WorldDef& def) : before(state_bytes(def)), after(state_bytes(def)) {
   events.reserve(most_events(def));
-  hit_events.reserve(most_hits(def));
+  hit_events.reserve(most_listed(def));
   joint_events.reserve(def.joint_capacity);
   pairs.reserve(def.pair_capacity);
   groups.reserve(def.body_capacity);
@@ -33,7 +29,7 @@ TickMemory::TickMemory(const WorldDef& def) : before(state_bytes(def)), after(st
 
 std::size_t TickMemory::bytes_max(const WorldDef& def) {
   return sizeof(TickMemory) + 2 * state_bytes(def) + most_events(def) * sizeof(ContactEvent) +
-         most_hits(def) * sizeof(HitEvent) + def.joint_capacity * sizeof(JointEvent) +
+         most_listed(def) * sizeof(HitEvent) + def.joint_capacity * sizeof(JointEvent) +
          def.pair_capacity * sizeof(Pair) +
          (def.body_capacity + MovedBodies::most_looks(def)) * sizeof(std::uint32_t) +
          def.body_capacity * sizeof(IslandShare);

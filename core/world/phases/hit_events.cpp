@@ -96,12 +96,13 @@ std::uint32_t part_at(const WorldData& world, std::uint32_t body, const Vec3<Pos
 
 HitEvents::HitEvents(WorldData& world, TickContacts& found) : world_(world), found_(found) {
   watched_.reserve(world.def.contact_capacity);
-  events_.reserve(std::size_t{world.def.contact_capacity} + world.def.body_capacity);
+  events_.reserve(most_listed(world.def));
 }
 
 void HitEvents::begin() {
   events_.clear();
   watched_.clear();
+  left_out_ = false;
   const IndexSet& hit_bodies = world_.cache.hit_bodies();
   if (hit_bodies.count() == 0) return;
   LKS_ASSERT(is_reserved(watched_, found_.records.size()));
@@ -116,6 +117,7 @@ void HitEvents::begin() {
 
 void HitEvents::add_solved(const ImpulseTotals& totals) {
   totals.for_each([&](const ImpulseTotal& total) { add_solved(total); });
+  left_out_ = left_out_ || totals.is_full();
 }
 
 void HitEvents::add_solved(const ImpulseTotal& total) {
@@ -139,11 +141,12 @@ void HitEvents::add_solved(const ImpulseTotal& total) {
   }
   event.approach_speed = rounded<Velocity>(found_.approach_speeds[total.record]);
   name_parts(record, found_.surface_of(total.record), event);
-  events_.push_back(event);
+  if (!is_full()) events_.push_back(event);
 }
 
 void HitEvents::add_bounced(std::span<const BouncingContact> contacts,
                             std::span<const ImpactTotal> totals) {
+  left_out_ = left_out_ || (!totals.empty() && totals.size() < contacts.size());
   for (std::size_t i = 0; i < totals.size(); ++i) {
     const ContactRecord& record = found_.records[contacts[i].contact];
     const Pair pair{record.body_a, record.body_b};
@@ -152,7 +155,7 @@ void HitEvents::add_bounced(std::span<const BouncingContact> contacts,
       continue;
     HitEvent event = hit_of(world_, pair, totals[i]);
     name_parts(record, found_.surface_of(contacts[i].contact), event);
-    if (event.normal_impulse > Impulse{}) events_.push_back(event);
+    if (event.normal_impulse > Impulse{} && !is_full()) events_.push_back(event);
   }
 }
 
@@ -162,6 +165,12 @@ void HitEvents::name_parts(const ContactRecord& record, const ContactSurface& su
   event.part_b = part_at(world_, record.body_b, event.point, record.part_b);
   event.tag_a = surface.tag_a;
   event.tag_b = surface.tag_b;
+}
+
+bool HitEvents::is_full() {
+  const bool full = events_.size() == most_hits(world_.def.body_capacity);
+  left_out_ = left_out_ || full;
+  return full;
 }
 
 void HitEvents::finish(std::span<const HitEvent> stops) {

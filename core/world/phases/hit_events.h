@@ -9,6 +9,7 @@
 #include <lockstone/event.h>
 
 #include "core/dynamics/impact/impact_total.h"
+#include "core/dynamics/state/limits.h"
 #include "core/dynamics/step/contacts/impulse_totals.h"
 #include "core/world/data/world_data.h"
 #include "core/world/phases/step_records.h"
@@ -26,6 +27,11 @@ namespace lockstone {
 /// height field; `part` of any other body.
 [[nodiscard]] std::uint32_t part_at(const WorldData& world, std::uint32_t body,
                                     const Vec3<Position>& point, std::uint32_t part);
+
+/// The most hits of a tick: those of contacts, and stops.
+[[nodiscard]] constexpr std::size_t most_listed(const WorldDef& def) {
+  return most_hits(def.body_capacity) + def.body_capacity;
+}
 
 /// Costs nothing where no body has a hit speed.
 class HitEvents {
@@ -45,10 +51,15 @@ class HitEvents {
   /// Once all contacts were added: brings them in order. `stops` follow.
   void finish(std::span<const HitEvent> stops);
 
+  /// Whether some may have been left out in the last tick, because there are too many: which ones
+  /// depends on the whole world.
+  [[nodiscard]] bool has_left_out() const { return left_out_; }
+
   [[nodiscard]] const std::vector<HitEvent>& list() const { return events_; }
   void set(std::span<const HitEvent> events) { events_.assign(events.begin(), events.end()); }
 
  private:
+  [[nodiscard]] bool is_full();
   void add_solved(const ImpulseTotal& total);
   void name_parts(const ContactRecord& record, const ContactSurface& surface,
                   HitEvent& event) const;
@@ -57,6 +68,7 @@ class HitEvents {
   TickContacts& found_;
   std::vector<WatchedContact> watched_;
   std::vector<HitEvent> events_;
+  bool left_out_ = false;
 };
 
 }  // namespace lockstone

@@ -132,7 +132,8 @@ std::size_t contacts_of(const World& world, BodyHandle body, std::span<BodyConta
         reader.read(record, body.index), out, count,
         [](const BodyContact& x, const BodyContact& y) { return order_of(x) < order_of(y); });
   };
-  std::ranges::for_each(impl.contacts.active(), visit);
+  for (const ContactRecord& record : impl.contacts.active())
+    visit(record);
   impl.contacts.sleeping().for_each_of(body.index, visit);
   return count;
 }

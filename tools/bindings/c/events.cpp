@@ -60,12 +60,13 @@ lks_body_contact contact_of(const BodyContact& contact) {
   return raw;
 }
 
-// Calls ask(room) for at most `capacity` results, and gives them converted.
+// Calls ask(room) for at most `most` results, and gives them converted.
 template <class Found, class Raw, class Ask, class Convert>
-void give_found(Raw* out, std::size_t capacity, std::size_t* count, Ask&& ask, Convert&& convert) {
+void give_found(Raw* out, std::size_t capacity, std::size_t most, std::size_t* count, Ask&& ask,
+                Convert&& convert) {
   required(count, "count");
   array(out, capacity, "out");
-  std::vector<Found> room(capacity);
+  std::vector<Found> room(std::min(capacity, most));
   const std::size_t found = ask(std::span(room));
   std::transform(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(found), out, convert);
   *count = found;
@@ -104,7 +105,7 @@ lks_status lks_contacts_of(const lks_world* world, lks_body body, lks_body_conta
     const World& source = read(world);
     const BodyHandle handle = existing_body(source, body);
     give_found<BodyContact>(
-        out, std::min<std::size_t>(capacity, source.def().contact_capacity), count,
+        out, capacity, source.def().contact_capacity, count,
         [&](auto room) { return contacts_of(source, handle, room); }, contact_of);
   });
 }
@@ -115,7 +116,7 @@ lks_status lks_joints_of(const lks_world* world, lks_body body, lks_joint* out, 
     const World& source = read(world);
     const BodyHandle handle = existing_body(source, body);
     give_found<JointHandle>(
-        out, std::min<std::size_t>(capacity, source.joint_count()), count,
+        out, capacity, source.joint_count(), count,
         [&](auto room) { return joints_of(source, handle, room); }, id_of<JointHandle>);
   });
 }

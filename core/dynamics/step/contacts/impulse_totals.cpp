@@ -31,20 +31,21 @@ ContactId contact_of(std::uint32_t record, const ContactList& contacts) {
 
 }  // namespace
 
-ImpulseTotals::ImpulseTotals(std::size_t contact_capacity) {
-  entries_.reserve(contact_capacity);
+ImpulseTotals::ImpulseTotals(std::size_t capacity) : capacity_(capacity) {
+  entries_.reserve(capacity);
 }
 
 void ImpulseTotals::begin(std::span<const WatchedContact> watched, const ContactList& contacts,
                           const ContactConstraints& constraints,
                           std::span<const ProximalContact> converged) {
   entries_.clear();
-  LKS_ASSERT(is_reserved(entries_, watched.size()));
+  LKS_ASSERT(is_reserved(entries_, capacity_));
   for (const WatchedContact& each : watched) {
     const ContactId contact = contact_of(each.record, contacts);
     if (contact.value == contacts.size()) continue;
     const ContactLane place = constraints.layout().lane_of(contact);
     if (constraints.approach_of(place) <= each.hit_speed.raw) continue;
+    if (is_full()) break;
     LKS_ASSERT(entries_.empty() || entries_.back().contact < contact);
     Entry& entry = entries_.emplace_back();
     entry.contact = contact;

@@ -24,13 +24,15 @@ struct ImpulseTotal {
 class ImpulseTotals {
  public:
   /// No function but this allocates.
-  [[gnu::cold]] explicit ImpulseTotals(std::size_t contact_capacity);
+  [[gnu::cold]] explicit ImpulseTotals(std::size_t capacity);
 
-  /// Once blocks are prepared: takes the contacts among the watched ones that come in fast.
+  /// Once blocks are prepared: takes the contacts among the watched ones that come in fast, the
+  /// first ones if there are more than the capacity.
   /// `converged`: the contacts that converged islands took over.
   void begin(std::span<const WatchedContact> watched, const ContactList& contacts,
              const ContactConstraints& constraints, std::span<const ProximalContact> converged);
   [[nodiscard]] bool empty() const { return entries_.empty(); }
+  [[nodiscard]] bool is_full() const { return entries_.size() == capacity_; }
 
   /// After a substep.
   void note(const ContactRun& run);
@@ -60,6 +62,7 @@ class ImpulseTotals {
   [[nodiscard]] static Impulses impulses_of(const Entry& entry, const ContactRun& run);
   [[nodiscard]] Entry* find(ContactId contact);
 
+  std::size_t capacity_;
   std::vector<Entry> entries_;  // by contact
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/dynamics/body/inertia.h"
+#include "core/dynamics/state/limits.h"
 #include "core/world/derived/quantities.h"
 
 namespace lockstone {
@@ -52,7 +53,7 @@ Bounces::Bounces(WorldData& world, TickContacts& found, MovedBodies& moved, Isla
       has_bounced_(world.def.body_capacity),
       marks_(world.def.body_capacity) {
   contacts_.reserve(world.def.contact_capacity);
-  totals_.reserve(world.def.contact_capacity);
+  totals_.reserve(most_hits(world.def.body_capacity));
   groups_.reserve(world.def.contact_capacity);
   bodies_.reserve(world.def.body_capacity);
 }
@@ -74,7 +75,8 @@ void Bounces::find() {
   for (std::size_t i = 0; i < found_.records.size(); ++i)
     mark(i);
   std::ranges::sort(contacts_);
-  if (world_.cache.hit_bodies().count() != 0) totals_.resize(contacts_.size());
+  if (world_.cache.hit_bodies().count() != 0)
+    totals_.resize(std::min(contacts_.size(), most_hits(world_.def.body_capacity)));
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (i == 0 || contacts_[i].root != contacts_[i - 1].root)
       groups_.push_back(static_cast<std::uint32_t>(i));
@@ -216,7 +218,7 @@ void Bounces::run_group(std::uint32_t index) {
     const bool touches = is_nearer(found_.manifold_of(contact), Displacement::from_raw(1));
     if (group.touched(i) || touches) found_.records[contact].flags = k_contact_touching;
     if (!group.touched(i)) continue;
-    if (!totals_.empty()) totals_[first + i] = group.total(i);
+    if (first + i < totals_.size()) totals_[first + i] = group.total(i);
     found_.approach_speeds[contact] = SolverVelocity::from_raw(
         raw::saturate<std::int32_t>(raw::round_shift(group.approach(i).raw, 12)));
   }

@@ -30,7 +30,7 @@ class Bounces {
 
   /// The contacts of all groups, group by group.
   [[nodiscard]] std::span<const BouncingContact> contacts() const { return contacts_; }
-  /// Of these contacts, where any body has hit events; else none.
+  /// Of these contacts, the first ones, where any body has hit events; else none.
   [[nodiscard]] std::span<const ImpactTotal> totals() const { return totals_; }
   [[nodiscard]] bool has_moved(std::uint32_t body) const { return has_bounced_[body] != 0; }
 
