@@ -71,6 +71,14 @@ double share_of_a(const Pair& pair) {
   return round_a ? 0 : 1;
 }
 
+// The least separation of a manifold.
+double deepest_of(const Manifold& m) {
+  double least = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
+    least = std::min(least, real(m.points[i].separation));
+  return least;
+}
+
 void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, const Real3& out,
                  Verdict& verdict) {
   const double separation = real(p.separation);
@@ -81,7 +89,8 @@ void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, co
     on_a = on_a - real(m.normal) * (separation * share);
     on_b = on_b + real(m.normal) * (separation * (1 - share));
   }
-  if (separation < k_deepest || has_core_inside(pair, separation)) return;
+  const double depth = pair.has_rims() ? std::min(separation, deepest_of(m)) : separation;
+  if (separation < k_deepest || has_core_inside(pair, depth)) return;
   if (separation <= 0 && leans_back(pair, out)) return;  // the front may be pushed beside itself
   verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair, separation));
   verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair, separation));

@@ -278,7 +278,10 @@ void try_across(const AxisEnds& side, const AxisEnds& other, Descent& descent) {
 void try_ends(const GapQuery& query, Descent& descent) {
   for (const ConvexCore* core : {&query.a(), &query.b()}) {
     const RawVec axis = ends_of(*core, {}).axis();
-    if (axis != RawVec{}) descent.try_both(direction_of(axis.x, axis.y, axis.z));
+    if (axis == RawVec{}) continue;
+    const Vec3<Unit> n = direction_of(axis.x, axis.y, axis.z);
+    for (const Vec3<Unit>& way : {n, -n})
+      if (descent.depth_along(way) < descent.best().depth) descent.from(way);
   }
 }
 
