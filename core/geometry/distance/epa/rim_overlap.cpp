@@ -273,12 +273,22 @@ void try_across(const AxisEnds& side, const AxisEnds& other, Descent& descent) {
   }
 }
 
-/// The directions that symmetry singles out: along the axes, across both, and across one of them in
-/// the plane of both.
+/// The directions along the axes: a disc touched by a rim is a valley that a small polytope may
+/// miss.
+void try_ends(const GapQuery& query, Descent& descent) {
+  for (const ConvexCore* core : {&query.a(), &query.b()}) {
+    const RawVec axis = ends_of(*core, {}).axis();
+    if (axis == RawVec{}) continue;
+    const Vec3<Unit> n = direction_of(axis.x, axis.y, axis.z);
+    for (const Vec3<Unit>& way : {n, -n})
+      if (descent.depth_along(way) < descent.best().depth) descent.from(way);
+  }
+}
+
+/// The directions that symmetry singles out: across both axes, and across one of them in the plane
+/// of both.
 void try_symmetric(const GapQuery& query, Descent& descent) {
   const AxisEnds a = ends_of(query.a(), {}), b = ends_of(query.b(), descent.start());
-  for (const AxisEnds* one : {&a, &b})
-    if (one->any) descent.try_both(direction_of(one->axis().x, one->axis().y, one->axis().z));
   if (!a.any || !b.any) return;
   const Vec3<Unit> both = across(a.axis(), b.axis());
   descent.try_both(both);
@@ -302,6 +312,7 @@ CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
   }
   Descent descent(query);
   descend_from(polytope, lattice.shift, k_close, descent);
+  try_ends(query, descent);
   const Fine depth = descent.best().depth;
   if (!supported && (is_deep(query.a(), depth) || is_deep(query.b(), depth))) {
     supported = grow(lattice, polytope, k_max_expanding_vertices);
