@@ -28,30 +28,31 @@ struct WayOut {
 bool is_one_point(const ConvexCore& core, const Simplex& simplex, int DifferenceVertex::*index) {
   const int first = simplex.vertices[0].*index;
   for (std::size_t i = 1; i < static_cast<std::size_t>(simplex.count); ++i) {
-    constexpr int k_steps = 1 << k_rim_bits;
+    constexpr int k_turn = 1 << k_rim_bits;
     const int other = simplex.vertices[i].*index;
-    const int turn = std::abs(first - other) % k_steps;
+    const int turn = std::abs(first - other) % k_turn;
     const bool near =
-        std::min(turn, k_steps - turn) <= 2 && first >> k_rim_bits == other >> k_rim_bits;
+        std::min(turn, k_turn - turn) <= 2 && first >> k_rim_bits == other >> k_rim_bits;
     if (other != first && (core.rims.count == 0 || !near)) return false;
   }
   return true;
 }
 
-RawVec raws_of(const Vec3<Unit>& n) {
+RawVec raw_vector(const Vec3<Unit>& n) {
   return {n.x.raw, n.y.raw, n.z.raw};
 }
 
 /// Whether two unit vectors differ by less than 2^-25 in each component.
 bool is_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   constexpr std::int64_t k_alike = std::int64_t{1} << 5;
-  const RawVec d = raws_of(a) - raws_of(b);
+  const RawVec d = raw_vector(a) - raw_vector(b);
   return std::max({magnitude_of(d.x), magnitude_of(d.y), magnitude_of(d.z)}) < k_alike;
 }
 
 /// The limit of directions that approach it by steps of one ratio; the last of them if they do not.
 Vec3<Unit> limit_of(const Vec3<Unit>& first, const Vec3<Unit>& second, const Vec3<Unit>& third) {
-  const RawVec step = raws_of(second) - raws_of(first), next = raws_of(third) - raws_of(second);
+  const RawVec step = raw_vector(second) - raw_vector(first),
+               next = raw_vector(third) - raw_vector(second);
   const std::int64_t square = narrow_dot(step, step), product = narrow_dot(step, next);
   if (product <= 0 || product >= square) return third;
   // next · ρ / (1 − ρ) for ρ = product / square, the factor at most 2^10
@@ -88,7 +89,7 @@ class Descent {
 
   /// The depth along n, as the vertices of the lattice give it.
   [[nodiscard]] Fine depth_along(const Vec3<Unit>& n) const {
-    const DifferenceVertex least = least_along(query_.lattice(), raws_of(n));
+    const DifferenceVertex least = least_along(query_.lattice(), raw_vector(n));
     return dot(vertex_of(query_.a(), least.a) - vertex_of(query_.b(), least.b) - start_, n);
   }
 
@@ -190,7 +191,7 @@ struct DepthRange {
 
 /// The depths along eight normals of a side; `sign` turns them from A to B.
 DepthRange depths_across(const Rims& side, int sign, const Descent& descent) {
-  const RawVec axis = axis_of(side), u = raws_of(side.u), v = raws_of(side.v);
+  const RawVec axis = axis_of(side), u = raw_vector(side.u), v = raw_vector(side.v);
   const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
   const auto height = static_cast<Fine>(norm(axis.x, axis.y, axis.z));
   const Vec3<Unit> slope = direction_of(height, fine(side.radii[0]) - fine(side.radii[1]), 0);
@@ -292,8 +293,8 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
   if (!a.any || !b.any) return;
   const Vec3<Unit> both = across(a.axis(), b.axis());
   descent.try_both(both);
-  descent.try_both(across(a.axis(), raws_of(both)));
-  descent.try_both(across(b.axis(), raws_of(both)));
+  descent.try_both(across(a.axis(), raw_vector(both)));
+  descent.try_both(across(b.axis(), raw_vector(both)));
   try_across(a, b, descent);
   try_across(b, a, descent);
 }
