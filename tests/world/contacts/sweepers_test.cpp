@@ -186,6 +186,8 @@ TEST_F(Sweepers, ATriggerDoesNotSeeABodyThatIsStoppedBeforeIt) {
   EXPECT_EQ(passages(world, 10).enters, 0);
 }
 
+// A rod that is hit near its end flies aside too, and may leave the wall's face before it is hit
+// again.
 TEST_F(Sweepers, AFastKinematicWallTakesAlongBodiesThatItHits) {
   for (int run = 0; run < test::share_of(600); ++run) {
     World world = make_world();
@@ -205,7 +207,9 @@ TEST_F(Sweepers, AFastKinematicWallTakesAlongBodiesThatItHits) {
     }
     for (int tick = 0; tick < 60; ++tick) {
       (void)world.step();
-      ASSERT_GT(metres(world.body(body).centre_of_mass.x), metres(world.position(paddle).x))
+      const Vec3<Position> centre = world.body(body).centre_of_mass;
+      if (abs(centre.y) > 2_m || abs(centre.z) > 2_m) break;
+      ASSERT_GT(metres(centre.x), metres(world.position(paddle).x))
           << "run " << run << " tick " << tick;
     }
     EXPECT_GE(test::metres_per_second(world.velocity(body).x),
