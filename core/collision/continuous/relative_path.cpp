@@ -11,14 +11,10 @@ namespace lockstone {
 namespace {
 
 using geometry::Metres;
+using geometry::raws_of;
 using geometry::RawVec;
 
 constexpr Metres k_way_rounding = 8;
-
-template <class V>
-RawVec raws(const V& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
 
 // Below half a radian: fits 32 bits.
 bool is_small(const RawVec& turn) {
@@ -43,15 +39,15 @@ Metres norm_of(const RawVec& v) {
 
 Position relative_way(const Sweep& a, const Sweep& b, Length radius) {
   LKS_ASSERT(radius >= Length{});
-  const RawVec turn_a = raws(a.rotation), turn_b = raws(b.rotation);
-  RawVec translation = raws(a.translation) - raws(b.translation);
+  const RawVec turn_a = raws_of(a.rotation), turn_b = raws_of(b.rotation);
+  RawVec translation = raws_of(a.translation) - raws_of(b.translation);
   Metres bend = 0;
   if (turn_b != RawVec{}) {
     if (!is_small(turn_b)) return Position::max();
     const Metres angle = norm_of(turn_b);  // below 1 rad
     LKS_ASSERT(angle < Metres{1} << geometry::k_metre_bits);
     bend = times(norm_of(translation), angle / 4) * 2 + k_way_rounding;
-    translation = translation - cross(turn_b, raws(a.start.position - b.start.position));
+    translation = translation - cross(turn_b, raws_of(a.start.position - b.start.position));
   }
   const Metres turned =
       raw::multiply_shift(norm_of(turn_a - turn_b), radius.raw, Length::frac_bits);

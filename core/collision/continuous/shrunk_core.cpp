@@ -52,9 +52,8 @@ void ShrunkCore::move_vertices_inward(const geometry::Polytope& full, Length dep
   LKS_ASSERT(full.vertices.size() <= vertices_.size());
   std::array<geometry::RawVec, geometry::k_max_polytope_vertices> normals{};
   for (const geometry::HalfEdge& edge : full.edges) {
-    const Vec3<Unit>& n = full.faces[edge.face].normal;
     geometry::RawVec& sum = normals[edge.origin];
-    sum = sum + geometry::RawVec{n.x.raw, n.y.raw, n.z.raw};
+    sum = sum + geometry::raws_of(full.faces[edge.face].normal);
   }
   for (std::size_t i = 0; i < full.vertices.size(); ++i) {
     const geometry::RawVec& n = normals[i];

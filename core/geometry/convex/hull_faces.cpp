@@ -137,7 +137,7 @@ class Coplanar {
 /// Where the loop does not turn left, seen against `normal`; exact for that normal.
 std::vector<std::uint16_t> dents_of(Vertices vertices, const Loop& loop, const Vec3<Unit>& normal) {
   std::vector<std::uint16_t> dents;
-  const RawVec axis{normal.x.raw, normal.y.raw, normal.z.raw};
+  const RawVec axis = raws_of(normal);
   RawVec before = difference(vertices[loop.front()], vertices[loop.back()]);
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Edge edge = edge_of(loop, i);

@@ -45,6 +45,12 @@ struct RawVec {
   constexpr RawVec operator-() const { return {-x, -y, -z}; }
 };
 
+/// The raws of a vector's components.
+template <class T>
+[[nodiscard]] constexpr RawVec raws_of(const Vec3<T>& v) {
+  return {v.x.raw, v.y.raw, v.z.raw};
+}
+
 /// v / 2^shift, rounded.
 [[nodiscard]] constexpr RawVec shifted(const RawVec& v, int shift) {
   return {raw::round_shift(v.x, shift), raw::round_shift(v.y, shift), raw::round_shift(v.z, shift)};

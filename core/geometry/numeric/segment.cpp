@@ -77,8 +77,7 @@ Fine closest_parameter(const Segment& segment, const RawVec& point) {
 }
 
 RawVec cross_of(const Vec3<Unit>& a, const Vec3<Unit>& b) {
-  const auto k = cross(a, b);
-  return {k.x.raw, k.y.raw, k.z.raw};
+  return raws_of(cross(a, b));
 }
 
 ClosestParameters closest_parameters(const Segment& a, const Segment& b) {

@@ -105,7 +105,7 @@ struct GaussArc {
 
 GaussArc arc_of(const Polytope& p, int edge) {
   const HalfEdge& half = p.edges[static_cast<std::size_t>(edge)];
-  return {lanes_of(edge_vector(p, edge)), p.faces[half.face].normal,
+  return {raws_of(edge_vector(p, edge)), p.faces[half.face].normal,
           p.faces[p.edges[half.twin].face].normal};
 }
 
@@ -139,7 +139,7 @@ struct EdgeSearch {
     LKS_ASSERT(is_unit(normal));
     const PolytopeView& view = pair.from_a;
     const RawVec gap =
-        view.to_own_coarse(start_of(view.other, edge_b)) - lanes_of(start_of(view.own, edge_a));
+        view.to_own_coarse(start_of(view.other, edge_b)) - raws_of(start_of(view.own, edge_a));
     // Of any two points; that of the supports is not above it.
     if (lean_of(gap, normal) + k_witness_slack <= threshold) return;
     const Fine separation = separation_on(pair, normal);

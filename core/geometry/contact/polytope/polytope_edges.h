@@ -44,12 +44,4 @@ struct EdgeSupport {
   return narrow.x * n.x.raw + narrow.y * n.y.raw + narrow.z * n.z.raw;
 }
 
-[[nodiscard]] constexpr RawVec lanes_of(const Vec3<Length>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
-[[nodiscard]] constexpr RawVec lanes_of(const Vec3<Unit>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
 }  // namespace lockstone::geometry

@@ -87,8 +87,8 @@ Vec3<Unit> inward_axis(const Polytope& own, const PolytopeFace& face) {
   LKS_ASSERT(face.edge_count >= 3);
   RawVec inward;
   for (int i = 0; i < face.edge_count; ++i) {
-    const RawVec edge = lanes_of(edge_vector(own, face.first_edge + i));
-    inward = cross_narrow(lanes_of(face.normal), edge);
+    const RawVec edge = raws_of(edge_vector(own, face.first_edge + i));
+    inward = cross_narrow(raws_of(face.normal), edge);
     const std::uint64_t width = norm(inward.x, inward.y, inward.z) >> Unit::frac_bits;
     if (2 * width + 1 >= norm(edge.x, edge.y, edge.z)) break;
   }

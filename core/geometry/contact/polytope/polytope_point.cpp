@@ -41,7 +41,7 @@ RawVec gap_to_edge(const Polytope& polytope, int edge, const RawVec& point) {
   LKS_ASSERT(edge >= 0 && edge < static_cast<int>(polytope.edges.size()));
   const Vec3<Length> way = edge_vector(polytope, edge);
   const RawVec to_point = point - fine(start_of(polytope, edge));
-  const RawVec lanes = lanes_of(way);
+  const RawVec lanes = raws_of(way);
   const RawVec coarse = shifted(to_point, k_fine_per_length);
   const int cut = (size_of(lanes) | size_of(coarse)) >> 30 != 0 ? 4 : 0;
   const RawVec cut_way = shifted(lanes, cut);
@@ -106,10 +106,10 @@ Fine height_above(const PolytopeFace& face, const SplitVec& point) {
 bool is_beside(const Polytope& polytope, int face, const RawVec& point) {
   const PolytopeFace& f = polytope.faces[static_cast<std::size_t>(face)];
   LKS_ASSERT(face >= 0 && f.edge_count >= 3);
-  const RawVec n = lanes_of(f.normal);
+  const RawVec n = raws_of(f.normal);
   for (int i = 0; i < f.edge_count; ++i) {
     const int edge = f.first_edge + i;
-    const RawVec outward = cross_narrow(lanes_of(edge_vector(polytope, edge)), n);
+    const RawVec outward = cross_narrow(raws_of(edge_vector(polytope, edge)), n);
     const RawVec way = point - fine(start_of(polytope, edge));
     const Int128 beyond = multiply_wide(outward.x, way.x) + multiply_wide(outward.y, way.y) +
                           multiply_wide(outward.z, way.z);

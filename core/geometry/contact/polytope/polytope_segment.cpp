@@ -89,7 +89,7 @@ void try_edge(const PolytopeSegment& segment, const Segment& core, int edge, int
     try_vertex(core, end_of(p, edge), limit, best);
     return;
   }
-  const RawVec k = cross_narrow(lanes_of(edge_vector(p, edge)), lanes_of(segment.axis));
+  const RawVec k = cross_narrow(raws_of(edge_vector(p, edge)), raws_of(segment.axis));
   const Vec3<Unit> n = signed_axis(direction_of(k.x, k.y, k.z), sign);
   const RawVec point = point_at(side, closest.on_a);
   const Fine outward = dot(point_at(core, closest.on_b) - point, n);
@@ -107,14 +107,14 @@ struct SidePlane {
 };
 
 SidePlane side_plane(const PolytopeSegment& segment, const PolytopeFace& face, int edge) {
-  const RawVec n = lanes_of(face.normal);
-  const RawVec outward = cross_narrow(lanes_of(edge_vector(segment.polytope, edge)), n);
+  const RawVec n = raws_of(face.normal);
+  const RawVec outward = cross_narrow(raws_of(edge_vector(segment.polytope, edge)), n);
   const RawVec way = segment.centre - fine(start_of(segment.polytope, edge));
   const auto product = [&outward](const RawVec& v) {
     return multiply_wide(outward.x, v.x) + multiply_wide(outward.y, v.y) +
            multiply_wide(outward.z, v.z);
   };
-  return {product(way), product(lanes_of(segment.axis))};
+  return {product(way), product(raws_of(segment.axis))};
 }
 
 /// −beyond / slope as a length: the slope has 30 fraction bits of the axis, `beyond` is fine.
@@ -172,7 +172,7 @@ SegmentEdge best_edge(const PolytopeSegment& segment, const SegmentHeights& heig
     if (!is_first_half(p, edge)) continue;
     const int sign = crossing_sign(heights, faces);
     if (sign == 0 || cannot_beat(heights, faces, std::min(threshold, Fine{0}))) continue;
-    const RawVec k = cross_narrow(lanes_of(edge_vector(p, edge)), lanes_of(segment.axis));
+    const RawVec k = cross_narrow(raws_of(edge_vector(p, edge)), raws_of(segment.axis));
     if (k == RawVec{}) continue;
     const Vec3<Unit> normal = signed_axis(direction_of(k.x, k.y, k.z), sign);
     const Fine height = dot(centre, normal) - reach_along(segment, normal);

@@ -10,10 +10,6 @@ constexpr std::int64_t k_steps = std::int64_t{1} << k_rim_bits;
 constexpr std::int64_t k_full_turn = 843314857;  // 2π, 27 fraction bits
 static_assert(Angle::frac_bits == 27);
 
-RawVec raws_of(const Vec3<Unit>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
 /// Turned into (−π, π].
 Angle wrapped(std::int64_t angle) {
   angle %= k_full_turn;

@@ -38,21 +38,16 @@ bool is_one_point(const ConvexCore& core, const Simplex& simplex, int Difference
   return true;
 }
 
-RawVec raw_vector(const Vec3<Unit>& n) {
-  return {n.x.raw, n.y.raw, n.z.raw};
-}
-
 /// Whether two unit vectors differ by less than 2^-25 in each component.
 bool is_alike(const Vec3<Unit>& a, const Vec3<Unit>& b) {
   constexpr std::int64_t k_alike = std::int64_t{1} << 5;
-  const RawVec d = raw_vector(a) - raw_vector(b);
+  const RawVec d = raws_of(a) - raws_of(b);
   return std::max({magnitude_of(d.x), magnitude_of(d.y), magnitude_of(d.z)}) < k_alike;
 }
 
 /// The limit of directions that approach it by steps of one ratio; the last of them if they do not.
 Vec3<Unit> limit_of(const Vec3<Unit>& first, const Vec3<Unit>& second, const Vec3<Unit>& third) {
-  const RawVec step = raw_vector(second) - raw_vector(first),
-               next = raw_vector(third) - raw_vector(second);
+  const RawVec step = raws_of(second) - raws_of(first), next = raws_of(third) - raws_of(second);
   const std::int64_t square = narrow_dot(step, step), product = narrow_dot(step, next);
   if (product <= 0 || product >= square) return third;
   // next · ρ / (1 − ρ) for ρ = product / square, the factor at most 2^10
@@ -89,7 +84,7 @@ class Descent {
 
   /// The depth along n, as the vertices of the lattice give it.
   [[nodiscard]] Fine depth_along(const Vec3<Unit>& n) const {
-    const DifferenceVertex least = least_along(query_.lattice(), raw_vector(n));
+    const DifferenceVertex least = least_along(query_.lattice(), raws_of(n));
     return dot(vertex_of(query_.a(), least.a) - vertex_of(query_.b(), least.b) - start_, n);
   }
 
@@ -191,7 +186,7 @@ struct DepthRange {
 
 /// The depths along eight normals of a side; `sign` turns them from A to B.
 DepthRange depths_across(const Rims& side, int sign, const Descent& descent) {
-  const RawVec axis = axis_of(side), u = raw_vector(side.u), v = raw_vector(side.v);
+  const RawVec axis = axis_of(side), u = raws_of(side.u), v = raws_of(side.v);
   const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
   const auto height = static_cast<Fine>(norm(axis.x, axis.y, axis.z));
   const Vec3<Unit> slope = direction_of(height, fine(side.radii[0]) - fine(side.radii[1]), 0);
@@ -293,8 +288,8 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
   if (!a.any || !b.any) return;
   const Vec3<Unit> both = across(a.axis(), b.axis());
   descent.try_both(both);
-  descent.try_both(across(a.axis(), raw_vector(both)));
-  descent.try_both(across(b.axis(), raw_vector(both)));
+  descent.try_both(across(a.axis(), raws_of(both)));
+  descent.try_both(across(b.axis(), raws_of(both)));
   try_across(a, b, descent);
   try_across(b, a, descent);
 }

@@ -18,14 +18,6 @@ struct PlaneFrame {
   const MovingCore* body = nullptr;
 };
 
-RawVec raws(const RotationVector& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
-RawVec raws(const Vec3<Position>& v) {
-  return {v.x.raw, v.y.raw, v.z.raw};
-}
-
 /// n × v in the format of v, |v| < 2^14 units of 32 fraction bits.
 RawVec turned(const Vec3<Unit>& n, const RawVec& v) {
   return {part(v.z, n.y) - part(v.y, n.z), part(v.x, n.z) - part(v.z, n.x),
@@ -84,14 +76,15 @@ struct Reach {
 /// (n·x)¨ = n̈·x + 2ṅ·ẋ + n·ẍ ≤ |Ω|²·|x| + 2|Ω|·|ẋ| + |ω|²·r, and |ẋ| ≤ |v| + |ω|·r.
 Metres acceleration_in(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& normal,
                        Reach reach) {
-  const RawVec turning = raws(body.sweep.rotation);
+  const RawVec turning = raws_of(body.sweep.rotation);
   const Metres spin = norm_above(turning);
   if (frame.body == nullptr) {
     const Metres across = norm_above(turned(normal, turning));
     return product_above(product_above(across, spin), reach.from_centre);
   }
-  const RawVec translation = raws(body.sweep.translation) - raws(frame.body->sweep.translation);
-  const Metres frame_spin = norm_above(raws(frame.body->sweep.rotation));
+  const RawVec translation =
+      raws_of(body.sweep.translation) - raws_of(frame.body->sweep.translation);
+  const Metres frame_spin = norm_above(raws_of(frame.body->sweep.rotation));
   const Metres surface = product_above(spin, reach.from_centre);
   const Metres speed = sum_above(norm_above(translation), surface);
   const Metres distance = sum_above(reach.from_frame, speed);  // until the end of the sweep
@@ -107,7 +100,7 @@ void for_each_bound(const ConvexCore& core, const Vec3<Unit>& normal, F&& f) {
   for (int i = 0; i < count; ++i)
     f(vertex_of(core, i));
   if (core.rims.count == 0) return;
-  const Angle angle = rim_angle(core.rims, {normal.x.raw, normal.y.raw, normal.z.raw});
+  const Angle angle = rim_angle(core.rims, raws_of(normal));
   for (int rim = 0; rim < core.rims.count; ++rim) {
     const bool is_point = core.rims.radii[static_cast<std::size_t>(rim)] == Length{};
     const int sides = is_point ? 1 : k_rim_sides;
@@ -120,15 +113,15 @@ void project(const MovingCore& body, const PlaneFrame& frame, const Vec3<Unit>& 
              Projection& projection) {
   const ConvexCore& core = body.core;
   const bool still = frame.body == &body;  // turns with the plane
-  const RawVec turning = still ? RawVec{} : raws(body.sweep.rotation);
+  const RawVec turning = still ? RawVec{} : raws_of(body.sweep.rotation);
   const RawVec axis = turned(normal, turning);
   RawVec frame_axis;
   RawVec frame_centre;
-  RawVec translation = still ? RawVec{} : raws(body.sweep.translation);
+  RawVec translation = still ? RawVec{} : raws_of(body.sweep.translation);
   if (frame.body != nullptr && !still) {
-    frame_axis = turned(normal, raws(frame.body->sweep.rotation));
+    frame_axis = turned(normal, raws_of(frame.body->sweep.rotation));
     frame_centre = frame.body->centre;
-    translation = translation - raws(frame.body->sweep.translation);
+    translation = translation - raws_of(frame.body->sweep.translation);
   }
   projection.count = 0;
   projection.rate = along_normal(normal, translation);
