@@ -27,7 +27,6 @@ void BlockSolver::begin(const ContactRun& run, std::uint32_t index, std::int64_t
                         int substeps) {
   const IslandView island = islands_.view(index);
   contact_phases::begin(run, island, weight, substeps);
-  if (!island.joints.empty()) island.state.is_measured = true;
   if (island.state.is_measured) begin_measuring(run, island);
 }
 

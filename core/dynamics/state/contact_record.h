@@ -54,6 +54,12 @@ struct ContactRecord {
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 
   [[nodiscard]] ContactKey key() const { return {body_a, body_b, part_a, part_b}; }
+  /// The normal impulse of the point with this feature; 0 where there is none.
+  [[nodiscard]] SolverVelocity impulse_of(std::uint32_t feature) const {
+    for (std::size_t i = 0; i < count; ++i)
+      if (points[i].feature == feature) return points[i].normal_impulse;
+    return {};
+  }
   [[nodiscard]] bool is_trigger() const { return (flags & k_contact_trigger) != 0; }
   [[nodiscard]] bool is_touching() const { return (flags & k_contact_touching) != 0; }
 };

@@ -94,7 +94,7 @@ TickWork ContactSolver::work() const {
   work.clusters = joints_.solver().cluster_count();
   work.joined = joints_.solver().body_count();
   work.converged = converged_ == nullptr ? 0 : converged_->count();
-  work.iterates = converged_ == nullptr || converged_->contact_count() != contacts_.size();
+  work.iterates = converged_ == nullptr || converged_->contacts().size() != contacts_.size();
   work.has_joints = !joints_.empty();
   work.has_impacts = !impacts_.empty();
   work.watches_energy = energy_limit_.watches();

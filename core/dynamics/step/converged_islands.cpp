@@ -92,7 +92,8 @@ void ConvergedIslands::begin(const ContactScene& scene, SolverBodies& bodies,
   const std::int64_t weight = weight_of(scene.gravity, step_);
   for (std::uint32_t i = 0; i < solver_.count(); ++i) {
     const std::uint32_t island = islands.all().of(solver_.islands().first_body(i));
-    solver_.islands().view(i).state.is_measured = islands.tally(island).has_ball_impacts;
+    const IslandView view = solver_.islands().view(i);
+    view.state.is_measured = !view.joints.empty() || islands.tally(island).has_ball_impacts;
     solver_.begin(run, i, weight, step_.substeps);
   }
 }

@@ -29,8 +29,6 @@ class ConvergedIslands {
   [[nodiscard]] const IslandPool& pool() const { return solver_.islands(); }
 
   /// Contacts of all these islands.
-  [[nodiscard]] std::size_t contact_count() { return solver_.islands().contacts().size(); }
-
   [[nodiscard]] std::span<const ProximalContact> contacts() { return solver_.islands().contacts(); }
 
   /// Once islands are built: chooses, and takes the joints of chosen islands from the joint solver.

@@ -110,7 +110,7 @@ struct WorldData {
   std::vector<JointRecord> joints;  // by index; size: joint capacity
 
   // Derived from the state.
-  IndexSet awake;       // bodies that move
+  IndexSet awake;     // bodies that move
   IndexSet triggers;  // triggers that exist
   JointGraph joint_graph;
   BodyCache cache;

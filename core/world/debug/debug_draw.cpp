@@ -22,13 +22,6 @@ DebugState state_of(const BodyRecord& body) {
   return body.moves() ? DebugState::kinematic : DebugState::static_body;
 }
 
-// The normal impulse of the point with this feature in the last tick.
-SolverVelocity impulse_of(const ContactRecord& record, std::uint32_t feature) {
-  for (std::size_t i = 0; i < record.count; ++i)
-    if (record.points[i].feature == feature) return record.points[i].normal_impulse;
-  return {};
-}
-
 class WorldDrawing {
  public:
   explicit WorldDrawing(World::Impl& world) : world_(world) {}
@@ -120,13 +113,9 @@ DebugContact WorldDrawing::drawn_contact(const ContactRecord& record,
     drawn.friction[i] = force_of(record.friction_impulse[i]);
   for (std::size_t i = 0; i < drawn.count; ++i) {
     const ManifoldPoint& point = manifold.points[i];
-    for (int axis = 0; axis < 3; ++axis) {
-      const Position on_a = a.position[axis] + rounded<Position>(point.anchor_a[axis]);
-      const Position on_b = b.position[axis] + rounded<Position>(point.anchor_b[axis]);
-      drawn.points[i].point[axis] = on_a + (on_b - on_a) / 2;
-    }
+    drawn.points[i].point = place_between(point, a, b);
     drawn.points[i].separation = point.separation;
-    drawn.points[i].force = force_of(impulse_of(record, point.feature));
+    drawn.points[i].force = force_of(record.impulse_of(point.feature));
   }
   return drawn;
 }

@@ -23,6 +23,22 @@ std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inver
   return divide_raw_saturating(impulse * rate, inverse_mass.mantissa, shift);
 }
 
+Vec3<Position> place_at(const Vec3<Position>& position, const Vec3<Length>& anchor) {
+  Vec3<Position> place = position;
+  for (int i = 0; i < 3; ++i)
+    place[i] += rounded<Position>(anchor[i]);
+  return place;
+}
+
+Vec3<Position> place_between(const ManifoldPoint& point, const BodyRecord& a, const BodyRecord& b) {
+  const Vec3<Position> on_a = place_at(a.position, point.anchor_a);
+  const Vec3<Position> on_b = place_at(b.position, point.anchor_b);
+  Vec3<Position> place;
+  for (int i = 0; i < 3; ++i)
+    place[i] = on_a[i] + (on_b[i] - on_a[i]) / 2;
+  return place;
+}
+
 ShapeProperties properties_of(const Shape& shape, const Asset* asset) {
   const auto bounded = [](const Vec3<Unit>& inertia) {
     return Vec3<Unit>{max(inertia.x, k_min_inertia), max(inertia.y, k_min_inertia),

@@ -9,6 +9,7 @@
 #include <lockstone/vec3.h>
 
 #include "core/dynamics/state/body_record.h"
+#include "core/geometry/distance/manifold.h"
 #include "core/math/block_float.h"
 
 namespace lockstone {
@@ -19,6 +20,13 @@ namespace lockstone {
 /// An impulse λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
 [[nodiscard]] std::int64_t effort_of(std::int64_t impulse, std::int32_t rate,
                                      BlockFloat inverse_mass, int exponent);
+
+/// An anchor of a body that is there, in the world.
+[[nodiscard]] Vec3<Position> place_at(const Vec3<Position>& position, const Vec3<Length>& anchor);
+
+/// Halfway between the surfaces of A and B at a point of their manifold.
+[[nodiscard]] Vec3<Position> place_between(const ManifoldPoint& point, const BodyRecord& a,
+                                           const BodyRecord& b);
 
 /// |x| + |y| + |z|, at least the length, raw.
 template <class T>

@@ -10,6 +10,7 @@
 #include "core/dynamics/body/motion.h"
 #include "core/math/divide.h"
 #include "core/math/int128.h"
+#include "core/world/derived/quantities.h"
 
 namespace lockstone {
 namespace {
@@ -26,13 +27,7 @@ BlockFloat inverse_mass_of(const BodyRecord& a, const BodyRecord& b) {
 
 // Where a point of a manifold is: on B, or between both where both can move.
 Vec3<Position> place_of(const ManifoldPoint& point, const BodyRecord& a, const BodyRecord& b) {
-  Vec3<Position> place;
-  for (int i = 0; i < 3; ++i) {
-    const Position on_a = a.position[i] + rounded<Position>(point.anchor_a[i]);
-    const Position on_b = b.position[i] + rounded<Position>(point.anchor_b[i]);
-    place[i] = b.is_dynamic() ? on_a + (on_b - on_a) / 2 : on_b;
-  }
-  return place;
+  return b.is_dynamic() ? place_between(point, a, b) : place_at(b.position, point.anchor_b);
 }
 
 // Mean of the points, weighted by their impulses; relative to the first, so that products fit.

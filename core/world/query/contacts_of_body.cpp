@@ -2,6 +2,7 @@
 // bodies touch is found again from their poses.
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "core/collision/narrow_phase/collide_bodies.h"
@@ -16,12 +17,6 @@ auto order_of(const BodyContact& contact) {
   return std::tuple(contact.other.index, contact.part, contact.other_part, contact.normal.x.raw,
                     contact.normal.y.raw, contact.normal.z.raw, contact.tag, contact.other_tag,
                     contact.normal_force.raw);
-}
-
-SolverVelocity impulse_of(const ContactRecord& record, std::uint32_t feature) {
-  for (std::size_t i = 0; i < record.count; ++i)
-    if (record.points[i].feature == feature) return record.points[i].normal_impulse;
-  return {};
 }
 
 // One contact after the other, seen from one of the two bodies. Finds the manifolds of each pair
@@ -56,11 +51,10 @@ class ContactReader {
 
   [[nodiscard]] const PartContact* part_of(const ContactRecord& record) {
     const Pair pair{record.body_a, record.body_b};
-    if (!has_pair_ || pair != pair_) {
+    if (pair != pair_) {
       collide_bodies(world_.placed(pair.a), world_.placed(pair.b), world_.narrow.margin_of(pair),
                      found_);
     }
-    has_pair_ = true;
     pair_ = pair;
     const auto part = std::ranges::find_if(found_, [&](const PartContact& contact) {
       return contact.part_a == record.part_a && contact.part_b == record.part_b;
@@ -74,25 +68,13 @@ class ContactReader {
     contact.count = static_cast<std::uint32_t>(manifold.count);
     for (std::size_t i = 0; i < contact.count; ++i) {
       const ManifoldPoint& from = manifold.points[i];
-      contact.points[i] = {between(record, from), from.separation,
-                           force_of(impulse_of(record, from.feature).raw)};
+      contact.points[i] = {
+          place_between(from, world_.bodies[record.body_a], world_.bodies[record.body_b]),
+          from.separation, force_of(record.impulse_of(from.feature).raw)};
     }
     if (part.surface_a != nullptr) contact.tag = part.surface_a->tag;
     if (part.surface_b != nullptr) contact.other_tag = part.surface_b->tag;
     contact.other_part = part_at(world_, record.body_b, contact.points[0].point, record.part_b);
-  }
-
-  [[nodiscard]] Vec3<Position> between(const ContactRecord& record,
-                                       const ManifoldPoint& from) const {
-    Vec3<Position> point;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Position on_a =
-          world_.bodies[record.body_a].position[axis] + rounded<Position>(from.anchor_a[axis]);
-      const Position on_b =
-          world_.bodies[record.body_b].position[axis] + rounded<Position>(from.anchor_b[axis]);
-      point[axis] = on_a + (on_b - on_a) / 2;
-    }
-    return point;
   }
 
   [[nodiscard]] BodyContact seen_from_other_side(BodyContact contact,
@@ -108,8 +90,7 @@ class ContactReader {
   World::Impl& world_;
   BlockFloat inverse_mass_{};
   PartContacts found_;
-  Pair pair_{};
-  bool has_pair_ = false;
+  std::optional<Pair> pair_;  // of `found_`
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "core/collision/broad_phase/segment_probe.h"
 #include "core/collision/query/cast_placed.h"
 #include "core/dynamics/state/limits.h"
+#include "core/world/derived/quantities.h"
 #include "core/world/query/sorted_results.h"
 #include "core/world/world_impl.h"
 
@@ -104,10 +105,9 @@ ShapeContact to_contact(const PlacedShape& probe, BodyHandle handle, const BodyR
   const Manifold& manifold = contact.manifold;
   const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
   const ManifoldPoint& deepest = *std::ranges::min_element(points, {}, &ManifoldPoint::separation);
-  Vec3<Position> point = probe.centre;
+  Vec3<Position> point = place_at(probe.centre, deepest.anchor_a);
   for (int i = 0; i < 3; ++i) {
     const std::int64_t apart = (manifold.normal[i] * deepest.separation).raw;  // 54 fraction bits
-    point[i] += rounded<Position>(deepest.anchor_a[i]);
     if (deepest.separation.raw > 0) point[i] += Position::from_raw(raw::round_shift(apart, 22));
   }
   const Surface surface = contact.surface_b != nullptr ? *contact.surface_b : body.surface();

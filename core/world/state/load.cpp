@@ -27,8 +27,8 @@ bool same_bytes(const Record& a, const Record& b) {
 
 // All that is derived of the two but place and bounds.
 bool same_make(const BodyRecord& a, const BodyRecord& b) {
-  return a.motion == b.motion && a.flags == b.flags && a.hit_speed == b.hit_speed && a.shape() == b.shape() &&
-         a.filter() == b.filter();
+  return a.motion == b.motion && a.flags == b.flags && a.hit_speed == b.hit_speed &&
+         a.shape() == b.shape() && a.filter() == b.filter();
 }
 
 bool same_link(const JointRecord& a, const JointRecord& b) {

@@ -130,7 +130,8 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   if (!consistent) return Status::malformed;
   const bool in_world = is_within(record.position, k_world_limit) && in_range(record.velocity) &&
                         in_range(record.spin) && has_unit_norm(record.orientation) &&
-                        has_unit_norm(record.recycling_orientation) && is_hit_speed(record.hit_speed);
+                        has_unit_norm(record.recycling_orientation) &&
+                        is_hit_speed(record.hit_speed);
   return in_world ? Status::ok : Status::malformed;
 }
 

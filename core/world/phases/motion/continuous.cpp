@@ -73,11 +73,8 @@ Manifold through_centre(const Vec3<Unit>& normal, const Vec3<Length>& from_b) {
 // The deepest point of a manifold, on B.
 Vec3<Position> deepest_point(const Manifold& manifold, const Vec3<Position>& position_b) {
   const auto points = std::span(manifold.points).first(static_cast<std::size_t>(manifold.count));
-  Vec3<Position> point = position_b;
-  const auto deepest = std::ranges::min_element(points, {}, &ManifoldPoint::separation);
-  for (int i = 0; i < 3; ++i)
-    point[i] += rounded<Position>(deepest->anchor_b[i]);
-  return point;
+  return place_at(position_b,
+                  std::ranges::min_element(points, {}, &ManifoldPoint::separation)->anchor_b);
 }
 
 // The impulses at an impact, and the contact that came in fastest.
@@ -91,7 +88,7 @@ std::optional<HitEvent> hit_of_stop(const WorldData& world, const ContactEvent& 
                                     const Stop& stop) {
   const Pair pair{impact.a.index, impact.b.index};
   const SolverVelocity hit_speed = hit_speed_of(world.bodies[pair.a], world.bodies[pair.b]);
-  if (hit_speed == SolverVelocity{} || stop.fastest == nullptr) return {};
+  if (stop.fastest == nullptr) return {};
   if (stop.total.approach <= rounded<Velocity>(hit_speed)) return {};
   HitEvent event = hit_of(world, pair, stop.total);
   if (event.normal_impulse <= Impulse{}) return {};
@@ -414,6 +411,7 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
   a.velocity -= to_come;
   Velocity approach{};
   std::uint32_t tag_a = a.tag, tag_b = b.tag;
+  const bool is_watched = hit_speed_of(a, b) != SolverVelocity{};
   Stop stop;
   for (const PartContact& contact : scratch.part_contacts) {
     ContactSurface surface;
@@ -424,8 +422,9 @@ void ContinuousCollision::resolve(std::uint32_t body, const NextImpact& next, Un
     const Vec3<Velocity> before = b.velocity - a.velocity;
     const Velocity speed = answer_impact({a, inertia_a}, {b, inertia_b},
                                          {contact.manifold, surface.friction, surface.restitution});
-    if (speed > approach) stop.fastest = &contact;
+    if (is_watched && speed > approach) stop.fastest = &contact;
     approach = max(approach, speed);
+    if (!is_watched) continue;
     stop.total.add(speed, (b.velocity - a.velocity) - before, contact.manifold.normal,
                    deepest_point(contact.manifold, other_motion.start.position));
   }
