@@ -17,7 +17,6 @@ constexpr std::size_t k_min_queue_bytes = std::size_t{128} * 1024;
 constexpr std::size_t k_orders_a_connection = 2;
 static_assert(k_min_queue_bytes >= 2 * (k_max_reliable_bytes + sizeof(Parcel)));
 constexpr std::size_t k_max_queue_bytes = std::size_t{64} * 1024 * 1024;
-constexpr std::size_t k_max_connections = 4095;
 constexpr std::size_t k_max_connections_per_match = 1024;
 
 // A flood from the network must not keep the packets of matches from leaving.
@@ -25,7 +24,7 @@ constexpr unsigned k_max_events_a_pump = 4096;
 
 bool in_range(const MatchRouterOptions& options) {
   return options.max_matches >= 1 && options.max_matches <= k_max_open_matches &&
-         options.max_connections >= 1 && options.max_connections <= k_max_connections &&
+         options.max_connections >= 1 && options.max_connections <= k_max_socket_connections &&
          options.max_connections_per_match >= 1 &&
          options.max_connections_per_match <= k_max_connections_per_match &&
          options.queue_bytes >= k_min_queue_bytes + k_orders_a_connection * sizeof(Parcel) *

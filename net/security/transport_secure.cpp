@@ -5,7 +5,6 @@
 namespace lockstone::net {
 namespace {
 
-constexpr std::size_t k_max_connections = 4095;
 constexpr std::size_t k_max_client_connections = 8;
 
 }  // namespace
@@ -20,7 +19,8 @@ Result<std::unique_ptr<SecureTransport>> SecureTransport::serve(Transport& carri
                                                                 RandomSource& random) {
   if (!security_available()) return Status::incompatible;
   const bool in_range = options.max_connections >= 1 &&
-                        options.max_connections <= k_max_connections && options.handshake_us > 0;
+                        options.max_connections <= k_max_socket_connections &&
+                        options.handshake_us > 0;
   if (!in_range) return Status::invalid_argument;
   auto impl = std::make_unique<Impl>(carrier, random, options.max_connections);
   impl->server.emplace(impl->data, options);

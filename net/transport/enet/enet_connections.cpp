@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t k_index_bits = 12;  // of a ConnectionId; the rest is the generation
 constexpr std::uint32_t k_index_mask = (1U << k_index_bits) - 1;
-static_assert(k_max_connections <= k_index_mask + 1);
+static_assert(k_max_socket_connections <= k_index_mask + 1);
 
 // A session counts its own time-outs; ENet's, in which this plays a part, shall not be the first.
 constexpr std::uint32_t k_timeout_doublings = 32;

@@ -19,7 +19,7 @@
 
 namespace lockstone::net {
 
-inline constexpr std::size_t k_max_connections = ENET_PROTOCOL_MAXIMUM_PEER_ID;
+static_assert(k_max_socket_connections <= ENET_PROTOCOL_MAXIMUM_PEER_ID);
 
 struct EnetConnection {
   ENetPeer* peer = nullptr;

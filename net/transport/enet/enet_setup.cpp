@@ -96,7 +96,7 @@ void EnetTransport::State::configure(const EnetOptions& options) {
 
 Result<std::unique_ptr<EnetTransport::State>> EnetTransport::State::create(
     const EnetOptions& options, const ENetAddress* address, std::string* problem) {
-  if (options.max_connections < 1 || options.max_connections > k_max_connections) {
+  if (options.max_connections < 1 || options.max_connections > k_max_socket_connections) {
     return Status::invalid_argument;
   }
   if ((options.link_key || options.matches != nullptr) && !security_available())

@@ -22,6 +22,9 @@ inline constexpr ConnectionId k_no_connection = 0;
 inline constexpr std::size_t k_max_datagram_bytes = 1200;
 inline constexpr std::size_t k_max_reliable_bytes = 48 * 1024;
 
+/// The most connections of one socket.
+inline constexpr std::size_t k_max_socket_connections = 4095;
+
 /// A transport that carries another one accepts this many more bytes, for the other's headers.
 inline constexpr std::size_t k_carrier_reserve_bytes = 32;
 
