@@ -134,18 +134,27 @@ Reals4 exact_slerp(const Quat& a, const Quat& b, const Real& part_of_arc, bool i
   return result;
 }
 
-TEST(Slerp, ErrsLessThanTwoLastPlaces) {
-  Source source;
-  double worst = 0;
+/// Calls `check(a, b, whether the way from a to b is the longer one)` for pairs of orientations
+/// near and far, but not for two ways of half a turn.
+template <class Check>
+void for_pairs(Source& source, Check&& check) {
   for (int i = 0; i < test::share_of(40000); ++i) {
     const Quat a = source.orientation();
     const Quat b = i % 2 == 0 ? source.orientation() : source.near(a);
     const Real cosine = dot(reals(a), reals(b));
-    if (a == b || cosine.error_of(0, 20) < 1) continue;  // two ways of half a turn
-    const Unit t = Unit::from_raw(static_cast<std::int32_t>(source.raws.bits64() >> 34));
-    const Reals4 expected = exact_slerp(a, b, Real(t.raw, 30), cosine < Real());
-    worst = worst_of(worst, worst_component(slerp(a, b, t), expected));
+    if (a == b || cosine.error_of(0, 20) < 1) continue;
+    check(a, b, cosine < Real());
   }
+}
+
+TEST(Slerp, ErrsLessThanTwoLastPlaces) {
+  Source source;
+  double worst = 0;
+  for_pairs(source, [&](const Quat& a, const Quat& b, bool is_longer) {
+    const Unit t = Unit::from_raw(static_cast<std::int32_t>(source.raws.bits64() >> 34));
+    const Reals4 expected = exact_slerp(a, b, Real(t.raw, 30), is_longer);
+    worst = worst_of(worst, worst_component(slerp(a, b, t), expected));
+  });
   report("slerp", worst);
   EXPECT_LT(worst, 1.5);
 }
@@ -171,21 +180,16 @@ TEST(Slerp, MeetsItsEndsAndGoesTheShorterWay) {
 TEST(RotateToward, TurnsByTheAngleAndArrives) {
   Source source;
   double worst = 0;
-  for (int i = 0; i < test::share_of(40000); ++i) {
-    const Quat a = source.orientation();
-    const Quat b = i % 2 == 0 ? source.orientation() : source.near(a);
-    const Real cosine = dot(reals(a), reals(b));
-    if (a == b || cosine.error_of(0, 20) < 1) continue;
+  for_pairs(source, [&](const Quat& a, const Quat& b, bool is_longer) {
     const Reals4 from = unit(reals(a)), to = unit(reals(b));
-    const bool is_longer = cosine < Real();
     const Real whole = angle(from, is_longer ? unit(reals({-b.x, -b.y, -b.z, -b.w})) : to);
     const Angle most = Angle::from_raw(static_cast<std::int32_t>(
         source.raws.below_bits(1 + static_cast<int>(source.raws.bits64() % 30))));
     const Real part = Real(most.raw, 28) / whole;  // most is twice an angle of quaternions
     const Quat q = rotate_toward(a, b, most);
-    if (q == b || most.raw == 0) continue;
+    if (q == b || most.raw == 0) return;
     worst = worst_of(worst, worst_component(q, exact_slerp(a, b, part, is_longer)));
-  }
+  });
   report("rotate_toward", worst);
   EXPECT_LT(worst, 1.5);
 

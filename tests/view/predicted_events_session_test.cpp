@@ -7,25 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include <lockstone/net/client.h>
-#include <lockstone/net/server.h>
-#include <lockstone/net/transport_sim.h>
 #include <lockstone/predicted_events.h>
 
-#include "tools/examples/rolling/rolling.h"
+#include "tests/view/rolling_session.h"
 
 namespace lockstone {
 namespace {
-
-/// Jumps for some ticks and rests for as many, so that to hold the last input is a wrong guess a
-/// few times a second.
-struct Restless final : net::InputSource {
-  explicit Restless(std::uint64_t half_period) : half_period_ticks(half_period) {}
-  void sample(std::uint64_t tick, std::span<std::byte> out) override {
-    out[2] = std::byte{tick / half_period_ticks % 2 == 0};
-  }
-  std::uint64_t half_period_ticks;
-};
 
 // The game with hits.
 Result<std::unique_ptr<Simulation>> make_loud_game(ByteView config) {
@@ -73,7 +60,7 @@ struct Speaker final : net::ClientObserver {
       ++revoked;
     }
   }
-  World& world() const { return static_cast<RollingGame*>(client->simulation())->world(); }
+  World& world() const { return test::world_of(*client); }
   /// Sounds of ticks below `end`.
   std::vector<EventName> played(std::uint64_t end) const {
     std::vector<EventName> names;
@@ -96,7 +83,7 @@ struct Witness final : net::ClientObserver {
     for (const EventName& name : names_in(world()))
       events.emplace_back(tick, name);
   }
-  World& world() const { return static_cast<RollingGame*>(client->simulation())->world(); }
+  World& world() const { return test::world_of(*client); }
   std::vector<EventName> happened(std::uint64_t end) const {
     std::vector<EventName> names;
     for (const auto& [tick, name] : events)
@@ -110,44 +97,17 @@ struct Witness final : net::ClientObserver {
 };
 
 TEST(EventsOfASession, AreHeardOnce) {
-  net::SimNetwork network(7);
-  net::SimTransport& hub = network.add_endpoint();
-  const std::byte players[] = {std::byte{2}};
-  const auto game = make_loud_game(players);
-  net::ServerConfig server_config;
-  server_config.insecure = true;
-  server_config.match_config = {std::byte{2}};
-  const auto server = net::Server::create(server_config, {.transport = &hub,
-                                                          .simulation = game.value().get(),
-                                                          .describer = nullptr,
-                                                          .observer = nullptr})
-                          .server;
-  ASSERT_NE(server, nullptr);
-  Restless sources[2] = {Restless(40), Restless(23)};
   Speaker speaker;
   Witness witness;
-  std::unique_ptr<net::Client> clients[2];
-  for (std::size_t i = 0; i < 2; ++i) {
-    net::SimTransport& endpoint = network.add_endpoint();
-    const auto connection = network.connect(endpoint, hub, {.delay_us = 50'000});
-    net::ClientConfig config;
-    config.insecure = true;
-    config.prediction_ticks = i == 0 ? 12 : 0;
-    net::ClientParts parts{&endpoint, connection, make_loud_game, &sources[i]};
-    parts.observer = i == 0 ? static_cast<net::ClientObserver*>(&speaker) : &witness;
-    clients[i] = net::Client::create(config, parts).client;
-    ASSERT_NE(clients[i], nullptr);
-  }
-  speaker.client = clients[0].get();
-  witness.client = clients[1].get();
+  test::RollingSession session(make_loud_game, {{{&speaker}, {&witness, 0}}});
+  ASSERT_TRUE(session.is_open());
+  speaker.client = &session.client(0);
+  witness.client = &session.client(1);
 
-  for (std::int64_t now_us = 0; now_us < 20'000'000; now_us += 6'944) {
-    server->update(now_us);
-    for (const auto& client : clients)
-      client->update(now_us);
-  }
+  for (std::int64_t now_us = 0; now_us < 20'000'000; now_us += 6'944)
+    session.update(now_us);
   // Later events may still move.
-  const std::uint64_t end = std::min(speaker.confirmed, clients[1]->ticks_stepped()) - 8;
+  const std::uint64_t end = std::min(speaker.confirmed, session.client(1).ticks_stepped()) - 8;
   const std::vector<EventName> played = speaker.played(end), happened = witness.happened(end);
   std::printf("%zu events in %d rollbacks; told %d times, played %zu, revoked %d\n",
               happened.size(), speaker.rollbacks, speaker.heard, speaker.sounds.size(),

@@ -6,25 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include <lockstone/net/client.h>
-#include <lockstone/net/server.h>
-#include <lockstone/net/transport_sim.h>
 #include <lockstone/view.h>
 
-#include "tools/examples/rolling/rolling.h"
+#include "tests/view/rolling_session.h"
 
 namespace lockstone {
 namespace {
-
-/// Jumps for some ticks and rests for as many, so that to hold the last input is a wrong guess a
-/// few times a second.
-struct Restless final : net::InputSource {
-  explicit Restless(std::uint64_t half_period) : half_period_ticks(half_period) {}
-  void sample(std::uint64_t tick, std::span<std::byte> out) override {
-    out[2] = std::byte{tick / half_period_ticks % 2 == 0};
-  }
-  std::uint64_t half_period_ticks;
-};
 
 /// Shows each state that the client computes.
 struct Shower final : net::ClientObserver {
@@ -35,7 +22,7 @@ struct Shower final : net::ClientObserver {
   void show() {
     if (client != nullptr) view.update(world());
   }
-  World& world() const { return static_cast<RollingGame*>(client->simulation())->world(); }
+  World& world() const { return test::world_of(*client); }
 
   const net::Client* client = nullptr;
   View view;
@@ -43,43 +30,19 @@ struct Shower final : net::ClientObserver {
 };
 
 TEST(ViewOfASession, HasNoJumps) {
-  net::SimNetwork network(7);
-  net::SimTransport& hub = network.add_endpoint();
-  RollingGame game(2);
-  net::ServerConfig server_config;
-  server_config.insecure = true;
-  server_config.match_config = {std::byte{2}};
-  const auto server =
-      net::Server::create(
-          server_config,
-          {.transport = &hub, .simulation = &game, .describer = nullptr, .observer = nullptr})
-          .server;
-  ASSERT_NE(server, nullptr);
-  Restless sources[2] = {Restless(40), Restless(23)};
   Shower shower;
-  std::unique_ptr<net::Client> clients[2];
-  for (std::size_t i = 0; i < 2; ++i) {
-    net::SimTransport& endpoint = network.add_endpoint();
-    const auto connection = network.connect(endpoint, hub, {.delay_us = 50'000});
-    net::ClientConfig config;
-    config.insecure = true;
-    config.prediction_ticks = 12;
-    net::ClientParts parts{&endpoint, connection, make_game, &sources[i]};
-    if (i == 0) parts.observer = &shower;
-    clients[i] = net::Client::create(config, parts).client;
-    ASSERT_NE(clients[i], nullptr);
-  }
-  shower.client = clients[0].get();
+  test::RollingSession session(make_game, {{{&shower}, {}}});
+  ASSERT_TRUE(session.is_open());
+  const net::Client& watched = session.client(0);
+  shower.client = &watched;
 
   TickClock clock(60);
   double last_shown = 0, last_true = 0, widest_shown = 0, widest_true = 0, farthest = 0;
   for (std::int64_t now_us = 0; now_us < 10'000'000; now_us += 6'944) {  // 144 frames a second
-    server->update(now_us);
-    for (const auto& client : clients)
-      client->update(now_us);
-    if (clients[0]->state() != net::ClientState::running) continue;
+    session.update(now_us);
+    if (watched.state() != net::ClientState::running) continue;
     clock.update(shower.view.tick(), now_us);
-    const BodyHandle other{clients[0]->slot() == 0 ? 2U : 1U, 1};
+    const BodyHandle other{watched.slot() == 0 ? 2U : 1U, 1};
     const auto pose = shower.view.pose<double>(other, clock.fraction());
     if (!pose) continue;
     const double shown = pose->position[1];

@@ -35,8 +35,9 @@ struct SceneFuzzReport {
 
 /// Each scene runs twice: plainly, and on the other broad phase, without derived data, loaded from
 /// canonical bytes of the first every few ticks. After every tick both hashes must be equal and
-/// all events, and the contacts of a body; the state must be one that `load` lets in, and every body within the world and its speed limit.
-/// Asserts and sanitizers see the rest. The same report whatever the number of threads.
+/// all events, and the contacts of a body; the state must be one that `load` lets in, and every
+/// body within the world and its speed limit. Asserts and sanitizers see the rest. The same report
+/// whatever the number of threads.
 [[nodiscard]] SceneFuzzReport fuzz_scenes(const SceneFuzzOptions& options);
 
 /// The scene that this thread is running: for a handler that reports a stopped program.

@@ -9,19 +9,10 @@ import subprocess
 import sys
 import time
 import unittest
-import urllib.error
-import urllib.request
+
+from http_requests import ask
 
 LOCKSTONE = sys.argv.pop(1)
-
-
-def ask(port, path):
-    """The status and the text of an HTTP request."""
-    try:
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}{path}", timeout=10) as answer:
-            return answer.status, answer.read().decode()
-    except urllib.error.HTTPError as error:
-        return error.code, error.read().decode()
 
 
 class Hosting(unittest.TestCase):

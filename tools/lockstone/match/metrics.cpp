@@ -192,6 +192,36 @@ std::string host_for_prometheus(const RoomsMetrics& rooms) {
   return text;
 }
 
+template <class Metrics>
+struct Pages {
+  std::string (*for_prometheus)(const Metrics&);
+  std::string (*as_json)(const Metrics&);
+  std::string (*as_text)(const Metrics&);
+  bool is_alive;
+};
+
+template <class Metrics>
+HttpAnswer answer_with(std::string_view request, const Metrics& metrics,
+                       const Pages<Metrics>& pages) {
+  HttpAnswer answer;
+  if (request.starts_with("GET /metrics")) {
+    answer.body = pages.for_prometheus(metrics);
+    answer.type = "text/plain; version=0.0.4";
+  } else if (request.starts_with("GET /stats.json")) {
+    answer.body = pages.as_json(metrics);
+    answer.type = "application/json";
+  } else if (request.starts_with("GET /livez")) {
+    answer.body = pages.is_alive ? "ok\n" : "a thread hangs\n";
+    if (!pages.is_alive) answer.status = "503 Service Unavailable";
+  } else if (request.starts_with("GET /readyz")) {
+    answer.body = fmt::format("{}\n", metrics.state);
+    if (!metrics.ready) answer.status = "503 Service Unavailable";
+  } else {
+    answer.body = pages.as_text(metrics);
+  }
+  return answer;
+}
+
 }  // namespace
 
 std::string metrics_as_text(const MatchMetrics& metrics) {
@@ -221,11 +251,12 @@ std::string metrics_as_json(const MatchMetrics& metrics) {
 std::string metrics_for_prometheus(const MatchMetrics& metrics) {
   std::string text;
   for (const MatchFigure& figure : k_match_figures) {
-    text += fmt::format("# TYPE lockstone_{0} {1}\nlockstone_{0}{{match=\"{2}\"}} {3}\n",
-                        figure.name, figure.kind, number_of(metrics), figure.value(metrics));
+    text += type_line(figure.name, figure.kind) + fmt::format("lockstone_{}{{match=\"{}\"}} {}\n",
+                                                              figure.name, number_of(metrics),
+                                                              figure.value(metrics));
   }
   for (const ReasonFigure& figure : k_reason_figures) {
-    text += fmt::format("# TYPE lockstone_{} counter\n", figure.name);
+    text += type_line(figure.name, "counter");
     for (std::size_t i = 0; i < figure.count; ++i) {
       text +=
           fmt::format("lockstone_{}{{match=\"{}\",{}=\"{}\"}} {}\n", figure.name,
@@ -233,7 +264,7 @@ std::string metrics_for_prometheus(const MatchMetrics& metrics) {
     }
   }
   for (const PlayerFigure& figure : k_figures) {
-    text += fmt::format("# TYPE lockstone_player_{} {}\n", figure.name, figure.kind);
+    text += type_line(fmt::format("player_{}", figure.name), figure.kind);
     for (std::size_t slot = 0; slot < metrics.players.size(); ++slot) {
       text += fmt::format("lockstone_player_{}{{match=\"{}\",player=\"{}\"}} {}\n", figure.name,
                           number_of(metrics), slot, figure.value(metrics.players[slot]));
@@ -310,43 +341,21 @@ std::string rooms_as_json(const RoomsMetrics& rooms) {
 }
 
 HttpAnswer answer_about(std::string_view request, const RoomsMetrics& rooms) {
-  HttpAnswer answer;
-  if (request.starts_with("GET /metrics")) {
-    answer.body = rooms_for_prometheus(rooms);
-    answer.type = "text/plain; version=0.0.4";
-  } else if (request.starts_with("GET /stats.json")) {
-    answer.body = rooms_as_json(rooms);
-    answer.type = "application/json";
-  } else if (request.starts_with("GET /livez")) {
-    answer.body = rooms.alive ? "ok\n" : "a thread hangs\n";
-    if (!rooms.alive) answer.status = "503 Service Unavailable";
-  } else if (request.starts_with("GET /readyz")) {
-    answer.body = fmt::format("{}\n", rooms.state);
-    if (!rooms.ready) answer.status = "503 Service Unavailable";
-  } else {
-    for (const MatchMetrics& match : rooms.matches)
-      answer.body += metrics_as_text(match);
-  }
-  return answer;
+  const auto as_text = [](const RoomsMetrics& all) {
+    std::string text;
+    for (const MatchMetrics& match : all.matches)
+      text += metrics_as_text(match);
+    return text;
+  };
+  return answer_with(
+      request, rooms,
+      Pages<RoomsMetrics>{rooms_for_prometheus, rooms_as_json, as_text, rooms.alive});
 }
 
 HttpAnswer answer_about(std::string_view request, const MatchMetrics& metrics) {
-  HttpAnswer answer;
-  if (request.starts_with("GET /metrics")) {
-    answer.body = metrics_for_prometheus(metrics);
-    answer.type = "text/plain; version=0.0.4";
-  } else if (request.starts_with("GET /stats.json")) {
-    answer.body = metrics_as_json(metrics);
-    answer.type = "application/json";
-  } else if (request.starts_with("GET /livez")) {
-    answer.body = "ok\n";
-  } else if (request.starts_with("GET /readyz")) {
-    answer.body = fmt::format("{}\n", metrics.state);
-    if (!metrics.ready) answer.status = "503 Service Unavailable";
-  } else {
-    answer.body = metrics_as_text(metrics);
-  }
-  return answer;
+  return answer_with(
+      request, metrics,
+      Pages<MatchMetrics>{metrics_for_prometheus, metrics_as_json, metrics_as_text, true});
 }
 
 }  // namespace lockstone::tool

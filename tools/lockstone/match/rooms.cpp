@@ -32,7 +32,6 @@ constexpr auto k_farewell = 200ms;  // for the last packets
 constexpr std::int64_t k_longest_silence_us = 10'000'000;
 constexpr std::int64_t k_counters_every_us = 100'000;
 constexpr std::size_t k_strangers_a_room = 4;
-constexpr std::size_t k_max_connections = 4095;
 
 // Of the calling thread, in seconds.
 double processor_time() {
@@ -104,9 +103,9 @@ std::unique_ptr<Rooms> Rooms::open(const Games& games, const MatchOptions& match
 
 bool Rooms::Impl::open(const MatchOptions& match, std::size_t seats) {
   const std::size_t connections = options.rooms * (seats + k_strangers_a_room);
-  if (connections > k_max_connections) {
+  if (connections > net::k_max_socket_connections) {
     complain(fmt::format("{} rooms of {} seats need {} connections; one socket has {}",
-                         options.rooms, seats, connections, k_max_connections));
+                         options.rooms, seats, connections, net::k_max_socket_connections));
     return false;
   }
   SocketOptions wanted;

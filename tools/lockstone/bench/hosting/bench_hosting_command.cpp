@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -18,6 +17,7 @@
 #include <unistd.h>
 
 #include "tools/arena/arena_game.h"
+#include "tools/bench/support/measure.h"
 #include "tools/lockstone/bench/hosting/echo_simulation.h"
 #include "tools/lockstone/bench/hosting/hosting_bots.h"
 #include "tools/lockstone/commands.h"
@@ -110,9 +110,7 @@ class Crowd {
       if (failed_) return;
       for (const auto& team : teams)
         team->update(watch.microseconds());
-      timespec time{};
-      ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-      busy_seconds_ = static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+      busy_seconds_ = static_cast<double>(bench::thread_nanoseconds()) * 1e-9;
       std::this_thread::sleep_for(4ms);
     }
   }
