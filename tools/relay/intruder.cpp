@@ -110,13 +110,13 @@ void Intruder::inject(ByteView commands) {
       static_cast<void>(seal_->seal(burnt));
   }
   injected_ = true;
-  constexpr std::size_t k_head_bytes = 8;
-  std::vector<std::byte> bytes(k_head_bytes + commands.size() +
+  constexpr std::size_t k_sealed_head_bytes = 8;
+  std::vector<std::byte> bytes(k_sealed_head_bytes + commands.size() +
                                (seal_ ? net::DatagramSeal::k_bytes : 0));
   bytes[0] = head_[0] | std::byte{0x80};
   bytes[1] = head_[1];
   std::copy(id_.begin(), id_.end(), bytes.begin() + 4);
-  std::copy(commands.begin(), commands.end(), bytes.begin() + k_head_bytes);
+  std::copy(commands.begin(), commands.end(), bytes.begin() + k_sealed_head_bytes);
   const net::Word word = seal_ ? seal_->seal(bytes) : checksum_.of(bytes);
   std::copy(word.begin(), word.end(), bytes.begin() + 4);
   static_cast<void>(socket_->send(server_, bytes));
