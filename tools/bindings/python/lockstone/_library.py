@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import pathlib
 from ctypes import POINTER, c_char, c_char_p, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
 
 C_ABI = 0
@@ -206,8 +207,10 @@ def _check(status: int, function: object, arguments: tuple) -> int:
 
 
 def _open() -> ctypes.CDLL:
-    """The library that LOCKSTONE_LIBRARY names, else the system's."""
-    library = ctypes.CDLL(os.environ.get("LOCKSTONE_LIBRARY", f"liblockstone_c.so.{C_ABI}"))
+    """The library that LOCKSTONE_LIBRARY names, else that of the wheel, else the system's."""
+    name = f"liblockstone_c.so.{C_ABI}"
+    bundled = pathlib.Path(__file__).with_name(name)
+    library = ctypes.CDLL(os.environ.get("LOCKSTONE_LIBRARY", str(bundled) if bundled.exists() else name))
     for name, (result, arguments) in _OTHERS.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
