@@ -6,6 +6,7 @@
 # usage: tools/cross.sh [TARGET…]     default: all of them
 #
 #   gcc-O0 gcc-O2 gcc-Os gcc-O3 clang-O0 clang-O3   this machine; the -O0 builds have the asserts on
+#   iso                                      this machine, ISO C++: no 128-bit type, no extension
 #   sanitized                                this machine, AddressSanitizer and UBSan
 #   simd-scalar simd-sse4 simd-avx2 simd-avx512   gcc-O3 with one kind of vectors
 #   aarch64 riscv64 armhf s390x              cross compilers and qemu-user; aarch64 with its vectors
@@ -24,13 +25,13 @@
 # shellcheck source=lib.sh source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-all=(gcc-O0 gcc-O2 gcc-Os gcc-O3 clang-O0 clang-O3 sanitized simd-scalar simd-sse4 simd-avx2 simd-avx512
+all=(gcc-O0 gcc-O2 gcc-Os gcc-O3 clang-O0 clang-O3 iso sanitized simd-scalar simd-sse4 simd-avx2 simd-avx512
   aarch64 aarch64-scalar riscv64 armhf s390x i386 windows wasm wasm-scalar)
 
 # compiler_of TARGET
 compiler_of() {
   case $(preset_of "$1") in
-    gcc-* | sanitized) echo g++ ;;
+    gcc-* | iso | sanitized) echo g++ ;;
     clang-*) echo clang++ ;;
     i386) echo i686-linux-gnu-g++ ;;
     windows) echo x86_64-w64-mingw32-g++-posix ;;
@@ -43,7 +44,7 @@ compiler_of() {
 # emulator_of TARGET: the qemu binary, or nothing for this machine.
 emulator_of() {
   case $(preset_of "$1") in
-    gcc-* | clang-* | sanitized | i386) ;;
+    gcc-* | clang-* | iso | sanitized | i386) ;;
     windows) echo wine ;;
     wasm) echo node ;;
     armhf) echo qemu-arm ;;

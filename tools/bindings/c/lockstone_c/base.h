@@ -5,7 +5,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(LKS_BUILDS_LIBRARY)
+#define LKS_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define LKS_API __declspec(dllimport)
+#elif defined(__GNUC__)
 #define LKS_API __attribute__((visibility("default")))
 #else
 #define LKS_API
