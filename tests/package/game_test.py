@@ -79,7 +79,7 @@ class Logs(Case):
         wrong = self.record(own(), "b.lks", "--flip-bit-at", 200)
         # The tool knows the world, and finds the bit at its tick; the library shows only states, so the
         # field is that of the next keyframe.
-        for command, state_at, field in ((own(), 201, "velocity.y"), (loaded(), 300, "position.y")):
+        for command, state_at, field in ((own(), 201, "position.x"), (loaded(), 300, "position.x")):
             done = self.expect(DIFFERENT, command, "bisect", good, wrong, "--json")
             report = json.loads(done.stdout)
             self.assertEqual((report["tick"], report["store"], report["state_at"], report["field"]),
