@@ -270,7 +270,7 @@ class Matches(Case):
         self.assertIn("game 'pushers' 0.1", self.expect(INCOMPATIBLE, own(), "verify", log).stdout)
         self.expect(OK, tool, "sync-test", "--ticks", 60)
         self.expect(OK, pushers, "flips", "--count", 20, "--ticks", 30)
-        self.expect(OK, tool, "simnet", "--seeds", 1, "--ticks", 300, "--clients", 3)
+        self.expect(OK, tool, "simnet", "--seeds", 1, "--ticks", 300, "--players", 3)
 
     def test_served_by_the_c_interface_are_played_by_the_tools(self):
         if IN_C == "none":
@@ -292,7 +292,7 @@ class Matches(Case):
 
     def test_survive_bad_networks(self):
         for command in (own(), loaded()):
-            done = self.expect(OK, command, "simnet", "--seeds", 2, "--ticks", 300, "--clients", 3)
+            done = self.expect(OK, command, "simnet", "--seeds", 2, "--ticks", 300, "--players", 3)
             self.assertIn("all as it must be", done.stdout)
 
 

@@ -49,6 +49,52 @@ GameDef picky_game() {
           }};
 }
 
+// Two players, no more and no fewer.
+GameDef pair_game() {
+  GameDef game = toy_game();
+  game.name = "pair";
+  game.configure = [](const MatchRequest& request) -> Result<std::vector<std::byte>> {
+    if (request.players != 0 && request.players != 2) return Status::invalid_argument;
+    return configure_toy(request);
+  };
+  return game;
+}
+
+// Runs a command on the pair game: its complaint, and its exit code after a space.
+std::string run_on_pair(std::vector<std::string> words) {
+  words.insert(words.begin(), "pair");
+  std::vector<char*> pointers;
+  for (std::string& word : words)
+    pointers.push_back(word.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = tool_main(static_cast<int>(pointers.size()), pointers.data(), pair_game());
+  static_cast<void>(testing::internal::GetCapturedStdout());
+  return testing::internal::GetCapturedStderr() + ' ' + std::to_string(code);
+}
+
+TEST(Simnet, PlaysWithTheUsualNumberOfPlayers) {
+  const std::vector<std::string> words = {"simnet", "--seeds", "1", "--ticks", "60"};
+  EXPECT_EQ(run_on_pair(words), " 0");
+}
+
+TEST(Simnet, NamesTheOptionOfANumberThatTheGameRefuses) {
+  const std::string said = run_on_pair({"simnet", "--seeds", "1", "--players", "4"});
+  EXPECT_NE(said.find("the game 'pair' refuses --players 4; its usual number is 2"),
+            std::string::npos)
+      << said;
+  EXPECT_TRUE(said.ends_with(" 64")) << said;
+}
+
+#if defined(LOCKSTONE_WITH_ENET)
+TEST(SiegeCommand, SaysHowManySeatsItNeeds) {
+  const std::string said = run_on_pair({"siege", "--players", "1"});
+  EXPECT_NE(said.find("siege --players 1 needs 1 + 2 seats; pair has 2"), std::string::npos)
+      << said;
+  EXPECT_TRUE(said.ends_with(" 64")) << said;
+}
+#endif
+
 replay::LogHeader header_of(std::string game) {
   replay::LogHeader header;
   header.match.game = std::move(game);
