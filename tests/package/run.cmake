@@ -1,4 +1,5 @@
 # cmake -D build_dir=… -D scratch_dir=… … -P run.cmake: see CMakeLists.txt beside this file.
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${scratch_dir})
 
 function(run)
