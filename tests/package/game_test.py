@@ -79,7 +79,7 @@ class Logs(Case):
         wrong = self.record(own(), "b.lks", "--flip-bit-at", 200)
         # The tool knows the world, and finds the bit at its tick; the library shows only states, so the
         # field is that of the next keyframe.
-        for command, state_at, field in ((own(), 201, "velocity.y"), (loaded(), 300, "position.y")):
+        for command, state_at, field in ((own(), 201, "position.x"), (loaded(), 300, "position.x")):
             done = self.expect(DIFFERENT, command, "bisect", good, wrong, "--json")
             report = json.loads(done.stdout)
             self.assertEqual((report["tick"], report["store"], report["state_at"], report["field"]),
@@ -153,9 +153,22 @@ class Hashes(Case):
         self.assertEqual([group["machines"] for group in report["groups"]], [["x86", "arm"], ["odd"]])
         self.assertEqual(report["part"], "bodies")
         self.assertEqual((report["tick"], report["store"], report["state_at"]), (200, "body", 256))
+        self.assertEqual(report["equal_ticks"], 200)
+        self.assertRegex(report["line"], r" in A, .* in B \(state at 256\)$")
+        self.assertIn(f"{report['a']} in A, {report['b']} in B", report["line"])
         table = self.expect(DIFFERENT, own(), "compare-hashes", first, third, "--markdown").stdout
         self.assertIn("| odd |", table)
         self.assertRegex(table, r"tick 200, part bodies \(state at 256\), body \d+, \S+: .* in A, .* in B \(state at 256\)")
+
+    def test_of_an_expected_machine_that_are_missing_are_an_error(self):
+        log = self.record(own(), "a.lks")
+        x86, arm = self.hash(own(), log, "x86"), self.hash(own(), log, "arm")
+        self.expect(OK, own(), "compare-hashes", x86, arm, "--expect", "arm", "x86")
+        done = self.expect(CORRUPT, own(), "compare-hashes", x86, arm, "--expect", "arm", "mac", "--json")
+        self.assertIn("--expect mac: no file is of this machine", done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual((report["same"], report["equal_ticks"], report["missing"]), (True, 300, ["mac"]))
+        self.assertIn("--expect arm", self.expect(CORRUPT, own(), "compare-hashes", x86, "--expect", "arm").stderr)
 
     def test_of_other_matches_are_not_compared(self):
         files = [self.hash(own(), self.record(own(), f"{seed}.lks", "--seed", seed), f"m{seed}")
@@ -270,7 +283,7 @@ class Matches(Case):
         self.assertIn("game 'pushers' 0.1", self.expect(INCOMPATIBLE, own(), "verify", log).stdout)
         self.expect(OK, tool, "sync-test", "--ticks", 60)
         self.expect(OK, pushers, "flips", "--count", 20, "--ticks", 30)
-        self.expect(OK, tool, "simnet", "--seeds", 1, "--ticks", 300, "--clients", 3)
+        self.expect(OK, tool, "simnet", "--seeds", 1, "--ticks", 300, "--players", 3)
 
     def test_served_by_the_c_interface_are_played_by_the_tools(self):
         if IN_C == "none":
@@ -292,7 +305,7 @@ class Matches(Case):
 
     def test_survive_bad_networks(self):
         for command in (own(), loaded()):
-            done = self.expect(OK, command, "simnet", "--seeds", 2, "--ticks", 300, "--clients", 3)
+            done = self.expect(OK, command, "simnet", "--seeds", 2, "--ticks", 300, "--players", 3)
             self.assertIn("all as it must be", done.stdout)
 
 

@@ -1,4 +1,5 @@
 # cmake -D build_dir=… -D scratch_dir=… … -P run.cmake: see CMakeLists.txt beside this file.
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${scratch_dir})
 
 function(run)
@@ -24,6 +25,16 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/core_only -B ${scratch_dir}/co
   -D needs_libraries=${needs_libraries}
   -D wanted_version=${version})
 run(${CMAKE_COMMAND} --build ${scratch_dir}/core_only --config ${config})
+
+# An installation without the tools says so.
+file(GLOB_RECURSE config ${scratch_dir}/prefix/*/lockstoneConfig.cmake)
+get_filename_component(package_folder ${config} DIRECTORY)
+file(COPY ${package_folder}/ DESTINATION ${scratch_dir}/without_tools)
+file(REMOVE ${scratch_dir}/without_tools/lockstone_tool.cmake)
+find_package(lockstone QUIET COMPONENTS tool PATHS ${scratch_dir}/without_tools NO_DEFAULT_PATH)
+if(lockstone_FOUND OR NOT lockstone_NOT_FOUND_MESSAGE MATCHES "built with LOCKSTONE_BUILD_TOOLS=OFF")
+  message(FATAL_ERROR "a component that is missing: ${lockstone_NOT_FOUND_MESSAGE}")
+endif()
 
 file(GLOB_RECURSE licences ${scratch_dir}/prefix/share/doc/lockstone/copyright)
 if(NOT licences)

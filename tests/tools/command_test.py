@@ -365,7 +365,7 @@ class Logs(Case):
         self.assertTrue(diff["hash"].startswith("tick 57:"))
         found = json.loads(self.expect(DIFFERENT, "bisect", "--json", good, wrong).stdout)
         self.assertEqual((found["tick"], found["state_at"]), (57, 58))
-        self.assertEqual((found["store"], found["field"]), ("body", "velocity.y"))
+        self.assertEqual((found["store"], found["field"]), ("body", "position.x"))
         self.assertIn("one bit flipped", found["note"])
         self.assertIn("no difference", self.expect(OK, "bisect", good, plain).stdout)
         self.assertIn("no difference", self.expect(OK, "bisect", good, "--with", LOCKSTONE).stdout)

@@ -1,7 +1,13 @@
+#include <filesystem>
+#include <fstream>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <lockstone/game_library.h>
+#include <lockstone/replay/snapshot_file.h>
 
+#include "tools/lockstone/logs/state/canonical_bytes.h"
 #include "tools/lockstone/logs/state/hash_compare.h"
 #include "tools/tool/game_loader.h"
 #include "tools/tool/games.h"
@@ -42,6 +48,52 @@ GameDef picky_game() {
             return Status::malformed;
           }};
 }
+
+// Two players, no more and no fewer.
+GameDef pair_game() {
+  GameDef game = toy_game();
+  game.name = "pair";
+  game.configure = [](const MatchRequest& request) -> Result<std::vector<std::byte>> {
+    if (request.players != 0 && request.players != 2) return Status::invalid_argument;
+    return configure_toy(request);
+  };
+  return game;
+}
+
+// Runs a command on the pair game: its complaint, and its exit code after a space.
+std::string run_on_pair(std::vector<std::string> words) {
+  words.insert(words.begin(), "pair");
+  std::vector<char*> pointers;
+  for (std::string& word : words)
+    pointers.push_back(word.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = tool_main(static_cast<int>(pointers.size()), pointers.data(), pair_game());
+  static_cast<void>(testing::internal::GetCapturedStdout());
+  return testing::internal::GetCapturedStderr() + ' ' + std::to_string(code);
+}
+
+TEST(Simnet, PlaysWithTheUsualNumberOfPlayers) {
+  const std::vector<std::string> words = {"simnet", "--seeds", "1", "--ticks", "60"};
+  EXPECT_EQ(run_on_pair(words), " 0");
+}
+
+TEST(Simnet, NamesTheOptionOfANumberThatTheGameRefuses) {
+  const std::string said = run_on_pair({"simnet", "--seeds", "1", "--players", "4"});
+  EXPECT_NE(said.find("the game 'pair' refuses --players 4; its usual number is 2"),
+            std::string::npos)
+      << said;
+  EXPECT_TRUE(said.ends_with(" 64")) << said;
+}
+
+#if defined(LOCKSTONE_WITH_ENET)
+TEST(SiegeCommand, SaysHowManySeatsItNeeds) {
+  const std::string said = run_on_pair({"siege", "--players", "1"});
+  EXPECT_NE(said.find("siege --players 1 needs 1 + 2 seats; pair has 2"), std::string::npos)
+      << said;
+  EXPECT_TRUE(said.ends_with(" 64")) << said;
+}
+#endif
 
 replay::LogHeader header_of(std::string game) {
   replay::LogHeader header;
@@ -241,6 +293,84 @@ TEST(HashCompare, NamesThePartOfTheNextStateThatBothHashed) {
   EXPECT_EQ(result.part, "rules");
   EXPECT_EQ(result.part_tick, 2U);
   EXPECT_NE(result.note.find("states were not kept"), std::string::npos);
+}
+
+TEST(HashCompare, SaysThatADifferenceHealed) {
+  const Games games({toy_game()});
+  LogHashes here = machine("a", {{1, "x"}, {2, "y"}, {3, "z"}, {4, "z"}}), there = here;
+  there.hashes[2] = "w";
+  here.parts = there.parts = {{3, {{"bodies", "p"}}}, {4, {{"bodies", "p"}}}};
+  const auto result = compare_log_hashes({here, there}, games);
+  EXPECT_EQ(result.part, "");
+  EXPECT_TRUE(result.note.starts_with(
+      "the states are equal again at tick 3: hash again with --parts-every 1; "))
+      << result.note;
+}
+
+TEST(HashCompare, SaysThatNoPartShowsTheDifference) {
+  const Games games({toy_game()});
+  LogHashes here = machine("a", {{1, "x"}, {2, "y"}}), there = machine("b", {{1, "x"}, {2, "w"}});
+  here.parts = there.parts = {{2, {{"bodies", "p"}}}};
+  const auto result = compare_log_hashes({here, there}, games);
+  EXPECT_TRUE(result.note.starts_with("the game shows no difference between the states at tick 2"))
+      << result.note;
+}
+
+// A game that needs no configuration, as the one of the tutorial.
+GameDef plain_game() {
+  GameDef game = toy_game();
+  game.name = "plain";
+  game.make = [](ByteView config) -> Result<std::unique_ptr<Simulation>> {
+    if (!config.empty()) return Status::malformed;
+    return toy::toy_factory()(ToyConfig{}.encode());
+  };
+  return game;
+}
+
+// The notes on files of the plain game whose configuration is this text.
+std::string note_of_configuration(std::optional<std::string> text) {
+  LogHashes here = machine("a", {{1, "y"}}), there = machine("b", {{1, "w"}});
+  here.path = "a.json";
+  here.game = there.game = "plain";
+  here.config = there.config = std::move(text);
+  here.states = there.states = "nowhere";
+  return compare_log_hashes({here, there}, Games({plain_game()})).note;
+}
+
+TEST(HashCompare, SaysWhyAConfigurationMakesNoGame) {
+  const auto says = [](const std::string& note, const std::string& why) {
+    return note.find(why) != std::string::npos;
+  };
+  EXPECT_TRUE(says(note_of_configuration(""), "no state after this tick was kept by both"));
+  EXPECT_TRUE(says(note_of_configuration("4"), "the configuration in a.json is damaged"));
+  EXPECT_TRUE(says(note_of_configuration("4x"), "the configuration in a.json is damaged"));
+  EXPECT_TRUE(says(note_of_configuration("40"), "the game refuses the configuration in a.json"));
+  EXPECT_TRUE(says(note_of_configuration(std::nullopt), "a.json holds no configuration"));
+}
+
+// A file of the plain game whose state after tick 1 is kept.
+LogHashes keep_state(const std::string& name, const Simulation& game) {
+  LogHashes file = machine(name, {{1, name}});
+  file.game = "plain";
+  file.config = "";
+  file.states = testing::TempDir() + "/hash_compare_" + name;
+  std::filesystem::create_directories(file.states);
+  const std::vector<std::byte> bytes = replay::pack_snapshot(canonical_bytes(game));
+  std::ofstream out(state_file(file.states, 1), std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()),
+            static_cast<std::streamsize>(bytes.size()));
+  return file;
+}
+
+TEST(HashCompare, NamesTheFieldOfAGameWithoutAConfiguration) {
+  ToySimulation game(ToyConfig{});
+  const LogHashes here = keep_state("here", game);
+  ASSERT_TRUE(game.flip_bit("body", 1, "position.x", 0));
+  const LogHashes there = keep_state("there", game);
+  const auto result = compare_log_hashes({here, there}, Games({plain_game()}));
+  ASSERT_TRUE(result.field) << result.note;
+  EXPECT_EQ(result.field->field, "position.x");
+  EXPECT_EQ(result.field->object, 1U);
 }
 
 }  // namespace

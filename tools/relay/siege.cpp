@@ -29,7 +29,7 @@ std::vector<std::unique_ptr<Attack>> attacks_on(TrialMatch& match, const SiegeOp
 TrialOptions trial_of(const SiegeOptions& options) {
   TrialOptions trial;
   trial.game = options.game;
-  trial.players = options.honest + 2;
+  trial.players = options.honest + k_siege_attackers;
   trial.liar = options.honest + 1;
   trial.seed = options.seed;
   trial.input_delay = options.input_delay;

@@ -9,13 +9,16 @@
 
 namespace lockstone::relay {
 
+/// Seats of the attackers from within: a flooding player and a lying one.
+inline constexpr unsigned k_siege_attackers = 2;
+
 struct SiegeOptions {
   const GameDef* game = nullptr;  ///< configures matches
   std::uint64_t seed = 1;
   std::int64_t duration_us = 10'000'000;  ///< at least …
   std::int64_t patience_us = 20'000'000;  ///< … and at most so much more, until
   std::uint64_t least_sent = 4;  ///< every attacker has done so much and those within are found
-  unsigned honest = 3;           ///< players; two more seats are a flooding and a lying one's
+  unsigned honest = 3;           ///< players, beside k_siege_attackers
   net::DatagramLimits limits = {};
   unsigned flood_per_second = 600;  ///< packets of the attacker from within, beside its session's
   unsigned walkers = 14;            ///< connections that walk before they show a token

@@ -103,6 +103,15 @@ World* world_of(const GameDef& game, Simulation& simulation) {
   return game.world ? game.world(simulation) : nullptr;
 }
 
+std::optional<unsigned> players_of(const GameDef& game, const MatchRequest& request) {
+  if (!game.configure) return std::nullopt;
+  const Result<std::vector<std::byte>> config = game.configure(request);
+  if (!config) return std::nullopt;
+  const auto simulation = game.make(config.value());
+  if (!simulation) return std::nullopt;
+  return simulation.value()->info().player_count;
+}
+
 bool press(const GameDef& game, const BotView& view, std::span<std::byte> out) {
   std::ranges::fill(out, std::byte{0});
   if (game.bot) return game.bot(view, out);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,6 +68,9 @@ void name_game(const GameDef& game, replay::MatchMetadata& match);
 
 /// The game's world, or null where it has none to show.
 [[nodiscard]] World* world_of(const GameDef& game, Simulation& simulation);
+
+/// The players of the match that a game starts by this request; nothing when it refuses.
+[[nodiscard]] std::optional<unsigned> players_of(const GameDef& game, const MatchRequest& request);
 
 /// Writes a bot's input for one tick; false when nobody plays the slot.
 [[nodiscard]] bool press(const GameDef& game, const BotView& view, std::span<std::byte> out);

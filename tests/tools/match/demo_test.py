@@ -103,8 +103,8 @@ class Network(unittest.TestCase):
     def test_a_demo_finds_one_wrong_bit(self):
         out = self.expect(1, self.start("demo", "--fast", "--players", 3, "--ticks", 240,
                                         "--bodies", 30, "--flip-bit-at", 77))
-        self.assertRegex(out, r'desync: tick 77, player 2, body \d+ "[a-z]+ \d+", velocity\.y: '
-                              r"0x[0-9a-f]+ \(\S+ m/s\) here, 0x[0-9a-f]+ \(\S+ m/s\) there")
+        self.assertRegex(out, r'desync: tick 77, player 2, body \d+ "[a-z]+ \d+", position\.x: '
+                              r"0x[0-9a-f]+ \(\S+ m\) here, 0x[0-9a-f]+ \(\S+ m\) there")
 
     def test_an_interrupted_demo_leaves_a_good_log(self):
         demo = self.start("demo", "--players", 2, "--ticks", 100000, "--bodies", 20)

@@ -46,8 +46,11 @@ std::string BisectReport::to_line() const {
   std::string line = fmt::format("tick {}", tick);
   if (!stage.empty()) line += ", stage " + stage;
   if (!difference.differs) return line;
-  line += ", ";
-  if (difference_tick != tick + 1) line += fmt::format("at tick {}: ", difference_tick);
+  if (difference_tick != tick + 1) {
+    line += fmt::format(", at tick {}: ", difference_tick);
+  } else {
+    line += stage.empty() ? ", " : ", after the tick: ";  // a stage may lie before the whole step
+  }
   return line + difference.to_line();
 }
 

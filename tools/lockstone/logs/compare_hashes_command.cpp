@@ -23,6 +23,7 @@ using nlohmann::ordered_json;
 
 struct CompareOptions {
   std::vector<std::string> paths;
+  std::vector<std::string> expected;  ///< names of machines
   bool json = false;
   bool markdown = false;
 };
@@ -46,6 +47,17 @@ std::ptrdiff_t first_difference(const ordered_json& here, const ordered_json& th
 std::string member(const HashFile& file, const char* name) {
   const auto found = file.json.find(name);
   return found != file.json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// The expected machines of which there is no file.
+std::vector<std::string> missing_of(const CompareOptions& options,
+                                    const std::vector<HashFile>& files) {
+  std::vector<std::string> missing;
+  for (const std::string& name : options.expected) {
+    const auto is_of = [&](const HashFile& file) { return member(file, "name") == name; };
+    if (std::ranges::none_of(files, is_of)) missing.push_back(name);
+  }
+  return missing;
 }
 
 // The complaints about one file of scenes, held against the first.
@@ -113,9 +125,10 @@ void print_table(const std::vector<LogHashes>& files, const HashComparison& comp
   if (!comparison.note.empty()) fmt::print("{}{}\n", markdown ? "\n" : "", comparison.note);
 }
 
-ordered_json comparison_json(const std::vector<LogHashes>& files,
-                             const HashComparison& comparison) {
-  ordered_json json{{"same", comparison.same()}, {"ticks", comparison.ticks}};
+ordered_json comparison_json(const std::vector<LogHashes>& files, const HashComparison& comparison,
+                             const std::vector<std::string>& missing) {
+  ordered_json json{{"same", comparison.same()}, {"equal_ticks", comparison.ticks}};
+  if (!missing.empty()) json["missing"] = missing;
   for (const HashGroup& group : comparison.groups) {
     ordered_json names = ordered_json::array();
     for (const std::size_t file : group.files)
@@ -132,14 +145,16 @@ ordered_json comparison_json(const std::vector<LogHashes>& files,
     json["store"] = comparison.field->store;
     json["object"] = comparison.field->object;
     json["field"] = comparison.field->field;
-    json["line"] = comparison.field->to_line();
+    json["a"] = comparison.field->here;
+    json["b"] = comparison.field->there;
   }
   if (!comparison.note.empty()) json["note"] = comparison.note;
+  json["line"] = comparison.to_line();
   return json;
 }
 
 int compare_log_files(const Games& games, const CompareOptions& options,
-                      const std::vector<HashFile>& read) {
+                      const std::vector<HashFile>& read, const std::vector<std::string>& missing) {
   std::vector<LogHashes> files;
   for (const HashFile& file : read) {
     std::optional<LogHashes> hashes = parse_log_hashes(file.path, file.json);
@@ -151,7 +166,7 @@ int compare_log_files(const Games& games, const CompareOptions& options,
   }
   const HashComparison comparison = compare_log_hashes(files, games);
   if (options.json) {
-    write_json(comparison_json(files, comparison));
+    write_json(comparison_json(files, comparison, missing));
   } else {
     print_table(files, comparison, options.markdown);
   }
@@ -159,6 +174,10 @@ int compare_log_files(const Games& games, const CompareOptions& options,
 }
 
 int compare_hashes(const Games& games, const CompareOptions& options) {
+  if (options.paths.size() < 2 && options.expected.empty()) {
+    complain("compare-hashes takes two or more files");
+    return k_usage;
+  }
   std::vector<HashFile> files;
   std::size_t of_logs = 0;
   for (const std::string& path : options.paths) {
@@ -168,10 +187,16 @@ int compare_hashes(const Games& games, const CompareOptions& options) {
     files.push_back({path, std::move(*json)});
   }
   if (files.size() != options.paths.size()) return k_corrupt;
-  if (of_logs == 0) return compare_scene_files(files);
-  if (of_logs == files.size()) return compare_log_files(games, options, files);
-  complain("some files hold hashes of scenes and others those of a log");
-  return k_incompatible;
+  if (of_logs != 0 && of_logs != files.size()) {
+    complain("some files hold hashes of scenes and others those of a log");
+    return k_incompatible;
+  }
+  const std::vector<std::string> missing = missing_of(options, files);
+  const int code =
+      of_logs == 0 ? compare_scene_files(files) : compare_log_files(games, options, files, missing);
+  for (const std::string& name : missing)
+    complain(fmt::format("--expect {}: no file is of this machine", name));
+  return code == k_ok && !missing.empty() ? k_corrupt : code;
 }
 
 }  // namespace
@@ -180,9 +205,11 @@ void add_compare_hashes_command(CLI::App& app, Tool& tool) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
       app.add_subcommand("compare-hashes", "Compare the output of several machines' `hash`");
-  command->add_option("files", options->paths, "JSON files, two or more")
+  command->add_option("files", options->paths, "JSON files, two or more; one with --expect")
       ->required()
-      ->expected(2, -1);
+      ->expected(1, -1);
+  command->add_option("--expect", options->expected,
+                      "Names of the machines of which there must be a file");
   CLI::Option* json = command->add_flag("--json", options->json, "Print JSON (of logs)");
   command->add_flag("--markdown", options->markdown, "Print a table for a page (of logs)")
       ->excludes(json);

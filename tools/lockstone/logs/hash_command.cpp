@@ -185,7 +185,7 @@ int hash_log(const Games& games, const HashOptions& options) {
   json["game_version"] = log.game->version;
   json["match"] = match_text(found.ticks->reader().header());
   const ByteView config = found.ticks->config();
-  json["config"] = config.size() <= k_most_quoted_config_bytes ? hexadecimal_text(config) : "";
+  if (config.size() <= k_most_quoted_config_bytes) json["config"] = hexadecimal_text(config);
   const int code = LogRun(options, found).run(json);
   return code == k_ok ? emit(options, json) : code;
 }

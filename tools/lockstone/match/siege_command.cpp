@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -48,13 +49,33 @@ void print_report(const relay::SiegeReport& report) {
   fmt::print("visitors {} of {} let in\n", report.visitors_seated, report.visitors);
   fmt::print("the flooding player {}, the lying one {}\n",
              report.traitor_dropped ? "was dropped" : "was NOT dropped",
-             report.liar_expelled ? "was sent away" : "was NOT sent away");
+             report.liar_expelled ? "was expelled" : "was NOT expelled");
+}
+
+// True when the game has a seat for everybody; else a complaint.
+bool has_seats(const relay::SiegeOptions& options) {
+  const GameDef& game = *options.game;
+  const unsigned seats = options.honest + relay::k_siege_attackers;
+  MatchRequest request{.seed = options.seed, .players = static_cast<std::uint8_t>(seats)};
+  if (players_of(game, request) == seats) return true;
+  request.players = 0;
+  const std::optional<unsigned> usual = players_of(game, request);
+  complain(fmt::format("siege --players {} needs {} + {} seats; {}", options.honest, options.honest,
+                       relay::k_siege_attackers,
+                       usual ? fmt::format("{} has {}", game.name, *usual)
+                             : fmt::format("{} refuses that number", game.name)));
+  return false;
 }
 
 int siege(const relay::SiegeOptions& options) {
+  if (!has_seats(options)) return k_usage;
+  if (!net::security_available()) {
+    complain("siege needs libsodium, which this build lacks");
+    return k_unavailable;
+  }
   const auto report = relay::run_siege(options);
   if (!report) {
-    complain("no match: no socket, no libsodium, or the game refuses this many players");
+    complain("siege needs UDP sockets on this machine, which the system refuses");
     return k_unavailable;
   }
   print_report(*report);
@@ -89,7 +110,9 @@ void add_siege_command(CLI::App& app, Tool& tool) {
   command->add_option("--seconds", options->seconds, "Length of the attack")
       ->check(CLI::Range(1U, 3600U))
       ->capture_default_str();
-  command->add_option("--players", options->siege.honest, "Honest ones")
+  command
+      ->add_option("--players", options->siege.honest,
+                   "Honest ones; the game needs two more seats, for attackers")
       ->check(CLI::Range(1U, 14U))
       ->capture_default_str();
   command->add_option("--seed", options->siege.seed, "Seed of the attackers' choices")

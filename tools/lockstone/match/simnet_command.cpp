@@ -30,14 +30,19 @@ struct SimnetOptions {
   bool json = false;
 };
 
+MatchRequest request_of(const GameDef& game, const SimnetOptions& options, std::uint64_t seed,
+                        std::size_t players) {
+  return {.scene = options.scene == game.name ? std::string_view() : options.scene,
+          .seed = seed,
+          .players = static_cast<std::uint8_t>(players),
+          .bodies = options.bodies};
+}
+
 // Every client plays the game that has this scene. A match that it refuses fails.
 simnet::Game scene_game(const Games& games, const SimnetOptions& options, std::uint64_t seed) {
   const GameDef* game = games.of_scene(options.scene);
   Result<std::vector<std::byte>> config =
-      game->configure({.scene = options.scene == game->name ? "" : options.scene,
-                       .seed = seed,
-                       .players = static_cast<std::uint8_t>(options.batch.clients),
-                       .bodies = options.bodies});
+      game->configure(request_of(*game, options, seed, options.batch.clients));
   if (!config) return {{}, game->make, game->make};
   return {std::move(config).value(), game->make, game->make};
 }
@@ -52,24 +57,32 @@ simnet::GameMaker game_maker(const Games& games, const SimnetOptions& options) {
   };
 }
 
-// True when the game can make such matches; else a complaint.
-bool check_game(const Games& games, const SimnetOptions& options) {
-  if (options.scene == k_toy) return true;
+// Chooses the usual number of players where none was asked for. True when the game can make such
+// matches; else a complaint.
+bool check_game(const Games& games, SimnetOptions& options) {
+  std::size_t& players = options.batch.clients;
+  if (options.scene == k_toy) {
+    if (players == 0) players = simnet::BatchOptions{}.clients;
+    return true;
+  }
   const GameDef* game = games.of_scene(options.scene);
   if (game == nullptr || !game->configure) {
     complain(fmt::format("no game here makes matches of the scene {}", options.scene));
     return false;
   }
-  const simnet::Game made = scene_game(games, options, options.batch.first_seed);
-  const auto simulation = made.factory(made.config);
-  if (simulation && simulation.value()->info().player_count == options.batch.clients) return true;
-  complain(fmt::format("the game '{}' refuses {} players", game->name, options.batch.clients));
+  const auto usual = players_of(*game, request_of(*game, options, options.batch.first_seed, 0));
+  if (players == 0) players = usual.value_or(0);
+  const auto made =
+      players_of(*game, request_of(*game, options, options.batch.first_seed, players));
+  if (made && *made == players && players > 0) return true;
+  complain(fmt::format("the game '{}' refuses --players {}{}", game->name, players,
+                       usual ? fmt::format("; its usual number is {}", *usual) : ""));
   return false;
 }
 
 std::string repeat_command(const SimnetOptions& options, const simnet::BatchFailure& failure) {
   std::string line =
-      fmt::format("{} simnet --first-seed {} --seeds 1 --clients {} --ticks {}", program_name(),
+      fmt::format("{} simnet --first-seed {} --seeds 1 --players {} --ticks {}", program_name(),
                   failure.seed, options.batch.clients, options.batch.ticks);
   if (options.scene != k_toy) {
     line += fmt::format(" --scene {} --bodies {}", options.scene, options.bodies);
@@ -168,8 +181,9 @@ void add_simnet_command(CLI::App& app, Tool& tool) {
       ->capture_default_str();
   command->add_option("--first-seed", batch.first_seed, "Seed of the first match")
       ->capture_default_str();
-  command->add_option("--clients", batch.clients, "Players of each match")
-      ->check(CLI::Range(1, 16))
+  batch.clients = 0;
+  command->add_option("--players", batch.clients, "Players of each match; 0: the usual number")
+      ->check(CLI::Range(0, 16))
       ->capture_default_str();
   command->add_option("--ticks", batch.ticks, "Ticks of each match")
       ->check(CLI::Range(60, 1'000'000))

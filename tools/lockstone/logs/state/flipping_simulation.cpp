@@ -11,8 +11,9 @@
 namespace lockstone::tool {
 namespace {
 
-// The lowest bit of the velocity along y of the last dynamic body that is awake: the smallest error
-// there is. A native copy makes the derived data fit again.
+// The lowest bit of the position along x of the last dynamic body that is awake: the smallest error
+// there is. It stays where a game sets velocities in every tick. A native copy makes the derived
+// data fit again.
 void disturb(const GameDef& game, Simulation& simulation) {
   World* world = world_of(game, simulation);
   if (world == nullptr) return;
@@ -21,7 +22,7 @@ void disturb(const GameDef& game, Simulation& simulation) {
     if (body.is_null()) continue;
     const BodyView view = world->body(body);
     if (view.motion != MotionType::dynamic || view.is_asleep) continue;
-    LKS_CHECK(world->flip_bit("body", index, "velocity.y", 0));
+    LKS_CHECK(world->flip_bit("body", index, "position.x", 0));
     std::vector<std::byte> bytes(world->snapshot_bytes_max(SnapshotKind::native));
     bytes.resize(world->save(SnapshotKind::native, bytes));
     LKS_CHECK(world->load(SnapshotKind::native, bytes) == Status::ok);

@@ -8,7 +8,7 @@
 
 namespace lockstone::tool {
 
-/// `inner`, of a game that has a world, but for one bit of one body's velocity, which changes at
+/// `inner`, of a game that has a world, but for one bit of one body's position, which changes at
 /// the end of tick `tick` (that is in the step from `tick` to `tick` + 1).
 [[nodiscard]] std::unique_ptr<Simulation> make_flipping(const GameDef& game,
                                                         std::unique_ptr<Simulation> inner,

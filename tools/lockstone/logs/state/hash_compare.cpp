@@ -1,6 +1,7 @@
 #include "tools/lockstone/logs/state/hash_compare.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -45,21 +46,47 @@ void group_at(const std::vector<LogHashes>& files, std::uint64_t tick, HashCompa
                            [](const HashGroup& group) { return group.files.size(); });
 }
 
+void add_note(HashComparison& result, const std::string& why) {
+  if (result.note.find(why) != std::string::npos) return;
+  result.note += (result.note.empty() ? "" : "; ") + why;
+}
+
+// Why a state that both kept names nothing: the difference healed before, or the game does not show
+// it.
+std::string note_of_equal(const LogHashes& here, const LogHashes& there, std::uint64_t tick) {
+  if (hash_at(here, tick) != hash_at(there, tick))
+    return fmt::format("the game shows no difference between the states at tick {}", tick);
+  return fmt::format("the states are equal again at tick {}: hash again with --parts-every 1",
+                     tick);
+}
+
+std::optional<std::string> first_different_part(const LogHashes::Parts& here,
+                                                const LogHashes::Parts& there) {
+  for (const auto& [name, hash] : here) {
+    const auto found = there.find(name);
+    if (found == there.end() || found->second != hash) return name;
+  }
+  return std::nullopt;
+}
+
 // The first part that differs, in the first state at or after the tick whose parts both have.
 void find_part(const LogHashes& here, const LogHashes& there, std::uint64_t after,
                HashComparison& result) {
+  std::string note = "no hashes of parts after this tick in both";
+  bool is_first = true;
   for (auto at = here.parts.lower_bound(after); at != here.parts.end(); ++at) {
     const auto other = there.parts.find(at->first);
     if (other == there.parts.end()) continue;
-    for (const auto& [name, hash] : at->second) {
-      const auto found = other->second.find(name);
-      if (found != other->second.end() && found->second == hash) continue;
-      result.part = name;
+    const auto part = first_different_part(at->second, other->second);
+    if (part) {
+      result.part = *part;
       result.part_tick = at->first;
       return;
     }
+    if (is_first) note = note_of_equal(here, there, at->first);
+    is_first = false;
   }
-  result.note = "no hashes of parts after this tick in both";
+  add_note(result, note);
 }
 
 std::optional<std::vector<std::byte>> bytes_of(const std::string& digits) {
@@ -69,7 +96,7 @@ std::optional<std::vector<std::byte>> bytes_of(const std::string& digits) {
            : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10
                                           : -1;
   };
-  if (digits.empty() || digits.size() % 2 != 0) return std::nullopt;
+  if (digits.size() % 2 != 0) return std::nullopt;
   for (std::size_t i = 0; i < digits.size(); i += 2) {
     const int high = value(digits[i]), low = value(digits[i + 1]);
     if (high < 0 || low < 0) return std::nullopt;
@@ -86,30 +113,46 @@ std::optional<std::vector<std::byte>> read_state(const std::string& folder, std:
   return std::move(unpacked).value();
 }
 
+// The game that describes states, made from the configuration in the file; else null, with a note.
+std::unique_ptr<Simulation> make_describer(const LogHashes& file, const Games& games,
+                                           HashComparison& result) {
+  const auto refused = [&](const std::string& why) {
+    add_note(result, why);
+    return nullptr;
+  };
+  const GameDef* game = games.find(file.game);
+  if (game == nullptr) return refused("the game '" + file.game + "' is not known here: use --game");
+  if (!file.config) return refused(file.path + " holds no configuration: it is too long");
+  const auto config = bytes_of(*file.config);
+  if (!config) return refused("the configuration in " + file.path + " is damaged");
+  auto simulation = game->make(*config);
+  if (!simulation) return refused("the game refuses the configuration in " + file.path);
+  return std::move(simulation).value();
+}
+
 // The first field that differs, in the first state at or after the tick that both kept.
 void find_field(const LogHashes& here, const LogHashes& there, std::uint64_t after,
                 const Games& games, HashComparison& result) {
-  const auto note = [&](const std::string& why) {
-    result.note += (result.note.empty() ? "" : "; ") + why;
-  };
   if (here.states.empty() || there.states.empty())
-    return note("states were not kept: `hash --states` lets this name the field");
-  const GameDef* game = games.find(here.game);
-  if (game == nullptr) return note("the game '" + here.game + "' is not known here: use --game");
-  const auto config = bytes_of(here.config);
-  const auto simulation = config ? game->make(*config) : Status::malformed;
-  if (!simulation) return note("the game refuses the configuration in " + here.path);
+    return add_note(result, "states were not kept: `hash --states` lets this name the field");
+  const std::unique_ptr<Simulation> simulation = make_describer(here, games, result);
+  if (simulation == nullptr) return;
+  std::string note = "no state after this tick was kept by both";
+  bool is_first = true;
   for (auto at = here.hashes.lower_bound(after); at != here.hashes.end(); ++at) {
     const auto ours = read_state(here.states, at->first);
     const auto theirs = ours ? read_state(there.states, at->first) : std::nullopt;
     if (!theirs) continue;
-    const StateDifference difference = simulation.value()->describe(*ours, *theirs);
-    if (!difference.differs) continue;
-    result.field = difference;
-    result.field_tick = at->first;
-    return;
+    const StateDifference difference = simulation->describe(*ours, *theirs);
+    if (difference.differs) {
+      result.field = difference;
+      result.field_tick = at->first;
+      return;
+    }
+    if (is_first) note = note_of_equal(here, there, at->first);
+    is_first = false;
   }
-  note("no state after this tick was kept by both");
+  add_note(result, note);
 }
 
 // "body 17, velocity.y: 0x… in A, 0x… in B".

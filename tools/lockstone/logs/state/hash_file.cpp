@@ -120,7 +120,7 @@ std::optional<LogHashes> parse_log_hashes(const std::string& path, const ordered
   file.processor = text_of(json, "processor");
   file.simd = text_of(json, "simd");
   file.game = text_of(json, "game");
-  file.config = text_of(json, "config");
+  if (json.contains("config")) file.config = text_of(json, "config");
   file.match = text_of(json, "match");
   const std::string states = text_of(json, "states");
   if (!states.empty()) {

@@ -20,16 +20,17 @@ inline constexpr unsigned k_log_hashes_format = 2;
 
 /// One machine's run of one log, as a file holds it.
 struct LogHashes {
+  using Parts = std::map<std::string, std::string>;  ///< the hash of each part of the state
+
   std::string path;
   std::string name;  ///< of the machine
   std::string processor;
   std::string simd;
   std::string game;
-  std::string config;                           ///< hexadecimal; may be empty when it is long
+  std::optional<std::string> config;            ///< hexadecimal; missing where it is long
   std::string match;                            ///< names the log: another match has another
   std::map<std::uint64_t, std::string> hashes;  ///< after the ticks below the key
-  /// After the ticks below the key: the hash of each part of the state.
-  std::map<std::uint64_t, std::map<std::string, std::string>> parts;
+  std::map<std::uint64_t, Parts> parts;         ///< after the ticks below the key
   std::string states;  ///< folder of kept states, beside the file; empty: none
 };
 
