@@ -61,6 +61,7 @@ extern const Scene k_rollers, k_drums, k_cones, k_coins;                 // rims
 extern const Scene k_bullets;                                            // bullets.cpp
 extern const Scene k_layers;                                             // layers.cpp
 extern const Scene k_belts;                                              // belts.cpp
+extern const Scene k_crowd;                                              // crowd.cpp
 extern const Scene k_arch, k_cards;                                      // masonry.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
