@@ -80,8 +80,8 @@ function importsOf(grown: () => void): WebAssembly.Imports {
 
 async function instantiate(source: WasmSource, imports: WebAssembly.Imports): Promise<WebAssembly.Instance> {
   const code = await (typeof source === "string" || source instanceof URL ? open(source) : source);
-  if (code instanceof WebAssembly.Module) return WebAssembly.instantiate(code, imports);
   if (typeof Response === "function" && code instanceof Response) return fromResponse(code, imports);
+  if (code instanceof WebAssembly.Module) return WebAssembly.instantiate(code, imports);
   return (await WebAssembly.instantiate(code as BufferSource, imports)).instance;
 }
 
