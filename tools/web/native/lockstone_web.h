@@ -1,5 +1,5 @@
-/* What the npm package needs besides the C interface: poses in floating point, to be drawn. Nothing
- * that is read here may find its way back into a world. */
+/* Poses in floating point, to be drawn: the npm package needs them besides the C interface. They
+ * must never find their way back into a world. */
 #ifndef LOCKSTONE_WEB_H
 #define LOCKSTONE_WEB_H
 

@@ -67,7 +67,7 @@ export async function loadFrom(options: LoadOptions, plain: () => URL, vectors: 
   return loaded;
 }
 
-/** What the module asks of its surroundings: next to nothing. */
+/** The imports of the module: it needs next to nothing. */
 function importsOf(grown: () => void): WebAssembly.Imports {
   const fail = (): never => {
     throw new Error("Lockstone: a fault of the library; please report it");

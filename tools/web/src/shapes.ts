@@ -3,7 +3,7 @@ import type { Heap } from "./heap.js";
 import type { Lockstone } from "./load.js";
 import type { Quantity, Vector } from "./units.js";
 
-/** A shape: what `sphere`, `box`, … return. Sizes are 0.98 mm … 512 m. */
+/** A shape, made by `sphere`, `box`, …. Sizes are 0.98 mm … 512 m. */
 export interface Shape {
   readonly kind: number;
   readonly size: Vector;
