@@ -339,12 +339,19 @@ def typescript(c):
     return "\n".join(lines + ["}", ""])
 
 
+def web_interface(c):
+    web = Interface(WEB_HEADERS)
+    web.functions["lks_verify_log_bytes"] = c.functions["lks_verify_log_bytes"]
+    web.structs["lks_log_report"] = c.structs["lks_log_report"]
+    return web
+
+
 def main():
     c = Interface(HEADERS)
     files = {HERE / "rust/lockstone-sys/src/lib.rs": rust(c),
              HERE / "csharp/com.lockstone.core/Runtime/Native.cs": sharp(c),
              HERE / "python/lockstone/_declarations.py": python(c),
-             HERE.parent / "web/src/declarations.ts": typescript(Interface(WEB_HEADERS))}
+             HERE.parent / "web/src/declarations.ts": typescript(web_interface(c))}
     stale = [path for path, text in files.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
     if sys.argv[1:] == ["--check"]:
         sys.exit("\n".join(f"{path} is not the generated one: run {__file__}" for path in stale) or 0)

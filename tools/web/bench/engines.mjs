@@ -10,7 +10,7 @@ const modules = `${build}node/node_modules/`;
 const node = createRequire(`${build}node/`);
 const versionOf = (name) => node(`${modules}${name}/package.json`).version;
 const code = (address) => import(pathToFileURL(address));
-const ours = ["index", "body", "declarations", "errors", "events", "heap", "joints", "list", "load", "queries", "shapes",
+const ours = ["index", "body", "declarations", "errors", "events", "heap", "joints", "list", "load", "outline", "queries", "shapes",
   "state", "units", "view", "world"].map((name) => `${build}package/dist/${name}.js`);
 
 function lockstone(simd) {

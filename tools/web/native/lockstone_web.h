@@ -27,6 +27,22 @@ LKS_API void lks_web_blend(const lks_web_poses_at* before, const lks_web_poses_a
                            float fraction, float snap, uint32_t rows, float* positions,
                            float* orientations);
 
+/* A part of a body's shape that is a sphere, capsule, box, cylinder or cone, in the frame of the
+ * shape: sizes as of lks_shape, the place of its origin, and the unit vectors of its axes. */
+typedef struct lks_web_part {
+  uint32_t kind;
+  float size[3];
+  float place[3];
+  float axes[9];
+} lks_web_part;
+
+/* The shape of a body, to be drawn: parts, and the triangles of its hulls and meshes, nine numbers
+ * each, counter-clockwise seen from outside. A half-space is a part without a size. The counts are
+ * those that there are; LKS_BUFFER_TOO_SMALL when that is more than the capacities. */
+LKS_API lks_status lks_web_outline(const lks_world* world, lks_body body, lks_web_part* parts,
+                                   size_t part_capacity, size_t* part_count, float* triangles,
+                                   size_t triangle_capacity, size_t* triangle_count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -121,6 +121,8 @@ export const lks_hit = { $bytes: 56, body: 0, fraction: 8, normal: 12, point: 24
 export const lks_closest = { $bytes: 40, body: 0, point: 8, distance: 32, part: 36 } as const;
 export const lks_hashes = { $bytes: 40, total: 0, header: 8, bodies: 16, contacts: 24, joints: 32 } as const;
 export const lks_web_poses_at = { $bytes: 12, bodies: 0, positions: 4, orientations: 8 } as const;
+export const lks_web_part = { $bytes: 64, kind: 0, size: 4, place: 16, axes: 28 } as const;
+export const lks_log_report = { $bytes: 576, size: 0, outcome: 4, start_tick: 8, ticks_verified: 16, final_hash: 24, diverged_tick: 32, expected: 40, actual: 48, complete: 56, torn_tail: 60, line: 64 } as const;
 
 /** The functions of the module. Pointers and sizes are numbers, 64-bit integers are bigints. */
 export interface Functions {
@@ -212,4 +214,6 @@ export interface Functions {
   lks_describe_difference(world: number, here: number, here_bytes: number, there: number, there_bytes: number, differs: number, text: number, capacity: number): number;
   lks_web_poses(world: number, origin: number, bodies: number, positions: number, orientations: number, rows: number, used: number): number;
   lks_web_blend(before: number, now: number, fraction: number, snap: number, rows: number, positions: number, orientations: number): void;
+  lks_web_outline(world: number, body: bigint, parts: number, part_capacity: number, part_count: number, triangles: number, triangle_capacity: number, triangle_count: number): number;
+  lks_verify_log_bytes(bytes: number, count: number, report: number): number;
 }

@@ -16,6 +16,7 @@ export {
   jointEvents, joints, jointsOf,
 } from "./joints.js";
 export { type LoadOptions, Lockstone, type WasmSource, hasSimd, load } from "./load.js";
+export { type Outline, type OutlinePart, outlineOf } from "./outline.js";
 export {
   type Closest, type Hit, type QueryFilter, castRay, castRayAll, castShape, closestPoint, isRayBlocked, overlapShape,
   overlapSphere,

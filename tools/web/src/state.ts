@@ -69,7 +69,8 @@ const forgotten = new FinalizationRegistry<() => void>((free) => free());
 /** A state kept in the module's memory, for rollback and rewinding: about as fast as a copy. */
 export class Snapshot {
   private readonly room: number;
-  private readonly capacity: number;
+  /** Bytes of memory that it holds. */
+  readonly capacity: number;
   private bytes = 0;
 
   /** Room for a state of the world; empty until `save`. */
