@@ -633,6 +633,7 @@ static const struct test k_tests[] = {TEST(a_ball_falls_and_rests_on_the_ground)
                                       TEST(structures_of_another_size_are_refused),
                                       TEST(destroyed_bodies_are_stale),
                                       TEST(queries_out_of_range_are_refused),
+                                      TEST(scenes_go_back),
                                       TEST(scenes_take_no_commands),
                                       TEST(threads_change_no_result),
                                       TEST(numbers_convert_exactly),
