@@ -13,10 +13,10 @@ const code = (address) => import(pathToFileURL(address));
 const ours = ["index", "body", "declarations", "errors", "events", "heap", "joints", "list", "load", "outline", "queries", "shapes",
   "state", "units", "view", "world"].map((name) => `${build}package/dist/${name}.js`);
 
-function lockstone(simd) {
+function lockstone(simd, rules = {}) {
   const wasm = `${build}package/dist/lockstone${simd ? "-simd" : ""}.wasm`;
   return {
-    name: `Lockstone ${simd ? "with" : "without"} vectors`,
+    name: `Lockstone ${simd ? "with" : "without"} vectors${rules.convergedContacts === 0 ? ", iterated" : ""}`,
     version: versionOf("../../package"),
     files: [...ours, wasm],
     async load() {
@@ -24,7 +24,8 @@ function lockstone(simd) {
       return { module, loaded: await module.load({ simd }) };
     },
     make({ module, loaded }) {
-      const world = new module.World(loaded, { bodyCapacity: 512, pairCapacity: 4096, contactCapacity: 2048, sleepMs: 0, gravity: [0, GRAVITY, 0] });
+      const capacities = { bodyCapacity: 512, pairCapacity: 4096, contactCapacity: 2048 };
+      const world = new module.World(loaded, { ...capacities, sleepMs: 0, gravity: [0, GRAVITY, 0], ...rules });
       const surface = { friction: FRICTION };
       world.createBody({ shape: module.box(...FLOOR.half), motion: module.Motion.static, position: FLOOR.position, surface });
       const boxes = pyramid().map((position) =>
@@ -103,6 +104,7 @@ const jolt = {
 
 export const engines = {
   simd: lockstone(true),
+  iterated: lockstone(true, { convergedContacts: 0 }),
   plain: lockstone(false),
   rapier: rapier("rapier3d-compat"),
   deterministic: rapier("rapier3d-deterministic-compat"),
