@@ -70,7 +70,7 @@ const forgotten = new FinalizationRegistry<() => void>((free) => free());
 export class Snapshot {
   private readonly room: number;
   /** Bytes of memory that it holds. */
-  readonly capacity: number;
+  capacity: number;
   private bytes = 0;
 
   /** Room for a state of the world; empty until `save`. */
@@ -93,7 +93,8 @@ export class Snapshot {
   }
 
   destroy(): void {
-    forgotten.unregister(this);
+    if (!forgotten.unregister(this)) return; // twice
     this.world.heap.f.free(this.room);
+    this.capacity = this.bytes = 0;
   }
 }

@@ -83,7 +83,8 @@ export class View {
 
   /** Writes the poses of a part of the way from the tick before the last to the last, 0 … 1. */
   at(fraction: number): this {
-    const { heap } = this.world;
+    const { heap, address } = this.world;
+    if (address === 0) throw new Error("the world of this view is destroyed");
     heap.f.lks_web_blend(this.before.struct, this.now.struct, Math.min(Math.max(fraction, 0), 1), this.snapDistance,
       this.used, this.shownPositions, this.shownOrientations);
     return this;

@@ -133,6 +133,7 @@ export class World {
 
   /** Releases the world's memory. Without it that happens some time after the object is forgotten. */
   destroy(): void {
+    if (this.address === 0) return;
     forgotten.unregister(this);
     this.rooms.release();
     (this as { address: number }).address = 0;

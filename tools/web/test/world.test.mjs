@@ -273,6 +273,19 @@ test("outlines have the parts and triangles of a shape", () => {
   assert.deepEqual([...found].sort(), corners.map(String).sort());
 });
 
+test("a destroyed world refuses calls, and is destroyed once", () => {
+  const { world, ball } = ballAbove(lockstone);
+  const view = new full.View(world), kept = new full.Snapshot(world);
+  kept.save();
+  for (let i = 0; i < 2; ++i) {
+    world.destroy();
+    kept.destroy();
+  }
+  for (const call of [() => world.step(), () => ball.position, () => view.at(0), () => view.update(), () => kept.save()]) {
+    assert.throws(call);
+  }
+});
+
 test("destroyed worlds give their memory back", () => {
   const bytes = () => lockstone.heap.f.memory.buffer.byteLength;
   const once = () => {
