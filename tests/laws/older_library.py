@@ -1,6 +1,6 @@
-"""The libraries, the player of scenes under Node and the C interface of the npm package compile for WebAssembly with the C++ library of Debian's
-Emscripten (libc++ 14): of algorithms on ranges there are those of the toolchain's wasm_algorithms.h, and
-some of C++20 is not there at all."""
+"""The libraries, the player of scenes under Node and the C interface of the npm package compile for WebAssembly
+with the C++ library of Debian's Emscripten (libc++ 14): of algorithms on ranges there are those of the toolchain's
+wasm_algorithms.h, and some of C++20 is not there at all."""
 
 import pathlib
 import re
