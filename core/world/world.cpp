@@ -183,7 +183,9 @@ std::string_view World::name(BodyHandle body) const {
 
 Transform pose_of(const World& world, BodyHandle body) {
   const BodyRecord* record = existing(world.impl_->find(body), body, "pose_of");
-  return shape_pose(world.impl_->cache.asset(body.index), {record->position, record->orientation});
+  const Transform pose{record->position, record->orientation};
+  const Asset* asset = world.impl_->cache.asset(body.index);
+  return asset == nullptr ? pose : shape_pose(asset, pose);
 }
 
 Vec3<Position> World::position(BodyHandle body) const {
