@@ -181,10 +181,16 @@ std::string_view World::name(BodyHandle body) const {
   return exists(body) ? impl_->names.of(body) : std::string_view{};
 }
 
+Transform pose_of(const World& world, BodyHandle body) {
+  const BodyRecord* record = existing(world.impl_->find(body), body, "pose_of");
+  const Transform pose{record->position, record->orientation};
+  const Asset* asset = world.impl_->cache.asset(body.index);
+  return asset == nullptr ? pose : shape_pose(asset, pose);
+}
+
 Vec3<Position> World::position(BodyHandle body) const {
-  const BodyRecord* record = existing(impl_->find(body), body, "World::position");
-  return shape_pose(impl_->cache.asset(body.index), {record->position, record->orientation})
-      .position;
+  (void)existing(impl_->find(body), body, "World::position");
+  return pose_of(*this, body).position;
 }
 
 Vec3<Velocity> World::velocity(BodyHandle body) const {

@@ -42,7 +42,7 @@ bool is_text(ByteView bytes) {
 }
 
 void put_as_text(ByteWriter& writer, std::string_view text) {
-  ByteView rest = std::as_bytes(std::span(text));
+  ByteView rest = std::as_bytes(std::span(text.data(), text.size()));
   while (!rest.empty()) {
     const std::size_t size = character_bytes(rest);
     if (size == 0) writer.put(std::byte{'?'});

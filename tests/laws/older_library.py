@@ -1,13 +1,14 @@
-"""The libraries, and the player of scenes under Node, compile for WebAssembly with the C++ library of Debian's
-Emscripten (libc++ 14): of algorithms on ranges there are those of the toolchain's wasm_algorithms.h, and
-some of C++20 is not there at all."""
+"""The libraries, the player of scenes under Node and the C interface of the npm package compile for WebAssembly
+with the C++ library of Debian's Emscripten (libc++ 14): of algorithms on ranges there are those of the toolchain's
+wasm_algorithms.h, and some of C++20 is not there at all."""
 
 import pathlib
 import re
 
 from cpp_source import Tree, code_only, expect_only, matching_lines, run_law
 
-FOLDERS = ["core", "net", "replay", "tools/bench/neutral", "tools/bench/player", "tools/cmake/toolchains"]
+FOLDERS = ["core", "net", "replay", "tools/arena", "tools/bench/neutral", "tools/bench/player", "tools/bindings/c",
+           "tools/cmake/toolchains", "tools/scenes", "tools/web"]
 SHIM = pathlib.PurePosixPath("tools/cmake/toolchains/wasm_algorithms.h")
 
 MISSING = {"make_unique_for_overwrite", "make_shared_for_overwrite", "format", "jthread", "stop_token",

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the declarations of the C interface for Rust, C# and Python, from its headers.
+"""Writes the declarations of the C interface for Rust, C#, Python and TypeScript, from its headers.
 
 usage: generate.py [--check]
 
@@ -12,6 +12,10 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 HEADERS = sorted((HERE / "c/lockstone_c").glob("*.h")) + [HERE.parent / "tool/include/lockstone/game_abi.h"]
+# The WebAssembly of tools/web has these: no sessions, no functions of the caller's.
+WEB_HEADERS = [HERE / f"c/lockstone_c/{name}.h" for name in
+               ("base", "units", "assets", "world", "bodies", "joints", "events", "queries", "state")]
+WEB_HEADERS.append(HERE.parent / "web/native/lockstone_web.h")
 NOTE = "Written by tools/bindings/generate.py from the C headers, which document each declaration."
 
 
@@ -272,11 +276,82 @@ def python(c):
     return "\n".join(lines + ["}", ""])
 
 
+WEB_SIZES = {"int8_t": 1, "uint8_t": 1, "char": 1, "int16_t": 2, "uint16_t": 2, "int32_t": 4, "uint32_t": 4, "int": 4,
+             "float": 4, "size_t": 4, "int64_t": 8, "uint64_t": 8}
+
+
+class WebLayouts:
+    """Places of the fields of structures in WebAssembly's memory, whose pointers have 32 bits."""
+
+    def __init__(self, c):
+        self.c, self.found = c, {}
+
+    def measure(self, kind):
+        """(bytes, alignment) of a type."""
+        base, levels = pointers(kind)
+        base = "int32_t" if base == "lks_status" else self.c.plain(base)
+        if levels:
+            return 4, 4
+        if base in self.c.structs:
+            fields = self.layout(base)
+            return fields["bytes"], fields["alignment"]
+        return WEB_SIZES[base], WEB_SIZES[base]
+
+    def layout(self, name):
+        if name in self.found:
+            return self.found[name]
+        places, end, most = {}, 0, 1
+        for field, kind, count in self.c.structs[name]:
+            size, alignment = self.measure(kind)
+            end = (end + alignment - 1) // alignment * alignment
+            places[field] = end
+            end, most = end + size * (count or 1), max(most, alignment)
+        end = (end + most - 1) // most * most
+        self.found[name] = {"places": places, "bytes": end, "alignment": most}
+        return self.found[name]
+
+
+def web_type(c, kind):
+    base, levels = pointers(kind)
+    base = c.plain(base)
+    if levels:
+        return "number"
+    return "void" if base == "void" else "bigint" if base in ("int64_t", "uint64_t") else "number"
+
+
+def web_function(c, name, result, parameters):
+    arguments = ", ".join(f"{parameter}: {web_type(c, kind)}" for kind, parameter in parameters)
+    return f"  {name}({arguments}): {web_type(c, result)};"
+
+
+def typescript(c):
+    layouts = WebLayouts(c)
+    lines = ["// " + NOTE, "", "// Constants."]
+    lines += [f"export const {name} = {value};" for name, (value, _) in c.constants.items()]
+    lines += ["", "// Places of the fields of each structure in memory, and its size in bytes as `$bytes`."]
+    for name in c.structs:
+        layout = layouts.layout(name)
+        places = "".join(f", {field}: {place}" for field, place in layout["places"].items())
+        lines.append(f"export const {name} = {{ $bytes: {layout['bytes']}{places} }} as const;")
+    lines += ["", "/** The functions of the module. Pointers and sizes are numbers, 64-bit integers are bigints. */",
+              "export interface Functions {"]
+    lines += [web_function(c, name, *kind) for name, kind in c.functions.items()]
+    return "\n".join(lines + ["}", ""])
+
+
+def web_interface(c):
+    web = Interface(WEB_HEADERS)
+    web.functions["lks_verify_log_bytes"] = c.functions["lks_verify_log_bytes"]
+    web.structs["lks_log_report"] = c.structs["lks_log_report"]
+    return web
+
+
 def main():
     c = Interface(HEADERS)
     files = {HERE / "rust/lockstone-sys/src/lib.rs": rust(c),
              HERE / "csharp/com.lockstone.core/Runtime/Native.cs": sharp(c),
-             HERE / "python/lockstone/_declarations.py": python(c)}
+             HERE / "python/lockstone/_declarations.py": python(c),
+             HERE.parent / "web/src/declarations.ts": typescript(web_interface(c))}
     stale = [path for path, text in files.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
     if sys.argv[1:] == ["--check"]:
         sys.exit("\n".join(f"{path} is not the generated one: run {__file__}" for path in stale) or 0)

@@ -64,5 +64,9 @@ function(lockstone_add_library name)
     POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
+  # Addresses in WebAssembly are known when it is linked.
+  if(CMAKE_SYSTEM_NAME STREQUAL "Emscripten")
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  endif()
   lockstone_unite_sources(${target})
 endfunction()

@@ -345,9 +345,14 @@ class World {
   friend class CommandExplainer;
   friend class WorldContacts;
   friend class RollbackHistory;
+  friend Transform pose_of(const World& world, BodyHandle body);
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// The pose of a body's shape, as `World::body` gives it, for loops over all bodies: it computes
+/// nothing else. The body must exist.
+[[nodiscard]] Transform pose_of(const World& world, BodyHandle body);
 
 /// This build's hash of a short built-in scene. Two builds that differ here would diverge in a
 /// match.

@@ -99,8 +99,9 @@ lks_body_view view_of(const BodyView& body, Mass mass) {
   return raw;
 }
 
-lks_pose pose_of(const BodyView& body) {
-  return {raw_of(body.position), raw_of(body.orientation)};
+lks_pose raw_pose_of(const World& world, BodyHandle body) {
+  const Transform pose = pose_of(world, body);
+  return {raw_of(pose.position), raw_of(pose.orientation)};
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ lks_status lks_body_get(const lks_world* world, lks_body body, lks_body_view* ou
 lks_status lks_body_pose(const lks_world* world, lks_body body, lks_pose* out) {
   return call([&] {
     const World& source = read(world);
-    required(out, "out") = pose_of(source.body(existing_body(source, body)));
+    required(out, "out") = raw_pose_of(source, existing_body(source, body));
   });
 }
 
@@ -164,7 +165,7 @@ lks_status lks_bodies(const lks_world* world, lks_body* bodies, lks_pose* poses,
       const BodyHandle handle = source.body_at(index);
       if (handle.is_null() || found++ >= capacity) continue;
       if (bodies != nullptr) bodies[found - 1] = id_of(handle);
-      if (poses != nullptr) poses[found - 1] = pose_of(source.body(handle));
+      if (poses != nullptr) poses[found - 1] = raw_pose_of(source, handle);
       if (velocities != nullptr) velocities[found - 1] = raw_of(source.velocity(handle));
     }
     give_count(found, capacity, *count, "bodies");

@@ -77,8 +77,11 @@ lks_status lks_save(const lks_world* world, uint32_t kind, void* out, size_t cap
 
 lks_status lks_load(lks_world* world, uint32_t kind, const void* bytes, size_t count) {
   return call([&] {
-    World& target = write(world);
-    const Status status = target.load(kind_of(kind), bytes_of(bytes, count, "bytes"));
+    required(world, "world");
+    const SnapshotKind form = kind_of(kind);
+    const ByteView state = bytes_of(bytes, count, "bytes");
+    const Status status =
+        world->scene ? world->scene->simulation().load(form, state) : world->own->load(form, state);
     if (status != Status::ok) throw failure(status);
   });
 }

@@ -110,9 +110,24 @@ constexpr auto lower_bound(Range&& range, const Value& value, Less less = {},
   });
 }
 
-template <class Range, class Value>
-constexpr bool binary_search(Range&& range, const Value& value) {
-  return std::binary_search(std::begin(range), std::end(range), value);
+template <class Range, class Value, class Less = less, class Projection = identity>
+constexpr bool binary_search(Range&& range, const Value& value, Less less = {},
+                             Projection project = {}) {
+  const auto found = ranges::lower_bound(range, value, less, project);
+  return found != std::end(range) &&
+         !static_cast<bool>(std::invoke(less, value, std::invoke(project, *found)));
+}
+
+template <class Iterator, class Out>
+struct copy_result {
+  Iterator in;
+  Out out;
+};
+
+template <class Range, class Out>
+constexpr auto copy(Range&& range, Out out) {
+  const auto end = std::end(range);
+  return copy_result<std::decay_t<decltype(end)>, Out>{end, std::copy(std::begin(range), end, out)};
 }
 
 template <class Range, class Value>

@@ -34,7 +34,7 @@ LKS_API lks_status lks_save(const lks_world* world, uint32_t kind, void* out, si
                             size_t* bytes);
 
 /* Replaces the state. Canonical bytes may come from anywhere. Native bytes must be unchanged since
- * lks_save wrote them in this process. */
+ * lks_save wrote them in this process. A built-in scene goes back to an earlier state so. */
 LKS_API lks_status lks_load(lks_world* world, uint32_t kind, const void* bytes, size_t count);
 
 /* The first difference between two canonical snapshots of this world or of one with the same

@@ -258,8 +258,8 @@ class View {
   void update(Entry& entry, const World& world, BodyHandle body, double seconds) const {
     if (entry.body != body) entry = {body, {}};
     if (body.is_null()) return;
-    const BodyView now = world.body(body);
-    const TickPose pose{now.position, now.orientation, now.velocity};
+    const Transform now = pose_of(world, body);
+    const TickPose pose{now.position, now.orientation, world.velocity(body)};
     if (seconds > 0)
       entry.track.advance(pose, seconds, settings_);
     else

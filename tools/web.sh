@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Builds the npm package `lockstone` in build/web/package, tests it, measures it.
+#
+# usage: tools/web.sh [build | test [--quick] | bench | serve [PORT]]
+#
+#   build     (default) both WebAssembly builds by Emscripten, the TypeScript, and a package to install,
+#             build/web/lockstone-VERSION.tgz
+#   test      builds, then tests the package in Node and in headless Chromium; --quick plays eight
+#             golden scenes, not all
+#   bench     builds, then writes docs/benchmarks/web.md: size, load time and ticks beside other
+#             engines. Let nothing else run meanwhile
+#   serve     builds, then serves the testbed on this machine (default port 8000)
+#   --help    print this
+#
+# Missing Debian packages are installed first (as root or through sudo), packages of the npm registry
+# into build/web/node. LOCKSTONE_JOBS bounds the number of parallel compilers.
+
+# shellcheck source=lib.sh source-path=SCRIPTDIR
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+out=$root/build/web
+node_modules=$out/node
+
+# require_programs: Debian's packages, but not those of programs that are there from elsewhere.
+require_programs() {
+  require_packages demo web
+  { command -v node && command -v npm; } >/dev/null || require_packages web-node
+}
+
+# fetch_node: the compiler, the browser's driver and the other engines.
+fetch_node() {
+  mkdir -p "$node_modules"
+  if ! cmp -s tools/web/npm/package.json "$node_modules/package.json"; then
+    say "npm install"
+    cp tools/web/npm/package.json "$node_modules/package.json"
+    npm install --prefix "$node_modules" --no-audit --no-fund --no-package-lock --silent ||
+      { rm -f "$node_modules/package.json"; die "npm cannot install the packages of tools/web/npm"; }
+  fi
+}
+
+# build_module PRESET FOLDER SUFFIX: compiles, and copies the modules into the package.
+build_module() {
+  build_preset "$1"
+  cp "$out/$2/tools/web/lockstone_web.wasm" "$package/dist/lockstone$3.wasm"
+  cp "$out/$2/tools/web/lockstone_web_full.wasm" "$package/dist/lockstone-full$3.wasm"
+}
+
+package=$out/package
+build() {
+  require_programs
+  fetch_node
+  # Where Debian keeps the modules that Emscripten's linker needs: a Node from elsewhere looks not there.
+  export NODE_PATH=${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs
+  rm -rf "$package"
+  mkdir -p "$package/dist"
+  build_module web simd -simd
+  build_module web-plain plain ""
+  say "compile the TypeScript"
+  "$node_modules/node_modules/.bin/tsc" -p tools/web --outDir "$package/dist"
+  cp tools/web/package.json tools/web/README.md LICENSE "$package"
+  (cd "$package" && npm pack --silent --pack-destination "$out" >/dev/null)
+}
+
+# run_tests [--quick]
+run_tests() {
+  local scenes=all
+  [[ ${1-} != --quick ]] || scenes=some
+  command -v chromium >/dev/null || require_packages web-browser
+  say "test the package"
+  LOCKSTONE_WEB_SCENES=$scenes node --test tools/web/test/*.test.mjs
+}
+
+command=${1-build}
+(($# == 0)) || shift
+case $command in
+  build) build ;;
+  test) build && run_tests "$@" ;;
+  bench) build && node tools/web/bench/compare.mjs --page docs/benchmarks/web.md ;;
+  serve) build && node tools/web/test/server.mjs "${1-8000}" ;;
+  --help) usage ;;
+  *) usage >&2; exit 2 ;;
+esac
