@@ -188,6 +188,26 @@ void CommandDice::fill(SetUserData& c) {
 void CommandDice::fill(SetEvents& c) {
   c = {body(), events()};
 }
+void CommandDice::fill(SetMotionType& c) {
+  c = {
+      body(), static_cast<MotionType>(goes_wild() ? random_.below(256) : 1 + random_.below(3)), {}};
+  if (chance(2)) c.mass = number(Mass::from_integer(100));
+}
+void CommandDice::fill(SetShape& c) {
+  c.body = body();
+  c.shape = body_def().shape;
+  if (chance(2)) c.mass = size_of(number(Mass::from_integer(100)));
+}
+void CommandDice::fill(SetMassData& c) {
+  c.body = body();
+  if (chance(2)) c.data.mass = size_of(number(Mass::from_integer(100)));
+  if (chance(2)) return;
+  for (int i = 0; i < 3; ++i)
+    c.data.inertia[i] = size_of(number(MomentOfInertia::from_integer(3)));
+}
+void CommandDice::fill(SetEnabled& c) {
+  c = {body(), !chance(3)};
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }

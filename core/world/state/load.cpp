@@ -28,7 +28,7 @@ bool same_bytes(const Record& a, const Record& b) {
 // All that is derived of the two but place and bounds.
 bool same_make(const BodyRecord& a, const BodyRecord& b) {
   return a.motion == b.motion && a.flags == b.flags && a.hit_speed == b.hit_speed &&
-         a.shape() == b.shape() && a.filter() == b.filter();
+         is_enabled(a) == is_enabled(b) && a.shape() == b.shape() && a.filter() == b.filter();
 }
 
 bool same_link(const JointRecord& a, const JointRecord& b) {
@@ -96,7 +96,7 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   world_.hashes.bodies.mark(body);
   if (world_.is_derived_stale) return same;
   world_.sleep_flags.note_loaded(body);
-  if (same) {
+  if (same && is_enabled(record)) {
     if (!same_contact_turn) world_.cache.refresh_contact_rotation(body, record);
     world_.moved.add(body);
     return true;
@@ -104,15 +104,15 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   if (record.exists()) {
     world_.cache.set_asset(body, world_.assets->find(record.asset));
     world_.refresh(body);
-  } else {
-    world_.broad_phase.remove(body);
-    world_.triggers.erase(body);
-    world_.cache.forget_hit_events(body);
+    return same;
   }
   return false;
 }
 
 template <class State>
+  world_.broad_phase.remove(body);
+  world_.triggers.erase(body);
+  world_.cache.forget_hit_events(body);
 bool StateLoader::take_joints(std::uint32_t limit, State& state) {
   const std::uint32_t old_limit = std::min(world_.header.joint_limit, world_.def.joint_capacity);
   bool same = true;

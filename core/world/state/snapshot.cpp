@@ -53,7 +53,7 @@ bool has_valid_notes(const BodyRecord& record) {
   if (!record.is_dynamic()) return !record.is_pushed() && record.union_c == Unit{};
   if (!record.is_pushed()) return true;
   const TickGain gain = tick_gain_of(record);
-  return !record.is_asleep() && record.rest_ticks == 0 &&
+  return !record.is_asleep() && is_enabled(record) && record.rest_ticks == 0 &&
          record.union_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
          is_within(gain.spin, k_most_gain);
 }
@@ -79,7 +79,7 @@ bool has_valid_sleep(const BodyRecord& record) {
   const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
   if (!watched && !has_zero_rest(record)) return false;
   if (record.has_changed_sleep() && !record.is_dynamic()) return false;
-  if (!record.moves()) return !record.is_asleep();
+  if (!record.moves() || !is_enabled(record)) return !record.is_asleep();
   const bool still = record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{};
   return !record.is_asleep() || (still && record.may_sleep());
 }
@@ -139,8 +139,9 @@ Status validate(const ContactRecord& record, const BodyRecord& a, const BodyReco
   const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
   const bool trigger = a.is_trigger() || b.is_trigger();
-  const bool valid = ordered && known && trigger == record.is_trigger() &&
-                     has_valid_points(record) && (!trigger || record.count == 0);
+  const bool valid = ordered && known && is_enabled(a) && is_enabled(b) &&
+                     trigger == record.is_trigger() && has_valid_points(record) &&
+                     (!trigger || record.count == 0);
   return valid ? Status::ok : Status::malformed;
 }
 

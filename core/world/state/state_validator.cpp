@@ -84,13 +84,15 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
       return {"the list of changed sleep", i};
     if (world_.cache.hit_bodies().has(i) != has_hit_events(body))
       return {"the list of bodies with hit events", i};
-    if (world_.broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
+    if (world_.broad_phase.has(i) != (body.exists() && is_enabled(body)))
+      return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;
     if (world_.cache.asset(i) != world_.assets->find(body.asset)) return {"the asset of a body", i};
     if (world_.cache.rotation(i) != to_matrix(body.orientation))
       return {"the rotation of a body", i};
-    if (world_.broad_phase.bounds(i) != world_.bounds_of(i)) return {"the bounds of a body", i};
+    if (is_enabled(body) && world_.broad_phase.bounds(i) != world_.bounds_of(i))
+      return {"the bounds of a body", i};
     if (!is_near_recycling_pose(body)) return {"the recycling pose of a body", i};
     if (world_.cache.recycling_rotations()[i] != to_matrix(body.recycling_orientation))
       return {"the rotation of a recycling pose", i};

@@ -101,6 +101,11 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_filter(world, body, NULL));
   NULLED(lks_set_events(NULL, body, 0, 0));
   NULLED(lks_set_user_data(NULL, body, 0));
+  NULLED(lks_set_motion_type(NULL, body, LKS_STATIC, 0));
+  NULLED(lks_set_shape(NULL, body, &body_def.shape, 0));
+  NULLED(lks_set_shape(world, body, NULL, 0));
+  NULLED(lks_set_mass_data(NULL, body, 0, NULL));
+  NULLED(lks_set_enabled(NULL, body, 1));
   NULLED(lks_wake_body(NULL, body));
   NULLED(lks_sleep_body(NULL, body));
   NULLED(lks_set_allow_sleep(NULL, body, 1));

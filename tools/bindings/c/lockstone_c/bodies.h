@@ -32,7 +32,8 @@ enum {
   LKS_BODY_FIXED_ROTATION = 2, /* never rotates */
   LKS_BODY_BULLET = 4,         /* never passes through dynamic bodies either */
   LKS_BODY_ALLOW_SLEEP = 8,    /* set by default */
-  LKS_BODY_ASLEEP = 16         /* in views only */
+  LKS_BODY_ASLEEP = 16,        /* in views only */
+  LKS_BODY_DISABLED = 32       /* in views only */
 };
 
 /* Bits of events: which events a body has. */
@@ -95,7 +96,9 @@ typedef struct lks_body_def {
   lks_angular_velocity angular_speed_limit;
   uint64_t user_data; /* the game's own; part of the state */
   uint32_t events;
-  lks_speed hit_speed; /* approaches above it are hits, 0 … 500 m/s; 0: none are */
+  lks_speed hit_speed;  /* approaches above it are hits, 0 … 500 m/s; 0: none are */
+  lks_mass mass;        /* of a dynamic body; 0: by its density */
+  lks_inertia3 inertia; /* principal moments; all 0: those of the solid */
 } lks_body_def;
 
 /* Sets the defaults: a dynamic sphere of 0.5 m of 1000 kg/m³. */
@@ -119,6 +122,15 @@ typedef struct lks_body_view {
   uint64_t user_data;
   uint32_t events;
   lks_speed hit_speed;
+  lks_inertia3 inertia;    /* principal moments, 0 of static and kinematic bodies */
+  lks_quat principal_axes; /* in the world: columns of its matrix */
+  lks_surface_motion surface_motion;
+  lks_number gravity_scale;
+  lks_rate linear_damping;
+  lks_rate angular_damping;
+  uint32_t reserved;
+  lks_velocity speed_limit;
+  lks_angular_velocity angular_speed_limit;
 } lks_body_view;
 
 /* Commands: the only way to write a world. On any status but LKS_OK nothing has changed. */
@@ -170,6 +182,21 @@ LKS_API lks_status lks_set_filter(lks_world* world, lks_body body, const lks_fil
 LKS_API lks_status lks_set_events(lks_world* world, lks_body body, uint32_t events,
                                   lks_speed hit_speed);
 LKS_API lks_status lks_set_user_data(lks_world* world, lks_body body, uint64_t user_data);
+
+/* Its place, velocities and joints stay; its contacts end. `mass`: of a body that becomes dynamic;
+ * 0: of its solid at 1000 kg/m³. */
+LKS_API lks_status lks_set_motion_type(lks_world* world, lks_body body, uint32_t motion,
+                                       lks_mass mass);
+/* In the frame of the old shape. `mass`: of a dynamic body; 0: it keeps its own. */
+LKS_API lks_status lks_set_shape(lks_world* world, lks_body body, const lks_shape* shape,
+                                 lks_mass mass);
+/* Of a dynamic body; mass 0: it keeps its own. `inertia`: principal moments; null or all 0: those
+ * of the solid with this mass. */
+LKS_API lks_status lks_set_mass_data(lks_world* world, lks_body body, lks_mass mass,
+                                     const lks_inertia3* inertia);
+/* A disabled body stays as it is until it is enabled: nothing meets or finds it, and its joints do
+ * nothing. */
+LKS_API lks_status lks_set_enabled(lks_world* world, lks_body body, uint32_t enabled);
 
 /* Wakes a body and its island; commands that push or move a body do so by themselves. */
 LKS_API lks_status lks_wake_body(lks_world* world, lks_body body);

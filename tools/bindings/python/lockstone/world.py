@@ -173,6 +173,22 @@ class Body:
     def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0) -> None:
         self._call("lks_set_events", int(contacts), units.raw(hit_speed, units.SPEED, 32))
 
+    def set_motion_type(self, motion: int, mass: Quantity = 0) -> None:
+        """A body that becomes dynamic gets the mass, in kg; 0: that of its solid at 1000 kg/m³."""
+        self._call("lks_set_motion_type", motion, units.raw(mass, units.MASS, 64))
+
+    def set_shape(self, shape: Shape, mass: Quantity = 0) -> None:
+        """In the frame of the old shape; with mass 0 a dynamic body keeps its own."""
+        self._call("lks_set_shape", byref(shape), units.raw(mass, units.MASS, 64))
+
+    def set_mass_data(self, mass: Quantity = 0, inertia: Vector = (0, 0, 0)) -> None:
+        """In kg, and principal moments in kg·m²; 0: its own mass, and the moments of its solid."""
+        self._call("lks_set_mass_data", units.raw(mass, units.MASS, 64), byref(_wide(inertia, units.INERTIA)))
+
+    def set_enabled(self, enabled: bool) -> None:
+        """A disabled body stays as it is until it is enabled: nothing meets or finds it."""
+        self._call("lks_set_enabled", int(enabled))
+
     def set_user_data(self, number: int) -> None:
         self._call("lks_set_user_data", number)
 
