@@ -16,7 +16,7 @@ FLOORS = {
     "kernels": ["contact", "ball", "box", "points", "rotations", "proximal", ""],
     "geometry": ["numeric", "convex", "distance", "distance/cores", "distance/gjk", "distance/epa",
                  "distance/motion", "contact", "contact/manifold", "contact/feature", "contact/half_space",
-                 "contact/round", "contact/box", "contact/polytope", "query", "shapes", "dispatch",
+                 "contact/round", "contact/box", "contact/polytope", "query", "shapes", "dispatch", "submerged",
                  "mesh_contact", "assets"],
     "collision": ["broad_phase", "narrow_phase", "continuous", "query"],
     "dynamics": ["state", "body", "islands", "contact", "joint", "stack", "problem", "linkage/system",
