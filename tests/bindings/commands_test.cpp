@@ -174,6 +174,32 @@ TEST_F(CommandsThroughC, ChangesOfABodyGiveTheSameState) {
   step(20);
 }
 
+TEST_F(CommandsThroughC, AFluidGivesTheSameState) {
+  Fluid water{.surface = {1_m, 2_m, 3_m}, .size = {40_m, 9_m, 30_m}};
+  water.density = Density::from_integer(1000);
+  water.drag = Number::from_ratio(1, 2);
+  water.linear_drag = Rate::from_ratio(1, 4);
+  water.flow = {1_mps, {}, -1_mps};
+  water.mask = 7;
+  lks_fluid raw;
+  ASSERT_EQ(lks_fluid_init(&raw, sizeof raw), LKS_OK);
+  raw.surface = c::raw_of(water.surface);
+  raw.extents = c::raw_of(water.size);
+  raw.density = water.density.raw;
+  raw.drag = water.drag.raw;
+  raw.linear_drag = water.linear_drag.raw;
+  raw.flow = c::raw_of(water.flow);
+  raw.mask = water.mask;
+  expect_same(world_->apply(SetFluid{2, water}), lks_set_fluid(twin_, 2, &raw), "fluid");
+  lks_fluid read{};
+  read.size = sizeof read;
+  ASSERT_EQ(lks_fluid_get(twin_, 2, &read), LKS_OK);
+  EXPECT_EQ(c::vec<Position>(read.extents), fluid_at(*world_, 2).size);
+  EXPECT_EQ(read.mask, 7U);
+  step(20);
+  expect_same(world_->apply(SetFluid{16, water}), lks_set_fluid(twin_, 16, &raw), "no number");
+}
+
 TEST_F(CommandsThroughC, SleepAndGravityGiveTheSameState) {
   const lks_body ball = c::id_of(ball_);
   const Vec3<Acceleration> none{};

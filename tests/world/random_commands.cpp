@@ -208,6 +208,16 @@ void CommandDice::fill(SetMassData& c) {
 void CommandDice::fill(SetEnabled& c) {
   c = {body(), !chance(3)};
 }
+void CommandDice::fill(SetFluid& c) {
+  c.number = static_cast<std::uint32_t>(random_.below(goes_wild() ? 2 * k_max_fluids : 2));
+  c.fluid.surface = vector(Position(1_m));
+  c.fluid.size = {size_of(number(Position(4_m))), size_of(number(Position(4_m))), 3_m};
+  if (goes_wild()) c.fluid.orientation = turn();
+  if (!chance(3)) c.fluid.density = size_of(number(Density::from_integer(2000)));
+  c.fluid.drag = size_of(number(Number::from_integer(2)));
+  c.fluid.linear_drag = size_of(number(Rate::from_integer(2)));
+  c.fluid.flow = vector(Velocity(3_mps));
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }

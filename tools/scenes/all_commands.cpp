@@ -141,6 +141,11 @@ Command sample(Tag<SetMassData>, BodyHandle body, Random& random) {
 Command sample(Tag<SetEnabled>, BodyHandle body, Random& random) {
   return SetEnabled{body, random.below(3) != 0};
 }
+Command sample(Tag<SetFluid>, BodyHandle, Random& random) {
+  Fluid water{.surface = {{}, millimetres(random.between(0, 2000)), {}}, .size = {5_m, 5_m, 5_m}};
+  water.density = Density::from_integer(1000);
+  return SetFluid{random.below(2), water};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }

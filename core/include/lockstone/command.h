@@ -6,6 +6,7 @@
 #include <variant>
 
 #include <lockstone/body.h>
+#include <lockstone/fluid.h>
 #include <lockstone/joint.h>
 
 namespace lockstone {
@@ -212,6 +213,13 @@ struct SetGravity {
   Vec3<Acceleration> gravity{};  ///< m/s²
 };
 
+/// Sets or changes a fluid, or with density 0 removes it. Wakes the bodies in the fluid as it was
+/// and as it is.
+struct SetFluid {
+  std::uint32_t number = 0;  ///< below k_max_fluids
+  Fluid fluid{};
+};
+
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
@@ -221,7 +229,8 @@ struct SetGravity {
   X(WakeBody) X(SleepBody) X(SetAllowSleep) X(SetGravity) \
   X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis) \
   X(SetEvents) \
-  X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled)
+  X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled) \
+  X(SetFluid)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

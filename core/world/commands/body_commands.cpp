@@ -18,17 +18,6 @@ namespace {
 
 constexpr Density k_default_density = Density::from_integer(1000);
 
-// Moments over mass · s², Q30.
-Vec3<Unit> normalized_moments(const MassData& data, int scale_exponent) {
-  const BlockFloat inverse_mass = inverse_of(data.mass);
-  Vec3<Unit> moments;
-  for (int i = 0; i < 3; ++i) {
-    moments[i].raw = raw::saturate<std::int32_t>(
-        scale_saturating(data.inertia[i].raw, inverse_mass, 2 - 2 * scale_exponent));
-  }
-  return moments;
-}
-
 // From surface speed w of another scale to spin.
 void set_turning(BodyRecord& record, const Mat3& rotation, Vec3<Velocity> w, int scale_exponent) {
   for (int i = 0; i < 3; ++i)
@@ -91,30 +80,23 @@ bool can_take_shape(const World::Impl& world, const SetShape& command, const Ass
                                         body_pose(asset, {}));
 }
 
-bool has_valid_mass_data(const MassData& data, int scale_exponent) {
-  if (!is_body_mass(data.mass)) return false;
-  if (data.inertia == Vec3<MomentOfInertia>{}) return true;
-  const Vec3<Unit> moments = normalized_moments(data, scale_exponent);
-  for (int i = 0; i < 3; ++i) {
-    if (data.inertia[i] <= MomentOfInertia{} || moments[i] > Unit::from_integer(1)) return false;
-  }
-  return true;
+void BodyRegistry::leave(std::uint32_t body) {
+  BodyRecord& record = world_.bodies[body];
+  if (record.is_pushed()) end_pushes(record, flags_.rest_rules());
+  record.flags &= static_cast<std::uint8_t>(~(k_body_changed_sleep | k_body_loose));
+  flags_.forget(body);
+  drop_contacts_of(body);
+  joints_.forget_impulses_of(body);
+  world_.joint_graph.forget_awake_list();
 }
 
-void set_solid(BodyRecord& record, const ShapeProperties& properties) {
-  record.scale_exponent = static_cast<std::int8_t>(properties.scale_exponent);
-  record.inertia = properties.inertia;
-}
-
-void set_mass_data(BodyRecord& record, const MassData& data) {
-  LKS_ASSERT(record.is_dynamic() && data.mass >= k_min_mass);
-  const BlockFloat inverse = inverse_of(data.mass);
-  record.inverse_mass = inverse.mantissa;
-  record.inverse_mass_exponent = inverse.exponent;
-  if (data.inertia == Vec3<MomentOfInertia>{}) return;
-  record.inertia = normalized_moments(data, record.scale_exponent);
-  for (int i = 0; i < 3; ++i)
-    record.inertia[i] = max(record.inertia[i], k_min_inertia);
+void BodyRegistry::enter(std::uint32_t body) {
+  BodyRecord& record = world_.bodies[body];
+  set_recycling_pose(record);
+  begin_rest(record, flags_.rest_rules());
+  if (record.is_awake()) world_.awake.insert(body);
+  world_.refresh(body);
+  waking_.disturb_around(body);
 }
 
 Status CommandExecutor::execute(const SetMotionType& command) {

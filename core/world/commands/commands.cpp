@@ -158,25 +158,6 @@ void BodyRegistry::drop_contacts_of(std::uint32_t body) {
   world_.header.contact_count = world_.contacts.count();
 }
 
-void BodyRegistry::leave(std::uint32_t body) {
-  BodyRecord& record = world_.bodies[body];
-  if (record.is_pushed()) end_pushes(record, flags_.rest_rules());
-  record.flags &= static_cast<std::uint8_t>(~(k_body_changed_sleep | k_body_loose));
-  flags_.forget(body);
-  drop_contacts_of(body);
-  joints_.forget_impulses_of(body);
-  world_.joint_graph.forget_awake_list();
-}
-
-void BodyRegistry::enter(std::uint32_t body) {
-  BodyRecord& record = world_.bodies[body];
-  set_recycling_pose(record);
-  begin_rest(record, flags_.rest_rules());
-  if (record.is_awake()) world_.awake.insert(body);
-  world_.refresh(body);
-  waking_.disturb_around(body);
-}
-
 Status CommandExecutor::execute(const CreateBody& command) {
   return world_.body_registry.create(command.def).status();
 }
@@ -290,18 +271,6 @@ Status CommandExecutor::execute(const SetAllowSleep& command) {
 
 Result<BodyHandle> World::create_body(const BodyDef& def) {
   return impl_->body_registry.create(def);
-}
-
-Status World::apply(const Command& command) {
-  return std::visit(
-      [this](const auto& c) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(c)>, std::monostate>) {
-          return Status::invalid_argument;
-        } else {
-          return CommandExecutor(*impl_).execute(c);
-        }
-      },
-      command);
 }
 
 }  // namespace lockstone

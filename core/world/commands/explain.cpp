@@ -184,6 +184,19 @@ void check(RefusalFinder& find, const EventSettings& settings) {
   find.within("hit_speed", settings.hit_speed, SolverVelocity{}, k_most_hit_speed, "m/s");
 }
 
+void check(RefusalFinder& find, const Fluid& fluid) {
+  constexpr Position k_least = Position::from_raw(1), k_most = Position::from_integer(1 << 21);
+  find.within("fluid.surface", fluid.surface, k_world_limit, "m");
+  find.direction("fluid.orientation", fluid.orientation);
+  find.within("fluid.size.x", fluid.size.x, k_least, k_most, "m");
+  find.within("fluid.size.y", fluid.size.y, k_least, k_most, "m");
+  find.within("fluid.size.z", fluid.size.z, k_least, k_most, "m");
+  find.at_least("fluid.density", fluid.density, Density{}, "kg/m³");
+  find.within("fluid.drag", fluid.drag, Number{}, Number::from_integer(100));
+  find.at_least("fluid.linear_drag", fluid.linear_drag, Rate{}, "1/s");
+  find.within("fluid.flow", fluid.flow, k_speed_limit, "m/s");
+}
+
 void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings) {
   const std::string name = "linear[" + std::to_string(axis) + "].";
   check_axis_settings(find, name, settings, "m", "N");

@@ -197,6 +197,10 @@ class CommandExplainer::Properties {
   void of(const SetEvents& c) {
     if (on_.body(c.body) != nullptr) check(on_.find, c.settings);
   }
+  void of(const SetFluid& c) {
+    on_.find.within("number", c.number, 0U, k_max_fluids - 1);
+    if (c.fluid.density != Density{}) check(on_.find, c.fluid);
+  }
   void of(const SetGravity& c) {
     on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");
   }

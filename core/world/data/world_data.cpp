@@ -25,6 +25,7 @@ WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet>
       hashes{RecordHashes<BodyRecord, k_body_domain>(definition.body_capacity),
              RecordHashes<JointRecord, k_joint_domain>(definition.joint_capacity)} {
   header.gravity = definition.gravity;
+  rests.reserve(definition.body_capacity);
 }
 
 const BodyRecord* WorldData::find(BodyHandle body) const {

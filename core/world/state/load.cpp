@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/world/phases/fluids.h"
 #include "core/world/state/delta.h"
 #include "core/world/state/snapshot_format.h"
 #include "core/world/state/state_loader.h"
@@ -47,7 +48,11 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
   world_.contacts.forget_manifolds();
   const bool same_bodies = take_bodies(loaded.body_limit, state);
   const bool same_links = take_joints(loaded.joint_limit, state);
+  world_.fluids = {};
+  for (std::uint32_t i = 0; i < loaded.fluid_limit; ++i)
+    state.template read<FluidStore>(i, world_.fluids[i]);
   world_.header = loaded;
+  world_.fluid_phase = linked_fluid_phase;
   const auto read_contacts = [&](std::span<ContactRecord> to) {
     for (std::uint32_t i = 0; i < to.size(); ++i)
       state.template read<ContactStore>(i, to[i]);
@@ -106,13 +111,13 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
     world_.refresh(body);
     return same;
   }
+  world_.broad_phase.remove(body);
+  world_.triggers.erase(body);
+  world_.cache.forget_hit_events(body);
   return false;
 }
 
 template <class State>
-  world_.broad_phase.remove(body);
-  world_.triggers.erase(body);
-  world_.cache.forget_hit_events(body);
 bool StateLoader::take_joints(std::uint32_t limit, State& state) {
   const std::uint32_t old_limit = std::min(world_.header.joint_limit, world_.def.joint_capacity);
   bool same = true;

@@ -7,6 +7,7 @@
 #include "core/dynamics/state/limits.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/world/derived/quantities.h"
+#include "core/world/phases/fluids.h"
 #include "core/world/state/record_checks.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/snapshot_format.h"
@@ -135,6 +136,12 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   return in_world ? Status::ok : Status::malformed;
 }
 
+Status validate(const FluidRecord& record) {
+  if (!record.exists()) return record == FluidRecord{} ? Status::ok : Status::malformed;
+  const bool turned = has_unit_norm(record.orientation);
+  return turned && is_valid(fluid_of(record)) ? Status::ok : Status::malformed;
+}
+
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
   const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
@@ -205,6 +212,13 @@ Status SnapshotView::check(JointStore) const {
   return Status::ok;
 }
 
+Status SnapshotView::check(FluidStore) const {
+  if (header.fluid_limit != 0 && linked_fluid_phase == nullptr) return Status::incompatible;
+  for (std::uint32_t i = 0; i < header.fluid_limit; ++i)
+    if (validate(record<FluidStore>(i)) != Status::ok) return Status::malformed;
+  return Status::ok;
+}
+
 Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     const BodyRecord record = body(i);
@@ -215,7 +229,7 @@ Status SnapshotView::check(BodyStore) const {
 }
 
 Status SnapshotView::check() const {
-  if (!is_valid_gravity(header.gravity) || header.reserved != 0) return Status::malformed;
+  if (!is_valid_gravity(header.gravity)) return Status::malformed;
   Status status = Status::ok;
   WorldStores::for_each([&](auto store) {
     if (status == Status::ok) status = check(store);

@@ -182,12 +182,13 @@ WorldFault StateValidator::fault_of_manifolds() const {
 }
 
 WorldFault StateValidator::find_fault() {
-  if (!WorldStores::fits(world_.header, world_.def) || world_.header.reserved != 0 ||
-      !is_valid_gravity(world_.header.gravity))
+  if (!WorldStores::fits(world_.header, world_.def) || !is_valid_gravity(world_.header.gravity))
     return {"the header"};
   for (const WorldFault& fault :
        {fault_of_bodies(), fault_of_contacts(world_.contacts.active()), fault_of_joints()})
     if (fault) return fault;
+  for (std::uint32_t i = 0; i < world_.header.fluid_limit; ++i)
+    if (validate(world_.fluids[i]) != Status::ok) return {"a fluid's record", i};
   for (const WorldFault& fault :
        {fault_of_derived_bodies(), fault_of_derived_contacts(), fault_of_derived_joints()})
     if (fault) return fault;

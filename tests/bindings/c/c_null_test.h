@@ -111,6 +111,11 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_allow_sleep(NULL, body, 1));
   NULLED(lks_set_gravity(NULL, &v));
   NULLED(lks_set_gravity(world, NULL));
+  NULLED(lks_fluid_init(NULL, sizeof(lks_fluid)));
+  NULLED(lks_set_fluid(NULL, 0, NULL));
+  NULLED(lks_set_fluid(world, 0, NULL));
+  NULLED(lks_fluid_get(NULL, 0, NULL));
+  NULLED(lks_fluid_get(world, 0, NULL));
   NULLED(lks_set_name(NULL, body, ""));
   NULLED(lks_set_name(world, body, NULL));
   NULLED(lks_body_exists(NULL, body, &flag));

@@ -204,6 +204,28 @@ LKS_API lks_status lks_sleep_body(lks_world* world, lks_body body);
 LKS_API lks_status lks_set_allow_sleep(lks_world* world, lks_body body, uint32_t allow);
 LKS_API lks_status lks_set_gravity(lks_world* world, const lks_acceleration3* gravity);
 
+/* A box of fluid below a flat surface: water, mud, wind. It carries, brakes and drives the dynamic
+ * bodies in it. */
+typedef struct lks_fluid {
+  uint32_t size;
+  uint32_t mask;         /* categories of the bodies that it acts on */
+  lks_position3 surface; /* the centre of the surface */
+  lks_position3 extents; /* half the width, the depth, half the length: 0 … 2^21 m */
+  lks_velocity3 flow;    /* each component within ±500 m/s */
+  lks_quat orientation;  /* y points out of the surface */
+  lks_density density;   /* 0: there is no such fluid */
+  lks_number drag;       /* coefficient of the form, 0 … 100 */
+  lks_rate linear_drag;  /* 1/s, ≥ 0 */
+  uint32_t reserved;
+} lks_fluid;
+
+/* Sets the defaults: no density, every category. */
+LKS_API lks_status lks_fluid_init(lks_fluid* fluid, size_t size);
+/* Sets or changes fluid 0 … 15, or with density 0 removes it. */
+LKS_API lks_status lks_set_fluid(lks_world* world, uint32_t number, const lks_fluid* fluid);
+/* `out->size` must be set. */
+LKS_API lks_status lks_fluid_get(const lks_world* world, uint32_t number, lks_fluid* out);
+
 /* Names a body for people: not state. 28 bytes of UTF-8 and no more are kept. */
 LKS_API lks_status lks_set_name(lks_world* world, lks_body body, const char* name);
 

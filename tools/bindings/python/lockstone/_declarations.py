@@ -292,6 +292,21 @@ class lks_body_view(Structure):
     ]
 
 
+class lks_fluid(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("mask", c_uint32),
+        ("surface", lks_i64x3),
+        ("extents", lks_i64x3),
+        ("flow", lks_i64x3),
+        ("orientation", lks_quat),
+        ("density", c_int32),
+        ("drag", c_int32),
+        ("linear_drag", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
 class lks_client_def(Structure):
     _fields_ = [
         ("size", c_uint32),
@@ -826,6 +841,9 @@ FUNCTIONS = {
     "lks_sleep_body": [c_int32, c_void_p, c_uint64],
     "lks_set_allow_sleep": [c_int32, c_void_p, c_uint64, c_uint32],
     "lks_set_gravity": [c_int32, c_void_p, POINTER(lks_i64x3)],
+    "lks_fluid_init": [c_int32, POINTER(lks_fluid), c_size_t],
+    "lks_set_fluid": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
+    "lks_fluid_get": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
     "lks_set_name": [c_int32, c_void_p, c_uint64, c_char_p],
     "lks_body_exists": [c_int32, c_void_p, c_uint64, POINTER(c_uint32)],
     "lks_body_get": [c_int32, c_void_p, c_uint64, POINTER(lks_body_view)],

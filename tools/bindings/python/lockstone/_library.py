@@ -72,6 +72,12 @@ class BodyView(ctypes.Structure):
                 ("angular_speed_limit", c_int64)]
 
 
+class Fluid(ctypes.Structure):
+    _fields_ = [("size", c_uint32), ("mask", c_uint32), ("surface", I64x3), ("extents", I64x3), ("flow", I64x3),
+                ("orientation", Quat), ("density", c_int32), ("drag", c_int32), ("linear_drag", c_int32),
+                ("reserved", c_uint32)]
+
+
 class Axis(ctypes.Structure):
     _fields_ = [("mode", c_uint32), ("lower", c_int32), ("upper", c_int32), ("target", c_int32),
                 ("speed", c_int32), ("hertz", c_int32), ("damping_ratio", c_int32), ("reserved", c_uint32),
@@ -164,6 +170,9 @@ _CALLS = {
     "lks_sleep_body": [_WORLD, _BODY],
     "lks_set_allow_sleep": [_WORLD, _BODY, c_uint32],
     "lks_set_gravity": [_WORLD, POINTER(I64x3)],
+    "lks_fluid_init": [POINTER(Fluid), c_size_t],
+    "lks_set_fluid": [_WORLD, c_uint32, POINTER(Fluid)],
+    "lks_fluid_get": [_WORLD, c_uint32, POINTER(Fluid)],
     "lks_set_name": [_WORLD, _BODY, c_char_p],
     "lks_body_exists": [_WORLD, _BODY, _FLAG],
     "lks_body_get": [_WORLD, _BODY, POINTER(BodyView)],

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
-from ._library import (BodyDef, BodyView, Event, Filter, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
+from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
 from .shapes import Assets, lengths
 from .units import Quantity, Rotation, Vector
 
@@ -281,6 +281,18 @@ class World:
 
     def set_gravity(self, gravity: Vector) -> None:
         lib.lks_set_gravity(self.handle, byref(_wide(gravity, units.ACCELERATION)))
+
+    def set_fluid(self, number: int, surface: Vector, extents: Vector, *, density: Quantity = 1000,
+                  drag: Quantity = 0, linear_drag: Quantity = 0, flow: Vector = (0, 0, 0)) -> None:
+        """A box of fluid below its surface: half its width, its depth, half its length, in m; density 0 removes it."""
+        fluid = Fluid()
+        lib.lks_fluid_init(byref(fluid), sizeof(fluid))
+        fluid.surface, fluid.extents = _wide(surface, units.POSITION), _wide(extents, units.POSITION)
+        fluid.flow = _wide(flow, units.VELOCITY)
+        fluid.density = units.raw(density, units.DENSITY, 32)
+        fluid.drag = units.raw(drag, units.NUMBER, 32)
+        fluid.linear_drag = units.raw(linear_drag, units.RATE, 32)
+        lib.lks_set_fluid(self.handle, number, byref(fluid))
 
     def create_body(self, shape: Shape, *, motion: int = DYNAMIC, position: Vector = (0, 0, 0),
                     orientation: Rotation = (0, 0, 0, 1), velocity: Vector = (0, 0, 0),

@@ -98,6 +98,21 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_fluid
+    {
+        public uint size;
+        public uint mask;
+        public lks_i64x3 surface;
+        public lks_i64x3 extents;
+        public lks_i64x3 flow;
+        public lks_quat orientation;
+        public int density;
+        public int drag;
+        public int linear_drag;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_client_def
     {
         public uint size;
@@ -953,6 +968,15 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_gravity(IntPtr world, lks_i64x3* gravity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_fluid_init(lks_fluid* fluid, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_fluid(IntPtr world, uint number, lks_fluid* fluid);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_fluid_get(IntPtr world, uint number, lks_fluid* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_name(IntPtr world, ulong body, byte* name);

@@ -338,6 +338,20 @@ pub struct lks_body_view {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct lks_fluid {
+    pub size: u32,
+    pub mask: u32,
+    pub surface: lks_position3,
+    pub extents: lks_position3,
+    pub flow: lks_velocity3,
+    pub orientation: lks_quat,
+    pub density: lks_density,
+    pub drag: lks_number,
+    pub linear_drag: lks_rate,
+    pub reserved: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct lks_client_def {
     pub size: u32,
     pub insecure: u32,
@@ -856,6 +870,9 @@ extern "C" {
     pub fn lks_sleep_body(world: *mut lks_world, body: lks_body) -> lks_status;
     pub fn lks_set_allow_sleep(world: *mut lks_world, body: lks_body, allow: u32) -> lks_status;
     pub fn lks_set_gravity(world: *mut lks_world, gravity: *const lks_acceleration3) -> lks_status;
+    pub fn lks_fluid_init(fluid: *mut lks_fluid, size: usize) -> lks_status;
+    pub fn lks_set_fluid(world: *mut lks_world, number: u32, fluid: *const lks_fluid) -> lks_status;
+    pub fn lks_fluid_get(world: *const lks_world, number: u32, out: *mut lks_fluid) -> lks_status;
     pub fn lks_set_name(world: *mut lks_world, body: lks_body, name: *const c_char) -> lks_status;
     pub fn lks_body_exists(world: *const lks_world, body: lks_body, out: *mut u32) -> lks_status;
     pub fn lks_body_get(world: *const lks_world, body: lks_body, out: *mut lks_body_view) -> lks_status;

@@ -258,6 +258,8 @@ impl World {
         sleep_body(body: Body => body.0) = lks_sleep_body;
         set_allow_sleep(body: Body => body.0, allow: bool => allow as u32) = lks_set_allow_sleep;
         set_gravity(gravity: lks_i64x3 => &gravity) = lks_set_gravity;
+        /// Fluid 0 … 15; density 0 removes it.
+        set_fluid(number: u32 => number, fluid: &sys::lks_fluid => fluid) = lks_set_fluid;
         destroy_joint(joint: Joint => joint.0) = lks_destroy_joint;
         set_linear_axis(joint: Joint => joint.0, axis: u32 => axis, settings: &lks_axis => settings)
             = lks_set_linear_axis;
