@@ -123,8 +123,7 @@ void expect_near(const Values& got, const Values& wanted, int scale, long double
                 static_cast<double>(wanted.moment[i] / unit(4)), static_cast<double>(tolerance))
         << what << ' ' << i;
   EXPECT_NEAR(static_cast<double>(got.plane_area / unit(2)),
-              static_cast<double>(wanted.plane_area / unit(2)),
-              static_cast<double>(tolerance) * 20'000)
+              static_cast<double>(wanted.plane_area / unit(2)), 0.005)
       << what;
 }
 

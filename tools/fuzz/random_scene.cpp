@@ -350,14 +350,14 @@ namespace {
 void drive_changes(World& world, std::uint64_t seed) {
   Random random(mix(~seed ^ mix(world.tick() + 5)));
   if (!chance(random, 12)) return;
-  const BodyHandle body = any_body(world, random);
-  if (body.is_null()) return;
+  const BodyHandle body = any_body(world, random), other = any_body(world, random);
+  if (body.is_null() || other.is_null()) return;
   switch (random.below(5)) {
     case 0:
       return (void)world.apply(
           SetMotionType{body, static_cast<MotionType>(1 + random.below(3)), {}});
     case 1:
-      return (void)world.apply(SetShape{body, world.body(any_body(world, random)).shape, {}});
+      return (void)world.apply(SetShape{body, world.body(other).shape, {}});
     case 2:
       return (void)world.apply(
           SetMassData{body, {Mass::from_raw(log_between(random, 1LL << 13, 1LL << 52)), {}}});

@@ -39,7 +39,7 @@ struct SubmergedPart {
   int scale = 0;
   std::int64_t volume = 0;
   std::array<std::int64_t, 3> moment{};  ///< ∫x dV about `reference`
-  std::int64_t plane_area = 0;           ///< of the section with the plane
+  std::int64_t plane_area = 0;           ///< of the section with the plane, within 1 %
   Vec3<Length> reference{};              ///< in the frame of the solid
 };
 
