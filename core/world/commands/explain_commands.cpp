@@ -225,7 +225,7 @@ class CommandExplainer::Nature {
     on_.find.require(can_become(on_.impl, c.body.index, changed), "motion", to_string(c.motion),
                      "one for which the shape has a volume, each joint has a dynamic body, and "
                      "joints are near enough");
-    if (changed.is_dynamic())
+    if (changed.is_dynamic() && !on_.find.done())
       on_.find.within("mass", mass_as_dynamic(on_.impl, c), k_min_mass, k_max_mass, "kg");
   }
   void of(const SetShape& c) {
