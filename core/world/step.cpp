@@ -1,5 +1,6 @@
 // The tick.
 
+#include "core/world/phases/fluids.h"
 #include "core/world/phases/pair_filter.h"
 #include "core/world/world_impl.h"
 
@@ -10,11 +11,13 @@ StepReport World::Impl::step(PairFilter* only) {
   trace.begin_step();
   moved.forget_looks();
   find_pairs(report, only);
+  if (header.fluid_limit != 0) fluid_phase->push(*this);
   narrow.run(pairs, report);
   bounces.find();
   pendulums.find();
   solve_contacts(report);
   mover.run(report);
+  if (header.fluid_limit != 0) fluid_phase->end(*this);
   continuous.run(report);
   mover.renew_recycling_poses();
   refresh_moved();

@@ -145,6 +145,61 @@ TEST_F(CommandsThroughC, AViewShowsTheBodyAsTheCoreDoes) {
   EXPECT_EQ(raw.user_data, 1234U);
 }
 
+TEST_F(CommandsThroughC, ChangesOfABodyGiveTheSameState) {
+  const lks_body box = c::id_of(box_), ball = c::id_of(ball_);
+  const Shape small = Shape::box(0.25_m, 0.5_m, 0.25_m);
+  const lks_shape raw_small = c::raw_of(small);
+  const MomentOfInertia one = MomentOfInertia::from_integer(1);
+  const MassData data{9_kg, {one, one, one}};
+  const lks_i64x3 inertia = c::raw_of(data.inertia);
+  expect_same(world_->apply(SetShape{box_, small, 8_kg}),
+              lks_set_shape(twin_, box, &raw_small, Mass(8_kg).raw), "shape");
+  expect_same(world_->apply(SetMassData{box_, data}),
+              lks_set_mass_data(twin_, box, data.mass.raw, &inertia), "mass data");
+  lks_body_view raw{};
+  raw.size = sizeof raw;
+  ASSERT_EQ(lks_body_get(twin_, box, &raw), LKS_OK);
+  EXPECT_EQ(c::vec<MomentOfInertia>(raw.inertia), world_->body(box_).mass.inertia);
+  expect_same(world_->apply(SetMassData{box_, {}}), lks_set_mass_data(twin_, box, 0, nullptr),
+              "mass data of the solid");
+  step(5);
+  expect_same(world_->apply(SetEnabled{ball_, false}), lks_set_enabled(twin_, ball, 0), "disable");
+  step(5);
+  expect_same(world_->apply(SetEnabled{ball_, true}), lks_set_enabled(twin_, ball, 1), "enable");
+  expect_same(world_->apply(SetMotionType{ball_, MotionType::static_body, {}}),
+              lks_set_motion_type(twin_, ball, LKS_STATIC, 0), "static");
+  step(5);
+  expect_same(world_->apply(SetMotionType{ball_, MotionType::dynamic, 3_kg}),
+              lks_set_motion_type(twin_, ball, LKS_DYNAMIC, Mass(3_kg).raw), "dynamic");
+  step(20);
+}
+
+TEST_F(CommandsThroughC, AFluidGivesTheSameState) {
+  Fluid water{.surface = {1_m, 2_m, 3_m}, .size = {40_m, 9_m, 30_m}};
+  water.density = Density::from_integer(1000);
+  water.drag = Number::from_ratio(1, 2);
+  water.linear_drag = Rate::from_ratio(1, 4);
+  water.flow = {1_mps, {}, -1_mps};
+  water.mask = 7;
+  lks_fluid raw;
+  ASSERT_EQ(lks_fluid_init(&raw, sizeof raw), LKS_OK);
+  raw.surface = c::raw_of(water.surface);
+  raw.extents = c::raw_of(water.size);
+  raw.density = water.density.raw;
+  raw.drag = water.drag.raw;
+  raw.linear_drag = water.linear_drag.raw;
+  raw.flow = c::raw_of(water.flow);
+  raw.mask = water.mask;
+  expect_same(world_->apply(SetFluid{2, water}), lks_set_fluid(twin_, 2, &raw), "fluid");
+  lks_fluid read{};
+  read.size = sizeof read;
+  ASSERT_EQ(lks_fluid_get(twin_, 2, &read), LKS_OK);
+  EXPECT_EQ(c::vec<Position>(read.extents), fluid_at(*world_, 2).size);
+  EXPECT_EQ(read.mask, 7U);
+  step(20);
+  expect_same(world_->apply(SetFluid{16, water}), lks_set_fluid(twin_, 16, &raw), "no number");
+}
+
 TEST_F(CommandsThroughC, SleepAndGravityGiveTheSameState) {
   const lks_body ball = c::id_of(ball_);
   const Vec3<Acceleration> none{};

@@ -42,6 +42,8 @@ class Worlds(unittest.TestCase):
         world = small_world()
         ground, ball = drop_ball(world)
         ball.set_events(hit_speed=1)
+        ball.set_mass_data(2, (1, 1, 1))
+        ball.set_shape(lockstone.sphere("0.25"))
         hits = []
         for _ in range(180):
             world.step()

@@ -188,6 +188,36 @@ void CommandDice::fill(SetUserData& c) {
 void CommandDice::fill(SetEvents& c) {
   c = {body(), events()};
 }
+void CommandDice::fill(SetMotionType& c) {
+  c = {
+      body(), static_cast<MotionType>(goes_wild() ? random_.below(256) : 1 + random_.below(3)), {}};
+  if (chance(2)) c.mass = number(Mass::from_integer(100));
+}
+void CommandDice::fill(SetShape& c) {
+  c.body = body();
+  c.shape = body_def().shape;
+  if (chance(2)) c.mass = size_of(number(Mass::from_integer(100)));
+}
+void CommandDice::fill(SetMassData& c) {
+  c.body = body();
+  if (chance(2)) c.data.mass = size_of(number(Mass::from_integer(100)));
+  if (chance(2)) return;
+  for (int i = 0; i < 3; ++i)
+    c.data.inertia[i] = size_of(number(MomentOfInertia::from_integer(3)));
+}
+void CommandDice::fill(SetEnabled& c) {
+  c = {body(), !chance(3)};
+}
+void CommandDice::fill(SetFluid& c) {
+  c.number = static_cast<std::uint32_t>(random_.below(goes_wild() ? 2 * k_max_fluids : 2));
+  c.fluid.surface = vector(Position(1_m));
+  c.fluid.size = {size_of(number(Position(4_m))), size_of(number(Position(4_m))), 3_m};
+  if (goes_wild()) c.fluid.orientation = turn();
+  if (!chance(3)) c.fluid.density = size_of(number(Density::from_integer(2000)));
+  c.fluid.drag = size_of(number(Number::from_integer(2)));
+  c.fluid.linear_drag = size_of(number(Rate::from_integer(2)));
+  c.fluid.flow = vector(Velocity(3_mps));
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }

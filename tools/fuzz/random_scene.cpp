@@ -344,6 +344,39 @@ void drive_events(World& world, std::uint64_t seed) {
   if (chance(random, 8)) (void)world.apply(SetEvents{any_body(world, random), settings()});
 }
 
+namespace {
+
+// Changes of bodies and fluids, drawn apart.
+void drive_changes(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 5)));
+  if (!chance(random, 12)) return;
+  const BodyHandle body = any_body(world, random), other = any_body(world, random);
+  if (body.is_null() || other.is_null()) return;
+  switch (random.below(5)) {
+    case 0:
+      return (void)world.apply(
+          SetMotionType{body, static_cast<MotionType>(1 + random.below(3)), {}});
+    case 1:
+      return (void)world.apply(SetShape{body, world.body(other).shape, {}});
+    case 2:
+      return (void)world.apply(
+          SetMassData{body, {Mass::from_raw(log_between(random, 1LL << 13, 1LL << 52)), {}}});
+    case 3:
+      return (void)world.apply(SetEnabled{body, !chance(random, 3)});
+    default:
+      break;
+  }
+  Fluid fluid{.surface = world.position(body), .orientation = {}};
+  const auto half = [&] { return Position::from_raw(log_between(random, 1LL << 30, 1LL << 40)); };
+  fluid.size = {half(), half(), half()};
+  fluid.density.raw = chance(random, 3) ? 0 : static_cast<std::int32_t>(random.below(1U << 20));
+  fluid.drag.raw = static_cast<std::int32_t>(random.below(2U << 20));
+  fluid.linear_drag.raw = static_cast<std::int32_t>(random.below(4U << 20));
+  (void)world.apply(SetFluid{random.below(2), fluid});
+}
+
+}  // namespace
+
 RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims)
     : seed_(mix(seed) ^ mix(~index)), with_rims_(with_rims) {
   Random random(seed_);
@@ -368,6 +401,7 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
 
 void RandomScene::drive(World& world) const {
   drive_events(world, seed_);
+  drive_changes(world, seed_);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (!chance(random, 4)) return;
   const int commands = random.between(1, 3);

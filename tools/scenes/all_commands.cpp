@@ -129,6 +129,23 @@ Command sample(Tag<SetAngularAxis>, BodyHandle, Random& random) {
 Command sample(Tag<SetEvents>, BodyHandle body, Random& random) {
   return SetEvents{body, {true, SolverVelocity::from_integer(random.between(0, 3))}};
 }
+Command sample(Tag<SetMotionType>, BodyHandle body, Random& random) {
+  return SetMotionType{body, static_cast<MotionType>(1 + random.below(3)), {}};
+}
+Command sample(Tag<SetShape>, BodyHandle body, Random& random) {
+  return SetShape{body, random_shape(random), {}};
+}
+Command sample(Tag<SetMassData>, BodyHandle body, Random& random) {
+  return SetMassData{body, {Mass::from_integer(random.between(1, 900)), {}}};
+}
+Command sample(Tag<SetEnabled>, BodyHandle body, Random& random) {
+  return SetEnabled{body, random.below(3) != 0};
+}
+Command sample(Tag<SetFluid>, BodyHandle, Random& random) {
+  Fluid water{.surface = {{}, millimetres(random.between(0, 2000)), {}}, .size = {5_m, 5_m, 5_m}};
+  water.density = Density::from_integer(1000);
+  return SetFluid{random.below(2), water};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }
@@ -150,8 +167,8 @@ using Sampler = Command (*)(BodyHandle, Random&);
 constexpr Sampler k_samplers[] = {LKS_COMMANDS(LKS_SAMPLER)};
 #undef LKS_SAMPLER
 
-// SetEvents, the last, has no turn: it changes no motion, and all others would move to other ticks.
-constexpr std::size_t k_turns = std::size(k_samplers) - 1;
+// From SetEvents on they have no turn: all others would move to other ticks.
+constexpr std::size_t k_turns = Command(SetEvents{}).index() - 1;
 
 void build_commands(World& world, std::uint64_t seed) {
   add_ground(world, 12_m);

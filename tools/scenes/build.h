@@ -63,6 +63,8 @@ extern const Scene k_layers;                                             // laye
 extern const Scene k_belts;                                              // belts.cpp
 extern const Scene k_crowd;                                              // crowd.cpp
 extern const Scene k_arch, k_cards;                                      // masonry.cpp
+extern const Scene k_boats;                                              // water.cpp
+extern const Scene k_explosion;                                          // blast.cpp
 extern const Scene k_sleep;                                              // sleep.cpp
 extern const Scene k_chain, k_pendulum, k_bridge, k_ragdoll, k_vehicle;  // joints.cpp
 

@@ -22,11 +22,12 @@ enum BodyFlag : std::uint8_t {
   k_body_no_contact_events = 128,
 };
 
-/// Bits of BodyRecord::locks: three axes of moving, three of turning.
+/// Bits of BodyRecord::locks: three axes of moving, three of turning, and the body as a whole.
 enum BodyLock : std::uint8_t {
   k_lock_moving = 7,
   k_lock_turning = 7 << 3,
-  k_all_body_locks = k_lock_moving | k_lock_turning,
+  k_body_disabled = 1 << 6,
+  k_all_body_locks = k_lock_moving | k_lock_turning | k_body_disabled,
 };
 
 /// Canonical state of one body slot; all zero but `generation` when the slot is empty. Position and
@@ -90,7 +91,9 @@ struct BodyRecord {
   [[nodiscard]] bool is_pushed() const { return (flags & k_body_pushed) != 0; }
   [[nodiscard]] bool is_bullet() const { return (flags & k_body_bullet) != 0; }
   [[nodiscard]] bool is_asleep() const { return (flags & k_body_asleep) != 0; }
-  [[nodiscard]] bool is_awake() const { return moves() && !is_asleep(); }
+  [[nodiscard]] bool is_awake() const {
+    return moves() && !is_asleep() && (locks & k_body_disabled) == 0;
+  }
   [[nodiscard]] bool may_sleep() const { return (flags & k_body_no_sleep) == 0; }
   [[nodiscard]] bool has_changed_sleep() const { return (flags & k_body_changed_sleep) != 0; }
   [[nodiscard]] bool rotates() const { return (locks & k_lock_turning) != k_lock_turning; }
@@ -151,6 +154,10 @@ struct BodyRecord {
   [[nodiscard]] bool is(MotionType type) const { return motion == static_cast<std::uint8_t>(type); }
 };
 
+/// SetEnabled.
+[[nodiscard]] inline bool is_enabled(const BodyRecord& body) {
+  return (body.locks & k_body_disabled) == 0;
+}
 [[nodiscard]] inline bool is_loose(const BodyRecord& body) {
   return (body.flags & k_body_loose) != 0;
 }

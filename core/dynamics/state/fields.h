@@ -42,6 +42,9 @@ constexpr std::string_view unit_of(MetrePerSecond) {
 constexpr std::string_view unit_of(MetrePerSecond2) {
   return "m/s^2";
 }
+constexpr std::string_view unit_of(KilogramPerMetre3) {
+  return "kg/m^3";
+}
 constexpr std::string_view unit_of(Newton) {
   return "N";
 }

@@ -63,16 +63,28 @@ struct EventSettings {
   friend constexpr bool operator==(const EventSettings&, const EventSettings&) = default;
 };
 
+/// How much a dynamic body resists a push.
+struct MassData {
+  Mass mass{};  ///< k_min_mass … k_max_mass; 0: see where it is used
+  /// About the centre of mass, along the principal axes of the body's solid: above 0, and at most
+  /// mass times s², s m the first power of two not below the body's radius. Less than 2^-12 of
+  /// that is raised to it. Zero: the moments of a solid of even density with this mass.
+  Vec3<MomentOfInertia> inertia{};
+
+  friend bool operator==(const MassData&, const MassData&) = default;
+};
+
 /// A body to be made. Position and orientation place the frame of its shape; velocities are those
 /// of the centre of mass, which of sphere, capsule and box is the same point.
 struct BodyDef {
-  MotionType motion = MotionType::dynamic;  ///< fixed for the body's life
+  MotionType motion = MotionType::dynamic;
   Shape shape = Shape::sphere(Length::from_ratio(1, 2));
   Vec3<Position> position{};                       ///< within ±2^20 m, and the centre of mass too
   Quat orientation{};                              ///< is normalised
   Vec3<Velocity> velocity{};                       ///< at most 500 m/s
   Vec3<AngularVelocity> angular_velocity{};        ///< rad/s; the surface at most 500 m/s
   Material material{};                             ///< density, friction, …
+  MassData mass{};                                 ///< of a dynamic body; mass 0: by density
   SurfaceMotion surface_motion{};                  ///< of static and kinematic bodies
   CollisionFilter filter{};                        ///< which bodies it meets
   Number gravity_scale = Number::from_integer(1);  ///< −100 … 100
@@ -96,16 +108,24 @@ struct BodyView {
   Quat orientation{};                        ///< of the shape's frame, a unit
   Vec3<Position> centre_of_mass{};           ///< m
   Vec3<Velocity> velocity{};                 ///< of the centre of mass
+  Quat principal_axes{};                     ///< in the world: columns of its matrix, a unit
   Vec3<AngularVelocity> angular_velocity{};  ///< rad/s, error ≤ 1e-8 relative
-  CollisionFilter filter{};                  ///< as in BodyDef
-  Surface surface{};                         ///< of the body itself
-  AxisLocks locks{};                         ///< as in BodyDef
-  bool is_trigger = false;                   ///< as in BodyDef
-  bool is_bullet = false;                    ///< as in BodyDef
-  bool is_asleep = false;                    ///< skipped until it wakes
-  bool allow_sleep = true;                   ///< as in BodyDef
-  EventSettings events{};                    ///< as in BodyDef
-  std::uint64_t user_data = 0;               ///< as in BodyDef
+  MassData mass{};                 ///< of a dynamic body, error ≤ 2^-29 relative; else 0
+  CollisionFilter filter{};        ///< as in BodyDef
+  Surface surface{};               ///< of the body itself
+  SurfaceMotion surface_motion{};  ///< as in BodyDef, to 1e-5 m/s
+  Number gravity_scale{};          ///< as in BodyDef
+  Rate linear_damping{};           ///< as in BodyDef
+  Rate angular_damping{};          ///< as in BodyDef
+  AxisLocks locks{};               ///< as in BodyDef
+  SpeedLimit speed_limit{};        ///< as in BodyDef, within the limits of all bodies
+  bool is_trigger = false;         ///< as in BodyDef
+  bool is_bullet = false;          ///< as in BodyDef
+  bool is_asleep = false;          ///< skipped until it wakes
+  bool is_enabled = true;          ///< false: out of the simulation, by SetEnabled
+  bool allow_sleep = true;         ///< as in BodyDef
+  EventSettings events{};          ///< as in BodyDef
+  std::uint64_t user_data = 0;     ///< as in BodyDef
 };
 
 }  // namespace lockstone

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include <lockstone/body.h>
+#include <lockstone/fluid.h>
 #include <lockstone/joint.h>
 
 namespace lockstone {
@@ -137,6 +138,39 @@ struct SetEvents {
   BodyHandle body{};
   EventSettings settings{};
 };
+
+/// Makes a body static, kinematic or dynamic. Its place, velocities and joints stay, but a static
+/// body has no velocity, and its contacts end. invalid_argument for a body without volume that
+/// would move, and where a joint would be left without a dynamic body.
+struct SetMotionType {
+  BodyHandle body{};
+  MotionType motion{};
+  Mass mass{};  ///< of a body that becomes dynamic; 0: of its solid at 1000 kg/m³
+};
+
+/// Gives a body another shape in the same frame: the material points of the body keep their places
+/// and velocities, and joints their anchors. Contacts that no longer hold end in the next step.
+/// not_found for an unknown asset; invalid_argument for a shape without volume on a body that
+/// moves, and where a joint would sit too far from the new centre of mass.
+struct SetShape {
+  BodyHandle body{};
+  Shape shape{};
+  Mass mass{};  ///< of a dynamic body; 0: it keeps its own. Moments are those of the solid
+};
+
+/// Of a dynamic body; mass 0: it keeps its own. Velocities stay.
+struct SetMassData {
+  BodyHandle body{};
+  MassData data{};
+};
+
+/// A disabled body stays as it is, velocities included, until it is enabled: nothing meets or finds
+/// it, it does not move, and its joints do nothing. Its contacts end, and it cannot be pushed by a
+/// force or put to sleep.
+struct SetEnabled {
+  BodyHandle body{};
+  bool enabled = true;
+};
 /// Wakes a dynamic or kinematic body, and the island that it sleeps in. Commands that push, move or
 /// change a body do so by themselves.
 struct WakeBody {
@@ -179,6 +213,13 @@ struct SetGravity {
   Vec3<Acceleration> gravity{};  ///< m/s²
 };
 
+/// Sets or changes a fluid, or with density 0 removes it. Wakes the bodies in the fluid as it was
+/// and as it is.
+struct SetFluid {
+  std::uint32_t number = 0;  ///< below k_max_fluids
+  Fluid fluid{};
+};
+
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
@@ -187,7 +228,9 @@ struct SetGravity {
   X(SetSpeedLimit) X(SetFilter) X(SetUserData) \
   X(WakeBody) X(SleepBody) X(SetAllowSleep) X(SetGravity) \
   X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis) \
-  X(SetEvents)
+  X(SetEvents) \
+  X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled) \
+  X(SetFluid)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

@@ -20,6 +20,7 @@ using NewtonSecond = Dimension<1, 1, -1>;
 using NewtonMetre = Dimension<2, 1, -2>;
 using NewtonMetreSecond = Dimension<2, 1, -1>;
 using Newton = Dimension<1, 1, -2>;
+using KilogramMetre2 = Dimension<2, 1, 0>;
 using KilogramPerMetre3 = Dimension<-3, 1, 0>;
 
 /// World position, one axis. ±2^31 m representable, world limit ±2^20 m; resolution 0.23 nm.
@@ -58,6 +59,7 @@ using Rate = Fixed<PerSecond, std::int32_t, 20>;
 using Acceleration = Fixed<MetrePerSecond2, std::int64_t, 32>;
 using Density = Fixed<KilogramPerMetre3, std::int32_t, 8>;          ///< up to 8.3e6 kg/m³
 using Mass = Fixed<Kilogram, std::int64_t, 32>;                     ///< up to 2.1e9 kg
+using MomentOfInertia = Fixed<KilogramMetre2, std::int64_t, 28>;    ///< up to 3.4e10 kg·m²
 using Impulse = Fixed<NewtonSecond, std::int64_t, 24>;              ///< up to 5e11 N·s
 using AngularImpulse = Fixed<NewtonMetreSecond, std::int64_t, 24>;  ///< up to 5e11 N·m·s
 using Force = Fixed<Newton, std::int64_t, 20>;                      ///< up to 8e12 N

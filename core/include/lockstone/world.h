@@ -89,7 +89,7 @@ struct StepReport {
 /// Hashes of one state; `total` covers the others.
 struct StateHash {
   std::uint64_t total = 0;     ///< of the whole state
-  std::uint64_t header = 0;    ///< of tick, gravity and counts
+  std::uint64_t header = 0;    ///< of tick, gravity, counts and fluids
   std::uint64_t bodies = 0;    ///< of all body records
   std::uint64_t contacts = 0;  ///< of all contact records
   std::uint64_t joints = 0;    ///< of all joint records
@@ -99,7 +99,7 @@ struct StateHash {
 /// The same with 128 bits: of all records at once, on demand.
 struct StateHash128 {
   Hash128 total;     ///< of the whole state
-  Hash128 header;    ///< of tick, gravity and counts
+  Hash128 header;    ///< of tick, gravity, counts and fluids
   Hash128 bodies;    ///< of all body records
   Hash128 contacts;  ///< of all contact records
   Hash128 joints;    ///< of all joint records
@@ -121,6 +121,7 @@ enum class StateStore : std::uint8_t { bodies, contacts, joints };
 
 class CommandExplainer;
 class WorldContacts;
+class WorldFluids;
 
 class World {
  public:
@@ -344,6 +345,7 @@ class World {
  private:
   friend class CommandExplainer;
   friend class WorldContacts;
+  friend class WorldFluids;
   friend class RollbackHistory;
   friend Transform pose_of(const World& world, BodyHandle body);
   explicit World(std::unique_ptr<Impl> impl);

@@ -27,6 +27,11 @@ class BodyRegistry {
   /// After `disturb`, when no contact of the body sleeps.
   void drop_contacts_of(std::uint32_t body);
 
+  /// Around a change of a body's record that decides where the body takes part, after `disturb`:
+  /// out of the tick, with its contacts, pushes and sleep; and into it as the record says now.
+  void leave(std::uint32_t body);
+  void enter(std::uint32_t body);
+
   /// For records that were loaded.
   void rebuild() { free_hint_ = 0; }
 

@@ -10,6 +10,7 @@
 
 #include "core/dynamics/state/body_record.h"
 #include "core/dynamics/state/limits.h"
+#include "core/world/derived/quantities.h"
 
 namespace lockstone {
 
@@ -25,8 +26,28 @@ namespace lockstone {
 [[nodiscard]] bool motion_to(const BodyRecord& body, const Transform& target, int tick_rate,
                              Vec3<Velocity>& velocity, Vec3<Velocity>& spin);
 
-/// The mass of a body's solid, kg: the asset's or the primitive shape's volume times its density.
+/// The asset that a shape names; null without error for a shape that names none.
+[[nodiscard]] Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets);
+
+/// Whether a body of this shape has a mass distribution, and so can move.
+[[nodiscard]] bool has_solid(const Shape& shape, const Asset* asset);
+
+/// The mass of a solid, kg: the asset's or the primitive shape's volume times the density.
+[[nodiscard]] Mass mass_of(const Shape& shape, const Asset* asset, Density density);
+/// The one that the definition gives, or that of its solid.
 [[nodiscard]] Mass mass_of(const BodyDef& def, const Asset* asset);
+
+/// Of a dynamic body.
+[[nodiscard]] constexpr bool is_body_mass(Mass mass) {
+  return mass >= k_min_mass && mass <= k_max_mass;
+}
+/// Whether a body of this scale may have such a mass, not 0, and such moments.
+[[nodiscard]] bool has_valid_mass_data(const MassData& data, int scale_exponent);
+
+/// Scale and moments of a body's solid.
+void set_solid(BodyRecord& record, const ShapeProperties& properties);
+/// Of a dynamic body; without moments those of `set_solid` stay.
+void set_mass_data(BodyRecord& record, const MassData& data);
 
 /// BodyLock bits.
 [[nodiscard]] std::uint8_t locks_of(const AxisLocks& locks);
@@ -39,5 +60,6 @@ void set_speed_limit(BodyRecord& record, const SpeedLimit& limit);
 
 /// Of the shape's frame, which the asset may place away from the body's.
 void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMotion& motion);
+[[nodiscard]] SurfaceMotion surface_motion_of(const BodyRecord& record, const Asset* asset);
 
 }  // namespace lockstone

@@ -33,23 +33,10 @@ bool is_valid(const BodyDef& def) {
 // A shape without volume cannot be dynamic, and only a body with a centre of mass can move. Lighter
 // or heavier bodies would leave the formats of the solver.
 bool has_valid_mass(const BodyDef& def, const Asset* asset) {
-  const bool has_solid =
-      asset != nullptr ? asset->solid() != nullptr : is_primitive(def.shape.kind);
-  if (!has_solid) return def.motion == MotionType::static_body;
-  if (def.motion != MotionType::dynamic) return true;
-  const Mass mass = mass_of(def, asset);
-  return mass >= k_min_mass && mass <= k_max_mass;
-}
-
-// The fields that follow from shape and density.
-void set_mass(BodyRecord& record, const BodyDef& def, const Asset* asset) {
-  const ShapeProperties properties = properties_of(def.shape, asset);
-  record.scale_exponent = static_cast<std::int8_t>(properties.scale_exponent);
-  record.inertia = properties.inertia;
-  if (def.motion != MotionType::dynamic) return;
-  const BlockFloat inverse = inverse_of(mass_of(def, asset));
-  record.inverse_mass = inverse.mantissa;
-  record.inverse_mass_exponent = inverse.exponent;
+  if (!has_solid(def.shape, asset)) return def.motion == MotionType::static_body;
+  return def.motion != MotionType::dynamic ||
+         has_valid_mass_data({mass_of(def, asset), def.mass.inertia},
+                             properties_of(def.shape, asset).scale_exponent);
 }
 
 BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t generation) {
@@ -76,20 +63,12 @@ BodyRecord make_record(const BodyDef& def, const Asset* asset, std::uint32_t gen
                                            (def.allow_sleep ? 0 : k_body_no_sleep));
   record.locks =
       static_cast<std::uint8_t>(locks_of(def.locks) | (def.fixed_rotation ? k_lock_turning : 0));
-  set_mass(record, def, asset);
+  set_solid(record, properties_of(def.shape, asset));
+  if (record.is_dynamic()) set_mass_data(record, {mass_of(def, asset), def.mass.inertia});
   set_speed_limit(record, def.speed_limit);
   set_events(record, def.events);
   if (!record.is_dynamic()) set_surface_motion(record, asset, def.surface_motion);
   return record;
-}
-
-// The asset that a shape names; null without error for a shape that names none.
-Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
-  if (!is_asset(shape.kind)) return nullptr;
-  const Asset* asset = assets.find(shape.asset);
-  if (asset == nullptr) return Status::not_found;
-  if (asset->kind() != shape.kind) return Status::invalid_argument;
-  return asset;
 }
 
 bool has_centre_in_world(const BodyDef& def, const Asset* asset) {
@@ -98,9 +77,26 @@ bool has_centre_in_world(const BodyDef& def, const Asset* asset) {
 
 }  // namespace
 
+Result<const Asset*> asset_of(const Shape& shape, const AssetSet& assets) {
+  if (!is_asset(shape.kind)) return nullptr;
+  const Asset* asset = assets.find(shape.asset);
+  if (asset == nullptr) return Status::not_found;
+  if (asset->kind() != shape.kind) return Status::invalid_argument;
+  return asset;
+}
+
+bool has_solid(const Shape& shape, const Asset* asset) {
+  return asset != nullptr ? asset->solid() != nullptr : is_primitive(shape.kind);
+}
+
+Mass mass_of(const Shape& shape, const Asset* asset, Density density) {
+  if (asset == nullptr) return mass_of(shape, density);
+  return multiply_saturating<Mass>(density, asset->solid()->volume);
+}
+
 Mass mass_of(const BodyDef& def, const Asset* asset) {
-  if (asset == nullptr) return mass_of(def.shape, def.material.density);
-  return multiply_saturating<Mass>(def.material.density, asset->solid()->volume);
+  if (def.mass.mass != Mass{}) return def.mass.mass;
+  return mass_of(def.shape, asset, def.material.density);
 }
 
 Result<BodyHandle> BodyRegistry::create(const BodyDef& body_def) {
@@ -256,7 +252,7 @@ Status CommandExecutor::execute(const WakeBody& command) {
 Status CommandExecutor::execute(const SleepBody& command) {
   const BodyRecord* record = world_.find(command.body);
   if (record == nullptr) return Status::stale_handle;
-  if (!record->is_dynamic() || world_.sleep_flags.rest_rules().ticks == 0)
+  if (!record->is_dynamic() || !is_enabled(*record) || world_.sleep_flags.rest_rules().ticks == 0)
     return Status::invalid_argument;
   if (record->is_asleep()) return Status::ok;
   return world_.island_sleep.put_to_sleep(command.body.index);
@@ -275,18 +271,6 @@ Status CommandExecutor::execute(const SetAllowSleep& command) {
 
 Result<BodyHandle> World::create_body(const BodyDef& def) {
   return impl_->body_registry.create(def);
-}
-
-Status World::apply(const Command& command) {
-  return std::visit(
-      [this](const auto& c) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(c)>, std::monostate>) {
-          return Status::invalid_argument;
-        } else {
-          return CommandExecutor(*impl_).execute(c);
-        }
-      },
-      command);
 }
 
 }  // namespace lockstone

@@ -40,6 +40,8 @@ void check_sizes(RefusalFinder& find, const Shape& shape) {
   }
 }
 
+}  // namespace
+
 void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
   find.known("shape.kind", shape.kind, ShapeKind::sphere, k_last_shape_kind);
   if (find.done()) return;
@@ -59,17 +61,28 @@ void check(RefusalFinder& find, const Shape& shape, const Asset* asset) {
   }
 }
 
+void check_moments(RefusalFinder& find, std::string_view field, const MassData& data,
+                   int scale_exponent) {
+  if (find.done() || has_valid_mass_data(data, scale_exponent)) return;
+  find.require(false, field, to_decimal(data.inertia) + " kg·m²",
+               "all 0, or each above 0 and at most the mass times (2^" +
+                   std::to_string(scale_exponent) + " m)²");
+}
+
+namespace {
+
 void check_mass(RefusalFinder& find, const BodyDef& def, const Asset* asset) {
-  const bool has_solid =
-      asset != nullptr ? asset->solid() != nullptr : is_primitive(def.shape.kind);
-  if (!has_solid) {
+  if (!has_solid(def.shape, asset)) {
     find.require(def.motion == MotionType::static_body, "motion", to_string(def.motion),
                  "static for a " + std::string(to_string(def.shape.kind)) + " without volume");
     return;
   }
   if (def.motion != MotionType::dynamic) return;
-  find.within("mass (volume of the shape · material.density)", mass_of(def, asset), k_min_mass,
-              k_max_mass, "kg");
+  const bool is_given = def.mass.mass != Mass{};
+  find.within(is_given ? "mass.mass" : "mass (volume of the shape · material.density)",
+              mass_of(def, asset), k_min_mass, k_max_mass, "kg");
+  check_moments(find, "mass.inertia", {mass_of(def, asset), def.mass.inertia},
+                properties_of(def.shape, asset).scale_exponent);
 }
 
 void check_own_fields(RefusalFinder& find, const BodyDef& def) {
@@ -169,6 +182,19 @@ void check(RefusalFinder& find, const SpeedLimit& limit) {
 
 void check(RefusalFinder& find, const EventSettings& settings) {
   find.within("hit_speed", settings.hit_speed, SolverVelocity{}, k_most_hit_speed, "m/s");
+}
+
+void check(RefusalFinder& find, const Fluid& fluid) {
+  constexpr Position k_least = Position::from_raw(1), k_most = Position::from_integer(1 << 21);
+  find.within("fluid.surface", fluid.surface, k_world_limit, "m");
+  find.direction("fluid.orientation", fluid.orientation);
+  find.within("fluid.size.x", fluid.size.x, k_least, k_most, "m");
+  find.within("fluid.size.y", fluid.size.y, k_least, k_most, "m");
+  find.within("fluid.size.z", fluid.size.z, k_least, k_most, "m");
+  find.at_least("fluid.density", fluid.density, Density{}, "kg/m³");
+  find.within("fluid.drag", fluid.drag, Number{}, Number::from_integer(100));
+  find.at_least("fluid.linear_drag", fluid.linear_drag, Rate{}, "1/s");
+  find.within("fluid.flow", fluid.flow, k_speed_limit, "m/s");
 }
 
 void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings) {

@@ -7,6 +7,7 @@
 #include "core/dynamics/state/limits.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/rotation_log.h"
+#include "core/world/commands/body_changes.h"
 #include "core/world/commands/command_checks.h"
 #include "core/world/commands/command_executor.h"
 #include "core/world/commands/joint_checks.h"
@@ -22,9 +23,18 @@ class CommandExplainer {
   class Subjects;
   class Motion;
   class Properties;
+  class Nature;
   class Existence;
   struct All;
 };
+
+namespace {
+
+void require_enabled(RefusalFinder& find, const BodyRecord& record) {
+  find.require(is_enabled(record), "body", "a disabled body", "enabled");
+}
+
+}  // namespace
 
 /// The bodies and joints that commands name, with the checks that several commands share.
 class CommandExplainer::Subjects {
@@ -94,10 +104,10 @@ class CommandExplainer::Motion {
 
   void of(const ApplyImpulse& c) { push(c.body, c.frame); }
   void of(const ApplyAngularImpulse& c) { push(c.body, c.frame); }
-  void of(const ApplyForce& c) { push(c.body, c.frame); }
-  void of(const ApplyTorque& c) { push(c.body, c.frame); }
-  void of(const ApplyImpulseAt& c) { push_at(c); }
-  void of(const ApplyForceAt& c) { push_at(c); }
+  void of(const ApplyForce& c) { force(c.body, push(c.body, c.frame)); }
+  void of(const ApplyTorque& c) { force(c.body, push(c.body, c.frame)); }
+  void of(const ApplyImpulseAt& c) { (void)push_at(c); }
+  void of(const ApplyForceAt& c) { force(c.body, push_at(c)); }
 
   void of(const MoveKinematic& c) {
     const BodyRecord* record = on_.body(c.body);
@@ -127,9 +137,13 @@ class CommandExplainer::Motion {
     return !on_.find.done();
   }
 
+  void force(BodyHandle handle, bool good) {
+    if (good) require_enabled(on_.find, *on_.impl.find(handle));
+  }
+
   template <class Push>
-  void push_at(const Push& c) {
-    if (!push(c.body, c.frame)) return;
+  bool push_at(const Push& c) {
+    if (!push(c.body, c.frame)) return false;
     TickGain unused;
     const bool near = gain_of(on_.impl, c.body, {{}, {}, &c.point, c.frame}, unused) == Status::ok;
     const BodyRecord& record = *on_.impl.find(c.body);
@@ -137,6 +151,7 @@ class CommandExplainer::Motion {
     on_.find.require(near, "point", to_decimal(c.point) + " m",
                      "within twice the body's radius, " + to_decimal(radius) +
                          " m, of its centre of mass along each axis");
+    return !on_.find.done();
   }
 
   Subjects& on_;
@@ -182,8 +197,57 @@ class CommandExplainer::Properties {
   void of(const SetEvents& c) {
     if (on_.body(c.body) != nullptr) check(on_.find, c.settings);
   }
+  void of(const SetFluid& c) {
+    on_.find.within("number", c.number, 0U, k_max_fluids - 1);
+    if (c.fluid.density != Density{}) check(on_.find, c.fluid);
+  }
   void of(const SetGravity& c) {
     on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");
+  }
+
+ private:
+  Subjects& on_;
+};
+
+/// Checks the commands that change a body itself.
+class CommandExplainer::Nature {
+ public:
+  explicit Nature(Subjects& on) : on_(on) {}
+
+  void of(const SetEnabled& c) { (void)on_.body(c.body); }
+  void of(const SetMotionType& c) {
+    const BodyRecord* record = on_.body(c.body);
+    on_.find.known("motion", c.motion, MotionType::static_body, MotionType::dynamic);
+    if (on_.find.done()) return;
+    BodyRecord changed = *record;
+    changed.motion = static_cast<std::uint8_t>(c.motion);
+    if (changed == *record) return;
+    on_.find.require(can_become(on_.impl, c.body.index, changed), "motion", to_string(c.motion),
+                     "one for which the shape has a volume, each joint has a dynamic body, and "
+                     "joints are near enough");
+    if (changed.is_dynamic() && !on_.find.done())
+      on_.find.within("mass", mass_as_dynamic(on_.impl, c), k_min_mass, k_max_mass, "kg");
+  }
+  void of(const SetShape& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    const Asset* asset = is_asset(c.shape.kind) ? on_.impl.assets->find(c.shape.asset) : nullptr;
+    check(on_.find, c.shape, asset);
+    if (on_.find.done()) return;
+    if (record->is_dynamic() && c.mass != Mass{})
+      on_.find.within("mass", c.mass, k_min_mass, k_max_mass, "kg");
+    if (on_.find.done()) return;
+    on_.find.require(can_take_shape(on_.impl, c, asset), "shape", to_string(c.shape.kind),
+                     "one with a volume for a body that moves, with its centre of mass in the "
+                     "world and near enough to the body's joints");
+  }
+  void of(const SetMassData& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    const Mass mass = c.data.mass == Mass{} ? mass_of(*record) : c.data.mass;
+    on_.find.within("data.mass", mass, k_min_mass, k_max_mass, "kg");
+    check_moments(on_.find, "data.inertia", {mass, c.data.inertia}, record->scale_exponent);
   }
 
  private:
@@ -207,6 +271,7 @@ class CommandExplainer::Existence {
     const BodyRecord* record = on_.body(c.body);
     if (record == nullptr) return;
     on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    require_enabled(on_.find, *record);
     on_.find.require(on_.impl.sleep_flags.rest_rules().ticks != 0, "body",
                      "in a world whose sleep_ms is 0", "in a world where bodies sleep");
     const bool free = on_.find.done() || record->is_asleep() ||
@@ -232,10 +297,11 @@ class CommandExplainer::Existence {
 };
 
 /// `of(command)` for each kind of command.
-struct CommandExplainer::All : Motion, Properties, Existence {
-  explicit All(Subjects& on) : Motion(on), Properties(on), Existence(on) {}
+struct CommandExplainer::All : Motion, Properties, Nature, Existence {
+  explicit All(Subjects& on) : Motion(on), Properties(on), Nature(on), Existence(on) {}
   using Existence::of;
   using Motion::of;
+  using Nature::of;
   using Properties::of;
 };
 

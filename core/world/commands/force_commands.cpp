@@ -124,6 +124,7 @@ Status CommandExecutor::push_now(BodyHandle body, const Push& push) {
 Status CommandExecutor::push_in_tick(BodyHandle body, const Push& push) {
   TickGain gain;
   if (const Status status = gain_of(world_, body, push, gain); status != Status::ok) return status;
+  if (!is_enabled(world_.bodies[body.index])) return Status::invalid_argument;
   if (gain.velocity == Vec3<Velocity>{} && gain.spin == Vec3<Velocity>{}) return Status::ok;
   world_.waking.wake(body.index);
   add_gain(*world_.edit(body), gain);

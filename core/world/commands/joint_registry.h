@@ -8,6 +8,7 @@
 #include <lockstone/event.h>
 #include <lockstone/joint.h>
 #include <lockstone/status.h>
+#include <lockstone/transform.h>
 
 #include "core/dynamics/state/joint_record.h"
 #include "core/world/data/world_data.h"
@@ -30,6 +31,17 @@ class JointRegistry {
 
   /// Whether the joints of a body may sit where they do once it becomes `changed`.
   [[nodiscard]] bool fits(std::uint32_t body, const BodyRecord& changed) const;
+
+  /// Whether each joint of a body would still hold a dynamic one.
+  [[nodiscard]] bool hold_dynamic(std::uint32_t body, const BodyRecord& changed) const;
+  /// Whether the joints of a body may sit where they do once it becomes `changed`, and its centre
+  /// of mass and principal axes move `from` … `to`, both in the frame of its shape.
+  [[nodiscard]] bool fit_moved(std::uint32_t body, const BodyRecord& changed, const Transform& from,
+                               const Transform& to) const;
+  /// Moves them there.
+  void move_frames(std::uint32_t body, const Transform& from, const Transform& to);
+  /// The impulses of the last tick are none of the body as it is now.
+  void forget_impulses_of(std::uint32_t body);
 
   /// Derives the graph from the records.
   void rebuild();

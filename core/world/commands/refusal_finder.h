@@ -8,6 +8,7 @@
 
 #include <lockstone/body.h>
 #include <lockstone/decimal.h>
+#include <lockstone/fluid.h>
 #include <lockstone/joint.h>
 #include <lockstone/refusal.h>
 
@@ -97,6 +98,11 @@ void check(RefusalFinder& find, const Surface& surface);
 void check(RefusalFinder& find, const SurfaceMotion& motion);
 void check(RefusalFinder& find, const SpeedLimit& limit);
 void check(RefusalFinder& find, const EventSettings& settings);
+void check(RefusalFinder& find, const Fluid& fluid);
+void check(RefusalFinder& find, const Shape& shape, const Asset* asset);
+/// Moments of inertia for a mass that is valid.
+void check_moments(RefusalFinder& find, std::string_view field, const MassData& data,
+                   int scale_exponent);
 /// |ω · 2^exponent| ≤ 500 m/s on the surface.
 void check_turning(RefusalFinder& find, const Vec3<AngularVelocity>& turning, int exponent);
 void check_axis(RefusalFinder& find, JointKind kind, std::size_t axis, const LinearAxis& settings);

@@ -71,6 +71,26 @@ void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMot
   record.set_surface_motion(rotate_inverse(axes, at_centre), rotate_inverse(axes, motion.turning));
 }
 
+// v = v_c − ω × centre, both along the axes of the shape's frame.
+SurfaceMotion surface_motion_of(const BodyRecord& record, const Asset* asset) {
+  if (!record.has_surface_motion()) return {};
+  const Transform body = body_pose(asset, {});  // in the shape's frame
+  const Mat3 axes = to_matrix(body.orientation);
+  SurfaceMotion motion{rotate(axes, record.surface_velocity()),
+                       rotate(axes, record.surface_turning())};
+  const auto product = [&](int turning, int along) {
+    return raw::round_shift(
+        raw::multiply_shift(body.position[along].raw, motion.turning[turning].raw, Rate::frac_bits),
+        Position::frac_bits - SolverVelocity::frac_bits);
+  };
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    motion.velocity[i].raw =
+        raw::saturate<std::int32_t>(motion.velocity[i].raw - product(j, k) + product(k, j));
+  }
+  return motion;
+}
+
 bool motion_to(const BodyRecord& body, const Transform& target, int tick_rate,
                Vec3<Velocity>& velocity, Vec3<Velocity>& spin) {
   const Vec3<RotationComponent> turn = rotation_between(body.orientation, target.orientation);
@@ -130,7 +150,7 @@ Status CommandExecutor::execute(const SetAxisLocks& command) {
   world_.waking.disturb(command.body.index);
   const Vec3<Velocity> turning = surface_velocity(
       inverse_inertia(*record, world_.cache.rotation(command.body.index)), record->spin);
-  record->locks = locked.locks;
+  record->locks = static_cast<std::uint8_t>(locked.locks | (record->locks & k_body_disabled));
   record->spin = spin_of(*record, world_.cache.rotation(command.body.index), turning);
   clamp_speed(record->spin);
   apply_axis_locks(*record);

@@ -25,6 +25,7 @@ WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet>
       hashes{RecordHashes<BodyRecord, k_body_domain>(definition.body_capacity),
              RecordHashes<JointRecord, k_joint_domain>(definition.joint_capacity)} {
   header.gravity = definition.gravity;
+  rests.reserve(definition.body_capacity);
 }
 
 const BodyRecord* WorldData::find(BodyHandle body) const {
@@ -79,7 +80,9 @@ void WorldData::refresh(std::uint32_t body) {
 void WorldData::refresh_bounds(std::uint32_t body) {
   const BodyRecord& record = bodies[body];
   cache.refresh_shape(body, record);
-  if (triggers.has(body) != record.is_trigger()) triggers.flip(body);
+  if (triggers.has(body) != (record.is_trigger() && is_enabled(record))) triggers.flip(body);
+  joint_graph.set_enabled(body, is_enabled(record));
+  if (!is_enabled(record)) return broad_phase.remove(body);
   broad_phase.set(body, bounds_of(body),
                   {record.filter(), record.moves(), record.is_dynamic(), record.is_trigger(),
                    record.is_asleep()});

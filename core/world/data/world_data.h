@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -38,7 +39,25 @@ struct StoreHashes {
   RecordHashes<JointRecord, k_joint_domain> joints;
 };
 
-struct WorldData {
+struct FluidPhase;
+
+/// The rest of a body that fluids push in the tick, which the push takes the place of.
+struct SavedRest {
+  std::uint32_t body = 0;
+  std::uint32_t ticks = 0;
+  Vec3<Unit> union_a{};
+  Vec3<Unit> union_b{};
+  Unit union_c{};
+};
+
+/// The fluids of a world.
+struct FluidData {
+  std::array<FluidRecord, k_max_fluids> fluids;  // canonical state: the first header.fluid_limit
+  const FluidPhase* fluid_phase = nullptr;       // derived: null only without fluids
+  std::vector<SavedRest> rests;                  // scratch of that phase
+};
+
+struct WorldData : FluidData {
   /// No function but this allocates.
   [[gnu::cold]] WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -97,6 +116,11 @@ struct WorldData {
   template <class F>
   void visit(JointStore, F&& f) const {
     f(std::span(joints).first(std::min(header.joint_limit, def.joint_capacity)));
+  }
+
+  template <class F>
+  void visit(FluidStore, F&& f) const {
+    f(std::span(fluids).first(std::min(header.fluid_limit, k_max_fluids)));
   }
 
   const WorldDef def;

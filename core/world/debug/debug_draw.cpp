@@ -59,7 +59,7 @@ void WorldDrawing::draw_shapes(DebugDraw& out) {
   find_all_islands();
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
     const BodyRecord& body = world_.bodies[i];
-    if (!body.exists()) continue;
+    if (!body.exists() || !is_enabled(body)) continue;
     const Transform pose = shape_pose(world_.cache.asset(i), {body.position, body.orientation});
     out.draw_shape(
         {.body = world_.handle_of(i),
@@ -75,7 +75,7 @@ void WorldDrawing::draw_shapes(DebugDraw& out) {
 
 void WorldDrawing::draw_bounds(DebugDraw& out) const {
   for (std::uint32_t i = 0; i < world_.header.body_limit; ++i) {
-    if (!world_.bodies[i].exists()) continue;
+    if (!world_.broad_phase.has(i)) continue;
     const Bounds& bounds = world_.broad_phase.bounds(i);
     DebugBounds drawn{.body = world_.handle_of(i)};
     for (int axis = 0; axis < 3; ++axis) {

@@ -7,7 +7,7 @@
 namespace lockstone {
 
 JointGraph::JointGraph(std::uint32_t body_capacity, std::uint32_t joint_capacity)
-    : begins_(std::size_t{body_capacity} + 1) {
+    : is_disabled_(body_capacity), begins_(std::size_t{body_capacity} + 1) {
   links_.reserve(joint_capacity);
   awake_links_.reserve(joint_capacity);
   exempt_pairs_.reserve(joint_capacity);
@@ -52,14 +52,16 @@ std::span<const std::uint32_t> JointGraph::neighbours(std::uint32_t body) {
 void JointGraph::rebuild_neighbours() {
   std::ranges::fill(begins_, 0U);
   for (const JointLink& link : links_) {
+    if (!works(link)) continue;
     ++begins_[link.body_a];
     ++begins_[link.body_b];
   }
   std::uint32_t sum = 0;
   for (std::uint32_t& begin : begins_)
     begin = sum += begin;
-  neighbours_.resize(std::size_t{2} * links_.size());
+  neighbours_.resize(sum);
   for (std::size_t i = links_.size(); i-- > 0;) {
+    if (!works(links_[i])) continue;
     neighbours_[--begins_[links_[i].body_a]] = links_[i].body_b;
     neighbours_[--begins_[links_[i].body_b]] = links_[i].body_a;
   }

@@ -39,6 +39,13 @@ class JointGraph {
   /// Removes a joint that was added with the same `exempt`.
   void remove(std::uint32_t joint, const std::optional<Pair>& exempt);
 
+  /// Joints of a disabled body do nothing: they are in `links` alone.
+  void set_enabled(std::uint32_t body, bool enabled) {
+    if ((is_disabled_[body] == 0) == enabled) return;
+    is_disabled_[body] = enabled ? 0 : 1;
+    forget_lists();
+  }
+
   /// All joints, by index.
   [[nodiscard]] std::span<const JointLink> links() const { return links_; }
   [[nodiscard]] bool empty() const { return links_.empty(); }
@@ -50,7 +57,7 @@ class JointGraph {
   /// The bodies that joints connect to this one, in the order of the joints.
   [[nodiscard]] std::span<const std::uint32_t> neighbours(std::uint32_t body);
 
-  /// The joints with an awake body, by index, as of the last `list_awake`.
+  /// The joints that work in the tick, by index, as of the last `list_awake`.
   [[nodiscard]] std::span<const JointLink> awake_links() const { return awake_links_; }
 
   /// Whether no joint and no body's sleep changed since the last `list_awake`.
@@ -63,11 +70,15 @@ class JointGraph {
     if (is_awake_list_current_) return;
     awake_links_.clear();
     for (const JointLink& link : links_)
-      if (is_awake(link.body_a) || is_awake(link.body_b)) awake_links_.push_back(link);
+      if (works(link) && (is_awake(link.body_a) || is_awake(link.body_b)))
+        awake_links_.push_back(link);
     is_awake_list_current_ = true;
   }
 
  private:
+  [[nodiscard]] bool works(const JointLink& link) const {
+    return (is_disabled_[link.body_a] | is_disabled_[link.body_b]) == 0;
+  }
   void forget_lists();
   void rebuild_neighbours();
 
@@ -75,6 +86,7 @@ class JointGraph {
   std::vector<JointLink> awake_links_;  // by joint
   std::vector<Pair> exempt_pairs_;      // ascending
   bool is_awake_list_current_ = false;
+  std::vector<std::uint8_t> is_disabled_;  // by body
 
   // Rebuilt when they are asked for.
   std::vector<std::uint32_t> begins_;      // by body: where its neighbours begin

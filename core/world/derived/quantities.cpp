@@ -17,6 +17,38 @@ Mass mass_of(const BodyRecord& record) {
   return Mass::from_raw(raw::scale_binary(quotient, -record.inverse_mass_exponent - 30));
 }
 
+MassData mass_data_of(const BodyRecord& record) {
+  if (!record.is_dynamic()) return {};
+  MassData data{mass_of(record), {}};
+  // Q30 of mass · s², mass in Q32, to Q28.
+  const int shift = 34 - 2 * record.scale_exponent;
+  for (int i = 0; i < 3; ++i) {
+    const Int128 product = multiply_wide(data.mass.raw, std::int64_t{record.inertia[i].raw});
+    data.inertia[i].raw = saturate_to_int64(round_shift(product, shift));
+  }
+  return data;
+}
+
+SpeedLimit speed_limit_of(const BodyRecord& record) {
+  const Velocity surface = rounded<Velocity>(record.max_surface_speed);
+  return {rounded<Velocity>(record.max_speed),
+          AngularVelocity::from_raw(raw::scale_binary(surface.raw, -record.scale_exponent))};
+}
+
+Vec3<Velocity> velocity_around(const Vec3<Velocity>& w, const Vec3<Position>& way, int exponent) {
+  const Vec3<Length> arm = saturated<Length>(way);
+  const auto product = [&](Velocity turning, Length along) {
+    return raw::multiply_shift(turning.raw, along.raw, Length::frac_bits);
+  };
+  Vec3<Velocity> around;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    around[i].raw = raw::scale_binary(product(w[j], arm[k]) - product(w[k], arm[j]), -exponent);
+    around[i] = clamp(around[i], -k_speed_limit, k_speed_limit);
+  }
+  return around;
+}
+
 std::int64_t effort_of(std::int64_t impulse, std::int32_t rate, BlockFloat inverse_mass,
                        int exponent) {
   const int shift = std::clamp(exponent - inverse_mass.exponent, -63, 63);

@@ -16,6 +16,14 @@ namespace lockstone {
 
 /// Kilograms; 0 of a body that nothing pushes.
 [[nodiscard]] Mass mass_of(const BodyRecord& record);
+/// With its principal moments, saturating.
+[[nodiscard]] MassData mass_data_of(const BodyRecord& record);
+/// The limits of its speeds as the body keeps them.
+[[nodiscard]] SpeedLimit speed_limit_of(const BodyRecord& record);
+
+/// ω × way, each component within the speed limit, of a body whose surface speed is ω·2^exponent.
+[[nodiscard]] Vec3<Velocity> velocity_around(const Vec3<Velocity>& w, const Vec3<Position>& way,
+                                             int exponent);
 
 /// An impulse λ·(1/mA + 1/mB) a substep, as λ a second: N, and N·m with the length 2^exponent.
 [[nodiscard]] std::int64_t effort_of(std::int64_t impulse, std::int32_t rate,

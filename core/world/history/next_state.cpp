@@ -167,6 +167,8 @@ bool write_next_state(const WorldData& world, const ComputedBodies& computed,
   header.contact_count = write_contacts(world, computed, after, to);
   if (header.contact_count > world.def.contact_capacity) return false;
   write_joints(world, computed, before, after, to);
+  for (std::uint32_t i = 0; i < header.fluid_limit; ++i)
+    to.put(world.fluids[i]);
   next.after.set_size(to.size());
   std::memcpy(next.after.out().data(), &header, sizeof(header));
   return true;

@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace lockstone {
+namespace {
+
+bool have_fluids_changed(const WorldData& world, const NativeState<WorldStores>& before) {
+  bool changed = world.header.fluid_limit != before.header.fluid_limit;
+  for (std::uint32_t i = 0; i < world.header.fluid_limit; ++i)
+    changed = changed || !is_same<FluidStore>(world.fluids[i], before, i);
+  return changed;
+}
+
+}  // namespace
+
 StateChanges::StateChanges(std::uint32_t body_capacity)
     : is_changed_(body_capacity), is_end_(body_capacity) {
   bodies_.reserve(body_capacity);
@@ -17,7 +28,8 @@ void StateChanges::find(const WorldData& world, const NativeState<WorldStores>& 
   bodies_.clear();
   ends_.clear();
   any_ = concern_all_ =
-      world.header.tick != before.header.tick || world.header.gravity != before.header.gravity;
+      world.header.tick != before.header.tick || world.header.gravity != before.header.gravity ||
+      have_fluids_changed(world, before);
   if (concern_all_) return;
   find_bodies(world, before);
   find_contacts(world, before);

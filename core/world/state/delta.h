@@ -53,7 +53,7 @@ template <class List>
 [[nodiscard]] std::size_t delta_overhead(const WorldDef& def) {
   std::size_t bytes = 0;
   List::for_each([&](auto store) {
-    bytes += bitmap_bytes(def.*decltype(store)::k_capacity) + sizeof(std::uint32_t);
+    bytes += bitmap_bytes(capacity_of<decltype(store)>(def)) + sizeof(std::uint32_t);
   });
   return bytes;
 }

@@ -30,6 +30,10 @@ class Namer {
     return joint.exists() ? end(joint.body_a) + '-' + end(joint.body_b) : std::string();
   }
 
+  [[nodiscard]] std::string name_of(FluidStore, std::uint32_t, const FluidRecord&) const {
+    return {};
+  }
+
  private:
   // "17 crate", or "17" of a body without a name.
   [[nodiscard]] std::string end(std::uint32_t index) const {

@@ -43,6 +43,8 @@ bool World::flip_bit(std::string_view store, std::uint64_t object, std::string_v
     world.hashes.joints.mark(index);
     return flip_in(world.joints[index], field, bit);
   }
+  if (store == FluidStore::k_name && object < world.header.fluid_limit)
+    return flip_in(world.fluids[index], field, bit);
   return false;
 }
 

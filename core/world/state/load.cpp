@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/world/phases/fluids.h"
 #include "core/world/state/delta.h"
 #include "core/world/state/snapshot_format.h"
 #include "core/world/state/state_loader.h"
@@ -28,7 +29,7 @@ bool same_bytes(const Record& a, const Record& b) {
 // All that is derived of the two but place and bounds.
 bool same_make(const BodyRecord& a, const BodyRecord& b) {
   return a.motion == b.motion && a.flags == b.flags && a.hit_speed == b.hit_speed &&
-         a.shape() == b.shape() && a.filter() == b.filter();
+         is_enabled(a) == is_enabled(b) && a.shape() == b.shape() && a.filter() == b.filter();
 }
 
 bool same_link(const JointRecord& a, const JointRecord& b) {
@@ -47,7 +48,11 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
   world_.contacts.forget_manifolds();
   const bool same_bodies = take_bodies(loaded.body_limit, state);
   const bool same_links = take_joints(loaded.joint_limit, state);
+  world_.fluids = {};
+  for (std::uint32_t i = 0; i < loaded.fluid_limit; ++i)
+    state.template read<FluidStore>(i, world_.fluids[i]);
   world_.header = loaded;
+  world_.fluid_phase = linked_fluid_phase;
   const auto read_contacts = [&](std::span<ContactRecord> to) {
     for (std::uint32_t i = 0; i < to.size(); ++i)
       state.template read<ContactStore>(i, to[i]);
@@ -96,7 +101,7 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   world_.hashes.bodies.mark(body);
   if (world_.is_derived_stale) return same;
   world_.sleep_flags.note_loaded(body);
-  if (same) {
+  if (same && is_enabled(record)) {
     if (!same_contact_turn) world_.cache.refresh_contact_rotation(body, record);
     world_.moved.add(body);
     return true;
@@ -104,11 +109,11 @@ bool StateLoader::take_body(std::uint32_t body, const BodyRecord& record) {
   if (record.exists()) {
     world_.cache.set_asset(body, world_.assets->find(record.asset));
     world_.refresh(body);
-  } else {
-    world_.broad_phase.remove(body);
-    world_.triggers.erase(body);
-    world_.cache.forget_hit_events(body);
+    return same;
   }
+  world_.broad_phase.remove(body);
+  world_.triggers.erase(body);
+  world_.cache.forget_hit_events(body);
   return false;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/dynamics/state/body_record.h"
 #include "core/dynamics/state/contact_record.h"
+#include "core/dynamics/state/fluid_record.h"
 #include "core/dynamics/state/joint_record.h"
 
 namespace lockstone {
@@ -14,6 +15,7 @@ namespace lockstone {
 /// ok, or the reason why a stored record is invalid. For bytes from outside.
 [[nodiscard]] Status validate(const BodyRecord& record, const AssetSet& assets);
 [[nodiscard]] Status validate(const JointRecord& record);
+[[nodiscard]] Status validate(const FluidRecord& record);
 
 /// The same with the bodies that a contact is between, or that a joint holds.
 [[nodiscard]] Status validate(const ContactRecord& record, const BodyRecord& a,

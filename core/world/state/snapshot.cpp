@@ -7,6 +7,7 @@
 #include "core/dynamics/state/limits.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/world/derived/quantities.h"
+#include "core/world/phases/fluids.h"
 #include "core/world/state/record_checks.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/snapshot_format.h"
@@ -53,7 +54,7 @@ bool has_valid_notes(const BodyRecord& record) {
   if (!record.is_dynamic()) return !record.is_pushed() && record.union_c == Unit{};
   if (!record.is_pushed()) return true;
   const TickGain gain = tick_gain_of(record);
-  return !record.is_asleep() && record.rest_ticks == 0 &&
+  return !record.is_asleep() && is_enabled(record) && record.rest_ticks == 0 &&
          record.union_c.raw >> k_exponent_bits == 0 && is_within(gain.velocity, k_most_gain) &&
          is_within(gain.spin, k_most_gain);
 }
@@ -79,7 +80,7 @@ bool has_valid_sleep(const BodyRecord& record) {
   const bool watched = record.is_dynamic() && record.may_sleep() && !record.is_asleep();
   if (!watched && !has_zero_rest(record)) return false;
   if (record.has_changed_sleep() && !record.is_dynamic()) return false;
-  if (!record.moves()) return !record.is_asleep();
+  if (!record.moves() || !is_enabled(record)) return !record.is_asleep();
   const bool still = record.velocity == Vec3<Velocity>{} && record.spin == Vec3<Velocity>{};
   return !record.is_asleep() || (still && record.may_sleep());
 }
@@ -135,12 +136,19 @@ Status validate(const BodyRecord& record, const AssetSet& assets) {
   return in_world ? Status::ok : Status::malformed;
 }
 
+Status validate(const FluidRecord& record) {
+  if (!record.exists()) return record == FluidRecord{} ? Status::ok : Status::malformed;
+  const bool turned = has_unit_norm(record.orientation);
+  return turned && is_valid(fluid_of(record)) ? Status::ok : Status::malformed;
+}
+
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
   const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
   const bool trigger = a.is_trigger() || b.is_trigger();
-  const bool valid = ordered && known && trigger == record.is_trigger() &&
-                     has_valid_points(record) && (!trigger || record.count == 0);
+  const bool valid = ordered && known && is_enabled(a) && is_enabled(b) &&
+                     trigger == record.is_trigger() && has_valid_points(record) &&
+                     (!trigger || record.count == 0);
   return valid ? Status::ok : Status::malformed;
 }
 
@@ -204,6 +212,13 @@ Status SnapshotView::check(JointStore) const {
   return Status::ok;
 }
 
+Status SnapshotView::check(FluidStore) const {
+  if (header.fluid_limit != 0 && linked_fluid_phase == nullptr) return Status::incompatible;
+  for (std::uint32_t i = 0; i < header.fluid_limit; ++i)
+    if (validate(record<FluidStore>(i)) != Status::ok) return Status::malformed;
+  return Status::ok;
+}
+
 Status SnapshotView::check(BodyStore) const {
   for (std::uint32_t i = 0; i < header.body_limit; ++i) {
     const BodyRecord record = body(i);
@@ -214,7 +229,7 @@ Status SnapshotView::check(BodyStore) const {
 }
 
 Status SnapshotView::check() const {
-  if (!is_valid_gravity(header.gravity) || header.reserved != 0) return Status::malformed;
+  if (!is_valid_gravity(header.gravity)) return Status::malformed;
   Status status = Status::ok;
   WorldStores::for_each([&](auto store) {
     if (status == Status::ok) status = check(store);

@@ -42,6 +42,7 @@ class SnapshotView {
   [[nodiscard]] Status check(BodyStore) const;
   [[nodiscard]] Status check(ContactStore) const;
   [[nodiscard]] Status check(JointStore) const;
+  [[nodiscard]] Status check(FluidStore) const;
 
   const AssetSet* assets_ = nullptr;
   StoredRecords<WorldStores> records_;

@@ -24,6 +24,15 @@ Hash128 sum_of(const State& state) {
   return sum;
 }
 
+// Fluids count with the header; where there are none, it is hashed alone.
+std::uint64_t hash_of_header(const WorldData& world) {
+  std::uint64_t hash = hash_record(world.header, 0);
+  for_each_record<FluidStore>(world, [&](std::uint32_t index, const FluidRecord& fluid) {
+    hash += hash_record(fluid, hash_seed<FluidStore>(index));
+  });
+  return hash;
+}
+
 template <class Store, class State>
 std::size_t list_hashes(const State& state, std::span<std::uint64_t> out) {
   std::size_t count = 0;
@@ -39,7 +48,7 @@ std::size_t list_hashes(const State& state, std::span<std::uint64_t> out) {
 StateHash World::hash() const {
   Impl& world = *impl_;
   StateHash hash;
-  hash.header = hash_record(world.header, 0);
+  hash.header = hash_of_header(world);
   world.visit(BodyStore{}, [&](auto bodies) { hash.bodies = world.hashes.bodies.sum(bodies); });
   hash.contacts = world.contacts.sleeping().hash() + hash_contacts(world.contacts.active());
   world.visit(JointStore{}, [&](auto joints) { hash.joints = world.hashes.joints.sum(joints); });
@@ -58,7 +67,7 @@ StateHash World::hash() const {
 
 StateHash128 World::hash128() const {
   StateHash128 hash;
-  hash.header = hash_record128(impl_->header, 0);
+  hash.header = hash_record128(impl_->header, 0) + sum_of<FluidStore>(*impl_);
   hash.bodies = sum_of<BodyStore>(*impl_);
   hash.contacts = sum_of<ContactStore>(*impl_);
   hash.joints = sum_of<JointStore>(*impl_);

@@ -84,13 +84,15 @@ WorldFault StateValidator::fault_of_derived_bodies() const {
       return {"the list of changed sleep", i};
     if (world_.cache.hit_bodies().has(i) != has_hit_events(body))
       return {"the list of bodies with hit events", i};
-    if (world_.broad_phase.has(i) != body.exists()) return {"the bodies of the broad phase", i};
+    if (world_.broad_phase.has(i) != (body.exists() && is_enabled(body)))
+      return {"the bodies of the broad phase", i};
     if (!body.exists()) continue;
     sleepers += body.is_asleep() ? 1U : 0U;
     if (world_.cache.asset(i) != world_.assets->find(body.asset)) return {"the asset of a body", i};
     if (world_.cache.rotation(i) != to_matrix(body.orientation))
       return {"the rotation of a body", i};
-    if (world_.broad_phase.bounds(i) != world_.bounds_of(i)) return {"the bounds of a body", i};
+    if (is_enabled(body) && world_.broad_phase.bounds(i) != world_.bounds_of(i))
+      return {"the bounds of a body", i};
     if (!is_near_recycling_pose(body)) return {"the recycling pose of a body", i};
     if (world_.cache.recycling_rotations()[i] != to_matrix(body.recycling_orientation))
       return {"the rotation of a recycling pose", i};
@@ -180,12 +182,13 @@ WorldFault StateValidator::fault_of_manifolds() const {
 }
 
 WorldFault StateValidator::find_fault() {
-  if (!WorldStores::fits(world_.header, world_.def) || world_.header.reserved != 0 ||
-      !is_valid_gravity(world_.header.gravity))
+  if (!WorldStores::fits(world_.header, world_.def) || !is_valid_gravity(world_.header.gravity))
     return {"the header"};
   for (const WorldFault& fault :
        {fault_of_bodies(), fault_of_contacts(world_.contacts.active()), fault_of_joints()})
     if (fault) return fault;
+  for (std::uint32_t i = 0; i < world_.header.fluid_limit; ++i)
+    if (validate(world_.fluids[i]) != Status::ok) return {"a fluid's record", i};
   for (const WorldFault& fault :
        {fault_of_derived_bodies(), fault_of_derived_contacts(), fault_of_derived_joints()})
     if (fault) return fault;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <span>
 
 #include <lockstone/bytes.h>
@@ -12,6 +13,7 @@
 
 #include "core/dynamics/state/body_record.h"
 #include "core/dynamics/state/contact_record.h"
+#include "core/dynamics/state/fluid_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/record_hash.h"
@@ -48,6 +50,22 @@ struct JointStore {
   static constexpr bool k_has_key = false;
 };
 
+/// Of an empty store nothing is hashed, so that a world without fluids is as it was before them.
+struct FluidStore {
+  using Record = FluidRecord;
+  static constexpr const char* k_name = "fluid";
+  static constexpr auto k_count = &WorldHeader::fluid_limit;
+  static constexpr auto k_capacity = [](const WorldDef&) { return k_max_fluids; };
+  static constexpr std::uint64_t k_domain = k_fluid_domain;
+  static constexpr bool k_has_key = false;
+};
+
+/// The most records that a store may have.
+template <class Store>
+[[nodiscard]] std::uint32_t capacity_of(const WorldDef& def) {
+  return std::invoke(Store::k_capacity, def);
+}
+
 /// A state, as the templates below see it, has a `header`, and `visit(Store, f)`, which calls
 /// `f(span of records)` for the records of a store in their order, in one or more spans.
 template <class... Stores>
@@ -61,13 +79,13 @@ struct StoreList {
   }
 
   [[nodiscard]] static bool fits(const WorldHeader& header, const WorldDef& def) {
-    return (... && (header.*Stores::k_count <= def.*Stores::k_capacity));
+    return (... && (header.*Stores::k_count <= capacity_of<Stores>(def)));
   }
   [[nodiscard]] static std::size_t record_bytes(const WorldHeader& header) {
     return (std::size_t{0} + ... + bytes_of<Stores>(header.*Stores::k_count));
   }
   [[nodiscard]] static std::size_t record_bytes_max(const WorldDef& def) {
-    return (std::size_t{0} + ... + bytes_of<Stores>(def.*Stores::k_capacity));
+    return (std::size_t{0} + ... + bytes_of<Stores>(capacity_of<Stores>(def)));
   }
 
   /// Where a store stands in the list.
@@ -85,7 +103,7 @@ struct StoreList {
   }
 };
 
-using WorldStores = StoreList<BodyStore, ContactStore, JointStore>;
+using WorldStores = StoreList<BodyStore, ContactStore, JointStore, FluidStore>;
 
 /// The state as it lies in memory: header, then the stores. Returns the bytes written, 0 when `out`
 /// is too small.

@@ -17,7 +17,7 @@ struct WorldHeader {
   std::uint32_t body_limit = 0;  // slots ever used
   std::uint32_t contact_count = 0;
   std::uint32_t joint_limit = 0;  // slots ever used
-  std::uint32_t reserved = 0;     // keeps the record free of padding; always 0
+  std::uint32_t fluid_limit = 0;  // fluids of higher numbers do not exist
 
   friend bool operator==(const WorldHeader&, const WorldHeader&) = default;
 };
@@ -29,7 +29,7 @@ constexpr void visit_fields(WorldHeader& header, F&& f) {
   visit_value("body_limit", "", header.body_limit, f);
   visit_value("contact_count", "", header.contact_count, f);
   visit_value("joint_limit", "", header.joint_limit, f);
-  visit_value("reserved", "", header.reserved, f);
+  visit_value("fluid_limit", "", header.fluid_limit, f);
 }
 
 static_assert(visited_bytes<WorldHeader>() == sizeof(WorldHeader), "a field is missing");

@@ -21,6 +21,7 @@ static_assert(LKS_IMPULSE_BITS == AngularImpulse::frac_bits && LKS_FORCE_BITS ==
 static_assert(LKS_LENGTH_BITS == Length::frac_bits && LKS_SPEED_BITS == SolverVelocity::frac_bits);
 static_assert(LKS_DISPLACEMENT_BITS == Displacement::frac_bits && LKS_UNIT_BITS == Unit::frac_bits);
 static_assert(LKS_NUMBER_BITS == Number::frac_bits && LKS_RATE_BITS == Rate::frac_bits);
+static_assert(LKS_INERTIA_BITS == MomentOfInertia::frac_bits);
 static_assert(LKS_ANGLE_BITS == Angle::frac_bits && LKS_DENSITY_BITS == Density::frac_bits);
 
 void check_fraction_bits(std::int32_t bits, int most) {

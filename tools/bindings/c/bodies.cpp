@@ -66,6 +66,7 @@ BodyDef body_def_of(const lks_body_def* from) {
                      AngularVelocity::from_raw(raw.angular_speed_limit)};
   def.user_data = raw.user_data;
   def.events = events_of(raw.events, raw.hit_speed, "body.events");
+  def.mass = {Mass::from_raw(raw.mass), vec<MomentOfInertia>(raw.inertia)};
   return def;
 }
 
@@ -75,10 +76,11 @@ std::uint32_t flags_of(const BodyView& body) {
   if (body.is_bullet) flags |= LKS_BODY_BULLET;
   if (body.allow_sleep) flags |= LKS_BODY_ALLOW_SLEEP;
   if (body.is_asleep) flags |= LKS_BODY_ASLEEP;
+  if (!body.is_enabled) flags |= LKS_BODY_DISABLED;
   return flags;
 }
 
-lks_body_view view_of(const BodyView& body, Mass mass) {
+lks_body_view view_of(const BodyView& body) {
   lks_body_view raw{};
   raw.size = sizeof raw;
   raw.motion = static_cast<std::uint32_t>(body.motion);
@@ -92,10 +94,18 @@ lks_body_view view_of(const BodyView& body, Mass mass) {
   raw.filter = {body.filter.category, body.filter.mask, body.filter.group};
   raw.flags = flags_of(body);
   raw.locks = raw_of(body.locks);
-  raw.mass = mass.raw;
+  raw.mass = body.mass.mass.raw;
   raw.user_data = body.user_data;
   raw.events = raw_of(body.events);
   raw.hit_speed = body.events.hit_speed.raw;
+  raw.inertia = raw_of(body.mass.inertia);
+  raw.principal_axes = raw_of(body.principal_axes);
+  raw.surface_motion = {raw_of(body.surface_motion.velocity), raw_of(body.surface_motion.turning)};
+  raw.gravity_scale = body.gravity_scale.raw;
+  raw.linear_damping = body.linear_damping.raw;
+  raw.angular_damping = body.angular_damping.raw;
+  raw.speed_limit = body.speed_limit.linear.raw;
+  raw.angular_speed_limit = body.speed_limit.angular.raw;
   return raw;
 }
 
@@ -137,7 +147,7 @@ lks_status lks_body_get(const lks_world* world, lks_body body, lks_body_view* ou
   return call([&] {
     const World& source = read(world);
     const BodyHandle handle = existing_body(source, body);
-    give(view_of(source.body(handle), source.mass(handle)), out, required(out, "out").size, "out");
+    give(view_of(source.body(handle)), out, required(out, "out").size, "out");
   });
 }
 

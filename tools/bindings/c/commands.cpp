@@ -148,6 +148,36 @@ lks_status lks_set_user_data(lks_world* world, lks_body body, uint64_t user_data
   return call([&] { order(world, SetUserData{handle_of<BodyHandle>(body), user_data}); });
 }
 
+lks_status lks_set_motion_type(lks_world* world, lks_body body, uint32_t motion, lks_mass mass) {
+  return call([&] {
+    const MotionType type =
+        enumerator(motion, MotionType::static_body, MotionType::dynamic, "motion");
+    order(world, SetMotionType{handle_of<BodyHandle>(body), type, Mass::from_raw(mass)});
+  });
+}
+
+lks_status lks_set_shape(lks_world* world, lks_body body, const lks_shape* shape, lks_mass mass) {
+  return call([&] {
+    order(world, SetShape{handle_of<BodyHandle>(body),
+                          shape_of(required(shape, "shape"), "shape.kind"), Mass::from_raw(mass)});
+  });
+}
+
+lks_status lks_set_mass_data(lks_world* world, lks_body body, lks_mass mass,
+                             const lks_inertia3* inertia) {
+  return call([&] {
+    MassData data{Mass::from_raw(mass), {}};
+    if (inertia != nullptr) data.inertia = vec<MomentOfInertia>(*inertia);
+    order(world, SetMassData{handle_of<BodyHandle>(body), data});
+  });
+}
+
+lks_status lks_set_enabled(lks_world* world, lks_body body, uint32_t enabled) {
+  return call([&] {
+    order(world, SetEnabled{handle_of<BodyHandle>(body), flag(enabled, "enabled")});
+  });
+}
+
 lks_status lks_wake_body(lks_world* world, lks_body body) {
   return tell<WakeBody>(world, body);
 }

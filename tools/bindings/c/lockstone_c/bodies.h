@@ -32,7 +32,8 @@ enum {
   LKS_BODY_FIXED_ROTATION = 2, /* never rotates */
   LKS_BODY_BULLET = 4,         /* never passes through dynamic bodies either */
   LKS_BODY_ALLOW_SLEEP = 8,    /* set by default */
-  LKS_BODY_ASLEEP = 16         /* in views only */
+  LKS_BODY_ASLEEP = 16,        /* in views only */
+  LKS_BODY_DISABLED = 32       /* in views only */
 };
 
 /* Bits of events: which events a body has. */
@@ -95,7 +96,9 @@ typedef struct lks_body_def {
   lks_angular_velocity angular_speed_limit;
   uint64_t user_data; /* the game's own; part of the state */
   uint32_t events;
-  lks_speed hit_speed; /* approaches above it are hits, 0 … 500 m/s; 0: none are */
+  lks_speed hit_speed;  /* approaches above it are hits, 0 … 500 m/s; 0: none are */
+  lks_mass mass;        /* of a dynamic body; 0: by its density */
+  lks_inertia3 inertia; /* principal moments; all 0: those of the solid */
 } lks_body_def;
 
 /* Sets the defaults: a dynamic sphere of 0.5 m of 1000 kg/m³. */
@@ -119,6 +122,15 @@ typedef struct lks_body_view {
   uint64_t user_data;
   uint32_t events;
   lks_speed hit_speed;
+  lks_inertia3 inertia;    /* principal moments, 0 of static and kinematic bodies */
+  lks_quat principal_axes; /* in the world: columns of its matrix */
+  lks_surface_motion surface_motion;
+  lks_number gravity_scale;
+  lks_rate linear_damping;
+  lks_rate angular_damping;
+  uint32_t reserved;
+  lks_velocity speed_limit;
+  lks_angular_velocity angular_speed_limit;
 } lks_body_view;
 
 /* Commands: the only way to write a world. On any status but LKS_OK nothing has changed. */
@@ -171,11 +183,48 @@ LKS_API lks_status lks_set_events(lks_world* world, lks_body body, uint32_t even
                                   lks_speed hit_speed);
 LKS_API lks_status lks_set_user_data(lks_world* world, lks_body body, uint64_t user_data);
 
+/* Its place, velocities and joints stay; its contacts end. `mass`: of a body that becomes dynamic;
+ * 0: of its solid at 1000 kg/m³. */
+LKS_API lks_status lks_set_motion_type(lks_world* world, lks_body body, uint32_t motion,
+                                       lks_mass mass);
+/* In the frame of the old shape. `mass`: of a dynamic body; 0: it keeps its own. */
+LKS_API lks_status lks_set_shape(lks_world* world, lks_body body, const lks_shape* shape,
+                                 lks_mass mass);
+/* Of a dynamic body; mass 0: it keeps its own. `inertia`: principal moments; null or all 0: those
+ * of the solid with this mass. */
+LKS_API lks_status lks_set_mass_data(lks_world* world, lks_body body, lks_mass mass,
+                                     const lks_inertia3* inertia);
+/* A disabled body stays as it is until it is enabled: nothing meets or finds it, and its joints do
+ * nothing. */
+LKS_API lks_status lks_set_enabled(lks_world* world, lks_body body, uint32_t enabled);
+
 /* Wakes a body and its island; commands that push or move a body do so by themselves. */
 LKS_API lks_status lks_wake_body(lks_world* world, lks_body body);
 LKS_API lks_status lks_sleep_body(lks_world* world, lks_body body);
 LKS_API lks_status lks_set_allow_sleep(lks_world* world, lks_body body, uint32_t allow);
 LKS_API lks_status lks_set_gravity(lks_world* world, const lks_acceleration3* gravity);
+
+/* A box of fluid below a flat surface: water, mud, wind. It carries, brakes and drives the dynamic
+ * bodies in it. */
+typedef struct lks_fluid {
+  uint32_t size;
+  uint32_t mask;         /* categories of the bodies that it acts on */
+  lks_position3 surface; /* the centre of the surface */
+  lks_position3 extents; /* half the width, the depth, half the length: 0 … 2^21 m */
+  lks_velocity3 flow;    /* each component within ±500 m/s */
+  lks_quat orientation;  /* y points out of the surface */
+  lks_density density;   /* 0: there is no such fluid */
+  lks_number drag;       /* coefficient of the form, 0 … 100 */
+  lks_rate linear_drag;  /* 1/s, ≥ 0 */
+  uint32_t reserved;
+} lks_fluid;
+
+/* Sets the defaults: no density, every category. */
+LKS_API lks_status lks_fluid_init(lks_fluid* fluid, size_t size);
+/* Sets or changes fluid 0 … 15, or with density 0 removes it. */
+LKS_API lks_status lks_set_fluid(lks_world* world, uint32_t number, const lks_fluid* fluid);
+/* `out->size` must be set. */
+LKS_API lks_status lks_fluid_get(const lks_world* world, uint32_t number, lks_fluid* out);
 
 /* Names a body for people: not state. 28 bytes of UTF-8 and no more are kept. */
 LKS_API lks_status lks_set_name(lks_world* world, lks_body body, const char* name);

@@ -28,7 +28,8 @@ enum {
   LKS_NUMBER_BITS = 20,
   LKS_RATE_BITS = 20,
   LKS_ANGLE_BITS = 27,
-  LKS_DENSITY_BITS = 8
+  LKS_DENSITY_BITS = 8,
+  LKS_INERTIA_BITS = 28
 };
 
 typedef int64_t lks_position;         /* m */
@@ -36,6 +37,7 @@ typedef int64_t lks_velocity;         /* m/s */
 typedef int64_t lks_angular_velocity; /* rad/s */
 typedef int64_t lks_acceleration;     /* m/s² */
 typedef int64_t lks_mass;             /* kg */
+typedef int64_t lks_inertia;          /* kg·m² */
 typedef int64_t lks_impulse;          /* N·s; of angular ones N·m·s */
 typedef int64_t lks_force;            /* N; of torques N·m */
 typedef int32_t lks_length;           /* m, ±2048: sizes, anchors, rays */
@@ -58,6 +60,7 @@ typedef lks_i64x3 lks_position3;
 typedef lks_i64x3 lks_velocity3;
 typedef lks_i64x3 lks_angular_velocity3;
 typedef lks_i64x3 lks_acceleration3;
+typedef lks_i64x3 lks_inertia3;
 typedef lks_i64x3 lks_impulse3;
 typedef lks_i64x3 lks_force3;
 typedef lks_i32x3 lks_length3;

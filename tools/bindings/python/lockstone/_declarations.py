@@ -48,6 +48,7 @@ LKS_BODY_FIXED_ROTATION = 2
 LKS_BODY_BULLET = 4
 LKS_BODY_ALLOW_SLEEP = 8
 LKS_BODY_ASLEEP = 16
+LKS_BODY_DISABLED = 32
 LKS_BODY_CONTACT_EVENTS = 1
 LKS_LOCK_MOVE_X = 1
 LKS_LOCK_MOVE_Y = 2
@@ -150,6 +151,7 @@ LKS_NUMBER_BITS = 20
 LKS_RATE_BITS = 20
 LKS_ANGLE_BITS = 27
 LKS_DENSITY_BITS = 8
+LKS_INERTIA_BITS = 28
 LKS_MAX_HISTORY_TICKS = 256
 LOCKSTONE_GAME_ABI = 1
 LOCKSTONE_GAME_MAX_PARTS = 8
@@ -255,6 +257,8 @@ class lks_body_def(Structure):
         ("user_data", c_uint64),
         ("events", c_uint32),
         ("hit_speed", c_int32),
+        ("mass", c_int64),
+        ("inertia", lks_i64x3),
     ]
 
 
@@ -276,6 +280,30 @@ class lks_body_view(Structure):
         ("user_data", c_uint64),
         ("events", c_uint32),
         ("hit_speed", c_int32),
+        ("inertia", lks_i64x3),
+        ("principal_axes", lks_quat),
+        ("surface_motion", lks_surface_motion),
+        ("gravity_scale", c_int32),
+        ("linear_damping", c_int32),
+        ("angular_damping", c_int32),
+        ("reserved", c_uint32),
+        ("speed_limit", c_int64),
+        ("angular_speed_limit", c_int64),
+    ]
+
+
+class lks_fluid(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("mask", c_uint32),
+        ("surface", lks_i64x3),
+        ("extents", lks_i64x3),
+        ("flow", lks_i64x3),
+        ("orientation", lks_quat),
+        ("density", c_int32),
+        ("drag", c_int32),
+        ("linear_drag", c_int32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -805,10 +833,17 @@ FUNCTIONS = {
     "lks_set_filter": [c_int32, c_void_p, c_uint64, POINTER(lks_filter)],
     "lks_set_events": [c_int32, c_void_p, c_uint64, c_uint32, c_int32],
     "lks_set_user_data": [c_int32, c_void_p, c_uint64, c_uint64],
+    "lks_set_motion_type": [c_int32, c_void_p, c_uint64, c_uint32, c_int64],
+    "lks_set_shape": [c_int32, c_void_p, c_uint64, POINTER(lks_shape), c_int64],
+    "lks_set_mass_data": [c_int32, c_void_p, c_uint64, c_int64, POINTER(lks_i64x3)],
+    "lks_set_enabled": [c_int32, c_void_p, c_uint64, c_uint32],
     "lks_wake_body": [c_int32, c_void_p, c_uint64],
     "lks_sleep_body": [c_int32, c_void_p, c_uint64],
     "lks_set_allow_sleep": [c_int32, c_void_p, c_uint64, c_uint32],
     "lks_set_gravity": [c_int32, c_void_p, POINTER(lks_i64x3)],
+    "lks_fluid_init": [c_int32, POINTER(lks_fluid), c_size_t],
+    "lks_set_fluid": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
+    "lks_fluid_get": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
     "lks_set_name": [c_int32, c_void_p, c_uint64, c_char_p],
     "lks_body_exists": [c_int32, c_void_p, c_uint64, POINTER(c_uint32)],
     "lks_body_get": [c_int32, c_void_p, c_uint64, POINTER(lks_body_view)],

@@ -59,7 +59,7 @@ class BodyDef(ctypes.Structure):
                 ("filter", Filter), ("gravity_scale", c_int32), ("linear_damping", c_int32),
                 ("angular_damping", c_int32), ("flags", c_uint32), ("locks", c_uint32),
                 ("speed_limit", c_int64), ("angular_speed_limit", c_int64), ("user_data", c_uint64),
-                ("events", c_uint32), ("hit_speed", c_int32)]
+                ("events", c_uint32), ("hit_speed", c_int32), ("mass", c_int64), ("inertia", I64x3)]
 
 
 class BodyView(ctypes.Structure):
@@ -67,7 +67,16 @@ class BodyView(ctypes.Structure):
                 ("centre_of_mass", I64x3), ("velocity", I64x3), ("angular_velocity", I64x3),
                 ("orientation", Quat), ("surface", Surface), ("filter", Filter), ("flags", c_uint32),
                 ("locks", c_uint32), ("mass", c_int64), ("user_data", c_uint64), ("events", c_uint32),
-                ("hit_speed", c_int32)]
+                ("hit_speed", c_int32), ("inertia", I64x3), ("principal_axes", Quat),
+                ("surface_motion", SurfaceMotion), ("gravity_scale", c_int32), ("linear_damping", c_int32),
+                ("angular_damping", c_int32), ("reserved", c_uint32), ("speed_limit", c_int64),
+                ("angular_speed_limit", c_int64)]
+
+
+class Fluid(ctypes.Structure):
+    _fields_ = [("size", c_uint32), ("mask", c_uint32), ("surface", I64x3), ("extents", I64x3), ("flow", I64x3),
+                ("orientation", Quat), ("density", c_int32), ("drag", c_int32), ("linear_drag", c_int32),
+                ("reserved", c_uint32)]
 
 
 class Axis(ctypes.Structure):
@@ -154,10 +163,17 @@ _CALLS = {
     "lks_set_filter": [_WORLD, _BODY, POINTER(Filter)],
     "lks_set_events": [_WORLD, _BODY, c_uint32, c_int32],
     "lks_set_user_data": [_WORLD, _BODY, c_uint64],
+    "lks_set_motion_type": [_WORLD, _BODY, c_uint32, c_int64],
+    "lks_set_shape": [_WORLD, _BODY, POINTER(Shape), c_int64],
+    "lks_set_mass_data": [_WORLD, _BODY, c_int64, POINTER(I64x3)],
+    "lks_set_enabled": [_WORLD, _BODY, c_uint32],
     "lks_wake_body": [_WORLD, _BODY],
     "lks_sleep_body": [_WORLD, _BODY],
     "lks_set_allow_sleep": [_WORLD, _BODY, c_uint32],
     "lks_set_gravity": [_WORLD, POINTER(I64x3)],
+    "lks_fluid_init": [POINTER(Fluid), c_size_t],
+    "lks_set_fluid": [_WORLD, c_uint32, POINTER(Fluid)],
+    "lks_fluid_get": [_WORLD, c_uint32, POINTER(Fluid)],
     "lks_set_name": [_WORLD, _BODY, c_char_p],
     "lks_body_exists": [_WORLD, _BODY, _FLAG],
     "lks_body_get": [_WORLD, _BODY, POINTER(BodyView)],

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
-from ._library import (BodyDef, BodyView, Event, Filter, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
+from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
 from .shapes import Assets, lengths
 from .units import Quantity, Rotation, Vector
 
@@ -173,6 +173,22 @@ class Body:
     def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0) -> None:
         self._call("lks_set_events", int(contacts), units.raw(hit_speed, units.SPEED, 32))
 
+    def set_motion_type(self, motion: int, mass: Quantity = 0) -> None:
+        """A body that becomes dynamic gets the mass, in kg; 0: that of its solid at 1000 kg/m³."""
+        self._call("lks_set_motion_type", motion, units.raw(mass, units.MASS, 64))
+
+    def set_shape(self, shape: Shape, mass: Quantity = 0) -> None:
+        """In the frame of the old shape; with mass 0 a dynamic body keeps its own."""
+        self._call("lks_set_shape", byref(shape), units.raw(mass, units.MASS, 64))
+
+    def set_mass_data(self, mass: Quantity = 0, inertia: Vector = (0, 0, 0)) -> None:
+        """In kg, and principal moments in kg·m²; 0: its own mass, and the moments of its solid."""
+        self._call("lks_set_mass_data", units.raw(mass, units.MASS, 64), byref(_wide(inertia, units.INERTIA)))
+
+    def set_enabled(self, enabled: bool) -> None:
+        """A disabled body stays as it is until it is enabled: nothing meets or finds it."""
+        self._call("lks_set_enabled", int(enabled))
+
     def set_user_data(self, number: int) -> None:
         self._call("lks_set_user_data", number)
 
@@ -265,6 +281,18 @@ class World:
 
     def set_gravity(self, gravity: Vector) -> None:
         lib.lks_set_gravity(self.handle, byref(_wide(gravity, units.ACCELERATION)))
+
+    def set_fluid(self, number: int, surface: Vector, extents: Vector, *, density: Quantity = 1000,
+                  drag: Quantity = 0, linear_drag: Quantity = 0, flow: Vector = (0, 0, 0)) -> None:
+        """A box of fluid below its surface: half its width, its depth, half its length, in m; density 0 removes it."""
+        fluid = Fluid()
+        lib.lks_fluid_init(byref(fluid), sizeof(fluid))
+        fluid.surface, fluid.extents = _wide(surface, units.POSITION), _wide(extents, units.POSITION)
+        fluid.flow = _wide(flow, units.VELOCITY)
+        fluid.density = units.raw(density, units.DENSITY, 32)
+        fluid.drag = units.raw(drag, units.NUMBER, 32)
+        fluid.linear_drag = units.raw(linear_drag, units.RATE, 32)
+        lib.lks_set_fluid(self.handle, number, byref(fluid))
 
     def create_body(self, shape: Shape, *, motion: int = DYNAMIC, position: Vector = (0, 0, 0),
                     orientation: Rotation = (0, 0, 0, 1), velocity: Vector = (0, 0, 0),

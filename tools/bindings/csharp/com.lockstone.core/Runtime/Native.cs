@@ -63,6 +63,8 @@ namespace Lockstone.Interop
         public ulong user_data;
         public uint events;
         public int hit_speed;
+        public long mass;
+        public lks_i64x3 inertia;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -84,6 +86,30 @@ namespace Lockstone.Interop
         public ulong user_data;
         public uint events;
         public int hit_speed;
+        public lks_i64x3 inertia;
+        public lks_quat principal_axes;
+        public lks_surface_motion surface_motion;
+        public int gravity_scale;
+        public int linear_damping;
+        public int angular_damping;
+        public uint reserved;
+        public long speed_limit;
+        public long angular_speed_limit;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_fluid
+    {
+        public uint size;
+        public uint mask;
+        public lks_i64x3 surface;
+        public lks_i64x3 extents;
+        public lks_i64x3 flow;
+        public lks_quat orientation;
+        public int density;
+        public int drag;
+        public int linear_drag;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -704,6 +730,7 @@ namespace Lockstone.Interop
         public const uint LKS_BODY_BULLET = 4;
         public const uint LKS_BODY_ALLOW_SLEEP = 8;
         public const uint LKS_BODY_ASLEEP = 16;
+        public const uint LKS_BODY_DISABLED = 32;
         public const uint LKS_BODY_CONTACT_EVENTS = 1;
         public const uint LKS_LOCK_MOVE_X = 1;
         public const uint LKS_LOCK_MOVE_Y = 2;
@@ -806,6 +833,7 @@ namespace Lockstone.Interop
         public const int LKS_RATE_BITS = 20;
         public const int LKS_ANGLE_BITS = 27;
         public const int LKS_DENSITY_BITS = 8;
+        public const int LKS_INERTIA_BITS = 28;
         public const uint LKS_MAX_HISTORY_TICKS = 256;
         public const uint LOCKSTONE_GAME_ABI = 1;
         public const uint LOCKSTONE_GAME_MAX_PARTS = 8;
@@ -918,6 +946,18 @@ namespace Lockstone.Interop
         public static extern int lks_set_user_data(IntPtr world, ulong body, ulong user_data);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_motion_type(IntPtr world, ulong body, uint motion, long mass);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_shape(IntPtr world, ulong body, lks_shape* shape, long mass);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_mass_data(IntPtr world, ulong body, long mass, lks_i64x3* inertia);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_enabled(IntPtr world, ulong body, uint enabled);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_wake_body(IntPtr world, ulong body);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -928,6 +968,15 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_gravity(IntPtr world, lks_i64x3* gravity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_fluid_init(lks_fluid* fluid, UIntPtr size);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_fluid(IntPtr world, uint number, lks_fluid* fluid);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_fluid_get(IntPtr world, uint number, lks_fluid* @out);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_name(IntPtr world, ulong body, byte* name);

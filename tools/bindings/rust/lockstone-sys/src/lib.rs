@@ -14,6 +14,7 @@ pub type lks_velocity = i64;
 pub type lks_angular_velocity = i64;
 pub type lks_acceleration = i64;
 pub type lks_mass = i64;
+pub type lks_inertia = i64;
 pub type lks_impulse = i64;
 pub type lks_force = i64;
 pub type lks_length = i32;
@@ -28,6 +29,7 @@ pub type lks_position3 = lks_i64x3;
 pub type lks_velocity3 = lks_i64x3;
 pub type lks_angular_velocity3 = lks_i64x3;
 pub type lks_acceleration3 = lks_i64x3;
+pub type lks_inertia3 = lks_i64x3;
 pub type lks_impulse3 = lks_i64x3;
 pub type lks_force3 = lks_i64x3;
 pub type lks_length3 = lks_i32x3;
@@ -81,6 +83,7 @@ pub const LKS_BODY_FIXED_ROTATION: u32 = 2;
 pub const LKS_BODY_BULLET: u32 = 4;
 pub const LKS_BODY_ALLOW_SLEEP: u32 = 8;
 pub const LKS_BODY_ASLEEP: u32 = 16;
+pub const LKS_BODY_DISABLED: u32 = 32;
 pub const LKS_BODY_CONTACT_EVENTS: u32 = 1;
 pub const LKS_LOCK_MOVE_X: u32 = 1;
 pub const LKS_LOCK_MOVE_Y: u32 = 2;
@@ -183,6 +186,7 @@ pub const LKS_NUMBER_BITS: i32 = 20;
 pub const LKS_RATE_BITS: i32 = 20;
 pub const LKS_ANGLE_BITS: i32 = 27;
 pub const LKS_DENSITY_BITS: i32 = 8;
+pub const LKS_INERTIA_BITS: i32 = 28;
 pub const LKS_MAX_HISTORY_TICKS: u32 = 256;
 pub const LOCKSTONE_GAME_ABI: u32 = 1;
 pub const LOCKSTONE_GAME_MAX_PARTS: u32 = 8;
@@ -300,6 +304,8 @@ pub struct lks_body_def {
     pub user_data: u64,
     pub events: u32,
     pub hit_speed: lks_speed,
+    pub mass: lks_mass,
+    pub inertia: lks_inertia3,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -320,6 +326,29 @@ pub struct lks_body_view {
     pub user_data: u64,
     pub events: u32,
     pub hit_speed: lks_speed,
+    pub inertia: lks_inertia3,
+    pub principal_axes: lks_quat,
+    pub surface_motion: lks_surface_motion,
+    pub gravity_scale: lks_number,
+    pub linear_damping: lks_rate,
+    pub angular_damping: lks_rate,
+    pub reserved: u32,
+    pub speed_limit: lks_velocity,
+    pub angular_speed_limit: lks_angular_velocity,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct lks_fluid {
+    pub size: u32,
+    pub mask: u32,
+    pub surface: lks_position3,
+    pub extents: lks_position3,
+    pub flow: lks_velocity3,
+    pub orientation: lks_quat,
+    pub density: lks_density,
+    pub drag: lks_number,
+    pub linear_drag: lks_rate,
+    pub reserved: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -833,10 +862,17 @@ extern "C" {
     pub fn lks_set_filter(world: *mut lks_world, body: lks_body, filter: *const lks_filter) -> lks_status;
     pub fn lks_set_events(world: *mut lks_world, body: lks_body, events: u32, hit_speed: lks_speed) -> lks_status;
     pub fn lks_set_user_data(world: *mut lks_world, body: lks_body, user_data: u64) -> lks_status;
+    pub fn lks_set_motion_type(world: *mut lks_world, body: lks_body, motion: u32, mass: lks_mass) -> lks_status;
+    pub fn lks_set_shape(world: *mut lks_world, body: lks_body, shape: *const lks_shape, mass: lks_mass) -> lks_status;
+    pub fn lks_set_mass_data(world: *mut lks_world, body: lks_body, mass: lks_mass, inertia: *const lks_inertia3) -> lks_status;
+    pub fn lks_set_enabled(world: *mut lks_world, body: lks_body, enabled: u32) -> lks_status;
     pub fn lks_wake_body(world: *mut lks_world, body: lks_body) -> lks_status;
     pub fn lks_sleep_body(world: *mut lks_world, body: lks_body) -> lks_status;
     pub fn lks_set_allow_sleep(world: *mut lks_world, body: lks_body, allow: u32) -> lks_status;
     pub fn lks_set_gravity(world: *mut lks_world, gravity: *const lks_acceleration3) -> lks_status;
+    pub fn lks_fluid_init(fluid: *mut lks_fluid, size: usize) -> lks_status;
+    pub fn lks_set_fluid(world: *mut lks_world, number: u32, fluid: *const lks_fluid) -> lks_status;
+    pub fn lks_fluid_get(world: *const lks_world, number: u32, out: *mut lks_fluid) -> lks_status;
     pub fn lks_set_name(world: *mut lks_world, body: lks_body, name: *const c_char) -> lks_status;
     pub fn lks_body_exists(world: *const lks_world, body: lks_body, out: *mut u32) -> lks_status;
     pub fn lks_body_get(world: *const lks_world, body: lks_body, out: *mut lks_body_view) -> lks_status;

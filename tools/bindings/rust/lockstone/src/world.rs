@@ -247,10 +247,19 @@ impl World {
         set_filter(body: Body => body.0, filter: &lks_filter => filter) = lks_set_filter;
         set_events(body: Body => body.0, events: u32 => events, hit_speed: lks_speed => hit_speed) = lks_set_events;
         set_user_data(body: Body => body.0, user_data: u64 => user_data) = lks_set_user_data;
+        /// A body that becomes dynamic gets the mass; 0: that of its solid at 1000 kg/m³.
+        set_motion_type(body: Body => body.0, motion: u32 => motion, mass: lks_mass => mass) = lks_set_motion_type;
+        /// In the frame of the old shape; with mass 0 a dynamic body keeps its own.
+        set_shape(body: Body => body.0, shape: &lks_shape => shape, mass: lks_mass => mass) = lks_set_shape;
+        set_mass_data(body: Body => body.0, mass: lks_mass => mass, inertia: lks_i64x3 => &inertia)
+            = lks_set_mass_data;
+        set_enabled(body: Body => body.0, enabled: bool => enabled as u32) = lks_set_enabled;
         wake_body(body: Body => body.0) = lks_wake_body;
         sleep_body(body: Body => body.0) = lks_sleep_body;
         set_allow_sleep(body: Body => body.0, allow: bool => allow as u32) = lks_set_allow_sleep;
         set_gravity(gravity: lks_i64x3 => &gravity) = lks_set_gravity;
+        /// Fluid 0 … 15; density 0 removes it.
+        set_fluid(number: u32 => number, fluid: &sys::lks_fluid => fluid) = lks_set_fluid;
         destroy_joint(joint: Joint => joint.0) = lks_destroy_joint;
         set_linear_axis(joint: Joint => joint.0, axis: u32 => axis, settings: &lks_axis => settings)
             = lks_set_linear_axis;

@@ -1,0 +1,227 @@
+#include "core/geometry/submerged/submerged.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <lockstone/assert.h>
+
+#include "core/geometry/convex/shape_properties.h"
+#include "core/geometry/submerged/clipped_solid.h"
+#include "core/geometry/submerged/sliced_solid.h"
+#include "core/math/roots.h"
+#include "core/math/trig.h"
+
+namespace lockstone::geometry {
+namespace {
+
+constexpr std::int64_t k_pi_bits_60 = 3622009729038561421;
+
+std::int64_t times_pi(std::int64_t x) {
+  return saturate_to_int64(round_shift(multiply_wide(x, k_pi_bits_60), 60));
+}
+
+std::int64_t size_of(const Polytope& polytope) {
+  std::int64_t most = 1;
+  for (const Vec3<Length>& v : polytope.vertices) {
+    for (int i = 0; i < 3; ++i)
+      most = std::max(most, std::abs(std::int64_t{v[i].raw} - polytope.interior[i].raw));
+  }
+  return most;
+}
+
+// Every point of the solid is within 2^scale m of its reference point.
+int scale_of(const ConvexSolid& solid) {
+  if (solid.polytope == nullptr) return scale_exponent(solid.shape);
+  const auto most = static_cast<std::uint64_t>(size_of(*solid.polytope));
+  return static_cast<int>(std::bit_width(most)) + 1 - Length::frac_bits;
+}
+
+// In units of the scale, `bits` fraction bits.
+std::int64_t scaled_length(Length x, int scale, int bits) {
+  return raw::scale_binary(x.raw, bits - Length::frac_bits - scale);
+}
+
+// n · x ≤ offset of the reference point, 30 bits; beyond ±2 nothing changes.
+std::int64_t scaled_offset(const SubmergedPart& part, const BelowPlane& plane) {
+  std::int64_t offset = plane.offset.raw;
+  for (int i = 0; i < 3; ++i)
+    offset -= raw::round_shift(std::int64_t{plane.normal[i].raw} * part.reference[i].raw, 18);
+  const std::int64_t most = std::int64_t{1} << (Position::frac_bits + 1 + part.scale);
+  return raw::scale_binary(std::clamp(offset, -most, most), -2 - part.scale);
+}
+
+void add_ball(const Shape& ball, const Vec3<Unit>& n, std::int64_t offset, SubmergedPart& part) {
+  const std::int64_t radius = scaled_length(ball.size.x, part.scale, 30);
+  const std::int64_t height = std::clamp<std::int64_t>(radius + offset, 0, 2 * radius);
+  const std::int64_t rest = 2 * radius - height;
+  // π h² (3R − h) / 3, π/4 h² (2R − h)² and π h (2R − h).
+  const std::int64_t square = product_q30(height, height);
+  const Int128 volume = multiply_wide(height * height, 3 * radius - height);
+  part.volume =
+      raw::round_divide(times_pi(saturate_to_int64(round_shift(volume, 90 - k_submerged_bits))), 3);
+  const std::int64_t moment = times_pi(raw::round_shift(square * product_q30(rest, rest), 14));
+  for (int i = 0; i < 3; ++i)
+    part.moment[static_cast<std::size_t>(i)] = -product_q30(moment, n[i].raw);
+  part.plane_area = times_pi(raw::round_shift(height * rest, 12));
+}
+
+constexpr std::array<std::array<std::size_t, 4>, 6> k_box_faces{
+    {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}}};
+
+void add_box(const Shape& box, const Vec3<Unit>& n, std::int64_t offset, SubmergedPart& part) {
+  ScaledPoint half;
+  for (int i = 0; i < 3; ++i)
+    half[static_cast<std::size_t>(i)] = scaled_length(box.size[i], part.scale, k_scaled_bits);
+  ClippedSolid clipped(n, offset);
+  for (const auto& face : k_box_faces) {
+    std::array<ScaledPoint, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        corners[i][axis] = (face[i] >> axis & 1) != 0 ? half[axis] : -half[axis];
+    }
+    clipped.add_face(corners);
+  }
+  clipped.finish(part);
+}
+
+template <class F>
+void for_each_face(const Polytope& polytope, const SubmergedPart& part, F&& f) {
+  std::array<ScaledPoint, k_max_polytope_face_edges> corners;
+  for (const PolytopeFace& face : polytope.faces) {
+    LKS_ASSERT(face.edge_count >= 3 && face.edge_count <= k_max_polytope_face_edges);
+    for (std::size_t i = 0; i < face.edge_count; ++i) {
+      const Vec3<Length>& at = start_of(polytope, static_cast<int>(face.first_edge + i));
+      for (int axis = 0; axis < 3; ++axis)
+        corners[i][static_cast<std::size_t>(axis)] =
+            raw::scale_binary(std::int64_t{at[axis].raw} - part.reference[axis].raw,
+                              k_scaled_bits - Length::frac_bits - part.scale);
+    }
+    f(std::span<const ScaledPoint>(corners).first(face.edge_count));
+  }
+}
+
+void add_round(const Shape& shape, const Vec3<Unit>& n, std::int64_t offset, SubmergedPart& part) {
+  SlicedSolid sliced(n, offset);
+  const auto scaled = [&](Length x) { return scaled_length(x, part.scale, 30); };
+  if (shape.kind == ShapeKind::cylinder) {
+    const std::int64_t r = scaled(shape.size.x), h = scaled(shape.size.y);
+    sliced.add({-h, h, r, r});
+  } else if (shape.kind == ShapeKind::cone) {
+    const std::int64_t r = scaled(shape.size.x), h = scaled(shape.size.y), base = h / 4;
+    sliced.add({-base, h - base, r, 0});
+  } else {
+    const std::int64_t r = scaled(shape.size.x), h = scaled(shape.size.y);
+    sliced.add({-h - r, -h, 0, 0, r, -h});
+    sliced.add({-h, h, r, r});
+    sliced.add({h, h + r, 0, 0, r, h});
+  }
+  sliced.finish(part);
+}
+
+}  // namespace
+
+SubmergedPart part_below(const ConvexSolid& solid, const BelowPlane& plane) {
+  SubmergedPart part;
+  part.scale = scale_of(solid);
+  if (solid.polytope != nullptr) part.reference = solid.polytope->interior;
+  const std::int64_t offset = scaled_offset(part, plane);
+  if (solid.polytope != nullptr) {
+    ClippedSolid clipped(plane.normal, offset);
+    for_each_face(*solid.polytope, part,
+                  [&](std::span<const ScaledPoint> face) { clipped.add_face(face); });
+    clipped.finish(part);
+  } else if (solid.shape.kind == ShapeKind::sphere) {
+    add_ball(solid.shape, plane.normal, offset, part);
+  } else if (solid.shape.kind == ShapeKind::box) {
+    add_box(solid.shape, plane.normal, offset, part);
+  } else {
+    add_round(solid.shape, plane.normal, offset, part);
+  }
+  part.volume = std::max<std::int64_t>(part.volume, 0);
+  return part;
+}
+
+SubmergedPart whole(const ConvexSolid& solid) {
+  return part_below(solid, {{{}, Unit::from_integer(1), {}}, Position::from_integer(1 << 20)});
+}
+
+namespace {
+
+// 30 bits.
+std::int64_t box_shadow(const Shape& box, int scale, const Vec3<Unit>& u) {
+  std::int64_t area = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t a = scaled_length(box.size[(i + 1) % 3], scale, 30);
+    const std::int64_t b = scaled_length(box.size[(i + 2) % 3], scale, 30);
+    area += 4 * product_q30(product_q30(a, b), std::abs(std::int64_t{u[i].raw}));
+  }
+  return area;
+}
+
+// The base's ellipse, and beside it the triangle of the apex with tangents to it.
+std::int64_t cone_shadow(std::int64_t r, std::int64_t h, std::int64_t along, std::int64_t across) {
+  const std::int64_t minor = product_q30(r, along), apex = product_q30(h, across);
+  if (apex <= minor) return times_pi(product_q30(r, minor));
+  const auto side = static_cast<std::int64_t>(
+      isqrt_rounded(static_cast<std::uint64_t>(apex * apex - minor * minor)));
+  const std::int64_t angle =  // π − acos(minor / apex), 32 bits
+      fine_arc(static_cast<std::uint64_t>(side), -minor).raw;
+  return product_q30(r, raw::round_shift(product_q30(minor, angle), 2) + side);
+}
+
+std::int64_t round_shadow(const Shape& shape, int scale, const Vec3<Unit>& u) {
+  const std::int64_t r = scaled_length(shape.size.x, scale, 30);
+  const std::int64_t h = scaled_length(shape.size.y, scale, 30);
+  const std::int64_t along = std::abs(std::int64_t{u.y.raw});
+  const auto across = static_cast<std::int64_t>(isqrt_rounded(static_cast<std::uint64_t>(
+      std::int64_t{u.x.raw} * u.x.raw + std::int64_t{u.z.raw} * u.z.raw)));
+  const std::int64_t disc = times_pi(product_q30(r, r)),
+                     side = 4 * product_q30(product_q30(r, h), across);
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return disc;
+    case ShapeKind::capsule:
+      return disc + side;
+    case ShapeKind::cylinder:
+      return product_q30(disc, along) + side;
+    default:
+      return cone_shadow(r, h, along, across);
+  }
+}
+
+// Half the sum of the faces' areas along the direction. 30 bits.
+std::int64_t polytope_shadow(const Polytope& polytope, int scale, const Vec3<Unit>& u) {
+  SubmergedPart frame;
+  frame.scale = scale;
+  frame.reference = polytope.interior;
+  std::int64_t sum = 0;
+  for_each_face(polytope, frame, [&](std::span<const ScaledPoint> face) {
+    ScaledPoint twice{};
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const ScaledPoint area = cross(face[i], face[(i + 1) % face.size()]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        twice[axis] += area[axis] >> 2;
+    }
+    std::int64_t along = 0;  // 54 bits, to 30
+    for (int axis = 0; axis < 3; ++axis)
+      along += product_q30(twice[static_cast<std::size_t>(axis)], u[axis].raw);
+    sum += std::abs(along) >> 24;
+  });
+  return sum / 4;
+}
+
+}  // namespace
+
+Shadow shadow_of(const ConvexSolid& solid, const Vec3<Unit>& direction) {
+  const int scale = scale_of(solid);
+  std::int64_t area = 0;
+  if (solid.polytope != nullptr)
+    area = polytope_shadow(*solid.polytope, scale, direction);
+  else if (solid.shape.kind == ShapeKind::box)
+    area = box_shadow(solid.shape, scale, direction);
+  else
+    area = round_shadow(solid.shape, scale, direction);
+  return {scale, area * (std::int64_t{1} << (k_submerged_bits - 30))};
+}
+
+}  // namespace lockstone::geometry
