@@ -18,11 +18,11 @@ static_assert(Angle::frac_bits == 27);
 
 /// The depth along one direction of the ring, and how it changes with the angle.
 struct Place {
-  std::int32_t angle = 0;  ///< 27 fraction bits, 0 … k_full_turn
-  Fine depth = 0;
-  Fine slope = 0;
-  Fine curvature = 0;
-  Fine unsure = 0;  ///< by how much the curvature may change in a radian
+  std::int32_t angle;  ///< 27 fraction bits, 0 … k_full_turn
+  Fine depth;
+  Fine slope;
+  Fine curvature;
+  Fine unsure;  ///< by how much the curvature may change in a radian
 
   /// How deep it is at least, `by` further on.
   [[nodiscard]] Fine bound(std::int32_t by) const {
@@ -63,8 +63,8 @@ Vec3<Unit> unit_axis_of(const Rims& rims) {
 
 /// The part of the ring from one place to the next.
 struct Gap {
-  std::int32_t best = 0;  ///< from the first of both, where the bound is least
-  Fine bound = std::numeric_limits<Fine>::max();
+  std::int32_t best;  ///< from the first of both, where the bound is least
+  Fine bound;
 };
 
 /// Where the bound of the first place falls to that of the second, by halves and by secants in
@@ -115,17 +115,19 @@ class RingSearch {
   }
 
   Vec3<Unit> least(Fine most, Fine tolerance) {
+    for (; count_ < k_first_angles; ++count_) {
+      at(count_).place = place_at(k_full_turn / k_first_angles * count_);
+      at(count_).next = (count_ + 1) % k_first_angles;
+    }
     for (int i = 0; i < k_first_angles; ++i)
-      places_[static_cast<std::size_t>(i)] = place_at(k_full_turn / k_first_angles * i);
-    count_ = k_first_angles;
-    for (int i = 0; i < count_; ++i)
       measure(i);
-    while (count_ < k_most_angles) {
-      const auto* first = gaps_.begin();
-      const auto* least = std::min_element(
-          first, first + count_, [](const Gap& a, const Gap& b) { return a.bound < b.bound; });
-      if (least->bound >= std::min(most, best_.depth) - tolerance) break;
-      divide(static_cast<int>(least - first));
+    for (; count_ < k_most_angles; ++count_) {
+      const int least = least_gap();
+      if (at(least).gap.bound >= std::min(most, best_.depth) - tolerance) break;
+      at(count_) = {place_at(at(least).place.angle + at(least).gap.best), {}, at(least).next};
+      at(least).next = count_;
+      measure(least);
+      measure(count_);
     }
     return direction_at(best_.angle);
   }
@@ -191,28 +193,26 @@ class RingSearch {
     return scaled(twice, static_cast<std::int32_t>(across));
   }
 
-  [[nodiscard]] std::int32_t length_after(int i) const {
-    const std::int32_t from = places_[static_cast<std::size_t>(i)].angle;
-    return i + 1 < count_ ? places_[static_cast<std::size_t>(i) + 1].angle - from
-                          : k_full_turn - from;
+  /// A place that was looked at, the one that follows on the ring, and the gap between.
+  struct Looked {
+    Place place;
+    Gap gap;
+    int next;
+  };
+
+  Looked& at(int i) { return looked_[static_cast<std::size_t>(i)]; }
+
+  int least_gap() {
+    int least = 0;
+    for (int i = 1; i < count_; ++i)
+      if (at(i).gap.bound < at(least).gap.bound) least = i;
+    return least;
   }
 
   void measure(int i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Place& next = places_[i + 1 < count_ ? at + 1 : 0];
-    gaps_[at] = gap_between(places_[at], next, length_after(i));
-  }
-
-  void divide(int i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Place middle = place_at(places_[at].angle + gaps_[at].best);
-    std::copy_backward(places_.begin() + i + 1, places_.begin() + count_,
-                       places_.begin() + count_ + 1);
-    std::copy_backward(gaps_.begin() + i + 1, gaps_.begin() + count_, gaps_.begin() + count_ + 1);
-    places_[at + 1] = middle;
-    ++count_;
-    measure(i);
-    measure(i + 1);
+    const Place &from = at(i).place, &to = at(at(i).next).place;
+    const std::int32_t end = to.angle != 0 ? to.angle : k_full_turn;
+    at(i).gap = gap_between(from, to, end - from.angle);
   }
 
   const GapQuery& query_;
@@ -222,9 +222,8 @@ class RingSearch {
   Vec3<Unit> v_{};
   Fine unsure_ = 0;
   int count_ = 0;
-  std::array<Place, k_most_angles> places_;
-  std::array<Gap, k_most_angles> gaps_;
-  Place best_{0, std::numeric_limits<Fine>::max()};
+  std::array<Looked, k_most_angles> looked_;  // left unset beyond count_
+  Place best_{0, std::numeric_limits<Fine>::max(), 0, 0, 0};
 };
 
 }  // namespace
