@@ -35,6 +35,11 @@ bool may_push_aside(const Pair& pair, const Real3& out) {
   return leans_back(pair, out) || height_before_front(pair) < tolerance(pair);
 }
 
+// Shapes that touch a triangle within the rounding may be before it or behind.
+bool may_be_behind(const Pair& pair, double distance) {
+  return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair);
+}
+
 // Points may be less deep than the shapes along the normal, where those beside the face are cut
 // off.
 void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
@@ -116,11 +121,10 @@ void check_collide(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const double height = height_before_front(pair);
   if (truth > margin + slack || height < -tolerance(pair)) verdict.require(Check::margin, !any);
   const Vec3<Unit>& out = truth > 0 ? answers.closest.normal : answers.deep.normal;
-  // Shapes that touch a triangle within the rounding may be before it or behind.
-  const bool unsure = pair.has(Kind::triangle) && std::abs(truth) < tolerance(pair);
+  const bool unsure = may_be_behind(pair, truth);
   const bool is_met = height > tolerance(pair) && !unsure && !leans_back(pair, real(out));
   if (truth < margin - slack && is_met) verdict.require(Check::margin, any);
-  if (!any) return;
+  if (!any || unsure) return;
   if (truth > 0)
     check_apart(pair, answers, verdict);
   else
@@ -141,7 +145,7 @@ void check_manifold(const Pair& pair, const Answers& answers, Verdict& verdict) 
 
 void check_anchors(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const Manifold& m = answers.manifold;
-  if (m.count == 0) return;
+  if (m.count == 0 || may_be_behind(pair, answers.signed_distance())) return;
   const double along = separation(pair, real(pair.offset), direction_of(real(m.normal)));
   if (along > k_deepest)
     verdict.measure(Check::anchors, std::max(0.0, along - answers.least()), tolerance(pair));
