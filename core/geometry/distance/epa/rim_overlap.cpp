@@ -209,20 +209,16 @@ struct Shortest {
   }
 };
 
-/// The directions that leave the flat faces of a core; `sign` turns them from A to B.
+/// The directions that leave the flat faces of a core, and both along the axis of a cone or
+/// a capsule; `sign` turns them from A to B.
 void take_faces(const ConvexCore& core, int sign, const Descent& descent, Shortest& shortest) {
   const auto take = [&](const Vec3<Unit>& outward) {
     const Vec3<Unit> n = signed_axis(outward, sign);
     shortest.take(n, descent.depth_along(n));
   };
-  if (core.rims.count != 0) {
-    const RawVec axis = axis_of(core.rims);
-    const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
-    take(-up);
-    if (core.rims.radii[1] != Length{}) take(up);
-  }
-  for (int i = 0; core.generator_count == 3 && i < 3; ++i) {
-    const RawVec& g = core.generators[static_cast<std::size_t>(i)];
+  const bool round = core.rims.count != 0;
+  for (int i = 0; i < (round ? 1 : core.generator_count); ++i) {
+    const RawVec g = round ? axis_of(core.rims) : core.generators[static_cast<std::size_t>(i)];
     const Vec3<Unit> side = direction_of(g.x, g.y, g.z);
     take(side);
     take(-side);
