@@ -50,7 +50,17 @@ struct RimCase {
   std::uint64_t seed;
   std::uint64_t index;
   std::vector<Kind> kinds;
+  Places places = Places::random;
 };
+
+void expect_no_findings(const std::vector<RimCase>& cases) {
+  for (const RimCase& rim : cases) {
+    HullPool pool(rim.seed);
+    Verdict verdict(rim.index);
+    check_pair(make_pair(pool, rim.seed, rim.index, rim.kinds, rim.places), verdict);
+    EXPECT_FALSE(verdict.failed()) << rim.seed << " " << rim.index;
+  }
+}
 
 // Small things in the middle of drums, and leaving them all around about as deep; a sphere beside
 // the end that it is nearest to; discs of 400 m at a grain; triangles behind their front; needles
@@ -69,11 +79,54 @@ TEST(FuzzPairs, OfCylindersAndConesThatBrokeABoundKeepIt) {
       {5, 1241, all_kinds()},  {5, 18185, all_kinds()}, {6, 1296, all_kinds()},
       {6, 30940, all_kinds()}, {7, 39706, all_kinds()}, {8, 30498, all_kinds()},
       {8, 43199, all_kinds()}, {9, 8479, all_kinds()}};
-  for (const RimCase& rim : cases) {
-    HullPool pool(rim.seed);
-    Verdict verdict(rim.index);
-    check_pair(make_pair(pool, rim.seed, rim.index, rim.kinds), verdict);
-    EXPECT_FALSE(verdict.failed()) << rim.seed << " " << rim.index;
+  expect_no_findings(cases);
+}
+
+// Something small in the middle of a cone with many ways out about as short; cones one in the
+// other, nearly coaxial; a disc of 69 m nearly flush with a half-space; a rim on an edge beside
+// another valley; capsules deep in discs; apexes, edges and faces in special positions.
+TEST(FuzzPairs, OfCylindersAndConesInSpecialPlacesThatBrokeABoundKeepIt) {
+  const std::vector<Kind> rims{Kind::cylinder, Kind::cone},
+      solids{Kind::cylinder, Kind::cone, Kind::hull, Kind::box, Kind::capsule, Kind::triangle},
+      bounded{Kind::sphere,   Kind::capsule,  Kind::box, Kind::hull,
+              Kind::triangle, Kind::cylinder, Kind::cone};
+  constexpr Places special = Places::special;
+  const std::vector<RimCase> cases{{51, 23681, all_kinds()},
+                                   {41, 57829, all_kinds()},
+                                   {31, 21661, all_kinds()},
+                                   {4, 2233, all_kinds()},
+                                   {6001, 5231, all_kinds()},
+                                   {6001, 28836, all_kinds()},
+                                   {6001, 34512, all_kinds()},
+                                   {1001, 2058, rims},
+                                   {1001, 12063, rims},
+                                   {5000, 18837, rims},
+                                   {3000, 13929, solids},
+                                   {2001, 33, rims, special},
+                                   {5001, 25863, rims, special},
+                                   {5001, 29231, rims, special},
+                                   {2001, 2413, solids, special},
+                                   {3001, 3934, solids, special},
+                                   {4001, 11788, solids, special},
+                                   {4001, 14522, solids, special},
+                                   {5001, 3143, solids, special},
+                                   {5001, 12860, solids, special},
+                                   {9004, 5304, bounded, special},
+                                   {9012, 23255, bounded, special}};
+  expect_no_findings(cases);
+}
+
+TEST(FuzzPairs, InSpecialPlacesKeepTheLaws) {
+  const FuzzReport report = fuzz_pairs({.seed = test::run_seed(),
+                                        .first = 0,
+                                        .count = k_pairs / 8,
+                                        .threads = 2,
+                                        .kinds = {},
+                                        .places = Places::special});
+  for (int i = 0; i < k_checks; ++i) {
+    const auto check = static_cast<Check>(i);
+    const Figure& figure = figure_of(report.figures, check);
+    EXPECT_EQ(figure.failures, 0U) << text_of(check).name << " of pair " << figure.worst_index;
   }
 }
 

@@ -37,7 +37,7 @@ FuzzReport check_block(const FuzzOptions& options, HullPool& pool, std::uint64_t
                        std::uint64_t count) {
   FuzzReport report;
   for (std::uint64_t index = first; index < first + count; ++index) {
-    const Pair pair = make_pair(pool, options.seed, index, options.kinds);
+    const Pair pair = make_pair(pool, options.seed, index, options.kinds, options.places);
     Verdict verdict(index);
     check_pair(pair, verdict);
     add(pair, verdict, index, report);

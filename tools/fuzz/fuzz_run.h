@@ -15,6 +15,7 @@ struct FuzzOptions {
   std::uint64_t count = 100'000;
   int threads = 1;
   std::vector<Kind> kinds;  ///< empty: `all_kinds`
+  Places places = Places::random;
 };
 
 struct PairFailure {

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/geometry/distance/cores/rims.h"
 #include "tools/fuzz/pair_checks.h"
 #include "tools/fuzz/surface.h"
 
@@ -28,10 +29,21 @@ void check_apart(const Pair& pair, const Answers& answers, Verdict& verdict) {
     verdict.measure(Check::apart, std::min(0.0, error), slack);
 }
 
+// Whether the front of a one-sided shape may push beside the shortest way out: that leans back, or
+// the other's centre is in the plane, and a way mirrored by it is as short.
+bool may_push_aside(const Pair& pair, const Real3& out) {
+  return leans_back(pair, out) || height_before_front(pair) < tolerance(pair);
+}
+
+// Shapes that touch a triangle within the rounding may be before it or behind.
+bool may_be_behind(const Pair& pair, double distance) {
+  return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair);
+}
+
 // Points may be less deep than the shapes along the normal, where those beside the face are cut
 // off.
 void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
-  if (leans_back(pair, real(answers.deep.normal))) return;
+  if (may_push_aside(pair, real(answers.deep.normal))) return;
   const double depth = real(answers.deep.depth);
   const double excess = std::min(-answers.least(), -k_deepest) - depth;
   verdict.measure(Check::overlap, std::max(0.0, excess), choice_slack(pair, 0) + preferred(depth));
@@ -43,25 +55,34 @@ bool has_core_inside(const Pair& pair, double separation) {
   if (!pair.has(Kind::capsule) || pair.half_space() != nullptr) return false;
   const bool faces =
       pair.has(Kind::box) || pair.has(Kind::hull) || pair.has(Kind::triangle) || pair.has_rims();
-  const double share = pair.has_rims() ? 0.98 : 1;  // normals err where the depth is even
-  return faces && separation < 2 * tolerance(pair) - pair.radii() * share;
+  return faces && separation < 2 * tolerance(pair) - pair.radii();
 }
 
-// How far points of a shape with rims are aside: edges that run side by side are by up to
-// 1/64 of a radius, and the lattice moves the closest points of slender shapes; far inside, where
-// the depth hardly changes from one direction to the next, normals err by more.
-double aside_slack(const Pair& pair, double separation) {
+// The least radius of round shapes.
+double least_radius(const Pair& pair) {
+  double least = 1e30;
+  for (const double radius :
+       {pair.a.radius, pair.b.radius, pair.a.rim_radius(), pair.b.rim_radius()})
+    if (radius > 0) least = std::min(least, radius);
+  return least;
+}
+
+// How far points of a shape with rims are aside. The normal of a single point is uncertain by half
+// a step of a rim, a polygon of 2^15 sides, and the points lie along it over the depth. Two lines
+// that run side by side are by up to 1/64 of the least radius (`widest_aside`), of which each
+// surface has a half. Faces are clipped in steps of 2^-27 of the sizes, and lines that cross at
+// 1/32 err by 32 of these.
+double aside_slack(const Pair& pair, const Manifold& m, double separation) {
   if (!pair.has_rims()) return 0;
-  const double deep = -separation > pair.rim_radii() / 64 ? -separation / 200 : 0;
-  const double edges = pair.rim_radii() / 64;  // of two lines that run side by side
-  return edges + 1e-6 * pair.size() + deep;
+  if (m.count == 1) return std::abs(separation) * std::numbers::pi / (1 << geometry::k_rim_bits);
+  return std::ldexp(pair.size(), -22) + (m.count == 2 ? least_radius(pair) / 128 : 0);
 }
 
 // A vertex may be moved onto a side by 31 µm, and at a corner onto two.
-double surface_slack(const Pair& pair, double separation) {
+double surface_slack(const Pair& pair, const Manifold& m, double separation) {
   const double snap = pair.radii() > 0 ? 0 : 32 * k_micrometre * std::numbers::sqrt2;
   const double share = pair.has(Kind::capsule) ? pair.radii() / 1000 : 0;
-  return tolerance(pair) + snap + share + aside_slack(pair, separation) + uneven_slack(pair);
+  return tolerance(pair) + snap + share + aside_slack(pair, m, separation) + uneven_slack(pair);
 }
 
 // How far the common anchor of overlapping shapes is from A's surface, as a share of the overlap.
@@ -72,16 +93,9 @@ double share_of_a(const Pair& pair) {
   return round_a ? 0 : 1;
 }
 
-// The least separation of a manifold.
-double deepest_of(const Manifold& m) {
-  double least = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
-    least = std::min(least, real(m.points[i].separation));
-  return least;
-}
-
-void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, const Real3& out,
-                 Verdict& verdict) {
+void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p,
+                 const Penetration& deep, Verdict& verdict) {
+  const Real3 out = real(deep.normal);
   const double separation = real(p.separation);
   Real3 on_a = real(p.anchor_a), on_b = real(p.anchor_b);
   if (separation <= 0) {
@@ -90,11 +104,11 @@ void check_point(const Pair& pair, const Manifold& m, const ManifoldPoint& p, co
     on_a = on_a - real(m.normal) * (separation * share);
     on_b = on_b + real(m.normal) * (separation * (1 - share));
   }
-  const double depth = pair.has_rims() ? std::min(separation, deepest_of(m)) : separation;
+  const double depth = pair.has_rims() ? std::min(separation, -real(deep.depth)) : separation;
   if (separation < k_deepest || has_core_inside(pair, depth)) return;
-  if (separation <= 0 && leans_back(pair, out)) return;  // the front may be pushed beside itself
-  verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair, separation));
-  verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair, separation));
+  if (separation <= 0 && may_push_aside(pair, out)) return;
+  verdict.measure(Check::anchors, outside(pair.a, on_a), surface_slack(pair, m, separation));
+  verdict.measure(Check::anchors, outside(pair.b, on_b), surface_slack(pair, m, separation));
 }
 
 }  // namespace
@@ -107,9 +121,7 @@ void check_collide(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const double height = height_before_front(pair);
   if (truth > margin + slack || height < -tolerance(pair)) verdict.require(Check::margin, !any);
   const Vec3<Unit>& out = truth > 0 ? answers.closest.normal : answers.deep.normal;
-  // Shapes that touch a triangle within the rounding may be before it or behind.
-  const bool unsure =
-      pair.has(Kind::triangle) && std::abs(truth) < tolerance(pair) + 4 * k_micrometre;
+  const bool unsure = may_be_behind(pair, truth);
   const bool is_met = height > tolerance(pair) && !unsure && !leans_back(pair, real(out));
   if (truth < margin - slack && is_met) verdict.require(Check::margin, any);
   if (!any || unsure) return;
@@ -133,14 +145,12 @@ void check_manifold(const Pair& pair, const Answers& answers, Verdict& verdict) 
 
 void check_anchors(const Pair& pair, const Answers& answers, Verdict& verdict) {
   const Manifold& m = answers.manifold;
-  if (m.count == 0) return;
+  if (m.count == 0 || may_be_behind(pair, answers.signed_distance())) return;
   const double along = separation(pair, real(pair.offset), direction_of(real(m.normal)));
-  const double agreement = pair.has_rims() ? 4 * k_micrometre : 0;
   if (along > k_deepest)
-    verdict.measure(Check::anchors, std::max(0.0, along - answers.least()),
-                    tolerance(pair) + agreement);
+    verdict.measure(Check::anchors, std::max(0.0, along - answers.least()), tolerance(pair));
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
-    check_point(pair, m, m.points[i], real(answers.deep.normal), verdict);
+    check_point(pair, m, m.points[i], answers.deep, verdict);
 }
 
 }  // namespace lockstone::fuzz

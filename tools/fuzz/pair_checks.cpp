@@ -96,8 +96,9 @@ double uneven_slack(const Pair& pair) {
 double choice_slack(const Pair& pair, double distance) {
   const double rim =
       pair.has(Kind::capsule) ? (std::max(0.0, distance) + pair.radii()) * k_capsule_share : 0;
-  // The points that stand still on a disc reach as far as its rim within 5e-6 of the radius.
-  return tolerance(pair) + k_face_slack + rim + 5e-6 * pair.rim_radii() + uneven_slack(pair);
+  // The points of a disc that stand still: see `add_disc`.
+  const double disc = pair.has_rims() ? 3.4 * k_micrometre : 0;
+  return tolerance(pair) + k_face_slack + rim + disc + uneven_slack(pair);
 }
 
 double height_before_front(const Pair& pair) {

@@ -35,8 +35,9 @@ struct Answers {
 /// and by vertices, beside edges too.
 [[nodiscard]] double uneven_slack(const Pair& pair);
 
-/// How far collide may differ from the distance: 2^-16 m where faces are preferred, 1/2000 of a
-/// capsule's core distance, 5e-6 of rims' radii, and how uneven merged faces are.
+/// How far collide may differ from the distance: 2^-16 m where faces are preferred, 3.4 µm where
+/// the points of a disc stand still, 1/2000 of a capsule's core distance, and how uneven merged
+/// faces are.
 [[nodiscard]] double choice_slack(const Pair& pair, double distance);
 
 /// How far the other's centre is before the front of a one-sided shape; 1e30 without such.

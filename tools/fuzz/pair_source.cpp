@@ -4,6 +4,7 @@
 
 #include "core/geometry/distance/gjk/gjk.h"
 #include "core/geometry/numeric/normals.h"
+#include "tools/fuzz/special_places.h"
 
 namespace lockstone::fuzz {
 namespace {
@@ -177,7 +178,7 @@ void aim(Dice& dice, Pair& pair) {
 }  // namespace
 
 Pair make_pair(HullPool& pool, std::uint64_t seed, std::uint64_t index,
-               const std::vector<Kind>& kinds) {
+               const std::vector<Kind>& kinds, Places places) {
   Dice dice(seed, index);
   const auto kind = [&] {
     return kinds[static_cast<std::size_t>(
@@ -192,7 +193,10 @@ Pair make_pair(HullPool& pool, std::uint64_t seed, std::uint64_t index,
   Pair pair;
   pair.a = random_body(pool, dice, a, sizes_a, index);
   pair.b = random_body(pool, dice, b, sizes_b, index);
-  place(dice, pair);
+  if (places == Places::special && pair.half_space() == nullptr)
+    place_specially(dice, pair);
+  else
+    place(dice, pair);
   pair.margin = to_length(dice.chance(3) ? 0 : dice.log_uniform(1e-5, 1));
   pair.turn = to_matrix(dice.orientation());
   aim(dice, pair);

@@ -82,9 +82,12 @@ struct Pair {
 /// at `offset`: at most their distance for every direction; negative when they overlap along it.
 [[nodiscard]] double separation(const Pair& pair, const Real3& offset, const Real3& direction);
 
+/// Where B is: anywhere, or as `place_specially` says.
+enum class Places : std::uint8_t { random, special };
+
 /// Pair number `index` of the pool's seed; `kinds` has one that meets another or itself.
 [[nodiscard]] Pair make_pair(HullPool& pool, std::uint64_t seed, std::uint64_t index,
-                             const std::vector<Kind>& kinds);
+                             const std::vector<Kind>& kinds, Places places = Places::random);
 
 /// All numbers, raw.
 [[nodiscard]] std::string describe(const Pair& pair);

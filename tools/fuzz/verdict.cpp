@@ -13,14 +13,14 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"depth", "2 um + 13e-9 of the sizes"},
     {"turned", "4 um + 26e-9 of the sizes"},
     {"apart",
-     "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance + 5e-6 of rims' radii"},
+     "18 um + 13e-9 of the sizes + 1/2000 of a capsule's core distance; with rims + 3.4 um + 6e-9 "
+     "of their radii"},
     {"overlap", "15 % and 0.82 mm more"},
     {"margin", "as apart"},
     {"manifold", "normal 2^-29; features ascend"},
     {"anchors",
-     "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius; with rims + 1e-6 of the "
-     "sizes, "
-     "1/64 of the rims' radii, and 1/200 of depths beyond those"},
+     "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius; with rims + 1e-4 of the "
+     "depth of a single point, of more 2.4e-7 of the sizes, of two 1/128 of the least radius"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
     {"cast", "2 um"},

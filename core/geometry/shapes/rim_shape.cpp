@@ -19,11 +19,13 @@ struct DiscLean {
   bool leans = false;
 };
 
-DiscLean lean_of(const PosedShape& shape, const Vec3<Unit>& n) {
+DiscLean lean_of(const PosedShape& shape, Length radius, const Vec3<Unit>& n) {
   constexpr std::int32_t k_least = std::int32_t{1} << (Unit::frac_bits - 12);
+  constexpr Fine k_least_fall = Fine{1} << (k_fine_bits - 13);
   const Vec3<Unit> local = rotate_inverse(shape.rotation, n);
+  const Unit most = max(abs(local.x), abs(local.z));
   DiscLean lean;
-  lean.leans = abs(local.x).raw > k_least || abs(local.z).raw > k_least;
+  lean.leans = most.raw > k_least || (most * radius).raw > k_least_fall;
   lean.direction = direction_of(local.x.raw, 0, local.z.raw);
   return lean;
 }
@@ -54,7 +56,7 @@ void add_disc(const PosedShape& shape, const Disc& disc, int sign, const Vec3<Un
               std::uint32_t first_id, ContactFeature& out) {
   out.is_flat = true;
   out.normal = unit_axis(signed_axis(shape.rotation.y, sign));
-  const DiscLean lean = lean_of(shape, n);
+  const DiscLean lean = lean_of(shape, disc.radius, n);
   for (std::uint32_t k = 0; k < k_disc_points; ++k) {
     // From z to x is counter-clockwise seen along −y.
     const std::uint32_t i = sign > 0 ? k_disc_points - 1 - k : k;
@@ -70,7 +72,7 @@ void add_disc(const PosedShape& shape, const Disc& disc, int sign, const Vec3<Un
 }
 
 RawVec deepest_of(const PosedShape& shape, const Disc& disc, const Vec3<Unit>& n) {
-  const Vec3<Unit> direction = lean_of(shape, n).direction;
+  const Vec3<Unit> direction = lean_of(shape, disc.radius, n).direction;
   return on_rim(shape, disc, direction.x, direction.z);
 }
 

@@ -26,6 +26,7 @@ struct FuzzPairsOptions {
   fuzz::FuzzOptions run;
   std::vector<std::string> kinds;
   std::int64_t only = -1;
+  bool special = false;
   bool json = false;
 };
 
@@ -36,7 +37,9 @@ fuzz::CheckText text_of(std::size_t check) {
 std::string reproducer(const FuzzPairsOptions& options, std::uint64_t index) {
   const std::string kinds =
       options.kinds.empty() ? "" : fmt::format("--kinds {} ", fmt::join(options.kinds, ","));
-  return fmt::format("lockstone fuzz-pairs --seed {} {}--only {}", options.run.seed, kinds, index);
+  const std::string_view places = options.special ? "--special " : "";
+  return fmt::format("lockstone fuzz-pairs --seed {} {}{}--only {}", options.run.seed, kinds,
+                     places, index);
 }
 
 template <class Visit>
@@ -111,7 +114,8 @@ void print_json(const FuzzPairsOptions& options, const fuzz::FuzzReport& report)
 int run_one(const FuzzPairsOptions& options) {
   const auto index = static_cast<std::uint64_t>(options.only);
   fuzz::HullPool pool(options.run.seed);
-  const fuzz::Pair pair = make_pair(pool, options.run.seed, index, options.run.kinds);
+  const fuzz::Pair pair =
+      make_pair(pool, options.run.seed, index, options.run.kinds, options.run.places);
   fuzz::Verdict verdict(index);
   check_pair(pair, verdict);
   const fuzz::Answers answers(pair);
@@ -126,6 +130,7 @@ int run_one(const FuzzPairsOptions& options) {
 int run(FuzzPairsOptions& options) {
   for (const std::string& name : options.kinds)
     options.run.kinds.push_back(*fuzz::kind_named(name));
+  if (options.special) options.run.places = fuzz::Places::special;
   if (options.run.kinds.empty()) options.run.kinds = fuzz::all_kinds();
   const std::vector<Kind>& kinds = options.run.kinds;
   if (std::ranges::none_of(kinds, [](Kind kind) { return do_meet(kind, kind); })) {
@@ -161,6 +166,9 @@ void add_fuzz_pairs_command(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::Validator(check_kind, "KIND"));
   command->add_option("--only", options->only, "Check this index alone and print its pair");
+  command->add_flag("--special", options->special,
+                    "Only special positions: coaxial, across, nearly parallel, edge on edge, "
+                    "point on face");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

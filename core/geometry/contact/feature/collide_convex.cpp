@@ -210,7 +210,8 @@ bool find_edge_manifold(const ConvexMeeting& pair, const ConvexAxis& axis,
   found.normal = axis.normal;
   for (const Fine t : {low, high}) {
     const RawVec core_a = from_a + along(along_a.unit, t);
-    const Fine s = dot(core_a - from_b, along_b.unit);
+    const Fine s =
+        std::clamp(dot(core_a - from_b, along_b.unit), Fine{0}, static_cast<Fine>(along_b.length));
     const RawVec core_b = from_b + along(along_b.unit, s);
     const Fine gap = dot(core_b - core_a, axis.normal);
     const RawVec aside = core_b - core_a - along(axis.normal, gap);

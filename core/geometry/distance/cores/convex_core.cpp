@@ -146,6 +146,8 @@ void make_core(const PosedShape& shape, ConvexCore& core) {
   core.radius = {};
   core.reference = {};
   core.extent = {};
+  core.polytope = shape.polytope;
+  core.rotation = shape.rotation;
   if (shape.polytope != nullptr) {
     list_vertices(*shape.polytope, shape.rotation, core);
   } else {

@@ -28,6 +28,8 @@ struct ConvexCore {
   RawVec reference{};  ///< from the shape's centre
   RawVec extent{};     ///< greatest |coordinate| about the reference, by axis
   std::array<RawVec, 3> generators{};
+  const Polytope* polytope = nullptr;  ///< whose vertices are listed, turned by `rotation`
+  Mat3 rotation{};
   // Left unset beyond vertex_count.
   std::array<Fine, k_max_polytope_vertices> x;
   std::array<Fine, k_max_polytope_vertices> y;

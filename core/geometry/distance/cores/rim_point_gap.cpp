@@ -37,7 +37,7 @@ class HalfPlane {
     const auto part = [&](Fine lane) { return round_divide(multiply_wide(lane, at_.up), height_); };
     const RawVec aside = from_base - RawVec{part(axis_.x), part(axis_.y), part(axis_.z)};
     at_.out = static_cast<Fine>(norm(aside.x, aside.y, aside.z));
-    out_ = at_.out < k_no_distance ? rims.u : direction_of(aside.x, aside.y, aside.z);
+    out_ = at_.out < k_no_distance ? unit_axis(rims.u) : direction_of(aside.x, aside.y, aside.z);
     up_ = direction_of(axis_.x, axis_.y, axis_.z);
   }
 

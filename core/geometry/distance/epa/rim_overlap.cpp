@@ -3,8 +3,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/geometry/distance/epa/difference_frame.h"
+#include "core/geometry/distance/epa/ring_search.h"
 #include "core/geometry/distance/gjk/fine_features.h"
+#include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
 namespace lockstone::geometry {
@@ -13,15 +14,13 @@ namespace {
 constexpr int k_max_valleys = 12;
 constexpr int k_max_rounds = 12;
 
-constexpr std::int64_t k_all = std::int64_t{1} << 31;
-constexpr std::int64_t k_close = (std::int64_t{1} << 30) - (std::int64_t{1} << 25);  // 0.25 rad
-
 /// A way out along `normal`.
 struct WayOut {
   Vec3<Unit> normal{};
   Fine depth = std::numeric_limits<Fine>::max();
   RawVec on_a{};  ///< from A's centre; on_a − on_b = depth · normal
   RawVec on_b{};
+  Fine aside = 0;  ///< how far one of the two may be beside its surface
 };
 
 /// Whether vertices of a core are one point of it, or neighbours on a rim.
@@ -60,12 +59,25 @@ Vec3<Unit> limit_of(const Vec3<Unit>& first, const Vec3<Unit>& second, const Vec
   return direction_of(limit.x, limit.y, limit.z);
 }
 
+Fine extent_of(const ConvexCore& core) {
+  return std::max({core.extent.x, core.extent.y, core.extent.z}) + fine(core.radius);
+}
+
+/// How far outside B is put: 2^-10 of the greatest distance of points, so that the normals of
+/// features that the lattice moves are exact enough. But no more than 1/64 of the smaller shape,
+/// beside which a longer way would show other features than those that touch, and at least 2^-16.
+Fine clearance_of(const GapQuery& query) {
+  const Fine step = Fine{1} << query.lattice().shift;
+  const Fine smaller = std::min(extent_of(query.a()), extent_of(query.b()));
+  return std::clamp(smaller / 64, step << 14, step << 20);
+}
+
 class Descent {
  public:
   explicit Descent(GapQuery& query)
       : query_(query),
         start_(query.fine_pair().offset),
-        clearance_(Fine{1} << (query.lattice().shift + 20)),
+        clearance_(clearance_of(query)),
         least_fall_(Fine{1} << std::max(k_fine_bits - 27, query.lattice().shift - 4)) {}
 
   /// The last way is kept, not the shortest: its points lie along its normal.
@@ -74,11 +86,18 @@ class Descent {
     if (way.depth < best_.depth) best_ = way;
   }
 
-  /// The descents from n and −n, where those could be better.
-  void try_both(const Vec3<Unit>& n) {
-    for (const Vec3<Unit>& way : {n, -n}) {
-      if (way == Vec3<Unit>{} || depth_along(way) > best_.depth + best_.depth / 8) continue;
-      from(way);
+  /// The descent from n if it is a shorter way already.
+  void try_from(const Vec3<Unit>& n) {
+    if (depth_along(n) < best_.depth) from(n);
+  }
+
+  /// Where the depth is even, the last direction and the one before may differ, and the points with
+  /// them: goes on as long as they come nearer to the surfaces and the way is no longer.
+  void settle() {
+    for (int round = 0; round < k_max_rounds && best_.aside > k_no_distance; ++round) {
+      const WayOut next = next_of(best_.normal);
+      if (next.depth > best_.depth + least_fall_ || next.aside >= best_.aside) return;
+      best_ = next;
     }
   }
 
@@ -119,9 +138,10 @@ class Descent {
     if (!query_.find(start_ + shift)) return {};
     const CoreGap& gap = query_.gap();
     WayOut way{gap.normal, dot(shift, gap.normal) - gap.distance, gap.on_a, gap.on_b - shift};
+    const RawVec apart = along(way.normal, way.depth), off = way.on_a - way.on_b - apart;
+    way.aside = static_cast<Fine>(norm(off.x, off.y, off.z));
     // The normal is not so exact where a surface is curved that both points lie along it: one that
     // is a corner stays, the other moves within its face.
-    const RawVec apart = along(way.normal, way.depth);
     if (is_one_point(query_.b(), query_.features(), &DifferenceVertex::b))
       way.on_a = way.on_b + apart;
     else
@@ -131,7 +151,7 @@ class Descent {
 
   GapQuery& query_;
   RawVec start_;
-  Fine clearance_;   ///< 2^-10 of the greatest distance of points
+  Fine clearance_;
   Fine least_fall_;  ///< 2^-34 of it, at least 7 nm: less is the rounding of the lattice
   WayOut best_{};
 };
@@ -148,10 +168,10 @@ bool grow(const LatticePair& lattice, ExpandingPolytope& polytope, int vertices)
   return false;
 }
 
-/// Descends from all valleys that could be better, but not from those whose direction is that close
-/// (as a cosine, 30 bits) to the best so far.
-void descend_from(const ExpandingPolytope& polytope, int shift, std::int64_t close,
-                  Descent& descent) {
+/// Descends from all valleys that could be better, but not from those whose direction is within
+/// 1/16 rad of the best so far.
+void descend_from(const ExpandingPolytope& polytope, int shift, Descent& descent) {
+  constexpr std::int64_t k_close = (std::int64_t{1} << 30) - (std::int64_t{1} << 21);
   std::array<const ExpandingFace*, k_max_valleys> valleys;
   const int count = polytope.find_valleys(valleys);
   for (int i = 0; i < count; ++i) {
@@ -159,139 +179,87 @@ void descend_from(const ExpandingPolytope& polytope, int shift, std::int64_t clo
     const std::uint64_t steps = face.distance >> 30;
     if (static_cast<Fine>(steps << shift) >= descent.best().depth) break;
     const Vec3<Unit> n = direction_of(-face.normal.x, -face.normal.y, -face.normal.z);
-    if (lockstone::dot(n, descent.best().normal).raw < close << Unit::frac_bits) descent.from(n);
+    if (lockstone::dot(n, descent.best().normal).raw < k_close << Unit::frac_bits) descent.from(n);
   }
 }
 
-/// Whether the way out is so long that the depth hardly changes around an axis.
-bool is_deep(const ConvexCore& core, Fine depth) {
-  return core.rims.count != 0 && depth > fine(core.rims.radii[0]) / 64;
+/// Whether the polytope, which is inside the difference, leaves no room for a way out that is
+/// shorter by more than 8 steps of the lattice.
+bool proves(const ExpandingPolytope& polytope, int shift, Fine depth) {
+  const auto steps = static_cast<Fine>(polytope.nearest().distance >> 30);
+  return depth <= (steps + 8) << shift;
 }
 
 RawVec axis_of(const Rims& rims) {
   return rims.centres[1] - rims.centres[0];
 }
 
-// Layers ------------------------------------------------------------------------------------------
-//
-// Something small about the middle of a large cylinder or cone leaves it across the side about as
-// deep in any direction. Less a layer of even thickness, the side is as much nearer in all of them,
-// and the way out is the same.
+// Directions that the shapes single out
+// ------------------------------------------------------------
 
-/// The least and the greatest of depths.
-struct DepthRange {
-  Fine least = std::numeric_limits<Fine>::max();
-  Fine most = std::numeric_limits<Fine>::min();
+/// The shortest of some ways out.
+struct Shortest {
+  Vec3<Unit> normal{};
+  Fine depth = std::numeric_limits<Fine>::max();
+
+  void take(const Vec3<Unit>& n, Fine along) {
+    if (along >= depth) return;
+    normal = n;
+    depth = along;
+  }
 };
 
-/// The depths along eight normals of a side; `sign` turns them from A to B.
-DepthRange depths_across(const Rims& side, int sign, const Descent& descent) {
-  const RawVec axis = axis_of(side), u = raws_of(side.u), v = raws_of(side.v);
-  const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
+/// The directions that leave the flat faces of a core, and both along the axis of a cone or
+/// a capsule; `sign` turns them from A to B.
+void take_faces(const ConvexCore& core, int sign, const Descent& descent, Shortest& shortest) {
+  const auto take = [&](const Vec3<Unit>& outward) {
+    const Vec3<Unit> n = signed_axis(outward, sign);
+    shortest.take(n, descent.depth_along(n));
+  };
+  const bool round = core.rims.count != 0;
+  for (int i = 0; i < (round ? 1 : core.generator_count); ++i) {
+    const RawVec g = round ? axis_of(core.rims) : core.generators[static_cast<std::size_t>(i)];
+    const Vec3<Unit> side = direction_of(g.x, g.y, g.z);
+    take(side);
+    take(-side);
+  }
+  if (core.polytope == nullptr) return;
+  for (const PolytopeFace& face : core.polytope->faces)
+    take(unit_axis(lockstone::rotate(core.rotation, face.normal)));
+}
+
+/// The directions that leave a side; `sign` turns them from A to B.
+Ring ring_of(const Rims& side, int sign) {
+  const RawVec axis = axis_of(side);
   const auto height = static_cast<Fine>(norm(axis.x, axis.y, axis.z));
   const Vec3<Unit> slope = direction_of(height, fine(side.radii[0]) - fine(side.radii[1]), 0);
-  DepthRange range;
-  for (const RawVec& aside : {u, u + v, v, v - u, -u, -u - v, -v, u - v}) {
-    const Vec3<Unit> out = direction_of(aside.x, aside.y, aside.z);
-    const auto lane = [&](Unit x, Unit y) { return sign * (x * slope.x + y * slope.y).raw; };
-    const Fine depth =
-        descent.depth_along(direction_of(lane(out.x, up.x), lane(out.y, up.y), lane(out.z, up.z)));
-    range = {std::min(range.least, depth), std::max(range.most, depth)};
+  const Vec3<Unit> up = direction_of(axis.x, axis.y, axis.z);
+  return {signed_axis(up, sign), slope.y, slope.x};
+}
+
+/// The descent from the shortest way out of a flat face.
+void try_faces(const GapQuery& query, Descent& descent) {
+  Shortest shortest;
+  take_faces(query.a(), 1, descent, shortest);
+  take_faces(query.b(), -1, descent, shortest);
+  descent.try_from(shortest.normal);
+}
+
+/// The descents from the shortest ways across sides and across the edges of boxes and capsules.
+void try_rings(const GapQuery& query, Descent& descent) {
+  constexpr Fine k_tolerance = Fine{1} << (k_fine_bits - 21);  // half a micrometre
+  const auto try_ring = [&](const Ring& ring) {
+    descent.try_from(
+        least_on_ring(query, descent.start(), ring, descent.best().depth, k_tolerance));
+  };
+  for (const bool first : {true, false}) {
+    const ConvexCore& core = first ? query.a() : query.b();
+    if (core.rims.count != 0) try_ring(ring_of(core.rims, first ? 1 : -1));
+    for (int i = 0; i < core.generator_count; ++i) {
+      const RawVec& g = core.generators[static_cast<std::size_t>(i)];
+      try_ring({direction_of(g.x, g.y, g.z)});
+    }
   }
-  return range;
-}
-
-/// Takes a layer off the side; the base stays.
-void peel(Rims& rims, Fine layer) {
-  const auto height = static_cast<Fine>(norm(axis_of(rims).x, axis_of(rims).y, axis_of(rims).z));
-  const Fine radius = fine(rims.radii[0]);
-  const bool cone = rims.radii[1] == Length{};
-  const auto line = cone ? static_cast<Fine>(norm(height, radius, 0)) : height;
-  const Fine off = round_divide(multiply_wide(layer, line), height);
-  const Length left = Length::from_raw(static_cast<std::int32_t>(
-      std::max<Fine>(raw::round_shift(radius - off, k_fine_per_length), 1)));
-  if (cone)
-    rims.centres[1] = rims.centres[0] + scaled_by_ratio(axis_of(rims), fine(left), radius);
-  else
-    rims.radii[1] = left;
-  rims.radii[0] = left;
-}
-
-/// The best way out of a pair less a layer of one side, the valleys of whose depth are as far from
-/// even as it is deep.
-void try_peeled(const GapQuery& query, bool first, Descent& descent) {
-  const ConvexCore &side = first ? query.a() : query.b(), &other = first ? query.b() : query.a();
-  if (side.rims.count == 0) return;
-  const DepthRange depths = depths_across(side.rims, first ? 1 : -1, descent);
-  const Fine uneven = depths.most - depths.least + (depths.least >> 12);
-  if (depths.least <= 4 * uneven || depths.least - uneven > descent.best().depth) return;
-  ConvexCore peeled = side;
-  peel(peeled.rims, depths.least - 2 * uneven);
-  GapQuery inner(first ? peeled : other, first ? other : peeled);
-  if (inner.find(descent.start())) return descent.from(inner.gap().normal);
-  const DifferenceFrame frame = frame_of(inner);
-  if (frame.count < 4) return;
-  ExpandingPolytope polytope(frame.vertices);
-  const LatticePair lattice = inner.lattice();
-  grow(lattice, polytope, k_max_expanding_vertices);
-  Descent within(inner);
-  descend_from(polytope, lattice.shift, k_all, within);
-  descent.from(within.best().normal);
-}
-
-/// The axis of a shape with rims, or the segment of a capsule, by its ends.
-struct AxisEnds {
-  bool any = false;
-  std::array<RawVec, 2> ends{};  ///< from A's centre
-
-  [[nodiscard]] RawVec axis() const { return ends[1] - ends[0]; }
-};
-
-AxisEnds ends_of(const ConvexCore& core, const RawVec& centre) {
-  if (core.rims.count != 0)
-    return {true, {centre + core.rims.centres[0], centre + core.rims.centres[1]}};
-  if (core.generator_count != 1) return {};
-  return {true, {centre - core.generators[0], centre + core.generators[0]}};
-}
-
-Vec3<Unit> across(const RawVec& v, const RawVec& w) {
-  const RawVec both = truncated(wide_cross(v, w), 61);
-  return direction_of(both.x, both.y, both.z);
-}
-
-/// The directions across one axis towards the ends of the other.
-void try_across(const AxisEnds& side, const AxisEnds& other, Descent& descent) {
-  const Vec3<Unit> axis = direction_of(side.axis().x, side.axis().y, side.axis().z);
-  for (const RawVec& end : other.ends) {
-    const RawVec from = end - side.ends[0];
-    const RawVec aside = from - along(axis, dot(from, axis));
-    descent.try_both(direction_of(aside.x, aside.y, aside.z));
-  }
-}
-
-/// The directions along the axes: a disc touched by a rim is a valley that a small polytope may
-/// miss.
-void try_ends(const GapQuery& query, Descent& descent) {
-  for (const ConvexCore* core : {&query.a(), &query.b()}) {
-    const RawVec axis = ends_of(*core, {}).axis();
-    if (axis == RawVec{}) continue;
-    const Vec3<Unit> n = direction_of(axis.x, axis.y, axis.z);
-    for (const Vec3<Unit>& way : {n, -n})
-      if (descent.depth_along(way) < descent.best().depth) descent.from(way);
-  }
-}
-
-/// The directions that symmetry singles out: across both axes, and across one of them in the plane
-/// of both.
-void try_symmetric(const GapQuery& query, Descent& descent) {
-  const AxisEnds a = ends_of(query.a(), {}), b = ends_of(query.b(), descent.start());
-  if (!a.any || !b.any) return;
-  const Vec3<Unit> both = across(a.axis(), b.axis());
-  descent.try_both(both);
-  descent.try_both(across(a.axis(), raws_of(both)));
-  descent.try_both(across(b.axis(), raws_of(both)));
-  try_across(a, b, descent);
-  try_across(b, a, descent);
 }
 
 }  // namespace
@@ -299,27 +267,21 @@ void try_symmetric(const GapQuery& query, Descent& descent) {
 CoreOverlap rim_overlap(GapQuery& query, ExpandingPolytope& polytope) {
   constexpr int k_guide_vertices = 24;
   const LatticePair lattice = query.lattice();
-  bool supported = grow(lattice, polytope, k_guide_vertices);
-  if (supported && polytope.holds_foot(polytope.nearest())) {
+  if (grow(lattice, polytope, k_guide_vertices) && polytope.holds_foot(polytope.nearest())) {
     CoreGap gap =
         refine(query.fine_pair(), lattice, polytope.simplex_of(polytope.nearest()), Side::before);
     gap.normal = -gap.normal;
     return {gap, true};
   }
   Descent descent(query);
-  descend_from(polytope, lattice.shift, k_close, descent);
-  try_ends(query, descent);
-  const Fine depth = descent.best().depth;
-  if (!supported && (is_deep(query.a(), depth) || is_deep(query.b(), depth))) {
-    supported = grow(lattice, polytope, k_max_expanding_vertices);
-    descend_from(polytope, lattice.shift, k_all, descent);
-    try_symmetric(query, descent);
-    try_peeled(query, true, descent);
-    try_peeled(query, false, descent);
-  }
+  const auto is_proven = [&] { return proves(polytope, lattice.shift, descent.best().depth); };
+  descend_from(polytope, lattice.shift, descent);
+  if (!is_proven()) try_faces(query, descent);
+  if (!is_proven()) try_rings(query, descent);
+  descent.settle();
   query.return_to(descent.start());
   const WayOut& best = descent.best();
-  return {{best.normal, std::max(Fine{0}, best.depth), best.on_a, best.on_b}, supported};
+  return {{best.normal, std::max(Fine{0}, best.depth), best.on_a, best.on_b}, is_proven()};
 }
 
 }  // namespace lockstone::geometry
