@@ -321,6 +321,7 @@ TEST(SetEnabled, MakesJointsInert) {
   const BodyHandle post = test::add(world, anchor), body = add_crate(world, {}, 3_m);
   JointDef def = JointDef::of(JointKind::distance, post, body);
   def.linear[0].upper = 2_m;
+  def.linear[0].mode = AxisMode::limited;
   ASSERT_TRUE(world.create_joint(def).ok());
   test::step(world, 30);
   EXPECT_NEAR(metres(world.position(body).y), 3, 0.01);
