@@ -3,7 +3,7 @@ use std::ptr;
 use crate::error::{c_text, check, definition, sized, Result};
 use crate::sys::{
     self, lks_angular_velocity, lks_axis, lks_body_view, lks_filter, lks_hit, lks_i32x3, lks_i64x3, lks_joint_event,
-    lks_joint_view, lks_length, lks_number, lks_pose, lks_rate, lks_shape, lks_speed, lks_step_report,
+    lks_joint_view, lks_length, lks_mass, lks_number, lks_pose, lks_rate, lks_shape, lks_speed, lks_step_report,
     lks_surface, lks_surface_motion, lks_velocity,
 };
 
