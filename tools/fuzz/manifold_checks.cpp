@@ -35,9 +35,11 @@ bool may_push_aside(const Pair& pair, const Real3& out) {
   return leans_back(pair, out) || height_before_front(pair) < tolerance(pair);
 }
 
-// Shapes that touch a triangle within the rounding may be before it or behind.
+// Shapes that touch a triangle within the rounding may be before it or behind; the direction from a
+// rim so near is rounding up to twice as far.
 bool may_be_behind(const Pair& pair, double distance) {
-  return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair);
+  const double rim = pair.has_rims() ? 4 * k_micrometre : 0;
+  return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair) + rim;
 }
 
 // Points may be less deep than the shapes along the normal, where those beside the face are cut

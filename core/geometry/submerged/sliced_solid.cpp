@@ -26,7 +26,7 @@ constexpr Node k_nodes[] = {
     {995460557, 78789673},   {1049913494, 33624539},  {1069675085, 9129780},
     {1073593013, 762424}};
 
-constexpr std::int64_t k_pi = 3622009729038561421;  // 60 fraction bits
+constexpr std::int64_t k_pi_q60 = 3622009729038561421;  // 60 fraction bits
 
 std::int64_t root_of(std::int64_t square) {
   return static_cast<std::int64_t>(
@@ -34,11 +34,11 @@ std::int64_t root_of(std::int64_t square) {
 }
 
 // A disc of radius 1 cut at x = q: the area of the part where x ≤ q, 32 bits; and the half chord.
-struct Segment {
+struct DiscSegment {
   std::int64_t area = 0;
   std::int64_t half_chord = 0;
 };
-Segment segment_at(std::int64_t q) {
+DiscSegment segment_at(std::int64_t q) {
   LKS_ASSERT(q >= -k_one && q <= k_one);
   const std::int64_t half = root_of(k_one * k_one - q * q);
   const std::int64_t angle = fine_arc(static_cast<std::uint64_t>(half), -q).raw;  // acos(−q)
@@ -94,7 +94,8 @@ void SlicedSolid::add_disc(const Outline& outline) {
   const std::int64_t y = raw::round_divide(sign * offset_ * k_one, sign * up);
   if (y < outline.y0 || y >= outline.y1) return;
   const std::int64_t r = outline.radius_at(y);
-  section_ = saturate_to_int64(round_shift(multiply_wide(r * r, k_pi), 60 + 60 - k_submerged_bits));
+  section_ =
+      saturate_to_int64(round_shift(multiply_wide(r * r, k_pi_q60), 60 + 60 - k_submerged_bits));
 }
 
 void SlicedSolid::add(const Outline& outline) {
@@ -118,7 +119,7 @@ void SlicedSolid::add_interval(const Outline& outline, std::int64_t y0, std::int
                        reach = product_q30(across_, r);
     if (depth <= -reach) continue;
     const std::int64_t q = depth >= reach ? k_one : raw::round_divide(depth * k_one, reach);
-    const Segment segment = segment_at(std::clamp(q, -k_one, k_one));
+    const DiscSegment segment = segment_at(std::clamp(q, -k_one, k_one));
     const Int128 disc_part = multiply_wide(segment.area, product_q30(r, r));
     const std::int64_t area =
         product_q30(saturate_to_int64(round_shift(disc_part, 14)), node.weight);

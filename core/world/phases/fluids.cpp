@@ -69,7 +69,7 @@ class FluidPush {
  public:
   FluidPush(const WorldData& world, std::uint32_t body, const BodyRecord& middle,
             const FluidRecord& fluid)
-      : world_(world), start_(world.bodies[body]), middle_(middle), fluid_(fluid) {
+      : world_(world), start_(world.bodies[body]), fluid_(fluid) {
     const Vec3<Velocity> through = start_.velocity - fluid.flow;
     const bool drags = fluid.drag > Number{} && through != Vec3<Velocity>{};
     const PlacedShape placed = place(start_.shape(), world.cache.asset(body), middle.position,
@@ -139,7 +139,6 @@ class FluidPush {
 
   const WorldData& world_;
   const BodyRecord& start_;
-  const BodyRecord& middle_;
   const FluidRecord& fluid_;
   Immersion in_;
   Vec3<Velocity> lift_{};  // of a body that displaces its own mass

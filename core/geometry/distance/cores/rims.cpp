@@ -7,8 +7,6 @@ namespace lockstone::geometry {
 namespace {
 
 constexpr std::int64_t k_steps = std::int64_t{1} << k_rim_bits;
-constexpr std::int64_t k_full_turn = 843314857;  // 2π, 27 fraction bits
-static_assert(Angle::frac_bits == 27);
 
 /// Turned into (−π, π].
 Angle wrapped(std::int64_t angle) {

@@ -16,6 +16,10 @@ namespace lockstone::geometry {
 
 inline constexpr int k_rim_bits = 15;
 
+/// 2π in the format of an angle.
+inline constexpr std::int64_t k_full_turn = 843314857;
+static_assert(Angle::frac_bits == 27);
+
 /// Up to two circles about one axis; a radius of zero makes a point. Empty when count is 0.
 struct Rims {
   int count = 0;

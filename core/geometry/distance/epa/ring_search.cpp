@@ -5,6 +5,7 @@
 
 #include <lockstone/trigonometry.h>
 
+#include "core/geometry/distance/cores/rims.h"
 #include "core/geometry/numeric/normals.h"
 #include "core/math/roots.h"
 
@@ -13,12 +14,11 @@ namespace {
 
 constexpr int k_first_angles = 16;
 constexpr int k_most_angles = 160;
-constexpr std::int32_t k_full_turn = 843314857;  // 2π, 27 fraction bits
-static_assert(Angle::frac_bits == 27);
+constexpr auto k_ring_end = static_cast<std::int32_t>(k_full_turn);
 
 /// The depth along one direction of the ring, and how it changes with the angle.
 struct Place {
-  std::int32_t angle;  ///< 27 fraction bits, 0 … k_full_turn
+  std::int32_t angle;  ///< 27 fraction bits, 0 … k_ring_end
   Fine depth;
   Fine slope;
   Fine curvature;
@@ -116,7 +116,7 @@ class RingSearch {
 
   Vec3<Unit> least(Fine most, Fine tolerance) {
     for (; count_ < k_first_angles; ++count_) {
-      at(count_).place = place_at(k_full_turn / k_first_angles * count_);
+      at(count_).place = place_at(k_ring_end / k_first_angles * count_);
       at(count_).next = (count_ + 1) % k_first_angles;
     }
     for (int i = 0; i < k_first_angles; ++i)
@@ -211,7 +211,7 @@ class RingSearch {
 
   void measure(int i) {
     const Place &from = at(i).place, &to = at(at(i).next).place;
-    const std::int32_t end = to.angle != 0 ? to.angle : k_full_turn;
+    const std::int32_t end = to.angle != 0 ? to.angle : k_ring_end;
     at(i).gap = gap_between(from, to, end - from.angle);
   }
 
