@@ -74,8 +74,8 @@ Status decode_refusal(ByteView packet, RefuseReason& reason) {
 
 ConnectionKeys derive_keys(const Agreement& agreement) {
   const auto derive = [&agreement](const Key& key, std::string_view domain) {
-    return crypto::derive(key, {std::as_bytes(std::span(domain)), agreement.shared.bytes,
-                                agreement.hello, agreement.challenge});
+    return crypto::derive(key, {std::as_bytes(std::span<const char>(domain.data(), domain.size())),
+                                agreement.shared.bytes, agreement.hello, agreement.challenge});
   };
   const auto derive_short = [&derive](const Key& key, std::string_view domain) {
     Key whole = derive(key, domain);

@@ -22,7 +22,7 @@ constexpr std::string_view k_link_domain = "lockstone token link 1";
 constexpr std::uint64_t k_tag_seed = 0x6d61746368746167;  // "gathctam"
 
 ByteView bytes_of(std::string_view text) {
-  return std::as_bytes(std::span(text));
+  return std::as_bytes(std::span<const char>(text.data(), text.size()));
 }
 
 bool valid(const TokenGrant& grant) {

@@ -42,8 +42,9 @@ void group_at(const std::vector<LogHashes>& files, std::uint64_t tick, HashCompa
       result.groups.push_back({{i}, hash});
     }
   }
-  std::ranges::stable_sort(result.groups, std::greater<>(),
-                           [](const HashGroup& group) { return group.files.size(); });
+  std::stable_sort(
+      result.groups.begin(), result.groups.end(),
+      [](const HashGroup& a, const HashGroup& b) { return a.files.size() > b.files.size(); });
 }
 
 void add_note(HashComparison& result, const std::string& why) {
