@@ -137,6 +137,12 @@ const BodyRecord* existing(const BodyRecord* record, BodyHandle body, const char
   return record;
 }
 
+// Of the shape's frame: without an asset that of the record, and no call.
+Transform pose_of(const BodyRecord& record, const Asset* asset) {
+  const Transform pose{record.position, record.orientation};
+  return asset == nullptr ? pose : shape_pose(asset, pose);
+}
+
 }  // namespace
 
 BodyHandle World::body_at(std::uint32_t index) const {
@@ -151,8 +157,7 @@ BodyView World::body(BodyHandle body) const {
   const auto angular = [&](Velocity v) {
     return AngularVelocity::from_raw(raw::scale_binary(v.raw, -record->scale_exponent));
   };
-  const Transform pose =
-      shape_pose(impl_->cache.asset(body.index), {record->position, record->orientation});
+  const Transform pose = pose_of(*record, impl_->cache.asset(body.index));
   return {.motion = static_cast<MotionType>(record->motion),
           .shape = record->shape(),
           .position = pose.position,
@@ -191,14 +196,12 @@ std::string_view World::name(BodyHandle body) const {
 
 Transform pose_of(const World& world, BodyHandle body) {
   const BodyRecord* record = existing(world.impl_->find(body), body, "pose_of");
-  const Transform pose{record->position, record->orientation};
-  const Asset* asset = world.impl_->cache.asset(body.index);
-  return asset == nullptr ? pose : shape_pose(asset, pose);
+  return pose_of(*record, world.impl_->cache.asset(body.index));
 }
 
 Vec3<Position> World::position(BodyHandle body) const {
-  (void)existing(impl_->find(body), body, "World::position");
-  return pose_of(*this, body).position;
+  const BodyRecord* record = existing(impl_->find(body), body, "World::position");
+  return pose_of(*record, impl_->cache.asset(body.index)).position;
 }
 
 Vec3<Velocity> World::velocity(BodyHandle body) const {

@@ -105,8 +105,9 @@ class Mover {
         const Length separation = rounded<Length>(contacts[i].separation);
         const Length missing = def_.skin - separation - along(out, contacts[i].normal);
         if (missing > Length{}) out += times(contacts[i].normal, missing);
-        if (round == 0) note({contacts[i].body, contacts[i].point, contacts[i].normal, {}});
-        if (round == 0 && is_walkable(contacts[i].normal))
+        if (round > 0) continue;
+        note({contacts[i].body, contacts[i].point, contacts[i].normal, {}});
+        if (is_walkable(contacts[i].normal))
           stand_on(contacts[i].body, contacts[i].normal, contacts[i].point);
       }
       if (is_negligible(out)) return;
@@ -306,28 +307,30 @@ Impulse over_tick(Force force, const World& world) {
   return Impulse::from_raw(raw::scale_saturating(raw::round_divide(force.raw, rate), k_more_bits));
 }
 
+/// The part of a velocity along a direction, its raw.
+template <class Speed>
+std::int64_t raw_along(const Vec3<Speed>& v, const Vec3<Unit>& n) {
+  std::int64_t sum = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += raw::multiply_shift(v[axis].raw, n[axis].raw, Unit::frac_bits);
+  return sum;
+}
+
 /// The impulse that a body gets from a hit, against the hit's normal.
-Impulse push_of(const World& world, const CharacterDef& character, const CharacterHit& hit) {
+Impulse push_of(const World& world, const CharacterDef& character, const CharacterHit& hit,
+                const BodyView& body) {
   Velocity speed = rounded<Velocity>(hit.blocked * Rate::from_integer(world.def().tick_rate));
-  const BodyView body = world.body(hit.body);
-  for (int axis = 0; axis < 3; ++axis) {
-    // less the speed it already gives way with, or more that with which it comes, along the normal
-    speed += Velocity::from_raw(
-        raw::multiply_shift(body.velocity[axis].raw, hit.normal[axis].raw, Unit::frac_bits));
-  }
+  // less the speed it already gives way with, or more that with which it comes, along the normal
+  speed += Velocity::from_raw(raw_along(body.velocity, hit.normal));
   if (speed <= Velocity{}) return {};
-  return min(inelastic(speed, character.mass, world.mass(hit.body)),
+  return min(inelastic(speed, character.mass, body.mass.mass),
              over_tick(character.push_force, world));
 }
 
-bool is_dynamic(const World& world, BodyHandle body) {
-  return world.exists(body) && world.body(body).motion == MotionType::dynamic;
-}
-
-void push(World& world, BodyHandle body, const Vec3<Position>& point,
+void push(World& world, BodyHandle handle, const BodyView& body, const Vec3<Position>& point,
           const Vec3<Impulse>& impulse) {
-  const Vec3<Length> arm = saturated<Length>(point - world.body(body).centre_of_mass);
-  (void)world.apply(ApplyImpulseAt{body, impulse, arm});
+  const Vec3<Length> arm = saturated<Length>(point - body.centre_of_mass);
+  (void)world.apply(ApplyImpulseAt{handle, impulse, arm});
 }
 
 /// Of two numbers of 32 fraction bits, with as many.
@@ -351,11 +354,11 @@ bool gives_way(const World& world, const CharacterDef& character, const BodyView
 }
 
 /// m·g over a tick; of a body that gives way the share that leaves both falling together.
-Vec3<Impulse> weight_of(const World& world, const CharacterDef& character,
-                        const CharacterMove& move) {
+Vec3<Impulse> weight_of(const World& world, const CharacterDef& character, const BodyView& ground,
+                        const Vec3<Position>& point) {
   const Vec3<Acceleration>& gravity = character.gravity;
-  const Unit share = gives_way(world, character, world.body(move.ground), move.ground_point)
-                         ? ratio(inverse_of(character.mass), inverse_of(world.mass(move.ground)))
+  const Unit share = gives_way(world, character, ground, point)
+                         ? ratio(inverse_of(character.mass), inverse_of(ground.mass.mass))
                          : Unit::from_integer(1);
   const auto part = [&](Acceleration g) {
     const Int128 product = multiply_wide(g.raw, character.mass.raw);  // 64 fraction bits
@@ -416,9 +419,7 @@ CharacterCarry carried_by(const World& world, const CharacterDef& character,
   const Vec3<Length> arm = saturated<Length>(move.ground_point - ground.centre_of_mass);
   carry.motion += rotate(to_matrix(turn), arm) - arm;
   const Vec3<Unit> up = up_of(character);
-  std::int64_t about_up = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    about_up += raw::multiply_shift(spin[axis].raw, up[axis].raw, Unit::frac_bits);
+  const std::int64_t about_up = raw_along(spin, up);
   const Angle yaw =
       angle_of(static_cast<std::uint64_t>(about_up < 0 ? -about_up : about_up), world);
   carry.turn = from_axis_angle(up, about_up < 0 ? -yaw : yaw);
@@ -427,16 +428,20 @@ CharacterCarry carried_by(const World& world, const CharacterDef& character,
 
 void apply_pushes(World& world, const CharacterDef& character, const CharacterMove& move) {
   bool lands = false;
-  for (std::size_t i = 0; i < move.hit_count; ++i) {
-    const CharacterHit& hit = move.hits[i];
-    if (!is_dynamic(world, hit.body)) continue;
-    const Impulse size = push_of(world, character, hit);
+  for (const CharacterHit& hit : std::span(move.hits).first(move.hit_count)) {
+    if (!world.exists(hit.body)) continue;
+    const BodyView body = world.body(hit.body);
+    if (body.motion != MotionType::dynamic) continue;
+    const Impulse size = push_of(world, character, hit, body);
     if (size <= Impulse{}) continue;
     lands = lands || hit.body == move.ground;
-    push(world, hit.body, hit.point, along(-size, hit.normal));
+    push(world, hit.body, body, hit.point, along(-size, hit.normal));
   }
-  if (move.grounded && !lands && is_dynamic(world, move.ground))
-    push(world, move.ground, move.ground_point, weight_of(world, character, move));
+  if (!move.grounded || lands || !world.exists(move.ground)) return;
+  const BodyView ground = world.body(move.ground);
+  if (ground.motion != MotionType::dynamic) return;
+  push(world, move.ground, ground, move.ground_point,
+       weight_of(world, character, ground, move.ground_point));
 }
 
 bool has_room(const World& world, const CharacterDef& character, const Vec3<Position>& position) {
