@@ -26,8 +26,6 @@ constexpr Node k_nodes[] = {
     {995460557, 78789673},   {1049913494, 33624539},  {1069675085, 9129780},
     {1073593013, 762424}};
 
-constexpr std::int64_t k_pi_q60 = 3622009729038561421;  // 60 fraction bits
-
 std::int64_t root_of(std::int64_t square) {
   return static_cast<std::int64_t>(
       isqrt_rounded(static_cast<std::uint64_t>(std::max<std::int64_t>(square, 0))));

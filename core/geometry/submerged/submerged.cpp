@@ -14,10 +14,8 @@
 namespace lockstone::geometry {
 namespace {
 
-constexpr std::int64_t k_pi_bits_60 = 3622009729038561421;
-
 std::int64_t times_pi(std::int64_t x) {
-  return saturate_to_int64(round_shift(multiply_wide(x, k_pi_bits_60), 60));
+  return saturate_to_int64(round_shift(multiply_wide(x, k_pi_q60), 60));
 }
 
 std::int64_t size_of(const Polytope& polytope) {

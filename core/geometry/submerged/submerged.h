@@ -17,6 +17,9 @@ namespace lockstone::geometry {
 /// Fraction bits of volumes, moments and areas in units of the solid's scale 2^k m.
 inline constexpr int k_submerged_bits = 48;
 
+/// π, 60 fraction bits.
+inline constexpr std::int64_t k_pi_q60 = 3622009729038561421;
+
 /// a · b of 30 fraction bits, to nearest.
 [[nodiscard]] constexpr std::int64_t product_q30(std::int64_t a, std::int64_t b) {
   return saturate_to_int64(round_shift(multiply_wide(a, b), 30));

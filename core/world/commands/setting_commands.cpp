@@ -51,20 +51,29 @@ void set_speed_limit(BodyRecord& record, const SpeedLimit& limit) {
       bounded(raw::scale_binary(min(limit.angular, k_any).raw, record.scale_exponent));
 }
 
+namespace {
+
+// A component of ω × way, in the format of the surface's velocity.
+std::int64_t turned_around(const SurfaceMotion& motion, const Vec3<Position>& way, int axis) {
+  const auto product = [&](int turning, int along) {
+    return raw::round_shift(
+        raw::multiply_shift(way[along].raw, motion.turning[turning].raw, Rate::frac_bits),
+        Position::frac_bits - SolverVelocity::frac_bits);
+  };
+  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+  return product(j, k) - product(k, j);
+}
+
+}  // namespace
+
 void set_surface_motion(BodyRecord& record, const Asset* asset, const SurfaceMotion& motion) {
   const Transform body = body_pose(asset, {});  // in the shape's frame
   const Mat3 axes = to_matrix(body.orientation);
   // v + ω × centre
   Vec3<SolverVelocity> at_centre;
-  const auto product = [&](int turning, int along) {
-    return raw::round_shift(
-        raw::multiply_shift(body.position[along].raw, motion.turning[turning].raw, Rate::frac_bits),
-        Position::frac_bits - SolverVelocity::frac_bits);
-  };
   for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    at_centre[i].raw =
-        raw::saturate<std::int32_t>(motion.velocity[i].raw + product(j, k) - product(k, j));
+    at_centre[i].raw = raw::saturate<std::int32_t>(motion.velocity[i].raw +
+                                                   turned_around(motion, body.position, i));
     at_centre[i] = clamp(at_centre[i], SolverVelocity::from_integer(-1000),
                          SolverVelocity::from_integer(1000));
   }
@@ -78,15 +87,9 @@ SurfaceMotion surface_motion_of(const BodyRecord& record, const Asset* asset) {
   const Mat3 axes = to_matrix(body.orientation);
   SurfaceMotion motion{rotate(axes, record.surface_velocity()),
                        rotate(axes, record.surface_turning())};
-  const auto product = [&](int turning, int along) {
-    return raw::round_shift(
-        raw::multiply_shift(body.position[along].raw, motion.turning[turning].raw, Rate::frac_bits),
-        Position::frac_bits - SolverVelocity::frac_bits);
-  };
   for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    motion.velocity[i].raw =
-        raw::saturate<std::int32_t>(motion.velocity[i].raw - product(j, k) + product(k, j));
+    motion.velocity[i].raw = raw::saturate<std::int32_t>(motion.velocity[i].raw -
+                                                         turned_around(motion, body.position, i));
   }
   return motion;
 }
