@@ -14,6 +14,7 @@
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/refusal_finder.h"
 #include "core/world/derived/quantities.h"
+#include "core/world/phases/fluids.h"
 #include "core/world/state/record_checks.h"
 #include "core/world/world_impl.h"
 
@@ -185,14 +186,14 @@ void check(RefusalFinder& find, const EventSettings& settings) {
 }
 
 void check(RefusalFinder& find, const Fluid& fluid) {
-  constexpr Position k_least = Position::from_raw(1), k_most = Position::from_integer(1 << 21);
+  constexpr Position k_least = Position::from_raw(1);
   find.within("fluid.surface", fluid.surface, k_world_limit, "m");
   find.direction("fluid.orientation", fluid.orientation);
-  find.within("fluid.size.x", fluid.size.x, k_least, k_most, "m");
-  find.within("fluid.size.y", fluid.size.y, k_least, k_most, "m");
-  find.within("fluid.size.z", fluid.size.z, k_least, k_most, "m");
+  find.within("fluid.size.x", fluid.size.x, k_least, k_most_fluid_size, "m");
+  find.within("fluid.size.y", fluid.size.y, k_least, k_most_fluid_size, "m");
+  find.within("fluid.size.z", fluid.size.z, k_least, k_most_fluid_size, "m");
   find.at_least("fluid.density", fluid.density, Density{}, "kg/m³");
-  find.within("fluid.drag", fluid.drag, Number{}, Number::from_integer(100));
+  find.within("fluid.drag", fluid.drag, Number{}, k_most_fluid_drag);
   find.at_least("fluid.linear_drag", fluid.linear_drag, Rate{}, "1/s");
   find.within("fluid.flow", fluid.flow, k_speed_limit, "m/s");
 }

@@ -6,8 +6,6 @@
 
 namespace lockstone {
 
-constexpr Position k_most_fluid_size = Position::from_integer(1 << 21);
-
 const FluidPhase* linked_fluid_phase = nullptr;
 
 Fluid fluid_of(const FluidRecord& record) {
@@ -20,9 +18,8 @@ bool is_valid(const Fluid& fluid) {
   const auto is_size = [](Position x) { return x > Position{} && x <= k_most_fluid_size; };
   return fluid.density > Density{} && is_within(fluid.surface, k_world_limit) &&
          has_direction(fluid.orientation) && is_size(fluid.size.x) && is_size(fluid.size.y) &&
-         is_size(fluid.size.z) && fluid.drag >= Number{} &&
-         fluid.drag <= Number::from_integer(100) && fluid.linear_drag >= Rate{} &&
-         is_within(fluid.flow, k_speed_limit);
+         is_size(fluid.size.z) && fluid.drag >= Number{} && fluid.drag <= k_most_fluid_drag &&
+         fluid.linear_drag >= Rate{} && is_within(fluid.flow, k_speed_limit);
 }
 
 }  // namespace lockstone

@@ -1,6 +1,7 @@
 #include "core/world/phases/fluids.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <lockstone/assert.h>
 
@@ -47,13 +48,20 @@ Vec3<Velocity> times(const Vec3<Velocity>& v, std::int64_t factor) {
           Velocity::from_raw(product_q32(v.z.raw, factor))};
 }
 
-// A body in the middle of a tick in which nothing but gravity moves it.
-BodyRecord in_mid_tick(const WorldData& world, std::uint32_t body) {
-  BodyRecord record = world.bodies[body];
+// Where a body is in the middle of a tick in which nothing but gravity moves it.
+Vec3<Position> mid_tick_position(const WorldData& world, const BodyRecord& body) {
   const Vec3<Velocity> fall =
-      gravity_gain(record, world.header.gravity, world.time_step, Unit::from_ratio(1, 4));
+      gravity_gain(body, world.header.gravity, world.time_step, Unit::from_ratio(1, 4));
+  Vec3<Position> position = body.position;
   for (int i = 0; i < 3; ++i)
-    record.position[i].raw += world.time_step.tick.times(record.velocity[i].raw / 2 + fall[i].raw);
+    position[i].raw += world.time_step.tick.times(body.velocity[i].raw / 2 + fall[i].raw);
+  return position;
+}
+
+// The body there, turned.
+BodyRecord in_mid_tick(const WorldData& world, std::uint32_t body, const Vec3<Position>& position) {
+  BodyRecord record = world.bodies[body];
+  record.position = position;
   (void)turn_in_flight(record, world.cache.rotation(body), world.time_step, Unit::from_ratio(1, 2));
   return record;
 }
@@ -154,25 +162,24 @@ void leave_out_locked(const BodyRecord& body, TickGain& gain) {
 
 void push_body(WorldData& world, std::uint32_t body) {
   BodyRecord& record = world.bodies[body];
-  const BodyRecord middle = in_mid_tick(world, body);
+  const Vec3<Position> position = mid_tick_position(world, record);
+  std::optional<BodyRecord> middle;  // once a fluid holds it
   TickGain sum;
-  bool is_pushed = false;
   for (std::uint32_t i = 0; i < world.header.fluid_limit; ++i) {
     const FluidRecord& fluid = world.fluids[i];
     const Position reach = Position::from_raw(std::int64_t{1} << (32 + record.scale_exponent));
     if (!fluid.exists() || (fluid.mask & record.category) == 0) continue;
-    if (!is_inside(fluid, middle.position, reach)) continue;
-    const TickGain gain = FluidPush(world, body, middle, fluid).gain();
+    if (!is_inside(fluid, position, reach)) continue;
+    if (!middle) middle = in_mid_tick(world, body, position);
+    const TickGain gain = FluidPush(world, body, *middle, fluid).gain();
     for (int axis = 0; axis < 3; ++axis) {
       const auto add = [](Velocity& to, Velocity x) { to += clamp(x, -k_most_gain, k_most_gain); };
       add(sum.velocity[axis], gain.velocity[axis]);
       add(sum.spin[axis], gain.spin[axis]);
     }
-    is_pushed = true;
   }
   leave_out_locked(record, sum);
-  const bool is_none = sum.velocity == Vec3<Velocity>{} && sum.spin == Vec3<Velocity>{};
-  if (!is_pushed || is_none) return;
+  if (sum.velocity == Vec3<Velocity>{} && sum.spin == Vec3<Velocity>{}) return;
   if (!record.is_pushed())
     world.rests.push_back(
         {body, record.rest_ticks, record.union_a, record.union_b, record.union_c});

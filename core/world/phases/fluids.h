@@ -6,6 +6,9 @@
 
 namespace lockstone {
 
+inline constexpr Position k_most_fluid_size = Position::from_integer(1 << 21);
+inline constexpr Number k_most_fluid_drag = Number::from_integer(100);
+
 /// Around the part of a tick in which bodies move.
 struct FluidPhase {
   /// Adds the forces of the tick to those of commands.
