@@ -41,6 +41,14 @@ bool may_be_behind(const Pair& pair, double distance) {
   return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair);
 }
 
+// Nearly parallel edges are as near along many directions. So near a rim, one that leans back may be
+// taken for the nearest.
+bool may_lean_back(const Pair& pair, const Vec3<Unit>& out, double distance) {
+  constexpr double k_near = 16 * k_micrometre;
+  const bool is_near_rim = pair.has(Kind::triangle) && pair.has_rims() && std::abs(distance) < k_near;
+  return is_near_rim || leans_back(pair, real(out));
+}
+
 // Points may be less deep than the shapes along the normal, where those beside the face are cut
 // off.
 void check_deep(const Pair& pair, const Answers& answers, Verdict& verdict) {
@@ -124,7 +132,7 @@ void check_collide(const Pair& pair, const Answers& answers, Verdict& verdict) {
   if (truth > margin + slack || height < -tolerance(pair)) verdict.require(Check::margin, !any);
   const Vec3<Unit>& out = truth > 0 ? answers.closest.normal : answers.deep.normal;
   const bool unsure = may_be_behind(pair, truth);
-  const bool is_met = height > tolerance(pair) && !unsure && !leans_back(pair, real(out));
+  const bool is_met = height > tolerance(pair) && !unsure && !may_lean_back(pair, out, truth);
   if (truth < margin - slack && is_met) verdict.require(Check::margin, any);
   if (!any || unsure) return;
   if (truth > 0)
