@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/geometry/contact/feature/collide_convex.h"
 #include "core/geometry/distance/cores/rims.h"
 #include "tools/fuzz/pair_checks.h"
 #include "tools/fuzz/surface.h"
@@ -35,11 +36,17 @@ bool may_push_aside(const Pair& pair, const Real3& out) {
   return leans_back(pair, out) || height_before_front(pair) < tolerance(pair);
 }
 
-// Shapes that touch a triangle within the rounding may be before it or behind; the direction from a
-// rim so near is rounding up to twice as far.
+// Shapes that touch a triangle within the rounding may be before it or behind.
 bool may_be_behind(const Pair& pair, double distance) {
-  const double rim = pair.has_rims() ? 4 * k_micrometre : 0;
-  return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair) + rim;
+  return pair.has(Kind::triangle) && std::abs(distance) < tolerance(pair);
+}
+
+// Nearly parallel edges are as near along many directions. So near a rim, one that leans back may be
+// taken for the nearest.
+bool may_lean_back(const Pair& pair, const Vec3<Unit>& out, double distance) {
+  constexpr double k_near = 16 * k_micrometre;
+  const bool is_near_rim = pair.has(Kind::triangle) && pair.has_rims() && std::abs(distance) < k_near;
+  return is_near_rim || leans_back(pair, real(out));
 }
 
 // Points may be less deep than the shapes along the normal, where those beside the face are cut
@@ -71,13 +78,14 @@ double least_radius(const Pair& pair) {
 
 // How far points of a shape with rims are aside. The normal of a single point is uncertain by half
 // a step of a rim, a polygon of 2^15 sides, and the points lie along it over the depth. Two lines
-// that run side by side are by up to 1/64 of the least radius (`widest_aside`), of which each
-// surface has a half. Faces are clipped in steps of 2^-27 of the sizes, and lines that cross at
-// 1/32 err by 32 of these.
+// that run side by side are by up to 1/64 of the least radius aside (`widest_aside`), of which each
+// surface has a half, and a surface of radius r curves away by r / 2^15 there. Faces are clipped in
+// steps of 2^-27 of the sizes, and lines that cross at 1/32 err by 32 of these.
 double aside_slack(const Pair& pair, const Manifold& m, double separation) {
   if (!pair.has_rims()) return 0;
-  if (m.count == 1) return std::abs(separation) * std::numbers::pi / (1 << geometry::k_rim_bits);
-  return std::ldexp(pair.size(), -22) + (m.count == 2 ? least_radius(pair) / 128 : 0);
+  if (m.points[0].feature == geometry::k_single_point)
+    return std::abs(separation) * std::numbers::pi / (1 << geometry::k_rim_bits);
+  return std::ldexp(pair.size(), -22) + (m.count <= 2 ? std::ldexp(least_radius(pair), -15) : 0);
 }
 
 // A vertex may be moved onto a side by 31 µm, and at a corner onto two.
@@ -124,7 +132,7 @@ void check_collide(const Pair& pair, const Answers& answers, Verdict& verdict) {
   if (truth > margin + slack || height < -tolerance(pair)) verdict.require(Check::margin, !any);
   const Vec3<Unit>& out = truth > 0 ? answers.closest.normal : answers.deep.normal;
   const bool unsure = may_be_behind(pair, truth);
-  const bool is_met = height > tolerance(pair) && !unsure && !leans_back(pair, real(out));
+  const bool is_met = height > tolerance(pair) && !unsure && !may_lean_back(pair, out, truth);
   if (truth < margin - slack && is_met) verdict.require(Check::margin, any);
   if (!any || unsure) return;
   if (truth > 0)

@@ -20,7 +20,7 @@ constexpr std::array<CheckText, k_checks> k_texts{{
     {"manifold", "normal 2^-29; features ascend"},
     {"anchors",
      "48 um + 13e-9 of the sizes; a capsule's + 1/1000 of its radius; with rims + 1e-4 of the "
-     "depth of a single point, of more 2.4e-7 of the sizes, of two 1/128 of the least radius"},
+     "depth of a single point, of more 2.4e-7 of the sizes, of two 2^-15 of the least radius"},
     {"separated", "implies no points"},
     {"overlaps", "agrees outside 6 um + 13e-9 of the sizes"},
     {"cast", "2 um"},

@@ -108,7 +108,7 @@ void take_earlier(RimHit& best, const RimHit& other) {
 
 RawVec ray_point(const AxisRay& ray, std::int64_t fraction) {
   const auto part = [fraction](std::int64_t lane) {
-    return saturate_to_int64(round_shift(multiply_wide(lane, fraction), k_ray_bits));
+    return multiply_shift(lane, fraction, k_ray_bits);
   };
   return ray.start + RawVec{part(ray.way.x), part(ray.way.y), part(ray.way.z)};
 }

@@ -15,7 +15,7 @@ namespace lockstone::geometry {
 namespace {
 
 std::int64_t times_pi(std::int64_t x) {
-  return saturate_to_int64(round_shift(multiply_wide(x, k_pi_q60), 60));
+  return multiply_shift(x, k_pi_q60, 60);
 }
 
 std::int64_t size_of(const Polytope& polytope) {

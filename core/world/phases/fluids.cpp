@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t k_unit_32 = std::int64_t{1} << 32;
 
 std::int64_t product_q32(std::int64_t a, std::int64_t b) {
-  return saturate_to_int64(round_shift(multiply_wide(a, b), 32));
+  return multiply_shift(a, b, 32);
 }
 
 // x / (1 + x) of x ≥ 0, 32 bits both.

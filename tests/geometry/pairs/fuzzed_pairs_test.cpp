@@ -111,5 +111,69 @@ TEST(FuzzedPairs, TheNormalOfCapsulesThatAlmostCoincideIsSquareToThem) {
   EXPECT_LT(std::abs(dot(real(m.normal), real(turn_a.y))), 1e-3L);
 }
 
+// The least separation of the triangle and the rimmed shape, as far as there are points.
+long double least_separation(const Shape& shape, const Mat3& turn, const Mat3& turn_triangle,
+                             const geometry::TriangleVertices& vertices, const Vec3<Length>& offset,
+                             Length margin) {
+  geometry::TrianglePolytope triangle;
+  const geometry::Polytope& view = triangle.set(vertices);
+  const Manifold m = collide({Shape{ShapeKind::hull, {}, {}}, turn_triangle, &view}, {shape, turn},
+                             offset, margin);
+  long double least = 1e30L;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i)
+    least = std::min(least, real(m.points[i].separation));
+  return least;
+}
+
+// The side of a cylinder touches an edge of a triangle by 0.6 µm. The direction of so short a way
+// is rounding: it leaned back, and the front pushed by 62 m.
+TEST(FuzzedPairs, ATriangleThatTouchesACylinderBesideItsFrontPushesByNoMore) {
+  const Mat3 turn_triangle{raw_unit(458395134, 207121355, -948628563),
+                           raw_unit(-15147264, 1050426361, 222028207),
+                           raw_unit(970858366, -81404599, 451363301)};
+  const Mat3 turn{raw_unit(1073741824, 0, 0), raw_unit(0, 0, -1073741824),
+                  raw_unit(0, 1073741824, 0)};
+  const Shape cylinder = Shape::cylinder(Length::from_raw(249372339), Length::from_raw(112159506));
+  const long double least =
+      least_separation(cylinder, turn, turn_triangle,
+                       {raw(14189661, 42798568, -41112272), raw(11365001, 34054624, -86384495),
+                        raw(11128959, 33473906, -54420837)},
+                       raw(-35844669, -72771488, 223585259), {});
+  EXPECT_NEAR(static_cast<double>(least), 0, 6e-6);
+}
+
+// The same where a cylinder stands 3 µm before the edge: there was no contact.
+TEST(FuzzedPairs, ATriangleMeetsACylinderThatAlmostTouchesIt) {
+  const Mat3 turn{raw_unit(-664487534, 744767233, -395852993),
+                  raw_unit(-195611648, 354122682, 994612847),
+                  raw_unit(820435193, 687633914, -83469751)};
+  const Mat3 turn_triangle{raw_unit(-664333703, 744933904, -395797570),
+                           raw_unit(-195511715, 354111518, 994636471),
+                           raw_unit(820583577, 687459101, -83451077)};
+  const Shape cylinder = Shape::cylinder(Length::from_raw(180996), Length::from_raw(172545));
+  const long double least =
+      least_separation(cylinder, turn, turn_triangle,
+                       {raw(-1785719, -1524255, -23581), raw(-1409435, -1368232, -319063),
+                        raw(-1292743, -1319756, -411571)},
+                       raw(536524, -1481968, -596269), Length::from_raw(114667));
+  EXPECT_NEAR(static_cast<double>(least), 3e-6, 6e-6);
+}
+
+// A cone 8 µm behind the front's edge is not met: axes turned to the front would push by 0.8 mm.
+TEST(FuzzedPairs, ATriangleDoesNotMeetAConeBehindItsEdge) {
+  const Mat3 turn{raw_unit(10697855, -1073430936, 23517772),
+                  raw_unit(-773375785, -24018053, -744469296),
+                  raw_unit(744779804, -9521703, -773391159)};
+  const Mat3 turn_triangle{raw_unit(339373246, 873889172, -523512197),
+                           raw_unit(-985499478, 421366601, 64517222),
+                           raw_unit(257949770, 460097172, 935250775)};
+  const Shape cone{ShapeKind::cone, {Length::from_raw(573732), Length::from_raw(231892), {}}, {}};
+  EXPECT_GT(least_separation(cone, turn, turn_triangle,
+                             {raw(-563789, 499216, 102909), raw(966501, -953843, -231887),
+                              raw(-634195, 283378, -41630)},
+                             raw(1141116, 876191, -848233), {}),
+            1.0L);
+}
+
 }  // namespace
 }  // namespace lockstone::test

@@ -20,8 +20,6 @@
 namespace lockstone::geometry {
 namespace {
 
-constexpr std::uint32_t k_single_point = 1U << 30;
-
 /// A unit axis from A to B and the separation along it.
 struct ConvexAxis {
   Vec3<Unit> normal{};
@@ -248,6 +246,57 @@ bool is_before_front(const PosedShape& posed, const Vec3<Length>& centre) {
   return lockstone::dot(front.normal, rotate_inverse(posed.rotation, centre)).raw >= front.offset;
 }
 
+/// The axes that take the place of one that leans back through the front of a one-sided A.
+class FrontAxes {
+ public:
+  FrontAxes(const ConvexMeeting& pair, const Vec3<Unit>& front) : pair_(pair), front_(front) {}
+
+  [[nodiscard]] bool leans_back(const Vec3<Unit>& normal) const {
+    return lockstone::dot(front_, normal).raw < 0;
+  }
+
+  /// Of the front's normal and `back` turned into the front's plane, the one of the greater
+  /// separation. Of shapes that touch within the rounding, which may be all of `back`, also the
+  /// nearest axis from a little farther before the front. The points remain those of `back`.
+  [[nodiscard]] ConvexAxis best(const ConvexAxis& back) const {
+    LKS_ASSERT(leans_back(back.normal));
+    ConvexAxis best = along_normal(front_, back);
+    keep_greater(best, along_normal(level(back.normal), back));
+    if (magnitude_of(back.separation) > k_face_slack) return best;
+    const Vec3<Unit> before = axis_before_front();
+    keep_greater(best, along_normal(leans_back(before) ? level(before) : before, back));
+    return best;
+  }
+
+ private:
+  static void keep_greater(ConvexAxis& best, const ConvexAxis& other) {
+    if (other.separation > best.separation) best = other;
+  }
+
+  [[nodiscard]] ConvexAxis along_normal(const Vec3<Unit>& normal, const ConvexAxis& back) const {
+    return {normal, separation_along(pair_, normal), back.on_a, back.on_b};
+  }
+
+  /// The part of `normal` that is square to the front, as a unit vector; the front where that part
+  /// is too short to have a direction.
+  [[nodiscard]] Vec3<Unit> level(const Vec3<Unit>& normal) const {
+    constexpr Fine k_one = Fine{1} << k_fine_bits;
+    const RawVec whole = along(normal, k_one);
+    const RawVec rest = whole - along(front_, dot(whole, front_));
+    const Direction found = direction(rest.x, rest.y, rest.z);
+    return found.length < static_cast<std::uint64_t>(k_one / 1024) ? front_ : found.unit;
+  }
+
+  [[nodiscard]] Vec3<Unit> axis_before_front() const {
+    constexpr Fine k_way = Fine{1} << (k_fine_bits - 11);  // 0.49 mm
+    const Vec3<Length> moved = pair_.offset + to_length(along(front_, k_way));
+    return nearest_axis({pair_.a, pair_.b, moved, pair_.margin}).normal;
+  }
+
+  const ConvexMeeting& pair_;
+  const Vec3<Unit>& front_;
+};
+
 }  // namespace
 
 Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Length>& offset,
@@ -260,9 +309,14 @@ Manifold collide_convex(const PosedShape& a, const PosedShape& b, const Vec3<Len
   ShownFeatures shown;
   if (front_a) {
     const Vec3<Unit> front = unit_axis(lockstone::rotate(a.rotation, a.polytope->faces[0].normal));
-    const bool leans_back = lockstone::dot(front, axis.normal).raw < 0;
-    if (leans_back && axis.separation > 0) return separated_by(axis.normal);
-    if (leans_back) axis = {front, separation_along(pair, front), axis.on_a, axis.on_b};
+    const FrontAxes axes(pair, front);
+    if (axes.leans_back(axis.normal)) {
+      if (axis.separation > k_face_slack) return separated_by(axis.normal);
+      const ConvexAxis forward = axes.best(axis);
+      if (axis.separation > 0 && forward.separation < axis.separation - k_agreement)
+        return separated_by(axis.normal);
+      axis = forward;
+    }
   }
   if (axis.separation > fine(margin) + k_face_slack) return separated_by(axis.normal);
   if (has_sphere(pair)) return single_point(pair, axis);
