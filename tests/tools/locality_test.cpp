@@ -51,7 +51,9 @@ class Company {
   }
 
   void step() {
-    if (is_driven_ && scene_.drive != nullptr) scene_.drive(world_, k_seed);
+    // Later a body that a scene pushes may have left the world.
+    const bool is_in_time = world_.tick() < scene_.golden_ticks;
+    if (is_driven_ && is_in_time && scene_.drive != nullptr) scene_.drive(world_, k_seed);
     (void)world_.step();
     if (is_driven_ && scene_.observe != nullptr) scene_.observe(world_);
   }
