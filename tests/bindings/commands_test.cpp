@@ -174,6 +174,37 @@ TEST_F(CommandsThroughC, ChangesOfABodyGiveTheSameState) {
   step(20);
 }
 
+TEST_F(CommandsThroughC, RulesGiveTheSameState) {
+  const PairSurface ice{.friction = 0.01_r, .restitution = 0.5_r, .rolling_resistance = {}};
+  const lks_pair_surface raw{ice.friction.raw, ice.restitution.raw, 0};
+  const lks_body ball = c::id_of(ball_), box = c::id_of(box_), lift = c::id_of(lift_);
+  expect_same(world_->apply(SetPairRule{ball_, box_, {.collides = false}}),
+              lks_set_pair_rule(twin_, ball, box, 0, nullptr), "ignored");
+  expect_same(world_->apply(SetPairRule{lift_, box_, {.surface = ice}}),
+              lks_set_pair_rule(twin_, lift, box, 1, &raw), "surface of a pair");
+  expect_same(world_->apply(SetSurfaceRule{0, 7, ice}), lks_set_surface_rule(twin_, 0, 7, &raw),
+              "surface of tags");
+  const Vec3<Unit> up{{}, Unit::from_integer(1), {}};
+  const lks_unit3 raw_up = c::raw_of(up);
+  expect_same(world_->apply(SetOneWay{lift_, {.direction = up, .tolerance = 30}}),
+              lks_set_one_way(twin_, lift, &raw_up, 30), "one way");
+  expect_same(world_->apply(SetOneWay{box_, {.direction = up}}),
+              lks_set_one_way(twin_, box, &raw_up, 60), "a dynamic body");
+  step(20);
+  lks_pair_surface read{};
+  uint32_t collides = 0, has_surface = 0, tolerance = 0;
+  ASSERT_EQ(lks_pair_rule_get(twin_, box, lift, &collides, &has_surface, &read), LKS_OK);
+  EXPECT_EQ(collides, 1U);
+  EXPECT_EQ(has_surface, 1U);
+  EXPECT_EQ(read.friction, ice.friction.raw);
+  ASSERT_EQ(lks_surface_rule_get(twin_, 7, 0, &has_surface, &read), LKS_OK);
+  EXPECT_EQ(read.restitution, ice.restitution.raw);
+  lks_unit3 direction{};
+  ASSERT_EQ(lks_one_way_get(twin_, lift, &direction, &tolerance), LKS_OK);
+  EXPECT_EQ(c::vec<Unit>(direction), up);
+  EXPECT_EQ(tolerance, 30U);
+}
+
 TEST_F(CommandsThroughC, AFluidGivesTheSameState) {
   Fluid water{.surface = {1_m, 2_m, 3_m}, .size = {40_m, 9_m, 30_m}};
   water.density = Density::from_integer(1000);

@@ -75,6 +75,11 @@ Surface CommandDice::surface() {
   return surface;
 }
 
+PairSurface CommandDice::pair_surface() {
+  const Coefficient friction = size_of(number(Coefficient(1_r)));
+  return {friction, size_of(number(Coefficient(1_r))), {}};
+}
+
 EventSettings CommandDice::events() {
   EventSettings settings{!chance(4), {}};
   if (chance(2)) settings.hit_speed = size_of(number(SolverVelocity::from_integer(2)));
@@ -217,6 +222,22 @@ void CommandDice::fill(SetFluid& c) {
   c.fluid.drag = size_of(number(Number::from_integer(2)));
   c.fluid.linear_drag = size_of(number(Rate::from_integer(2)));
   c.fluid.flow = vector(Velocity(3_mps));
+}
+void CommandDice::fill(SetPairRule& c) {
+  c.a = body();
+  c.b = body();
+  c.rule.collides = chance(2);
+  if (chance(2)) c.rule.surface = pair_surface();
+}
+void CommandDice::fill(SetSurfaceRule& c) {
+  c.tag_a = static_cast<std::uint32_t>(random_.below(3));
+  c.tag_b = static_cast<std::uint32_t>(random_.below(3));
+  if (!chance(3)) c.surface = pair_surface();
+}
+void CommandDice::fill(SetOneWay& c) {
+  c.body = body();
+  if (!chance(3)) c.one_way.direction = {number(Unit(1_r)), Unit(1_r), {}};
+  c.one_way.tolerance = static_cast<std::uint8_t>(random_.below(goes_wild() ? 256 : 91));
 }
 void CommandDice::fill(WakeBody& c) {
   c.body = body();

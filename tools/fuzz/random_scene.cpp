@@ -375,6 +375,30 @@ void drive_changes(World& world, std::uint64_t seed) {
   (void)world.apply(SetFluid{random.below(2), fluid});
 }
 
+// Rules about pairs, drawn apart.
+void drive_rules(World& world, std::uint64_t seed) {
+  Random random(mix(~seed ^ mix(world.tick() + 7)));
+  if (!chance(random, 10)) return;
+  const auto coefficient = [&] { return Coefficient::from_ratio(random.between(0, 99), 100); };
+  const PairSurface surface{coefficient(), coefficient(), coefficient()};
+  const BodyHandle body = any_body(world, random);
+  switch (random.below(4)) {
+    case 0:
+      return (void)world.apply(
+          SetPairRule{body, any_body(world, random), {chance(random, 2), surface}});
+    case 1:
+      return (void)world.apply(SetPairRule{body, any_body(world, random), {}});
+    case 2:
+      return (void)world.apply(SetSurfaceRule{random.below(2), random.below(2), surface});
+    default:
+      break;
+  }
+  OneWay one_way;
+  if (!chance(random, 4)) one_way.direction = {coefficient(), coefficient(), coefficient()};
+  one_way.tolerance = static_cast<std::uint8_t>(random.between(1, 90));
+  (void)world.apply(SetOneWay{body, one_way});
+}
+
 }  // namespace
 
 RandomScene::RandomScene(std::uint64_t seed, std::uint64_t index, bool with_rims)
@@ -402,6 +426,7 @@ World RandomScene::make(BroadPhaseKind broad_phase) const {
 void RandomScene::drive(World& world) const {
   drive_events(world, seed_);
   drive_changes(world, seed_);
+  drive_rules(world, seed_);
   Random random(mix(seed_ ^ mix(world.tick() + 2)));
   if (!chance(random, 4)) return;
   const int commands = random.between(1, 3);

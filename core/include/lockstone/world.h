@@ -346,6 +346,7 @@ class World {
   friend class CommandExplainer;
   friend class WorldContacts;
   friend class WorldFluids;
+  friend class WorldRules;
   friend class RollbackHistory;
   friend Transform pose_of(const World& world, BodyHandle body);
   explicit World(std::unique_ptr<Impl> impl);

@@ -185,6 +185,12 @@ void check(RefusalFinder& find, const EventSettings& settings) {
   find.within("hit_speed", settings.hit_speed, SolverVelocity{}, k_most_hit_speed, "m/s");
 }
 
+void check(RefusalFinder& find, const PairSurface& surface) {
+  find.within("surface.friction", surface.friction, Coefficient{}, k_most_friction);
+  find.within("surface.restitution", surface.restitution, Coefficient{}, k_one);
+  find.within("surface.rolling_resistance", surface.rolling_resistance, Coefficient{}, k_one);
+}
+
 void check(RefusalFinder& find, const Fluid& fluid) {
   constexpr Position k_least = Position::from_raw(1);
   find.within("fluid.surface", fluid.surface, k_world_limit, "m");

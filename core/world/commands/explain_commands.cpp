@@ -5,6 +5,7 @@
 
 #include "core/dynamics/body/tick_gain.h"
 #include "core/dynamics/state/limits.h"
+#include "core/dynamics/state/one_way_bits.h"
 #include "core/geometry/convex/shape_properties.h"
 #include "core/math/rotation_log.h"
 #include "core/world/commands/body_changes.h"
@@ -12,6 +13,7 @@
 #include "core/world/commands/command_executor.h"
 #include "core/world/commands/joint_checks.h"
 #include "core/world/commands/refusal_finder.h"
+#include "core/world/commands/rule_changes.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/world_impl.h"
 
@@ -200,6 +202,30 @@ class CommandExplainer::Properties {
   void of(const SetFluid& c) {
     on_.find.within("number", c.number, 0U, k_max_fluids - 1);
     if (c.fluid.density != Density{}) check(on_.find, c.fluid);
+  }
+  void of(const SetOneWay& c) {
+    const BodyRecord* record = on_.body(c.body);
+    if (record == nullptr) return;
+    on_.require_motion(*record, !record->is_dynamic(), "static or kinematic");
+    if (c.one_way.direction != Vec3<Unit>{})
+      on_.find.within("one_way.tolerance", std::uint32_t{c.one_way.tolerance}, 1U,
+                      k_most_one_way_degrees);
+  }
+  void of(const SetPairRule& c) {
+    if (on_.body(c.a) == nullptr || on_.body(c.b) == nullptr) return;
+    on_.find.require(c.a != c.b, "b", "the same body as a", "another body");
+    if (c.rule.surface) check(on_.find, *c.rule.surface);
+    const bool removes = c.rule == PairRule{};
+    on_.find.require(removes || has_room_for_rule(on_.impl, rule_key(c.a.index, c.b.index)), "rule",
+                     "one more than there is room for",
+                     "one of at most " + std::to_string(k_max_pair_rules));
+  }
+  void of(const SetSurfaceRule& c) {
+    if (!c.surface) return;
+    check(on_.find, *c.surface);
+    on_.find.require(has_room_for_surface_rule(on_.impl, rule_key(c.tag_a, c.tag_b)), "surface",
+                     "one more than there is room for",
+                     "one of at most " + std::to_string(k_max_surface_rules));
   }
   void of(const SetGravity& c) {
     on_.find.within("gravity", c.gravity, Acceleration::from_integer(1000), "m/s²");

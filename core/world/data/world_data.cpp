@@ -106,7 +106,7 @@ bool WorldData::are_joined(std::uint32_t a, std::uint32_t b) const {
 bool WorldData::is_obstacle(std::uint32_t body, std::uint32_t other) const {
   const BodyRecord& obstacle = bodies[other];
   return !obstacle.is_trigger() && should_collide(bodies[body].filter(), obstacle.filter()) &&
-         !are_joined(body, other);
+         !are_exempt(body, other);
 }
 
 }  // namespace lockstone

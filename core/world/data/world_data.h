@@ -19,6 +19,7 @@
 #include "core/dynamics/state/contact_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/time_step.h"
+#include "core/world/data/rule_tables.h"
 #include "core/world/debug/profiler.h"
 #include "core/world/derived/body_cache.h"
 #include "core/world/derived/index_set.h"
@@ -57,7 +58,7 @@ struct FluidData {
   std::vector<SavedRest> rests;                  // scratch of that phase
 };
 
-struct WorldData : FluidData {
+struct WorldData : FluidData, RuleTables {
   /// No function but this allocates.
   [[gnu::cold]] WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -90,6 +91,16 @@ struct WorldData : FluidData {
   [[nodiscard]] std::optional<Pair> exempt_pair(const JointRecord& joint) const;
   /// Whether a joint exempts the two from collision.
   [[nodiscard]] bool are_joined(std::uint32_t a, std::uint32_t b) const;
+  /// Whether a rule keeps the two from meeting.
+  [[nodiscard]] bool are_ignored(std::uint32_t a, std::uint32_t b) const {
+    if (header.pair_rule_count == 0) return false;
+    const PairRuleRecord* rule = find_rule(pair_rules_of(*this, header), rule_key(a, b));
+    return rule != nullptr && rule->is_ignored();
+  }
+  /// Whether a joint or a rule keeps the two from meeting.
+  [[nodiscard]] bool are_exempt(std::uint32_t a, std::uint32_t b) const {
+    return are_joined(a, b) || are_ignored(a, b);
+  }
   /// Whether a body's path may end at another, as far as filters and joints decide.
   [[nodiscard]] bool is_obstacle(std::uint32_t body, std::uint32_t other) const;
   /// Lists the joints with an awake body again, if any slept, woke, came or went.
@@ -120,7 +131,15 @@ struct WorldData : FluidData {
 
   template <class F>
   void visit(FluidStore, F&& f) const {
-    f(std::span(fluids).first(std::min(header.fluid_limit, k_max_fluids)));
+    f(std::span(fluids).first(std::min<std::size_t>(header.fluid_limit, k_max_fluids)));
+  }
+  template <class F>
+  void visit(PairRuleStore, F&& f) const {
+    f(pair_rules_of(*this, header));
+  }
+  template <class F>
+  void visit(SurfaceRuleStore, F&& f) const {
+    f(surface_rules_of(*this, header));
   }
 
   const WorldDef def;

@@ -49,7 +49,7 @@ void WorldDrawing::find_all_islands() {
     if (world_.bodies[a].is_dynamic() && world_.bodies[b].is_dynamic()) world_.islands.join(a, b);
   };
   world_.for_each_contact([&](const ContactRecord& contact) {
-    if (!contact.is_trigger()) tie(contact.body_a, contact.body_b);
+    if (!contact.is_inert()) tie(contact.body_a, contact.body_b);
   });
   for (const JointLink& joint : world_.joint_graph.links())
     tie(joint.body_a, joint.body_b);
@@ -124,7 +124,7 @@ void WorldDrawing::draw_contacts(DebugDraw& out) {
   PairScratch& scratch = world_.narrow.scratch();
   Pair collided;
   world_.for_each_contact([&](const ContactRecord& record) {
-    if (record.is_trigger()) return;
+    if (record.is_inert()) return;
     const Pair pair{record.body_a, record.body_b};
     if (pair != collided) {
       collide_bodies(world_.placed(pair.a), world_.placed(pair.b), world_.narrow.margin_of(pair),

@@ -51,6 +51,10 @@ void StateLoader::load(const WorldHeader& loaded, State&& state) {
   world_.fluids = {};
   for (std::uint32_t i = 0; i < loaded.fluid_limit; ++i)
     state.template read<FluidStore>(i, world_.fluids[i]);
+  for (std::uint32_t i = 0; i < loaded.pair_rule_count; ++i)
+    state.template read<PairRuleStore>(i, world_.pair_rules[i]);
+  for (std::uint32_t i = 0; i < loaded.surface_rule_count; ++i)
+    state.template read<SurfaceRuleStore>(i, world_.surface_rules[i]);
   world_.header = loaded;
   world_.fluid_phase = linked_fluid_phase;
   const auto read_contacts = [&](std::span<ContactRecord> to) {

@@ -111,6 +111,14 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_allow_sleep(NULL, body, 1));
   NULLED(lks_set_gravity(NULL, &v));
   NULLED(lks_set_gravity(world, NULL));
+  NULLED(lks_set_pair_rule(NULL, 0, 0, 1, NULL));
+  NULLED(lks_pair_rule_get(NULL, 0, 0, NULL, NULL, NULL));
+  NULLED(lks_set_surface_rule(NULL, 0, 0, NULL));
+  NULLED(lks_surface_rule_get(NULL, 0, 0, NULL, NULL));
+  NULLED(lks_surface_rule_get(world, 0, 0, NULL, NULL));
+  NULLED(lks_set_one_way(NULL, 0, NULL, 0));
+  NULLED(lks_set_one_way(world, 0, NULL, 0));
+  NULLED(lks_one_way_get(NULL, 0, NULL, NULL));
   NULLED(lks_fluid_init(NULL, sizeof(lks_fluid)));
   NULLED(lks_set_fluid(NULL, 0, NULL));
   NULLED(lks_set_fluid(world, 0, NULL));

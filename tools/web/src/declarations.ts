@@ -110,6 +110,7 @@ export const lks_filter = { $bytes: 12, category: 0, mask: 4, group: 8 } as cons
 export const lks_body_def = { $bytes: 272, size: 0, motion: 4, shape: 8, position: 32, velocity: 56, angular_velocity: 80, orientation: 104, surface: 120, density: 148, surface_motion: 152, filter: 176, gravity_scale: 188, linear_damping: 192, angular_damping: 196, flags: 200, locks: 204, speed_limit: 208, angular_speed_limit: 216, user_data: 224, events: 232, hit_speed: 236, mass: 240, inertia: 248 } as const;
 export const lks_body_view = { $bytes: 312, size: 0, motion: 4, shape: 8, position: 32, centre_of_mass: 56, velocity: 80, angular_velocity: 104, orientation: 128, surface: 144, filter: 172, flags: 184, locks: 188, mass: 192, user_data: 200, events: 208, hit_speed: 212, inertia: 216, principal_axes: 240, surface_motion: 256, gravity_scale: 280, linear_damping: 284, angular_damping: 288, reserved: 292, speed_limit: 296, angular_speed_limit: 304 } as const;
 export const lks_fluid = { $bytes: 112, size: 0, mask: 4, surface: 8, extents: 32, flow: 56, orientation: 80, density: 96, drag: 100, linear_drag: 104, reserved: 108 } as const;
+export const lks_pair_surface = { $bytes: 12, friction: 0, restitution: 4, rolling_resistance: 8 } as const;
 export const lks_axis = { $bytes: 40, mode: 0, lower: 4, upper: 8, target: 12, speed: 16, hertz: 20, damping_ratio: 24, reserved: 28, max_effort: 32 } as const;
 export const lks_joint_frame = { $bytes: 28, position: 0, orientation: 12 } as const;
 export const lks_joint_def = { $bytes: 400, size: 0, kind: 4, body_a: 8, body_b: 16, frame_a: 24, frame_b: 52, linear: 80, angular: 200, ground_a: 320, ground_b: 344, ratio: 368, collide: 372, break_force: 376, break_torque: 384, user_data: 392 } as const;
@@ -189,6 +190,12 @@ export interface Functions {
   lks_fluid_init(fluid: number, size: number): number;
   lks_set_fluid(world: number, number: number, fluid: number): number;
   lks_fluid_get(world: number, number: number, out: number): number;
+  lks_set_pair_rule(world: number, a: bigint, b: bigint, collides: number, surface: number): number;
+  lks_pair_rule_get(world: number, a: bigint, b: bigint, collides: number, has_surface: number, surface: number): number;
+  lks_set_surface_rule(world: number, tag_a: number, tag_b: number, surface: number): number;
+  lks_surface_rule_get(world: number, tag_a: number, tag_b: number, has_surface: number, surface: number): number;
+  lks_set_one_way(world: number, body: bigint, direction: number, tolerance: number): number;
+  lks_one_way_get(world: number, body: bigint, direction: number, tolerance: number): number;
   lks_set_name(world: number, body: bigint, name: number): number;
   lks_body_exists(world: number, body: bigint, out: number): number;
   lks_body_get(world: number, body: bigint, out: number): number;

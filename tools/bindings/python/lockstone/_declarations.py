@@ -307,6 +307,14 @@ class lks_fluid(Structure):
     ]
 
 
+class lks_pair_surface(Structure):
+    _fields_ = [
+        ("friction", c_int32),
+        ("restitution", c_int32),
+        ("rolling_resistance", c_int32),
+    ]
+
+
 class lks_client_def(Structure):
     _fields_ = [
         ("size", c_uint32),
@@ -844,6 +852,12 @@ FUNCTIONS = {
     "lks_fluid_init": [c_int32, POINTER(lks_fluid), c_size_t],
     "lks_set_fluid": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
     "lks_fluid_get": [c_int32, c_void_p, c_uint32, POINTER(lks_fluid)],
+    "lks_set_pair_rule": [c_int32, c_void_p, c_uint64, c_uint64, c_uint32, POINTER(lks_pair_surface)],
+    "lks_pair_rule_get": [c_int32, c_void_p, c_uint64, c_uint64, POINTER(c_uint32), POINTER(c_uint32), POINTER(lks_pair_surface)],
+    "lks_set_surface_rule": [c_int32, c_void_p, c_uint32, c_uint32, POINTER(lks_pair_surface)],
+    "lks_surface_rule_get": [c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_uint32), POINTER(lks_pair_surface)],
+    "lks_set_one_way": [c_int32, c_void_p, c_uint64, POINTER(lks_i32x3), c_uint32],
+    "lks_one_way_get": [c_int32, c_void_p, c_uint64, POINTER(lks_i32x3), POINTER(c_uint32)],
     "lks_set_name": [c_int32, c_void_p, c_uint64, c_char_p],
     "lks_body_exists": [c_int32, c_void_p, c_uint64, POINTER(c_uint32)],
     "lks_body_get": [c_int32, c_void_p, c_uint64, POINTER(lks_body_view)],

@@ -73,6 +73,10 @@ class BodyView(ctypes.Structure):
                 ("angular_speed_limit", c_int64)]
 
 
+class PairSurface(ctypes.Structure):
+    _fields_ = [("friction", c_int32), ("restitution", c_int32), ("rolling_resistance", c_int32)]
+
+
 class Fluid(ctypes.Structure):
     _fields_ = [("size", c_uint32), ("mask", c_uint32), ("surface", I64x3), ("extents", I64x3), ("flow", I64x3),
                 ("orientation", Quat), ("density", c_int32), ("drag", c_int32), ("linear_drag", c_int32),
@@ -171,6 +175,9 @@ _CALLS = {
     "lks_sleep_body": [_WORLD, _BODY],
     "lks_set_allow_sleep": [_WORLD, _BODY, c_uint32],
     "lks_set_gravity": [_WORLD, POINTER(I64x3)],
+    "lks_set_pair_rule": [_WORLD, _BODY, _BODY, c_uint32, POINTER(PairSurface)],
+    "lks_set_surface_rule": [_WORLD, c_uint32, c_uint32, POINTER(PairSurface)],
+    "lks_set_one_way": [_WORLD, _BODY, POINTER(I32x3), c_uint32],
     "lks_fluid_init": [POINTER(Fluid), c_size_t],
     "lks_set_fluid": [_WORLD, c_uint32, POINTER(Fluid)],
     "lks_fluid_get": [_WORLD, c_uint32, POINTER(Fluid)],

@@ -113,6 +113,14 @@ namespace Lockstone.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct lks_pair_surface
+    {
+        public int friction;
+        public int restitution;
+        public int rolling_resistance;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct lks_client_def
     {
         public uint size;
@@ -977,6 +985,24 @@ namespace Lockstone.Interop
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_fluid_get(IntPtr world, uint number, lks_fluid* @out);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_pair_rule(IntPtr world, ulong a, ulong b, uint collides, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_pair_rule_get(IntPtr world, ulong a, ulong b, uint* collides, uint* has_surface, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_surface_rule(IntPtr world, uint tag_a, uint tag_b, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_surface_rule_get(IntPtr world, uint tag_a, uint tag_b, uint* has_surface, lks_pair_surface* surface);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_set_one_way(IntPtr world, ulong body, lks_i32x3* direction, uint tolerance);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int lks_one_way_get(IntPtr world, ulong body, lks_i32x3* direction, uint* tolerance);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int lks_set_name(IntPtr world, ulong body, byte* name);

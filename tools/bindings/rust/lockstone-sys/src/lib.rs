@@ -352,6 +352,13 @@ pub struct lks_fluid {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct lks_pair_surface {
+    pub friction: lks_unit,
+    pub restitution: lks_unit,
+    pub rolling_resistance: lks_unit,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct lks_client_def {
     pub size: u32,
     pub insecure: u32,
@@ -873,6 +880,12 @@ extern "C" {
     pub fn lks_fluid_init(fluid: *mut lks_fluid, size: usize) -> lks_status;
     pub fn lks_set_fluid(world: *mut lks_world, number: u32, fluid: *const lks_fluid) -> lks_status;
     pub fn lks_fluid_get(world: *const lks_world, number: u32, out: *mut lks_fluid) -> lks_status;
+    pub fn lks_set_pair_rule(world: *mut lks_world, a: lks_body, b: lks_body, collides: u32, surface: *const lks_pair_surface) -> lks_status;
+    pub fn lks_pair_rule_get(world: *const lks_world, a: lks_body, b: lks_body, collides: *mut u32, has_surface: *mut u32, surface: *mut lks_pair_surface) -> lks_status;
+    pub fn lks_set_surface_rule(world: *mut lks_world, tag_a: u32, tag_b: u32, surface: *const lks_pair_surface) -> lks_status;
+    pub fn lks_surface_rule_get(world: *const lks_world, tag_a: u32, tag_b: u32, has_surface: *mut u32, surface: *mut lks_pair_surface) -> lks_status;
+    pub fn lks_set_one_way(world: *mut lks_world, body: lks_body, direction: *const lks_unit3, tolerance: u32) -> lks_status;
+    pub fn lks_one_way_get(world: *const lks_world, body: lks_body, direction: *mut lks_unit3, tolerance: *mut u32) -> lks_status;
     pub fn lks_set_name(world: *mut lks_world, body: lks_body, name: *const c_char) -> lks_status;
     pub fn lks_body_exists(world: *const lks_world, body: lks_body, out: *mut u32) -> lks_status;
     pub fn lks_body_get(world: *const lks_world, body: lks_body, out: *mut lks_body_view) -> lks_status;
