@@ -35,7 +35,7 @@ struct PairRule {
 
 /// A body that stops others from one side only: a platform that one can jump onto from below.
 struct OneWay {
-  /// Points out of the front, in the axes of the body's shape; any length. Kept to a quarter of a
+  /// Points out of the front, in the axes of the body's shape; any length. Kept to a third of a
   /// degree. Zero: the body stops others from every side.
   Vec3<Unit> direction{};
   /// Degrees, 1 … 90: a contact holds while its normal is at most as far from the direction.

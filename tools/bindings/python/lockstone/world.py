@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
-from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I64x3, JointDef, Pose, Quat, Shape, WorldDef, lib)
+from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I32x3, I64x3, JointDef, PairSurface, Pose, Quat, Shape, WorldDef, lib)
 from .shapes import Assets, lengths
 from .units import Quantity, Rotation, Vector
 
@@ -22,6 +22,16 @@ Exact = Tuple[Fraction, Fraction, Fraction]
 
 def _wide(vector: Vector, bits: int) -> I64x3:
     return I64x3(*(units.raw(value, bits) for value in vector))
+
+
+def _narrow(vector: Vector, bits: int) -> I32x3:
+    return I32x3(*(units.raw(value, bits, 32) for value in vector))
+
+
+def _pair_surface(surface: Optional[Tuple[Quantity, ...]]) -> Any:
+    if surface is None:
+        return None
+    return byref(PairSurface(*(units.raw(value, units.UNIT, 32) for value in surface)))
 
 
 def _quat(rotation: Rotation) -> Quat:
@@ -173,6 +183,10 @@ class Body:
     def set_events(self, *, contacts: bool = True, hit_speed: Quantity = 0) -> None:
         self._call("lks_set_events", int(contacts), units.raw(hit_speed, units.SPEED, 32))
 
+    def set_one_way(self, direction: Vector, tolerance: int = 60) -> None:
+        """A static or kinematic body stops others from the side of the direction only, in the axes of its shape."""
+        self._call("lks_set_one_way", byref(_narrow(direction, units.UNIT)), tolerance)
+
     def set_motion_type(self, motion: int, mass: Quantity = 0) -> None:
         """A body that becomes dynamic gets the mass, in kg; 0: that of its solid at 1000 kg/m³."""
         self._call("lks_set_motion_type", motion, units.raw(mass, units.MASS, 64))
@@ -293,6 +307,15 @@ class World:
         fluid.drag = units.raw(drag, units.NUMBER, 32)
         fluid.linear_drag = units.raw(linear_drag, units.RATE, 32)
         lib.lks_set_fluid(self.handle, number, byref(fluid))
+
+    def set_pair_rule(self, a: "Body", b: "Body", *, collides: bool = True,
+                      surface: Optional[Tuple[Quantity, ...]] = None) -> None:
+        """Whether two bodies meet, and friction, restitution, rolling resistance of their contacts."""
+        lib.lks_set_pair_rule(self.handle, a.number, b.number, int(collides), _pair_surface(surface))
+
+    def set_surface_rule(self, tag_a: int, tag_b: int, surface: Optional[Tuple[Quantity, ...]]) -> None:
+        """Friction, restitution, rolling resistance of all contacts between two tags; None takes the rule back."""
+        lib.lks_set_surface_rule(self.handle, tag_a, tag_b, _pair_surface(surface))
 
     def create_body(self, shape: Shape, *, motion: int = DYNAMIC, position: Vector = (0, 0, 0),
                     orientation: Rotation = (0, 0, 0, 1), velocity: Vector = (0, 0, 0),
