@@ -239,6 +239,20 @@ void CommandDice::fill(SetOneWay& c) {
   if (!chance(3)) c.one_way.direction = {number(Unit(1_r)), Unit(1_r), {}};
   c.one_way.tolerance = static_cast<std::uint8_t>(random_.below(goes_wild() ? 256 : 91));
 }
+void CommandDice::fill(SetVehicle& c) {
+  c.chassis = body();
+  if (chance(4)) return;
+  c.def = make_car(2.4_m, 0.7_m, {}, Torque::from_integer(300));
+  if (goes_wild()) c.def->axle_count = static_cast<std::uint32_t>(random_.below(5));
+  if (goes_wild()) c.def->axles[0].radius = number(Length(1_m));
+  if (goes_wild()) c.def->engine.max_speed = number(AngularVelocity::from_integer(9000));
+}
+void CommandDice::fill(DriveVehicle& c) {
+  c.chassis = body();
+  const Unit one = Unit::from_integer(1);
+  c.controls = {number(one), number(one), number(one), number(one), number(one), 1};
+  if (chance(3)) c.controls.gear = random_.between(-2, 9);
+}
 void CommandDice::fill(WakeBody& c) {
   c.body = body();
 }

@@ -155,6 +155,12 @@ Command sample(Tag<SetSurfaceRule>, BodyHandle, Random& random) {
 Command sample(Tag<SetOneWay>, BodyHandle body, Random&) {
   return SetOneWay{body, {.direction = {{}, Unit::from_integer(1), {}}}};
 }
+Command sample(Tag<SetVehicle>, BodyHandle body, Random&) {
+  return SetVehicle{body, make_car(2_m, 0.5_m, {}, Torque::from_integer(100))};
+}
+Command sample(Tag<DriveVehicle>, BodyHandle body, Random&) {
+  return DriveVehicle{body, {.throttle = Unit::from_integer(1)}};
+}
 Command sample(Tag<WakeBody>, BodyHandle body, Random&) {
   return WakeBody{body};
 }

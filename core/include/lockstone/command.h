@@ -9,6 +9,7 @@
 #include <lockstone/fluid.h>
 #include <lockstone/joint.h>
 #include <lockstone/rules.h>
+#include <lockstone/vehicle.h>
 
 namespace lockstone {
 
@@ -244,6 +245,19 @@ struct SetOneWay {
   OneWay one_way{};
 };
 
+/// Makes a dynamic body the chassis of a vehicle that stands still, or without a definition takes its
+/// wheels away. capacity_exhausted beyond WorldDef::vehicle_capacity.
+struct SetVehicle {
+  BodyHandle chassis{};
+  std::optional<VehicleDef> def{};
+};
+
+/// Until the next one. invalid_argument for a body that is no chassis.
+struct DriveVehicle {
+  BodyHandle chassis{};
+  VehicleControls controls{};
+};
+
 // clang-format off
 #define LKS_COMMANDS(X) \
   X(CreateBody) X(DestroyBody) X(Teleport) X(SetVelocity) X(SetAngularVelocity) \
@@ -254,7 +268,8 @@ struct SetOneWay {
   X(CreateJoint) X(DestroyJoint) X(SetLinearAxis) X(SetAngularAxis) \
   X(SetEvents) \
   X(SetMotionType) X(SetShape) X(SetMassData) X(SetEnabled) \
-  X(SetFluid) X(SetPairRule) X(SetSurfaceRule) X(SetOneWay)
+  X(SetFluid) X(SetPairRule) X(SetSurfaceRule) X(SetOneWay) \
+  X(SetVehicle) X(DriveVehicle)
 // clang-format on
 
 #define LKS_COMMAND_ALTERNATIVE(Name) , Name

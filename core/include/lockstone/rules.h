@@ -13,7 +13,7 @@ struct BodyHandle;
 class World;
 
 /// The most rules of each kind in a world.
-inline constexpr std::uint32_t k_max_pair_rules = 512;
+inline constexpr std::uint32_t k_max_pair_rules = 255;
 inline constexpr std::uint32_t k_max_surface_rules = 128;
 
 /// The surface of a contact, in place of the one that combines both sides.

@@ -143,6 +143,7 @@ Status BodyRegistry::destroy(BodyHandle body) {
   waking_.disturb(index);
   joints_.destroy_all_of(index);
   forget_rules_of(world_, index);
+  forget_vehicle_of(world_, index);
   flags_.forget(index);
   drop_contacts_of(index);
   world_.broad_phase.remove(index);

@@ -15,6 +15,7 @@
 #include "core/world/commands/refusal_finder.h"
 #include "core/world/commands/rule_changes.h"
 #include "core/world/derived/quantities.h"
+#include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/world_impl.h"
 
 namespace lockstone {
@@ -202,6 +203,21 @@ class CommandExplainer::Properties {
   void of(const SetFluid& c) {
     on_.find.within("number", c.number, 0U, k_max_fluids - 1);
     if (c.fluid.density != Density{}) check(on_.find, c.fluid);
+  }
+  void of(const SetVehicle& c) {
+    const BodyRecord* record = on_.body(c.chassis);
+    if (record == nullptr || !c.def) return;
+    on_.require_motion(*record, record->is_dynamic(), "dynamic");
+    on_.find.require(is_valid(*c.def), "def", "a number out of its range",
+                     "within the ranges of lockstone/vehicle.h");
+    on_.find.require(can_be_chassis(on_.impl, c.chassis.index), "def", "one more vehicle",
+                     "one of WorldDef::vehicle_capacity, " +
+                         std::to_string(on_.impl.def.vehicle_capacity));
+  }
+  void of(const DriveVehicle& c) {
+    if (on_.body(c.chassis) == nullptr) return;
+    on_.find.require(find_vehicle(on_.impl, c.chassis.index) != nullptr, "chassis",
+                     "a body without wheels", "the chassis of a vehicle");
   }
   void of(const SetOneWay& c) {
     const BodyRecord* record = on_.body(c.body);

@@ -1,4 +1,4 @@
-// Checks and changes of the rules about pairs.
+// Checks and changes of the rules about pairs, and of vehicles.
 #pragma once
 
 #include <cstdint>
@@ -14,5 +14,13 @@ namespace lockstone {
 
 /// Removes the rules that name a body.
 void forget_rules_of(WorldData& world, std::uint32_t body);
+
+/// Removes the vehicle of a chassis, if there is one.
+void forget_vehicle_of(WorldData& world, std::uint32_t body);
+/// Null for a body that is no chassis.
+[[nodiscard]] VehicleRecord* find_vehicle(WorldData& world, std::uint32_t body);
+[[nodiscard]] const VehicleRecord* find_vehicle(const WorldData& world, std::uint32_t body);
+/// Whether the body is dynamic and there is room for its vehicle.
+[[nodiscard]] bool can_be_chassis(const WorldData& world, std::uint32_t body);
 
 }  // namespace lockstone

@@ -1,6 +1,7 @@
 // The commands that set rules about pairs.
 
 #include <algorithm>
+#include <utility>
 
 #include "core/dynamics/state/one_way_bits.h"
 #include "core/geometry/convex/shape_properties.h"
@@ -90,7 +91,27 @@ void forget_rules_of(WorldData& world, std::uint32_t body) {
     return record.body_a == body || record.body_b == body;
   });
   std::fill(kept, end, PairRuleRecord{});
-  world.header.pair_rule_count = static_cast<std::uint16_t>(kept - world.pair_rules.begin());
+  world.header.pair_rule_count = static_cast<std::uint8_t>(kept - world.pair_rules.begin());
+}
+
+void forget_vehicle_of(WorldData& world, std::uint32_t body) {
+  VehicleRecord* vehicle = find_vehicle(world, body);
+  if (vehicle == nullptr) return;
+  const auto end = world.vehicles.begin() + world.header.vehicle_count;
+  std::copy(world.vehicles.begin() + (vehicle - world.vehicles.data()) + 1, end,
+            world.vehicles.begin() + (vehicle - world.vehicles.data()));
+  world.vehicles[--world.header.vehicle_count] = {};
+}
+
+const VehicleRecord* find_vehicle(const WorldData& world, std::uint32_t body) {
+  const auto all = std::span(world.vehicles).first(world.header.vehicle_count);
+  const auto at = std::ranges::lower_bound(all, body, {}, &VehicleRecord::chassis);
+  return at != all.end() && at->chassis == body ? &*at : nullptr;
+}
+
+VehicleRecord* find_vehicle(WorldData& world, std::uint32_t body) {
+  const VehicleRecord* found = find_vehicle(std::as_const(world), body);
+  return found == nullptr ? nullptr : &world.vehicles[static_cast<std::size_t>(found - world.vehicles.data())];
 }
 
 Status CommandExecutor::execute(const SetPairRule& command) {
@@ -102,7 +123,7 @@ Status CommandExecutor::execute(const SetPairRule& command) {
   std::uint32_t count = world_.header.pair_rule_count;
   if (!set_record(world_.pair_rules, count, record, record.flags != 0))
     return Status::capacity_exhausted;
-  world_.header.pair_rule_count = static_cast<std::uint16_t>(count);
+  world_.header.pair_rule_count = static_cast<std::uint8_t>(count);
   world_.waking.disturb(command.a.index);
   world_.waking.disturb(command.b.index);
   return Status::ok;

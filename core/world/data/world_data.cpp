@@ -26,6 +26,7 @@ WorldData::WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet>
              RecordHashes<JointRecord, k_joint_domain>(definition.joint_capacity)} {
   header.gravity = definition.gravity;
   rests.reserve(definition.body_capacity);
+  vehicles.resize(definition.vehicle_capacity);
 }
 
 const BodyRecord* WorldData::find(BodyHandle body) const {

@@ -19,6 +19,7 @@
 #include "core/dynamics/state/contact_record.h"
 #include "core/dynamics/state/joint_record.h"
 #include "core/dynamics/state/time_step.h"
+#include "core/dynamics/state/vehicle_record.h"
 #include "core/world/data/rule_tables.h"
 #include "core/world/debug/profiler.h"
 #include "core/world/derived/body_cache.h"
@@ -41,6 +42,7 @@ struct StoreHashes {
 };
 
 struct FluidPhase;
+struct VehiclePhase;
 
 /// The rest of a body that fluids push in the tick, which the push takes the place of.
 struct SavedRest {
@@ -58,7 +60,13 @@ struct FluidData {
   std::vector<SavedRest> rests;                  // scratch of that phase
 };
 
-struct WorldData : FluidData, RuleTables {
+/// The vehicles of a world.
+struct VehicleData {
+  std::vector<VehicleRecord> vehicles;           // canonical state: the first header.vehicle_count
+  const VehiclePhase* vehicle_phase = nullptr;   // derived: null only without vehicles
+};
+
+struct WorldData : FluidData, RuleTables, VehicleData {
   /// No function but this allocates.
   [[gnu::cold]] WorldData(const WorldDef& definition, std::shared_ptr<const AssetSet> known_assets);
 
@@ -140,6 +148,10 @@ struct WorldData : FluidData, RuleTables {
   template <class F>
   void visit(SurfaceRuleStore, F&& f) const {
     f(surface_rules_of(*this, header));
+  }
+  template <class F>
+  void visit(VehicleStore, F&& f) const {
+    f(std::span(vehicles).first(std::min<std::size_t>(header.vehicle_count, vehicles.size())));
   }
 
   const WorldDef def;

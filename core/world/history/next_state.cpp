@@ -173,6 +173,7 @@ bool write_next_state(const WorldData& world, const ComputedBodies& computed,
     to.put(rule);
   for (const SurfaceRuleRecord& rule : surface_rules_of(world, header))
     to.put(rule);
+  LKS_ASSERT(header.vehicle_count == 0);  // such a world is computed whole
   next.after.set_size(to.size());
   std::memcpy(next.after.out().data(), &header, sizeof(header));
   return true;

@@ -36,6 +36,9 @@ class Namer {
   [[nodiscard]] std::string name_of(PairRuleStore, std::uint32_t, const PairRuleRecord& r) const {
     return end(r.body_a) + '-' + end(r.body_b);
   }
+  [[nodiscard]] std::string name_of(VehicleStore, std::uint32_t, const VehicleRecord& v) const {
+    return end(v.chassis);
+  }
   [[nodiscard]] std::string name_of(SurfaceRuleStore, std::uint32_t,
                                     const SurfaceRuleRecord& r) const {
     return std::to_string(r.tag_a) + '-' + std::to_string(r.tag_b);

@@ -49,6 +49,8 @@ bool World::flip_bit(std::string_view store, std::uint64_t object, std::string_v
     return flip_in(world.pair_rules[index], field, bit);
   if (store == SurfaceRuleStore::k_name && object < world.header.surface_rule_count)
     return flip_in(world.surface_rules[index], field, bit);
+  if (store == VehicleStore::k_name && object < world.header.vehicle_count)
+    return flip_in(world.vehicles[index], field, bit);
   return false;
 }
 

@@ -1,5 +1,7 @@
 // Validity of a stored state: bytes from anywhere are checked whole before they are used.
 
+#include <algorithm>
+
 #include <lockstone/hash.h>
 
 #include "core/dynamics/body/inertia.h"
@@ -10,6 +12,7 @@
 #include "core/world/commands/command_checks.h"
 #include "core/world/derived/quantities.h"
 #include "core/world/phases/fluids.h"
+#include "core/world/phases/vehicle/vehicle_phase.h"
 #include "core/world/state/record_checks.h"
 #include "core/world/state/record_codec.h"
 #include "core/world/state/snapshot_format.h"
@@ -156,6 +159,26 @@ Status validate(const SurfaceRuleRecord& record) {
                                                                     : Status::malformed;
 }
 
+// Its settings and controls are those that a definition makes.
+Status validate(const VehicleRecord& record) {
+  const VehicleDef def = def_of(record);
+  if (record.axle_count != def.axle_count || !is_valid(def)) return Status::malformed;
+  VehicleRecord same = record_of(record.chassis, def);
+  set_controls(same, controls_of(record));
+  for (std::size_t i = 0; i < std::size_t{2} * record.axle_count; ++i)
+    same.wheels[i] = record.wheels[i];
+  same.engine_speed = record.engine_speed;
+  same.gear = record.gear;
+  same.shifting = record.shifting;
+  const bool has_gear = record.gear >= -1 && record.gear <= static_cast<int>(k_max_gears) &&
+                        record.shifting <= record.shift_ticks &&
+                        record.engine_speed >= AngularVelocity{};
+  const bool has_wheels = std::ranges::all_of(record.wheels, [](const WheelRecord& wheel) {
+    return wheel.is_grounded <= 1 && wheel.load >= Force{};
+  });
+  return same == record && has_gear && has_wheels ? Status::ok : Status::malformed;
+}
+
 Status validate(const ContactRecord& record, const BodyRecord& a, const BodyRecord& b) {
   const bool ordered = a.moves() && b.exists() && (!b.moves() || record.body_a < record.body_b);
   const bool known = (record.flags & ~k_all_contact_flags) == 0;
@@ -250,6 +273,18 @@ Status SnapshotView::check(SurfaceRuleStore) const {
     const auto rule = record<SurfaceRuleStore>(i);
     if (validate(rule) != Status::ok) return Status::malformed;
     if (i > 0 && record<SurfaceRuleStore>(i - 1).key() >= rule.key()) return Status::malformed;
+  }
+  return Status::ok;
+}
+
+Status SnapshotView::check(VehicleStore) const {
+  if (header.vehicle_count != 0 && linked_vehicle_phase == nullptr) return Status::incompatible;
+  for (std::uint32_t i = 0; i < header.vehicle_count; ++i) {
+    const auto vehicle = record<VehicleStore>(i);
+    if (validate(vehicle) != Status::ok) return Status::malformed;
+    if (vehicle.chassis >= header.body_limit || !body(vehicle.chassis).exists())
+      return Status::malformed;
+    if (i > 0 && record<VehicleStore>(i - 1).key() >= vehicle.key()) return Status::malformed;
   }
   return Status::ok;
 }

@@ -45,6 +45,7 @@ class SnapshotView {
   [[nodiscard]] Status check(FluidStore) const;
   [[nodiscard]] Status check(PairRuleStore) const;
   [[nodiscard]] Status check(SurfaceRuleStore) const;
+  [[nodiscard]] Status check(VehicleStore) const;
 
   const AssetSet* assets_ = nullptr;
   StoredRecords<WorldStores> records_;

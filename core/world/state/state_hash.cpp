@@ -33,10 +33,11 @@ std::uint64_t sum_of_hashes(const WorldData& world) {
   return sum;
 }
 
-// Fluids and rules count with the header; where there are none, it is hashed alone.
+// Fluids, rules and vehicles count with the header; where there are none, it is hashed alone.
 std::uint64_t hash_of_header(const WorldData& world) {
   return hash_record(world.header, 0) + sum_of_hashes<FluidStore>(world) +
-         sum_of_hashes<PairRuleStore>(world) + sum_of_hashes<SurfaceRuleStore>(world);
+         sum_of_hashes<PairRuleStore>(world) + sum_of_hashes<SurfaceRuleStore>(world) +
+         sum_of_hashes<VehicleStore>(world);
 }
 
 template <class Store, class State>
@@ -74,7 +75,8 @@ StateHash World::hash() const {
 StateHash128 World::hash128() const {
   StateHash128 hash;
   hash.header = hash_record128(impl_->header, 0) + sum_of<FluidStore>(*impl_) +
-                sum_of<PairRuleStore>(*impl_) + sum_of<SurfaceRuleStore>(*impl_);
+                sum_of<PairRuleStore>(*impl_) + sum_of<SurfaceRuleStore>(*impl_) +
+                sum_of<VehicleStore>(*impl_);
   hash.bodies = sum_of<BodyStore>(*impl_);
   hash.contacts = sum_of<ContactStore>(*impl_);
   hash.joints = sum_of<JointStore>(*impl_);

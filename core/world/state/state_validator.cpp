@@ -84,6 +84,13 @@ WorldFault StateValidator::fault_of_rules() const {
     if (rule.body_b >= world_.header.body_limit || !world_.bodies[rule.body_a].exists() ||
         !world_.bodies[rule.body_b].exists())
       return {"a rule of no body", rule.body_b};
+  for (std::uint32_t i = 0; i < world_.header.vehicle_count; ++i) {
+    const VehicleRecord& vehicle = world_.vehicles[i];
+    if (validate(vehicle) != Status::ok || vehicle.chassis >= world_.header.body_limit ||
+        !world_.bodies[vehicle.chassis].exists() ||
+        (i > 0 && world_.vehicles[i - 1].chassis >= vehicle.chassis))
+      return {"a vehicle's record", i};
+  }
   const WorldFault fault = fault_of(pair_rules_of(world_, world_.header));
   return fault ? fault : fault_of(surface_rules_of(world_, world_.header));
 }

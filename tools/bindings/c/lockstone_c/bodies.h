@@ -234,7 +234,7 @@ typedef struct lks_pair_surface {
 } lks_pair_surface;
 
 /* How two bodies treat each other, until one of them is destroyed: whether they meet (1 or 0), and
- * the surface of their contacts, or null. 1 and null take the rule back. At most 512 rules. */
+ * the surface of their contacts, or null. 1 and null take the rule back. At most 255 rules. */
 LKS_API lks_status lks_set_pair_rule(lks_world* world, lks_body a, lks_body b, uint32_t collides,
                                      const lks_pair_surface* surface);
 LKS_API lks_status lks_pair_rule_get(const lks_world* world, lks_body a, lks_body b,
