@@ -205,6 +205,34 @@ TEST_F(CommandsThroughC, RulesGiveTheSameState) {
   EXPECT_EQ(tolerance, 30U);
 }
 
+TEST_F(CommandsThroughC, AVehicleGivesTheSameState) {
+  const VehicleDef car = make_car(3_m, 0.8_m, -0.25_m, Torque::from_integer(300));
+  lks_vehicle_def raw{};
+  ASSERT_EQ(lks_make_car(Length(3_m).raw, Length(0.8_m).raw, Length(-0.25_m).raw,
+                         Torque::from_integer(300).raw, &raw, sizeof raw),
+            LKS_OK);
+  const lks_body box = c::id_of(box_);
+  expect_same(world_->apply(SetVehicle{box_, car}), lks_set_vehicle(twin_, box, &raw), "vehicle");
+  lks_vehicle_controls controls;
+  ASSERT_EQ(lks_vehicle_controls_init(&controls, sizeof controls), LKS_OK);
+  controls.throttle = Unit::from_integer(1).raw;
+  controls.steer = Unit::from_ratio(1, 3).raw;
+  const VehicleControls same{.throttle = Unit::from_integer(1), .steer = Unit::from_ratio(1, 3)};
+  expect_same(world_->apply(DriveVehicle{box_, same}), lks_drive_vehicle(twin_, box, &controls),
+              "controls");
+  expect_same(world_->apply(DriveVehicle{ball_, same}),
+              lks_drive_vehicle(twin_, c::id_of(ball_), &controls), "no chassis");
+  step(100);
+  lks_vehicle_view view{};
+  view.size = sizeof view;
+  ASSERT_EQ(lks_vehicle_get(twin_, box, &view), LKS_OK);
+  EXPECT_EQ(view.wheel_count, 4U);
+  EXPECT_EQ(view.engine_speed, vehicle_of(*world_, box_)->engine_speed.raw);
+  EXPECT_EQ(view.wheels[3].load, vehicle_of(*world_, box_)->wheels[3].load.raw);
+  expect_same(world_->apply(SetVehicle{box_, {}}), lks_set_vehicle(twin_, box, nullptr), "removed");
+  EXPECT_EQ(lks_vehicle_get(twin_, box, &view), LKS_INVALID_ARGUMENT);
+}
+
 TEST_F(CommandsThroughC, AFluidGivesTheSameState) {
   Fluid water{.surface = {1_m, 2_m, 3_m}, .size = {40_m, 9_m, 30_m}};
   water.density = Density::from_integer(1000);

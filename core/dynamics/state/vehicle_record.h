@@ -89,6 +89,15 @@ struct VehicleRecord {
   [[nodiscard]] bool casts_spheres() const { return (flags & k_vehicle_casts_spheres) != 0; }
 };
 
+/// The place of a wheel's centre in the axes of the chassis: of axle wheel / 2, the left one first.
+[[nodiscard]] inline Vec3<Length> centre_of_wheel(const VehicleRecord& vehicle, std::size_t wheel) {
+  const AxleRecord& axle = vehicle.axles[wheel / 2];
+  Vec3<Length> centre = axle.mount;
+  centre.y += vehicle.wheels[wheel].compression - axle.travel;
+  centre.z += wheel % 2 == 0 ? -axle.half_track : axle.half_track;
+  return centre;
+}
+
 template <class F>
 constexpr void visit_axle(const char* name, AxleRecord& axle, F&& f) {
   visit_value(name, ".mount", axle.mount, f);

@@ -70,10 +70,7 @@ std::optional<VehicleView> vehicle_of(const World& world, BodyHandle chassis) {
   const Mat3 axes = to_matrix(frame.orientation);
   for (std::size_t i = 0; i < std::size_t{2} * record->axle_count; ++i) {
     const WheelRecord& wheel = record->wheels[i];
-    const AxleRecord& axle = record->axles[i / 2];
-    Vec3<Length> centre = highest_centre(axle, i);
-    centre.y += wheel.compression - axle.travel;
-    view.wheels[i] = {frame.position + rounded<Position>(rotate(axes, centre)),
+    view.wheels[i] = {frame.position + rounded<Position>(rotate(axes, centre_of_wheel(*record, i))),
                       wheel.spin,
                       wheel.compression,
                       wheel.load,

@@ -27,6 +27,7 @@ class WorldDrawing {
   explicit WorldDrawing(World::Impl& world) : world_(world) {}
 
   void draw_shapes(DebugDraw& out);
+  void draw_wheels(DebugDraw& out) const;
   void draw_bounds(DebugDraw& out) const;
   void draw_masses(DebugDraw& out) const;
   void draw_contacts(DebugDraw& out);
@@ -70,6 +71,28 @@ void WorldDrawing::draw_shapes(DebugDraw& out) {
          .asset = world_.cache.asset(i),
          .island = body.is_dynamic() ? world_.handle_of(world_.islands.root(i)) : BodyHandle{},
          .user_data = body.user_data});
+  }
+}
+
+// Wheels are no bodies: spheres with the colours of their chassis.
+void WorldDrawing::draw_wheels(DebugDraw& out) const {
+  for (const VehicleRecord& vehicle : std::span(world_.vehicles).first(world_.header.vehicle_count)) {
+    const std::uint32_t chassis = vehicle.chassis;
+    const BodyRecord& body = world_.bodies[chassis];
+    if (!is_enabled(body)) continue;
+    const Transform frame =
+        shape_pose(world_.cache.asset(chassis), {body.position, body.orientation});
+    const Mat3 rotation = to_matrix(frame.orientation);
+    for (std::size_t i = 0; i < std::size_t{2} * vehicle.axle_count; ++i) {
+      const Vec3<Position> centre =
+          frame.position + rounded<Position>(rotate(rotation, centre_of_wheel(vehicle, i)));
+      out.draw_shape({.body = world_.handle_of(chassis),
+                      .state = state_of(body),
+                      .shape = Shape::sphere(vehicle.axles[i / 2].radius),
+                      .pose = {centre, frame.orientation},
+                      .rotation = rotation,
+                      .user_data = body.user_data});
+    }
   }
 }
 
@@ -171,6 +194,7 @@ void WorldDrawing::draw_joints(DebugDraw& out) const {
 void World::draw(DebugDraw& out, const DebugDrawOptions& options) const {
   WorldDrawing drawing(*impl_);
   if (options.shapes) drawing.draw_shapes(out);
+  if (options.shapes) drawing.draw_wheels(out);
   if (options.bounds) drawing.draw_bounds(out);
   if (options.masses) drawing.draw_masses(out);
   if (options.contacts) drawing.draw_contacts(out);

@@ -111,6 +111,13 @@ static void null_pointers_are_refused(void) {
   NULLED(lks_set_allow_sleep(NULL, body, 1));
   NULLED(lks_set_gravity(NULL, &v));
   NULLED(lks_set_gravity(world, NULL));
+  NULLED(lks_vehicle_controls_init(NULL, sizeof(lks_vehicle_controls)));
+  NULLED(lks_make_car(1, 1, 1, 1, NULL, sizeof(lks_vehicle_def)));
+  NULLED(lks_set_vehicle(NULL, 0, NULL));
+  NULLED(lks_drive_vehicle(NULL, 0, NULL));
+  NULLED(lks_drive_vehicle(world, 0, NULL));
+  NULLED(lks_vehicle_get(NULL, 0, NULL));
+  NULLED(lks_vehicle_get(world, 0, NULL));
   NULLED(lks_set_pair_rule(NULL, 0, 0, 1, NULL));
   NULLED(lks_pair_rule_get(NULL, 0, 0, NULL, NULL, NULL));
   NULLED(lks_set_surface_rule(NULL, 0, 0, NULL));

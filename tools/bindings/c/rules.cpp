@@ -28,7 +28,7 @@ lks_status lks_set_pair_rule(lks_world* world, lks_body a, lks_body b, uint32_t 
                              const lks_pair_surface* surface) {
   return call([&] {
     order(world, SetPairRule{handle_of<BodyHandle>(a), handle_of<BodyHandle>(b),
-                             {collides != 0, pair_surface_of(surface)}});
+                             {flag(collides, "collides"), pair_surface_of(surface)}});
   });
 }
 

@@ -9,6 +9,8 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from . import units
 from ._library import (BodyDef, BodyView, Event, Filter, Fluid, Hit, HitEvent, I32x3, I64x3, JointDef, PairSurface, Pose, Quat, Shape, WorldDef, lib)
+from ._declarations import (lks_vehicle_controls as VehicleControls, lks_vehicle_def as VehicleDef,
+                            lks_vehicle_view as VehicleView)
 from .shapes import Assets, lengths
 from .units import Quantity, Rotation, Vector
 
@@ -186,6 +188,28 @@ class Body:
     def set_one_way(self, direction: Vector, tolerance: int = 60) -> None:
         """A static or kinematic body stops others from the side of the direction only, in the axes of its shape."""
         self._call("lks_set_one_way", byref(_narrow(direction, units.UNIT)), tolerance)
+
+    def set_car(self, length: Quantity, half_track: Quantity, height: Quantity, torque: Quantity) -> None:
+        """Wheels, an engine and a gearbox for a dynamic body; ahead is x in the axes of its shape."""
+        definition = VehicleDef()
+        lib.lks_make_car(*(units.raw(value, units.LENGTH, 32) for value in (length, half_track, height)),
+                         units.raw(torque, units.FORCE), byref(definition), sizeof(definition))
+        self._call("lks_set_vehicle", byref(definition))
+
+    def drive(self, *, throttle: Quantity = 0, brake: Quantity = 0, handbrake: Quantity = 0, steer: Quantity = 0,
+              clutch: Quantity = 0, gear: int = 1) -> None:
+        controls = VehicleControls()
+        lib.lks_vehicle_controls_init(byref(controls), sizeof(controls))
+        controls.gear = gear
+        (controls.throttle, controls.brake, controls.handbrake, controls.steer, controls.clutch) = (
+            units.raw(value, units.UNIT, 32) for value in (throttle, brake, handbrake, steer, clutch))
+        self._call("lks_drive_vehicle", byref(controls))
+
+    def vehicle(self) -> VehicleView:
+        view = VehicleView()
+        view.size = sizeof(view)
+        lib.lks_vehicle_get(self.world.handle, self.number, byref(view))
+        return view
 
     def set_motion_type(self, motion: int, mass: Quantity = 0) -> None:
         """A body that becomes dynamic gets the mass, in kg; 0: that of its solid at 1000 kg/m³."""

@@ -271,6 +271,9 @@ impl World {
         /// Lets a body stop others from its front alone; the direction is in the axes of its shape.
         set_one_way(body: Body => body.0, direction: sys::lks_i32x3 => &direction, tolerance: u32 => tolerance)
             = lks_set_one_way;
+        /// Makes a dynamic body a chassis; none takes its wheels away.
+        set_vehicle(chassis: Body => chassis.0, def: Option<&sys::lks_vehicle_def> => pointer_to(def)) = lks_set_vehicle;
+        drive_vehicle(chassis: Body => chassis.0, controls: &sys::lks_vehicle_controls => controls) = lks_drive_vehicle;
         /// Fluid 0 … 15; density 0 removes it.
         set_fluid(number: u32 => number, fluid: &sys::lks_fluid => fluid) = lks_set_fluid;
         destroy_joint(joint: Joint => joint.0) = lks_destroy_joint;
